@@ -1,0 +1,14 @@
+# Install and export, so that another CMake project can find_package(polynya).
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+get_property(rooms GLOBAL PROPERTY POLYNYA_ROOMS)
+set_target_properties(polynya_options PROPERTIES EXPORT_NAME options)
+install(TARGETS ${rooms} polynya_options EXPORT polynyaTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT polynyaTargets NAMESPACE polynya:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/polynya)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/polynyaConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/polynyaConfig.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/polynya)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/polynyaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/polynyaConfig.cmake ${PROJECT_BINARY_DIR}/polynyaConfigVersion.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/polynya)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/polynya)

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Installs what Polynya needs from Debian's packages, and nothing else. Asks nothing.
+# Usage: ./setup.sh [group...]   groups: build (default), test, bench, view
+set -euo pipefail
+cd "$(dirname "$0")"
+
+declare -A packages=(
+  [build]="g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libgmp-dev libmpfr-dev
+           nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev librsvg2-bin"
+  [test]="libgtest-dev librapidcheck-dev chipmunk-dev python3"
+  [bench]="libbenchmark-dev libbox2d-dev chipmunk-dev libgeos-dev libpolyclipping-dev"
+)
+
+is_installed() {
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+missing=()
+for group in "${@:-build}"; do
+  [ -n "${packages[$group]:-}" ] || { echo "setup.sh: no such group: $group (there are: ${!packages[*]})" >&2; exit 2; }
+  for package in ${packages[$group]}; do
+    is_installed "$package" || missing+=("$package")
+  done
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+command -v apt-get >/dev/null || {
+  echo "setup.sh: this machine has no apt-get; please install by hand: ${missing[*]}" >&2; exit 1; }
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "setup.sh: please run this as root, there is no sudo: apt-get install ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+
+echo "Installing Debian packages: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+run() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "$@" >>"$log" 2>&1; }
+run apt-get update || true # an unreachable extra source must not stop us; the install below tells
+run apt-get install -y --no-install-recommends "${missing[@]}" || {
+  tail -n 25 "$log" >&2; echo "setup.sh: the installation failed; its last lines are above" >&2; exit 1; }
