@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fracture/characteristic_length.hpp"
+#include "fracture/materials.hpp"
+#include "fracture/splitting.hpp"
+#include "geometry/polygon.hpp"
+
+namespace polynya::simulation {
+
+/// A scene as the simulation needs it: every default filled in, every floe spelled out. SI units, angles in radians.
+/// The JSON form and its field table are io's (docs/scene.md).
+
+struct StepSettings {
+  double step = 0.005;  ///< Δt [s]
+  double until = 550;   ///< simulated time to run to [s]
+};
+
+struct WaterSettings {
+  fracture::Water water;
+  double drag_coefficient = 0.5;  ///< C_D of Eq. (6) [-]
+  geometry::Vector drift;         ///< velocity of the water, and of all ice with it [m/s]
+};
+
+/// How the normal of a contact is found.
+enum class ContactNormal {
+  kBoundary,       ///< from the boundary pieces the touching circles stand for
+  kCircleCentres,  ///< along the line between the circles' centres, the paper's own rule
+};
+
+struct ContactSettings {
+  double circle_radius = 1.0;    ///< [m]
+  ContactNormal normal = ContactNormal::kBoundary;
+  double restitution = 0.1;      ///< ε of Eq. (5) [-]; friction is the ice's μ
+  double contact_time = 0.5;     ///< τ_c, only for the paper's peak force j/τ_c [s]
+  double separation_time = 1.0;  ///< overlap that nothing presses together any more decays over this time [s]
+  int iterations = 30;           ///< most sweeps of the impulse solver over the contacts of a step
+};
+
+enum class BendingModelKind { kNevel, kKashtelyan, kFsiDatabase };
+enum class CuspFate { kSubmerge, kFloat };
+
+struct FractureSettings {
+  fracture::CharacteristicLength characteristic_length = fracture::CharacteristicLength::kFourthRoot;
+  double breakable_size_factor = 1.0;  ///< κ: floes with √area < κ l are pushed, never broken [-]
+  BendingModelKind bending = BendingModelKind::kNevel;
+  fracture::SplittingModel splitting = fracture::SplittingModel::kMichel;
+  double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
+  CuspFate cusp_fate = CuspFate::kSubmerge;
+  double cusp_sagitta = 0.02;         ///< a cusp's polygon stays this close to its circle [m]
+  double smallest_floe_area = 0.1;    ///< smaller pieces leave the floe list as brash [m²]
+};
+
+/// A waterline in the ship's frame (origin at the centre of gravity, x forward, y to port) [m].
+struct Hull {
+  geometry::Ring waterline;              ///< counter-clockwise
+  double stem_angle = 0.5236;            ///< φ, of the stem from the horizontal [rad]
+  std::vector<double> angles_from_vertical;  ///< θ_s per waterline vertex [rad]; empty: from the stem angle
+};
+
+/// Thrust along the ship's heading [N].
+struct ConstantThrust {
+  double thrust = 0;
+};
+/// Velocity over ground and heading are held; the forces reported are what it takes to hold them.
+struct ConstantSpeed {
+  double speed = 0;  ///< [m/s]
+};
+using Propulsion = std::variant<ConstantThrust, ConstantSpeed>;
+
+struct ShipSpec {
+  std::string name;
+  Hull hull;
+  double mass = 0;                    ///< [kg]
+  double moment_of_inertia = 0;       ///< about the vertical through the centre of gravity [kg m²]
+  geometry::Point position_in_world;  ///< of the centre of gravity at the start [m]
+  double heading = 0;                 ///< from the x axis, counter-clockwise [rad]
+  double speed = 0;                   ///< along the heading over ground at the start [m/s]
+  Propulsion propulsion;
+};
+
+struct FloeSpec {
+  geometry::Polygon polygon_in_world;  ///< valid, at the start [m]
+  geometry::Vector velocity;           ///< of the centre of mass relative to the water at the start [m/s]
+  double angular_velocity = 0;         ///< [rad/s]
+};
+
+struct RecordSettings {
+  double forces_interval = 0.1;  ///< between rows of forces.csv [s]
+  double frames_interval = 2.0;  ///< between frames [s]
+};
+
+struct Scene {
+  std::string name;
+  std::uint64_t seed = 1;
+  StepSettings time;
+  WaterSettings water;
+  fracture::Ice ice;
+  ContactSettings contact;
+  FractureSettings fracture;
+  RecordSettings record;
+  std::vector<ShipSpec> ships;
+  std::vector<FloeSpec> floes;
+};
+
+/// A wedge-bowed waterline of the given length and beam [m]: straight flanks from the stem at the entrance angle from
+/// the centreline [rad], a parallel midbody, a square stern. Origin amidships.
+geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle);
+
+}  // namespace polynya::simulation

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/pose.hpp"
+#include "simulation/journal.hpp"
+#include "simulation/scene.hpp"
+
+namespace polynya::simulation {
+
+struct World;
+
+/// Where one living floe is. Frames and pictures are made of these.
+struct FloeState {
+  FloeId floe = 0;
+  FloeId parent = kNoFloe;
+  double born = 0;  ///< [s]
+  int generation = 0;
+  geometry::Pose world_from_body;
+  double angle = 0;             ///< of world_from_body [rad]
+  geometry::Vector velocity;    ///< of the centre of mass over ground [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
+  double area = 0;              ///< [m²]
+  double mass = 0;              ///< [kg]
+  const geometry::Polygon* polygon_in_body = nullptr;  ///< lives as long as the floe
+};
+
+struct ShipState {
+  geometry::Pose world_from_ship;
+  double heading = 0;           ///< [rad]
+  geometry::Vector velocity;    ///< over ground [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
+};
+
+/// A run in progress: the scene's world, stepped.
+class Simulation {
+ public:
+  explicit Simulation(Scene scene);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// One time step. What it has to tell stands in journal() afterwards, added to what is there.
+  void step();
+
+  /// A reason where the numbers have stopped being numbers (NaN, runaway speed); checked every step.
+  std::optional<std::string> numerical_failure() const;
+
+  double time() const;  ///< [s]
+  const Scene& scene() const;
+  Journal& journal();
+  AreaLedger area_ledger() const;
+  Counts counts() const;
+  std::vector<FloeState> floe_states() const;  ///< living floes in id order
+  std::vector<ShipState> ship_states() const;
+  const World& world() const;
+
+ private:
+  std::unique_ptr<World> world_;
+};
+
+}  // namespace polynya::simulation
