@@ -1,0 +1,57 @@
+#include "fracture/bending/nevel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fracture/characteristic_length.hpp"
+
+namespace polynya::fracture {
+namespace {
+
+constexpr double kStep = 0.1;  // of s = (a/l)^⅓
+// (r/l) / s at s = 0, 0.1, … 1.5: a small load's peak stress lies at r ∝ a^⅓, so this ratio is smooth.
+// Converged values of solve_floating_beam in extended precision (800 elements); at s = 0 the limit (2 /
+// w(0))^⅓.
+constexpr std::array<double, 16> kRadiusOverRoot = {0.97064, 0.99147, 1.01525, 1.04320, 1.07673, 1.11757,
+                                                    1.16793, 1.23077, 1.31008, 1.41128, 1.54147, 1.70922,
+                                                    1.92252, 2.18336, 2.48096, 2.79479};
+
+}  // namespace
+
+double nevel_force(double opening_angle, double load_length_over_l, const Ice& ice) {
+  const double a = load_length_over_l;
+  const double width_growth = 2 * std::tan(0.5 * opening_angle);
+  return (1.05 + 2 * a + 0.5 * a * a * a) * width_growth * ice.flexural_strength * ice.thickness *
+         ice.thickness / 6;
+}
+
+double nevel_cusp_radius_over_l(double load_length_over_l) {
+  const double root = std::cbrt(std::max(load_length_over_l, 0.0));
+  const double place = std::min(root / kStep, static_cast<double>(kRadiusOverRoot.size() - 1));
+  const auto last = static_cast<int>(kRadiusOverRoot.size()) - 1;
+  const int k = std::min(static_cast<int>(place), last - 1);
+  const double s = place - k;
+  // Catmull–Rom cubic; at the two ends the missing neighbour continues the line.
+  const auto at = [last](int i) {
+    if (i < 0) return 2 * kRadiusOverRoot[0] - kRadiusOverRoot[1];
+    if (i > last) return 2 * kRadiusOverRoot[last] - kRadiusOverRoot[last - 1];
+    return kRadiusOverRoot[static_cast<std::size_t>(i)];
+  };
+  const double p0 = at(k - 1), p1 = at(k), p2 = at(k + 1), p3 = at(k + 2);
+  const double ratio =
+      p1 + 0.5 * s * (p2 - p0 + s * (2 * p0 - 5 * p1 + 4 * p2 - p3 + s * (3 * (p1 - p2) + p3 - p0)));
+  return ratio * root;
+}
+
+BendingCapacity NevelModel::capacity(const BendingLoad& load) const {
+  const double l = characteristic_length(load.ice, load.water);
+  const double load_length = load.penetration / l;
+  BendingCapacity result;
+  result.vertical_force = nevel_force(load.front_half_angle + load.back_half_angle, load_length, load.ice);
+  result.cusp_radius = nevel_cusp_radius_over_l(load_length) * l;
+  result.is_in_range = load_length <= kLargestNevelLoadLength;
+  return result;
+}
+
+}  // namespace polynya::fracture
