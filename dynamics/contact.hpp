@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "dynamics/bodies.hpp"
+
+namespace polynya::dynamics {
+
+/// What is remembered of a contact from step to step.
+struct ContactRecord {
+  geometry::Point last_point_in_b;   ///< where it was at the last step, in b's frame [m]
+  geometry::Point first_touch_in_b;  ///< the point of b that was touched first [m]
+  double age = 0;                    ///< since first contact [s]
+  double approach = 0;               ///< ∫ max(0, v_n) dt [m]
+  double crushed_depth = 0;          ///< overlap that crushing made: the ice is gone, nothing pushes it apart [m]
+  bool has_crushed = false;
+  bool is_continued = false;         ///< taken over by a contact of the next step already
+};
+
+/// Two bodies that overlap, at one step. In the water frame; the normal points from a into b; a < b.
+struct Contact {
+  BodyIndex a = 0;
+  BodyIndex b = 0;
+  geometry::Point ends[2];     ///< the ends of the contact line [m]
+  geometry::Point tip_of_b;    ///< the point of b farthest inside a [m]
+  geometry::Vector normal;     ///< unit
+  double width = 0;            ///< of the contact line [m]
+  double depth = 0;            ///< of the overlap along the normal [m]
+  double area = 0;             ///< of the overlap [m²]
+  double approach_speed = 0;   ///< v_n at the middle, positive when approaching [m/s]
+  double slip_speed = 0;       ///< along the contact line [m/s]
+  ContactRecord* record = nullptr;  ///< lives in its pair; valid during the step
+
+  // Decided between finding and solving.
+  double impulse_limit = std::numeric_limits<double>::infinity();  ///< what crushing ice carries in the step [N s]
+  double friction = 0;          ///< most tangential per normal impulse [-]
+
+  // Found by the solver.
+  double normal_impulse[2] = {0, 0};   ///< on b along the normal, at each end [N s]
+  double tangent_impulse[2] = {0, 0};  ///< on b along perpendicular(normal) [N s]
+
+  geometry::Point middle() const { return midpoint(ends[0], ends[1]); }
+  double total_normal_impulse() const { return normal_impulse[0] + normal_impulse[1]; }
+};
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,64 @@
+#include "dynamics/water_drag.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace polynya::dynamics {
+
+using geometry::Vector;
+
+DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid) {
+  DragShape shape;
+  for (int k = 0; k < DragShape::kDirections; ++k) {
+    const double angle = k * std::numbers::pi / DragShape::kDirections;
+    const Vector across{-std::sin(angle), std::cos(angle)};
+    double low = 0;
+    double high = 0;
+    for (const geometry::Point p : polygon.outer) {
+      const double s = dot(p - centroid, across);
+      low = std::min(low, s);
+      high = std::max(high, s);
+    }
+    shape.width[k] = high - low;
+    shape.rotational += (low * low * low * low + high * high * high * high) / 4 / DragShape::kDirections;
+  }
+  shape.width[DragShape::kDirections] = shape.width[0];
+  return shape;
+}
+
+double width_across(const DragShape& shape, Vector direction_in_body) {
+  double turn = std::atan2(direction_in_body.y, direction_in_body.x) / std::numbers::pi;
+  if (turn < 0) turn += 1;
+  const double at = std::min(turn, 1.0) * DragShape::kDirections;
+  const int k = std::min(static_cast<int>(at), DragShape::kDirections - 1);
+  return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
+}
+
+double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, double drag_coefficient,
+                        double water_density, double dt) {
+  const double half_rate = 0.5 * drag_coefficient * water_density * dt;
+  double work = 0;
+  for (const BodyIndex i : awake) {
+    const DragShape* shape = bodies.drag[i].get();
+    if (shape == nullptr) continue;
+    const Vector u = bodies.velocity[i];
+    const double speed = length(u);
+    if (speed > 0) {
+      const double width = width_across(*shape, rotate_back(bodies.rotation[i], u));
+      const double shrink = 1 / (1 + half_rate * bodies.thickness[i] * width * bodies.inverse_mass[i] * speed);
+      bodies.velocity[i] = shrink * u;
+      work += 0.5 * bodies.mass[i] * speed * speed * (1 - shrink * shrink);
+    }
+    const double omega = bodies.angular_velocity[i];
+    if (omega != 0) {
+      const double resistance = half_rate * bodies.thickness[i] * shape->rotational * bodies.inverse_moment[i];
+      const double shrink = 1 / (1 + resistance * std::abs(omega));
+      bodies.angular_velocity[i] = shrink * omega;
+      work += 0.5 * bodies.moment[i] * omega * omega * (1 - shrink * shrink);
+    }
+  }
+  return work;
+}
+
+}  // namespace polynya::dynamics
