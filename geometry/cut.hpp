@@ -2,8 +2,9 @@
 
 #include <string>
 #include <string_view>
-#include <tl/expected.hpp>
 #include <vector>
+
+#include <tl/expected.hpp>
 
 #include "geometry/shape.hpp"
 
@@ -54,8 +55,8 @@ using CutOutcome = tl::expected<CutResult, CutError>;
 /// A transaction: pieces outside and inside whose exact areas sum to the shape's, or an error and no change.
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body);
 
-/// Cuts a shape along an open polyline in its body frame (a crack). The polyline separates where it crosses the
-/// shape fully; what dangles inside the ice does not separate and is ignored.
+/// Cuts a shape along an open polyline in its body frame (a crack). The polyline separates where it crosses
+/// the shape fully; what dangles inside the ice does not separate and is ignored.
 CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body);
 
 /// A regular polygon inscribed in a circle, with as many vertices as keep its sagitta within `sagitta` [m].

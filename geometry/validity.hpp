@@ -10,17 +10,17 @@ namespace polynya::geometry {
 
 /// Why a polygon is not valid by OGC Simple Features. Decided exactly.
 enum class Defect {
-  kTooFewPoints,       ///< fewer than three distinct points in a ring
-  kNotFinite,          ///< NaN or infinite coordinate
-  kRepeatedPoint,      ///< consecutive equal vertices
-  kZeroArea,           ///< a ring that encloses nothing
-  kSelfCrossing,       ///< two edges of one ring cross, or a ring touches itself
-  kOverlappingEdges,   ///< edges share more than a point
-  kWrongOrientation,   ///< outer ring clockwise or hole counter-clockwise
-  kHoleOutside,        ///< a hole not inside the outer ring
-  kHolesOverlap,       ///< two holes share area
-  kRingsCross,         ///< edges of two rings cross
-  kDisconnected,       ///< holes that touch cut the interior apart
+  kTooFewPoints,      ///< fewer than three distinct points in a ring
+  kNotFinite,         ///< NaN or infinite coordinate
+  kRepeatedPoint,     ///< consecutive equal vertices
+  kZeroArea,          ///< a ring that encloses nothing
+  kSelfCrossing,      ///< two edges of one ring cross, or a ring touches itself
+  kOverlappingEdges,  ///< edges share more than a point
+  kWrongOrientation,  ///< outer ring clockwise or hole counter-clockwise
+  kHoleOutside,       ///< a hole not inside the outer ring
+  kHolesOverlap,      ///< two holes share area
+  kRingsCross,        ///< edges of two rings cross
+  kDisconnected,      ///< holes that touch cut the interior apart
 };
 
 /// A short name people can search for: "self-crossing".

@@ -1,0 +1,169 @@
+#include "geometry/internal/settle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "geometry/internal/arrangement.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/validity.hpp"
+
+namespace polynya::geometry::exact {
+namespace {
+
+// A piece is a sliver where its mean width, area over half the perimeter, is within this many steps between
+// doubles of its size: it has no width that doubles can express.
+constexpr double kSliverSteps = 4;
+
+// Rounding can make neighbours equal and fold an edge back on the one before: neither encloses anything.
+geometry::Ring weld(const geometry::Ring& ring) {
+  geometry::Ring kept;
+  kept.reserve(ring.size());
+  for (const geometry::Point p : ring) {
+    if (!kept.empty() && kept.back() == p) continue;
+    if (kept.size() > 1 && kept[kept.size() - 2] == p) {
+      kept.pop_back();
+      continue;
+    }
+    kept.push_back(p);
+  }
+  for (bool changed = true; changed && kept.size() > 1;) {
+    changed = false;
+    if (kept.front() == kept.back() || kept[kept.size() - 2] == kept.front()) {
+      kept.pop_back();
+      changed = true;
+    } else if (kept[1] == kept.back()) {
+      kept.erase(kept.begin());
+      changed = true;
+    }
+  }
+  if (kept.size() < 3) kept.clear();
+  return kept;
+}
+
+geometry::Polygon weld(const geometry::Polygon& polygon) {
+  geometry::Polygon result{weld(polygon.outer), {}};
+  for (const geometry::Ring& hole : polygon.holes) {
+    if (geometry::Ring welded = weld(hole); !welded.empty()) result.holes.push_back(std::move(welded));
+  }
+  return result;
+}
+
+bool is_valid(const geometry::Polygon& polygon) {
+  return !polygon.outer.empty() && !find_defect(polygon);
+}
+
+double step_at(const geometry::Polygon& polygon) {
+  double largest = 0;
+  for (const geometry::Point p : polygon.outer) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  return std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+}
+
+bool is_sliver(double area, const geometry::Polygon& rounded) {
+  return 2 * area <= kSliverSteps * step_at(rounded) * perimeter(rounded);
+}
+
+// The rounded rings overlaid with themselves: the polygons they enclose, if those need no new coordinates and
+// differ from the exact piece by no more than rounding does.
+std::vector<geometry::Polygon> retraced(const geometry::Polygon& rounded, double exact_area) {
+  std::vector<SourceSegment> segments;
+  append_segments(segments, exactly(rounded), 0);
+  const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
+  std::vector<geometry::Polygon> result;
+  double area_sum = 0;
+  for (const Region& region : overlay(segments, inside, Seams::kDissolve).regions) {
+    geometry::Polygon polygon = exact::rounded(region.polygon);
+    const auto same_rings = [](const Ring& a, const geometry::Ring& b) { return a == exactly(b); };
+    bool same = same_rings(region.polygon.outer, polygon.outer);
+    for (std::size_t h = 0; same && h < polygon.holes.size(); ++h) {
+      same = same_rings(region.polygon.holes[h], polygon.holes[h]);
+    }
+    if (!same || !is_valid(polygon)) return {};
+    area_sum += measure(polygon).area;
+    result.push_back(std::move(polygon));
+  }
+  const double allowed = kSliverSteps * step_at(rounded) * perimeter(rounded);
+  if (std::abs(area_sum - exact_area) > allowed) return {};
+  return result;
+}
+
+struct Settling {
+  CutResult result;
+  Rational change = 0;  // Σ (returned − exact)
+
+  double& area_of(Part part) {
+    return part == Part::kOutside ? result.ledger.area_outside : result.ledger.area_inside;
+  }
+
+  void add(geometry::Polygon polygon, Part part) {
+    area_of(part) += measure(polygon).area;
+    change += area(polygon);
+    result.pieces.push_back({Shape{std::move(polygon), nullptr, true}, part});
+  }
+
+  void add_exact(Polygon polygon, geometry::Polygon looks, Part part, const Rational& exact_area) {
+    area_of(part) += nearest_double(exact_area);
+    change += exact_area;
+    ++result.ledger.kept_exact;
+    auto kept = std::make_shared<const Polygon>(std::move(polygon));
+    result.pieces.push_back({Shape{std::move(looks), std::move(kept), true}, part});
+  }
+
+  void add_sliver(const Rational& exact_area) {
+    result.ledger.area_slivers += nearest_double(exact_area);
+    change += exact_area;
+    ++result.ledger.slivers;
+  }
+};
+
+void settle_piece(ExactPiece piece, Settling& settling) {
+  const Rational exact_area = area(piece.polygon);
+  settling.change -= exact_area;
+  const geometry::Polygon rounded = exact::rounded(piece.polygon);
+  geometry::Polygon welded = weld(rounded);
+  if (is_valid(welded)) return settling.add(std::move(welded), piece.part);
+  if (is_sliver(exact_area.get_d(), rounded)) return settling.add_sliver(exact_area);
+  std::vector<geometry::Polygon> parts = retraced(rounded, exact_area.get_d());
+  if (parts.empty()) return settling.add_exact(std::move(piece.polygon), rounded, piece.part, exact_area);
+  for (geometry::Polygon& part : parts) settling.add(std::move(part), piece.part);
+}
+
+}  // namespace
+
+void sort_pieces(std::vector<Piece>& pieces) {
+  const auto key = [](const Piece& piece) {
+    const geometry::Ring& ring = piece.shape.polygon.outer;
+    const auto less = [](geometry::Point a, geometry::Point b) {
+      return std::tie(a.x, a.y) < std::tie(b.x, b.y);
+    };
+    const geometry::Point lowest = *std::min_element(ring.begin(), ring.end(), less);
+    return std::tuple(piece.part, lowest.x, lowest.y, ring.size());
+  };
+  std::vector<std::pair<decltype(key(pieces.front())), std::size_t>> order;
+  for (std::size_t i = 0; i < pieces.size(); ++i) order.emplace_back(key(pieces[i]), i);
+  std::sort(order.begin(), order.end());
+  std::vector<Piece> sorted;
+  sorted.reserve(pieces.size());
+  for (const auto& [unused, i] : order) sorted.push_back(std::move(pieces[i]));
+  pieces = std::move(sorted);
+}
+
+CutOutcome settle(const Rational& area_before, std::vector<ExactPiece> pieces) {
+  Rational sum = 0;
+  for (const ExactPiece& piece : pieces) sum += area(piece.polygon);
+  if (sum != area_before) {
+    return tl::unexpected(CutError{CutFailure::kInternal, "exact piece areas do not sum to the parent's"});
+  }
+  Settling settling;
+  CutLedger& ledger = settling.result.ledger;
+  ledger.area_before = nearest_double(area_before);
+  ledger.exact_balance = true;
+  for (ExactPiece& piece : pieces) settle_piece(std::move(piece), settling);
+  ledger.rounding_defect = nearest_double(settling.change);
+  sort_pieces(settling.result.pieces);
+  return std::move(settling.result);
+}
+
+}  // namespace polynya::geometry::exact

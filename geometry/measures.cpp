@@ -1,0 +1,107 @@
+#include "geometry/measures.hpp"
+
+#include <cmath>
+
+#include "geometry/internal/predicates.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+// Neumaier's sum: the error does not grow with the number of terms.
+struct Sum {
+  double value = 0;
+  double lost = 0;
+  void operator+=(double term) {
+    const double next = value + term;
+    lost += std::abs(value) >= std::abs(term) ? (value - next) + term : (term - next) + value;
+    value = next;
+  }
+  double total() const { return value + lost; }
+};
+
+// Calls visit(u, v, w) for each edge a→b with u = a − origin, v = b − origin, w = u × v. Taking vertices from
+// a nearby origin first is what keeps the digits of a polygon far from its frame's origin.
+template <typename Visit>
+void for_each_edge(const Ring& ring, Point origin, Visit visit) {
+  if (ring.empty()) return;
+  Vector u = ring.back() - origin;
+  for (const Point p : ring) {
+    const Vector v = p - origin;
+    visit(u, v, cross(u, v));
+    u = v;
+  }
+}
+
+template <typename Visit>
+void for_each_edge(const Polygon& polygon, Point origin, Visit visit) {
+  for_each_edge(polygon.outer, origin, visit);
+  for (const Ring& hole : polygon.holes) for_each_edge(hole, origin, visit);
+}
+
+double ring_length(const Ring& ring) {
+  Sum sum;
+  for_each_edge(ring, Point{}, [&sum](Vector u, Vector v, double) { sum += length(v - u); });
+  return sum.total();
+}
+
+}  // namespace
+
+double signed_area(const Ring& ring) {
+  if (ring.size() < 3) return 0;
+  Sum twice_area;
+  for_each_edge(ring, ring.front(), [&](Vector, Vector, double w) { twice_area += w; });
+  return twice_area.total() / 2;
+}
+
+Measures measure(const Polygon& polygon) {
+  if (polygon.outer.size() < 3) return {};
+  const Box box = bounding_box(polygon.outer);
+  const Point origin = midpoint(box.low, box.high);
+  Sum twice_area;
+  Sum first_x;
+  Sum first_y;
+  for_each_edge(polygon, origin, [&](Vector u, Vector v, double w) {
+    twice_area += w;
+    first_x += w * (u.x + v.x);
+    first_y += w * (u.y + v.y);
+  });
+  Measures result;
+  result.area = twice_area.total() / 2;
+  if (result.area == 0) return {0, origin, 0};
+  const Vector offset = Vector{first_x.total(), first_y.total()} / (6 * result.area);
+  result.centroid = origin + offset;
+  Sum second;  // about the centroid directly: no parallel-axis subtraction
+  for_each_edge(polygon, origin, [&](Vector u, Vector v, double) {
+    const Vector a = u - offset;
+    const Vector b = v - offset;
+    second += cross(a, b) * (dot(a, a) + dot(a, b) + dot(b, b));
+  });
+  result.second_moment = second.total() / 12;
+  return result;
+}
+
+double perimeter(const Polygon& polygon) {
+  double sum = ring_length(polygon.outer);
+  for (const Ring& hole : polygon.holes) sum += ring_length(hole);
+  return sum;
+}
+
+bool contains(const Polygon& polygon, Point point) {
+  if (polygon.outer.empty()) return false;
+  bool inside = false;
+  const auto toggles = [&](const Ring& ring, bool& on_boundary) {
+    const int side = ring.empty() ? -1 : side_of_ring(ring, point);
+    on_boundary = side == 0;
+    if (side > 0) inside = !inside;
+  };
+  bool on_boundary = false;
+  toggles(polygon.outer, on_boundary);
+  if (on_boundary) return true;
+  for (const Ring& hole : polygon.holes) {
+    toggles(hole, on_boundary);
+    if (on_boundary) return true;
+  }
+  return inside;
+}
+
+}  // namespace polynya::geometry

@@ -1,0 +1,188 @@
+#include "geometry/cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "geometry/internal/exact_polygon.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/validity.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+const Ring kSquare{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+
+Ring box_ring(Point low, Point high) {
+  return {low, {high.x, low.y}, high, {low.x, high.y}};
+}
+Shape shape_of(Ring ring) {
+  return Shape{{std::move(ring), {}}};
+}
+
+// What holds for every cut, whatever was cut.
+void expect_sound(const Shape& shape, const CutResult& result) {
+  EXPECT_TRUE(result.ledger.exact_balance);
+  double sum = result.ledger.area_slivers;
+  double outside = 0;
+  double inside = 0;
+  for (const Piece& piece : result.pieces) {
+    const double area = piece.shape.exact ? exact::nearest_double(exact::area(*piece.shape.exact))
+                                          : measure(piece.shape.polygon).area;
+    EXPECT_GT(area, 0);
+    (piece.part == Part::kOutside ? outside : inside) += area;
+    if (piece.shape.exact) continue;
+    const auto found = find_defect(piece.shape.polygon);
+    EXPECT_FALSE(found.has_value()) << (found ? name_of(found->defect) : "");
+  }
+  sum += outside + inside;
+  const double scale = result.ledger.area_before + perimeter(shape.polygon) * 1e-3;
+  EXPECT_NEAR(result.ledger.area_outside, outside, 1e-14 * scale);
+  EXPECT_NEAR(result.ledger.area_inside, inside, 1e-14 * scale);
+  EXPECT_NEAR(sum - result.ledger.rounding_defect, result.ledger.area_before, 1e-13 * scale);
+}
+
+CutResult cut_or_fail(CutOutcome outcome, const Shape& shape) {
+  EXPECT_TRUE(outcome.has_value()) << (outcome ? ""
+                                               : std::string(name_of(outcome.error().reason)) + ": " +
+                                                     outcome.error().detail);
+  if (!outcome) return {};
+  expect_sound(shape, *outcome);
+  return *outcome;
+}
+CutResult cut(const Shape& shape, const Polygon& tool) {
+  return cut_or_fail(cut_by_polygon(shape, tool), shape);
+}
+CutResult cut(const Shape& shape, const std::vector<Point>& crack) {
+  return cut_or_fail(cut_along(shape, crack), shape);
+}
+
+CutFailure failure_of(const CutOutcome& outcome) {
+  EXPECT_FALSE(outcome.has_value());
+  return outcome ? CutFailure::kInternal : outcome.error().reason;
+}
+
+TEST(Cut, CornerBiteLeavesTwoExactPieces) {
+  const Shape square = shape_of(kSquare);
+  const CutResult result = cut(square, Polygon{box_ring({8, 8}, {12, 12}), {}});
+  ASSERT_EQ(result.pieces.size(), 2u);
+  EXPECT_EQ(result.pieces[0].part, Part::kOutside);
+  EXPECT_EQ(result.ledger.area_outside, 96);
+  EXPECT_EQ(result.ledger.area_inside, 4);
+  EXPECT_EQ(result.ledger.rounding_defect, 0);
+}
+
+TEST(Cut, DiscInsideLeavesAHoleAndDiscOverAllLeavesNothingOutside) {
+  const Shape square = shape_of(kSquare);
+  const Polygon disc{disc_polygon({5, 5}, 2, 0.01), {}};
+  const CutResult holed = cut(square, disc);
+  ASSERT_EQ(holed.pieces.size(), 2u);
+  EXPECT_EQ(holed.pieces[0].shape.polygon.holes.size(), 1u);
+  EXPECT_EQ(holed.ledger.rounding_defect, 0) << "no new vertices: nothing to round";
+  const CutResult swallowed = cut(square, Polygon{disc_polygon({5, 5}, 50, 0.1), {}});
+  ASSERT_EQ(swallowed.pieces.size(), 1u);
+  EXPECT_EQ(swallowed.pieces[0].part, Part::kInside);
+}
+
+TEST(Cut, ToolsThatMissOrAreUnusableAreNamed) {
+  const Shape square = shape_of(kSquare);
+  EXPECT_EQ(failure_of(cut_by_polygon(square, {disc_polygon({50, 50}, 2, 0.01), {}})), CutFailure::kMisses);
+  EXPECT_EQ(failure_of(cut_by_polygon(square, {box_ring({10, 0}, {20, 10}), {}})), CutFailure::kMisses)
+      << "shared edge";
+  EXPECT_EQ(failure_of(cut_by_polygon(square, {box_ring({10, 10}, {20, 20}), {}})), CutFailure::kMisses)
+      << "shared corner";
+  EXPECT_EQ(failure_of(cut_by_polygon(square, {{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}})),
+            CutFailure::kInvalidTool);
+  EXPECT_EQ(failure_of(cut_by_polygon(shape_of({{0, 0}, {2, 2}, {2, 0}, {0, 2}}), {kSquare, {}})),
+            CutFailure::kInvalidShape);
+  EXPECT_EQ(failure_of(cut_along(square, {{20, 0}, {20, 10}})), CutFailure::kMisses);
+  EXPECT_EQ(failure_of(cut_along(square, {{0, 0}, {10, 0}})), CutFailure::kMisses) << "along an edge";
+  EXPECT_EQ(failure_of(cut_along(square, {{-1, 5}, {5, 5}})), CutFailure::kDoesNotSeparate);
+  EXPECT_EQ(failure_of(cut_along(square, {{3, 5}, {5, 5}})), CutFailure::kDoesNotSeparate);
+  EXPECT_EQ(failure_of(cut_along(square, {{3, 5}})), CutFailure::kInvalidTool);
+  EXPECT_EQ(failure_of(cut_along(square, {})), CutFailure::kInvalidTool);
+  EXPECT_EQ(failure_of(cut_along(square, {{3, 5}, {3, std::nan("")}})), CutFailure::kInvalidTool);
+}
+
+TEST(Cut, CracksSeparateWhereTheyCrossFully) {
+  const Shape square = shape_of(kSquare);
+  EXPECT_EQ(cut(square, std::vector<Point>{{-1, 5}, {11, 5}}).pieces.size(), 2u);
+  EXPECT_EQ(cut(square, std::vector<Point>{{0, 0}, {10, 10}}).pieces.size(), 2u) << "vertex to vertex";
+  EXPECT_EQ(cut(square, std::vector<Point>{{0, 5}, {5, 2}, {10, 5}}).pieces.size(), 2u) << "ends on edges";
+  EXPECT_EQ(
+      cut(square, std::vector<Point>{{-1, 2}, {11, 2}, {11, 4}, {-1, 4}, {-1, 6}, {5, 6}}).pieces.size(), 3u)
+      << "dangling end";
+  EXPECT_EQ(cut(square, std::vector<Point>{{2, 2}, {8, 2}, {8, 8}, {2, 8}, {2, 2}}).pieces.size(), 2u)
+      << "a closed loop";
+  EXPECT_EQ(cut(square, std::vector<Point>{{-1, -1}, {11, 11}, {11, -1}, {-1, 11}}).pieces.size(), 4u)
+      << "crossing itself";
+}
+
+TEST(Cut, ACrackThroughAHoleSeparatesOnlyWithBothSides) {
+  const Shape holed{{kSquare, {{{4, 4}, {4, 6}, {6, 6}, {6, 4}}}}};
+  EXPECT_EQ(failure_of(cut_along(holed, {{-1, 5}, {5, 5}})), CutFailure::kDoesNotSeparate);
+  EXPECT_EQ(cut(holed, std::vector<Point>{{-1, 5}, {11, 5}}).pieces.size(), 2u);
+}
+
+TEST(Cut, PinchesAreRetracedIntoValidPieces) {
+  // Two bites that meet in one point: a bow tie falls into its halves.
+  const Shape square = shape_of(kSquare);
+  const CutResult once = cut(square, Polygon{{{2, -1}, {8, -1}, {5, 5}}, {}});
+  const CutResult twice = cut(once.pieces[0].shape, Polygon{{{5, 5}, {8, 11}, {2, 11}}, {}});
+  int outside = 0;
+  for (const Piece& piece : twice.pieces) outside += piece.part == Part::kOutside ? 1 : 0;
+  EXPECT_EQ(outside, 2);
+  // A bite from within that touches the edge in one point: a hole touching the shell.
+  const CutResult touching = cut(square, Polygon{{{5, 0}, {7, 3}, {3, 3}}, {}});
+  ASSERT_EQ(touching.pieces.size(), 2u);
+  EXPECT_EQ(touching.pieces[0].shape.polygon.holes.size(), 1u);
+}
+
+TEST(Cut, NeighboursShareTheirRoundedVertices) {
+  const Shape square = shape_of(kSquare);
+  const CutResult result = cut(square, Polygon{disc_polygon({10.1, 4.7}, 3.3, 0.01), {}});
+  ASSERT_EQ(result.pieces.size(), 2u);
+  std::ptrdiff_t shared = 0;
+  for (const Point p : result.pieces[1].shape.polygon.outer) {
+    const Ring& other = result.pieces[0].shape.polygon.outer;
+    shared += std::count(other.begin(), other.end(), p);
+  }
+  EXPECT_EQ(shared, std::ssize(result.pieces[1].shape.polygon.outer));
+}
+
+TEST(Cut, SliversThinnerThanADoubleAreItemised) {
+  // The crack runs from the corner to a point whose distance from the edge is far below half a step at x =
+  // 1e6.
+  const Shape shape = shape_of({{1e6, 1e6}, {1e6 + 10, 1e6 + 3}, {1e6 + 10, 1e6 + 10}, {1e6, 1e6 + 10}});
+  const double a_hair = std::nextafter(1e6 + 6, 1e7);
+  const CutResult result = cut(shape, std::vector<Point>{{1e6 - 10, 1e6 - 3}, {1e6 + 20, a_hair}});
+  EXPECT_GE(result.ledger.slivers + result.ledger.kept_exact + static_cast<int>(result.pieces.size()), 2);
+}
+
+TEST(Cut, ManyRandomCutsStaySound) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-2, 12);
+  std::vector<Shape> shapes{shape_of(kSquare)};
+  for (int i = 0; i < 150; ++i) {
+    const Shape shape = shapes[random() % shapes.size()];
+    const CutOutcome outcome =
+        i % 2 == 0 ? cut_by_polygon(shape, {disc_polygon({place(random), place(random)}, 1.5, 0.02), {}})
+                   : cut_along(shape, {{place(random), place(random)},
+                                       {place(random), place(random)},
+                                       {place(random), place(random)}});
+    if (!outcome) {
+      EXPECT_TRUE(outcome.error().reason == CutFailure::kMisses ||
+                  outcome.error().reason == CutFailure::kDoesNotSeparate);
+      continue;
+    }
+    expect_sound(shape, *outcome);
+    for (const Piece& piece : outcome->pieces) shapes.push_back(piece.shape);
+  }
+  EXPECT_GT(shapes.size(), 50u);
+}
+
+}  // namespace
+}  // namespace polynya::geometry
