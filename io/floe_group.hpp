@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/polygon.hpp"
+#include "io/scene_draft.hpp"
+
+namespace polynya::io {
+
+/// The floes of a lattice (row by row), a rectangle or a polygon, in the world. A file's are not: see
+/// geojson.hpp.
+std::vector<geometry::Polygon> floes_of(const FloeGroup& group);
+
+/// The same region with rings that are not closed by a repeated first point, outer counter-clockwise, holes
+/// clockwise. Which way rings run and whether they are closed are matters of notation; nothing else is
+/// changed.
+geometry::Polygon in_house_notation(geometry::Polygon polygon);
+
+}  // namespace polynya::io

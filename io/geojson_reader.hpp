@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/polygon.hpp"
+#include "io/json_value.hpp"
+#include "io/problem_collector.hpp"
+
+namespace polynya::io {
+
+struct GeojsonPolygon {
+  geometry::Polygon polygon;  ///< in house notation (floe_group.hpp), not yet known to be valid
+  std::uint32_t offset = 0;   ///< of its coordinates in the text
+};
+
+/// The polygons of a GeoJSON text (Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection), in
+/// order. Coordinates are metres in the scene's plane; a third one is passed over. Anything else is told as a
+/// problem of that source of the collector.
+std::vector<GeojsonPolygon> read_geojson(std::size_t source, ProblemCollector& problems);
+
+}  // namespace polynya::io

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace polynya::io {
+
+struct JsonMember;
+
+/// A JSON value that remembers where in its text it stood. Objects keep their order.
+struct JsonValue {
+  using Array = std::vector<JsonValue>;
+  using Object = std::vector<JsonMember>;
+  enum class Kind { kNull, kBoolean, kNumber, kText, kArray, kObject };
+
+  std::variant<std::nullptr_t, bool, double, std::string, Array, Object> data = nullptr;
+  std::uint32_t offset = 0;  ///< of the value's first byte in its text
+
+  Kind kind() const { return static_cast<Kind>(data.index()); }
+  bool is(Kind wanted) const { return kind() == wanted; }
+  bool is_null() const { return is(Kind::kNull); }
+
+  bool boolean() const { return std::get<bool>(data); }
+  double number() const { return std::get<double>(data); }
+  const std::string& text() const { return std::get<std::string>(data); }
+  const Array& items() const { return std::get<Array>(data); }
+  Array& items() { return std::get<Array>(data); }
+  const Object& members() const { return std::get<Object>(data); }
+  Object& members() { return std::get<Object>(data); }
+
+  /// The member of that key, or null where this is no object or has none.
+  const JsonValue* find(std::string_view key) const;
+  JsonValue* find(std::string_view key) { return const_cast<JsonValue*>(std::as_const(*this).find(key)); }
+};
+
+struct JsonMember {
+  std::string key;
+  std::uint32_t key_offset = 0;  ///< of the key's opening quote
+  JsonValue value;
+};
+
+inline const JsonValue* JsonValue::find(std::string_view key) const {
+  if (!is(Kind::kObject)) return nullptr;
+  for (const JsonMember& member : members()) {
+    if (member.key == key) return &member.value;
+  }
+  return nullptr;
+}
+
+/// "a number", "text", … for messages.
+std::string_view name_of(JsonValue::Kind kind);
+
+}  // namespace polynya::io

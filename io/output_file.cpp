@@ -1,0 +1,93 @@
+#include "io/output_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace polynya::io {
+namespace {
+
+/// Writes as much as goes; errno tells why it is not all.
+std::size_t write_all(int descriptor, std::string_view bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  return done;
+}
+
+}  // namespace
+
+tl::expected<OutputFile, std::string> OutputFile::create(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) return tl::unexpected(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  return OutputFile(descriptor, path.string());
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      name_(std::move(other.name_)),
+      buffer_(std::move(other.buffer_)),
+      record_ends_(std::move(other.record_ends_)),
+      size_(other.size_),
+      failure_(std::move(other.failure_)) {}
+
+OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(name_, other.name_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(record_ends_, other.record_ends_);
+  std::swap(size_, other.size_);
+  std::swap(failure_, other.failure_);
+  return *this;
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ < 0) return;
+  flush();
+  ::close(descriptor_);
+}
+
+bool OutputFile::flush() {
+  if (!failure_.empty()) return false;
+  const std::size_t written = write_all(descriptor_, buffer_);
+  std::size_t whole = written;
+  if (written < buffer_.size()) {
+    failure_ = fmt::format("{}: {}", name_, std::strerror(errno));
+    const auto beyond = std::ranges::upper_bound(record_ends_, written);
+    whole = beyond == record_ends_.begin() ? 0 : *(beyond - 1);
+    if (::ftruncate(descriptor_, static_cast<off_t>(size_ + whole)) != 0)
+      failure_ += "; its last record is cut short";
+  }
+  size_ += whole;
+  buffer_.clear();
+  record_ends_.clear();
+  return failure_.empty();
+}
+
+std::string write_whole_file(const std::filesystem::path& path, std::string_view text) {
+  std::filesystem::path temporary = path;
+  temporary += ".part";
+  const auto fail = [&](int error) {
+    ::unlink(temporary.c_str());
+    return fmt::format("{}: {}", path.string(), std::strerror(error));
+  };
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) return fail(errno);
+  const bool is_whole = write_all(descriptor, text) == text.size();
+  const int error = errno;
+  const bool is_closed = ::close(descriptor) == 0;
+  if (!is_whole) return fail(error);
+  if (!is_closed || ::rename(temporary.c_str(), path.c_str()) != 0) return fail(errno);
+  return "";
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+namespace polynya::io {
+
+/// A file that grows by whole records (a line, a frame). Records are buffered; what is on disk always ends
+/// with a whole one: where a write fails half way, the file is cut back to the last whole record.
+class OutputFile {
+ public:
+  static tl::expected<OutputFile, std::string> create(const std::filesystem::path& path);
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&& other) noexcept;
+  ~OutputFile();
+
+  void append(std::string_view record) {
+    buffer_ += record;
+    record_ends_.push_back(buffer_.size());
+  }
+  std::size_t buffered() const { return buffer_.size(); }  ///< [bytes]
+
+  /// Writes what is buffered. After a failure nothing more is written and the failure stays.
+  bool flush();
+  /// What went wrong, with the file's name; empty where all is well.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  OutputFile(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
+  int descriptor_ = -1;
+  std::string name_;
+  std::string buffer_;
+  std::vector<std::size_t> record_ends_;  ///< in the buffer
+  std::size_t size_ = 0;                  ///< on disk [bytes]
+  std::string failure_;
+};
+
+/// Writes a small file at once: to a temporary name beside it, then renamed, so that a reader sees the old or
+/// the new one. Returns what went wrong; empty where all is well.
+std::string write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace polynya::io

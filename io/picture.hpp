@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geometry/polygon.hpp"
+#include "simulation/journal.hpp"
+
+namespace polynya::io {
+
+/// A moment of a run, drawn from above.
+struct Picture {
+  struct Floe {
+    geometry::Polygon polygon_in_world;  ///< [m]
+    int generation = 0;
+  };
+  struct Ship {
+    geometry::Ring waterline_in_world;   ///< [m]
+    std::vector<geometry::Point> track;  ///< of its centre of gravity [m]
+  };
+  struct Fracture {
+    geometry::Point point_in_world;  ///< [m]
+    simulation::EventKind kind = simulation::EventKind::kBend;
+  };
+  std::string title;
+  std::string caption;
+  std::vector<geometry::Polygon> ice_at_start;  ///< drawn faintly, so that the channel shows
+  std::vector<Floe> floes;
+  std::vector<Ship> ships;
+  std::vector<Fracture> fractures;
+};
+
+/// The picture as SVG, 1600 px wide, with scale bar and legend. Its colours stay apart in greyscale and for
+/// colour-blind eyes.
+std::string to_svg(const Picture& picture);
+
+/// Makes a PNG of an SVG file where rsvg-convert is installed. False where it is not or fails.
+bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png);
+
+}  // namespace polynya::io

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace polynya::io {
+
+/// One thing wrong in an input file, with its place.
+struct Problem {
+  std::string file = {};
+  int line = 0;           ///< from 1; 0 where there is no place (an option on the command line)
+  int column = 0;         ///< from 1, in characters; a tab is one
+  std::string path = {};  ///< of the JSON value: "ships[0].hull.length_m"
+  std::string found = {};
+  std::string allowed = {};
+  std::string suggestion = {};  ///< nearest known key or choice; empty where none is near
+};
+
+/// "scene.json:12:5: ice.thickness_m: found 0, allowed: a number > 0, ≤ 20 [m]"
+std::string to_string(const Problem& problem);
+
+/// The candidate fewest edits away from a word, or "" where none is near enough to be meant.
+std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates);
+
+}  // namespace polynya::io

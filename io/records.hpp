@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "simulation/journal.hpp"
+#include "simulation/simulation.hpp"
+
+namespace polynya::io {
+
+/// The lines of a run's text files (docs/run-folder.md). Each appends whole lines to a buffer.
+
+/// forces.csv's first line: the names of its columns, with their units.
+std::string_view forces_header();
+void append_forces_row(std::string& text, const simulation::ShipSample& sample, std::string_view ship_name);
+
+void append_birth(std::string& text, const simulation::Birth& birth);
+
+/// `parent` is the parent of the floe that broke.
+void append_event(std::string& text, const simulation::Event& event, std::string_view ship_name,
+                  simulation::FloeId parent);
+
+/// All floes as a GeoJSON FeatureCollection in world coordinates [m].
+std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time);
+
+}  // namespace polynya::io

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace polynya::io {
+
+/// The files of a run (docs/run-folder.md).
+namespace run_file {
+inline constexpr std::string_view kScene = "scene.json";
+inline constexpr std::string_view kSummary = "summary.json";
+inline constexpr std::string_view kForces = "forces.csv";
+inline constexpr std::string_view kEvents = "events.ndjson";
+inline constexpr std::string_view kFloes = "floes.ndjson";
+inline constexpr std::string_view kFrames = "frames.bin";
+inline constexpr std::string_view kFinalGeojson = "final.geojson";
+inline constexpr std::string_view kFinalSvg = "final.svg";
+inline constexpr std::string_view kFinalPng = "final.png";
+inline constexpr std::array kAll{kScene,  kSummary,      kForces,   kEvents,  kFloes,
+                                 kFrames, kFinalGeojson, kFinalSvg, kFinalPng};
+}  // namespace run_file
+
+/// Makes an empty run folder. A folder with anything in it is refused; if told to overwrite, a run's folder
+/// (one with scene.json and summary.json) loses the files a run writes, and nothing else. Returns what went
+/// wrong; empty where all is well.
+std::string prepare_run_folder(const std::filesystem::path& folder, bool overwrite);
+
+}  // namespace polynya::io

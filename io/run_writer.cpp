@@ -1,0 +1,171 @@
+#include "io/run_writer.hpp"
+
+#include <fmt/format.h>
+
+#include "geometry/pose.hpp"
+#include "io/records.hpp"
+#include "io/run_folder.hpp"
+
+namespace polynya::io {
+namespace {
+
+enum : std::size_t { kFloes, kEvents, kFrames, kForces, kFileCount };
+constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
+constexpr auto kLongestWait = std::chrono::seconds(1);
+
+Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
+  return {point_in_world(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity,
+          floe.angular_velocity};
+}
+
+}  // namespace
+
+tl::expected<RunWriter, std::string> RunWriter::create(const std::filesystem::path& folder, bool overwrite,
+                                                       const LoadedScene& scene) {
+  if (std::string problem = prepare_run_folder(folder, overwrite); !problem.empty())
+    return tl::unexpected(problem);
+  if (std::string problem = write_whole_file(folder / run_file::kScene, scene.resolved_text);
+      !problem.empty())
+    return tl::unexpected(problem);
+  std::vector<OutputFile> files;
+  for (const auto name : {run_file::kFloes, run_file::kEvents, run_file::kFrames, run_file::kForces}) {
+    auto file = OutputFile::create(folder / name);
+    if (!file) return tl::unexpected(file.error());
+    files.push_back(std::move(*file));
+  }
+  RunWriter writer(folder, scene, std::move(files));
+  RunSummary first;
+  first.stopped_by = "still running, or killed";
+  first.peaks = writer.peaks_;
+  if (std::string problem = write_whole_file(folder / run_file::kSummary, to_json_text(first, scene));
+      !problem.empty())
+    return tl::unexpected(problem);
+  return writer;
+}
+
+RunWriter::RunWriter(std::filesystem::path folder, const LoadedScene& scene, std::vector<OutputFile> files)
+    : folder_(std::move(folder)),
+      scene_(&scene),
+      files_(std::move(files)),
+      tracks_(scene.scene.ships.size()),
+      peaks_(scene.scene.ships.size()),
+      last_flush_(std::chrono::steady_clock::now()) {
+  for (std::size_t i = 0; i < peaks_.size(); ++i) peaks_[i].ship = scene.scene.ships[i].name;
+  file(kForces).append(forces_header());
+  file(kFrames).append(FrameEncoder::header());
+}
+
+std::string_view RunWriter::ship_name(int ship) const {
+  const auto& ships = scene_->scene.ships;
+  return ship >= 0 && static_cast<std::size_t>(ship) < ships.size()
+             ? std::string_view(ships[static_cast<std::size_t>(ship)].name)
+             : "";
+}
+
+void RunWriter::record(simulation::Journal& journal) {
+  const auto append_line = [&](std::size_t which, auto&& write) {
+    line_.clear();
+    write(line_);
+    file(which).append(line_);
+  };
+  for (const simulation::Birth& birth : journal.births) {
+    const auto id = static_cast<std::size_t>(birth.floe);
+    if (id >= parents_.size()) {
+      parents_.resize(id + 1, simulation::kNoFloe);
+      centroids_in_body_.resize(id + 1);
+    }
+    parents_[id] = birth.parent;
+    centroids_in_body_[id] = birth.centroid_in_body;
+    append_line(kFloes, [&](std::string& line) { append_birth(line, birth); });
+  }
+  for (const simulation::Event& event : journal.events) {
+    append_line(kEvents, [&](std::string& line) {
+      append_event(line, event, ship_name(event.ship), parents_[static_cast<std::size_t>(event.floe)]);
+    });
+    if (event.kind != simulation::EventKind::kRejectedCut)
+      fractures_.push_back({event.point_in_world, event.kind});
+  }
+  for (const simulation::ShipSample& sample : journal.samples) {
+    append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, ship_name(sample.ship)); });
+    peaks_[static_cast<std::size_t>(sample.ship)].see(sample);
+  }
+  journal.clear();
+}
+
+void RunWriter::frame(const simulation::Simulation& simulation) {
+  std::vector<Motion> ships;
+  for (const simulation::ShipState& ship : simulation.ship_states()) {
+    tracks_[ships.size()].push_back(ship.world_from_ship.position);
+    ships.push_back({ship.world_from_ship.position, ship.heading, ship.velocity, ship.angular_velocity});
+  }
+  std::vector<FloeMotion> floes;
+  for (const simulation::FloeState& floe : simulation.floe_states()) {
+    floes.push_back({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
+  }
+  file(kFrames).append(frames_.encode(simulation.time(), ships, floes));
+}
+
+void RunWriter::flush() {
+  for (OutputFile& file : files_) {
+    if (!file.flush()) break;  // nothing may be named that is not there
+  }
+  last_flush_ = std::chrono::steady_clock::now();
+}
+
+void RunWriter::flush_if_due() {
+  std::size_t buffered = 0;
+  for (const OutputFile& file : files_) buffered += file.buffered();
+  if (buffered > kMuchBuffered || std::chrono::steady_clock::now() - last_flush_ > kLongestWait) flush();
+}
+
+std::string RunWriter::failure() const {
+  for (const OutputFile& file : files_) {
+    if (!file.failure().empty()) return file.failure();
+  }
+  return "";
+}
+
+Picture RunWriter::picture(const RunSummary& summary, const simulation::Simulation& simulation) const {
+  Picture picture;
+  picture.title = fmt::format("{} at {:.6g} s", scene_->scene.name, summary.sim_time);
+  picture.caption =
+      fmt::format("{} cusps broken by bending, {} splits, {} floes of {} at the start", summary.counts.bends,
+                  summary.counts.splits, summary.counts.floes_final, summary.counts.floes_initial);
+  for (const auto& floe : scene_->scene.floes) picture.ice_at_start.push_back(floe.polygon_in_world);
+  const auto moved = [](const geometry::Pose& pose, geometry::Ring ring) {
+    for (geometry::Point& p : ring) p = point_in_world(pose, p);
+    return ring;
+  };
+  for (const simulation::FloeState& floe : simulation.floe_states()) {
+    geometry::Polygon polygon{moved(floe.world_from_body, floe.polygon_in_body->outer), {}};
+    for (const auto& hole : floe.polygon_in_body->holes)
+      polygon.holes.push_back(moved(floe.world_from_body, hole));
+    picture.floes.push_back({std::move(polygon), floe.generation});
+  }
+  std::size_t ship = 0;
+  for (const simulation::ShipState& state : simulation.ship_states()) {
+    picture.ships.push_back(
+        {moved(state.world_from_ship, scene_->scene.ships[ship].hull.waterline), tracks_[ship]});
+    ++ship;
+  }
+  picture.fractures = fractures_;
+  return picture;
+}
+
+std::string RunWriter::finish(const RunSummary& summary, const simulation::Simulation& simulation) {
+  flush();
+  std::string problem = failure();
+  const auto write = [&](std::string_view name, const std::string& text) {
+    const std::string wrong = write_whole_file(folder_ / name, text);
+    if (problem.empty()) problem = wrong;
+    return wrong.empty();
+  };
+  // The summary first: where space is short it matters more than the picture, and it is rewritten in place.
+  write(run_file::kSummary, to_json_text(summary, *scene_));
+  write(run_file::kFinalGeojson, to_geojson(simulation.floe_states(), simulation.time()));
+  if (write(run_file::kFinalSvg, to_svg(picture(summary, simulation))))
+    has_png_ = convert_to_png(folder_ / run_file::kFinalSvg, folder_ / run_file::kFinalPng);
+  return problem;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,170 @@
+#include "io/scene_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/pose.hpp"
+#include "geometry/validity.hpp"
+#include "io/overlap.hpp"
+
+namespace polynya::io {
+namespace {
+
+using geometry::Polygon;
+
+constexpr double kMostSteps = 1e9;
+constexpr std::size_t kMostOverlaps = 200;
+
+/// Offset of the value at a dotted path, or of the nearest object on the way to it.
+std::uint32_t offset_of(const JsonValue& root, std::string_view path) {
+  const JsonValue* value = &root;
+  while (!path.empty()) {
+    const auto dot = std::min(path.find('.'), path.size());
+    const JsonValue* next = value->find(path.substr(0, dot));
+    if (!next) break;
+    value = next;
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return value->offset;
+}
+
+std::string path_of(const SceneDraft& draft, std::size_t floe) {
+  const Origin& origin = draft.floe_origins[floe];
+  const std::string group = fmt::format("floes[{}]", origin.group);
+  return origin.member < 0 ? group : fmt::format("{} (its floe {})", group, origin.member);
+}
+
+void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+  const auto& scene = draft.scene;
+  const auto tell = [&](const std::string& path, std::string found, std::string allowed) {
+    problems.add(0, offset_of(resolved, path),
+                 {.path = path, .found = std::move(found), .allowed = std::move(allowed)});
+  };
+  if (scene.ice.density >= scene.water.water.density)
+    tell("ice.density_kg_per_m3", fmt::format("{}: this ice sinks", scene.ice.density),
+         fmt::format("a number < the water's density, {} [kg/m³]", scene.water.water.density));
+  if (scene.time.until < scene.time.step)
+    tell("time.until_s", fmt::format("{}, less than one step", scene.time.until),
+         fmt::format("a number ≥ step_s, {} [s]", scene.time.step));
+  if (scene.time.until / scene.time.step > kMostSteps)
+    tell("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
+         fmt::format("at most {:g} steps", kMostSteps));
+  double fastest = geometry::length(scene.water.drift);
+  for (const auto& ship : scene.ships) fastest = std::max(fastest, std::abs(ship.speed));
+  for (const auto& floe : scene.floes)
+    fastest = std::max(fastest, geometry::length(floe.velocity + scene.water.drift));
+  if (fastest * scene.time.step >= scene.contact.circle_radius)
+    tell("time.step_s",
+         fmt::format("{}: {:.3g} m in one step at {:.3g} m/s", scene.time.step, fastest * scene.time.step,
+                     fastest),
+         fmt::format("a step in which nothing moves as far as a circle's radius, {} m",
+                     scene.contact.circle_radius));
+  if (scene.ships.empty() && scene.floes.empty() && problems.count() == 0)
+    problems.add(0, resolved.offset,
+                 {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
+}
+
+std::string describe(const geometry::DefectAt& defect) {
+  std::string text(name_of(defect.defect));
+  for (std::size_t i = 0; i < std::min<std::size_t>(defect.places.size(), 3); ++i) {
+    text += fmt::format("{} ({}, {})", i == 0 ? " at" : ",", defect.places[i].x, defect.places[i].y);
+  }
+  return text;
+}
+
+Polygon waterline_in_world(const simulation::ShipSpec& ship) {
+  const geometry::Pose world_from_ship{ship.position_in_world, geometry::Rotation::by(ship.heading)};
+  Polygon outline;
+  for (const geometry::Point p : ship.hull.waterline)
+    outline.outer.push_back(point_in_world(world_from_ship, p));
+  return outline;
+}
+
+/// A body that takes part in the search for overlaps.
+struct Named {
+  std::string path;
+  const Origin* origin;
+  bool is_ship;
+};
+
+void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vector<Named>& named,
+                 std::vector<Polygon>& outlines) {
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
+    const auto& ship = draft.scene.ships[i];
+    const Origin& origin = draft.ship_origins[i];
+    const std::string path = fmt::format("ships[{}]", origin.group);
+    const auto tell = [&](std::string_view key, std::string found, std::string allowed) {
+      problems.add(origin.source, origin.offset,
+                   {.path = fmt::format("{}.{}", path, key),
+                    .found = std::move(found),
+                    .allowed = std::move(allowed)});
+    };
+    for (std::size_t k = 0; k < i; ++k) {
+      if (draft.scene.ships[k].name == ship.name)
+        tell("name", fmt::format("\"{}\" a second time", ship.name), "each ship its own name");
+    }
+    const auto& hull = ship.hull;
+    if (!hull.angles_from_vertical.empty() && hull.angles_from_vertical.size() != hull.waterline.size())
+      tell("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
+           fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
+    if (const auto defect = geometry::find_defect({hull.waterline, {}})) {
+      tell("hull", "an invalid waterline: " + describe(*defect),
+           "a simple ring with an area; a wedge bow must end before the stern");
+      continue;
+    }
+    outlines.push_back(waterline_in_world(ship));
+    named.push_back({path, &origin, true});
+  }
+}
+
+void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vector<Named>& named,
+                 std::vector<Polygon>& outlines) {
+  for (std::size_t i = 0; i < draft.scene.floes.size(); ++i) {
+    const Polygon& polygon = draft.scene.floes[i].polygon_in_world;
+    const Origin& origin = draft.floe_origins[i];
+    if (!origin.is_rectangle) {
+      if (const auto defect = geometry::find_defect(polygon)) {
+        problems.add(origin.source, origin.offset,
+                     {.path = path_of(draft, i),
+                      .found = "an invalid polygon: " + describe(*defect),
+                      .allowed = "simple rings with an area, holes inside and apart"});
+        continue;
+      }
+    }
+    outlines.push_back(polygon);
+    named.push_back({path_of(draft, i), &origin, false});
+  }
+}
+
+void check_overlaps(const std::vector<Named>& named, const std::vector<Polygon>& outlines,
+                    ProblemCollector& problems) {
+  const auto overlaps = find_overlaps(outlines, kMostOverlaps);
+  for (const Overlap& overlap : overlaps) {
+    const Named& first = named[overlap.first];
+    const Named& second = named[overlap.second];
+    const std::string area = std::isnan(overlap.area) ? "" : fmt::format(", {:.6g} m² shared", overlap.area);
+    problems.add(second.origin->source, second.origin->offset,
+                 {.path = second.path,
+                  .found = fmt::format("an overlap with {}{}", first.path, area),
+                  .allowed = first.is_ship && !second.is_ship ? "floes outside the ship's waterline"
+                                                              : "bodies that at most touch"});
+  }
+  if (overlaps.size() == kMostOverlaps)
+    problems.add(0, 0,
+                 {.path = "floes", .found = fmt::format("{} overlaps, and perhaps more", kMostOverlaps)});
+}
+
+}  // namespace
+
+void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+  check_water_and_time(draft, resolved, problems);
+  std::vector<Named> named;
+  std::vector<Polygon> outlines;
+  check_ships(draft, problems, named, outlines);
+  check_floes(draft, problems, named, outlines);
+  check_overlaps(named, outlines, problems);
+}
+
+}  // namespace polynya::io

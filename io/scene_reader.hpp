@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "io/problem.hpp"
+#include "simulation/scene.hpp"
+
+namespace polynya::io {
+
+inline constexpr std::size_t kLongestScene = std::size_t{64} << 20;       ///< [bytes]
+inline constexpr std::size_t kLongestFloesFile = std::size_t{256} << 20;  ///< [bytes]
+inline constexpr std::size_t kMostFloes = 1'000'000;
+
+struct LoadedScene {
+  simulation::Scene scene;
+  std::string description;
+  std::string
+      resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
+  std::string hash;   ///< of resolved_text: 16 hexadecimal digits, FNV-1a
+};
+
+/// What the command line puts in place of the scene's own.
+struct SceneOverrides {
+  std::optional<double> until;  ///< [s]
+  std::optional<std::uint64_t> seed;
+};
+
+using SceneOutcome = tl::expected<LoadedScene, std::vector<Problem>>;
+
+/// Reads a scene: JSON, comments allowed. All problems at once, each with its place (docs/scene.md).
+SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides = {});
+
+/// The same for a text at hand. `name` stands in messages; floe files are looked for in `folder`.
+SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
+                        const SceneOverrides& overrides = {});
+
+}  // namespace polynya::io

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+namespace polynya::io {
+
+/// A text with its name, for telling where in it something stands.
+struct SourceText {
+  std::string name;  ///< as shown to people, usually the file's path
+  std::string text;
+};
+
+struct LineAndColumn {
+  int line = 1;    ///< from 1
+  int column = 1;  ///< from 1, in characters (code points); a tab is one
+};
+
+LineAndColumn line_and_column(std::string_view text, std::size_t offset);
+
+/// The whole of a regular file, or what is wrong with it in words. Longer files are refused, not read.
+tl::expected<std::string, std::string> read_text_file(const std::filesystem::path& path, std::size_t longest);
+
+}  // namespace polynya::io

@@ -1,0 +1,83 @@
+#include "io/summary.hpp"
+
+#include "io/json_writer.hpp"
+#include "io/version.hpp"
+
+namespace polynya::io {
+namespace {
+
+void append(JsonWriter& json, const char* key, const Peak& peak) {
+  json.key(key).open('{').key("value").value(peak.value).key("t_s").value(peak.time).close('}');
+}
+
+void append(JsonWriter& json, const ShipPeaks& peaks) {
+  json.open('{').key("ship").value(std::string_view(peaks.ship));
+  append(json, "surge_max_N", peaks.surge);
+  append(json, "sway_max_N", peaks.sway);
+  append(json, "yaw_max_Nm", peaks.yaw);
+  append(json, "surge_j_over_tau_c_N", peaks.surge_peak);
+  append(json, "sway_j_over_tau_c_N", peaks.sway_peak);
+  append(json, "yaw_j_over_tau_c_Nm", peaks.yaw_peak);
+  append(json, "speed_m_per_s", peaks.speed);
+  json.close('}');
+}
+
+void append(JsonWriter& json, const simulation::AreaLedger& ledger) {
+  json.key("ledger").open('{');
+  json.key("initial_ice_area_m2").value(ledger.initial_ice_area).key("floe_area_m2").value(ledger.floe_area);
+  json.key("submerged_area_m2").value(ledger.submerged_area).key("brash_area_m2").value(ledger.brash_area);
+  json.key("rounding_defect_m2").value(ledger.rounding_defect).key("imbalance_m2").value(ledger.imbalance);
+  json.close('}');
+}
+
+void append(JsonWriter& json, const simulation::Counts& counts) {
+  json.key("counts").open('{');
+  json.key("floes_initial").value(counts.floes_initial).key("floes_final").value(counts.floes_final);
+  json.key("bends").value(counts.bends).key("splits").value(counts.splits);
+  json.key("crush_contacts").value(counts.crush_contacts).key("rejected_cuts").value(counts.rejected_cuts);
+  json.key("database_out_of_range").value(counts.database_out_of_range);
+  json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
+  json.key("kept_exact").value(counts.kept_exact).key("unconverged_steps").value(counts.unconverged_steps);
+  json.key("peak_contacts").value(counts.peak_contacts).key("peak_awake").value(counts.peak_awake);
+  json.close('}');
+}
+
+}  // namespace
+
+std::string_view version() {
+  return POLYNYA_VERSION;
+}
+
+void ShipPeaks::see(const simulation::ShipSample& s) {
+  surge.see(s.surge_max, s.time);
+  sway.see(s.sway_max, s.time);
+  yaw.see(s.yaw_max, s.time);
+  surge_peak.see(s.surge_peak, s.time);
+  sway_peak.see(s.sway_peak, s.time);
+  yaw_peak.see(s.yaw_peak, s.time);
+  speed.see(geometry::length(s.velocity_in_world), s.time);
+}
+
+std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
+  std::string text;
+  JsonWriter json(text, JsonWriter::Layout::kIndented);
+  json.open('{').key("version").value(version()).key("scene").value(std::string_view(scene.scene.name));
+  json.key("seed").value(static_cast<std::int64_t>(scene.scene.seed));
+  json.key("scene_hash").value(std::string_view(scene.hash));
+  json.key("finished").value(summary.finished);
+  if (!summary.stopped_by.empty()) json.key("stopped_by").value(std::string_view(summary.stopped_by));
+  json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
+  json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
+  json.key("peaks").open('[');
+  for (const ShipPeaks& peaks : summary.peaks) append(json, peaks);
+  json.close(']');
+  append(json, summary.ledger);
+  append(json, summary.counts);
+  json.key("warnings").open('[');
+  for (const std::string& warning : summary.warnings) json.value(std::string_view(warning));
+  json.close(']').close('}');
+  text += '\n';
+  return text;
+}
+
+}  // namespace polynya::io

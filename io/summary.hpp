@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "io/scene_reader.hpp"
+#include "simulation/journal.hpp"
+
+namespace polynya::io {
+
+/// The largest value of something, by magnitude, and when.
+struct Peak {
+  double value = 0;
+  double time = 0;  ///< [s]
+  void see(double candidate, double at) {
+    if (std::abs(candidate) > std::abs(value)) *this = {candidate, at};
+  }
+};
+
+/// The largest loads on one ship over a run, in its frame.
+struct ShipPeaks {
+  std::string ship;
+  Peak surge, sway, yaw;                 ///< true force of one step [N], [N m]
+  Peak surge_peak, sway_peak, yaw_peak;  ///< the paper's j/τ_c [N], [N m]
+  Peak speed;                            ///< [m/s]
+  void see(const simulation::ShipSample& sample);
+};
+
+/// What summary.json says.
+struct RunSummary {
+  bool finished = false;
+  std::string stopped_by;  ///< why it did not finish; empty while it runs and when it finished
+  std::int64_t steps = 0;
+  double sim_time = 0;   ///< [s]
+  double wall_time = 0;  ///< [s]
+  simulation::AreaLedger ledger;
+  simulation::Counts counts;
+  std::vector<ShipPeaks> peaks;
+  std::vector<std::string> warnings;
+
+  double real_time_factor() const { return wall_time > 0 ? sim_time / wall_time : 0; }
+};
+
+std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
+
+}  // namespace polynya::io
