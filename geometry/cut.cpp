@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numbers>
 
 #include "geometry/internal/exact_polygon.hpp"
+#include "geometry/internal/edge_tree.hpp"
 #include "geometry/internal/general_cut.hpp"
+#include "geometry/internal/local_cut.hpp"
+#include "geometry/internal/predicates.hpp"
 #include "geometry/validity.hpp"
 
 namespace polynya::geometry {
@@ -22,6 +26,49 @@ exact::Polygon exact_polygon_of(const Shape& shape) {
 bool all_finite(const std::vector<Point>& points) {
   return std::all_of(points.begin(), points.end(),
                      [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+}
+
+// Strictly convex, counter-clockwise and once around: then nothing else can be wrong with a ring.
+bool is_convex(const Ring& ring) {
+  const std::size_t n = ring.size();
+  if (n < 3 || !all_finite(ring)) return false;
+  int turns_back = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point a = ring[i];
+    const Point b = ring[(i + 1) % n];
+    const Point c = ring[(i + 2) % n];
+    if (orientation(a, b, c) <= 0) return false;
+    const auto rightward = [](Point p, Point q) { return p.x < q.x || (p.x == q.x && p.y < q.y); };
+    turns_back += rightward(a, b) != rightward(b, c) ? 1 : 0;
+  }
+  return turns_back == 2;
+}
+
+std::optional<DefectAt> find_tool_defect(const Polygon& tool) {
+  if (tool.holes.empty() && is_convex(tool.outer)) return {};
+  return find_defect(tool);
+}
+
+// Does the polyline neither cross nor touch itself? (Ends that meet count as touching.)
+bool is_simple(const std::vector<Point>& polyline) {
+  if (polyline.size() == 2) return true;
+  std::vector<Edge> edges;
+  for (std::size_t i = 1; i < polyline.size(); ++i) edges.push_back({polyline[i - 1], polyline[i], 0, static_cast<int>(i)});
+  return EdgeTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
+    const SegmentMeeting meeting = meet(edges[i].a, edges[i].b, edges[j].a, edges[j].b);
+    if (meeting.kind == Meeting::kNone) return true;
+    return j == i + 1 && meeting.kind == Meeting::kTouch;
+  });
+}
+
+// Out of memory inside a cut is a failed cut; the general path then says so.
+template <typename Work>
+std::optional<CutOutcome> guarded(Work work) {
+  try {
+    return work();
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 std::optional<DefectAt> find_shape_defect(const Shape& shape) {
@@ -49,17 +96,23 @@ std::string_view name_of(CutFailure reason) {
 
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
-  if (const auto found = find_defect(tool_in_body)) return refuse(CutFailure::kInvalidTool, *found);
+  if (const auto found = find_tool_defect(tool_in_body)) return refuse(CutFailure::kInvalidTool, *found);
+  if (!shape.exact && tool_in_body.holes.empty()) {
+    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tool_in_body.outer, true}); })) return *std::move(outcome);
+  }
   return cut_by_polygons_generally(exact_polygon_of(shape), {tool_in_body});
 }
 
 CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body) {
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
   if (!all_finite(polyline_in_body)) return refuse(CutFailure::kInvalidTool, {Defect::kNotFinite, {}});
-  const bool is_point = std::all_of(polyline_in_body.begin(), polyline_in_body.end(),
-                                    [&](Point p) { return p == polyline_in_body.front(); });
-  if (is_point) return refuse(CutFailure::kInvalidTool, {Defect::kTooFewPoints, {}});
-  return cut_along_generally(exact_polygon_of(shape), polyline_in_body);
+  std::vector<Point> crack = polyline_in_body;
+  crack.erase(std::unique(crack.begin(), crack.end()), crack.end());
+  if (crack.size() < 2) return refuse(CutFailure::kInvalidTool, {Defect::kTooFewPoints, {}});
+  if (!shape.exact && is_simple(crack)) {
+    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {crack, false}); })) return *std::move(outcome);
+  }
+  return cut_along_generally(exact_polygon_of(shape), crack);
 }
 
 Ring disc_polygon(Point centre, double radius, double sagitta) {

@@ -147,7 +147,8 @@ class Tracer {
   bool is_boundary(Halfedge e) const {
     const std::size_t left = face_of(e);
     const std::size_t right = face_of(e->twin());
-    return left != right && (seams_ == Seams::kKeep || label_[left] != label_[right]);
+    if (left == right || (label_[left] < 0 && label_[right] < 0)) return false;
+    return seams_ == Seams::kKeep || label_[left] != label_[right];
   }
 
   void join_faces() {

@@ -204,4 +204,10 @@ int side_of_ring(const Ring& ring, Point p) {
   return inside ? 1 : -1;
 }
 
+bool contains_strictly(const Polygon& polygon, Point p) {
+  if (side_of_ring(polygon.outer, p) <= 0) return false;
+  return std::all_of(polygon.holes.begin(), polygon.holes.end(),
+                     [p](const Ring& hole) { return side_of_ring(hole, p) < 0; });
+}
+
 }  // namespace polynya::geometry

@@ -58,4 +58,7 @@ bool met_before(const Ray& from, const Ray& a, const Ray& b);
 /// −1 outside, 0 on the boundary, +1 inside the ring; exact.
 int side_of_ring(const Ring& ring, Point p);
 
+/// Is the point in the interior of the polygon? Exact.
+bool contains_strictly(const Polygon& polygon, Point p);
+
 }  // namespace polynya::geometry

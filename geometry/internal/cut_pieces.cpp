@@ -1,0 +1,238 @@
+#include "geometry/internal/cut_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/internal/predicates.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+using Source = PieceRing::Source;
+
+// Calls on_node(node, along_tool) and on_point(p, along_tool) for a loop's vertices in order; along_tool tells
+// whether the edge that leaves the vertex runs along the tool.
+template <typename OnNode, typename OnPoint>
+void for_each_vertex(const LocalCut& cut, const Loop& loop, OnNode on_node, OnPoint on_point) {
+  for (const int h : loop) {
+    const HalfEdge& e = cut.graph.half_edges[static_cast<std::size_t>(h)];
+    on_node(cut.nodes[static_cast<std::size_t>(e.from)], e.is_chord);
+    const Ring& points = e.is_chord ? cut.tool.points : cut.rings[e.ring];
+    const int size = static_cast<int>(points.size());
+    int i = e.is_forward ? e.run.first : e.run.first + e.run.count - 1;
+    if (i >= size) i -= size;
+    for (int k = 0; k < e.run.count; ++k) {
+      on_point(points[static_cast<std::size_t>(i)], e.is_chord);
+      i += e.is_forward ? 1 : -1;
+      if (i == size) i = 0;
+      if (i < 0) i = size - 1;
+    }
+  }
+}
+
+std::size_t vertex_count(const LocalCut& cut, const Loop& loop) {
+  std::size_t count = loop.size();
+  for (const int h : loop) {
+    count += static_cast<std::size_t>(cut.graph.half_edges[static_cast<std::size_t>(h)].run.count);
+  }
+  return count;
+}
+
+// Writes a loop's vertices, noting on the way the edges that are new.
+Ring write_loop(LocalCut& cut, const Loop& loop) {
+  struct Vertex {
+    bool is_node = false;
+    bool is_rounded = false;
+    bool on_tool = false;  // the edge that leaves it runs along the tool
+  };
+  Ring points;
+  points.reserve(vertex_count(cut, loop));
+  Vertex first;
+  Vertex last;
+  const auto note_edge = [&](Point to, const Vertex& v) {
+    if (last.is_rounded || v.is_rounded) {
+      cut.changed.push_back({points.back(), to});
+    } else if (last.is_node || v.is_node || last.on_tool) {
+      cut.placed.push_back({points.back(), to});
+    }
+  };
+  const auto append = [&](Point p, const Vertex& v) {
+    if (points.empty()) {
+      first = v;
+    } else if (last.is_node || v.is_node || last.on_tool) {
+      note_edge(p, v);
+    }
+    points.push_back(p);
+    last = v;
+  };
+  for_each_vertex(
+      cut, loop, [&](const Node& node, bool on_tool) { append(node.at, {true, node.is_rounded, on_tool}); },
+      [&](Point p, bool on_tool) { append(p, {false, false, on_tool}); });
+  note_edge(points.front(), first);
+  return points;
+}
+
+void write(LocalCut& cut, PieceRing& ring) {
+  switch (ring.source) {
+    case Source::kLoop: ring.points = write_loop(cut, ring.loop); break;
+    case Source::kShapeRing: ring.points = cut.rings[ring.shape_ring]; break;
+    case Source::kTool: ring.points = cut.tool.points; break;
+    case Source::kToolReversed: ring.points = {cut.tool.points.rbegin(), cut.tool.points.rend()}; break;
+  }
+  ring.area = ring_area(ring.points);
+}
+
+exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
+  if (ring.source != Source::kLoop) return exact::exactly(ring.points);
+  exact::Ring points;
+  for_each_vertex(
+      cut, ring.loop, [&](const Node& node, bool) { points.push_back(exact_point(node)); },
+      [&](Point p, bool) { points.push_back(exact::exactly(p)); });
+  return points;
+}
+
+// Which way the exact loop turns: told by the rounded one wherever its area is clear of all errors.
+int turn_of(const LocalCut& cut, const PieceRing& ring) {
+  const double clear = ring.area.doubt + 2 * ring.area.step_area;
+  if (ring.area.area > clear) return 1;
+  if (-ring.area.area > clear) return -1;
+  return sgn(exact::area(write_exactly(cut, ring)));
+}
+
+// A box that holds the edge before and after its ends were rounded.
+Box swept_box(const Segment& s) {
+  const double size = std::max({std::abs(s.from.x), std::abs(s.from.y), std::abs(s.to.x), std::abs(s.to.y)});
+  const double margin = 4 * (std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
+  return grown({{std::min(s.from.x, s.to.x), std::min(s.from.y, s.to.y)},
+                {std::max(s.from.x, s.to.x), std::max(s.from.y, s.to.y)}},
+               margin);
+}
+
+constexpr bool holds(const Box& outer, const Box& inner) {
+  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && inner.high.x <= outer.high.x &&
+         inner.high.y <= outer.high.y;
+}
+
+// Finds the shell of a hole by a vertex that no changed edge comes near, about which the rounded rings and the exact
+// ones agree.
+class Placer {
+ public:
+  Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans) {
+    for (std::size_t i = 0; i < plans.size(); ++i) by_area_.push_back(i);
+    const auto area = [&](std::size_t i) { return plans[i].rings.front().area.area; };
+    std::sort(by_area_.begin(), by_area_.end(), [&](std::size_t i, std::size_t j) { return area(i) < area(j); });
+    for (const Segment& s : cut.changed) swept_.push_back(swept_box(s));
+  }
+
+  bool place(PieceRing hole) {
+    for (const std::size_t i : by_area_) {
+      const std::optional<bool> inside = is_inside(hole.points, plans_[i].rings.front().points);
+      if (!inside) return false;
+      if (!*inside) continue;
+      plans_[i].rings.push_back(std::move(hole));
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  std::optional<bool> is_inside(const Ring& hole, const Ring& shell) const {
+    bool all_on_shell = true;
+    for (const Point p : hole) {
+      const int side = side_of_ring(shell, p);
+      all_on_shell = all_on_shell && side == 0;
+      if (side != 0 && !is_doubtful(p)) return side > 0;
+    }
+    // A hole all of whose vertices are the shell's is that shell seen from the other side.
+    if (all_on_shell) return false;
+    return {};
+  }
+
+  bool is_doubtful(Point p) const {
+    return std::any_of(swept_.begin(), swept_.end(), [&](const Box& box) { return overlaps(box, {p, p}); });
+  }
+
+  std::vector<PiecePlan>& plans_;
+  std::vector<std::size_t> by_area_;
+  std::vector<Box> swept_;
+};
+
+// The loops of one walk: one outer ring and its touching holes, or holes only.
+bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, std::vector<PieceRing>& homeless) {
+  PiecePlan plan{{}, walk.part};
+  std::vector<PieceRing> holes;
+  for (const Loop& loop : walk.loops) {
+    PieceRing ring{Source::kLoop, loop, 0, {}, {}};
+    write(cut, ring);
+    const int turn = turn_of(cut, ring);
+    if (turn == 0 || (turn > 0 && !plan.rings.empty())) return false;
+    (turn > 0 ? plan.rings : holes).push_back(std::move(ring));
+  }
+  std::vector<PieceRing>& home = plan.rings.empty() ? homeless : plan.rings;
+  std::move(holes.begin(), holes.end(), std::back_inserter(home));
+  if (!plan.rings.empty()) plans.push_back(std::move(plan));
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
+  std::vector<PiecePlan> plans;
+  std::vector<PieceRing> homeless;  // holes whose shell is yet to be found
+  for (const Walk& walk : cut.graph.walks) {
+    if (!plan_walk(cut, walk, plans, homeless)) return {};
+  }
+  const auto whole = [&](Source source, int shape_ring) {
+    PieceRing ring{source, {}, shape_ring, {}, {}};
+    write(cut, ring);
+    return ring;
+  };
+  const auto add_shell = [&](PieceRing ring, Part part) {
+    plans.push_back({{}, part});
+    plans.back().rings.push_back(std::move(ring));
+  };
+  if (cut.graph.walks.empty()) {  // the tool lies within the ice
+    add_shell(whole(Source::kTool, 0), Part::kInside);
+    homeless.push_back(whole(Source::kToolReversed, 0));
+  }
+  for (int r = 0; r < cut.rings.count(); ++r) {
+    if (cut.graph.ring_is_cut[static_cast<std::size_t>(r)] != 0) continue;
+    if (r == 0) {
+      add_shell(whole(Source::kShapeRing, r), Part::kOutside);
+    } else {
+      homeless.push_back(whole(Source::kShapeRing, r));
+    }
+  }
+  if (homeless.empty()) return plans;
+  Placer placer(cut, plans);
+  for (PieceRing& hole : homeless) {
+    if (!placer.place(std::move(hole))) return {};
+  }
+  return plans;
+}
+
+exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan) {
+  exact::Polygon polygon;
+  for (const PieceRing& ring : plan.rings) {
+    if (polygon.outer.empty()) {
+      polygon.outer = write_exactly(cut, ring);
+    } else {
+      polygon.holes.push_back(write_exactly(cut, ring));
+    }
+  }
+  return polygon;
+}
+
+bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan) {
+  if (plan.rings.size() < 2) return false;
+  for (const PieceRing& ring : plan.rings) {
+    const Box box = bounding_box(ring.points);
+    for (const Segment& s : cut.changed) {
+      if (holds(swept_box(s), box)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace polynya::geometry

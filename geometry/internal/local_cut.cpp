@@ -1,0 +1,269 @@
+#include "geometry/internal/local_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "geometry/internal/cut_pieces.hpp"
+#include "geometry/internal/settle.hpp"
+#include "geometry/validity.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+using exact::Rational;
+
+tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
+  return tl::unexpected(CutError{reason, std::move(detail)});
+}
+
+Box box_of(const Segment& s) {
+  return {{std::min(s.from.x, s.to.x), std::min(s.from.y, s.to.y)},
+          {std::max(s.from.x, s.to.x), std::max(s.from.y, s.to.y)}};
+}
+
+Box around(const Box& a, const Box& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+// Twice the area between the straight edge that starts at `a` and the chain of points it was split into, with the
+// edge's own end last: zero where all points lie on it.
+Rational twice_area_between(const exact::Point& a, const std::vector<exact::Point>& chain) {
+  Rational sum = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const exact::Point& p = chain[i - 1];
+    const exact::Point& q = chain[i];
+    sum += (p.x - a.x) * (q.y - a.y) - (p.y - a.y) * (q.x - a.x);
+  }
+  return sum;
+}
+
+struct Balance {
+  bool is_exact = true;
+  Rational rounding = 0;  // twice the area that rounding the nodes changed
+};
+
+// Σ pieces − shape, in shoelace terms: every chain of the shape stands in the pieces once, every chord once in each
+// direction, where its terms cancel; untouched rings are carried over. What is left is each split edge against the
+// sub-edges it became, and that is summed here in rationals: before rounding it must be zero.
+Balance balance_split_edges(const LocalCut& cut) {
+  Balance balance;
+  for (std::size_t begin = 0; begin < cut.nodes.size();) {
+    const Place& place = cut.nodes[begin].on_shape;
+    std::size_t end = begin;
+    std::vector<exact::Point> exactly;
+    std::vector<exact::Point> rounded;
+    for (; end < cut.nodes.size() && cut.nodes[end].on_shape == place; ++end) {
+      const Node& node = cut.nodes[end];
+      if (!node.is_active || place.at_vertex) continue;
+      exactly.push_back(exact_point(node));
+      rounded.push_back(exact::exactly(node.at));
+    }
+    begin = end;
+    if (exactly.empty()) continue;
+    const exact::Point a = exact::exactly(cut.rings.point(place.ring, place.edge));
+    const exact::Point b = exact::exactly(cut.rings.point(place.ring, place.edge + 1));
+    exactly.push_back(b);
+    rounded.push_back(b);
+    if (twice_area_between(a, exactly) != 0) balance.is_exact = false;
+    balance.rounding += twice_area_between(a, rounded);
+  }
+  return balance;
+}
+
+// Is every half-edge in the written pieces exactly once, and every ring of the shape?
+bool uses_all_once(const LocalCut& cut, const std::vector<PiecePlan>& plans) {
+  std::vector<int> uses(cut.graph.half_edges.size(), 0);
+  std::vector<int> ring_uses(cut.graph.ring_is_cut.begin(), cut.graph.ring_is_cut.end());
+  for (const PiecePlan& plan : plans) {
+    for (const PieceRing& ring : plan.rings) {
+      if (ring.source == PieceRing::Source::kShapeRing) ++ring_uses[static_cast<std::size_t>(ring.shape_ring)];
+      for (const int h : ring.loop) ++uses[static_cast<std::size_t>(h)];
+    }
+  }
+  const auto once = [](int count) { return count == 1; };
+  return std::all_of(uses.begin(), uses.end(), once) && std::all_of(ring_uses.begin(), ring_uses.end(), once);
+}
+
+// Two edges of a subdivision may share ends, and nothing else.
+bool are_apart(const Segment& s, const Segment& t) {
+  const SegmentMeeting meeting = meet(s.from, s.to, t.from, t.to);
+  if (meeting.kind == Meeting::kNone) return true;
+  return meeting.kind == Meeting::kTouch && (meeting.at == s.from || meeting.at == s.to) &&
+         (meeting.at == t.from || meeting.at == t.to);
+}
+
+class SubdivisionCheck {
+ public:
+  explicit SubdivisionCheck(const LocalCut& cut) : changed_(cut.changed) {
+    // Chords were written once for each side.
+    for (Segment& s : changed_) {
+      if (std::tie(s.to.x, s.to.y) < std::tie(s.from.x, s.from.y)) std::swap(s.from, s.to);
+    }
+    const auto key = [](const Segment& s) { return std::tie(s.from.x, s.from.y, s.to.x, s.to.y); };
+    std::sort(changed_.begin(), changed_.end(), [&](const Segment& s, const Segment& t) { return key(s) < key(t); });
+    changed_.erase(std::unique(changed_.begin(), changed_.end(),
+                               [&](const Segment& s, const Segment& t) { return key(s) == key(t); }),
+                   changed_.end());
+  }
+
+  // Only edges that end in a rounded node can have come to meet another: all others lie as they did in the exact
+  // subdivision, where edges meet in nodes only.
+  bool holds(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) const {
+    if (changed_.empty()) return true;
+    Box box = box_of(changed_.front());
+    for (const Segment& s : changed_) {
+      if (s.from == s.to) return false;
+      box = around(box, box_of(s));
+    }
+    const bool within = tool_box.low.x <= box.low.x && tool_box.low.y <= box.low.y && box.high.x <= tool_box.high.x &&
+                        box.high.y <= tool_box.high.y;
+    for (const EdgeId e : within ? near_tool : edges_near(cut.rings, box)) {
+      if (!is_split(cut, e) && !clears(segment(cut, e))) return false;
+    }
+    for (const Segment& s : cut.placed) {
+      if (!clears(s)) return false;
+    }
+    for (std::size_t i = 0; i < changed_.size(); ++i) {
+      for (std::size_t j = i + 1; j < changed_.size(); ++j) {
+        if (!are_apart(changed_[i], changed_[j])) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  static Segment segment(const LocalCut& cut, EdgeId e) {
+    return {cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)};
+  }
+
+  bool clears(const Segment& t) const {
+    const Box box = box_of(t);
+    return std::all_of(changed_.begin(), changed_.end(),
+                       [&](const Segment& s) { return !overlaps(box, box_of(s)) || are_apart(s, t); });
+  }
+
+  static bool is_split(const LocalCut& cut, EdgeId e) {
+    return std::any_of(cut.nodes.begin(), cut.nodes.end(), [&](const Node& node) {
+      return node.is_active && node.on_shape == Place{e.ring, e.index, false};
+    });
+  }
+
+  std::vector<Segment> changed_;
+};
+
+// No chord: the tool runs past the ice, ends in it, or one lies within the other.
+enum class Apart { kUncovered, kMisses, kToolInShape, kShapeInTool, kEndsInside };
+
+Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
+  if (!cut.tool.is_closed) {
+    const bool enters = cut.nodes.empty() ? contains_strictly(shape, cut.tool.points.front()) : cut.graph.tool_enters;
+    return enters ? Apart::kEndsInside : Apart::kMisses;
+  }
+  if (cut.nodes.empty()) {
+    if (contains_strictly(shape, cut.tool.points.front())) return Apart::kToolInShape;
+    return side_of_ring(cut.tool.points, shape.outer.front()) > 0 ? Apart::kShapeInTool : Apart::kMisses;
+  }
+  // Touching: a vertex of the shape that is off the tool's boundary tells; if there is none the general path does.
+  for (const Point p : shape.outer) {
+    const int side = side_of_ring(cut.tool.points, p);
+    if (side != 0) return side > 0 ? Apart::kShapeInTool : Apart::kMisses;
+  }
+  return Apart::kUncovered;
+}
+
+CutResult whole_shape_inside(const Polygon& shape) {
+  CutResult result;
+  result.pieces.push_back({Shape{shape, nullptr, true}, Part::kInside});
+  for (int r = 0; r < Rings(shape).count(); ++r) result.ledger.area_before += ring_area(Rings(shape)[r]).area;
+  result.ledger.area_inside = result.ledger.area_before;
+  result.ledger.exact_balance = true;
+  return result;
+}
+
+CutOutcome settle_exactly(const LocalCut& cut, const Polygon& shape, const std::vector<PiecePlan>& plans) {
+  std::vector<exact::ExactPiece> pieces;
+  for (const PiecePlan& plan : plans) pieces.push_back({write_exactly(cut, plan), plan.part});
+  return exact::settle(exact::area(shape), std::move(pieces));
+}
+
+CutResult assemble(const LocalCut& cut, std::vector<PiecePlan> plans, const Balance& balance) {
+  CutResult result;
+  CutLedger& ledger = result.ledger;
+  for (int r = 0; r < cut.rings.count(); ++r) ledger.area_before += ring_area(cut.rings[r]).area;
+  ledger.exact_balance = true;
+  ledger.rounding_defect = exact::nearest_double(balance.rounding / 2);
+  for (PiecePlan& plan : plans) {
+    Piece piece;
+    piece.part = plan.part;
+    piece.shape.known_valid = true;
+    double area = 0;
+    for (PieceRing& ring : plan.rings) {
+      area += ring.area.area;
+      Polygon& polygon = piece.shape.polygon;
+      (polygon.outer.empty() ? polygon.outer : polygon.holes.emplace_back()) = std::move(ring.points);
+    }
+    (plan.part == Part::kOutside ? ledger.area_outside : ledger.area_inside) += area;
+    result.pieces.push_back(std::move(piece));
+  }
+  exact::sort_pieces(result.pieces);
+  return result;
+}
+
+bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans, const Box& tool_box,
+                        const std::vector<EdgeId>& near_tool) {
+  if (!SubdivisionCheck(cut).holds(cut, tool_box, near_tool)) return false;
+  for (const PiecePlan& plan : plans) {
+    if (may_have_swept_a_ring(cut, plan)) return false;
+    for (std::size_t r = 0; r < plan.rings.size(); ++r) {
+      const RingArea& area = plan.rings[r].area;
+      if ((r == 0 ? area.area : -area.area) <= area.doubt) return false;
+    }
+  }
+  return true;
+}
+
+// Chords that join different rings can bring together rings that touch elsewhere: then all of a piece is looked at.
+bool cuts_one_ring(const CutGraph& graph) {
+  return std::count(graph.ring_is_cut.begin(), graph.ring_is_cut.end(), 1) <= 1;
+}
+
+bool are_valid(const std::vector<PiecePlan>& plans) {
+  return std::all_of(plans.begin(), plans.end(), [](const PiecePlan& plan) {
+    Polygon polygon{plan.rings.front().points, {}};
+    for (std::size_t r = 1; r < plan.rings.size(); ++r) polygon.holes.push_back(plan.rings[r].points);
+    return !find_defect(polygon);
+  });
+}
+
+}  // namespace
+
+std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
+  const Rings rings(shape);
+  const Box tool_box = bounding_box(tool.points);
+  const std::vector<EdgeId> near_tool = edges_near(rings, tool_box);
+  std::optional<std::vector<Node>> nodes = find_nodes(rings, tool, near_tool);
+  if (!nodes) return {};
+  LocalCut cut{rings, tool, std::move(*nodes), {}, {}, {}};
+  cut.graph = trace_faces(rings, tool, cut.nodes);
+  if (cut.graph.walks.empty()) {
+    switch (relate_apart(cut, shape)) {
+      case Apart::kUncovered: return {};
+      case Apart::kMisses: return refuse(CutFailure::kMisses, "the tool does not meet the shape's interior");
+      case Apart::kEndsInside: return refuse(CutFailure::kDoesNotSeparate, "the crack ends inside the ice");
+      case Apart::kShapeInTool: return whole_shape_inside(shape);
+      case Apart::kToolInShape: break;
+    }
+  }
+  if (!tool.is_closed && !cuts_one_ring(cut.graph)) return {};
+  std::optional<std::vector<PiecePlan>> plans = plan_pieces(cut);
+  if (!plans || !uses_all_once(cut, *plans)) return {};
+  const Balance balance = balance_split_edges(cut);
+  if (!balance.is_exact) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
+  if (!cuts_one_ring(cut.graph) && !are_valid(*plans)) return {};
+  if (!is_cleanly_rounded(cut, *plans, tool_box, near_tool)) return settle_exactly(cut, shape, *plans);
+  return assemble(cut, std::move(*plans), balance);
+}
+
+}  // namespace polynya::geometry

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "geometry/polygon.hpp"
+
+namespace polynya::geometry {
+
+/// A ring's area with what bounds its errors.
+struct RingArea {
+  double area = 0;        ///< signed; compensated sum about the ring's first vertex [m²]
+  double doubt = 0;       ///< |area − exact area of these vertices| is below this [m²]
+  double step_area = 0;   ///< area by which moving every vertex by one step between doubles can change it [m²]
+};
+
+/// One pass over the vertices.
+RingArea ring_area(const Ring& ring);
+
+}  // namespace polynya::geometry

@@ -1,0 +1,110 @@
+#include "tests/geometry/trials.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <tuple>
+
+#include "geometry/measures.hpp"
+#include "geometry/validity.hpp"
+
+namespace polynya::geometry::trials {
+namespace {
+
+bool precedes(Point a, Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
+
+Ring canonical(Ring ring) {
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), precedes), ring.end());
+  return ring;
+}
+
+std::vector<Ring> canonical(const Polygon& polygon) {
+  std::vector<Ring> rings;
+  for (const Ring& hole : polygon.holes) rings.push_back(canonical(hole));
+  const auto less = [](const Ring& a, const Ring& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), precedes);
+  };
+  std::sort(rings.begin(), rings.end(), less);
+  rings.insert(rings.begin(), canonical(polygon.outer));
+  return rings;
+}
+
+}  // namespace
+
+exact::Rational exact_area(const Shape& shape) {
+  return shape.exact ? exact::area(*shape.exact) : exact::area(shape.polygon);
+}
+
+testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome) {
+  if (!outcome) {
+    if (outcome.error().reason != CutFailure::kInternal) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "internal: " << outcome.error().detail;
+  }
+  const CutLedger& ledger = outcome->ledger;
+  if (!ledger.exact_balance) return testing::AssertionFailure() << "no exact balance";
+  exact::Rational sum = 0;
+  for (const Piece& piece : outcome->pieces) {
+    sum += exact_area(piece.shape);
+    if (exact_area(piece.shape) <= 0) return testing::AssertionFailure() << "a piece of no area";
+    if (piece.shape.exact) continue;
+    if (const auto found = find_defect(piece.shape.polygon)) {
+      return testing::AssertionFailure() << name_of(found->defect) << ": " << to_code(piece.shape.polygon);
+    }
+  }
+  // Slivers are known to a double each; all else is compared exactly.
+  const exact::Rational balance = sum - exact_area(shape) - exact::Rational(ledger.rounding_defect);
+  const double off = balance.get_d() + ledger.area_slivers;
+  const double allowed = 1e-15 * (std::abs(ledger.rounding_defect) + ledger.area_slivers) + 1e-300;
+  if (std::abs(off) > allowed) return testing::AssertionFailure() << "the ledger is off by " << off << " m²";
+  return testing::AssertionSuccess();
+}
+
+testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& other) {
+  if (one.has_value() != other.has_value()) {
+    return testing::AssertionFailure() << "one fails: " << name_of((one ? other : one).error().reason);
+  }
+  if (!one) {
+    if (one.error().reason == other.error().reason) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << name_of(one.error().reason) << " and " << name_of(other.error().reason);
+  }
+  const auto listed = [](const CutOutcome& outcome) {
+    std::vector<std::tuple<Part, std::vector<Ring>, bool>> pieces;
+    for (const Piece& piece : outcome->pieces) {
+      pieces.emplace_back(piece.part, canonical(piece.shape.polygon), piece.shape.exact != nullptr);
+    }
+    std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
+      const Ring& p = std::get<1>(a).front();
+      const Ring& q = std::get<1>(b).front();
+      if (std::get<0>(a) != std::get<0>(b)) return std::get<0>(a) < std::get<0>(b);
+      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end(), precedes);
+    });
+    return pieces;
+  };
+  if (listed(one) == listed(other)) {
+    if (one->ledger.rounding_defect == other->ledger.rounding_defect) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "rounding defects differ: " << one->ledger.rounding_defect << " and "
+                                       << other->ledger.rounding_defect;
+  }
+  testing::AssertionResult failure = testing::AssertionFailure();
+  failure << one->pieces.size() << " and " << other->pieces.size() << " pieces";
+  for (const CutOutcome* outcome : {&one, &other}) {
+    failure << "\n--";
+    for (const Piece& piece : (*outcome)->pieces) failure << "\n" << static_cast<int>(piece.part) << to_code(piece.shape.polygon);
+  }
+  return failure;
+}
+
+std::string to_code(const Ring& ring) {
+  std::ostringstream out;
+  out << std::hexfloat << "{";
+  for (const Point p : ring) out << "{" << p.x << ", " << p.y << "}, ";
+  out << "}";
+  return out.str();
+}
+
+std::string to_code(const Polygon& polygon) {
+  std::string code = "{" + to_code(polygon.outer) + ", {";
+  for (const Ring& hole : polygon.holes) code += to_code(hole) + ", ";
+  return code + "}}";
+}
+
+}  // namespace polynya::geometry::trials

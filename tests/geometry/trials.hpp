@@ -1,0 +1,27 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "geometry/cut.hpp"
+#include "geometry/internal/exact_polygon.hpp"
+
+namespace polynya::geometry::trials {
+
+/// The area of a piece as it stands, in rationals.
+exact::Rational exact_area(const Shape& shape);
+
+/// What must hold of any cut: exact balance, valid pieces, a ledger that adds up to the last bit.
+testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome);
+
+/// Same failure, or the same pieces with the very same vertices (rings may start elsewhere).
+testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& other);
+
+/// Vertices as C++ that can be pasted into a fixture.
+std::string to_code(const Polygon& polygon);
+std::string to_code(const Ring& ring);
+
+}  // namespace polynya::geometry::trials
