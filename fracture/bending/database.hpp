@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "fracture/bending/solver_settings.hpp"
+
+namespace polynya::fracture {
+
+/// The dimensionless groups that decide when a wedge breaks, beside ν. docs/theory-bending.md.
+struct WedgeGroups {
+  double opening_angle = 0;  ///< 2α [rad]
+  double mass_ratio = 0;     ///< m̂ = ρ_i h / (ρ_w l)
+  double softness = 0;       ///< Π = σ_f h² / (κ l²)
+  double froude = 0;         ///< Fr = v_n / √(g l)
+};
+
+enum class Group : std::uint8_t { kOpeningAngle, kMassRatio, kSoftness, kFroude };
+
+inline constexpr std::array<std::string_view, 4> kGroupNames = {"opening angle", "mass ratio", "softness",
+                                                                "Froude number"};
+
+/// Where the table has its points, each ascending, two at least.
+struct DatabaseGrid {
+  std::vector<double> opening_angles_deg;
+  std::vector<double> mass_ratios;
+  std::vector<double> softnesses;
+  std::vector<double> froude_numbers;
+
+  std::size_t size() const {
+    return opening_angles_deg.size() * mass_ratios.size() * softnesses.size() * froude_numbers.size();
+  }
+  friend bool operator==(const DatabaseGrid&, const DatabaseGrid&) = default;
+};
+
+/// The grid of the database that ships with Polynya.
+DatabaseGrid default_grid();
+
+/// What the table says at one point of its grid.
+struct DatabaseEntry {
+  double force = 0;        ///< V̂_b = V_b / (σ_f h²)
+  double cusp_radius = 0;  ///< R / l
+  double crack_ratio = 0;  ///< greatest bottom-fibre hoop stress before failure, in σ_f
+
+  friend bool operator==(const DatabaseEntry&, const DatabaseEntry&) = default;
+};
+
+/// An answer of the table, and which groups had to be brought back to its edge for it.
+struct DatabaseAnswer : DatabaseEntry {
+  std::uint8_t outside = 0;  ///< one bit per Group
+
+  bool is_outside(Group group) const { return ((outside >> static_cast<unsigned>(group)) & 1U) != 0; }
+  bool is_in_range() const { return outside == 0; }
+};
+
+/// The icebreaking database: where wedges of floating ice break, tabulated over the dimensionless groups.
+class BendingDatabase {
+ public:
+  /// entries in the order of the grid's lists, Froude number fastest; asserts their number, and that every
+  /// force, radius and grid value is positive and the grid ascends.
+  BendingDatabase(SolverSettings settings, DatabaseGrid grid, std::vector<DatabaseEntry> entries);
+
+  /// Multilinear in 2α, m̂, ln Π, ln Fr for ln V̂, ln R/l and the crack ratio. Outside the grid the nearest
+  /// edge answers and says so; except that below the least Froude number the wedge is at rest on its water,
+  /// and the edge's answer is the answer.
+  DatabaseAnswer look_up(const WedgeGroups& groups) const;
+
+  const SolverSettings& settings() const { return settings_; }
+  const DatabaseGrid& grid() const { return grid_; }
+  const std::vector<DatabaseEntry>& entries() const { return entries_; }
+
+ private:
+  SolverSettings settings_;
+  DatabaseGrid grid_;
+  std::vector<DatabaseEntry> entries_;
+  std::vector<DatabaseEntry> stored_;               ///< ln V̂, ln R/l, crack ratio
+  std::array<std::vector<double>, 4> coordinates_;  ///< 2α [rad], m̂, ln Π, ln Fr
+  std::array<std::size_t, 4> strides_;
+};
+
+/// The names of the groups an answer was outside of, such as "softness, Froude number"; empty in range.
+std::string outside_names(const DatabaseAnswer& answer);
+
+/// Why a database could not be made or read, with its line where it has one.
+struct DatabaseError {
+  int line = 0;  ///< 0: not a line's fault
+  std::string message;
+};
+
+using BuildProgress = std::function<void(std::size_t done, std::size_t total)>;
+
+/// Solves the wedge at every point of the grid. The threads share the work; the result does not depend on how
+/// many they are. progress, if any, is called by one thread at a time. Stored to six significant digits.
+tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings& settings,
+                                                            const DatabaseGrid& grid, int threads = 1,
+                                                            const BuildProgress& progress = {});
+
+}  // namespace polynya::fracture

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <charconv>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <thread>
+
+#include "fracture/bending/database.hpp"
+#include "fracture/bending/wedge_solver.hpp"
+
+namespace polynya::fracture {
+namespace {
+
+/// To six significant digits: far finer than the solution, and the same on machines whose mathematical
+/// functions differ in the last bit.
+double rounded(double x) {
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, 5).ptr;
+  double value = 0;
+  std::from_chars(text.data(), end, value);
+  return value;
+}
+
+struct Wedge {
+  double opening_angle_deg;
+  double mass_ratio;
+};
+
+/// All pushes on one wedge; nothing where one of them does not break it.
+std::optional<std::vector<DatabaseEntry>> solve_wedge(const Wedge& wedge, const SolverSettings& settings,
+                                                      const DatabaseGrid& grid) {
+  const WedgeSolver solver(wedge.opening_angle_deg * (std::numbers::pi / 180), wedge.mass_ratio, settings);
+  std::vector<DatabaseEntry> entries;
+  for (const double softness : grid.softnesses) {
+    for (const double froude : grid.froude_numbers) {
+      const std::optional<WedgeFailure> failure = solver.failure({froude, softness, 0, 0});
+      if (!failure) return std::nullopt;
+      entries.push_back(
+          {rounded(failure->force), rounded(failure->cusp_radius), rounded(failure->crack_ratio)});
+    }
+  }
+  return entries;
+}
+
+bool is_usable(const std::vector<double>& axis) {
+  return axis.size() >= 2 && axis.front() > 0 &&
+         std::adjacent_find(axis.begin(), axis.end(), std::greater_equal<>()) == axis.end();
+}
+
+}  // namespace
+
+tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings& settings,
+                                                            const DatabaseGrid& grid, int threads,
+                                                            const BuildProgress& progress) {
+  for (const auto* axis :
+       {&grid.opening_angles_deg, &grid.mass_ratios, &grid.softnesses, &grid.froude_numbers})
+    if (!is_usable(*axis))
+      return tl::unexpected(DatabaseError{0, "every group needs at least two ascending positive values"});
+  if (grid.opening_angles_deg.back() > 180)
+    return tl::unexpected(DatabaseError{0, "opening angles above 180 degrees are not wedges"});
+
+  std::vector<Wedge> wedges;
+  for (const double angle : grid.opening_angles_deg)
+    for (const double mass : grid.mass_ratios) wedges.push_back({angle, mass});
+  std::vector<std::optional<std::vector<DatabaseEntry>>> solved(wedges.size());
+  std::atomic<std::size_t> next = 0;
+  std::size_t done = 0;
+  std::mutex progress_mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < wedges.size(); i = next++) {
+      solved[i] = solve_wedge(wedges[i], settings, grid);
+      const std::lock_guard lock(progress_mutex);
+      ++done;
+      if (progress) progress(done, wedges.size());
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+
+  std::vector<DatabaseEntry> entries;
+  for (std::size_t i = 0; i < wedges.size(); ++i) {
+    if (!solved[i])
+      return tl::unexpected(DatabaseError{
+          0, "a push of the grid does not break the wedge of " + std::to_string(wedges[i].opening_angle_deg) +
+                 " degrees within a penetration of 3 l: take smaller softnesses"});
+    entries.insert(entries.end(), solved[i]->begin(), solved[i]->end());
+  }
+  return BendingDatabase(settings, grid, std::move(entries));
+}
+
+}  // namespace polynya::fracture

@@ -1,0 +1,154 @@
+#include "fracture/bending/internal/march.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fracture/bending/internal/failure.hpp"
+
+namespace polynya::fracture {
+namespace {
+
+constexpr int kMostSteps = 100000;  // a bound, far beyond what a push to kDeepest needs
+
+/// One step of μ q̈ + q = f with f linear from f0 to f1, solved exactly. With y = q − f and g = (f1 − f0) / Δ,
+///   y(s) = y0 cos ωs + (q̇0 − g) / ω sin ωs
+class ModalStep {
+ public:
+  ModalStep(const Eigen::VectorXd& inertia, double step) : step_(step) {
+    period_ = inertia.array().sqrt();  // 1/ω
+    cosine_.resize(inertia.size());
+    sine_.resize(inertia.size());
+    for (Eigen::Index k = 0; k < inertia.size(); ++k) {
+      const bool has_mass = period_[k] > kMassless * step;
+      cosine_[k] = has_mass ? std::cos(step / period_[k]) : 0;  // without mass q = f at once
+      sine_[k] = has_mass ? std::sin(step / period_[k]) : 0;
+      if (!has_mass) period_[k] = 0;
+    }
+  }
+
+  /// Amplitudes and velocities / ω at the step's end.
+  void advance(const Eigen::ArrayXd& load, const Eigen::ArrayXd& next_load, Eigen::ArrayXd& amplitude,
+               Eigen::ArrayXd& velocity) const {
+    const Eigen::ArrayXd drift = (next_load - load) / step_ * period_;
+    const Eigen::ArrayXd y = amplitude - load, v = velocity - drift;
+    amplitude = next_load + y * cosine_ + v * sine_;
+    velocity = drift - y * sine_ + v * cosine_;
+  }
+
+ private:
+  static constexpr double kMassless = 1e-9;
+  double step_;
+  Eigen::ArrayXd period_, cosine_, sine_;
+};
+
+struct MarchState {
+  double time = 0, penetration = 0;
+  Eigen::ArrayXd load, amplitude, velocity;
+};
+
+Eigen::ArrayXd modal_load(const WedgeModes& modes, const WedgePush& push, double penetration) {
+  if (penetration <= 0) return Eigen::ArrayXd::Zero(modes.inertia.size());
+  return push_force(push, penetration) * static_amplitudes(modes, penetration).array();
+}
+
+MarchState stepped_to(const WedgeModes& modes, const WedgePush& push, const ModalStep& step, double time,
+                      double penetration, const MarchState& from) {
+  MarchState next = from;
+  next.time = time;
+  next.penetration = std::max(penetration, from.penetration);
+  next.load = modal_load(modes, push, next.penetration);
+  step.advance(from.load, next.load, next.amplitude, next.velocity);
+  return next;
+}
+
+/// One time step. Coupled, the penetration solves ξ + χ w_tip(ξ) = Fr τ, whose left side grows with ξ: by
+/// bisection.
+MarchState next_state(const WedgeModes& modes, const WedgePush& push, const ModalStep& step, double time,
+                      const MarchState& from) {
+  const double free_depth = push.froude * time;
+  if (push.feedback == 0) return stepped_to(modes, push, step, time, free_depth, from);
+  const auto excess = [&](double penetration) {
+    const MarchState trial = stepped_to(modes, push, step, time, penetration, from);
+    return penetration + push.feedback * modes.tip.dot(trial.amplitude.matrix()) - free_depth;
+  };
+  double shallow = from.penetration, deep = std::max(free_depth, from.penetration);
+  if (excess(shallow) >= 0)
+    return stepped_to(modes, push, step, time, shallow, from);  // the ice recedes faster
+  while (deep - shallow > 1e-9 * deep) {
+    const double middle = 0.5 * (shallow + deep);
+    (excess(middle) < 0 ? shallow : deep) = middle;
+  }
+  return stepped_to(modes, push, step, time, deep, from);
+}
+
+/// Penetration at which the push breaks the wedge if it is slow, where the peak moment first reaches the
+/// strength.
+std::optional<double> static_failure_depth(const WedgeModes& modes, const WedgePush& push) {
+  const auto breaks = [&](double depth) {
+    const Eigen::VectorXd radial = modes.radial_moment * modal_load(modes, push, depth).matrix();
+    return peak_moment(modes, radial) >= kBreakingMoment;
+  };
+  double whole = modes.mesh.radii.front() * 1e-3, broken = whole;
+  while (!breaks(broken)) {
+    whole = broken;
+    broken *= 2;
+    if (broken > kDeepest) return std::nullopt;
+  }
+  while (broken - whole > 1e-3 * broken) {
+    const double middle = 0.5 * (whole + broken);
+    (breaks(middle) ? broken : whole) = middle;
+  }
+  return broken;
+}
+
+/// The moment within a step when a peak that grows linearly from `before` to `after` reaches the strength.
+double crossing(double before, double after) {
+  return after > before ? std::clamp((kBreakingMoment - before) / (after - before), 0.0, 1.0) : 1.0;
+}
+
+std::optional<WedgeFailure> march(const WedgeModes& modes, const WedgePush& push, double duration,
+                                  int steps) {
+  const ModalStep step(modes.inertia, duration / steps);
+  const Eigen::ArrayXd rest = Eigen::ArrayXd::Zero(modes.inertia.size());
+  MarchState state{0, 0, rest, rest, rest};
+  BisectorState moments{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes.radii.size())),
+                        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes.radii.size()))};
+  std::optional<double> crack_time;
+  double greatest_hoop = 0;
+  for (int i = 1; i <= kMostSteps && state.penetration <= kDeepest; ++i) {
+    const MarchState next = next_state(modes, push, step, duration * i / steps, state);
+    const BisectorState later = bisector_state(modes, next.amplitude.matrix());
+    const double hoop = peak_moment(modes, later.hoop);
+    const double length = next.time - state.time;
+    if (!crack_time && hoop >= kBreakingMoment)
+      crack_time = state.time + length * crossing(peak_moment(modes, moments.hoop), hoop);
+    const double peak = peak_moment(modes, later.radial);
+    if (peak >= kBreakingMoment) {
+      const double s = crossing(peak_moment(modes, moments.radial), peak);
+      WedgeFailure failure;
+      failure.time = state.time + s * length;
+      failure.penetration = state.penetration + s * (next.penetration - state.penetration);
+      failure.force = push_force(push, failure.penetration);
+      failure.cusp_radius = cusp_radius(modes, moments.radial + s * (later.radial - moments.radial));
+      if (crack_time && *crack_time < failure.time) failure.crack_time = crack_time;
+      const double hoop_then = peak_moment(modes, moments.hoop + s * (later.hoop - moments.hoop));
+      failure.crack_ratio = std::max(greatest_hoop, hoop_then) / kBreakingMoment;
+      return failure;
+    }
+    greatest_hoop = std::max(greatest_hoop, hoop);
+    state = next;
+    moments = later;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<WedgeFailure> march_to_failure(const WedgeModes& modes, const WedgePush& push,
+                                             const SolverSettings& settings) {
+  const std::optional<double> depth = static_failure_depth(modes, push);
+  if (!depth) return std::nullopt;
+  return march(modes, push, *depth / push.froude, settings.steps_to_failure);
+}
+
+}  // namespace polynya::fracture

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "fracture/bending/internal/plate.hpp"
+#include "fracture/bending/solver_settings.hpp"
+
+namespace polynya::fracture {
+
+/// Fibres nearer the tip than this many inner radii are not judged: the mesh's free inner edge disturbs them.
+inline constexpr double kFirstJudgedRadius = 5;
+
+/// Nor are those beyond this many l, which see only ripples.
+inline constexpr double kLastJudgedRadius = 4;
+
+/// A wedge of ice on its water as independent oscillators: with x = Σ X_k q_k,
+///   (m̂ A + F) ẍ + (B + A) x = load   becomes   μ_k q̈_k + q_k = X_kᵀ load,   X_jᵀ (B + A) X_k = δ_jk
+/// B bending, A area, F the water's added mass. μ_k = 1/ω_k²: a mode without mass has μ = 0 and follows its
+/// load at once. Time in t0 = √(l/g).
+struct WedgeModes {
+  PlateMesh mesh;
+  Eigen::VectorXd inertia;        ///< μ ≥ 0, ascending
+  Eigen::MatrixXd load_shapes;    ///< modal loads = leading columns · tip_load(mesh, ξ)
+  std::vector<double> radii;      ///< judged points on the bisector, ascending
+  Eigen::MatrixXd radial_moment;  ///< top-fibre tension at those points per unit of each mode
+  Eigen::MatrixXd hoop_moment;    ///< bottom-fibre hoop tension there
+  Eigen::VectorXd tip;            ///< deflection of the tip per unit of each mode
+};
+
+/// What a wedge weighs and stands on, before it is taken apart into modes. The unknowns are the plate's,
+/// then, with FluidModel::kFreeSurface, the elevations of the panels of open water.
+struct WedgeMatrices {
+  Eigen::MatrixXd mass;
+  Eigen::MatrixXd stiffness;
+};
+
+/// half_angle α in (0, π] [rad], mass_ratio m̂ = ρ_i h / (ρ_w l) > 0.
+WedgeMatrices assemble_wedge(const PlateMesh& mesh, double mass_ratio, const SolverSettings& settings);
+
+WedgeModes wedge_modes(double half_angle, double mass_ratio, const SolverSettings& settings);
+
+/// Modal amplitudes when a unit tip load rests: the static solution.
+Eigen::VectorXd static_amplitudes(const WedgeModes& modes, double patch_radius);
+
+}  // namespace polynya::fracture

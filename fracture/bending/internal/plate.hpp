@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "fracture/bending/solver_settings.hpp"
+
+namespace polynya::fracture {
+
+/// The finite elements of a wedge-shaped plate, symmetric about its bisector θ = 0, all four edges free:
+///   w(r, θ) = Σ_ij N_i(r) P_2j(θ/α) x_ij,   N_i cubic Hermite in r, P_2j even Legendre in θ/α
+/// All lengths in l, deflections in P / (ρ_w g l²), moments per width in P.
+struct PlateMesh {
+  double half_angle = 0;      ///< α [rad]
+  int angular_terms = 0;      ///< number of even Legendre polynomials
+  std::vector<double> radii;  ///< nodes, ascending
+
+  int elements() const { return static_cast<int>(radii.size()) - 1; }
+  int radial_unknowns() const { return 2 * static_cast<int>(radii.size()); }
+  int unknowns() const { return radial_unknowns() * angular_terms; }
+  /// Place of unknown i (0..3: deflection, slope, deflection, slope) of an element in angular term j.
+  int index(int element, int i, int j) const { return j * radial_unknowns() + 2 * element + i; }
+};
+
+PlateMesh make_plate_mesh(double half_angle, const SolverSettings& settings);
+
+/// Radii from inner to outer, spaced geometrically near the tip and evenly far from it: equal steps of
+/// ln r + r / kEvenRadius.
+std::vector<double> graded_radii(double inner, double outer, int intervals);
+
+/// The element's shape functions at one point: the deflection and its curvatures per unknown. Length 4 ·
+/// terms, unknown i of angular term j at 4j + i.
+struct PlatePoint {
+  Eigen::VectorXd deflection;          ///< w
+  Eigen::VectorXd radial_curvature;    ///< κ_r = w_rr
+  Eigen::VectorXd hoop_curvature;      ///< κ_θ = w_r / r + w_θθ / r²
+  Eigen::VectorXd twisting_curvature;  ///< κ_rθ = w_rθ / r − w_θ / r²
+};
+
+PlatePoint plate_point(const PlateMesh& mesh, int element, double radius, double angle);
+
+/// Bending energy and area of the whole wedge as quadratic forms:
+///   xᵀ B x = ∫ κ_r² + κ_θ² + 2ν κ_r κ_θ + 2(1−ν) κ_rθ² dA,   xᵀ A x = ∫ w² dA
+/// so that buoyancy has the stiffness A and the ice the mass m̂ A. [Timoshenko1959, ch. 10, polar form]
+struct PlateMatrices {
+  Eigen::MatrixXd bending;  ///< B
+  Eigen::MatrixXd area;     ///< A
+};
+
+PlateMatrices assemble_plate(const PlateMesh& mesh, double poisson_ratio);
+
+/// Generalised load of a unit force spread evenly over the tip sector r < patch_radius. It does not vary with
+/// θ, so only the first angular term is loaded; of that, the leading entries up to the last loaded node are
+/// returned. What falls inside the mesh's inner radius is carried by the innermost node.
+Eigen::VectorXd tip_load(const PlateMesh& mesh, double patch_radius);
+
+/// Moments per width on the bisector, one row per point, where elements' curvatures are most accurate.
+struct BisectorMoments {
+  std::vector<double> radii;  ///< ascending
+  Eigen::MatrixXd radial;     ///< κ_r + ν κ_θ: tension in the top fibre where positive
+  Eigen::MatrixXd hoop;       ///< −(κ_θ + ν κ_r): tension in the bottom fibre where positive
+};
+
+/// Between the radii `from` and `to`.
+BisectorMoments bisector_moments(const PlateMesh& mesh, double poisson_ratio, double from, double to);
+
+/// Deflections at points (radius, angle), one row per point.
+Eigen::MatrixXd deflection_rows(const PlateMesh& mesh, const std::vector<double>& radii,
+                                const std::vector<double>& angles);
+
+}  // namespace polynya::fracture

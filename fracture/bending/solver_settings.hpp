@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+namespace polynya::fracture {
+
+/// What the water does to a plate that accelerates on it; buoyancy is always there.
+enum class FluidModel : std::uint8_t {
+  kWinkler,      ///< none: springs only
+  kLocalMass,    ///< an added mass c ρ_w l per area, moving with the point above it
+  kPotential,    ///< linear potential flow, φ = 0 on the open water beside the plate
+  kFreeSurface,  ///< linear potential flow with gravity waves, φ_t + g η = 0 on the open water
+};
+
+/// How a wedge of floating ice is discretised. Lengths in l, the characteristic length.
+struct SolverSettings {
+  FluidModel fluid = FluidModel::kPotential;
+  double poisson_ratio = 0.3;     ///< ν [-]
+  double local_mass = 0.5;        ///< c of FluidModel::kLocalMass [-]
+  double inner_radius = 0.002;    ///< r0, where the plate's mesh starts [-]
+  double outer_radius = 8;        ///< where it ends, free [-]
+  int radial_elements = 36;       ///< cubic Hermite elements
+  int angular_terms = 6;          ///< even Legendre polynomials across the wedge
+  int panel_rings = 48;           ///< fluid panels along the radius
+  int panel_columns = 8;          ///< fluid panels across the half wedge
+  int free_surface_columns = 16;  ///< fluid panels across the half of the open water, kFreeSurface only
+  int steps_to_failure = 120;     ///< time steps from first contact to where a slow push breaks the wedge
+
+  friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
+};
+
+}  // namespace polynya::fracture
