@@ -1,0 +1,121 @@
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "io/version.hpp"
+
+namespace polynya::app {
+namespace {
+
+/// A subcommand: adds its options to the command line and returns what to do when it is chosen.
+using Command = std::function<int()>;
+
+Command add_run(CLI::App& app) {
+  auto* command = app.add_subcommand("run", "Run a scene and write its run folder");
+  command->footer(
+      "Examples:\n"
+      "  polynya run scenes/sawamura2017-fig4b.json\n"
+      "  polynya run scenes/level-plate.json --until 60 --out /tmp/plate --overwrite\n");
+  auto options = std::make_shared<RunOptions>();
+  command->add_option("scene", options->scene, "The scene's JSON file")->required()->type_name("SCENE");
+  command->add_option("--out", options->out, "The run folder; runs/<scene name> if not given")
+      ->type_name("DIR");
+  command->add_option("--until", options->until, "Simulated time to run to, instead of the scene's [s]")
+      ->type_name("S")
+      ->check(CLI::Range(1e-9, 1e7));
+  command->add_option("--seed", options->seed, "Seed instead of the scene's")
+      ->type_name("N")
+      ->check(CLI::Range(0.0, 9007199254740991.0));
+  command
+      ->add_option("--threads", options->threads,
+                   "Accepted for scripts; this version steps on one thread, and results never depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  static const std::map<std::string, ProgressKind> kKinds{{"auto", ProgressKind::kAuto},
+                                                          {"bar", ProgressKind::kBar},
+                                                          {"json", ProgressKind::kJson},
+                                                          {"none", ProgressKind::kNone}};
+  command
+      ->add_option("--progress", options->progress,
+                   "auto: a bar on a terminal, else a line every ten seconds; on stderr")
+      ->type_name("auto|bar|json|none")
+      ->transform(CLI::CheckedTransformer(kKinds).description(""));
+  command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
+  return [options] { return run(*options); };
+}
+
+Command add_validate(CLI::App& app) {
+  auto* command = app.add_subcommand("validate", "Check a scene, and tell everything that is wrong with it");
+  command->footer(
+      "Examples:\n  polynya validate scene.json\n  polynya validate scene.json --resolved   with every "
+      "default filled in\n");
+  auto options = std::make_shared<ValidateOptions>();
+  command->add_option("scene", options->scene, "The scene's JSON file")->required()->type_name("SCENE");
+  command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  return [options] { return validate(*options); };
+}
+
+Command add_schema(CLI::App& app) {
+  auto* command = app.add_subcommand("schema", "Print the JSON Schema of scenes");
+  command->footer(
+      "Examples:\n  polynya schema > polynya.schema.json\n  polynya schema --markdown            the tables "
+      "of docs/scene.md\n");
+  auto options = std::make_shared<SchemaOptions>();
+  command->add_flag("--markdown", options->markdown, "Print the fields as Markdown tables");
+  return [options] { return schema(*options); };
+}
+
+Command add_init(CLI::App& app) {
+  auto* command = app.add_subcommand("init", "Write a commented scene to start from");
+  command->footer(
+      "Examples:\n  polynya init my-scene.json && polynya run my-scene.json\n  polynya init                  "
+      "       to stdout\n");
+  auto options = std::make_shared<InitOptions>();
+  command->add_option("file", options->file, "Where to; stdout if not given")->type_name("FILE");
+  return [options] { return init(*options); };
+}
+
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya run scenes/sawamura2017-fig4b.json     the paper's voyage, to runs/sawamura2017-fig4b\n"
+    "  polynya init my-scene.json                     a commented scene to start from\n"
+    "  polynya validate my-scene.json                 everything that is wrong with a scene\n"
+    "\n"
+    "Polynya simulates an icebreaker in pack ice: floes are pushed, plates break by bending and splitting.\n";
+
+constexpr auto kCodes =
+    "Exit codes: 0 done, 2 usage, 3 scene invalid, 4 numerical failure, 5 input/output, 6 stopped on a "
+    "signal.\n"
+    "Data goes to stdout, messages to stderr.\n";
+
+int command_line(int count, char** words) {
+  CLI::App app(kExamples, "polynya");
+  app.footer(kCodes);
+  app.set_version_flag("--version", "polynya " + std::string(io::version()));
+  app.require_subcommand(1);
+  std::map<std::string, Command> commands;
+  constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {
+      {"run", add_run}, {"validate", add_validate}, {"schema", add_schema}, {"init", add_init}};
+  for (const auto& [name, add] : kCommands) {
+    commands[name] = add(app);
+  }
+  try {
+    app.parse(count, words);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  }
+  return commands.at(app.get_subcommands().front()->get_name())();
+}
+
+}  // namespace
+}  // namespace polynya::app
+
+int main(int count, char** words) {
+  return polynya::app::command_line(count, words);
+}
