@@ -10,7 +10,9 @@ set(POLYNYA_BENDING_SOURCES
   bending/database.cpp
   bending/database_build.cpp
   bending/database_text.cpp
+  bending/direct_solution.cpp
   bending/floating_beam.cpp
+  bending/fsi_database_model.cpp
   bending/internal/failure.cpp
   bending/internal/fluid.cpp
   bending/internal/march.cpp
@@ -19,6 +21,8 @@ set(POLYNYA_BENDING_SOURCES
   bending/kashtelyan.cpp
   bending/nevel.cpp
   bending/peak.cpp
+  bending/scaled_load.cpp
+  bending/studies.cpp
   bending/wedge_push.cpp
   bending/wedge_solver.cpp
 )

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fracture/bending/bending_model.hpp"
+#include "fracture/bending/database.hpp"
+#include "fracture/bending/scaled_load.hpp"
+
+namespace polynya::fracture {
+
+/// A whole push at constant speed, from first contact to the break.
+struct BendingForecast {
+  BendingCapacity capacity;
+  double normal_force = 0;  ///< F_n = V_b / c_V on the crushed facet at the break [N]
+  double penetration = 0;   ///< ξ_b [m]
+  double time = 0;          ///< from first contact to the break [s]; infinite at rest
+  std::string outside;      ///< what of the load lies outside the table, such as "softness"; empty in range
+};
+
+/// The paper's bending model: the icebreaking database of a fluid–structure solution, looked up with the
+/// load's dimensionless groups. [Sawamura2017, "Plate Ice Breaking"] The table knows contacts that have not
+/// crushed through the thickness, V = κ ξ². Where the load's penetration is deeper than h tan θ_s, the Π of
+/// the κ ξ² push with the same force at the same penetration is taken instead. Deviation: none known; the
+/// paper does not print its database. Its speed is the mean v_n since first contact.
+class FsiDatabaseModel final : public BendingModel {
+ public:
+  /// The shipped database.
+  FsiDatabaseModel();
+  explicit FsiDatabaseModel(std::shared_ptr<const BendingDatabase> database);
+
+  BendingCapacity capacity(const BendingLoad& load) const override;
+
+  /// The break of a push at the load's speed from first contact; the load's penetration is not used.
+  BendingForecast forecast(const BendingLoad& load) const;
+
+  const BendingDatabase& database() const { return *database_; }
+
+ private:
+  DatabaseAnswer answer(const BendingLoad& load, const ScaledLoad& scaled_load) const;
+
+  std::shared_ptr<const BendingDatabase> database_;
+};
+
+}  // namespace polynya::fracture

@@ -1,0 +1,130 @@
+#include "fracture/bending/studies.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <thread>
+
+#include "fracture/bending/kashtelyan.hpp"
+#include "fracture/bending/nevel.hpp"
+
+namespace polynya::fracture {
+namespace {
+
+BendingLoad with(BendingLoad load, SliceAxis axis, double value) {
+  switch (axis) {
+    case SliceAxis::kSpeed:
+      load.mean_approach_speed = value;
+      break;
+    case SliceAxis::kOpeningAngle:
+      load.front_half_angle = load.back_half_angle = 0.5 * value;
+      break;
+    case SliceAxis::kThickness:
+      load.ice.thickness = value;
+      break;
+  }
+  return load;
+}
+
+/// Uniform in [low, high), from 53 random bits: the same everywhere, which std::uniform_real_distribution is
+/// not.
+double uniform(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
+}
+
+double log_uniform(std::mt19937_64& random, const std::vector<double>& axis) {
+  return std::exp(uniform(random, std::log(axis.front()), std::log(axis.back())));
+}
+
+AccuracyRow compared(const BendingDatabase& database, const WedgeGroups& groups) {
+  const WedgeSolver solver(groups.opening_angle, groups.mass_ratio, database.settings());
+  const std::optional<WedgeFailure> solution = solver.failure({groups.froude, groups.softness, 0, 0});
+  if (!solution) return {groups, 1, 1};
+  const DatabaseAnswer answer = database.look_up(groups);
+  return {groups, answer.force / solution->force - 1, answer.cusp_radius / solution->cusp_radius - 1};
+}
+
+}  // namespace
+
+SlicePoint compare_models(const FsiDatabaseModel& model, const BendingLoad& load) {
+  SlicePoint point;
+  point.database = model.forecast(load);
+  BendingLoad at_break = load;
+  at_break.penetration = point.database.penetration;
+  point.nevel = NevelModel().capacity(at_break);
+  point.kashtelyan = KashtelyanModel().capacity(at_break);
+  return point;
+}
+
+std::vector<SlicePoint> slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis,
+                              std::span<const double> abscissae) {
+  std::vector<SlicePoint> points;
+  for (const double value : abscissae) {
+    points.push_back(compare_models(model, with(load, axis, value)));
+    points.back().abscissa = value;
+  }
+  return points;
+}
+
+std::vector<FluidStudyRow> fluid_study(const BendingLoad& load, std::span<const double> speeds,
+                                       const SolverSettings& settings) {
+  std::vector<FluidStudyRow> rows(speeds.size());
+  for (const FluidModel fluid :
+       {FluidModel::kWinkler, FluidModel::kLocalMass, FluidModel::kPotential, FluidModel::kFreeSurface}) {
+    SolverSettings with_fluid = settings;
+    with_fluid.fluid = fluid;
+    const WedgeSolver solver = wedge_of(load, with_fluid);
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+      rows[i].speed = speeds[i];
+      rows[i].by_fluid[static_cast<std::size_t>(fluid)] =
+          direct_forecast(solver, with(load, SliceAxis::kSpeed, speeds[i]));
+    }
+  }
+  return rows;
+}
+
+std::vector<FeedbackStudyRow> feedback_study(const BendingLoad& load, std::span<const double> speeds,
+                                             const SolverSettings& settings) {
+  const WedgeSolver solver = wedge_of(load, settings);
+  std::vector<FeedbackStudyRow> rows;
+  for (const double speed : speeds) {
+    const BendingLoad at_speed = with(load, SliceAxis::kSpeed, speed);
+    rows.push_back({speed, direct_forecast(solver, at_speed, Feedback::kIgnored),
+                    direct_forecast(solver, at_speed, Feedback::kCoupled)});
+  }
+  return rows;
+}
+
+AccuracyStudy accuracy_study(const BendingDatabase& database, int points, std::uint64_t seed, int threads) {
+  const DatabaseGrid& grid = database.grid();
+  std::mt19937_64 random(seed);
+  std::vector<WedgeGroups> groups;
+  for (int i = 0; i < points; ++i) {
+    WedgeGroups g;
+    g.opening_angle = uniform(random, grid.opening_angles_deg.front(), grid.opening_angles_deg.back()) *
+                      (std::numbers::pi / 180);
+    g.mass_ratio = uniform(random, grid.mass_ratios.front(), grid.mass_ratios.back());
+    g.softness = log_uniform(random, grid.softnesses);
+    g.froude = log_uniform(random, grid.froude_numbers);
+    groups.push_back(g);
+  }
+  AccuracyStudy study;
+  study.rows.resize(groups.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < groups.size(); i = next++) study.rows[i] = compared(database, groups[i]);
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  for (const AccuracyRow& row : study.rows) {
+    study.worst_force_error = std::max(study.worst_force_error, std::abs(row.force_error));
+    study.worst_radius_error = std::max(study.worst_radius_error, std::abs(row.radius_error));
+  }
+  return study;
+}
+
+}  // namespace polynya::fracture

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fracture/bending/direct_solution.hpp"
+#include "fracture/bending/fsi_database_model.hpp"
+
+namespace polynya::fracture {
+
+/// What a slice through the database varies.
+enum class SliceAxis : std::uint8_t {
+  kSpeed,         ///< v_n [m/s]
+  kOpeningAngle,  ///< 2α [rad], both edges at the same angle
+  kThickness,     ///< h [m]
+};
+
+/// One load by the database and by the published forms it can be compared with.
+struct SlicePoint {
+  double abscissa = 0;
+  BendingForecast database;
+  BendingCapacity nevel;  ///< at the database's penetration
+  BendingCapacity kashtelyan;
+};
+
+std::vector<SlicePoint> slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis,
+                              std::span<const double> abscissae);
+
+/// One load by all three models: what `polynya database query` prints.
+SlicePoint compare_models(const FsiDatabaseModel& model, const BendingLoad& load);
+
+/// What each fluid model makes of a load, in FluidModel's order; nothing where it does not break.
+struct FluidStudyRow {
+  double speed = 0;  ///< v_n [m/s]
+  std::array<std::optional<BendingForecast>, 4> by_fluid;
+};
+
+std::vector<FluidStudyRow> fluid_study(const BendingLoad& load, std::span<const double> speeds,
+                                       const SolverSettings& settings);
+
+/// What the ice's own deflection under the hull changes.
+struct FeedbackStudyRow {
+  double speed = 0;  ///< v_n [m/s]
+  std::optional<BendingForecast> ignored;
+  std::optional<BendingForecast> coupled;
+};
+
+std::vector<FeedbackStudyRow> feedback_study(const BendingLoad& load, std::span<const double> speeds,
+                                             const SolverSettings& settings);
+
+/// The database against the solution it tabulates, at one point between its own.
+struct AccuracyRow {
+  WedgeGroups groups;
+  double force_error = 0;   ///< table / solution − 1
+  double radius_error = 0;  ///< table / solution − 1
+};
+
+struct AccuracyStudy {
+  std::vector<AccuracyRow> rows;
+  double worst_force_error = 0;   ///< greatest |force_error|
+  double worst_radius_error = 0;  ///< greatest |radius_error|
+};
+
+/// At random points of the grid's box, uniform in 2α, m̂, ln Π and ln Fr. The same points and numbers for the
+/// same seed, whatever the number of threads. A point that does not break counts as an error of 1.
+AccuracyStudy accuracy_study(const BendingDatabase& database, int points, std::uint64_t seed,
+                             int threads = 1);
+
+}  // namespace polynya::fracture
