@@ -3,15 +3,40 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace polynya::geometry {
 namespace {
 
 // Which of the box's four sides a point is beyond. Two points beyond one side have nothing of the box between them.
-int beyond(const Box& box, Point p) {
-  return static_cast<int>(p.x < box.low.x) | static_cast<int>(p.x > box.high.x) << 1 |
-         static_cast<int>(p.y < box.low.y) << 2 | static_cast<int>(p.y > box.high.y) << 3;
-}
+#ifdef __SSE2__
+class Sides {
+ public:
+  explicit Sides(const Box& box) : low_(_mm_loadu_pd(&box.low.x)), high_(_mm_loadu_pd(&box.high.x)) {}
+  int beyond(const Point& p) const {
+    const __m128d at = _mm_loadu_pd(&p.x);
+    return _mm_movemask_pd(_mm_cmplt_pd(at, low_)) | _mm_movemask_pd(_mm_cmpgt_pd(at, high_)) << 2;
+  }
+
+ private:
+  __m128d low_;
+  __m128d high_;
+};
+#else
+class Sides {
+ public:
+  explicit Sides(const Box& box) : box_(box) {}
+  int beyond(const Point& p) const {
+    return static_cast<int>(p.x < box_.low.x) | static_cast<int>(p.y < box_.low.y) << 1 |
+           static_cast<int>(p.x > box_.high.x) << 2 | static_cast<int>(p.y > box_.high.y) << 3;
+  }
+
+ private:
+  Box box_;
+};
+#endif
 
 Box box_of(Point a, Point b) {
   return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
@@ -131,13 +156,14 @@ exact::Point exact_point(const Node& node) { return node.is_rounded ? node.exact
 
 std::vector<EdgeId> edges_near(const Rings& rings, const Box& box) {
   std::vector<EdgeId> near;
+  const Sides sides(box);
   for (int r = 0; r < rings.count(); ++r) {
     const Ring& ring = rings[r];
     const std::size_t n = ring.size();
-    int previous = beyond(box, ring[0]);
+    int previous = sides.beyond(ring[0]);
     const int first = previous;
     for (std::size_t i = 1; i < n; ++i) {
-      const int current = beyond(box, ring[i]);
+      const int current = sides.beyond(ring[i]);
       if ((previous & current) == 0) near.push_back({r, static_cast<int>(i) - 1});
       previous = current;
     }

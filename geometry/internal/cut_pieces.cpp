@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "geometry/internal/predicates.hpp"
@@ -11,22 +12,23 @@ namespace {
 
 using Source = PieceRing::Source;
 
-// Calls on_node(node, along_tool) and on_point(p, along_tool) for a loop's vertices in order; along_tool tells
-// whether the edge that leaves the vertex runs along the tool.
-template <typename OnNode, typename OnPoint>
-void for_each_vertex(const LocalCut& cut, const Loop& loop, OnNode on_node, OnPoint on_point) {
+// Calls on_node(node, along_tool) and on_run(first, last, along_tool) for a loop's vertices in order; along_tool tells
+// whether the edge that leaves the vertex runs along the tool, [first, last) are iterators over points.
+template <typename OnNode, typename OnRun>
+void for_each_stretch(const LocalCut& cut, const Loop& loop, OnNode on_node, OnRun on_run) {
   for (const int h : loop) {
     const HalfEdge& e = cut.graph.half_edges[static_cast<std::size_t>(h)];
     on_node(cut.nodes[static_cast<std::size_t>(e.from)], e.is_chord);
     const Ring& points = e.is_chord ? cut.tool.points : cut.rings[e.ring];
-    const int size = static_cast<int>(points.size());
-    int i = e.is_forward ? e.run.first : e.run.first + e.run.count - 1;
-    if (i >= size) i -= size;
-    for (int k = 0; k < e.run.count; ++k) {
-      on_point(points[static_cast<std::size_t>(i)], e.is_chord);
-      i += e.is_forward ? 1 : -1;
-      if (i == size) i = 0;
-      if (i < 0) i = size - 1;
+    const auto begin = points.begin() + e.run.first;
+    const auto before_wrap = std::min<std::ptrdiff_t>(e.run.count, points.end() - begin);
+    const auto wrapped_end = points.begin() + (e.run.count - before_wrap);
+    if (e.is_forward) {
+      on_run(begin, begin + before_wrap, e.is_chord);
+      on_run(points.begin(), wrapped_end, e.is_chord);
+    } else {
+      on_run(std::make_reverse_iterator(wrapped_end), points.rend(), e.is_chord);
+      on_run(std::make_reverse_iterator(begin + before_wrap), std::make_reverse_iterator(begin), e.is_chord);
     }
   }
 }
@@ -66,9 +68,16 @@ Ring write_loop(LocalCut& cut, const Loop& loop) {
     points.push_back(p);
     last = v;
   };
-  for_each_vertex(
-      cut, loop, [&](const Node& node, bool on_tool) { append(node.at, {true, node.is_rounded, on_tool}); },
-      [&](Point p, bool on_tool) { append(p, {false, false, on_tool}); });
+  const auto append_run = [&](auto from, auto to, bool on_tool) {
+    if (on_tool) {
+      for (; from != to; ++from) append(*from, {false, false, true});
+    } else if (from != to) {
+      append(*from, {});
+      points.insert(points.end(), ++from, to);
+    }
+  };
+  for_each_stretch(
+      cut, loop, [&](const Node& node, bool on_tool) { append(node.at, {true, node.is_rounded, on_tool}); }, append_run);
   note_edge(points.front(), first);
   return points;
 }
@@ -86,9 +95,11 @@ void write(LocalCut& cut, PieceRing& ring) {
 exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
   if (ring.source != Source::kLoop) return exact::exactly(ring.points);
   exact::Ring points;
-  for_each_vertex(
+  for_each_stretch(
       cut, ring.loop, [&](const Node& node, bool) { points.push_back(exact_point(node)); },
-      [&](Point p, bool) { points.push_back(exact::exactly(p)); });
+      [&](auto from, auto to, bool) {
+        for (; from != to; ++from) points.push_back(exact::exactly(*from));
+      });
   return points;
 }
 

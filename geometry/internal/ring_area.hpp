@@ -4,11 +4,11 @@
 
 namespace polynya::geometry {
 
-/// A ring's area with what bounds its errors.
+/// A ring's signed area with bounds on its errors, generous ones: whoever finds an area within them looks exactly.
 struct RingArea {
-  double area = 0;        ///< signed; compensated sum about the ring's first vertex [m²]
-  double doubt = 0;       ///< |area − exact area of these vertices| is below this [m²]
-  double step_area = 0;   ///< area by which moving every vertex by one step between doubles can change it [m²]
+  double area = 0;       ///< compensated sum about the ring's first vertex [m²]
+  double doubt = 0;      ///< |area − exact area of these vertices| is below this [m²]
+  double step_area = 0;  ///< area by which moving every vertex by one step between doubles can change it [m²]
 };
 
 /// One pass over the vertices.

@@ -133,20 +133,25 @@ void settle_piece(ExactPiece piece, Settling& settling) {
 }  // namespace
 
 void sort_pieces(std::vector<Piece>& pieces) {
-  const auto key = [](const Piece& piece) {
+  const auto lowest = [](const Piece& piece) {
     const geometry::Ring& ring = piece.shape.polygon.outer;
-    const auto less = [](geometry::Point a, geometry::Point b) {
-      return std::tie(a.x, a.y) < std::tie(b.x, b.y);
-    };
-    const geometry::Point lowest = *std::min_element(ring.begin(), ring.end(), less);
-    return std::tuple(piece.part, lowest.x, lowest.y, ring.size());
+    const auto less = [](geometry::Point a, geometry::Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+    return *std::min_element(ring.begin(), ring.end(), less);
   };
-  std::vector<std::pair<decltype(key(pieces.front())), std::size_t>> order;
-  for (std::size_t i = 0; i < pieces.size(); ++i) order.emplace_back(key(pieces[i]), i);
+  if (pieces.size() == 2 && pieces[0].part != pieces[1].part) {  // the common cut: no need to look for vertices
+    if (pieces[1].part < pieces[0].part) std::swap(pieces[0], pieces[1]);
+    return;
+  }
+  using Key = std::tuple<Part, double, double, std::size_t, std::size_t>;
+  std::vector<Key> order;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const geometry::Point p = lowest(pieces[i]);
+    order.emplace_back(pieces[i].part, p.x, p.y, pieces[i].shape.polygon.outer.size(), i);
+  }
   std::sort(order.begin(), order.end());
   std::vector<Piece> sorted;
   sorted.reserve(pieces.size());
-  for (const auto& [unused, i] : order) sorted.push_back(std::move(pieces[i]));
+  for (const Key& key : order) sorted.push_back(std::move(pieces[std::get<4>(key)]));
   pieces = std::move(sorted);
 }
 
