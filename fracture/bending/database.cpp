@@ -44,11 +44,11 @@ bool is_ascending_positive(const std::vector<double>& axis) {
 }  // namespace
 
 DatabaseGrid default_grid() {
-  return {{20, 25, 30, 35, 40, 50, 60, 75, 90, 105, 120, 135, 150, 165, 180},
+  return {{20, 25, 30, 35, 40, 45, 50, 60, 75, 90, 105, 120, 135, 150, 165, 180},
           {0.02, 0.05, 0.1},
-          {3e-5, 5.5e-5, 1e-4, 3e-4, 7e-4, 1.5e-3, 3e-3, 6e-3, 1.3e-2, 3e-2, 5.5e-2, 7.5e-2, 1e-1},
-          {5e-4, 1e-3, 2e-3, 3.5e-3, 6e-3, 1e-2, 1.6e-2, 2.5e-2, 4e-2, 6e-2, 1e-1, 1.6e-1, 2.5e-1, 4e-1, 7e-1,
-           1, 1.5}};
+          {3e-5, 5.5e-5, 1e-4, 3e-4, 7e-4, 1.5e-3, 3e-3, 6e-3, 1.3e-2, 3e-2, 4.1e-2, 5.5e-2, 7.5e-2, 1e-1},
+          {5e-4, 1e-3, 2e-3,   3.5e-3, 6e-3, 1e-2,   1.6e-2, 2.5e-2, 4e-2, 6e-2,
+           8e-2, 1e-1, 1.3e-1, 1.6e-1, 2e-1, 2.5e-1, 4e-1,   7e-1,   1,    1.5}};
 }
 
 BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid,
