@@ -103,6 +103,15 @@ CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
   return cut_by_polygons_generally(exact_polygon_of(shape), {tool_in_body});
 }
 
+CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body) {
+  if (tools_in_body.size() == 1) return cut_by_polygon(shape, tools_in_body.front());
+  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
+  for (const Polygon& tool : tools_in_body) {
+    if (const auto found = find_tool_defect(tool)) return refuse(CutFailure::kInvalidTool, *found);
+  }
+  return cut_by_polygons_generally(exact_polygon_of(shape), tools_in_body);
+}
+
 CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body) {
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
   if (!all_finite(polyline_in_body)) return refuse(CutFailure::kInvalidTool, {Defect::kNotFinite, {}});

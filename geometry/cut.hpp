@@ -27,6 +27,7 @@ struct CutLedger {
   int slivers = 0;             ///< how many such
   double rounding_defect = 0;  ///< (pieces as returned + slivers) − (exact pieces), nearest double [m²]
   bool exact_balance = false;  ///< Σ exact pieces − parent is exactly 0, checked in rationals
+  std::string exact_defect;    ///< that difference as a rational [m²]: "0", or the cut is refused
   int kept_exact = 0;          ///< pieces that would not round validly and keep rationals
 };
 
@@ -54,6 +55,9 @@ using CutOutcome = tl::expected<CutResult, CutError>;
 /// Cuts a shape by a polygon (a cusp's disc, usually) given in the shape's body frame.
 /// A transaction: pieces outside and inside whose exact areas sum to the shape's, or an error and no change.
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body);
+
+/// The same with a tool of several polygons with holes, which may touch or overlap: what any of them covers is inside.
+CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body);
 
 /// Cuts a shape along an open polyline in its body frame (a crack). The polyline separates where it crosses
 /// the shape fully; what dangles inside the ice does not separate and is ignored.

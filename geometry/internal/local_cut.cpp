@@ -40,6 +40,7 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
 }
 
 struct Balance {
+  Rational defect = 0;   // twice Σ exact pieces − shape; every split edge by itself must give zero
   bool is_exact = true;
   Rational rounding = 0;  // twice the area that rounding the nodes changed
 };
@@ -66,7 +67,9 @@ Balance balance_split_edges(const LocalCut& cut) {
     const exact::Point b = exact::exactly(cut.rings.point(place.ring, place.edge + 1));
     exactly.push_back(b);
     rounded.push_back(b);
-    if (twice_area_between(a, exactly) != 0) balance.is_exact = false;
+    const Rational defect = twice_area_between(a, exactly);
+    balance.defect += defect;
+    balance.is_exact = balance.is_exact && defect == 0;
     balance.rounding += twice_area_between(a, rounded);
   }
   return balance;
@@ -179,6 +182,7 @@ CutResult whole_shape_inside(const Polygon& shape) {
   for (int r = 0; r < Rings(shape).count(); ++r) result.ledger.area_before += ring_area(Rings(shape)[r]).area;
   result.ledger.area_inside = result.ledger.area_before;
   result.ledger.exact_balance = true;
+  result.ledger.exact_defect = "0";  // the one piece is the shape itself
   return result;
 }
 
@@ -193,6 +197,7 @@ CutResult assemble(const LocalCut& cut, std::vector<PiecePlan> plans, const Bala
   CutLedger& ledger = result.ledger;
   for (int r = 0; r < cut.rings.count(); ++r) ledger.area_before += ring_area(cut.rings[r]).area;
   ledger.exact_balance = true;
+  ledger.exact_defect = balance.defect.get_str();
   ledger.rounding_defect = exact::nearest_double(balance.rounding / 2);
   for (PiecePlan& plan : plans) {
     Piece piece;

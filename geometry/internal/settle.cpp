@@ -158,13 +158,15 @@ void sort_pieces(std::vector<Piece>& pieces) {
 CutOutcome settle(const Rational& area_before, std::vector<ExactPiece> pieces) {
   Rational sum = 0;
   for (const ExactPiece& piece : pieces) sum += area(piece.polygon);
-  if (sum != area_before) {
-    return tl::unexpected(CutError{CutFailure::kInternal, "exact piece areas do not sum to the parent's"});
+  const Rational defect = sum - area_before;
+  if (defect != 0) {
+    return tl::unexpected(CutError{CutFailure::kInternal, "exact piece areas are off by " + defect.get_str()});
   }
   Settling settling;
   CutLedger& ledger = settling.result.ledger;
   ledger.area_before = nearest_double(area_before);
   ledger.exact_balance = true;
+  ledger.exact_defect = defect.get_str();
   for (ExactPiece& piece : pieces) settle_piece(std::move(piece), settling);
   ledger.rounding_defect = nearest_double(settling.change);
   sort_pieces(settling.result.pieces);

@@ -1,0 +1,87 @@
+#include "geometry/repair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "geometry/internal/arrangement.hpp"
+#include "geometry/internal/predicates.hpp"
+#include "geometry/internal/settle.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+Repaired repair_exactly(const std::vector<Ring>& rings, FillRule rule) {
+  std::vector<exact::SourceSegment> segments;
+  exact::Rational drawn = 0;
+  for (const Ring& ring : rings) {
+    append_segments(segments, exact::exactly(ring), 0);
+    drawn += exact::area(ring);
+  }
+  const auto classify = [rule](exact::Winding w) {
+    const bool is_filled = rule == FillRule::kNonZero ? w.shape != 0 : w.shape % 2 != 0;
+    return is_filled ? 0 : -1;
+  };
+  std::vector<exact::ExactPiece> pieces;
+  exact::Rational area = 0;
+  for (exact::Region& region : exact::overlay(segments, classify, exact::Seams::kDissolve).regions) {
+    area += exact::area(region.polygon);
+    pieces.push_back({std::move(region.polygon), Part::kOutside});
+  }
+  Repaired repaired;
+  CutResult settled = *exact::settle(area, std::move(pieces));
+  for (Piece& piece : settled.pieces) repaired.shapes.push_back(std::move(piece.shape));
+  repaired.area_drawn = exact::nearest_double(abs(drawn));
+  repaired.area = settled.ledger.area_outside;
+  repaired.area_changed = exact::nearest_double(exact::Rational(area - abs(drawn)));
+  repaired.ledger = std::move(settled.ledger);
+  return repaired;
+}
+
+Ring oriented(Ring ring, int turn) {
+  if (area_sign(ring) * turn < 0) std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+}  // namespace
+
+tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule) {
+  std::vector<Ring> usable;
+  for (const Ring& ring : rings) {
+    for (const Point p : ring) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+        return tl::unexpected(CutError{CutFailure::kInvalidShape, "a coordinate is not finite"});
+      }
+    }
+    if (Ring kept = without_repeats(ring); kept.size() > 2) usable.push_back(std::move(kept));
+  }
+  try {
+    Repaired repaired = repair_exactly(usable, rule);
+    if (!repaired.shapes.empty()) return repaired;
+  } catch (const std::exception& failure) {
+    return tl::unexpected(CutError{CutFailure::kInternal, failure.what()});
+  }
+  return tl::unexpected(CutError{CutFailure::kMisses, "the rings enclose nothing"});
+}
+
+Ring without_repeats(const Ring& ring) {
+  Ring kept = ring;
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  while (kept.size() > 1 && kept.front() == kept.back()) kept.pop_back();
+  return kept;
+}
+
+Polygon normalised(const Polygon& polygon) {
+  const auto all_finite = [](const Ring& ring) {
+    return std::all_of(ring.begin(), ring.end(), [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+  };
+  // A ring that is not finite has no orientation; find_defect will name it.
+  const auto turned = [&](const Ring& ring, int turn) {
+    return all_finite(ring) ? oriented(without_repeats(ring), turn) : ring;
+  };
+  Polygon result{turned(polygon.outer, 1), {}};
+  for (const Ring& hole : polygon.holes) result.holes.push_back(turned(hole, -1));
+  return result;
+}
+
+}  // namespace polynya::geometry

@@ -1,0 +1,83 @@
+#include "geometry/repair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/overlap.hpp"
+#include "geometry/validity.hpp"
+#include "tests/geometry/trials.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+const Ring kBowTie{{0, 0}, {2, 2}, {2, 0}, {0, 2}};
+// A square that winds around its middle twice.
+const Ring kTwice{{0, 0}, {6, 0}, {6, 6}, {1, 6}, {1, 1}, {5, 1}, {5, 5}, {0, 5}};
+
+double repaired_area(const std::vector<Ring>& rings, FillRule rule) {
+  const auto repaired = repair(rings, rule);
+  EXPECT_TRUE(repaired.has_value());
+  if (!repaired) return -1;
+  for (const Shape& shape : repaired->shapes) EXPECT_FALSE(find_defect(shape.polygon));
+  EXPECT_NEAR(repaired->area - repaired->area_drawn, repaired->area_changed, 1e-12);
+  return repaired->area;
+}
+
+TEST(Repair, FillsByTheRuleAskedFor) {
+  EXPECT_DOUBLE_EQ(repaired_area({kBowTie}, FillRule::kEvenOdd), 2);
+  EXPECT_DOUBLE_EQ(repaired_area({kBowTie}, FillRule::kNonZero), 2);
+  const double once = repaired_area({kTwice}, FillRule::kEvenOdd);
+  const double both = repaired_area({kTwice}, FillRule::kNonZero);
+  EXPECT_DOUBLE_EQ(both - once, 16) << "the square wound around twice";
+  EXPECT_DOUBLE_EQ(both + 16, std::abs(exact::area(kTwice).get_d())) << "the signed area counts it twice";
+}
+
+TEST(Repair, LeavesValidPolygonsAsTheyAre) {
+  const Ring square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  const Ring hole{{0, 5}, {2, 6}, {2, 4}};
+  const auto repaired = repair({square, hole}, FillRule::kNonZero);
+  ASSERT_TRUE(repaired.has_value());
+  ASSERT_EQ(repaired->shapes.size(), 1u);
+  EXPECT_EQ(repaired->area_changed, 0);
+  EXPECT_EQ(repaired->shapes[0].polygon.holes.size(), 1u);
+}
+
+TEST(Repair, DropsSpikesAndRefusesWhatEnclosesNothing) {
+  EXPECT_DOUBLE_EQ(repaired_area({{{0, 0}, {4, 0}, {4, 4}, {9, 4}, {4, 4}, {0, 4}}}, FillRule::kEvenOdd), 16);
+  EXPECT_EQ(repair({{{0, 0}, {1, 1}, {2, 2}}}, FillRule::kEvenOdd).error().reason, CutFailure::kMisses);
+  EXPECT_EQ(repair({{{0, 0}, {1, std::nan("")}, {2, 2}}}, FillRule::kEvenOdd).error().reason, CutFailure::kInvalidShape);
+}
+
+TEST(Repair, NormalisingOrientsAndDropsRepeats) {
+  const Polygon drawn{{{0, 0}, {0, 10}, {0, 10}, {10, 10}, {10, 0}, {0, 0}}, {{{2, 2}, {4, 2}, {4, 4}, {2, 4}, {2, 2}}}};
+  EXPECT_FALSE(find_defect(normalised(drawn)));
+  EXPECT_EQ(normalised(drawn).outer.size(), 4u);
+}
+
+TEST(Overlap, IsExactWhereFloesAreSiblings) {
+  const Shape square{{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}};
+  const auto pieces = cut_along(square, {{-1, 3}, {11, 3}});  // a cut whose vertices need no rounding
+  ASSERT_TRUE(pieces.has_value());
+  const Pose pose{{3, 4}, Rotation::by(0.7)};
+  EXPECT_EQ(overlap(pieces->pieces[0].shape, pose, pieces->pieces[1].shape, pose)->exact_area, "0");
+  EXPECT_EQ(overlap(square, {}, square, {{2, 3}, {}})->exact_area, "56");
+  EXPECT_EQ(overlap(square, {}, square, {{20, 3}, {}})->exact_area, "0");
+  // The quarter turn in doubles is a turn by a little less; the shared area is still what those doubles say.
+  EXPECT_NEAR(overlap(square, {}, square, {{10, 0}, Rotation::by(std::acos(0.0))})->area, 100, 1e-13);
+}
+
+TEST(CutByPolygons, TakesWhatAnyToolCovers) {
+  const Shape square{{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}};
+  const Polygon with_hole{{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}}};
+  const Polygon overlapping{{{3, 3}, {7, 3}, {7, 7}, {3, 7}}, {}};
+  const CutOutcome outcome = cut_by_polygons(square, {with_hole, overlapping});
+  ASSERT_TRUE(outcome.has_value());
+  EXPECT_TRUE(trials::is_sound(square, outcome));
+  // 16 − 4 and 16, sharing the 2×2 square less the hole's unit corner.
+  EXPECT_DOUBLE_EQ(outcome->ledger.area_inside, 12 + 16 - 3);
+  EXPECT_EQ(outcome->ledger.exact_defect, "0");
+}
+
+}  // namespace
+}  // namespace polynya::geometry
