@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace polynya::io {
 
@@ -55,6 +56,7 @@ void JsonWriter::separate() {
   }
   if (!is_first_) text_ += ',';
   if (layout_ == Layout::kIndented && depth_ > 0) break_line();
+  if (std::exchange(starts_line_, false)) text_ += '\n';
   is_first_ = false;
 }
 

@@ -42,6 +42,8 @@ class JsonWriter {
   JsonWriter& value(const geometry::Ring& ring);
   /// A value that is JSON already.
   JsonWriter& json(std::string_view raw);
+  /// The next item or member starts on a line of its own.
+  void start_line() { starts_line_ = true; }
 
  private:
   void separate();
@@ -51,6 +53,7 @@ class JsonWriter {
   int depth_ = 0;
   bool is_first_ = true;
   bool follows_key_ = false;
+  bool starts_line_ = false;
 };
 
 /// A value as indented JSON; lists of numbers (and lists of points) stay on one line. Deterministic.

@@ -77,8 +77,9 @@ class SvgMap {
         "clip-path='url(#map)'>\n",
         left_, kHeader, map_width_, map_height_, kWater);
     draw_ice();
+    draw_fractures(simulation::EventKind::kBend);
     draw_ships();
-    draw_fractures();
+    draw_fractures(simulation::EventKind::kSplit);
     add("</g>\n");
     draw_legend();
     add("</svg>\n");
@@ -160,11 +161,9 @@ class SvgMap {
     }
   }
 
-  void draw_fractures() {
-    for (const auto wanted : {simulation::EventKind::kBend, simulation::EventKind::kSplit}) {
-      for (const auto& fracture : picture_.fractures) {
-        if (fracture.kind == wanted) mark(wanted, x(fracture.point_in_world), y(fracture.point_in_world));
-      }
+  void draw_fractures(simulation::EventKind kind) {
+    for (const auto& fracture : picture_.fractures) {
+      if (fracture.kind == kind) mark(kind, x(fracture.point_in_world), y(fracture.point_in_world));
     }
   }
 

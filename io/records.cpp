@@ -113,7 +113,7 @@ std::string to_geojson(const std::vector<simulation::FloeState>& floes, double t
   JsonWriter json(text);
   json.open('{').key("type").value("FeatureCollection").key("t_s").value(time).key("features").open('[');
   for (const simulation::FloeState& floe : floes) {
-    text += '\n';
+    json.start_line();
     json.open('{').key("type").value("Feature").key("properties").open('{');
     json.key("floe_id").value(floe.floe).key("parent_id");
     append_id(json, floe.parent);

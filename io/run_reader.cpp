@@ -1,0 +1,316 @@
+#include "io/run_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "geometry/pose.hpp"
+#include "io/json_parser.hpp"
+#include "io/records.hpp"
+#include "io/run_folder.hpp"
+#include "io/source_text.hpp"
+
+namespace polynya::io {
+namespace {
+
+using simulation::FloeId;
+
+constexpr std::size_t kLongestFile = std::size_t{4} << 30;  ///< [bytes]
+constexpr double kRadians = std::numbers::pi / 180;
+
+/// What is wrong with a file; told to the caller of read_run as its error value.
+struct Damage : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+std::string text_of(const std::filesystem::path& folder, std::string_view name) {
+  auto text = read_text_file(folder / name, kLongestFile);
+  if (!text) throw Damage(fmt::format("{}: {}", (folder / name).string(), text.error()));
+  return std::move(*text);
+}
+
+/// Uses each whole line of a file.
+template <class Use>
+void for_lines(const std::filesystem::path& folder, std::string_view name, Use use) {
+  const std::string text = text_of(folder, name);
+  std::size_t start = 0;
+  for (int number = 1;; ++number) {
+    const std::size_t end = text.find('\n', start);
+    if (end == std::string::npos) return;
+    try {
+      use(std::string_view(text).substr(start, end - start), number);
+    } catch (const Damage& damage) {
+      throw Damage(fmt::format("{}:{}: {}", (folder / name).string(), number, damage.what()));
+    }
+    start = end + 1;
+  }
+}
+
+JsonValue json_of(std::string_view text) {
+  JsonDocument document = parse_json(text);
+  if (!document.faults.empty()) throw Damage("not JSON: " + document.faults.front().found);
+  return std::move(document.root);
+}
+
+const JsonValue& member(const JsonValue& value, std::string_view key, JsonValue::Kind kind) {
+  const JsonValue* found = value.find(key);
+  if (!found || !found->is(kind)) throw Damage(fmt::format("\"{}\" is not {}", key, name_of(kind)));
+  return *found;
+}
+double number(const JsonValue& value, std::string_view key) {
+  return member(value, key, JsonValue::Kind::kNumber).number();
+}
+double number_or(const JsonValue& value, std::string_view key, double otherwise) {
+  return value.find(key) ? number(value, key) : otherwise;
+}
+FloeId floe_id(const JsonValue& value) {
+  if (value.is_null()) return simulation::kNoFloe;
+  if (!value.is(JsonValue::Kind::kNumber) || !(value.number() >= 0 && value.number() < 1e9))
+    throw Damage("not a floe's id");
+  return static_cast<FloeId>(value.number());
+}
+FloeId floe_id(const JsonValue& value, std::string_view key) {
+  const JsonValue* found = value.find(key);
+  if (!found) throw Damage(fmt::format("\"{}\" is missing", key));
+  return floe_id(*found);
+}
+geometry::Point point(const JsonValue& value) {
+  if (!value.is(JsonValue::Kind::kArray) || value.items().size() != 2 ||
+      !value.items()[0].is(JsonValue::Kind::kNumber) || !value.items()[1].is(JsonValue::Kind::kNumber))
+    throw Damage("not a point");
+  return {value.items()[0].number(), value.items()[1].number()};
+}
+geometry::Point point(const JsonValue& value, std::string_view key) {
+  return point(member(value, key, JsonValue::Kind::kArray));
+}
+geometry::Ring ring(const JsonValue& value) {
+  if (!value.is(JsonValue::Kind::kArray)) throw Damage("not a ring");
+  geometry::Ring points;
+  for (const JsonValue& item : value.items()) points.push_back(point(item));
+  return points;
+}
+
+simulation::Birth birth_of(const JsonValue& line) {
+  simulation::Birth birth;
+  birth.floe = floe_id(line, "floe_id");
+  birth.parent = floe_id(line, "parent_id");
+  birth.time = number(line, "born_s");
+  birth.generation = static_cast<int>(number(line, "generation"));
+  birth.area = number(line, "area_m2");
+  birth.mass = number(line, "mass_kg");
+  birth.centroid_in_body = point(line, "centroid_m");
+  birth.polygon_in_body.outer = ring(member(line, "ring_m", JsonValue::Kind::kArray));
+  for (const JsonValue& hole : member(line, "holes_m", JsonValue::Kind::kArray).items()) {
+    birth.polygon_in_body.holes.push_back(ring(hole));
+  }
+  birth.is_exact = line.find("is_exact") == nullptr;
+  return birth;
+}
+
+int ship_index(const simulation::Scene& scene, std::string_view name) {
+  const auto found = std::ranges::find(scene.ships, name, &simulation::ShipSpec::name);
+  return found == scene.ships.end() ? -1 : static_cast<int>(found - scene.ships.begin());
+}
+
+simulation::EventKind event_kind(std::string_view name) {
+  for (const auto kind :
+       {simulation::EventKind::kBend, simulation::EventKind::kSplit, simulation::EventKind::kRejectedCut}) {
+    if (name_of(kind) == name) return kind;
+  }
+  throw Damage(fmt::format("an unknown kind of event, \"{}\"", name));
+}
+
+simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene) {
+  simulation::Event event;
+  event.time = number(line, "t_s");
+  event.kind = event_kind(member(line, "kind", JsonValue::Kind::kText).text());
+  event.ship = ship_index(scene, member(line, "ship", JsonValue::Kind::kText).text());
+  event.floe = floe_id(line, "floe");
+  for (const JsonValue& child : member(line, "children", JsonValue::Kind::kArray).items())
+    event.children.push_back(floe_id(child));
+  event.point_in_world = point(line, "point_m");
+  const geometry::Point normal = point(line, "normal");
+  event.normal_in_world = {normal.x, normal.y};
+  const JsonValue& criterion = member(line, "criterion", JsonValue::Kind::kObject);
+  event.criteria.floe_size = number(criterion, "floe_size_m");
+  event.criteria.breakable_size = number(criterion, "breakable_size_m");
+  event.criteria.collision_force = number(criterion, "collision_force_N");
+  event.criteria.splitting_force = number(criterion, "splitting_force_N");
+  event.criteria.crack_length = number(criterion, "crack_length_m");
+  event.criteria.vertical_force = number(criterion, "vertical_force_N");
+  event.criteria.bending_capacity = number(criterion, "bending_capacity_N");
+  event.penetration = number(line, "penetration_m");
+  event.cusp_radius = number_or(line, "cusp_radius_m", 0);
+  event.submerged_area = number(line, "submerged_area_m2");
+  event.brash_area = number(line, "brash_area_m2");
+  event.rounding_defect = number(line, "rounding_defect_m2");
+  if (const JsonValue* reason = line.find("reason"); reason && reason->is(JsonValue::Kind::kText))
+    event.reason = reason->text();
+  return event;
+}
+
+double csv_number(std::string_view& line) {
+  const std::string_view field = line.substr(0, line.find(','));
+  line.remove_prefix(std::min(line.size(), field.size() + 1));
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (field == "null") return std::numeric_limits<double>::quiet_NaN();
+  if (error != std::errc{} || end != field.data() + field.size())
+    throw Damage(fmt::format("\"{}\" is not a number", field));
+  return value;
+}
+
+simulation::ShipSample sample_of(std::string_view line, const simulation::Scene& scene) {
+  simulation::ShipSample s;
+  s.time = csv_number(line);
+  const std::string_view ship = line.substr(0, line.find(','));
+  s.ship = ship_index(scene, ship);
+  line.remove_prefix(std::min(line.size(), ship.size() + 1));
+  for (double* value :
+       {&s.surge_force, &s.sway_force, &s.yaw_moment, &s.surge_max, &s.sway_max, &s.yaw_max, &s.surge_peak,
+        &s.sway_peak, &s.yaw_peak, &s.position_in_world.x, &s.position_in_world.y, &s.heading}) {
+    *value = csv_number(line);
+  }
+  csv_number(line);  // speed follows from the velocity
+  for (double* value : {&s.velocity_in_world.x, &s.velocity_in_world.y, &s.yaw_rate, &s.thrust})
+    *value = csv_number(line);
+  s.heading *= kRadians;
+  s.yaw_rate *= kRadians;
+  s.contacts = static_cast<int>(csv_number(line));
+  return s;
+}
+
+void read_floes(Run& run) {
+  for_lines(run.folder, run_file::kFloes, [&](std::string_view line, int) {
+    RunFloe floe{
+        .birth = birth_of(json_of(line)), .died = std::numeric_limits<double>::infinity(), .death_event = {}};
+    if (floe.birth.floe != static_cast<FloeId>(run.floes.size()))
+      throw Damage("floes are not in the order of their ids");
+    run.floes.push_back(std::move(floe));
+  });
+}
+
+void read_events(Run& run) {
+  for_lines(run.folder, run_file::kEvents, [&](std::string_view line, int) {
+    simulation::Event event = event_of(json_of(line), run.scene.scene);
+    if (!run.floe(event.floe)) throw Damage(fmt::format("floe {} was never born", event.floe));
+    if (event.kind != simulation::EventKind::kRejectedCut) {
+      RunFloe& broken = run.floes[static_cast<std::size_t>(event.floe)];
+      broken.died = event.time;
+      broken.death_event = run.events.size();
+    }
+    run.events.push_back(std::move(event));
+  });
+}
+
+}  // namespace
+
+std::vector<FloeId> Run::lineage(FloeId id) const {
+  std::vector<FloeId> ids;
+  while (const RunFloe* at = floe(id)) {
+    ids.push_back(id);
+    if (at->birth.parent >= id) break;  // a parent is older than its child
+    id = at->birth.parent;
+  }
+  std::ranges::reverse(ids);
+  return ids;
+}
+
+geometry::Polygon polygon_in_world(const simulation::Birth& birth, const Motion& motion) {
+  const geometry::Rotation rotation = geometry::Rotation::by(motion.angle);
+  const auto placed = [&](geometry::Ring points) {
+    for (geometry::Point& p : points) p = motion.position + rotate(rotation, p - birth.centroid_in_body);
+    return points;
+  };
+  geometry::Polygon polygon{placed(birth.polygon_in_body.outer), {}};
+  for (const geometry::Ring& hole : birth.polygon_in_body.holes) polygon.holes.push_back(placed(hole));
+  return polygon;
+}
+
+MotionIndex::MotionIndex(const Run& run) : floes_(run.floes.size()), ships_(run.scene.scene.ships.size()) {
+  for (const Frame& frame : run.frames) {
+    frame_times_.push_back(frame.time);
+    for (const FloeMotion& floe : frame.floes) {
+      const auto id = static_cast<std::size_t>(floe.floe);
+      if (id < floes_.size()) floes_[id].push_back({frame.time, floe.motion});
+    }
+    for (std::size_t i = 0; i < std::min(ships_.size(), frame.ships.size()); ++i)
+      ships_[i].push_back(frame.ships[i]);
+  }
+}
+
+const MotionIndex::Told* MotionIndex::last_told(FloeId floe, double time) const {
+  const auto& told = floes_[static_cast<std::size_t>(floe)];
+  if (told.empty()) return nullptr;
+  const auto after = std::ranges::upper_bound(told, time, {}, &Told::time);
+  return after == told.begin() ? &told.front() : &*(after - 1);
+}
+
+namespace {
+
+Motion between(const Motion& a, const Motion& b, double part) {
+  const auto mix = [&](double from, double to) { return from + part * (to - from); };
+  return {{mix(a.position.x, b.position.x), mix(a.position.y, b.position.y)},
+          mix(a.angle, b.angle),
+          {mix(a.velocity.x, b.velocity.x), mix(a.velocity.y, b.velocity.y)},
+          mix(a.angular_velocity, b.angular_velocity)};
+}
+
+}  // namespace
+
+std::optional<Motion> MotionIndex::floe_at(FloeId floe, double time) const {
+  if (floe < 0 || static_cast<std::size_t>(floe) >= floes_.size()) return std::nullopt;
+  const Told* told = last_told(floe, time);
+  if (!told) return std::nullopt;
+  const Motion carried = carried_on(told->motion, time - told->time);
+  const auto next_frame = std::ranges::upper_bound(frame_times_, time);
+  if (next_frame == frame_times_.end() || next_frame == frame_times_.begin() || told->time > time)
+    return carried;
+  const Told* next = last_told(floe, *next_frame);
+  if (next == told) return carried;
+  const double start = *(next_frame - 1);
+  const double part = (time - start) / (*next_frame - start);
+  return between(carried_on(told->motion, start - told->time), next->motion, part);
+}
+
+std::optional<Motion> MotionIndex::ship_at(std::size_t ship, double time) const {
+  if (ship >= ships_.size() || ships_[ship].empty()) return std::nullopt;
+  const auto& motions = ships_[ship];
+  const auto next =
+      static_cast<std::size_t>(std::ranges::upper_bound(frame_times_, time) - frame_times_.begin());
+  if (next == 0) return motions.front();
+  if (next >= motions.size()) return carried_on(motions.back(), time - frame_times_[motions.size() - 1]);
+  const double start = frame_times_[next - 1];
+  return between(motions[next - 1], motions[next], (time - start) / (frame_times_[next] - start));
+}
+
+tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
+  try {
+    Run run;
+    run.folder = folder;
+    auto scene = read_scene_file(folder / run_file::kScene);
+    if (!scene) return tl::unexpected(to_string(scene.error().front()));
+    run.scene = std::move(*scene);
+    run.summary = json_of(text_of(folder, run_file::kSummary));
+    read_floes(run);
+    read_events(run);
+    for_lines(folder, run_file::kForces, [&](std::string_view line, int line_number) {
+      if (line_number > 1)
+        run.samples.push_back(sample_of(line, run.scene.scene));
+      else if (forces_header().substr(0, line.size()) != line)
+        throw Damage("columns of another version");
+    });
+    auto frames = decode_frames(text_of(folder, run_file::kFrames));
+    if (!frames)
+      return tl::unexpected(fmt::format("{}: {}", (folder / run_file::kFrames).string(), frames.error()));
+    run.frames = std::move(*frames);
+    return run;
+  } catch (const Damage& damage) {
+    return tl::unexpected(std::string(damage.what()));
+  }
+}
+
+}  // namespace polynya::io
