@@ -21,7 +21,7 @@ function(polynya_room name)
   add_library(polynya::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/polynya>)
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..> $<INSTALL_INTERFACE:include/polynya>)
   target_link_libraries(${target}
     PUBLIC polynya_options ${ROOM_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:polynya_warnings> ${ROOM_PRIVATE})

@@ -14,7 +14,9 @@ struct ContactRecord {
   double age = 0;                    ///< since first contact [s]
   double approach = 0;               ///< ∫ max(0, v_n) dt [m]
   double crushed_depth = 0;          ///< overlap that crushing made: the ice is gone, nothing pushes it apart [m]
+  double owed_impulse = 0;           ///< of restitution, that crushing ice could not give yet [N s]
   bool has_crushed = false;
+  bool was_refused = false;          ///< a fracture here was refused by geometry: not tried again
   bool is_continued = false;         ///< taken over by a contact of the next step already
 };
 
@@ -30,6 +32,7 @@ struct Contact {
   double area = 0;             ///< of the overlap [m²]
   double approach_speed = 0;   ///< v_n at the middle, positive when approaching [m/s]
   double slip_speed = 0;       ///< along the contact line [m/s]
+  std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
   ContactRecord* record = nullptr;  ///< lives in its pair; valid during the step
 
   // Decided between finding and solving.

@@ -28,7 +28,7 @@ Vector relative_velocity(const Bodies& bodies, BodyIndex a, BodyIndex b, Vector 
 
 }  // namespace
 
-SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings) {
+void ImpulseSolver::fill_rows(const Bodies& bodies, const std::vector<Contact>& contacts) {
   rows_.clear();
   for (const Contact& c : contacts) {
     for (const geometry::Point end : c.ends) {
@@ -42,23 +42,22 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
       const Mobility mb = mobility(bodies, c.b, row.arm_b);
       row.normal_mass = effective_mass(ma, mb, c.normal);
       row.tangent_mass = effective_mass(ma, mb, perpendicular(c.normal));
-      const double before = dot(relative_velocity(bodies, c.a, c.b, row.arm_a, row.arm_b), c.normal);
-      row.target = before < 0 ? -settings.restitution * before : 0;
+      row.least = 0;
       row.limit = 0.5 * c.impulse_limit;
       row.friction = c.friction;
       row.normal_impulse = row.tangent_impulse = 0;
       rows_.push_back(row);
     }
   }
+}
 
-  SolverResult result;
-  result.is_converged = rows_.empty();
-  for (result.sweeps = 0; result.sweeps < settings.most_sweeps && !result.is_converged; ++result.sweeps) {
+void ImpulseSolver::sweep_until_converged(Bodies& bodies, const SolverSettings& settings, SolverResult& result) {
+  for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
+    ++result.sweeps;
     double largest_change = 0;
     for (Row& row : rows_) {
       const double apart = dot(relative_velocity(bodies, row.a, row.b, row.arm_a, row.arm_b), row.normal);
-      const double wanted = row.normal_impulse + (row.target - apart) * row.normal_mass;
-      const double normal_impulse = std::clamp(wanted, 0.0, row.limit);
+      const double normal_impulse = std::clamp(row.normal_impulse - apart * row.normal_mass, row.least, row.limit);
       const double change = normal_impulse - row.normal_impulse;
       row.normal_impulse = normal_impulse;
       if (change != 0) push(bodies, row.a, row.b, row.arm_a, row.arm_b, change * row.normal);
@@ -74,8 +73,40 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
       if (change != 0) push(bodies, row.a, row.b, row.arm_a, row.arm_b, change * tangent);
       largest_change = std::max(largest_change, std::abs(change) / row.tangent_mass);
     }
-    result.is_converged = largest_change <= settings.tolerance;
+    if (largest_change <= settings.tolerance) return;
   }
+  result.is_converged = false;
+}
+
+bool ImpulseSolver::give_back(Bodies& bodies, const std::vector<Contact>& contacts, double restitution) {
+  bool gave = false;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    Row* ends = &rows_[2 * i];
+    const double compression = ends[0].normal_impulse + ends[1].normal_impulse;
+    double owed = restitution * compression;
+    if (contacts[i].record != nullptr) owed += contacts[i].record->owed_impulse;
+    if (owed <= 0) continue;
+    double still_owed = 0;
+    for (int end = 0; end < 2; ++end) {
+      Row& row = ends[end];
+      const double share = owed * (compression > 0 ? row.normal_impulse / compression : 0.5);
+      row.least = std::min(row.normal_impulse + share, row.limit);
+      const double given = row.least - row.normal_impulse;
+      still_owed += share - given;
+      row.normal_impulse = row.least;
+      push(bodies, row.a, row.b, row.arm_a, row.arm_b, given * row.normal);
+      gave = gave || given > 0;
+    }
+    if (contacts[i].record != nullptr) contacts[i].record->owed_impulse = still_owed;
+  }
+  return gave;
+}
+
+SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings) {
+  SolverResult result;
+  fill_rows(bodies, contacts);
+  sweep_until_converged(bodies, settings, result);
+  if (give_back(bodies, contacts, settings.restitution)) sweep_until_converged(bodies, settings, result);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (int end = 0; end < 2; ++end) {
       contacts[i].normal_impulse[end] = rows_[2 * i + end].normal_impulse;

@@ -20,9 +20,13 @@ struct SolverResult {
 };
 
 /// Finds the impulses of all contacts of one step together and applies them: sequential impulses [Baraff1997,
-/// Catto2005] over both ends of every contact line, each end with Eq. (5) corrected, restitution against the speed
-/// before the step, the normal impulse within [0, limit/2] and friction within the Coulomb cone. A floe pinched
-/// between two bodies so feels both. Writes the impulses into the contacts and wakes what they move.
+/// Catto2005] over both ends of every contact line, each end with Eq. (5) corrected, normal impulses within
+/// [0, limit/2], friction within the Coulomb cone. A floe pinched between two bodies so feels both.
+/// Compression first: impulses that end every approach. Then restitution, as Poisson's share of the compression: a
+/// contact gives back ε times the impulse that compressed it, so one that is not limited leaves with v⁺ = −ε v⁻ in one
+/// step as Eq. (5) says, and one that crushes gets there over as many steps as the ice needs. Last, whatever the
+/// restitution pushed together is held apart. Writes the impulses into the contacts and what is still to be given back
+/// into their records.
 class ImpulseSolver {
  public:
   SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
@@ -37,11 +41,14 @@ class ImpulseSolver {
     BodyIndex a, b;
     geometry::Vector arm_a, arm_b, normal;
     double normal_mass, tangent_mass;
-    double target;   // wanted normal velocity, b away from a [m/s]
-    double limit;    // of the normal impulse [N s]
+    double least;    // of the normal impulse: what restitution gave [N s]
+    double limit;    // [N s]
     double friction;
     double normal_impulse, tangent_impulse;
   };
+  void fill_rows(const Bodies& bodies, const std::vector<Contact>& contacts);
+  void sweep_until_converged(Bodies& bodies, const SolverSettings& settings, SolverResult& result);
+  bool give_back(Bodies& bodies, const std::vector<Contact>& contacts, double restitution);
   std::vector<Row> rows_;
 };
 

@@ -189,6 +189,7 @@ void PairFinder::collect(const Bodies& bodies, Pair& pair, std::vector<Contact>&
     c.width = patch.width;
     c.depth = patch.depth;
     c.area = patch.area;
+    c.tip_edge_of_b = patch.tip_edge_of_b;
     const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -
                             velocity_at(bodies, c.a, c.middle() - bodies.position[c.a]);
     c.approach_speed = -dot(relative, c.normal);

@@ -8,17 +8,18 @@
 
 namespace polynya::geometry {
 
-/// A node of the tree over a boundary's contact circles: a circle that covers its circles' pieces of boundary.
+/// A node of the tree over a boundary's contact circles: a circle that covers its circles' pieces of
+/// boundary.
 struct CircleNode {
-  Point centre;       ///< [m]
-  double reach = 0;   ///< [m]
+  Point centre;             ///< [m]
+  double reach = 0;         ///< [m]
   std::uint32_t first = 0;  ///< first contact circle
   std::uint32_t count = 0;  ///< number of contact circles; children split them in halves
   std::uint32_t right = 0;  ///< index of the second child, the first is the next node; 0 at a leaf
 };
 
-/// A body's boundary, ready for finding contacts: its edges, its contact circles, and a tree over the circles.
-/// Everything is in the body frame and is made once, when the shape comes to be.
+/// A body's boundary, ready for finding contacts: its edges, its contact circles, and a tree over the
+/// circles. Everything is in the body frame and is made once, when the shape comes to be.
 struct Boundary {
   EdgeList edges;
   std::vector<ContactCircle> circles;
@@ -34,9 +35,9 @@ struct NearPair {
   friend auto operator<=>(const NearPair&, const NearPair&) = default;
 };
 
-/// Finds what two boundaries have near each other: all pairs of contact circles whose pieces of boundary may be
-/// within `margin` [m]. Appends to `circle_pairs`. Returns a lower bound of the distance between the boundaries [m],
-/// of use where nothing is within the margin.
+/// Finds what two boundaries have near each other: all pairs of contact circles whose pieces of boundary may
+/// be within `margin` [m]. Appends to `circle_pairs`. Returns a lower bound of the distance between the
+/// boundaries [m], of use where nothing is within the margin.
 double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs);
 
@@ -46,14 +47,15 @@ void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>&
 
 /// Where two bodies overlap, seen as one contact. In the frame of a.
 struct ContactPatch {
-  Point ends[2];      ///< the ends of the contact line [m]
-  Vector normal;      ///< unit, from a into b
-  double width = 0;   ///< length of the contact line [m]
-  double depth = 0;   ///< extent of the overlap along the normal [m]
-  double area = 0;    ///< of the overlap [m²]
-  Point tip_of_b;     ///< the point of b farthest inside a [m]
-  std::uint32_t edge_of_a = 0;  ///< the edge of a at the first end
-  std::uint32_t edge_of_b = 0;  ///< the edge of b at the first end
+  Point ends[2];                    ///< the ends of the contact line [m]
+  Vector normal;                    ///< unit, from a into b
+  double width = 0;                 ///< length of the contact line [m]
+  double depth = 0;                 ///< extent of the overlap along the normal [m]
+  double area = 0;                  ///< of the overlap [m²]
+  Point tip_of_b;                   ///< the point of b farthest inside a [m]
+  std::uint32_t edge_of_a = 0;      ///< the edge of a at the first end
+  std::uint32_t edge_of_b = 0;      ///< the edge of b at the first end
+  std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
 };
 
 /// Reusable memory of find_patches.
@@ -68,16 +70,17 @@ struct PatchScratch {
   std::vector<std::uint32_t> order_b;
 };
 
-/// The contact patches of two overlapping bodies, from the edges near each other (edges_of). Each stretch of a's
-/// boundary inside b makes one: the contact line joins the points where the boundaries cross, the normal stands on it.
-/// Appends to `patches`. Returns how many stretches were left out because their crossings did not pair up (rounding at
-/// a touching vertex; they pair up one step later).
-int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b, const std::vector<NearPair>& edge_pairs,
-                 PatchScratch& scratch, std::vector<ContactPatch>& patches);
+/// The contact patches of two overlapping bodies, from the edges near each other (edges_of). Each stretch of
+/// a's boundary inside b makes one: the contact line joins the points where the boundaries cross, the normal
+/// stands on it. Appends to `patches`. Returns how many stretches were left out because their crossings did
+/// not pair up (rounding at a touching vertex; they pair up one step later).
+int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                 const std::vector<NearPair>& edge_pairs, PatchScratch& scratch,
+                 std::vector<ContactPatch>& patches);
 
-/// The paper's own rule: every pair of overlapping contact circles is a contact with its normal along the line of
-/// centres and its contact point half-way into the overlap. [Sawamura2017], Fig. 1.
-/// Depth is the circles' overlap; width and area are those of the circles' lens.
+/// The paper's own rule: every pair of overlapping contact circles is a contact with its normal along the
+/// line of centres and its contact point half-way into the overlap. [Sawamura2017], Fig. 1. Depth is the
+/// circles' overlap; width and area are those of the circles' lens.
 void find_circle_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
                          const std::vector<NearPair>& circle_pairs, std::vector<ContactPatch>& patches);
 

@@ -8,8 +8,8 @@ namespace {
 
 using Crossing = PatchScratch::Crossing;
 
-// Which side of edge (p, q) point r is on, true for left. A zero is decided as if all of b were moved by (ε, ε²), ε → 0:
-// the same tie-break on both boundaries makes crossings alternate between entering and leaving.
+// Which side of edge (p, q) point r is on, true for left. A zero is decided as if all of b were moved by (ε,
+// ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and leaving.
 bool is_left_of_a_edge(Point p, Point q, Point r_of_b) {
   const double turn = cross(q - p, r_of_b - p);
   if (turn != 0) return turn > 0;
@@ -23,8 +23,8 @@ bool is_left_of_b_edge(Point p, Point q, Point r_of_a) {
   return d.y != 0 ? d.y > 0 : d.x < 0;
 }
 
-void find_crossings(const Boundary& a, const Boundary& b, const Pose& a_from_b, const std::vector<NearPair>& edge_pairs,
-                    std::vector<Crossing>& crossings) {
+void find_crossings(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                    const std::vector<NearPair>& edge_pairs, std::vector<Crossing>& crossings) {
   for (const NearPair pair : edge_pairs) {
     const Point a0 = a.edges.from(pair.a);
     const Point a1 = a.edges.to(pair.a);
@@ -47,21 +47,25 @@ bool is_before_on_b(const Crossing& p, const Crossing& q) {
   return p.edge_b != q.edge_b ? p.edge_b < q.edge_b : p.along_b < q.along_b;
 }
 
-/// What a chain of vertices adds to a patch: area between chain and contact line, and how far it reaches off it.
+/// What a chain of vertices adds to a patch: area between chain and contact line, and how far it reaches off
+/// it.
 struct ChainExtent {
   double area = 0;
   double depth = 0;
   Point tip;
+  std::uint32_t tip_edge = 0;
   bool is_closed = false;  ///< the chain did arrive
 };
 
-/// Walks `edges` from a point on edge `first` to a point on edge `last`, measuring along `outward` from the line.
+/// Walks `edges` from a point on edge `first` to a point on edge `last`, measuring along `outward` from the
+/// line.
 template <typename InFrame>
-ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to, Vector outward,
-                 bool wraps, InFrame in_frame) {
+ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to,
+                 Vector outward, bool wraps, InFrame in_frame) {
   constexpr int kMostVertices = 4096;  // a stretch this long is no contact: the bodies stand in each other
   ChainExtent extent;
   extent.tip = midpoint(from, to);
+  extent.tip_edge = first;
   Point previous = from;
   std::uint32_t edge = first;
   for (int k = 0; k < kMostVertices && (edge != last || wraps); ++k) {
@@ -73,6 +77,7 @@ ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::ui
     if (off > extent.depth) {
       extent.depth = off;
       extent.tip = vertex;
+      extent.tip_edge = edge;
     }
     previous = vertex;
   }
@@ -83,8 +88,9 @@ ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::ui
 
 }  // namespace
 
-int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b, const std::vector<NearPair>& edge_pairs,
-                 PatchScratch& scratch, std::vector<ContactPatch>& patches) {
+int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                 const std::vector<NearPair>& edge_pairs, PatchScratch& scratch,
+                 std::vector<ContactPatch>& patches) {
   std::vector<Crossing>& crossings = scratch.crossings;
   crossings.clear();
   find_crossings(a, b, a_from_b, edge_pairs, crossings);
@@ -128,19 +134,24 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b, con
     const auto from_b = [&](Point p) { return point_in_world(a_from_b, p); };
     const ChainExtent on_a = walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, patch.normal,
                                   enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is);
+    bool is_closed = on_a.is_closed;
     patch.area = on_a.area;
     patch.depth = on_a.depth;
     patch.tip_of_b = midpoint(enter.point, leave.point);
+    patch.tip_edge_of_b = enter.edge_b;
     if (next_on_b(j) == i) {
-      const ChainExtent on_b = walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, -patch.normal,
-                                    leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b);
+      const ChainExtent on_b =
+          walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, -patch.normal,
+               leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b);
       patch.area += on_b.area;
       patch.depth += on_b.depth;
-      if (on_b.depth > 0) patch.tip_of_b = on_b.tip;
-      if (!on_b.is_closed) ++left_out;
-      if (!on_b.is_closed) continue;
+      if (on_b.depth > 0) {
+        patch.tip_of_b = on_b.tip;
+        patch.tip_edge_of_b = on_b.tip_edge;
+      }
+      is_closed = is_closed && on_b.is_closed;
     }
-    if (!on_a.is_closed) {
+    if (!is_closed) {
       ++left_out;
       continue;
     }
@@ -177,7 +188,7 @@ void find_circle_patches(const Boundary& a, const Boundary& b, const Pose& a_fro
     patch.ends[1] = middle + half_chord * perpendicular(patch.normal);
     patch.tip_of_b = ca.centre + (centres - cb.radius) * patch.normal;
     patch.edge_of_a = ca.first_edge;
-    patch.edge_of_b = cb.first_edge;
+    patch.edge_of_b = patch.tip_edge_of_b = cb.first_edge;
     patches.push_back(patch);
   }
 }

@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/crack_path.hpp"
+#include "geometry/cut.hpp"
+#include "geometry/measures.hpp"
+#include "simulation/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+constexpr double kCrackMargin = 1e-3;  ///< a crack starts and ends this far outside the ice [m]
+
+geometry::CutOutcome cut(const World& world, const PendingFracture& pending) {
+  const geometry::Shape& shape = world.floes[pending.floe].shape;
+  if (pending.failure == fracture::Failure::kBend) {
+    const geometry::Ring disc = geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius,
+                                                       world.scene.fracture.cusp_sagitta);
+    return geometry::cut_by_polygon(shape, {disc, {}});
+  }
+  const BodyIndex body = world.body_of(pending.floe);
+  const geometry::Pose pose = dynamics::water_from_body(world.bodies, body);
+  const geometry::CrackPath path =
+      geometry::crack_path(world.bodies.boundary[body]->edges, point_in_body(pose, pending.point_in_water),
+                           rotate_back(pose.rotation, pending.normal), kCrackMargin);
+  return geometry::cut_along(shape, {path.start, path.end});
+}
+
+Event event_of(const World& world, const PendingFracture& pending, EventKind kind) {
+  Event event;
+  event.time = world.time();
+  event.kind = kind;
+  event.ship = pending.ship;
+  event.floe = pending.floe;
+  event.point_in_world = pending.point_in_water + world.drift();
+  event.normal_in_world = pending.normal;
+  event.criteria = pending.criteria;
+  event.cusp_radius = pending.failure == fracture::Failure::kBend ? pending.cusp_radius : 0;
+  event.penetration = pending.penetration;
+  return event;
+}
+
+void reject(World& world, const PendingFracture& pending, const geometry::CutError& error) {
+  Event event = event_of(world, pending, EventKind::kRejectedCut);
+  event.reason = std::string(name_of(error.reason)) + ": " + error.detail;
+  world.journal.events.push_back(std::move(event));
+  ++world.counts.rejected_cuts;
+  pending.record->was_refused = true;
+}
+
+/// Pieces become bodies that move on as the parts of the parent they were: v + ω × r, the same ω.
+void replace_by_pieces(World& world, const PendingFracture& pending, const geometry::CutResult& cut) {
+  const bool is_bend = pending.failure == fracture::Failure::kBend;
+  Event event = event_of(world, pending, is_bend ? EventKind::kBend : EventKind::kSplit);
+  const BodyIndex parent = world.body_of(pending.floe);
+  NewFloe child;
+  child.parent = pending.floe;
+  child.generation = world.floes[pending.floe].generation + 1;
+  child.water_from_body = dynamics::water_from_body(world.bodies, parent);
+  child.angle = world.bodies.angle[parent];
+  child.angular_velocity = world.bodies.angular_velocity[parent];
+  child.velocity = dynamics::velocity_at(world.bodies, parent,
+                                         child.water_from_body.position - world.bodies.position[parent]);
+  retire_floe(world, pending.floe);
+  for (const geometry::Piece& piece : cut.pieces) {
+    const double area = geometry::measure(piece.shape.polygon).area;
+    const bool is_cusp = is_bend && piece.part == geometry::Part::kInside;
+    if (is_cusp && world.scene.fracture.cusp_fate == CuspFate::kSubmerge) {
+      event.submerged_area += area;
+      continue;
+    }
+    if (area < world.scene.fracture.smallest_floe_area) {
+      event.brash_area += area;
+      ++world.counts.brash_pieces;
+      continue;
+    }
+    child.shape = piece.shape;
+    const FloeId id = add_floe(world, child);
+    wake(world, world.body_of(id));
+    event.children.push_back(id);
+    world.counts.floated_cusps += is_cusp ? 1 : 0;
+    world.counts.kept_exact += piece.shape.exact != nullptr ? 1 : 0;
+  }
+  event.brash_area += cut.ledger.area_slivers;
+  event.rounding_defect = cut.ledger.rounding_defect;
+  world.ledger.submerged_area += event.submerged_area;
+  world.ledger.brash_area += event.brash_area;
+  world.ledger.rounding_defect += event.rounding_defect;
+  ++(is_bend ? world.counts.bends : world.counts.splits);
+  world.journal.events.push_back(std::move(event));
+}
+
+}  // namespace
+
+void apply_fractures(World& world) {
+  std::stable_sort(world.fractures.begin(), world.fractures.end(),
+                   [](const PendingFracture& p, const PendingFracture& q) { return p.floe < q.floe; });
+  for (const PendingFracture& pending : world.fractures) {
+    if (!world.is_alive(pending.floe)) continue;  // it broke in this step already; its pieces are judged in the next
+    const geometry::CutOutcome outcome = cut(world, pending);
+    if (outcome) {
+      replace_by_pieces(world, pending, *outcome);
+    } else {
+      reject(world, pending, outcome.error());
+    }
+  }
+}
+
+}  // namespace polynya::simulation

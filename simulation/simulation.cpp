@@ -1,0 +1,87 @@
+#include "simulation/simulation.hpp"
+
+#include "simulation/step.hpp"
+
+namespace polynya::simulation {
+
+std::string_view name_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::kBend:
+      return "bend";
+    case EventKind::kSplit:
+      return "split";
+    case EventKind::kRejectedCut:
+      return "rejected_cut";
+  }
+  return "unknown";
+}
+
+Simulation::Simulation(Scene scene) : world_(std::make_unique<World>(std::move(scene))) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::step() { simulation::step(*world_); }
+std::optional<std::string> Simulation::numerical_failure() const { return world_->failure; }
+double Simulation::time() const { return world_->time(); }
+const Scene& Simulation::scene() const { return world_->scene; }
+Journal& Simulation::journal() { return world_->journal; }
+const World& Simulation::world() const { return *world_; }
+
+AreaLedger Simulation::area_ledger() const {
+  AreaLedger ledger = world_->ledger;
+  for (FloeId id = 0; id < static_cast<FloeId>(world_->floes.size()); ++id) {
+    if (world_->is_alive(id)) ledger.floe_area += world_->floes[id].area;
+  }
+  ledger.imbalance = ledger.floe_area + ledger.submerged_area + ledger.brash_area - ledger.rounding_defect -
+                     ledger.initial_ice_area;
+  return ledger;
+}
+
+Counts Simulation::counts() const {
+  Counts counts = world_->counts;
+  counts.steps = world_->steps;
+  for (FloeId id = 0; id < static_cast<FloeId>(world_->floes.size()); ++id) counts.floes_final += world_->is_alive(id);
+  return counts;
+}
+
+std::vector<FloeState> Simulation::floe_states() const {
+  const World& world = *world_;
+  std::vector<FloeState> states;
+  for (FloeId id = 0; id < static_cast<FloeId>(world.floes.size()); ++id) {
+    if (!world.is_alive(id)) continue;
+    const BodyIndex body = world.body_of(id);
+    FloeState state;
+    state.floe = id;
+    state.parent = world.floes[id].parent;
+    state.born = world.floes[id].born;
+    state.generation = world.floes[id].generation;
+    state.world_from_body = dynamics::water_from_body(world.bodies, body);
+    state.world_from_body.position += world.drift();
+    state.angle = world.bodies.angle[body];
+    state.velocity = world.bodies.velocity[body] + world.scene.water.drift;
+    state.angular_velocity = world.bodies.angular_velocity[body];
+    state.area = world.floes[id].area;
+    state.mass = world.bodies.mass[body];
+    state.polygon_in_body = &world.floes[id].shape.polygon;
+    states.push_back(state);
+  }
+  return states;
+}
+
+std::vector<ShipState> Simulation::ship_states() const {
+  const World& world = *world_;
+  std::vector<ShipState> states;
+  for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
+    ShipState state;
+    state.world_from_ship = dynamics::water_from_body(world.bodies, ship);
+    state.world_from_ship.position += world.drift();
+    state.heading = world.bodies.angle[ship];
+    state.velocity = world.bodies.velocity[ship] + world.scene.water.drift;
+    state.angular_velocity = world.bodies.angular_velocity[ship];
+    states.push_back(state);
+  }
+  return states;
+}
+
+}  // namespace polynya::simulation

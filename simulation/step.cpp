@@ -1,0 +1,113 @@
+#include "simulation/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/water_drag.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Vector;
+
+/// Floes slower than this, all their points included, that touch nothing are at rest with the water [m/s]. Quadratic
+/// drag alone never brings anything to rest.
+constexpr double kRestSpeed = 1e-4;
+constexpr double kRunawaySpeed = 1e3;  ///< beyond it the numbers mean nothing any more [m/s]
+
+Vector heading_of(const World& world, BodyIndex ship) {
+  const geometry::Rotation r = world.bodies.rotation[ship];
+  return {r.cosine, r.sine};
+}
+
+/// Marks what crushed, once the solver has told which contacts needed all that crushing ice could carry.
+void note_crushing(World& world) {
+  for (dynamics::Contact& c : world.contacts) {
+    const bool is_crushing = c.approach_speed > 0 && c.total_normal_impulse() >= c.impulse_limit * (1 - 1e-9);
+    if (!is_crushing) continue;
+    c.record->crushed_depth = c.depth;
+    if (!c.record->has_crushed) ++world.counts.crush_contacts;
+    c.record->has_crushed = true;
+  }
+}
+
+}  // namespace
+
+void find_pairs(World& world) { world.pairs.update(world.bodies, world.awake); }
+
+void find_contacts(World& world) {
+  world.pairs.find_contacts(world.bodies, world.scene.time.step, world.contacts);
+  world.counts.peak_contacts =
+      std::max(world.counts.peak_contacts, static_cast<std::int64_t>(world.contacts.size()));
+}
+
+void solve_impulses(World& world) {
+  if (world.contacts.empty()) return;
+  const dynamics::SolverResult result = world.solver.solve(world.bodies, world.contacts, world.solver_settings);
+  if (!result.is_converged) ++world.counts.unconverged_steps;
+  note_crushing(world);
+  for (const dynamics::Contact& c : world.contacts) {
+    if (c.total_normal_impulse() == 0) continue;
+    wake(world, c.a);
+    wake(world, c.b);
+  }
+}
+
+void apply_forces(World& world) {
+  const double dt = world.scene.time.step;
+  apply_water_drag(world.bodies, world.awake, world.scene.water.drag_coefficient, world.scene.water.water.density, dt);
+  for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
+    if (const auto* thrust = std::get_if<ConstantThrust>(&world.scene.ships[ship].propulsion)) {
+      world.bodies.velocity[ship] += dt * thrust->thrust * world.bodies.inverse_mass[ship] * heading_of(world, ship);
+    }
+  }
+}
+
+void integrate_motion(World& world) {
+  const double dt = world.scene.time.step;
+  world.solver.separate(world.bodies, world.contacts, world.solver_settings, dt);
+  integrate(world.bodies, world.awake, dt);
+  for (const BodyIndex i : world.awake) {
+    const Vector v = world.bodies.velocity[i];
+    const double rim = std::abs(world.bodies.angular_velocity[i]) * world.bodies.bounding_radius[i];
+    if (std::abs(v.x) + std::abs(v.y) + rim < kRunawaySpeed) continue;
+    if (!world.failure) {
+      world.failure = "body " + std::to_string(i) + " has no finite speed below 1000 m/s at t = " +
+                      std::to_string(world.time()) + " s";
+    }
+  }
+}
+
+void put_to_rest(World& world) {
+  world.touched_at_step.resize(static_cast<std::size_t>(world.bodies.size()), -1);
+  for (const dynamics::Contact& c : world.contacts) {
+    world.touched_at_step[c.a] = world.steps;
+    world.touched_at_step[c.b] = world.steps;
+  }
+  std::erase_if(world.awake, [&](BodyIndex i) {
+    if (world.is_ship(i) || world.touched_at_step[i] == world.steps) return false;
+    const double rim = std::abs(world.bodies.angular_velocity[i]) * world.bodies.bounding_radius[i];
+    if (length(world.bodies.velocity[i]) + rim >= kRestSpeed) return false;
+    world.bodies.velocity[i] = {};
+    world.bodies.angular_velocity[i] = 0;
+    world.bodies.is_awake[i] = 0;
+    world.pairs.sleep(world.bodies, i);
+    return true;
+  });
+}
+
+void step(World& world) {
+  find_pairs(world);
+  find_contacts(world);
+  decide(world);
+  solve_impulses(world);
+  tally_loads(world);
+  apply_forces(world);
+  integrate_motion(world);
+  ++world.steps;
+  apply_fractures(world);
+  put_to_rest(world);
+  record(world);
+}
+
+}  // namespace polynya::simulation

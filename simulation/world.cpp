@@ -1,0 +1,137 @@
+#include "simulation/world.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "dynamics/water_drag.hpp"
+#include "fracture/bending/kashtelyan.hpp"
+#include "fracture/bending/nevel.hpp"
+#include "geometry/measures.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+
+std::unique_ptr<fracture::BendingModel> make_bending_model(BendingModelKind kind) {
+  switch (kind) {
+    case BendingModelKind::kNevel:
+      return std::make_unique<fracture::NevelModel>();
+    case BendingModelKind::kKashtelyan:
+      return std::make_unique<fracture::KashtelyanModel>();
+    case BendingModelKind::kFsiDatabase:
+      break;
+  }
+  return std::make_unique<fracture::NevelModel>();
+}
+
+/// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them [m].
+double grid_cell(const Scene& scene) {
+  std::vector<double> sizes;
+  for (const FloeSpec& floe : scene.floes) {
+    const geometry::Box box = bounding_box(floe.polygon_in_world.outer);
+    sizes.push_back(std::max(box.high.x - box.low.x, box.high.y - box.low.y));
+  }
+  if (sizes.empty()) return 20;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return std::max(5.0, 1.5 * *middle);
+}
+
+void add_ship(World& world, const ShipSpec& ship) {
+  dynamics::NewBody body;
+  body.position = ship.position_in_world;
+  body.angle = ship.heading;
+  const Vector ahead{std::cos(ship.heading), std::sin(ship.heading)};
+  double speed = ship.speed;
+  if (const auto* held = std::get_if<ConstantSpeed>(&ship.propulsion)) {
+    speed = held->speed;
+    body.is_held = true;
+  }
+  body.velocity = speed * ahead - world.scene.water.drift;
+  body.mass = ship.mass;
+  body.moment = ship.moment_of_inertia;
+  body.boundary = std::make_shared<geometry::Boundary>(
+      geometry::make_boundary({ship.hull.waterline, {}}, world.scene.contact.circle_radius));
+  const BodyIndex index = add_body(world.bodies, body);
+  world.pairs.add(world.bodies, index);
+}
+
+}  // namespace
+
+World::World(Scene scene_of_run)
+    : scene(std::move(scene_of_run)),
+      bending(make_bending_model(scene.fracture.bending)),
+      breakable_size(scene.fracture.breakable_size_factor *
+                     breakable_length(scene.ice, scene.water.water, scene.fracture.characteristic_length)),
+      pairs({scene.contact.circle_radius, scene.contact.normal == ContactNormal::kCircleCentres}, grid_cell(scene)),
+      loads(scene.ships.size()) {
+  solver_settings.restitution = scene.contact.restitution;
+  solver_settings.most_sweeps = scene.contact.iterations;
+  solver_settings.separation_time = scene.contact.separation_time;
+  steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
+  for (const ShipSpec& ship : scene.ships) add_ship(*this, ship);
+  for (const FloeSpec& spec : scene.floes) {
+    NewFloe floe;
+    floe.shape.polygon = spec.polygon_in_world;
+    const Point centroid = geometry::measure(spec.polygon_in_world).centroid;
+    floe.velocity = spec.velocity - cross(spec.angular_velocity, centroid - Point{});
+    floe.angular_velocity = spec.angular_velocity;
+    const FloeId id = add_floe(*this, floe);
+    ledger.initial_ice_area += floes[id].area;
+    if (spec.velocity != Vector{} || spec.angular_velocity != 0) wake(*this, body_of(id));
+  }
+  counts.floes_initial = static_cast<std::int64_t>(floes.size());
+  for (BodyIndex ship = 0; ship < ship_count(); ++ship) wake(*this, ship);
+}
+
+FloeId add_floe(World& world, const NewFloe& floe) {
+  const geometry::Measures measures = geometry::measure(floe.shape.polygon);
+  const fracture::Ice& ice = world.scene.ice;
+  const FloeId id = static_cast<FloeId>(world.floes.size());
+  dynamics::NewBody body;
+  body.mass = ice.density * ice.thickness * measures.area;
+  body.moment = ice.density * ice.thickness * measures.second_moment;
+  body.centroid = measures.centroid;
+  body.position = point_in_world(floe.water_from_body, measures.centroid);
+  body.angle = floe.angle;
+  // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
+  body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
+  body.angular_velocity = floe.angular_velocity;
+  body.thickness = ice.thickness;
+  body.boundary = std::make_shared<geometry::Boundary>(
+      geometry::make_boundary(floe.shape.polygon, world.scene.contact.circle_radius));
+  body.drag = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(floe.shape.polygon, measures.centroid));
+  world.floes.push_back({floe.parent, world.time(), floe.generation, measures.area, floe.shape});
+  const BodyIndex index = add_body(world.bodies, body);
+  assert(world.floe_of(index) == id);
+  world.pairs.add(world.bodies, index);
+  world.journal.births.push_back({id, floe.parent, world.time(), floe.generation, measures.area, body.mass,
+                                  measures.centroid, floe.shape.polygon, floe.shape.exact == nullptr});
+  return id;
+}
+
+void retire_floe(World& world, FloeId floe) {
+  const BodyIndex body = world.body_of(floe);
+  world.pairs.remove(body);
+  world.bodies.is_alive[body] = 0;
+  if (world.bodies.is_awake[body]) {
+    world.bodies.is_awake[body] = 0;
+    world.awake.erase(std::find(world.awake.begin(), world.awake.end(), body));
+  }
+  world.bodies.boundary[body].reset();
+  world.bodies.drag[body].reset();
+  world.floes[floe].shape = {};
+  world.journal.deaths.push_back(floe);
+}
+
+void wake(World& world, BodyIndex body) {
+  if (world.bodies.is_awake[body]) return;
+  world.bodies.is_awake[body] = 1;
+  world.awake.insert(std::lower_bound(world.awake.begin(), world.awake.end(), body), body);
+  world.pairs.wake(world.bodies, body);
+}
+
+}  // namespace polynya::simulation
