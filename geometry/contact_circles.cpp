@@ -50,7 +50,8 @@ class EdgeGrid {
     return {cell_of(low), cell_of(high)};
   }
 
-  /// Visits the cells an edge passes, column by column, so that a long slanted edge does not fill its whole box.
+  /// Visits the cells an edge passes, column by column, so that a long slanted edge does not fill its whole
+  /// box.
   template <typename Visit>
   void for_cells_of(Point a, Point b, Visit visit) const {
     if (a.x > b.x) std::swap(a, b);
@@ -95,9 +96,10 @@ Point nearest_on_segment(Point a, Point b, Point p) {
   return a + t * d;
 }
 
-/// The largest circle up to `radius` that touches the boundary at `touch` from inside and holds no boundary point:
-/// shrink the circle onto the nearest boundary point inside it until there is none.
-double inscribed_radius(const EdgeList& edges, const EdgeGrid& grid, Point touch, Vector inward, double radius) {
+/// The largest circle up to `radius` that touches the boundary at `touch` from inside and holds no boundary
+/// point: shrink the circle onto the nearest boundary point inside it until there is none.
+double inscribed_radius(const EdgeList& edges, const EdgeGrid& grid, Point touch, Vector inward,
+                        double radius) {
   constexpr int kMostShrinks = 16;  // each one at least finds a nearer edge; a dozen are never seen
   for (int shrink = 0; shrink < kMostShrinks; ++shrink) {
     const Point centre = touch + radius * inward;
