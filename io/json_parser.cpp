@@ -83,7 +83,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
   bool end_array() override { return close(); }
 
-  bool parse_error(std::size_t position, const std::string& last_token,
+  bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::json::exception& error) override {
     std::string reason = error.what();
     if (const auto at = reason.rfind("; expected "); at != std::string::npos)
@@ -92,16 +92,23 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
       reason = reason.substr(dash + 3);
     else if (const auto bracket = reason.find("] "); bracket != std::string::npos)
       reason = reason.substr(bracket + 2);
-    // The parser has read one byte past what it could not use.
+    // What it could not use begins where no more than blanks and punctuation follow the last event, or is
+    // punctuation.
     const std::size_t offset =
-        std::min(position > last_token.size() ? position - last_token.size() : 0, text_.size());
-    const std::string found =
-        offset >= text_.size() ? "the end of the text" : fmt::format("'{}'", last_token);
-    document_.faults.push_back({static_cast<std::uint32_t>(offset), "", found, std::move(reason)});
+        std::min<std::size_t>(places_.start_of_token(), position > 0 ? position - 1 : 0);
+    document_.faults.push_back({static_cast<std::uint32_t>(offset), "", show_at(offset), std::move(reason)});
     return false;
   }
 
  private:
+  /// The word or sign at an offset, for a message.
+  std::string show_at(std::size_t offset) const {
+    if (offset >= text_.size()) return "the end of the text";
+    std::size_t end = text_.find_first_of(" \t\r\n,:[]{}\"", offset + 1);
+    if (text_[offset] == '"') end = std::min(text_.find_first_of("\"\n", offset + 1), text_.size() - 1) + 1;
+    return fmt::format("'{}'", text_.substr(offset, std::min<std::size_t>(end - offset, 40)));
+  }
+
   template <class Value>
   JsonValue& place(Value&& value) {
     JsonValue* slot = &document_.root;

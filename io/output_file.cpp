@@ -68,8 +68,7 @@ bool OutputFile::flush() {
       failure_ += "; its last record is cut short";
   }
   size_ += whole;
-  buffer_.clear();
-  record_ends_.clear();
+  drop();
   return failure_.empty();
 }
 

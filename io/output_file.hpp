@@ -26,6 +26,11 @@ class OutputFile {
 
   /// Writes what is buffered. After a failure nothing more is written and the failure stays.
   bool flush();
+  /// Forgets what is buffered.
+  void drop() {
+    buffer_.clear();
+    record_ends_.clear();
+  }
   /// What went wrong, with the file's name; empty where all is well.
   const std::string& failure() const { return failure_; }
 

@@ -106,8 +106,10 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
 }
 
 void RunWriter::flush() {
+  bool all_well = true;
   for (OutputFile& file : files_) {
-    if (!file.flush()) break;  // nothing may be named that is not there
+    if (!all_well) file.drop();  // nothing may be named that is not there
+    all_well = all_well && file.flush();
   }
   last_flush_ = std::chrono::steady_clock::now();
 }

@@ -129,12 +129,13 @@ void append_table(std::string& text, const Object& object, const std::string& pa
   const std::string title = path.empty() ? "The scene" : fmt::format("`{}`", path);
   text += fmt::format("### {}\n\n", title);
   if (!object.alternatives.empty())
-    text += fmt::format("Exactly one of: {}. Fields marked so belong to that one.\n\n",
+    text += fmt::format("Exactly one of: {}. The fields marked so belong to it, and are given with it.\n\n",
                         fmt::join(object.alternatives, ", "));
   text += "| key | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const Field& field : object.fields) {
-    const std::string default_text =
-        field.default_json.empty() ? "must be given" : fmt::format("`{}`", field.default_json);
+    const std::string default_text = !field.default_json.empty() ? fmt::format("`{}`", field.default_json)
+                                     : field.alternative.empty() ? "must be given"
+                                                                 : "—";
     const std::string mark = field.alternative.empty() ? "" : fmt::format("*{}*: ", field.alternative);
     text += fmt::format("| `{}` | {} | {} | {}{} |\n", field.key, describe_allowed(field), default_text, mark,
                         field.meaning);

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "../io/temporary_folder.hpp"
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace polynya::tests {
+
+struct Outcome {
+  int code = -1;  ///< exit code; −signal where a signal ended it
+  std::string out;
+  std::string err;
+};
+
+/// How a program is started.
+struct Start {
+  std::filesystem::path folder;         ///< its working folder, where its output is kept too
+  rlim_t largest_file = RLIM_INFINITY;  ///< [bytes]
+};
+
+/// Starts the built polynya; its stdout and stderr go to files in the folder.
+inline pid_t start_polynya(const std::vector<std::string>& words, const Start& start) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  std::filesystem::current_path(start.folder);
+  if (!freopen("stdout.txt", "w", stdout) || !freopen("stderr.txt", "w", stderr)) _exit(126);
+  if (start.largest_file != RLIM_INFINITY) {
+    const rlimit limit{start.largest_file, start.largest_file};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  std::vector<std::string> copies{POLYNYA_BINARY};
+  copies.insert(copies.end(), words.begin(), words.end());
+  std::vector<char*> arguments;
+  for (std::string& word : copies) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv(arguments[0], arguments.data());
+  _exit(127);
+}
+
+inline Outcome wait_for(pid_t child, const Start& start) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(start.folder / "stdout.txt"),
+          read_file(start.folder / "stderr.txt")};
+}
+
+inline Outcome polynya(const std::vector<std::string>& words, const Start& start) {
+  return wait_for(start_polynya(words, start), start);
+}
+
+inline std::string scene_path(const std::string& name) {
+  return std::string(POLYNYA_SOURCE_DIR) + "/scenes/" + name + ".json";
+}
+
+}  // namespace polynya::tests

@@ -1,0 +1,137 @@
+#include <bit>
+#include <charconv>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "io/json_parser.hpp"
+#include "io/json_writer.hpp"
+#include "io/problem.hpp"
+#include "io/source_text.hpp"
+
+namespace polynya::io {
+namespace {
+
+LineAndColumn place(const std::string& text, std::size_t offset) {
+  return line_and_column(text, offset);
+}
+
+/// The text at a value's offset begins with what the value was written as.
+void expect_text_at(const std::string& text, const JsonValue& value, std::string_view written) {
+  EXPECT_EQ(std::string_view(text).substr(value.offset, written.size()), written);
+}
+
+TEST(JsonParser, FindsEveryValueBehindCommentsBlanksAndUnicode) {
+  const std::string text =
+      "\xEF\xBB\xBF// first: {\"no\": 1}\n"
+      "{\t\"name\" /* a \"key\" */ : \"f\\\"lo\\u00e9 é\", // said, with [brackets]\n"
+      "  \"numbers\": [1, -2.5e3/**/, 3//\n,true , null],\r\n"
+      "  \"é\": {\"inner\": \"\\\\\"}}";
+  const JsonDocument document = parse_json(text);
+  ASSERT_TRUE(document.faults.empty()) << document.faults.front().found;
+  const JsonValue& root = document.root;
+  expect_text_at(text, root, "{\t");
+  expect_text_at(text, *root.find("name"), "\"f\\\"lo");
+  EXPECT_EQ(root.find("name")->text(), "f\"lo\u00e9 é");
+  const auto& numbers = root.find("numbers")->items();
+  ASSERT_EQ(numbers.size(), 5U);
+  expect_text_at(text, numbers[0], "1, ");
+  expect_text_at(text, numbers[1], "-2.5e3/");
+  expect_text_at(text, numbers[2], "3//");
+  expect_text_at(text, numbers[3], "true ");
+  expect_text_at(text, numbers[4], "null]");
+  expect_text_at(text, *root.find("é")->find("inner"), "\"\\\\\"");
+  EXPECT_EQ(text[root.members()[2].key_offset], '"');
+  EXPECT_EQ(place(text, root.find("é")->find("inner")->offset).line, 5);
+}
+
+TEST(JsonParser, CountsColumnsInCharactersAndTabsAsOne) {
+  const std::string text = "{\"é\": 1,\t\"b\": 2}";
+  const JsonDocument document = parse_json(text);
+  EXPECT_EQ(place(text, document.root.find("b")->offset).column, 15);
+  EXPECT_EQ(place(text, document.root.find("b")->offset).line, 1);
+}
+
+TEST(JsonParser, TellsASecondKeyAndKeepsTheFirst) {
+  const std::string text = R"({"a": 1, "b": {"c": 2, "c": 3}, "a": 4})";
+  const JsonDocument document = parse_json(text);
+  ASSERT_EQ(document.faults.size(), 2U);
+  EXPECT_EQ(document.faults[0].offset, text.find("\"c\": 3"));
+  EXPECT_EQ(document.faults[1].offset, text.find("\"a\": 4"));
+  EXPECT_EQ(document.root.find("a")->number(), 1);
+  EXPECT_EQ(document.root.members().size(), 2U);
+}
+
+TEST(JsonParser, BoundsNesting) {
+  const auto nested = [](int depth) {
+    return std::string(static_cast<std::size_t>(depth), '[') +
+           std::string(static_cast<std::size_t>(depth), ']');
+  };
+  EXPECT_TRUE(parse_json(nested(kDeepestNesting)).faults.empty());
+  const JsonDocument deep = parse_json(nested(1'000'000));
+  ASSERT_EQ(deep.faults.size(), 1U);
+  EXPECT_EQ(deep.faults[0].offset, static_cast<std::uint32_t>(kDeepestNesting));
+}
+
+TEST(JsonParser, TellsSyntaxErrorsWhereTheyAre) {
+  struct Case {
+    std::string text;
+    std::size_t offset;
+  };
+  for (const Case& c :
+       {Case{"{\"a\": 1 \"b\": 2}", 8}, Case{"{\"a\": }", 6}, Case{"{\"a\": NaN}", 6}, Case{"[1, 2", 5},
+        Case{"", 0}, Case{"{\"a\": 1e400}", 6}, Case{"{} x", 3}, Case{"[1,]", 3}, Case{"[1,,2]", 3},
+        Case{"[1 /*]*/ 2]", 9}, Case{"[\"a", 1}, Case{"// only this", 12}}) {
+    const JsonDocument document = parse_json(c.text);
+    ASSERT_EQ(document.faults.size(), 1U) << c.text;
+    EXPECT_EQ(document.faults[0].offset, c.offset) << c.text << document.faults[0].found;
+    EXPECT_TRUE(document.faults[0].path.empty());
+  }
+  EXPECT_EQ(parse_json(std::string("{}\0{}", 5)).faults.size(), 1U);
+  EXPECT_EQ(parse_json("\"\xff\"").faults.size(), 1U);
+}
+
+TEST(JsonWriter, NumbersReadBackToTheSameDouble) {
+  std::mt19937_64 random(20170611);
+  for (int i = 0; i < 100'000; ++i) {
+    const double value = std::bit_cast<double>(random());
+    if (!std::isfinite(value)) continue;
+    std::string text;
+    append_number(text, value);
+    double back = 0;
+    std::from_chars(text.data(), text.data() + text.size(), back);
+    ASSERT_EQ(back, value) << text;
+  }
+  const auto written = [](double value) {
+    std::string text;
+    append_number(text, value);
+    return text;
+  };
+  EXPECT_EQ(written(0.1), "0.1");
+  EXPECT_EQ(written(-0.0), "0");
+  EXPECT_EQ(written(550), "550");
+  EXPECT_EQ(written(std::numeric_limits<double>::quiet_NaN()), "null");
+}
+
+TEST(JsonWriter, WhatIsWrittenReadsBack) {
+  const std::string text =
+      R"({"a": [1, [2, 3.5]], "b": {"c": "x\"\\\ny\u0001é", "d": [true, null, {}], "e": []}})";
+  const std::string once = to_json_text(parse_json(text).root);
+  const JsonDocument again = parse_json(once);
+  ASSERT_TRUE(again.faults.empty()) << once;
+  EXPECT_EQ(to_json_text(again.root), once);
+  EXPECT_EQ(again.root.find("b")->find("c")->text(), "x\"\\\ny\x01é");
+}
+
+TEST(Nearest, FindsWhatWasMeant) {
+  const std::vector<std::string_view> keys{"thickness_m", "density_kg_per_m3", "friction", "poisson_ratio"};
+  EXPECT_EQ(nearest("thicknes_m", keys), "thickness_m");
+  EXPECT_EQ(nearest("thickness", keys), "thickness_m");
+  EXPECT_EQ(nearest("thickness_mm", keys), "thickness_m");
+  EXPECT_EQ(nearest("firction", keys), "friction");
+  EXPECT_EQ(nearest("colour", keys), "");
+}
+
+}  // namespace
+}  // namespace polynya::io

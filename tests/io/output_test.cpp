@@ -1,0 +1,72 @@
+#include <csignal>
+
+#include "temporary_folder.hpp"
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include "io/output_file.hpp"
+#include "io/run_folder.hpp"
+
+namespace polynya::io {
+namespace {
+
+using tests::read_file;
+using tests::TemporaryFolder;
+using tests::write_file;
+
+TEST(OutputFile, EndsWithAWholeRecordWhereTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const auto path = folder / "lines.txt";
+  const pid_t child = fork();
+  if (child == 0) {  // a size limit stands for a full disk; it holds for the child alone
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    auto file = OutputFile::create(path);
+    for (int i = 0; i < 100; ++i) {
+      file->append("a line of 17 char\n");
+      if (i % 7 == 0) file->flush();
+    }
+    file->flush();
+    const bool is_told = file->failure().find("lines.txt: File too large") != std::string::npos;
+    _exit(is_told && !file->flush() ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  const std::string text = read_file(path);
+  EXPECT_EQ(text.size(), 990U);  // the most whole lines of 18 bytes in 1000
+  EXPECT_EQ(text.back(), '\n');
+}
+
+TEST(OutputFile, TellsAFileItCannotMake) {
+  EXPECT_FALSE(OutputFile::create("/no/such/folder/file").has_value());
+  EXPECT_NE(write_whole_file("/no/such/folder/file", "x"), "");
+}
+
+TEST(RunFolder, RefusesWhatIsNotEmpty) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(prepare_run_folder(folder / "new/deep", false), "");
+  EXPECT_EQ(prepare_run_folder(folder / "new/deep", false), "");  // empty still
+  write_file(folder / "foreign/thesis.tex", "years of work");
+  EXPECT_NE(prepare_run_folder(folder / "foreign", false), "");
+  EXPECT_NE(prepare_run_folder(folder / "foreign", true), "");
+  EXPECT_NE(prepare_run_folder(folder / "foreign/thesis.tex", true), "");
+  EXPECT_EQ(read_file(folder / "foreign/thesis.tex"), "years of work");
+}
+
+TEST(RunFolder, OverwritesOnlyWhatARunWrites) {
+  const TemporaryFolder folder;
+  for (const auto name : run_file::kAll) write_file(folder / ("run/" + std::string(name)), "old");
+  write_file(folder / "run/notes.txt", "mine");
+  EXPECT_NE(prepare_run_folder(folder / "run", false), "");
+  EXPECT_EQ(read_file(folder / "run/forces.csv"), "old");
+  EXPECT_EQ(prepare_run_folder(folder / "run", true), "");
+  EXPECT_EQ(read_file(folder / "run/notes.txt"), "mine");
+  for (const auto name : run_file::kAll)
+    EXPECT_FALSE(std::filesystem::exists(folder / ("run/" + std::string(name))));
+}
+
+}  // namespace
+}  // namespace polynya::io

@@ -1,0 +1,213 @@
+#include <cmath>
+
+#include "temporary_folder.hpp"
+#include <gtest/gtest.h>
+
+#include "geometry/measures.hpp"
+#include "io/json_parser.hpp"
+#include "io/run_folder.hpp"
+#include "io/run_reader.hpp"
+#include "io/run_writer.hpp"
+
+namespace polynya::io {
+namespace {
+
+using tests::read_file;
+using tests::TemporaryFolder;
+
+// A ship that breaks a plate and pushes a floe, in drifting water: every file has something to say.
+const std::string kScene = R"({
+  "name": "small", "time": {"step_s": 0.01, "until_s": 8}, "water": {"drift_m_per_s": [0.02, -0.01]},
+  "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5},
+  "ships": [{"name": "a ship", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 3e6,
+             "moment_of_inertia_kg_m2": 5e8, "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 2}}],
+  "floes": [{"rectangle": {"corner_m": [0, -20], "size_m": [60, 40]}}, {"rectangle": {"corner_m": [70, 0], "size_m": 5}, "angular_velocity_deg_per_s": 1},
+            {"polygon": {"outer_m": [[70, 10], [80, 10], [80, 20], [70, 20]], "holes_m": [[[72, 12], [72, 14], [74, 14]]]}}]
+})";
+
+struct Recorded {
+  std::vector<simulation::Birth> births;
+  std::vector<simulation::Event> events;
+  std::vector<simulation::ShipSample> samples;
+  std::vector<std::pair<double, std::vector<simulation::FloeState>>> frames;
+  std::vector<std::pair<double, std::vector<geometry::Point>>> centroids;
+};
+
+LoadedScene load() {
+  auto loaded = read_scene(kScene, "small.json", ".");
+  EXPECT_TRUE(loaded.has_value());
+  return std::move(*loaded);
+}
+
+/// Runs the scene into a folder and keeps what it told.
+Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder) {
+  Recorded recorded;
+  simulation::Simulation simulation(scene.scene);
+  auto writer = RunWriter::create(folder, false, scene);
+  EXPECT_TRUE(writer.has_value());
+  const auto take = [&] {
+    const simulation::Journal& journal = simulation.journal();
+    recorded.births.insert(recorded.births.end(), journal.births.begin(), journal.births.end());
+    recorded.events.insert(recorded.events.end(), journal.events.begin(), journal.events.end());
+    recorded.samples.insert(recorded.samples.end(), journal.samples.begin(), journal.samples.end());
+    writer->record(simulation.journal());
+  };
+  const auto frame = [&] {
+    writer->frame(simulation);
+    recorded.frames.emplace_back(simulation.time(), simulation.floe_states());
+    auto& points = recorded.centroids.emplace_back(simulation.time(), std::vector<geometry::Point>{}).second;
+    for (const auto& state : recorded.frames.back().second) {
+      points.push_back(
+          point_in_world(state.world_from_body, geometry::measure(*state.polygon_in_body).centroid));
+    }
+  };
+  take();
+  frame();
+  for (int step = 1; step <= 800; ++step) {
+    simulation.step();
+    take();
+    if (step % 50 == 0) frame();
+  }
+  RunSummary summary;
+  summary.finished = true;
+  summary.steps = 800;
+  summary.sim_time = simulation.time();
+  summary.ledger = simulation.area_ledger();
+  summary.counts = simulation.counts();
+  summary.peaks = writer->peaks();
+  summary.warnings = {"a \"warning\""};
+  EXPECT_EQ(writer->finish(summary, simulation), "");
+  return recorded;
+}
+
+TEST(Run, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  const LoadedScene scene = load();
+  const Recorded recorded = write_run(scene, folder / "run");
+  const auto run = read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  EXPECT_EQ(run->scene.hash, scene.hash);
+  EXPECT_GT(recorded.events.size(), 3U);
+  ASSERT_EQ(run->events.size(), recorded.events.size());
+  for (std::size_t i = 0; i < run->events.size(); ++i) {
+    const auto& a = run->events[i];
+    const auto& b = recorded.events[i];
+    EXPECT_EQ(a.time, b.time);
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.ship, b.ship);
+    EXPECT_EQ(a.floe, b.floe);
+    EXPECT_EQ(a.children, b.children);
+    EXPECT_EQ(a.point_in_world, b.point_in_world);
+    EXPECT_EQ(a.normal_in_world, b.normal_in_world);
+    EXPECT_EQ(a.criteria.vertical_force, b.criteria.vertical_force);
+    EXPECT_EQ(a.criteria.bending_capacity, b.criteria.bending_capacity);
+    EXPECT_EQ(a.submerged_area, b.submerged_area);
+    EXPECT_EQ(a.rounding_defect, b.rounding_defect);
+  }
+  ASSERT_EQ(run->floes.size(), recorded.births.size());
+  for (std::size_t i = 0; i < run->floes.size(); ++i) {
+    EXPECT_EQ(run->floes[i].birth.polygon_in_body, recorded.births[i].polygon_in_body);
+    EXPECT_EQ(run->floes[i].birth.parent, recorded.births[i].parent);
+    EXPECT_EQ(run->floes[i].birth.area, recorded.births[i].area);
+    EXPECT_EQ(run->floes[i].birth.centroid_in_body, recorded.births[i].centroid_in_body);
+  }
+  ASSERT_EQ(run->samples.size(), recorded.samples.size());
+  for (std::size_t i = 0; i < run->samples.size(); ++i) {
+    EXPECT_EQ(run->samples[i].surge_force, recorded.samples[i].surge_force);
+    EXPECT_EQ(run->samples[i].yaw_peak, recorded.samples[i].yaw_peak);
+    EXPECT_EQ(run->samples[i].position_in_world, recorded.samples[i].position_in_world);
+    EXPECT_EQ(run->samples[i].thrust, recorded.samples[i].thrust);
+    EXPECT_EQ(run->samples[i].contacts, recorded.samples[i].contacts);
+  }
+}
+
+/// Who lives is told by births and events; where, by frames.
+TEST(Run, TellsWhoLivesWhereAtEveryFrame) {
+  const TemporaryFolder folder;
+  const LoadedScene scene = load();
+  const Recorded recorded = write_run(scene, folder / "run");
+  const auto run = read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  const MotionIndex motions(*run);
+  ASSERT_EQ(run->frames.size(), recorded.frames.size());
+  for (std::size_t k = 0; k < recorded.frames.size(); ++k) {
+    const auto& [time, states] = recorded.frames[k];
+    std::size_t living = 0;
+    for (const RunFloe& floe : run->floes) living += run->is_alive(floe.birth.floe, time);
+    EXPECT_EQ(living, states.size()) << time;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      EXPECT_TRUE(run->is_alive(states[i].floe, time));
+      const auto motion = motions.floe_at(states[i].floe, time);
+      ASSERT_TRUE(motion.has_value());
+      EXPECT_LE(distance(motion->position, recorded.centroids[k].second[i]), 1.5 * kFramePositionTolerance);
+      EXPECT_NEAR(motion->angle, states[i].angle, kFrameAngleTolerance);
+    }
+  }
+  for (const RunFloe& floe : run->floes) {
+    const auto lineage = run->lineage(floe.birth.floe);
+    EXPECT_EQ(static_cast<int>(lineage.size()) - 1, floe.birth.generation);
+    EXPECT_EQ(lineage.back(), floe.birth.floe);
+  }
+}
+
+TEST(Run, TheSameSceneGivesTheSameBytes) {
+  const TemporaryFolder folder;
+  const LoadedScene scene = load();
+  write_run(scene, folder / "a");
+  write_run(scene, folder / "b");
+  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames,
+                          run_file::kFinalGeojson, run_file::kFinalSvg, run_file::kScene}) {
+    EXPECT_EQ(read_file(folder.path() / "a" / name), read_file(folder.path() / "b" / name)) << name;
+  }
+}
+
+TEST(Run, ALineCutShortIsLeftOut) {
+  const TemporaryFolder folder;
+  const LoadedScene scene = load();
+  write_run(scene, folder / "run");
+  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFrames}) {
+    const auto path = folder.path() / "run" / name;
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) - 5);
+  }
+  const auto run = read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  EXPECT_EQ(run->samples.size(), 79U);
+  EXPECT_EQ(run->frames.size(), 16U);
+}
+
+TEST(Run, DamageIsToldWithItsLine) {
+  const TemporaryFolder folder;
+  const LoadedScene scene = load();
+  write_run(scene, folder / "run");
+  const auto path = folder.path() / "run" / run_file::kFloes;
+  std::string text = read_file(path);
+  text.insert(text.find('\n') + 1, "{\"floe_id\": 1}\n");
+  tests::write_file(path, text);
+  const auto run = read_run(folder / "run");
+  ASSERT_FALSE(run.has_value());
+  EXPECT_NE(run.error().find("floes.ndjson:2: "), std::string::npos) << run.error();
+  EXPECT_FALSE(read_run(folder / "none").has_value());
+}
+
+TEST(Run, SummaryHasTheKeysOfTheDesign) {
+  const TemporaryFolder folder;
+  const LoadedScene scene = load();
+  write_run(scene, folder / "run");
+  const JsonValue summary = parse_json(read_file(folder.path() / "run" / run_file::kSummary)).root;
+  for (const char* key : {"version", "seed", "scene_hash", "steps", "sim_time_s", "wall_time_s",
+                          "real_time_factor", "peaks", "warnings", "finished"}) {
+    EXPECT_NE(summary.find(key), nullptr) << key;
+  }
+  for (const char* key : {"initial_ice_area_m2", "floe_area_m2", "submerged_area_m2", "brash_area_m2",
+                          "rounding_defect_m2", "imbalance_m2"}) {
+    EXPECT_NE(summary.find("ledger")->find(key), nullptr) << key;
+  }
+  for (const char* key : {"floes_initial", "floes_final", "bends", "splits", "crush_contacts",
+                          "rejected_cuts", "database_out_of_range"}) {
+    EXPECT_NE(summary.find("counts")->find(key), nullptr) << key;
+  }
+  EXPECT_EQ(read_file(folder.path() / "run" / run_file::kForces).substr(0, 9), "t_s,ship,");
+}
+
+}  // namespace
+}  // namespace polynya::io

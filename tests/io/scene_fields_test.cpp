@@ -1,0 +1,218 @@
+#include "io/scene_fields.hpp"
+
+#include <functional>
+#include <set>
+
+#include "scene_fingerprint.hpp"
+#include "temporary_folder.hpp"
+#include <gtest/gtest.h>
+
+#include "io/json_parser.hpp"
+#include "io/json_writer.hpp"
+#include "io/scene_reader.hpp"
+#include "io/scene_schema.hpp"
+
+namespace polynya::io {
+namespace {
+
+using tests::fingerprint;
+
+// Between them these two choose every alternative of the field table.
+const std::string kFirst = R"({
+  "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
+             "position_m": [-500, 0], "propulsion": {"thrust_N": 2e4}}],
+  "floes": [{"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}}, {"rectangle": {"corner_m": [100, 0], "size_m": 10}}]
+})";
+const std::string kSecond = R"({
+  "ships": [{"hull": {"waterline_m": [[10, 0], [0, 4], [-10, 4], [-10, -4], [0, -4]], "angles_from_vertical_deg": [60, 38, 0, 0, 38]},
+             "mass_kg": 1e6, "moment_of_inertia_kg_m2": 5e8, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5}}],
+  "floes": [{"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]], "holes_m": [[[10, 10], [10, 20], [20, 20]]]}}]
+})";
+
+LoadedScene load(const std::string& text) {
+  auto loaded = read_scene(text, "base.json", ".");
+  if (loaded) return std::move(*loaded);
+  std::string problems;
+  for (const Problem& problem : loaded.error()) problems += to_string(problem) + "\n";
+  ADD_FAILURE() << problems << text;
+  return {};
+}
+
+/// Another allowed value near the one at hand.
+void change_number(const Field& field, JsonValue& value) {
+  const double now = value.number();
+  const double step = field.kind == FieldKind::kInteger ? 1 : now == 0 ? 0.015625 : std::abs(now) / 64;
+  value.data = now + step < field.range.high ? now + step : now - step;
+}
+
+void change(const Field& field, JsonValue& value) {
+  switch (field.kind) {
+    case FieldKind::kText:
+    case FieldKind::kName:
+      value.data = std::string("changed");
+      return;
+    case FieldKind::kChoice:
+      value.data = std::string(field.choices[value.text() == field.choices[0] ? 1 : 0]);
+      return;
+    case FieldKind::kInteger:
+    case FieldKind::kNumber:
+      return change_number(field, value);
+    case FieldKind::kVector:
+    case FieldKind::kNumberOrVector:
+      return change_number(field, value.items()[1]);
+    case FieldKind::kNumbers:
+      return change_number(field, value.items()[0]);
+    case FieldKind::kRing:
+      return change_number(field, value.items()[0].items()[0]);
+    case FieldKind::kRings:
+      return change_number(field, value.items()[0].items()[0].items()[0]);
+    default:
+      FAIL();
+  }
+}
+
+/// Visits every leaf of a resolved scene with its field and path.
+using Visit = std::function<void(const Field&, JsonValue&, const std::string&)>;
+void walk(const Object& table, JsonValue& value, const std::string& path, const Visit& visit) {
+  for (const Field& field : table.fields) {
+    JsonValue* member = value.find(field.key);
+    if (!member) continue;
+    const std::string at = path + "." + std::string(field.key);
+    if (field.kind == FieldKind::kObject) {
+      walk(*field.object, *member, at, visit);
+    } else if (field.kind == FieldKind::kList) {
+      for (JsonValue& item : member->items()) walk(*field.object, item, at, visit);
+    } else {
+      visit(field, *member, at);
+    }
+  }
+}
+
+std::set<std::string> all_leaves(const Object& table, const std::string& path) {
+  std::set<std::string> leaves;
+  for (const Field& field : table.fields) {
+    const std::string at = path + "." + std::string(field.key);
+    if (field.object != nullptr)
+      leaves.merge(all_leaves(*field.object, at));
+    else
+      leaves.insert(at);
+  }
+  return leaves;
+}
+
+TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
+  for (const std::string& text : {kFirst, kSecond, commented_scene()}) {
+    const LoadedScene once = load(text);
+    const LoadedScene again = load(once.resolved_text);
+    EXPECT_EQ(again.resolved_text, once.resolved_text);
+    EXPECT_EQ(again.hash, once.hash);
+    EXPECT_EQ(fingerprint(again.scene), fingerprint(once.scene));
+  }
+}
+
+/// Every field of the table reaches the scene: changing it alone changes the scene, and survives the resolved
+/// text.
+TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
+  std::set<std::string> seen;
+  for (const std::string& base_text : {kFirst, kSecond}) {
+    const LoadedScene base = load(base_text);
+    JsonValue tree = parse_json(base.resolved_text).root;
+    walk(scene_object(), tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
+      if (value.is(JsonValue::Kind::kArray) && value.items().empty()) return;
+      // A constant speed is said twice in a resolved scene, and must be changed in both places.
+      if (path == ".ships.speed_m_per_s" &&
+          tree.find("ships")->items()[0].find("propulsion")->find("constant_speed_m_per_s"))
+        return;
+      seen.insert(path);
+      const auto before = value.data;
+      change(field, value);
+      if (path == ".ships.propulsion.constant_speed_m_per_s")
+        tree.find("ships")->items()[0].find("speed_m_per_s")->data = value.data;
+      const LoadedScene changed = load(to_json_text(tree));
+      EXPECT_NE(fingerprint(changed.scene) + changed.description, fingerprint(base.scene) + base.description)
+          << path;
+      EXPECT_NE(changed.hash, base.hash) << path;
+      const LoadedScene again = load(changed.resolved_text);
+      EXPECT_EQ(fingerprint(again.scene), fingerprint(changed.scene)) << path;
+      EXPECT_EQ(again.resolved_text, changed.resolved_text) << path;
+      value.data = before;
+      if (path == ".ships.propulsion.constant_speed_m_per_s")
+        tree.find("ships")->items()[0].find("speed_m_per_s")->data = before;
+    });
+  }
+  std::set<std::string> expected = all_leaves(scene_object(), "");
+  expected.erase(".floes.file");  // becomes polygons in the resolved scene
+  EXPECT_EQ(seen, expected);
+}
+
+/// The table's defaults are those of the structs they fill.
+TEST(SceneFields, DefaultsAreTheSimulations) {
+  simulation::Scene defaults;
+  defaults.name = "base";
+  const LoadedScene loaded = load(kFirst);
+  simulation::Scene settings = loaded.scene;
+  settings.ships.clear();
+  settings.floes.clear();
+  EXPECT_EQ(fingerprint(settings), fingerprint(defaults));
+}
+
+/// Values outside each range, and of another type, are refused at their place.
+TEST(SceneFields, EveryRangeIsKept) {
+  const LoadedScene base = load(kFirst);
+  JsonValue tree = parse_json(base.resolved_text).root;
+  int tried = 0;
+  walk(scene_object(), tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
+    const auto before = value.data;
+    std::vector<decltype(value.data)> wrong{nullptr, true, JsonValue::Object{}};
+    if (field.kind == FieldKind::kNumber || field.kind == FieldKind::kInteger) {
+      wrong.insert(wrong.end(), {field.range.high * 1.001 + 1e-3, field.range.low - 1e-3, std::string("1")});
+      if (field.range.is_low_excluded) wrong.emplace_back(field.range.low);
+      if (field.range.is_high_excluded) wrong.emplace_back(field.range.high);
+      if (field.kind == FieldKind::kInteger) wrong.emplace_back(1.5);
+    }
+    for (const auto& bad : wrong) {
+      value.data = bad;
+      const std::string text = to_json_text(tree);
+      const auto outcome = read_scene(text, "base.json", ".");
+      ASSERT_FALSE(outcome.has_value()) << path;
+      const Problem& problem = outcome.error().front();
+      EXPECT_NE(path.find(std::string(field.key)), std::string::npos);
+      EXPECT_NE(problem.path.find(field.key), std::string::npos) << to_string(problem);
+      EXPECT_GT(problem.line, 1);
+      ++tried;
+    }
+    value.data = before;
+  });
+  EXPECT_GT(tried, 200);
+}
+
+TEST(SceneSchema, NamesEveryFieldOnceWhereItBelongs) {
+  const JsonDocument document = parse_json(scene_schema());
+  ASSERT_TRUE(document.faults.empty());
+  const std::function<void(const Object&, const JsonValue&)> check = [&](const Object& table,
+                                                                         const JsonValue& schema) {
+    const JsonValue* properties = schema.find("properties");
+    ASSERT_NE(properties, nullptr);
+    EXPECT_FALSE(schema.find("additionalProperties")->boolean());
+    for (const Field& field : table.fields) {
+      const JsonValue* property = properties->find(field.key);
+      ASSERT_NE(property, nullptr) << field.key;
+      if (field.kind == FieldKind::kObject) check(*field.object, *property);
+      if (field.kind == FieldKind::kList) check(*field.object, *property->find("items"));
+      if (field.kind == FieldKind::kNumber) {
+        EXPECT_TRUE(property->find(field.range.is_low_excluded ? "exclusiveMinimum" : "minimum"))
+            << field.key;
+      }
+    }
+  };
+  check(scene_object(), document.root);
+}
+
+TEST(SceneDocs, HoldTheTablesAsThePrintedOnes) {
+  const std::string page = tests::read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/scene.md");
+  EXPECT_NE(page.find(scene_tables()), std::string::npos)
+      << "run: polynya schema --markdown, and put it into docs/scene.md";
+}
+
+}  // namespace
+}  // namespace polynya::io

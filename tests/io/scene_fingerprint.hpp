@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "simulation/scene.hpp"
+
+namespace polynya::tests {
+
+inline std::string text_of(const geometry::Ring& ring) {
+  std::string text;
+  for (const geometry::Point p : ring) text += fmt::format("({},{})", p.x, p.y);
+  return text;
+}
+
+/// Everything a scene holds, as text: two scenes are the same where their fingerprints are.
+inline std::string fingerprint(const simulation::Scene& s) {
+  std::string text = fmt::format("{} {} {} {}\n", s.name, s.seed, s.time.step, s.time.until);
+  text += fmt::format("water {} {} {} {}\n", s.water.water.density, s.water.drag_coefficient, s.water.drift.x,
+                      s.water.drift.y);
+  text +=
+      fmt::format("ice {} {} {} {} {} {} {} {} {}\n", s.ice.thickness, s.ice.density, s.ice.youngs_modulus,
+                  s.ice.poisson_ratio, s.ice.flexural_strength, s.ice.compressive_strength,
+                  s.ice.tensile_strength, s.ice.fracture_toughness, s.ice.friction);
+  text += fmt::format("contact {} {} {} {} {} {}\n", s.contact.circle_radius,
+                      static_cast<int>(s.contact.normal), s.contact.restitution, s.contact.contact_time,
+                      s.contact.separation_time, s.contact.iterations);
+  text += fmt::format("fracture {} {} {} {} {} {} {} {}\n",
+                      static_cast<int>(s.fracture.characteristic_length), s.fracture.breakable_size_factor,
+                      static_cast<int>(s.fracture.bending), static_cast<int>(s.fracture.splitting),
+                      s.fracture.splitting_shape_factor, static_cast<int>(s.fracture.cusp_fate),
+                      s.fracture.cusp_sagitta, s.fracture.smallest_floe_area);
+  text += fmt::format("record {} {}\n", s.record.forces_interval, s.record.frames_interval);
+  for (const auto& ship : s.ships) {
+    text += fmt::format("ship {} {} {} {} {} {} {} {} ", ship.name, ship.mass, ship.moment_of_inertia,
+                        ship.position_in_world.x, ship.position_in_world.y, ship.heading, ship.speed,
+                        ship.hull.stem_angle);
+    text += text_of(ship.hull.waterline);
+    for (const double angle : ship.hull.angles_from_vertical) text += fmt::format(" {}", angle);
+    if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&ship.propulsion))
+      text += fmt::format(" thrust {}\n", thrust->thrust);
+    else
+      text += fmt::format(" speed {}\n", std::get<simulation::ConstantSpeed>(ship.propulsion).speed);
+  }
+  for (const auto& floe : s.floes) {
+    text += fmt::format("floe {} {} {} {}", text_of(floe.polygon_in_world.outer), floe.velocity.x,
+                        floe.velocity.y, floe.angular_velocity);
+    for (const auto& hole : floe.polygon_in_world.holes) text += " hole " + text_of(hole);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace polynya::tests
