@@ -1,6 +1,8 @@
 #include "geometry/internal/arrangement.hpp"
 
+#include <algorithm>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <type_traits>
 #include <unordered_map>
@@ -171,52 +173,64 @@ class Tracer {
     return next;
   }
 
-  // Only where a segment passes straight through a point that bounds no third region is that point no corner.
+  // Only where one segment passes straight through a point that bounds no third region is that point no corner. Where
+  // the tool runs along the shape, the shape's segments tell: its own vertices stay.
   bool is_corner(Halfedge in, Halfedge out) const {
+    const int source = std::min(first_source(in), first_source(out));
     for (const std::size_t s : in->curve().data()) {
+      if (segments_[s].source != source) continue;
       for (const std::size_t t : out->curve().data()) {
-        if (s == t) return boundary_degree(in->target()) > 2;
+        if (s == t) return regions_around(in->target()) > 2;
       }
     }
     return true;
   }
 
-  int boundary_degree(Vertex v) const {
-    int degree = 0;
+  int first_source(Halfedge e) const {
+    int source = 1;
+    for (const std::size_t s : e->curve().data()) source = std::min(source, segments_[s].source);
+    return source;
+  }
+
+  // How many regions meet in a vertex, all that is left out counting as one.
+  std::size_t regions_around(Vertex v) const {
+    std::set<std::size_t> roots;
     auto e = v->incident_halfedges();
     const auto start = e;
-    do degree += is_boundary(e) ? 1 : 0;
-    while (++e != start);
-    return degree;
+    do {
+      const std::size_t face = face_of(e);
+      roots.insert(label_[face] < 0 ? parent_.size() : root_of(face));
+    } while (++e != start);
+    return roots.size();
   }
 
   void trace(Halfedge start, std::unordered_set<const void*>& visited, Polygon& polygon) const {
-    std::vector<Vertex> walk;
-    std::unordered_map<const void*, std::size_t> place;  // of each vertex in the walk
+    std::vector<Halfedge> walk;
+    std::unordered_map<const void*, std::size_t> place;  // of each vertex: the edge of the walk that ends there
     Halfedge e = start;
     do {
       visited.insert(&*e);
-      const Halfedge next = next_boundary(e);
-      const Vertex v = e->target();
-      if (const auto seen = place.find(&*v); seen != place.end()) {
+      walk.push_back(e);
+      const auto [seen, is_new] = place.try_emplace(&*e->target(), walk.size() - 1);
+      if (!is_new) {
         // The walk came back to a vertex: what lies between is a ring of its own that touches here.
-        const std::size_t from = seen->second;
+        const std::size_t from = seen->second + 1;
+        for (std::size_t i = from; i + 1 < walk.size(); ++i) place.erase(&*walk[i]->target());
         add_ring({walk.begin() + static_cast<std::ptrdiff_t>(from), walk.end()}, polygon);
-        for (std::size_t i = from + 1; i < walk.size(); ++i) place.erase(&*walk[i]);
-        walk.resize(from + 1);
-      } else if (is_corner(e, next)) {
-        place.emplace(&*v, walk.size());
-        walk.push_back(v);
+        walk.resize(from);
       }
-      e = next;
+      e = next_boundary(e);
     } while (e != start);
-    if (walk.size() > 1) add_ring(walk, polygon);
+    if (!walk.empty()) add_ring(walk, polygon);
   }
 
-  static void add_ring(const std::vector<Vertex>& vertices, Polygon& polygon) {
+  void add_ring(const std::vector<Halfedge>& edges, Polygon& polygon) const {
     Ring ring;
-    ring.reserve(vertices.size());
-    for (const Vertex v : vertices) ring.push_back(from_cgal(v->point()));
+    ring.reserve(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Halfedge out = edges[i + 1 == edges.size() ? 0 : i + 1];
+      if (is_corner(edges[i], out)) ring.push_back(from_cgal(edges[i]->target()->point()));
+    }
     const int turn = sgn(area(ring));
     if (turn < 0) {
       polygon.holes.push_back(std::move(ring));

@@ -12,23 +12,23 @@ namespace {
 
 using Source = PieceRing::Source;
 
-// Calls on_node(node, along_tool) and on_run(first, last, along_tool) for a loop's vertices in order; along_tool tells
-// whether the edge that leaves the vertex runs along the tool, [first, last) are iterators over points.
+// Calls on_node(node, half-edge) and on_run(first, last, half-edge) for a loop's vertices in order; the half-edge is the
+// one along which the loop leaves them, [first, last) are iterators over points.
 template <typename OnNode, typename OnRun>
 void for_each_stretch(const LocalCut& cut, const Loop& loop, OnNode on_node, OnRun on_run) {
   for (const int h : loop) {
     const HalfEdge& e = cut.graph.half_edges[static_cast<std::size_t>(h)];
-    on_node(cut.nodes[static_cast<std::size_t>(e.from)], e.is_chord);
+    on_node(cut.nodes[static_cast<std::size_t>(e.from)], e);
     const Ring& points = e.is_chord ? cut.tool.points : cut.rings[e.ring];
     const auto begin = points.begin() + e.run.first;
     const auto before_wrap = std::min<std::ptrdiff_t>(e.run.count, points.end() - begin);
     const auto wrapped_end = points.begin() + (e.run.count - before_wrap);
     if (e.is_forward) {
-      on_run(begin, begin + before_wrap, e.is_chord);
-      on_run(points.begin(), wrapped_end, e.is_chord);
+      on_run(begin, begin + before_wrap, e);
+      on_run(points.begin(), wrapped_end, e);
     } else {
-      on_run(std::make_reverse_iterator(wrapped_end), points.rend(), e.is_chord);
-      on_run(std::make_reverse_iterator(begin + before_wrap), std::make_reverse_iterator(begin), e.is_chord);
+      on_run(std::make_reverse_iterator(wrapped_end), points.rend(), e);
+      on_run(std::make_reverse_iterator(begin + before_wrap), std::make_reverse_iterator(begin), e);
     }
   }
 }
@@ -41,43 +41,40 @@ std::size_t vertex_count(const LocalCut& cut, const Loop& loop) {
   return count;
 }
 
-// Writes a loop's vertices, noting on the way the edges that are new.
+// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward side.
 Ring write_loop(LocalCut& cut, const Loop& loop) {
   struct Vertex {
     bool is_node = false;
     bool is_rounded = false;
-    bool on_tool = false;  // the edge that leaves it runs along the tool
+    const HalfEdge* leaves_along = nullptr;
   };
   Ring points;
   points.reserve(vertex_count(cut, loop));
   Vertex first;
   Vertex last;
   const auto note_edge = [&](Point to, const Vertex& v) {
-    if (last.is_rounded || v.is_rounded) {
-      cut.changed.push_back({points.back(), to});
-    } else if (last.is_node || v.is_node || last.on_tool) {
-      cut.placed.push_back({points.back(), to});
-    }
+    if (last.leaves_along->is_chord && !last.leaves_along->is_forward) return;
+    (last.is_rounded || v.is_rounded ? cut.changed : cut.placed).push_back({points.back(), to});
   };
   const auto append = [&](Point p, const Vertex& v) {
     if (points.empty()) {
       first = v;
-    } else if (last.is_node || v.is_node || last.on_tool) {
+    } else if (last.is_node || v.is_node || last.leaves_along->is_chord) {
       note_edge(p, v);
     }
     points.push_back(p);
     last = v;
   };
-  const auto append_run = [&](auto from, auto to, bool on_tool) {
-    if (on_tool) {
-      for (; from != to; ++from) append(*from, {false, false, true});
+  const auto append_run = [&](auto from, auto to, const HalfEdge& e) {
+    if (e.is_chord) {
+      for (; from != to; ++from) append(*from, {false, false, &e});
     } else if (from != to) {
-      append(*from, {});
+      append(*from, {false, false, &e});
       points.insert(points.end(), ++from, to);
     }
   };
   for_each_stretch(
-      cut, loop, [&](const Node& node, bool on_tool) { append(node.at, {true, node.is_rounded, on_tool}); }, append_run);
+      cut, loop, [&](const Node& node, const HalfEdge& e) { append(node.at, {true, node.is_rounded, &e}); }, append_run);
   note_edge(points.front(), first);
   return points;
 }
@@ -96,8 +93,8 @@ exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
   if (ring.source != Source::kLoop) return exact::exactly(ring.points);
   exact::Ring points;
   for_each_stretch(
-      cut, ring.loop, [&](const Node& node, bool) { points.push_back(exact_point(node)); },
-      [&](auto from, auto to, bool) {
+      cut, ring.loop, [&](const Node& node, const HalfEdge&) { points.push_back(exact_point(node)); },
+      [&](auto from, auto to, const HalfEdge&) {
         for (; from != to; ++from) points.push_back(exact::exactly(*from));
       });
   return points;

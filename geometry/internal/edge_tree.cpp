@@ -1,5 +1,7 @@
 #include "geometry/internal/edge_tree.hpp"
 
+#include "geometry/internal/predicates.hpp"
+
 namespace polynya::geometry {
 
 std::vector<Edge> edges_of(const Polygon& polygon) {
@@ -38,6 +40,16 @@ std::size_t EdgeTree::build(std::size_t first, std::size_t last) {
   }
   nodes_[n].box = box;
   return n;
+}
+
+bool has_touching_rings(const Polygon& polygon) {
+  if (polygon.holes.empty()) return false;
+  const std::vector<Edge> edges = edges_of(polygon);
+  return !EdgeTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
+    const Edge& e = edges[i];
+    const Edge& f = edges[j];
+    return e.ring == f.ring || meet(e.a, e.b, f.a, f.b).kind == Meeting::kNone;
+  });
 }
 
 }  // namespace polynya::geometry

@@ -83,4 +83,7 @@ class EdgeTree {
   std::vector<Node> nodes_;
 };
 
+/// Do two different rings of a valid polygon meet in a point? Exact.
+bool has_touching_rings(const Polygon& polygon);
+
 }  // namespace polynya::geometry

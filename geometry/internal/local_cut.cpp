@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "geometry/internal/cut_pieces.hpp"
+#include "geometry/internal/edge_tree.hpp"
 #include "geometry/internal/settle.hpp"
-#include "geometry/validity.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -97,64 +97,41 @@ bool are_apart(const Segment& s, const Segment& t) {
          (meeting.at == t.from || meeting.at == t.to);
 }
 
-class SubdivisionCheck {
- public:
-  explicit SubdivisionCheck(const LocalCut& cut) : changed_(cut.changed) {
-    // Chords were written once for each side.
-    for (Segment& s : changed_) {
-      if (std::tie(s.to.x, s.to.y) < std::tie(s.from.x, s.from.y)) std::swap(s.from, s.to);
-    }
-    const auto key = [](const Segment& s) { return std::tie(s.from.x, s.from.y, s.to.x, s.to.y); };
-    std::sort(changed_.begin(), changed_.end(), [&](const Segment& s, const Segment& t) { return key(s) < key(t); });
-    changed_.erase(std::unique(changed_.begin(), changed_.end(),
-                               [&](const Segment& s, const Segment& t) { return key(s) == key(t); }),
-                   changed_.end());
-  }
+bool is_split(const LocalCut& cut, EdgeId e) {
+  return std::any_of(cut.nodes.begin(), cut.nodes.end(), [&](const Node& node) {
+    return node.is_active && node.on_shape == Place{e.ring, e.index, false};
+  });
+}
 
-  // Only edges that end in a rounded node can have come to meet another: all others lie as they did in the exact
-  // subdivision, where edges meet in nodes only.
-  bool holds(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) const {
-    if (changed_.empty()) return true;
-    Box box = box_of(changed_.front());
-    for (const Segment& s : changed_) {
-      if (s.from == s.to) return false;
-      box = around(box, box_of(s));
-    }
-    const bool within = tool_box.low.x <= box.low.x && tool_box.low.y <= box.low.y && box.high.x <= tool_box.high.x &&
-                        box.high.y <= tool_box.high.y;
-    for (const EdgeId e : within ? near_tool : edges_near(cut.rings, box)) {
-      if (!is_split(cut, e) && !clears(segment(cut, e))) return false;
-    }
-    for (const Segment& s : cut.placed) {
-      if (!clears(s)) return false;
-    }
-    for (std::size_t i = 0; i < changed_.size(); ++i) {
-      for (std::size_t j = i + 1; j < changed_.size(); ++j) {
-        if (!are_apart(changed_[i], changed_[j])) return false;
-      }
-    }
-    return true;
-  }
+bool clears_changed_edges(const LocalCut& cut, const Segment& t) {
+  const Box box = box_of(t);
+  return std::all_of(cut.changed.begin(), cut.changed.end(),
+                     [&](const Segment& s) { return !overlaps(box, box_of(s)) || are_apart(s, t); });
+}
 
- private:
-  static Segment segment(const LocalCut& cut, EdgeId e) {
-    return {cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)};
+// Only edges that end in a rounded node can have come to meet another: all others lie as they did in the exact
+// subdivision, where edges meet in nodes only. So these few are held against all that is near them.
+bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
+  const std::vector<Segment>& changed = cut.changed;
+  if (changed.empty()) return true;
+  Box box = box_of(changed.front());
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    if (changed[i].from == changed[i].to) return false;
+    box = around(box, box_of(changed[i]));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!are_apart(changed[i], changed[j])) return false;
+    }
   }
-
-  bool clears(const Segment& t) const {
-    const Box box = box_of(t);
-    return std::all_of(changed_.begin(), changed_.end(),
-                       [&](const Segment& s) { return !overlaps(box, box_of(s)) || are_apart(s, t); });
-  }
-
-  static bool is_split(const LocalCut& cut, EdgeId e) {
-    return std::any_of(cut.nodes.begin(), cut.nodes.end(), [&](const Node& node) {
-      return node.is_active && node.on_shape == Place{e.ring, e.index, false};
-    });
-  }
-
-  std::vector<Segment> changed_;
-};
+  const bool is_within = tool_box.low.x <= box.low.x && tool_box.low.y <= box.low.y && box.high.x <= tool_box.high.x &&
+                         box.high.y <= tool_box.high.y;
+  const std::vector<EdgeId> near = is_within ? near_tool : edges_near(cut.rings, box);
+  return std::all_of(cut.placed.begin(), cut.placed.end(),
+                     [&](const Segment& s) { return clears_changed_edges(cut, s); }) &&
+         std::all_of(near.begin(), near.end(), [&](EdgeId e) {
+           return is_split(cut, e) ||
+                  clears_changed_edges(cut, {cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)});
+         });
+}
 
 // No chord: the tool runs past the ice, ends in it, or one lies within the other.
 enum class Apart { kUncovered, kMisses, kToolInShape, kShapeInTool, kEndsInside };
@@ -218,7 +195,7 @@ CutResult assemble(const LocalCut& cut, std::vector<PiecePlan> plans, const Bala
 
 bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans, const Box& tool_box,
                         const std::vector<EdgeId>& near_tool) {
-  if (!SubdivisionCheck(cut).holds(cut, tool_box, near_tool)) return false;
+  if (!changed_edges_are_apart(cut, tool_box, near_tool)) return false;
   for (const PiecePlan& plan : plans) {
     if (may_have_swept_a_ring(cut, plan)) return false;
     for (std::size_t r = 0; r < plan.rings.size(); ++r) {
@@ -229,17 +206,12 @@ bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans
   return true;
 }
 
-// Chords that join different rings can bring together rings that touch elsewhere: then all of a piece is looked at.
-bool cuts_one_ring(const CutGraph& graph) {
-  return std::count(graph.ring_is_cut.begin(), graph.ring_is_cut.end(), 1) <= 1;
-}
-
-bool are_valid(const std::vector<PiecePlan>& plans) {
-  return std::all_of(plans.begin(), plans.end(), [](const PiecePlan& plan) {
-    Polygon polygon{plan.rings.front().points, {}};
-    for (std::size_t r = 1; r < plan.rings.size(); ++r) polygon.holes.push_back(plan.rings[r].points);
-    return !find_defect(polygon);
-  });
+// Does the cut join no rings, or none that could pinch? A chord between two rings makes one boundary of both, and where
+// they touched already that boundary touches itself, away from all nodes.
+bool joins_no_touching_rings(const LocalCut& cut, const Polygon& shape) {
+  const auto cut_rings = std::count(cut.graph.ring_is_cut.begin(), cut.graph.ring_is_cut.end(), 1);
+  if (cut_rings <= 1) return true;
+  return cut.tool.is_closed && !has_touching_rings(shape);
 }
 
 }  // namespace
@@ -261,12 +233,11 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
       case Apart::kToolInShape: break;
     }
   }
-  if (!tool.is_closed && !cuts_one_ring(cut.graph)) return {};
+  if (!joins_no_touching_rings(cut, shape)) return {};
   std::optional<std::vector<PiecePlan>> plans = plan_pieces(cut);
   if (!plans || !uses_all_once(cut, *plans)) return {};
   const Balance balance = balance_split_edges(cut);
   if (!balance.is_exact) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
-  if (!cuts_one_ring(cut.graph) && !are_valid(*plans)) return {};
   if (!is_cleanly_rounded(cut, *plans, tool_box, near_tool)) return settle_exactly(cut, shape, *plans);
   return assemble(cut, std::move(*plans), balance);
 }

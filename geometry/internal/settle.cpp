@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -12,10 +11,6 @@
 
 namespace polynya::geometry::exact {
 namespace {
-
-// A piece is a sliver where its mean width, area over half the perimeter, is within this many steps between
-// doubles of its size: it has no width that doubles can express.
-constexpr double kSliverSteps = 4;
 
 // Rounding can make neighbours equal and fold an edge back on the one before: neither encloses anything.
 geometry::Ring weld(const geometry::Ring& ring) {
@@ -55,19 +50,32 @@ bool is_valid(const geometry::Polygon& polygon) {
   return !polygon.outer.empty() && !find_defect(polygon);
 }
 
-double step_at(const geometry::Polygon& polygon) {
-  double largest = 0;
-  for (const geometry::Point p : polygon.outer) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-  return std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+double moved_area(const Ring& ring, const geometry::Ring& rounded_ring) {
+  std::vector<double> moved;
+  moved.reserve(ring.size());
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Rational dx = ring[i].x - Rational(rounded_ring[i].x);
+    const Rational dy = ring[i].y - Rational(rounded_ring[i].y);
+    moved.push_back(std::abs(dx.get_d()) + std::abs(dy.get_d()));
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const std::size_t j = i + 1 == ring.size() ? 0 : i + 1;
+    sum += distance(rounded_ring[i], rounded_ring[j]) * std::max(moved[i], moved[j]);
+  }
+  return sum;
 }
 
-bool is_sliver(double area, const geometry::Polygon& rounded) {
-  return 2 * area <= kSliverSteps * step_at(rounded) * perimeter(rounded);
+// The most area that rounding can have moved across the boundary: every edge by the step of its ends.
+double moved_area(const Polygon& polygon, const geometry::Polygon& rounded) {
+  double sum = moved_area(polygon.outer, rounded.outer);
+  for (std::size_t h = 0; h < polygon.holes.size(); ++h) sum += moved_area(polygon.holes[h], rounded.holes[h]);
+  return sum;
 }
 
 // The rounded rings overlaid with themselves: the polygons they enclose, if those need no new coordinates and
 // differ from the exact piece by no more than rounding does.
-std::vector<geometry::Polygon> retraced(const geometry::Polygon& rounded, double exact_area) {
+std::vector<geometry::Polygon> retraced(const geometry::Polygon& rounded, double exact_area, double moved) {
   std::vector<SourceSegment> segments;
   append_segments(segments, exactly(rounded), 0);
   const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
@@ -84,8 +92,7 @@ std::vector<geometry::Polygon> retraced(const geometry::Polygon& rounded, double
     area_sum += measure(polygon).area;
     result.push_back(std::move(polygon));
   }
-  const double allowed = kSliverSteps * step_at(rounded) * perimeter(rounded);
-  if (std::abs(area_sum - exact_area) > allowed) return {};
+  if (std::abs(area_sum - exact_area) > 2 * moved + 1e-14 * exact_area) return {};
   return result;
 }
 
@@ -124,8 +131,10 @@ void settle_piece(ExactPiece piece, Settling& settling) {
   const geometry::Polygon rounded = exact::rounded(piece.polygon);
   geometry::Polygon welded = weld(rounded);
   if (is_valid(welded)) return settling.add(std::move(welded), piece.part);
-  if (is_sliver(exact_area.get_d(), rounded)) return settling.add_sliver(exact_area);
-  std::vector<geometry::Polygon> parts = retraced(rounded, exact_area.get_d());
+  const double moved = moved_area(piece.polygon, rounded);
+  // A piece of no more area than rounding moves has no width that doubles can express.
+  if (exact_area.get_d() <= moved) return settling.add_sliver(exact_area);
+  std::vector<geometry::Polygon> parts = retraced(rounded, exact_area.get_d(), moved);
   if (parts.empty()) return settling.add_exact(std::move(piece.polygon), rounded, piece.part, exact_area);
   for (geometry::Polygon& part : parts) settling.add(std::move(part), piece.part);
 }

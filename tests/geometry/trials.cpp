@@ -10,20 +10,23 @@
 namespace polynya::geometry::trials {
 namespace {
 
-bool precedes(Point a, Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
+bool precedes(const exact::Point& a, const exact::Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
-Ring canonical(Ring ring) {
+bool ring_precedes(const exact::Ring& a, const exact::Ring& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), precedes);
+}
+
+exact::Ring canonical(exact::Ring ring) {
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), precedes), ring.end());
   return ring;
 }
 
-std::vector<Ring> canonical(const Polygon& polygon) {
-  std::vector<Ring> rings;
-  for (const Ring& hole : polygon.holes) rings.push_back(canonical(hole));
-  const auto less = [](const Ring& a, const Ring& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), precedes);
-  };
-  std::sort(rings.begin(), rings.end(), less);
+// The outer ring, then the holes in order, each from its lowest vertex on.
+std::vector<exact::Ring> canonical(const Shape& shape) {
+  const exact::Polygon polygon = shape.exact ? *shape.exact : exact::exactly(shape.polygon);
+  std::vector<exact::Ring> rings;
+  for (const exact::Ring& hole : polygon.holes) rings.push_back(canonical(hole));
+  std::sort(rings.begin(), rings.end(), ring_precedes);
   rings.insert(rings.begin(), canonical(polygon.outer));
   return rings;
 }
@@ -67,20 +70,19 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
     return testing::AssertionFailure() << name_of(one.error().reason) << " and " << name_of(other.error().reason);
   }
   const auto listed = [](const CutOutcome& outcome) {
-    std::vector<std::tuple<Part, std::vector<Ring>, bool>> pieces;
+    std::vector<std::tuple<Part, std::vector<exact::Ring>, bool>> pieces;
     for (const Piece& piece : outcome->pieces) {
-      pieces.emplace_back(piece.part, canonical(piece.shape.polygon), piece.shape.exact != nullptr);
+      pieces.emplace_back(piece.part, canonical(piece.shape), piece.shape.exact != nullptr);
     }
     std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
-      const Ring& p = std::get<1>(a).front();
-      const Ring& q = std::get<1>(b).front();
       if (std::get<0>(a) != std::get<0>(b)) return std::get<0>(a) < std::get<0>(b);
-      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end(), precedes);
+      return ring_precedes(std::get<1>(a).front(), std::get<1>(b).front());
     });
     return pieces;
   };
   if (listed(one) == listed(other)) {
-    if (one->ledger.rounding_defect == other->ledger.rounding_defect) return testing::AssertionSuccess();
+    const double apart = one->ledger.rounding_defect - other->ledger.rounding_defect;
+    if (std::abs(apart) < 1e-300) return testing::AssertionSuccess();  // subnormal defects do not scale
     return testing::AssertionFailure() << "rounding defects differ: " << one->ledger.rounding_defect << " and "
                                        << other->ledger.rounding_defect;
   }
@@ -88,7 +90,7 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
   failure << one->pieces.size() << " and " << other->pieces.size() << " pieces";
   for (const CutOutcome* outcome : {&one, &other}) {
     failure << "\n--";
-    for (const Piece& piece : (*outcome)->pieces) failure << "\n" << static_cast<int>(piece.part) << to_code(piece.shape.polygon);
+    for (const Piece& piece : (*outcome)->pieces) failure << "\n" << static_cast<int>(piece.part) << (piece.shape.exact ? " exact " : " ") << to_code(piece.shape.polygon);
   }
   return failure;
 }

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/polygon.hpp"
+#include "geometry/shape.hpp"
+
+namespace polynya::geometry::trials {
+
+/// Decisions drawn from bytes, zero once they run out: the same bytes tell the same story to RapidCheck and to the
+/// fuzzer.
+class Dice {
+ public:
+  explicit Dice(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
+  int below(int count);
+  double between(double low, double high);
+  bool is_empty() const { return next_ >= bytes_.size(); }
+
+ private:
+  std::uint8_t byte() { return next_ < bytes_.size() ? bytes_[next_++] : std::uint8_t{0}; }
+  std::vector<std::uint8_t> bytes_;
+  std::size_t next_ = 0;
+};
+
+/// What to cut with: a ring or a polyline.
+struct Knife {
+  bool is_ring = true;
+  Ring points;
+};
+
+/// A floe of some awkward kind: needle, comb, spiral, star, holes touching the boundary, tiny or far away. May be invalid.
+Polygon roll_floe(Dice& dice);
+
+/// A knife aimed at the floe's weak places: through vertices, tangent to edges, centred on vertices, along edges, one ulp
+/// beside them. May be invalid.
+Knife roll_knife(Dice& dice, const Polygon& floe);
+
+}  // namespace polynya::geometry::trials

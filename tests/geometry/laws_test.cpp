@@ -1,0 +1,207 @@
+// Laws of the cut over random and degenerate inputs. RapidCheck's seed is fixed; RC_PARAMS in the environment overrides.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "geometry/internal/general_cut.hpp"
+#include "geometry/internal/local_cut.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/overlap.hpp"
+#include "geometry/validity.hpp"
+#include "tests/geometry/dice.hpp"
+#include "tests/geometry/trials.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+using namespace trials;
+
+const bool kSeeded = [] {
+  ::setenv("RC_PARAMS", "seed=20260101 max_success=1500 max_size=200 max_discard_ratio=30", 0);
+  return true;
+}();
+
+CutOutcome cut(const Shape& shape, const Knife& knife) {
+  return knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
+}
+
+CutOutcome cut_generally(const Shape& shape, const Knife& knife) {
+  const exact::Polygon exact_shape = shape.exact ? *shape.exact : exact::exactly(shape.polygon);
+  return knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
+                       : cut_along_generally(exact_shape, knife.points);
+}
+
+std::string story(const Shape& shape, const Knife& knife) {
+  return to_code(shape.polygon) + (knife.is_ring ? "\nring " : "\ncrack ") + to_code(knife.points);
+}
+
+// Rolls a floe, perhaps cut before, so that knives also meet the vertices that earlier cuts made.
+Shape roll_shape(Dice& dice) {
+  Shape shape{roll_floe(dice)};
+  if (find_defect(shape.polygon)) return {};
+  for (int earlier = dice.below(3); earlier > 0; --earlier) {
+    CutOutcome outcome = cut(shape, roll_knife(dice, shape.polygon));
+    if (!outcome || outcome->pieces.empty()) continue;
+    const auto i = static_cast<std::size_t>(dice.below(static_cast<int>(outcome->pieces.size())));
+    shape = outcome->pieces[i].shape;
+  }
+  return shape;
+}
+
+template <typename Law>
+void check(const char* name, Law law) {
+  ASSERT_TRUE(kSeeded);
+  const bool held = rc::check(name, [&] {
+    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(120, rc::gen::arbitrary<std::uint8_t>()));
+    const Shape shape = roll_shape(dice);
+    RC_PRE(!shape.polygon.outer.empty());
+    law(shape, roll_knife(dice, shape.polygon));
+  });
+  EXPECT_TRUE(held);
+}
+
+void require(const testing::AssertionResult& result, const Shape& shape, const Knife& knife) {
+  if (!result) RC_FAIL(std::string(result.message()) + "\n" + story(shape, knife));
+}
+
+TEST(Laws, EveryCutIsSound) {
+  check("exact balance, valid pieces, a ledger that adds up", [](const Shape& shape, const Knife& knife) {
+    require(is_sound(shape, cut(shape, knife)), shape, knife);
+  });
+}
+
+TEST(Laws, LocalEqualsGeneral) {
+  int local = 0;
+  int cuts = 0;
+  check("the local path and CGAL's give the same bits", [&](const Shape& shape, const Knife& knife) {
+    const CutOutcome outcome = cut(shape, knife);
+    RC_PRE(outcome || outcome.error().reason != CutFailure::kInvalidTool);
+    require(are_equal(outcome, cut_generally(shape, knife)), shape, knife);
+    ++cuts;
+    if (!shape.exact && outcome) local += cut_locally(shape.polygon, {knife.points, knife.is_ring}).has_value() ? 1 : 0;
+  });
+  EXPECT_GT(4 * local, cuts) << "the law would be empty if the local path seldom answered";
+}
+
+// A quarter turn and a power of two are exact in doubles and commute with rounding: the result must follow to the bit.
+bool has_subnormals(const Ring& ring) {
+  return std::any_of(ring.begin(), ring.end(), [](Point p) {
+    return std::fpclassify(p.x) == FP_SUBNORMAL || std::fpclassify(p.y) == FP_SUBNORMAL;
+  });
+}
+
+TEST(Laws, QuarterTurnsAndPowersOfTwoCommuteWithTheCut) {
+  check("cut(turn(x)) = turn(cut(x))", [](const Shape& shape, const Knife& knife) {
+    RC_PRE(!shape.exact && !has_subnormals(shape.polygon.outer) && !has_subnormals(knife.points));
+    const auto turned_ring = [](Ring ring) {
+      for (Point& p : ring) p = {-4 * p.y, 4 * p.x};
+      return ring;
+    };
+    const auto turned = [&](const Polygon& polygon) {
+      Polygon result{turned_ring(polygon.outer), {}};
+      for (const Ring& hole : polygon.holes) result.holes.push_back(turned_ring(hole));
+      return result;
+    };
+    CutOutcome first = cut(shape, knife);
+    const CutOutcome second = cut(Shape{turned(shape.polygon)}, {knife.is_ring, turned_ring(knife.points)});
+    if (first) {
+      RC_PRE(first->ledger.slivers == 0 && first->ledger.kept_exact == 0);  // judged by boxes, which turning changes
+      for (Piece& piece : first->pieces) piece.shape.polygon = turned(piece.shape.polygon);
+      first->ledger.rounding_defect *= 16;
+    }
+    require(are_equal(first, second), shape, knife);
+  });
+}
+
+// In any other frame rounding differs, but not by more than rounding.
+TEST(Laws, MotionLeavesGenericCutsCongruent) {
+  ASSERT_TRUE(kSeeded);
+  EXPECT_TRUE(rc::check("areas of the pieces in a moved frame", [] {
+    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(80, rc::gen::arbitrary<std::uint8_t>()));
+    Ring floe = disc_polygon({0, 0}, 10, 0.05);
+    for (Point& p : floe) p = Point{} + dice.between(0.6, 1.2) * (p - Point{});
+    const Ring disc = disc_polygon({dice.between(-10, 10), dice.between(-10, 10)}, dice.between(1, 6), 0.03);
+    const Pose pose{{dice.between(-500, 500), dice.between(-500, 500)}, Rotation::by(dice.between(-3, 3))};
+    const auto moved = [&](Ring ring) {
+      for (Point& p : ring) p = point_in_world(pose, p);
+      return ring;
+    };
+    const CutOutcome here = cut_by_polygon(Shape{{floe, {}}}, {disc, {}});
+    const CutOutcome there = cut_by_polygon(Shape{{moved(floe), {}}}, {moved(disc), {}});
+    RC_ASSERT(here.has_value() == there.has_value());
+    if (!here) return;
+    RC_ASSERT(here->pieces.size() == there->pieces.size());
+    RC_ASSERT(std::abs(here->ledger.area_outside - there->ledger.area_outside) < 1e-9);
+    RC_ASSERT(std::abs(here->ledger.area_inside - there->ledger.area_inside) < 1e-9);
+  }));
+}
+
+// On a grid of quarters with axis-parallel and diagonal tools every crossing is a double: nothing is rounded, and what
+// holds before rounding can be read off the result.
+Ring grid_tool(Dice& dice) {
+  const Point c{static_cast<double>(dice.below(9)), static_cast<double>(dice.below(9))};
+  const double r = 0.5 * (1 + dice.below(6));
+  if (dice.below(2) == 0) return {{c.x - r, c.y - r}, {c.x + r, c.y - r}, {c.x + r, c.y + r}, {c.x - r, c.y + r}};
+  return {{c.x - r, c.y}, {c.x, c.y - r}, {c.x + r, c.y}, {c.x, c.y + r}};
+}
+
+TEST(Laws, PiecesPartitionTheirParentBeforeRounding) {
+  ASSERT_TRUE(kSeeded);
+  EXPECT_TRUE(rc::check("disjoint, inside the parent, and together all of it", [] {
+    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(60, rc::gen::arbitrary<std::uint8_t>()));
+    Shape shape{{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {}}};
+    for (int i = 0; i < 3; ++i) {
+      const Ring tool = grid_tool(dice);
+      const CutOutcome outcome = cut_by_polygon(shape, {tool, {}});
+      if (!outcome) continue;
+      RC_ASSERT(outcome->ledger.rounding_defect == 0);
+      exact::Rational sum = 0;
+      const std::vector<Piece>& pieces = outcome->pieces;
+      for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const exact::Rational area = exact_area(pieces[p].shape);
+        sum += area;
+        RC_ASSERT(overlap(pieces[p].shape, {}, shape, {})->exact_area == area.get_str());
+        const std::string in_tool = overlap(pieces[p].shape, {}, Shape{{tool, {}}}, {})->exact_area;
+        RC_ASSERT(in_tool == (pieces[p].part == Part::kInside ? area.get_str() : "0"));
+        for (std::size_t q = 0; q < p; ++q) RC_ASSERT(overlap(pieces[p].shape, {}, pieces[q].shape, {})->exact_area == "0");
+      }
+      RC_ASSERT(sum == exact_area(shape));
+      shape = pieces[static_cast<std::size_t>(dice.below(static_cast<int>(pieces.size())))].shape;
+    }
+  }));
+}
+
+// What two tools leave does not depend on which came first, and counting areas commutes with cutting.
+TEST(Laws, TheOrderOfTwoToolsDoesNotMatter) {
+  ASSERT_TRUE(kSeeded);
+  EXPECT_TRUE(rc::check("cut(A, B) = cut(B, A)", [] {
+    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(60, rc::gen::arbitrary<std::uint8_t>()));
+    const Shape shape{{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {}}};
+    const Ring one = grid_tool(dice);
+    const Ring other = grid_tool(dice);
+    const auto left_by = [&](const Ring& first, const Ring& second) {
+      exact::Rational left = 0;
+      int pieces = 0;
+      const CutOutcome after_first = cut_by_polygon(shape, {first, {}});
+      const std::vector<Piece> start = after_first ? after_first->pieces : std::vector<Piece>{{shape}};
+      for (const Piece& piece : start) {
+        if (piece.part == Part::kInside) continue;
+        const CutOutcome after_second = cut_by_polygon(piece.shape, {second, {}});
+        const std::vector<Piece> end = after_second ? after_second->pieces : std::vector<Piece>{{piece.shape}};
+        for (const Piece& last : end) {
+          if (last.part == Part::kInside) continue;
+          left += exact_area(last.shape);
+          ++pieces;
+        }
+      }
+      return std::pair(left, pieces);
+    };
+    RC_ASSERT(left_by(one, other) == left_by(other, one));
+  }));
+}
+
+}  // namespace
+}  // namespace polynya::geometry
