@@ -1,0 +1,427 @@
+// The icebreaking database: its text, its accuracy, its trends, what it refuses and where it says it is
+// outside.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "fracture/bending/database_text.hpp"
+#include "fracture/bending/fsi_database_model.hpp"
+#include "fracture/bending/studies.hpp"
+
+namespace polynya::fracture {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+SolverSettings coarse_settings() {
+  SolverSettings settings;
+  settings.radial_elements = 14;
+  settings.angular_terms = 3;
+  settings.panel_rings = 10;
+  settings.panel_columns = 3;
+  settings.steps_to_failure = 30;
+  return settings;
+}
+
+DatabaseGrid small_grid() {
+  return {{40, 90, 150}, {0.03, 0.08}, {1e-4, 1e-2}, {1e-3, 0.1}};
+}
+
+const BendingDatabase& small_database() {
+  static const BendingDatabase database = *build_database(coarse_settings(), small_grid(), 1);
+  return database;
+}
+
+// ---- building
+
+TEST(DatabaseBuild, SameBytesForAnyNumberOfThreads) {
+  const std::string one = write_database(small_database());
+  for (const int threads : {2, 3, 8})
+    EXPECT_EQ(write_database(*build_database(coarse_settings(), small_grid(), threads)), one) << threads;
+}
+
+TEST(DatabaseBuild, ProgressReachesTheTotal) {
+  std::vector<std::size_t> seen;
+  const auto built =
+      build_database(coarse_settings(), small_grid(), 2, [&](std::size_t done, std::size_t total) {
+        EXPECT_EQ(total, 6U);
+        seen.push_back(done);
+      });
+  EXPECT_TRUE(built.has_value());
+  EXPECT_EQ(seen, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(DatabaseBuild, UnusableGridsAreErrors) {
+  DatabaseGrid grid = small_grid();
+  grid.froude_numbers = {0.1};
+  EXPECT_FALSE(build_database(coarse_settings(), grid).has_value());
+  grid = small_grid();
+  grid.softnesses = {1e-2, 1e-4};
+  EXPECT_FALSE(build_database(coarse_settings(), grid).has_value());
+  grid = small_grid();
+  grid.opening_angles_deg.back() = 200;
+  EXPECT_FALSE(build_database(coarse_settings(), grid).has_value());
+  grid = small_grid();
+  grid.softnesses.back() = 1e3;  // too soft to break anything
+  const auto too_soft = build_database(coarse_settings(), grid);
+  ASSERT_FALSE(too_soft.has_value());
+  EXPECT_NE(too_soft.error().message.find("does not break"), std::string::npos);
+}
+
+// The shipped bytes are what today's solver makes: two wedges of it here, the whole by `polynya database
+// build`.
+TEST(DefaultDatabase, IsWhatTheSolverMakes) {
+  const BendingDatabase& shipped = default_database();
+  EXPECT_EQ(shipped.settings(), SolverSettings{});
+  EXPECT_EQ(shipped.grid(), default_grid());
+  DatabaseGrid part = default_grid();
+  part.opening_angles_deg = {part.opening_angles_deg.front(), part.opening_angles_deg[9]};
+  part.mass_ratios = {part.mass_ratios.front(), part.mass_ratios.back()};
+  const auto built = build_database(shipped.settings(), part, 2);
+  ASSERT_TRUE(built.has_value());
+  const std::size_t block = part.softnesses.size() * part.froude_numbers.size();
+  const std::size_t masses = default_grid().mass_ratios.size();
+  for (std::size_t wedge = 0; wedge < 4; ++wedge) {
+    const std::size_t angle = wedge / 2 == 0 ? 0 : 9, mass = wedge % 2 == 0 ? 0 : masses - 1;
+    for (std::size_t k = 0; k < block; ++k)
+      ASSERT_EQ(built->entries()[wedge * block + k], shipped.entries()[(angle * masses + mass) * block + k]);
+  }
+}
+
+TEST(DefaultDatabase, AgreesWithTheSolutionAt200RandomPoints) {
+  constexpr std::uint64_t kSeed = 20170611;
+  const AccuracyStudy study = accuracy_study(default_database(), 200, kSeed, 2);
+  std::printf("seed %llu: force within %.2f %%, radius within %.2f %%\n",
+              static_cast<unsigned long long>(kSeed), 100 * study.worst_force_error,
+              100 * study.worst_radius_error);
+  EXPECT_EQ(study.rows.size(), 200U);
+  EXPECT_LT(study.worst_force_error, 0.01);
+  EXPECT_LT(study.worst_radius_error, 0.04);
+}
+
+// ---- looking up
+
+TEST(DatabaseLookUp, ReproducesItsOwnPoints) {
+  const BendingDatabase& database = default_database();
+  const DatabaseGrid& grid = database.grid();
+  std::size_t k = 0;
+  for (const double angle : grid.opening_angles_deg)
+    for (const double mass : grid.mass_ratios)
+      for (const double softness : grid.softnesses)
+        for (const double froude : grid.froude_numbers) {
+          const DatabaseAnswer answer = database.look_up({angle * kPi / 180, mass, softness, froude});
+          const DatabaseEntry& entry = database.entries()[k++];
+          ASSERT_TRUE(answer.is_in_range());
+          ASSERT_NEAR(answer.force / entry.force, 1, 1e-12);
+          ASSERT_NEAR(answer.cusp_radius / entry.cusp_radius, 1, 1e-12);
+          ASSERT_NEAR(answer.crack_ratio, entry.crack_ratio, 1e-12 * (1 + entry.crack_ratio));
+        }
+}
+
+TEST(DatabaseLookUp, SaysWhichGroupIsOutside) {
+  const BendingDatabase& database = default_database();
+  const WedgeGroups inside{kPi / 2, 0.05, 1e-3, 0.1};
+  EXPECT_EQ(outside_names(database.look_up(inside)), "");
+  WedgeGroups groups = inside;
+  groups.opening_angle = 0.1;
+  EXPECT_EQ(outside_names(database.look_up(groups)), "opening angle");
+  groups = inside;
+  groups.mass_ratio = 0.5;
+  groups.froude = 7;
+  const DatabaseAnswer edge = database.look_up(groups);
+  EXPECT_EQ(outside_names(edge), "mass ratio, Froude number");
+  EXPECT_EQ(edge.force, database.look_up({kPi / 2, 0.1, 1e-3, 1.5}).force);  // the edge's answer, not a guess
+  groups = inside;
+  groups.softness = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(outside_names(database.look_up(groups)), "softness");
+  groups.softness = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(database.look_up(groups).is_in_range());
+}
+
+// Below its least Froude number a wedge is at rest on its water: the edge is the limit, and counts as inside.
+TEST(DatabaseLookUp, RestIsInside) {
+  const DatabaseAnswer slow = default_database().look_up({kPi / 2, 0.05, 1e-3, 0});
+  EXPECT_TRUE(slow.is_in_range());
+  const WedgeSolver solver(kPi / 2, 0.05, {});
+  const auto still = solver.failure({1e-5, 1e-3, 0, 0});
+  EXPECT_NEAR(slow.force / still->force, 1, 1e-3);
+  EXPECT_NEAR(slow.cusp_radius / still->cusp_radius, 1, 5e-3);
+}
+
+// ---- trends
+
+TEST(DefaultDatabase, ForceGrowsWithTheOpeningAngle) {
+  const BendingDatabase& database = default_database();
+  const std::size_t stride = database.entries().size() / database.grid().opening_angles_deg.size();
+  for (std::size_t k = 0; k + stride < database.entries().size(); ++k)
+    ASSERT_LT(database.entries()[k].force, database.entries()[k + stride].force) << k;
+}
+
+// Once a push is fast against the plate's own time, a faster one breaks off a smaller cusp. (Slower ones
+// break off a cusp up to a sixth larger than at rest, where inertia overshoots.)
+TEST(DefaultDatabase, RadiusFallsWithSpeed) {
+  const BendingDatabase& database = default_database();
+  const DatabaseGrid& grid = database.grid();
+  const std::size_t froudes = grid.froude_numbers.size();
+  std::size_t compared = 0;
+  for (std::size_t k = 0; k < database.entries().size(); ++k) {
+    const std::size_t f = k % froudes, s = k / froudes % grid.softnesses.size();
+    if (f + 1 == froudes) continue;
+    const DatabaseEntry &slow = database.entries()[k], &fast = database.entries()[k + 1];
+    if (std::sqrt(grid.softnesses[s] * slow.force) / grid.froude_numbers[f] > 0.3) continue;
+    ++compared;
+    ASSERT_LT(fast.cusp_radius, slow.cusp_radius) << k;
+  }
+  EXPECT_GT(compared, database.entries().size() / 3);
+}
+
+TEST(FsiDatabaseModel, ForceGrowsWithThicknessStrengthAndAngle) {
+  const FsiDatabaseModel model;
+  BendingLoad load;
+  load.hull_angle = 1;
+  load.vertical_to_crushing = 0.75;
+  load.mean_approach_speed = 0.8;
+  const auto force = [&](auto change, double value) {
+    BendingLoad changed = load;
+    change(changed, value);
+    const BendingCapacity capacity = model.capacity(changed);
+    EXPECT_TRUE(capacity.is_in_range) << value;
+    return capacity.vertical_force;
+  };
+  const auto grows = [&](auto change, double from, double to) {
+    double previous = 0;
+    for (double value = from; value < to; value += (to - from) / 50) {
+      const double now = force(change, value);
+      EXPECT_GT(now, previous) << value;
+      previous = now;
+    }
+  };
+  grows([](BendingLoad& l, double h) { l.ice.thickness = h; }, 0.15, 2.5);
+  grows([](BendingLoad& l, double s) { l.ice.flexural_strength = s; }, 0.2e6, 2e6);
+  grows([](BendingLoad& l, double a) { l.front_half_angle = l.back_half_angle = a; }, 0.18, 1.43);
+}
+
+TEST(FsiDatabaseModel, RadiusFallsWithSpeed) {
+  const FsiDatabaseModel model;
+  BendingLoad load;
+  load.hull_angle = 1;
+  load.vertical_to_crushing = 0.75;
+  double previous = 1e9;
+  for (double speed = 0.25; speed < 8; speed += 0.05) {
+    load.mean_approach_speed = speed;
+    const double radius = model.capacity(load).cusp_radius;
+    EXPECT_LT(radius, previous) << speed;
+    previous = radius;
+  }
+}
+
+// ---- physical answers
+
+TEST(FsiDatabaseModel, IsTheDirectSolution) {
+  const FsiDatabaseModel model;
+  BendingLoad load;
+  load.front_half_angle = 0.6;
+  load.back_half_angle = 1.1;
+  load.hull_angle = 0.9;
+  load.vertical_to_crushing = 0.66;
+  load.mean_approach_speed = 1.3;
+  const BendingForecast table = model.forecast(load);
+  const BendingForecast direct = *direct_forecast(wedge_of(load, {}), load);
+  EXPECT_EQ(table.outside, "");
+  EXPECT_NEAR(table.capacity.vertical_force / direct.capacity.vertical_force, 1, 0.01);
+  EXPECT_NEAR(table.capacity.cusp_radius / direct.capacity.cusp_radius, 1, 0.04);
+  EXPECT_NEAR(table.time / direct.time, 1, 0.01);
+  EXPECT_NEAR(table.penetration / direct.penetration, 1, 0.01);
+  EXPECT_NEAR(table.normal_force / direct.normal_force, 1, 0.01);
+  load.penetration = table.penetration;  // what the simulation asks on the way
+  EXPECT_EQ(model.capacity(load).vertical_force, table.capacity.vertical_force);
+}
+
+// Edges of unequal angles are exchangeable, and crush more than they bend: T grows at the same 2α.
+TEST(FsiDatabaseModel, UnequalEdges) {
+  const FsiDatabaseModel model;
+  BendingLoad load;
+  load.hull_angle = 0.9;
+  load.vertical_to_crushing = 0.66;
+  load.mean_approach_speed = 1;
+  const BendingForecast even = model.forecast(load);
+  load.front_half_angle = 0.4;
+  load.back_half_angle = kPi / 2 - 0.4;
+  const BendingForecast uneven = model.forecast(load);
+  std::swap(load.front_half_angle, load.back_half_angle);
+  EXPECT_NEAR(model.forecast(load).capacity.vertical_force, uneven.capacity.vertical_force, 1e-6);
+  EXPECT_LT(uneven.penetration, even.penetration);
+  EXPECT_NEAR(uneven.capacity.vertical_force / even.capacity.vertical_force, 1, 0.05);
+}
+
+// Steep walls crush through the thickness first; the equivalent push stays near the direct solution.
+TEST(FsiDatabaseModel, ThroughThicknessContact) {
+  const FsiDatabaseModel model;
+  BendingLoad load;
+  load.hull_angle = 20 * kPi / 180;
+  load.vertical_to_crushing = std::sin(load.hull_angle) - 0.2 * std::cos(load.hull_angle);
+  for (const double half_angle : {0.4, 0.8, 1.3}) {
+    load.front_half_angle = load.back_half_angle = half_angle;
+    load.mean_approach_speed = 1;
+    const BendingForecast table = model.forecast(load);
+    const BendingForecast direct = *direct_forecast(wedge_of(load, {}), load);
+    EXPECT_GT(table.penetration, load.ice.thickness * std::tan(load.hull_angle));
+    EXPECT_NEAR(table.capacity.vertical_force / direct.capacity.vertical_force, 1, 0.02) << half_angle;
+    EXPECT_NEAR(table.capacity.cusp_radius / direct.capacity.cusp_radius, 1, 0.1) << half_angle;
+  }
+}
+
+TEST(FsiDatabaseModel, SaysWhereItIsOutside) {
+  const FsiDatabaseModel model;
+  BendingLoad load;
+  load.hull_angle = 1;
+  load.vertical_to_crushing = 0.7;
+  load.mean_approach_speed = 1;
+  EXPECT_TRUE(model.capacity(load).is_in_range);
+  load.ice.poisson_ratio = 0.25;
+  EXPECT_FALSE(model.capacity(load).is_in_range);
+  EXPECT_EQ(model.forecast(load).outside, "Poisson ratio");
+  load.ice.poisson_ratio = 0.3;
+  load.vertical_to_crushing = -0.1;  // a wall too steep to press down: finite, and outside
+  EXPECT_FALSE(model.capacity(load).is_in_range);
+  EXPECT_TRUE(std::isfinite(model.capacity(load).vertical_force));
+  EXPECT_EQ(model.forecast(load).outside, "softness");
+}
+
+// ---- the text
+
+TEST(DatabaseText, RoundTripsByteForByte) {
+  const std::string text = write_database(small_database());
+  const auto read = parse_database(text);
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(write_database(*read), text);
+  EXPECT_EQ(read->entries(), small_database().entries());
+  EXPECT_EQ(read->grid(), small_database().grid());
+  EXPECT_EQ(read->settings(), small_database().settings());
+  EXPECT_EQ(write_database(default_database()), default_database_text());
+  EXPECT_NE(text.find("hash fnv1a64 " + database_hash(small_database())), std::string::npos);
+}
+
+TEST(DatabaseText, ReadsFromAFile) {
+  const auto path = std::filesystem::temp_directory_path() / "polynya_database_test.txt";
+  std::ofstream(path, std::ios::binary) << write_database(small_database());
+  const auto read = read_database(path);
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(read->entries(), small_database().entries());
+  std::filesystem::remove(path);
+  EXPECT_EQ(read_database(path).error().message, "cannot read " + path.string());
+  EXPECT_FALSE(read_database(std::filesystem::temp_directory_path()).has_value());
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << from;
+  return text.replace(place, from.size(), to);
+}
+
+TEST(DatabaseText, RefusesWithTheLineAndTheReason) {
+  const std::string text = write_database(small_database());
+  struct Row {
+    std::string text;
+    int line;
+    std::string reason;
+  };
+  for (const auto& [bad, line, reason] :
+       {Row{"", 1, "ends in the middle"},
+        Row{replaced(text, "database 1", "database 2"), 1, "expected 'polynya"},
+        Row{replaced(text, "fluid potential", "fluid honey"), 2, "no such fluid"},
+        Row{replaced(text, "poisson_ratio 0.3", "poisson_ratio 0.7"), 3, "out of range"},
+        Row{replaced(text, "poisson_ratio 0.3", "poisson_ratio nan"), 3, "out of range"},
+        Row{replaced(text, "poisson_ratio 0.3", "poisson 0.3"), 3, "expected 'poisson_ratio"},
+        Row{replaced(text, "angular_terms 3", "angular_terms 3.5"), 8, "not a number"},
+        Row{replaced(text, "angular_terms 3", "angular_terms 99999999999"), 8, "not a number"},
+        Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 0.08 0.03"), 14, "ascend"},
+        Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 0.03"), 14, "ascend"},
+        Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 0.03  0.08"), 14, "not a number"},
+        Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 0.03 inf"), 14, "ascend"},
+        Row{replaced(text, "entries 24", "entries 25"), 18, "not 25"},
+        Row{replaced(text, "entries 24", "entries 999999999"), 18, "more than"},
+        Row{text.substr(0, text.find("entries 24") + 11), 19, "ends in the middle"},
+        Row{text.substr(0, text.size() - 1), 43, "ends in the middle"},
+        Row{text + "\n", 43, "follows the hash"},
+        Row{replaced(text, "columns force", "columns radius"), 17, "expected 'columns"}}) {
+    const auto read = parse_database(bad);
+    ASSERT_FALSE(read.has_value()) << reason;
+    EXPECT_EQ(read.error().line, line) << read.error().message;
+    EXPECT_NE(read.error().message.find(reason), std::string::npos) << read.error().message;
+  }
+}
+
+TEST(DatabaseText, RefusesAChangedNumberByItsHash) {
+  std::string text = write_database(small_database());
+  const auto entry = text.find('\n', text.find("entries 24")) + 3;
+  text[entry] = text[entry] == '7' ? '8' : '7';
+  const auto read = parse_database(text);
+  ASSERT_FALSE(read.has_value());
+  EXPECT_NE(read.error().message.find("hash"), std::string::npos);
+}
+
+TEST(DatabaseText, RefusesTooLargeAFile) {
+  EXPECT_FALSE(parse_database(std::string(kLargestFile + 1, 'x')).has_value());
+}
+
+// Damage of any kind is refused or, where it leaves a sound file, read: never a crash, never a silent
+// misreading.
+TEST(DatabaseText, SurvivesRandomDamage) {
+  const std::string text = write_database(small_database());
+  constexpr unsigned kSeed = 4;
+  std::printf("seed %u\n", kSeed);
+  std::mt19937 random(kSeed);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+  int hashes_mended = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    std::string damaged = text;
+    for (std::size_t i = 0; i <= below(4); ++i) {
+      const std::size_t place = below(damaged.size());
+      switch (below(4)) {
+        case 0:
+          damaged[place] = static_cast<char>(below(256));
+          break;
+        case 1:
+          damaged.erase(place, 1 + below(60));
+          break;
+        case 2:
+          damaged.insert(place, damaged.substr(below(damaged.size()), below(60)));
+          break;
+        default:
+          damaged.resize(place + 1);
+          break;
+      }
+    }
+    const auto read = parse_database(damaged);
+    if (read) {
+      EXPECT_EQ(write_database(*read), damaged);
+    } else {
+      EXPECT_FALSE(read.error().message.empty());
+    }
+    // Again with a hash that fits, so that the damage itself has to be found or borne.
+    const auto hash_line = damaged.rfind("hash fnv1a64 ");
+    if (read || hash_line == std::string::npos) continue;
+    const auto hashed = parse_database(damaged.substr(0, hash_line) + "hash fnv1a64 0\n");
+    ASSERT_FALSE(hashed.has_value());
+    const auto wanted = hashed.error().message.find("expected 'hash fnv1a64 ");
+    if (wanted == std::string::npos || hashed.error().message.find("found 'hash") == std::string::npos)
+      continue;
+    ++hashes_mended;
+    const std::string mended =
+        damaged.substr(0, hash_line) + hashed.error().message.substr(wanted + 10, 29) + "\n";
+    const auto sound = parse_database(mended);
+    ASSERT_TRUE(sound.has_value()) << sound.error().message;
+    EXPECT_TRUE(std::isfinite(sound->look_up({1, 0.05, 1e-3, 0.05}).force));
+  }
+  EXPECT_GT(hashes_mended, 100);
+}
+
+}  // namespace
+}  // namespace polynya::fracture
