@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace polynya::dynamics {
 
@@ -29,15 +30,30 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   return bodies.size() - 1;
 }
 
+namespace {
+
+/// The rotation by `turn` after r, for the small turns of a step [rad]. Cayley's form: a rotation to the last bit or
+/// two however many follow one another, by 2 atan(turn/2), which is turn³/12 short: 1e-14 at 0.01 rad/s and 5 ms.
+geometry::Rotation turned(geometry::Rotation r, double turn) {
+  const double h = 0.5 * turn;
+  const double scale = 1 / (1 + h * h);
+  const double cosine = (1 - h * h) * scale;
+  const double sine = 2 * h * scale;
+  return {r.cosine * cosine - r.sine * sine, r.sine * cosine + r.cosine * sine};
+}
+
+}  // namespace
+
+void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn) {
+  bodies.position[i] += shift;
+  bodies.travel[i] += length(shift) + std::abs(turn) * bodies.bounding_radius[i];
+  if (turn == 0) return;
+  bodies.angle[i] += turn;
+  bodies.rotation[i] = turned(bodies.rotation[i], turn);
+}
+
 void integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt) {
-  for (const BodyIndex i : awake) {
-    const geometry::Vector velocity = bodies.velocity[i];
-    const double omega = bodies.angular_velocity[i];
-    bodies.position[i] += dt * velocity;
-    bodies.angle[i] += dt * omega;
-    bodies.rotation[i] = geometry::Rotation::by(bodies.angle[i]);
-    bodies.travel[i] += dt * (length(velocity) + std::abs(omega) * bodies.bounding_radius[i]);
-  }
+  for (const BodyIndex i : awake) move_body(bodies, i, dt * bodies.velocity[i], dt * bodies.angular_velocity[i]);
 }
 
 }  // namespace polynya::dynamics

@@ -15,7 +15,7 @@ using BodyIndex = std::int32_t;
 /// How water holds a body back, by its shape alone. Made once per shape (water_drag.hpp).
 struct DragShape {
   static constexpr int kDirections = 64;
-  std::array<double, kDirections + 1> width{};  ///< across direction k·π/64 in the body frame [m]; the last is the first
+  std::array<double, kDirections + 1> width{};  ///< across the directions of drag_direction(k) [m]; last = first
   double rotational = 0;                        ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
 };
 
@@ -74,7 +74,10 @@ inline geometry::Vector velocity_at(const Bodies& bodies, BodyIndex i, geometry:
   return bodies.velocity[i] + cross(bodies.angular_velocity[i], arm);
 }
 
-/// Moves every awake body with its velocity over dt [s] (and `shift`, a displacement that carries no momentum).
+/// Moves a body by a displacement [m] and a small turn [rad].
+void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn);
+
+/// Moves every awake body with its velocity over dt [s].
 void integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt);
 
 }  // namespace polynya::dynamics

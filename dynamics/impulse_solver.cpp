@@ -15,76 +15,157 @@ Mobility mobility(const Bodies& bodies, BodyIndex i, Vector arm) {
   return {bodies.inverse_mass[i], bodies.inverse_moment[i], arm};
 }
 
-void push(Bodies& bodies, BodyIndex a, BodyIndex b, Vector arm_a, Vector arm_b, Vector impulse_on_b) {
-  bodies.velocity[a] -= bodies.inverse_mass[a] * impulse_on_b;
-  bodies.angular_velocity[a] -= bodies.inverse_moment[a] * cross(arm_a, impulse_on_b);
-  bodies.velocity[b] += bodies.inverse_mass[b] * impulse_on_b;
-  bodies.angular_velocity[b] += bodies.inverse_moment[b] * cross(arm_b, impulse_on_b);
-}
-
-Vector relative_velocity(const Bodies& bodies, BodyIndex a, BodyIndex b, Vector arm_a, Vector arm_b) {
-  return velocity_at(bodies, b, arm_b) - velocity_at(bodies, a, arm_a);
+std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
 }
 
 }  // namespace
 
+std::int32_t ImpulseSolver::mover_of(const Bodies& bodies, BodyIndex body) {
+  std::int32_t& mover = mover_of_body_[body];
+  if (mover < 0) {
+    mover = static_cast<std::int32_t>(movers_.size());
+    movers_.push_back({bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
+                       bodies.inverse_moment[body]});
+    body_of_mover_.push_back(body);
+    island_of_mover_.push_back(mover);
+  }
+  return mover;
+}
+
+/// Groups the contacts by islands, islands in the order of their first contact. A held body joins nothing.
+void ImpulseSolver::find_islands(const Bodies& bodies, const std::vector<Contact>& contacts) {
+  movers_.clear();
+  body_of_mover_.clear();
+  island_of_mover_.clear();
+  islands_.clear();
+  mover_of_body_.resize(static_cast<std::size_t>(bodies.size()), -1);
+  for (const Contact& c : contacts) {
+    const std::int32_t a = mover_of(bodies, c.a);
+    const std::int32_t b = mover_of(bodies, c.b);
+    if (bodies.inverse_mass[c.a] == 0 || bodies.inverse_mass[c.b] == 0) continue;
+    const std::int32_t ra = root_of(island_of_mover_, a);
+    const std::int32_t rb = root_of(island_of_mover_, b);
+    island_of_mover_[std::max(ra, rb)] = std::min(ra, rb);
+  }
+  const auto island_root = [&](const Contact& c) {
+    const BodyIndex free_body = bodies.inverse_mass[c.a] != 0 ? c.a : c.b;
+    return root_of(island_of_mover_, mover_of_body_[free_body]);
+  };
+  order_.resize(contacts.size());
+  for (std::uint32_t i = 0; i < contacts.size(); ++i) order_[i] = i;
+  std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t p, std::uint32_t q) {
+    return island_root(contacts[p]) < island_root(contacts[q]);
+  });
+  std::int32_t previous = -1;
+  for (std::uint32_t i = 0; i < order_.size(); ++i) {
+    const std::int32_t root = island_root(contacts[order_[i]]);
+    if (root != previous) islands_.push_back({2 * i, 0});
+    previous = root;
+    islands_.back().count += 2;
+  }
+}
+
+ImpulseSolver::Row ImpulseSolver::row_of(const Bodies& bodies, const Contact& c, int end) const {
+  const Vector arm_a = c.ends[end] - bodies.position[c.a];
+  const Vector arm_b = c.ends[end] - bodies.position[c.b];
+  const Vector tangent = perpendicular(c.normal);
+  Row row;
+  row.a = mover_of_body_[c.a];
+  row.b = mover_of_body_[c.b];
+  row.normal = c.normal;
+  row.normal_turn_a = cross(arm_a, c.normal);
+  row.normal_turn_b = cross(arm_b, c.normal);
+  row.tangent_turn_a = cross(arm_a, tangent);
+  row.tangent_turn_b = cross(arm_b, tangent);
+  row.normal_mass = effective_mass(mobility(bodies, c.a, arm_a), mobility(bodies, c.b, arm_b), c.normal);
+  row.tangent_mass = effective_mass(mobility(bodies, c.a, arm_a), mobility(bodies, c.b, arm_b), tangent);
+  row.least = 0;
+  row.limit = 0.5 * c.impulse_limit;
+  row.friction = c.friction;
+  row.normal_impulse = row.tangent_impulse = 0;
+  if (c.record != nullptr) {
+    row.normal_impulse = std::min(c.record->last_impulse[end], row.limit);
+    const double most = row.friction * row.normal_impulse;
+    row.tangent_impulse = std::clamp(c.record->last_tangent_impulse[end], -most, most);
+  }
+  return row;
+}
+
 void ImpulseSolver::fill_rows(const Bodies& bodies, const std::vector<Contact>& contacts) {
   rows_.clear();
-  for (const Contact& c : contacts) {
-    for (const geometry::Point end : c.ends) {
-      Row row;
-      row.a = c.a;
-      row.b = c.b;
-      row.arm_a = end - bodies.position[c.a];
-      row.arm_b = end - bodies.position[c.b];
-      row.normal = c.normal;
-      const Mobility ma = mobility(bodies, c.a, row.arm_a);
-      const Mobility mb = mobility(bodies, c.b, row.arm_b);
-      row.normal_mass = effective_mass(ma, mb, c.normal);
-      row.tangent_mass = effective_mass(ma, mb, perpendicular(c.normal));
-      row.least = 0;
-      row.limit = 0.5 * c.impulse_limit;
-      row.friction = c.friction;
-      row.normal_impulse = row.tangent_impulse = 0;
-      rows_.push_back(row);
+  for (const std::uint32_t i : order_) {
+    for (int end = 0; end < 2; ++end) {
+      rows_.push_back(row_of(bodies, contacts[i], end));
+      push(rows_.back(), rows_.back().normal_impulse, rows_.back().tangent_impulse);
     }
   }
 }
 
-void ImpulseSolver::sweep_until_converged(Bodies& bodies, const SolverSettings& settings, SolverResult& result) {
+/// Changes the velocities by impulses on b, and their opposites on a.
+inline void ImpulseSolver::push(const Row& row, double normal_impulse, double tangent_impulse) {
+  const Vector impulse = normal_impulse * row.normal + tangent_impulse * perpendicular(row.normal);
+  Mover& a = movers_[row.a];
+  Mover& b = movers_[row.b];
+  a.velocity -= a.inverse_mass * impulse;
+  b.velocity += b.inverse_mass * impulse;
+  a.angular_velocity -=
+      a.inverse_moment * (normal_impulse * row.normal_turn_a + tangent_impulse * row.tangent_turn_a);
+  b.angular_velocity +=
+      b.inverse_moment * (normal_impulse * row.normal_turn_b + tangent_impulse * row.tangent_turn_b);
+}
+
+/// Brings one end of a contact line to rest within its bounds, normal first, then friction. Returns by how much that
+/// changed the velocity there [m/s].
+inline double ImpulseSolver::visit(Row& row) {
+  const Mover& a = movers_[row.a];
+  const Mover& b = movers_[row.b];
+  const double apart = dot(b.velocity - a.velocity, row.normal) + b.angular_velocity * row.normal_turn_b -
+                       a.angular_velocity * row.normal_turn_a;
+  const double normal_impulse = std::clamp(row.normal_impulse - apart * row.normal_mass, row.least, row.limit);
+  const double normal_change = normal_impulse - row.normal_impulse;
+  if (normal_change != 0) push(row, normal_change, 0);
+  row.normal_impulse = normal_impulse;
+  if (normal_impulse == 0 && row.tangent_impulse == 0) return std::abs(normal_change) / row.normal_mass;
+
+  const double slip = dot(b.velocity - a.velocity, perpendicular(row.normal)) +
+                      b.angular_velocity * row.tangent_turn_b - a.angular_velocity * row.tangent_turn_a;
+  const double most = row.friction * normal_impulse;
+  const double tangent_impulse = std::clamp(row.tangent_impulse - slip * row.tangent_mass, -most, most);
+  const double tangent_change = tangent_impulse - row.tangent_impulse;
+  if (tangent_change != 0) push(row, 0, tangent_change);
+  row.tangent_impulse = tangent_impulse;
+  return std::max(std::abs(normal_change) / row.normal_mass, std::abs(tangent_change) / row.tangent_mass);
+}
+
+void ImpulseSolver::sweep(const Island& island, const SolverSettings& settings, SolverResult& result) {
+  Row* const begin = rows_.data() + island.first;
   for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
-    ++result.sweeps;
     double largest_change = 0;
-    for (Row& row : rows_) {
-      const double apart = dot(relative_velocity(bodies, row.a, row.b, row.arm_a, row.arm_b), row.normal);
-      const double normal_impulse = std::clamp(row.normal_impulse - apart * row.normal_mass, row.least, row.limit);
-      const double change = normal_impulse - row.normal_impulse;
-      row.normal_impulse = normal_impulse;
-      if (change != 0) push(bodies, row.a, row.b, row.arm_a, row.arm_b, change * row.normal);
-      largest_change = std::max(largest_change, std::abs(change) / row.normal_mass);
+    for (Row* row = begin; row != begin + island.count; ++row) {
+      largest_change = std::max(largest_change, visit(*row));
     }
-    for (Row& row : rows_) {
-      const Vector tangent = perpendicular(row.normal);
-      const double slip = dot(relative_velocity(bodies, row.a, row.b, row.arm_a, row.arm_b), tangent);
-      const double most = row.friction * row.normal_impulse;
-      const double tangent_impulse = std::clamp(row.tangent_impulse - slip * row.tangent_mass, -most, most);
-      const double change = tangent_impulse - row.tangent_impulse;
-      row.tangent_impulse = tangent_impulse;
-      if (change != 0) push(bodies, row.a, row.b, row.arm_a, row.arm_b, change * tangent);
-      largest_change = std::max(largest_change, std::abs(change) / row.tangent_mass);
-    }
+    result.row_visits += island.count;
     if (largest_change <= settings.tolerance) return;
   }
-  result.is_converged = false;
+  ++result.unconverged;
 }
 
-bool ImpulseSolver::give_back(Bodies& bodies, const std::vector<Contact>& contacts, double restitution) {
+bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contacts, double restitution) {
   bool gave = false;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    Row* ends = &rows_[2 * i];
+  for (std::uint32_t i = island.first; i < island.first + island.count; i += 2) {
+    Row* ends = &rows_[i];
+    ContactRecord* record = contacts[order_[i / 2]].record;
     const double compression = ends[0].normal_impulse + ends[1].normal_impulse;
     double owed = restitution * compression;
-    if (contacts[i].record != nullptr) owed += contacts[i].record->owed_impulse;
+    if (record != nullptr) {
+      owed += record->owed_impulse;
+      for (int end = 0; end < 2; ++end) {
+        record->last_impulse[end] = ends[end].normal_impulse;
+        record->last_tangent_impulse[end] = ends[end].tangent_impulse;
+      }
+    }
     if (owed <= 0) continue;
     double still_owed = 0;
     for (int end = 0; end < 2; ++end) {
@@ -94,25 +175,38 @@ bool ImpulseSolver::give_back(Bodies& bodies, const std::vector<Contact>& contac
       const double given = row.least - row.normal_impulse;
       still_owed += share - given;
       row.normal_impulse = row.least;
-      push(bodies, row.a, row.b, row.arm_a, row.arm_b, given * row.normal);
+      push(row, given, 0);
       gave = gave || given > 0;
     }
-    if (contacts[i].record != nullptr) contacts[i].record->owed_impulse = still_owed;
+    if (record != nullptr) record->owed_impulse = still_owed;
   }
   return gave;
 }
 
+void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Contact& c = contacts[order_[i / 2]];
+    c.normal_impulse[i % 2] = rows_[i].normal_impulse;
+    c.tangent_impulse[i % 2] = rows_[i].tangent_impulse;
+  }
+  for (std::size_t mover = 0; mover < movers_.size(); ++mover) {
+    const BodyIndex body = body_of_mover_[mover];
+    bodies.velocity[body] = movers_[mover].velocity;
+    bodies.angular_velocity[body] = movers_[mover].angular_velocity;
+    mover_of_body_[body] = -1;
+  }
+}
+
 SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings) {
   SolverResult result;
+  find_islands(bodies, contacts);
   fill_rows(bodies, contacts);
-  sweep_until_converged(bodies, settings, result);
-  if (give_back(bodies, contacts, settings.restitution)) sweep_until_converged(bodies, settings, result);
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    for (int end = 0; end < 2; ++end) {
-      contacts[i].normal_impulse[end] = rows_[2 * i + end].normal_impulse;
-      contacts[i].tangent_impulse[end] = rows_[2 * i + end].tangent_impulse;
-    }
+  result.islands = static_cast<int>(islands_.size());
+  for (const Island& island : islands_) {
+    sweep(island, settings, result);
+    if (give_back(island, contacts, settings.restitution)) sweep(island, settings, result);
   }
+  write_back(bodies, contacts);
   return result;
 }
 
@@ -130,12 +224,8 @@ int ImpulseSolver::separate(Bodies& bodies, std::vector<Contact>& contacts, cons
     const double push_mass = effective_mass(mobility(bodies, c.a, arm_a), mobility(bodies, c.b, arm_b), c.normal);
     const double p = share * excess * push_mass;  // [kg m]: an impulse times a second
     for (const auto& [body, arm, sign] : {std::tuple{c.a, arm_a, -1.0}, std::tuple{c.b, arm_b, 1.0}}) {
-      const Vector shift = sign * p * bodies.inverse_mass[body] * c.normal;
-      const double turn = sign * p * bodies.inverse_moment[body] * cross(arm, c.normal);
-      bodies.position[body] += shift;
-      bodies.angle[body] += turn;
-      bodies.rotation[body] = geometry::Rotation::by(bodies.angle[body]);
-      bodies.travel[body] += length(shift) + std::abs(turn) * bodies.bounding_radius[body];
+      move_body(bodies, body, sign * p * bodies.inverse_mass[body] * c.normal,
+                sign * p * bodies.inverse_moment[body] * cross(arm, c.normal));
     }
     ++moved;
   }

@@ -9,24 +9,27 @@ namespace polynya::dynamics {
 struct SolverSettings {
   double restitution = 0.1;       ///< ε of Eq. (5) [-]
   int most_sweeps = 30;           ///< over all contacts of a step
-  double tolerance = 1e-12;       ///< stop when no impulse changes the velocity at its contact by more [m/s]
+  double tolerance = 1e-7;       ///< stop when no impulse changes the velocity at its contact by more [m/s]
   double separation_time = 1.0;   ///< over which left-over overlap decays [s]
   double slop = 1e-4;             ///< overlap that is left alone [m]
 };
 
 struct SolverResult {
-  int sweeps = 0;
-  bool is_converged = true;
+  int islands = 0;            ///< groups of bodies that touch one another
+  int unconverged = 0;        ///< islands that used all their sweeps
+  std::int64_t row_visits = 0;  ///< ends of contact lines visited, over all sweeps
+  bool is_converged() const { return unconverged == 0; }
 };
 
 /// Finds the impulses of all contacts of one step together and applies them: sequential impulses [Baraff1997,
 /// Catto2005] over both ends of every contact line, each end with Eq. (5) corrected, normal impulses within
-/// [0, limit/2], friction within the Coulomb cone. A floe pinched between two bodies so feels both.
-/// Compression first: impulses that end every approach. Then restitution, as Poisson's share of the compression: a
-/// contact gives back ε times the impulse that compressed it, so one that is not limited leaves with v⁺ = −ε v⁻ in one
-/// step as Eq. (5) says, and one that crushes gets there over as many steps as the ice needs. Last, whatever the
-/// restitution pushed together is held apart. Writes the impulses into the contacts and what is still to be given back
-/// into their records.
+/// [0, limit/2], friction within the Coulomb cone. A floe pinched between two bodies so feels both. Bodies that touch
+/// make islands, and each island is swept until it has converged.
+/// Compression first: impulses that end every approach, starting from those of the step before. Then restitution, as
+/// Poisson's share of the compression: a contact gives back ε times the impulse that compressed it, so one that is not
+/// limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says, and one that crushes gets there over as many steps as
+/// the ice needs. Last, whatever the restitution pushed together is held apart. Writes the impulses into the contacts,
+/// and what the next step needs of them into their records.
 class ImpulseSolver {
  public:
   SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
@@ -37,19 +40,45 @@ class ImpulseSolver {
   int separate(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings, double dt);
 
  private:
-  struct Row {  // one end of one contact line
-    BodyIndex a, b;
-    geometry::Vector arm_a, arm_b, normal;
-    double normal_mass, tangent_mass;
-    double least;    // of the normal impulse: what restitution gave [N s]
-    double limit;    // [N s]
+  struct Mover {  // a body's velocity while it is being solved for
+    geometry::Vector velocity;
+    double angular_velocity;
+    double inverse_mass;
+    double inverse_moment;
+  };
+  struct Row {  // one end of one contact line; directions as seen by its two bodies
+    std::int32_t a, b;              // movers
+    geometry::Vector normal;
+    double normal_turn_a, normal_turn_b;    // arm × normal [m]
+    double tangent_turn_a, tangent_turn_b;  // arm × perpendicular(normal) [m]
+    double normal_mass, tangent_mass;       // [kg]
+    double least;     // of the normal impulse: what restitution gave [N s]
+    double limit;     // [N s]
     double friction;
     double normal_impulse, tangent_impulse;
   };
+  struct Island {
+    std::uint32_t first = 0;  // rows
+    std::uint32_t count = 0;
+  };
+
+  void find_islands(const Bodies& bodies, const std::vector<Contact>& contacts);
+  std::int32_t mover_of(const Bodies& bodies, BodyIndex body);
+  Row row_of(const Bodies& bodies, const Contact& contact, int end) const;
   void fill_rows(const Bodies& bodies, const std::vector<Contact>& contacts);
-  void sweep_until_converged(Bodies& bodies, const SolverSettings& settings, SolverResult& result);
-  bool give_back(Bodies& bodies, const std::vector<Contact>& contacts, double restitution);
-  std::vector<Row> rows_;
+  void push(const Row& row, double normal_impulse, double tangent_impulse);
+  double visit(Row& row);
+  void sweep(const Island& island, const SolverSettings& settings, SolverResult& result);
+  bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution);
+  void write_back(Bodies& bodies, std::vector<Contact>& contacts);
+
+  std::vector<Mover> movers_;
+  std::vector<BodyIndex> body_of_mover_;
+  std::vector<std::int32_t> mover_of_body_;   // −1 where the body has none
+  std::vector<std::int32_t> island_of_mover_; // union-find parents, then island numbers
+  std::vector<std::uint32_t> order_;          // contacts, island by island
+  std::vector<Island> islands_;
+  std::vector<Row> rows_;                     // two for each contact, in order_
 };
 
 }  // namespace polynya::dynamics

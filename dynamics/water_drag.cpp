@@ -11,8 +11,10 @@ using geometry::Vector;
 DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid) {
   DragShape shape;
   for (int k = 0; k < DragShape::kDirections; ++k) {
-    const double angle = k * std::numbers::pi / DragShape::kDirections;
-    const Vector across{-std::sin(angle), std::cos(angle)};
+    const Vector along = drag_direction(k);
+    const Vector across = perpendicular(along) / length(along);
+    // The known directions are not evenly spaced in angle: each stands for dθ = |d'| / |d|² of the diamond's edge.
+    const double share = (2.0 / DragShape::kDirections) / squared_length(along) / std::numbers::pi;
     double low = 0;
     double high = 0;
     for (const geometry::Point p : polygon.outer) {
@@ -21,16 +23,22 @@ DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point cent
       high = std::max(high, s);
     }
     shape.width[k] = high - low;
-    shape.rotational += (low * low * low * low + high * high * high * high) / 4 / DragShape::kDirections;
+    shape.rotational += (low * low * low * low + high * high * high * high) / 4 * share;
   }
   shape.width[DragShape::kDirections] = shape.width[0];
   return shape;
 }
 
+Vector drag_direction(int k) {
+  const double t = 2.0 * k / DragShape::kDirections;
+  return t < 1 ? Vector{1 - t, t} : Vector{1 - t, 2 - t};
+}
+
 double width_across(const DragShape& shape, Vector direction_in_body) {
-  double turn = std::atan2(direction_in_body.y, direction_in_body.x) / std::numbers::pi;
-  if (turn < 0) turn += 1;
-  const double at = std::min(turn, 1.0) * DragShape::kDirections;
+  Vector d = direction_in_body;
+  if (d.y < 0) d = -d;
+  const double t = d.x >= 0 ? d.y / (d.x + d.y) : 1 - d.x / (d.y - d.x);
+  const double at = t * (0.5 * DragShape::kDirections);
   const int k = std::min(static_cast<int>(at), DragShape::kDirections - 1);
   return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
 }

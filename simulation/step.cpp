@@ -44,7 +44,7 @@ void find_contacts(World& world) {
 void solve_impulses(World& world) {
   if (world.contacts.empty()) return;
   const dynamics::SolverResult result = world.solver.solve(world.bodies, world.contacts, world.solver_settings);
-  if (!result.is_converged) ++world.counts.unconverged_steps;
+  if (!result.is_converged()) ++world.counts.unconverged_steps;
   note_crushing(world);
   for (const dynamics::Contact& c : world.contacts) {
     if (c.total_normal_impulse() == 0) continue;
