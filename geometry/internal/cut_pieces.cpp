@@ -54,7 +54,8 @@ Ring write_loop(LocalCut& cut, const Loop& loop) {
   Vertex last;
   const auto note_edge = [&](Point to, const Vertex& v) {
     if (last.leaves_along->is_chord && !last.leaves_along->is_forward) return;
-    (last.is_rounded || v.is_rounded ? cut.changed : cut.placed).push_back({points.back(), to});
+    (last.is_rounded || v.is_rounded ? cut.changed : cut.placed).push_back(
+        {points.back(), to, last.is_rounded, v.is_rounded});
   };
   const auto append = [&](Point p, const Vertex& v) {
     if (points.empty()) {

@@ -9,10 +9,12 @@
 
 namespace polynya::geometry {
 
-/// An edge of the cut shape.
+/// An edge of the cut shape, and which of its ends are rounded nodes.
 struct Segment {
   Point from;
   Point to;
+  bool from_is_rounded = false;
+  bool to_is_rounded = false;
 };
 
 /// One ring of a piece: a loop of the graph, a ring of the shape the cut left alone, or the whole tool.

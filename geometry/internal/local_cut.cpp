@@ -89,12 +89,30 @@ bool uses_all_once(const LocalCut& cut, const std::vector<PiecePlan>& plans) {
   return std::all_of(uses.begin(), uses.end(), once) && std::all_of(ring_uses.begin(), ring_uses.end(), once);
 }
 
-// Two edges of a subdivision may share ends, and nothing else.
+enum class End { kNone, kExact, kRounded };
+
+End end_at(const Segment& s, Point p) {
+  if (p == s.from) return s.from_is_rounded ? End::kRounded : End::kExact;
+  if (p == s.to) return s.to_is_rounded ? End::kRounded : End::kExact;
+  return End::kNone;
+}
+
+// Two edges of a subdivision may share an end, and nothing else. A rounded node that came to lie on some other vertex is
+// not an end they share.
 bool are_apart(const Segment& s, const Segment& t) {
   const SegmentMeeting meeting = meet(s.from, s.to, t.from, t.to);
   if (meeting.kind == Meeting::kNone) return true;
-  return meeting.kind == Meeting::kTouch && (meeting.at == s.from || meeting.at == s.to) &&
-         (meeting.at == t.from || meeting.at == t.to);
+  const End end = end_at(s, meeting.at);
+  return meeting.kind == Meeting::kTouch && end != End::kNone && end == end_at(t, meeting.at);
+}
+
+bool rounded_nodes_are_distinct(const std::vector<Node>& nodes) {
+  std::vector<std::pair<double, double>> points;
+  for (const Node& node : nodes) {
+    if (node.is_active && node.is_rounded) points.emplace_back(node.at.x, node.at.y);
+  }
+  std::sort(points.begin(), points.end());
+  return std::adjacent_find(points.begin(), points.end()) == points.end();
 }
 
 bool is_split(const LocalCut& cut, EdgeId e) {
@@ -114,6 +132,7 @@ bool clears_changed_edges(const LocalCut& cut, const Segment& t) {
 bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
   const std::vector<Segment>& changed = cut.changed;
   if (changed.empty()) return true;
+  if (!rounded_nodes_are_distinct(cut.nodes)) return false;
   Box box = box_of(changed.front());
   for (std::size_t i = 0; i < changed.size(); ++i) {
     if (changed[i].from == changed[i].to) return false;
