@@ -34,6 +34,8 @@ tl::expected<RunWriter, std::string> RunWriter::create(const std::filesystem::pa
     files.push_back(std::move(*file));
   }
   RunWriter writer(folder, scene, std::move(files));
+  writer.flush();  // the headers
+  if (std::string problem = writer.failure(); !problem.empty()) return tl::unexpected(problem);
   RunSummary first;
   first.stopped_by = "still running, or killed";
   first.peaks = writer.peaks_;

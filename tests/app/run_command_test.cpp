@@ -25,6 +25,14 @@ std::size_t whole_lines(const std::filesystem::path& path) {
   return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
+/// Returns when a running run has put rows behind the header on disk.
+void wait_for_rows(const std::filesystem::path& forces) {
+  std::error_code not_there_yet;
+  while (!(std::filesystem::file_size(forces, not_there_yet) > 2000) || not_there_yet) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 TEST(RunCommand, WritesAFolderAndTellsTheResult) {
   const TemporaryFolder folder;
   const Outcome outcome = polynya(run_for("10"), {folder.path()});
@@ -78,10 +86,7 @@ TEST(RunCommand, ASignalLeavesAWholeFolder) {
     const Start start{folder.path()};
     const pid_t child =
         start_polynya({"run", scene_path("sawamura2017-fig4c"), "--until", "1e6", "--out", "run"}, start);
-    while (!std::filesystem::exists(folder / "run/forces.csv") ||
-           std::filesystem::file_size(folder / "run/forces.csv") == 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+    wait_for_rows(folder / "run/forces.csv");
     kill(child, signal);
     const Outcome outcome = wait_for(child, start);
     EXPECT_EQ(outcome.code, 6) << outcome.err;
@@ -101,10 +106,7 @@ TEST(RunCommand, AKilledRunLeavesAUsableFolder) {
   const Start start{folder.path()};
   const pid_t child =
       start_polynya({"run", scene_path("sawamura2017-fig4c"), "--until", "1e6", "--out", "run"}, start);
-  while (!std::filesystem::exists(folder / "run/forces.csv") ||
-         std::filesystem::file_size(folder / "run/forces.csv") == 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
+  wait_for_rows(folder / "run/forces.csv");
   kill(child, SIGKILL);
   EXPECT_EQ(wait_for(child, start).code, -SIGKILL);
   const auto run = io::read_run(folder / "run");

@@ -1,0 +1,26 @@
+# Installs a build into a prefix of its own, then configures, builds and runs the consumer against nothing but that.
+#   cmake -DBUILD=<polynya's build folder> -DWORK=<scratch folder> -DGENERATOR=<generator> -P run.cmake
+foreach(needed BUILD WORK GENERATOR)
+  if(NOT ${needed})
+    message(FATAL_ERROR "run.cmake needs -D${needed}=")
+  endif()
+endforeach()
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    string(SUBSTRING "${output}" 0 3000 output)
+    message(FATAL_ERROR "${ARGN}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_BUILD_TYPE=Debug)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/consumer ${WORK}/prefix/share/polynya/scenes/two-floes.json)
+message(STATUS "${output}")
+run(${WORK}/prefix/bin/polynya validate ${WORK}/prefix/share/polynya/scenes/sawamura2017-fig4b.json)
+message(STATUS "${output}")
