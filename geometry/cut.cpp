@@ -23,9 +23,10 @@ exact::Polygon exact_polygon_of(const Shape& shape) {
   return shape.exact ? *shape.exact : exact::exactly(shape.polygon);
 }
 
+// Within find_defect's limit, too.
 bool all_finite(const std::vector<Point>& points) {
   return std::all_of(points.begin(), points.end(),
-                     [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+                     [](Point p) { return std::abs(p.x) <= 1e70 && std::abs(p.y) <= 1e70; });
 }
 
 // Strictly convex, counter-clockwise and once around: then nothing else can be wrong with a ring.

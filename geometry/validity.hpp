@@ -11,7 +11,7 @@ namespace polynya::geometry {
 /// Why a polygon is not valid by OGC Simple Features. Decided exactly.
 enum class Defect {
   kTooFewPoints,      ///< fewer than three distinct points in a ring
-  kNotFinite,         ///< NaN or infinite coordinate
+  kNotFinite,         ///< a coordinate that is NaN, infinite or beyond 1e70 m
   kRepeatedPoint,     ///< consecutive equal vertices
   kZeroArea,          ///< a ring that encloses nothing
   kSelfCrossing,      ///< two edges of one ring cross, or a ring touches itself

@@ -219,7 +219,7 @@ bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans
     if (may_have_swept_a_ring(cut, plan)) return false;
     for (std::size_t r = 0; r < plan.rings.size(); ++r) {
       const RingArea& area = plan.rings[r].area;
-      if ((r == 0 ? area.area : -area.area) <= area.doubt) return false;
+      if (!((r == 0 ? area.area : -area.area) > area.doubt)) return false;
     }
   }
   return true;

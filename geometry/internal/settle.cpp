@@ -96,6 +96,48 @@ std::vector<geometry::Polygon> retraced(const geometry::Polygon& rounded, double
   return result;
 }
 
+// The edge's vertices with the points of other rings that lie on it between them, in order along it.
+void append_touches(const Point& a, const Point& b, const std::vector<const Point*>& others, Ring& ring) {
+  std::vector<const Point*> touches;
+  const auto [low_x, high_x] = std::minmax(a.x, b.x);
+  const auto [low_y, high_y] = std::minmax(a.y, b.y);
+  for (const Point* p : others) {
+    if (p->x < low_x || high_x < p->x || p->y < low_y || high_y < p->y || *p == a || *p == b) continue;
+    if (orientation(a, b, *p) == 0) touches.push_back(p);
+  }
+  const bool by_x = a.x != b.x;
+  const bool ascending = by_x ? a.x < b.x : a.y < b.y;
+  std::sort(touches.begin(), touches.end(), [&](const Point* p, const Point* q) {
+    return (by_x ? p->x < q->x : p->y < q->y) == ascending && !(*p == *q);
+  });
+  for (const Point* p : touches) {
+    if (!(ring.back() == *p)) ring.push_back(*p);
+  }
+}
+
+// Where a hole touches the inside of an edge, rounding an end of that edge tears them apart or pushes one through the
+// other. With the point of touch as a vertex of both rings they stay together, and the region is the same.
+Polygon with_touches_as_vertices(const Polygon& polygon) {
+  std::vector<const Ring*> rings{&polygon.outer};
+  for (const Ring& hole : polygon.holes) rings.push_back(&hole);
+  const auto split = [&rings](const Ring& ring) {
+    std::vector<const Point*> others;
+    for (const Ring* other : rings) {
+      if (other == &ring) continue;
+      for (const Point& p : *other) others.push_back(&p);
+    }
+    Ring result;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      result.push_back(ring[i]);
+      append_touches(ring[i], ring[(i + 1) % ring.size()], others, result);
+    }
+    return result;
+  };
+  Polygon result{split(polygon.outer), {}};
+  for (const Ring& hole : polygon.holes) result.holes.push_back(split(hole));
+  return result;
+}
+
 struct Settling {
   CutResult result;
   Rational change = 0;  // Σ (returned − exact)
@@ -131,6 +173,10 @@ void settle_piece(ExactPiece piece, Settling& settling) {
   const geometry::Polygon rounded = exact::rounded(piece.polygon);
   geometry::Polygon welded = weld(rounded);
   if (is_valid(welded)) return settling.add(std::move(welded), piece.part);
+  if (!piece.polygon.holes.empty()) {
+    welded = weld(exact::rounded(with_touches_as_vertices(piece.polygon)));
+    if (is_valid(welded)) return settling.add(std::move(welded), piece.part);
+  }
   const double moved = moved_area(piece.polygon, rounded);
   // A piece of no more area than rounding moves has no width that doubles can express.
   if (exact_area.get_d() <= moved) return settling.add_sliver(exact_area);

@@ -1,0 +1,143 @@
+// Many successive cuts on one plate's descendants, their poses changing in between. POLYNYA_ENDURANCE_CUTS sets how many;
+// the ctest label `endurance` runs 100 000.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include "geometry/measures.hpp"
+#include "geometry/pose.hpp"
+#include "tests/geometry/trials.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+using trials::exact_area;
+using trials::is_sound;
+
+constexpr double kBrash = 1e-7;  // pieces below this area leave the trial [m²]
+
+struct Floe {
+  Shape shape;
+  Pose world_from_body;
+  int cuts_while_exact = 0;
+};
+
+class Trial {
+ public:
+  explicit Trial(unsigned seed) : random_(seed) {
+    floes_.push_back({Shape{{{{0, 0}, {110, 0}, {110, 200}, {0, 200}}, {}}}, {}});
+    initial_ = exact_area(floes_.front().shape);
+  }
+
+  // One cut of one floe in a new pose, with all that must hold of it.
+  void step() {
+    const std::size_t i = pick();
+    Floe floe = floes_[i];
+    floe.world_from_body = {{1000 * unit(), 1000 * unit()}, Rotation::by(2 * std::numbers::pi * unit())};
+    const auto start = std::chrono::steady_clock::now();
+    const CutOutcome outcome = cut(floe);
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    ASSERT_TRUE(is_sound(floe.shape, outcome)) << trials::to_code(floe.shape.polygon);
+    if (!outcome) {
+      ++refused_;
+      return;
+    }
+    ++cuts_;
+    itemised_ += exact::Rational(outcome->ledger.rounding_defect);
+    slivers_ += outcome->ledger.area_slivers;
+    kept_exact_ += outcome->ledger.kept_exact;
+    floes_[i] = std::move(floes_.back());
+    floes_.pop_back();
+    for (const Piece& piece : outcome->pieces) {
+      const int age = piece.shape.exact ? floe.cuts_while_exact + 1 : 0;
+      longest_exact_ = std::max(longest_exact_, age);
+      if (measure(piece.shape.polygon).area < kBrash && !piece.shape.exact) {
+        brash_ += exact_area(piece.shape);
+      } else {
+        floes_.push_back({piece.shape, floe.world_from_body, age});
+      }
+    }
+  }
+
+  void finish() const {
+    exact::Rational sum = brash_ - initial_ - itemised_;
+    for (const Floe& floe : floes_) sum += exact_area(floe.shape);
+    // Each cut's defect is known to the nearest double of some 1e-15 m².
+    EXPECT_LT(std::abs(sum.get_d() + slivers_), 1e-28 * cuts_ + 1e-14 * slivers_);
+  }
+
+  void tell(const char* when) const {
+    std::printf("%s: %d cuts, %d refused, %zu floes, %d kept exact (longest for %d cuts), slivers %.3g m², %.1f µs a cut\n",
+                when, cuts_, refused_, floes_.size(), kept_exact_, longest_exact_, slivers_, 1e6 * seconds_ / (cuts_ + refused_));
+  }
+  int longest_exact() const { return longest_exact_; }
+
+ private:
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+
+  // The largest of a few: floes stay worth cutting, and one keeps its edges of many generations.
+  std::size_t pick() {
+    std::size_t best = random_() % floes_.size();
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t other = random_() % floes_.size();
+      if (floes_[other].shape.polygon.outer.size() > floes_[best].shape.polygon.outer.size()) best = other;
+    }
+    return best;
+  }
+
+  Point to_body(const Floe& floe, Point in_world) { return point_in_body(floe.world_from_body, in_world); }
+
+  CutOutcome cut(const Floe& floe) {
+    const Ring& ring = floe.shape.polygon.outer;
+    const Point vertex = ring[random_() % ring.size()];
+    const double size = std::sqrt(std::abs(signed_area(ring)));
+    const auto kind = random_() % 10;
+    if (kind == 0) return cut_along(floe.shape, {vertex, ring[random_() % ring.size()]});  // in the body: vertex to vertex
+    if (kind == 1) return cut_by_polygon(floe.shape, {disc_polygon(vertex, 0.2 * size, 0.01 * size), {}});
+    const Point in_world = point_in_world(floe.world_from_body, vertex);
+    const double angle = 2 * std::numbers::pi * unit();
+    const Vector direction{std::cos(angle), std::sin(angle)};
+    if (kind < 5) {
+      const double reach = 4 * size + 50 * unit();
+      const Point aim = in_world + 0.3 * size * direction;
+      return cut_along(floe.shape, {to_body(floe, aim - reach * direction), to_body(floe, aim + reach * direction)});
+    }
+    const Point centre = in_world + (0.1 * size * unit()) * direction;
+    Ring cusp = disc_polygon(centre, size * (0.02 + 0.25 * unit()), 0.004 * size);
+    for (Point& p : cusp) p = to_body(floe, p);
+    return cut_by_polygon(floe.shape, {cusp, {}});
+  }
+
+  std::mt19937 random_;
+  std::vector<Floe> floes_;
+  exact::Rational initial_ = 0;
+  exact::Rational brash_ = 0;
+  exact::Rational itemised_ = 0;
+  double slivers_ = 0;
+  double seconds_ = 0;
+  int cuts_ = 0;
+  int refused_ = 0;
+  int kept_exact_ = 0;
+  int longest_exact_ = 0;
+};
+
+TEST(Endurance, EveryCutOfALongLineageIsSound) {
+  const char* wanted = std::getenv("POLYNYA_ENDURANCE_CUTS");
+  const int cuts = wanted != nullptr ? std::atoi(wanted) : 3000;
+  constexpr unsigned kSeed = 2026;
+  std::printf("seed %u, %d cuts\n", kSeed, cuts);
+  Trial trial(kSeed);
+  for (int i = 1; i <= cuts && !HasFailure(); ++i) {
+    trial.step();
+    if (i % (cuts / 10) == 0) trial.tell("so far");
+  }
+  trial.finish();
+  EXPECT_LE(trial.longest_exact(), 5) << "cuts until a shape kept exact was doubles again";
+}
+
+}  // namespace
+}  // namespace polynya::geometry

@@ -1,0 +1,217 @@
+// Every hazard that is known to break floe cutters, met on purpose.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "geometry/internal/general_cut.hpp"
+#include "geometry/internal/local_cut.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/pose.hpp"
+#include "geometry/repair.hpp"
+#include "geometry/validity.hpp"
+#include "tests/geometry/trials.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+using trials::exact_area;
+using trials::is_sound;
+
+const Ring kSquare{{0, 0}, {6, 0}, {6, 6}, {0, 6}};
+
+Ring moved(Ring ring, const Pose& pose) {
+  for (Point& p : ring) p = point_in_world(pose, p);
+  return ring;
+}
+
+// 6250 second cuts on degenerate first results made 33 wrong areas and 5 crashes where invalid roundings were trusted.
+void cut_degenerate_floes_again(const Pose& pose, unsigned seed, int first_cuts) {
+  std::mt19937 random(seed);
+  const auto coordinate = [&] { return static_cast<double>(static_cast<int>(random() % 9) - 1); };
+  const auto knife = [&] {
+    Ring ring;
+    const int corners = 3 + static_cast<int>(random() % 3);
+    for (int i = 0; i < corners; ++i) ring.push_back({coordinate(), coordinate()});
+    return moved(ring, pose);
+  };
+  int cuts = 0;
+  int kept_exact = 0;
+  for (int i = 0; i < first_cuts && !testing::Test::HasFailure(); ++i) {
+    std::vector<Shape> generation{Shape{{moved(kSquare, pose), {}}}};
+    for (int depth = 0; depth < 3; ++depth) {
+      std::vector<Shape> next;
+      for (const Shape& shape : generation) {
+        const Ring ring = knife();
+        const bool as_crack = random() % 2 == 0;
+        const CutOutcome outcome = as_crack ? cut_along(shape, ring) : cut_by_polygon(shape, normalised({ring, {}}));
+        ASSERT_TRUE(is_sound(shape, outcome)) << trials::to_code(shape.polygon) << "\n" << trials::to_code(ring);
+        if (!outcome) {
+          next.push_back(shape);
+          continue;
+        }
+        ++cuts;
+        kept_exact += outcome->ledger.kept_exact;
+        for (const Piece& piece : outcome->pieces) next.push_back(piece.shape);
+      }
+      generation = std::move(next);
+    }
+  }
+  EXPECT_GT(cuts, 2 * first_cuts);
+  testing::Test::RecordProperty("cuts", cuts);
+  testing::Test::RecordProperty("kept_exact", kept_exact);
+}
+
+TEST(Hazards, DegenerateCutsOnAGrid) { cut_degenerate_floes_again({}, 21, 250); }
+TEST(Hazards, DegenerateCutsMovedRigidlyInDoubles) {
+  cut_degenerate_floes_again({{11.3, -4.7}, Rotation::by(0.61)}, 22, 250);
+}
+
+// Polygon_set_2(ring) builds the complement of a ring pinched at its leftmost vertex.
+TEST(Hazards, PinchAtTheLeftmostVertex) {
+  const Ring pinched{{0, 3}, {6, 0}, {6, 6}, {0, 3}, {4, 4}, {4, 2}};
+  EXPECT_TRUE(find_defect({pinched, {}}));
+  const auto repaired = repair({pinched}, FillRule::kNonZero);
+  ASSERT_TRUE(repaired);
+  ASSERT_EQ(repaired->shapes.size(), 1u);
+  EXPECT_EQ(repaired->area, 18 - 4);
+  const CutOutcome outcome = cut_along(repaired->shapes[0], {{5, -1}, {5, 7}});
+  EXPECT_TRUE(is_sound(repaired->shapes[0], outcome));
+  EXPECT_EQ(outcome->pieces.size(), 2u);
+}
+
+// A valid polygon whose hole touches the shell's interior fails CGAL's own test and can crash a release build.
+TEST(Hazards, HoleTouchingTheShellsInterior) {
+  const Shape shape{{kSquare, {{{0, 3}, {2, 4}, {2, 2}}}}};
+  ASSERT_FALSE(find_defect(shape.polygon));
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> place(-1, 7);
+  for (int i = 0; i < 150; ++i) {
+    const Ring crack = i % 3 == 0 ? Ring{{-1, 3}, {7, static_cast<double>(i % 7)}} : Ring{{place(random), place(random)}, {place(random), place(random)}};
+    ASSERT_TRUE(is_sound(shape, cut_along(shape, crack)));
+    const Point centre = i % 3 == 0 ? Point{0, 3} : Point{place(random), place(random)};
+    ASSERT_TRUE(is_sound(shape, cut_by_polygon(shape, {disc_polygon(centre, 1.3, 0.05), {}})));
+  }
+}
+
+// Lazy sums overflow the stack at 50 000 vertices: ours are rationals, summed in pairs.
+TEST(Hazards, FiftyThousandVerticesOnTheGeneralPath) {
+  Ring ring;
+  constexpr int kVertices = 50000;
+  for (int i = 0; i < kVertices; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kVertices;
+    const double radius = 100 + (i % 2);
+    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  const Shape shape{{ring, {}}};
+  ASSERT_FALSE(find_defect(shape.polygon));
+  const CutOutcome outcome = cut_by_polygons_generally(exact::exactly(shape.polygon), {{disc_polygon({100, 3}, 5, 0.01), {}}});
+  EXPECT_TRUE(is_sound(shape, outcome));
+  EXPECT_TRUE(trials::are_equal(outcome, cut_by_polygon(shape, {disc_polygon({100, 3}, 5, 0.01), {}})));
+}
+
+// GEOS lost a whole floe in 2 of 10 000 near-collinear cracks, Boost.Geometry erred grossly in 111.
+TEST(Hazards, NearCollinearCracks) {
+  std::mt19937 random(24);
+  const Pose pose{{3, 1}, Rotation::by(0.3)};
+  const Shape shape{{moved(kSquare, pose), {}}};
+  const Ring& ring = shape.polygon.outer;
+  const auto nudge = [&](Point p) {
+    const auto step = [&](double v) {
+      const double far = std::numeric_limits<double>::infinity();
+      for (auto n = random() % 4; n > 0; --n) v = std::nextafter(v, random() % 2 == 0 ? far : -far);
+      return v;
+    };
+    return Point{step(p.x), step(p.y)};
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const Point a = ring[static_cast<std::size_t>(i) % 4];
+    const Point b = ring[static_cast<std::size_t>(i + 1) % 4];
+    const Vector along = b - a;
+    const double before = i % 3 == 0 ? 0 : 0.3;
+    ASSERT_TRUE(is_sound(shape, cut_along(shape, {nudge(a - before * along), nudge(b + before * along)})));
+  }
+}
+
+// Boost.Geometry drifts by 1e-2 m² in 1000 splits. Here the sum of all floes differs by what the ledgers say, exactly.
+TEST(Hazards, AThousandSplitsDoNotDrift) {
+  std::mt19937 random(25);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<Shape> floes{Shape{{{{0, 0}, {110, 0}, {110, 200}, {0, 200}}, {}}}};
+  double itemised = 0;
+  int splits = 0;
+  for (; splits < 1000;) {
+    const auto i = random() % floes.size();
+    const Measures m = measure(floes[i].polygon);
+    const double angle = std::numbers::pi * unit(random);
+    const Vector far{300 * std::cos(angle), 300 * std::sin(angle)};
+    const CutOutcome outcome = cut_along(floes[i], {m.centroid - far, m.centroid + far});
+    ASSERT_TRUE(outcome.has_value()) << outcome.error().detail;
+    itemised += outcome->ledger.rounding_defect - outcome->ledger.area_slivers;
+    floes[i] = outcome->pieces[0].shape;
+    for (std::size_t p = 1; p < outcome->pieces.size(); ++p) floes.push_back(outcome->pieces[p].shape);
+    ++splits;
+  }
+  exact::Rational sum = 0;
+  for (const Shape& floe : floes) sum += exact_area(floe);
+  EXPECT_NEAR(exact::Rational(sum - 22000).get_d(), itemised, 1e-24);
+  EXPECT_LT(std::abs(itemised), 1e-9);
+}
+
+// Each crack built from exact vertices triples their digits: tools are doubles, and what stays exact does not grow.
+TEST(Hazards, WhatStaysExactStaysShort) {
+  // A neck one step wide between two crossings keeps a piece exact; fifty cracks across it do not lengthen its numbers.
+  const double step = std::nextafter(1.0, 2.0) - 1;
+  Shape shape{{{{0, 0}, {3, 1}, {6, 2}, {6, 6}, {0, 6}}, {}}};
+  const CutOutcome first = cut_by_polygon(shape, {{{-1, -1. / 3 + step}, {7, 7. / 3 + step}, {7, 7}, {-1, 7}}, {}});
+  ASSERT_TRUE(is_sound(shape, first));
+  std::size_t longest = 0;
+  const auto watch = [&](const Shape& piece) {
+    if (!piece.exact) return;
+    for (const exact::Point& p : piece.exact->outer) {
+      longest = std::max({longest, mpz_sizeinbase(p.x.get_den_mpz_t(), 2), mpz_sizeinbase(p.y.get_den_mpz_t(), 2)});
+    }
+  };
+  for (const Piece& piece : first->pieces) watch(piece.shape);
+  shape = first->pieces.back().shape;
+  for (int i = 0; i < 50; ++i) {
+    const double y = 5.9 - 0.1 * i;
+    const CutOutcome next = cut_along(shape, {{-1, y}, {7, y + 0.013 * i}});
+    ASSERT_TRUE(is_sound(shape, next));
+    if (!next) continue;
+    for (const Piece& piece : next->pieces) watch(piece.shape);
+    const auto largest = std::max_element(next->pieces.begin(), next->pieces.end(), [](auto& a, auto& b) {
+      return measure(a.shape.polygon).area < measure(b.shape.polygon).area;
+    });
+    shape = largest->shape;
+  }
+  EXPECT_LT(longest, 2000u) << "bits in a denominator";
+}
+
+// What CGAL or the arithmetic refuses is a value, whatever is fed past the checks.
+TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
+  std::mt19937 random(26);
+  for (int i = 0; i < 300; ++i) {
+    Ring ring;
+    for (int k = 0; k < 8; ++k) ring.push_back({static_cast<double>(random() % 5), static_cast<double>(random() % 5)});
+    const Ring shape = without_repeats(ring);
+    if (shape.size() < 3) continue;
+    static_cast<void>(cut_by_polygons_generally(exact::exactly(Polygon{shape, {}}), {{kSquare, {}}}));
+    static_cast<void>(cut_along_generally(exact::exactly(Polygon{shape, {}}), {{-1, 2}, {7, 3}}));
+    static_cast<void>(cut_by_polygon(Shape{{shape, {}}, nullptr, true}, {disc_polygon({2, 2}, 1.5, 0.1), {}}));
+    static_cast<void>(cut_along(Shape{{shape, {}}, nullptr, true}, {{-1, 2}, {7, 3}}));
+  }
+  SUCCEED();
+}
+
+TEST(Hazards, HugeCoordinatesAreRefusedByName) {
+  const Shape shape{{{{0, 0}, {1e200, 0}, {1e200, 1e200}}, {}}};
+  const CutOutcome outcome = cut_along(shape, {{-1, 1}, {1e200, 1}});
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().detail, "not-finite");
+}
+
+}  // namespace
+}  // namespace polynya::geometry
