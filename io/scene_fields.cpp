@@ -121,13 +121,14 @@ const Object kBending{{{"model",
                         Kind::kChoice,
                         "",
                         {},
-                        "\"nevel\"",
+                        "\"fsi-database\"",
                         "what a wedge of ice bears before its cusp breaks off",
                         [](Draft& d, const Value& v) {
-                          d.scene.fracture.bending =
-                              v.text() == "nevel" ? BendingModelKind::kNevel : BendingModelKind::kKashtelyan;
+                          d.scene.fracture.bending = v.text() == "nevel"        ? BendingModelKind::kNevel
+                                                     : v.text() == "kashtelyan" ? BendingModelKind::kKashtelyan
+                                                                                : BendingModelKind::kFsiDatabase;
                         },
-                        {"nevel", "kashtelyan"}}}};
+                        {"fsi-database", "nevel", "kashtelyan"}}}};
 
 const Object kSplitting{
     {{"model",

@@ -47,7 +47,7 @@ enum class CuspFate { kSubmerge, kFloat };
 struct FractureSettings {
   fracture::CharacteristicLength characteristic_length = fracture::CharacteristicLength::kFourthRoot;
   double breakable_size_factor = 1.0;  ///< κ: floes with √area < κ l are pushed, never broken [-]
-  BendingModelKind bending = BendingModelKind::kNevel;
+  BendingModelKind bending = BendingModelKind::kFsiDatabase;
   fracture::SplittingModel splitting = fracture::SplittingModel::kMichel;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
   CuspFate cusp_fate = CuspFate::kSubmerge;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dynamics/water_drag.hpp"
+#include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/kashtelyan.hpp"
 #include "fracture/bending/nevel.hpp"
 #include "geometry/measures.hpp"
@@ -24,7 +25,7 @@ std::unique_ptr<fracture::BendingModel> make_bending_model(BendingModelKind kind
     case BendingModelKind::kFsiDatabase:
       break;
   }
-  return std::make_unique<fracture::NevelModel>();
+  return std::make_unique<fracture::FsiDatabaseModel>();
 }
 
 /// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them [m].
