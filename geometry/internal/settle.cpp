@@ -73,27 +73,40 @@ double moved_area(const Polygon& polygon, const geometry::Polygon& rounded) {
   return sum;
 }
 
-// The rounded rings overlaid with themselves: the polygons they enclose, if those need no new coordinates and
-// differ from the exact piece by no more than rounding does.
-std::vector<geometry::Polygon> retraced(const geometry::Polygon& rounded, double exact_area, double moved) {
+// The regions that the rings of a rounded piece enclose.
+std::vector<Polygon> enclosed_regions(const geometry::Polygon& rounded) {
   std::vector<SourceSegment> segments;
   append_segments(segments, exactly(rounded), 0);
   const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
-  std::vector<geometry::Polygon> result;
-  double area_sum = 0;
-  for (const Region& region : overlay(segments, inside, Seams::kDissolve).regions) {
-    geometry::Polygon polygon = exact::rounded(region.polygon);
-    const auto same_rings = [](const Ring& a, const geometry::Ring& b) { return a == exactly(b); };
-    bool same = same_rings(region.polygon.outer, polygon.outer);
-    for (std::size_t h = 0; same && h < polygon.holes.size(); ++h) {
-      same = same_rings(region.polygon.holes[h], polygon.holes[h]);
+  std::vector<Polygon> polygons;
+  for (Region& region : overlay(segments, inside, Seams::kDissolve).regions) polygons.push_back(std::move(region.polygon));
+  return polygons;
+}
+
+// Rounded rings that are no longer simple, retraced into polygons that are. Where they cross, the crossing is a new
+// vertex that must be rounded in turn: some rounds of that settle nearly always. None where they do not, or where
+// the area has changed by more than rounding can explain.
+std::vector<geometry::Polygon> retraced(const geometry::Polygon& rounded, double exact_area, double moved) {
+  constexpr int kRounds = 6;
+  std::vector<geometry::Polygon> open{rounded};
+  std::vector<geometry::Polygon> settled;
+  for (int round = 0; round < kRounds && !open.empty(); ++round) {
+    std::vector<geometry::Polygon> still_open;
+    for (const geometry::Polygon& polygon : open) {
+      for (const Polygon& region : enclosed_regions(polygon)) {
+        geometry::Polygon welded = weld(exact::rounded(region));
+        if (welded.outer.empty()) continue;
+        (is_valid(welded) ? settled : still_open).push_back(std::move(welded));
+      }
     }
-    if (!same || !is_valid(polygon)) return {};
-    area_sum += measure(polygon).area;
-    result.push_back(std::move(polygon));
+    open = std::move(still_open);
   }
-  if (std::abs(area_sum - exact_area) > 2 * moved + 1e-14 * exact_area) return {};
-  return result;
+  if (!open.empty()) return {};
+  double area_sum = 0;
+  for (const geometry::Polygon& polygon : settled) area_sum += measure(polygon).area;
+  // A crossing lies near the ends whose rounding made it: each round moves about as much as the first.
+  if (std::abs(area_sum - exact_area) > 2 * kRounds * moved + 1e-14 * exact_area) return {};
+  return settled;
 }
 
 // The edge's vertices with the points of other rings that lie on it between them, in order along it.
