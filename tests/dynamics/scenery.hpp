@@ -1,0 +1,128 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "dynamics/bodies.hpp"
+#include "dynamics/impulse_solver.hpp"
+#include "dynamics/water_drag.hpp"
+#include "geometry/measures.hpp"
+
+namespace polynya::scenery {
+
+/// Random numbers that are the same on every machine (splitmix64).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
+  }
+  double angle() { return between(-std::numbers::pi, std::numbers::pi); }
+  int below(int count) { return static_cast<int>(next() % static_cast<std::uint64_t>(count)); }
+
+ private:
+  std::uint64_t next() {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t state_;
+};
+
+inline geometry::Polygon rectangle(double width, double height, geometry::Point centre = {}) {
+  const double x = 0.5 * width;
+  const double y = 0.5 * height;
+  return {{{centre.x - x, centre.y - y},
+           {centre.x + x, centre.y - y},
+           {centre.x + x, centre.y + y},
+           {centre.x - x, centre.y + y}},
+          {}};
+}
+
+/// A star-shaped polygon of random radii, usually not convex.
+inline geometry::Polygon random_star(Random& random, int corners, double least_radius, double most_radius) {
+  geometry::Polygon polygon;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + random.between(0.05, 0.95)) / corners;
+    const double radius = random.between(least_radius, most_radius);
+    polygon.outer.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return polygon;
+}
+
+/// A floe as a body: mass and moment of its plate. `position` is that of the centre of mass.
+inline dynamics::NewBody floe_body(const geometry::Polygon& polygon, geometry::Point position,
+                                   double angle = 0, double circle_radius = 1.0) {
+  constexpr double kThickness = 0.5;
+  constexpr double kDensity = 900;
+  const geometry::Measures measures = geometry::measure(polygon);
+  dynamics::NewBody body;
+  body.position = position;
+  body.angle = angle;
+  body.mass = kDensity * kThickness * measures.area;
+  body.moment = kDensity * kThickness * measures.second_moment;
+  body.centroid = measures.centroid;
+  body.thickness = kThickness;
+  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_boundary(polygon, circle_radius));
+  body.drag = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(polygon, measures.centroid));
+  return body;
+}
+
+inline double kinetic_energy(const dynamics::Bodies& bodies) {
+  double energy = 0;
+  for (dynamics::BodyIndex i = 0; i < bodies.size(); ++i) {
+    energy += 0.5 * bodies.mass[i] * squared_length(bodies.velocity[i]) +
+              0.5 * bodies.moment[i] * bodies.angular_velocity[i] * bodies.angular_velocity[i];
+  }
+  return energy;
+}
+
+inline geometry::Vector momentum(const dynamics::Bodies& bodies) {
+  geometry::Vector sum;
+  for (dynamics::BodyIndex i = 0; i < bodies.size(); ++i) sum += bodies.mass[i] * bodies.velocity[i];
+  return sum;
+}
+
+/// About the origin.
+inline double angular_momentum(const dynamics::Bodies& bodies) {
+  double sum = 0;
+  for (dynamics::BodyIndex i = 0; i < bodies.size(); ++i) {
+    sum += bodies.mass[i] * cross(bodies.position[i] - geometry::Point{}, bodies.velocity[i]) +
+           bodies.moment[i] * bodies.angular_velocity[i];
+  }
+  return sum;
+}
+
+inline std::vector<dynamics::BodyIndex> all_of(const dynamics::Bodies& bodies) {
+  std::vector<dynamics::BodyIndex> all(static_cast<std::size_t>(bodies.size()));
+  for (dynamics::BodyIndex i = 0; i < bodies.size(); ++i) all[static_cast<std::size_t>(i)] = i;
+  return all;
+}
+
+/// A contact over a line of `width` about a point, not limited by crushing.
+inline dynamics::Contact contact_at(dynamics::BodyIndex a, dynamics::BodyIndex b, geometry::Point middle,
+                                    geometry::Vector normal, double width = 0, double friction = 0) {
+  dynamics::Contact contact;
+  contact.a = a;
+  contact.b = b;
+  contact.normal = normal;
+  contact.ends[0] = middle - 0.5 * width * perpendicular(normal);
+  contact.ends[1] = middle + 0.5 * width * perpendicular(normal);
+  contact.tip_of_b = middle;
+  contact.width = width;
+  contact.friction = friction;
+  return contact;
+}
+
+/// Speed at which the two bodies of a contact part at a point of it; negative when approaching [m/s].
+inline double parting_speed(const dynamics::Bodies& bodies, const dynamics::Contact& c, geometry::Point at) {
+  return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) -
+                 velocity_at(bodies, c.a, at - bodies.position[c.a]),
+             c.normal);
+}
+
+}  // namespace polynya::scenery

@@ -1,0 +1,161 @@
+// Eq. (6) of [Sawamura2017], relative to the water, against closed forms.
+#include "dynamics/water_drag.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/dynamics/scenery.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+using namespace scenery;
+
+constexpr double kDrag = 0.5;
+constexpr double kWater = 1000;
+constexpr double kThickness = 0.5;
+
+Bodies one_floe(const geometry::Polygon& polygon, double angle = 0) {
+  Bodies bodies;
+  add_body(bodies, floe_body(polygon, {3, -2}, angle));
+  return bodies;
+}
+
+geometry::Polygon regular(int corners, double radius) {
+  geometry::Polygon polygon;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    polygon.outer.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return polygon;
+}
+
+TEST(WaterDrag, AFloeThatMovesWithTheWaterFeelsNothing) {
+  // Velocities are relative to the water, so a drifting floe has none: nothing changes, to the last bit.
+  Bodies bodies = one_floe(rectangle(10, 6), 0.7);
+  EXPECT_EQ(apply_water_drag(bodies, {0}, kDrag, kWater, 100), 0);
+  EXPECT_EQ(bodies.velocity[0], Vector{});
+  EXPECT_EQ(bodies.angular_velocity[0], 0);
+}
+
+TEST(WaterDrag, AFreeFloeSlowsAsTheClosedForm) {
+  // m v' = −½ C_D ρ_w h w v²  ⇒  v(t) = v0 / (1 + k v0 t), k = C_D ρ_w h w / 2m, for any step length.
+  for (const double dt : {0.005, 0.5, 50.0}) {
+    Bodies bodies = one_floe(rectangle(10, 6));
+    bodies.velocity[0] = {1.5, 0};
+    const double k = kDrag * kWater * kThickness * 6 / (2 * bodies.mass[0]);
+    double time = 0;
+    for (int step = 0; step < 2000; ++step) {
+      apply_water_drag(bodies, {0}, kDrag, kWater, dt);
+      time += dt;
+    }
+    EXPECT_NEAR(bodies.velocity[0].x * (1 + k * 1.5 * time) / 1.5, 1, 1e-11) << dt;
+    EXPECT_EQ(bodies.velocity[0].y, 0);
+    EXPECT_EQ(bodies.angular_velocity[0], 0);
+  }
+}
+
+TEST(WaterDrag, TheRotationalIntegralIsThatOfDiscAndSquare) {
+  // K = mean over directions of ∫|s|³ ds: R⁴/2 for a disc; (a/2)⁴ (3/2 + 4/π) / 2 for a square of side a.
+  EXPECT_NEAR(make_drag_shape(regular(512, 7), {}).rotational / (std::pow(7, 4) / 2), 1, 1e-3);
+  const double square = std::pow(4.0, 4) * (1.5 + 4 / std::numbers::pi) / 2;
+  EXPECT_NEAR(make_drag_shape(rectangle(8, 8), {}).rotational / square, 1, 2e-3);
+}
+
+TEST(WaterDrag, AFreeSpinSlowsAsTheClosedForm) {
+  // I ω' = −½ C_D ρ_w h K ω²
+  for (const double omega : {0.3, -0.3}) {
+    Bodies bodies = one_floe(regular(64, 9));
+    bodies.angular_velocity[0] = omega;
+    const double k = kDrag * kWater * kThickness * bodies.drag[0]->rotational / (2 * bodies.moment[0]);
+    for (int step = 0; step < 3000; ++step) apply_water_drag(bodies, {0}, kDrag, kWater, 0.02);
+    EXPECT_NEAR(bodies.angular_velocity[0] * (1 + k * 0.3 * 60) / omega, 1, 1e-11);
+    EXPECT_EQ(bodies.velocity[0], Vector{});
+  }
+}
+
+TEST(WaterDrag, ActsAgainstTheVelocityAndTakesTheEnergyItReports) {
+  Random random(11);
+  for (int i = 0; i < 2000; ++i) {
+    Bodies bodies = one_floe(random_star(random, 5 + random.below(12), 1, 15), random.angle());
+    bodies.velocity[0] = {random.between(-4, 4), random.between(-4, 4)};
+    bodies.angular_velocity[0] = random.between(-1, 1);
+    const Vector v = bodies.velocity[0];
+    const double before = kinetic_energy(bodies);
+    const double work =
+        apply_water_drag(bodies, {0}, random.between(0, 2), kWater, std::pow(10.0, random.between(-4, 4)));
+    const double after = kinetic_energy(bodies);
+    ASSERT_LE(after, before);
+    ASSERT_NEAR((before - after) / before, work / before, 1e-12);
+    ASSERT_NEAR(cross(v, bodies.velocity[0]), 0, 1e-13) << "drag turns nothing";
+    ASSERT_GE(dot(v, bodies.velocity[0]), 0) << "and never reverses";
+  }
+}
+
+TEST(WaterDrag, WidthOfASquareIsWithinItsStatedError) {
+  const DragShape square = make_drag_shape(rectangle(10, 10), {});
+  double worst = 0;
+  for (int i = 0; i <= 100000; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 100000;
+    const double exact = 10 * (std::abs(std::cos(angle)) + std::abs(std::sin(angle)));
+    const double relative = width_across(square, {std::cos(angle), std::sin(angle)}) / exact - 1;
+    worst = std::max(worst, std::abs(relative));
+  }
+  std::printf("width off by up to %.2g\n", worst);
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_GT(worst, 1e-5) << "interpolation has some error: the bound is tested by something";
+}
+
+TEST(WaterDrag, ATurnedFloeWithATurnedVelocityFeelsTheSameDragTurned) {
+  Random random(12);
+  double worst = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double length_of_floe = random.between(5, 20);
+    const double width_of_floe = random.between(5, 20);
+    const geometry::Polygon polygon = rectangle(length_of_floe, width_of_floe);
+    const double course = random.angle();
+    const double angle = random.angle();
+    const geometry::Rotation turn = geometry::Rotation::by(angle);
+    const Vector velocity{2 * std::cos(course), 2 * std::sin(course)};
+    // The same floe placed turned, and drawn with its corners turned: then other directions are its known
+    // ones.
+    geometry::Polygon corners = polygon;
+    for (Point& p : corners.outer) p = Point{} + rotate(turn, p - Point{});
+    Bodies straight = one_floe(polygon);
+    Bodies placed = one_floe(polygon, angle);
+    Bodies drawn = one_floe(corners);
+    straight.velocity[0] = velocity;
+    placed.velocity[0] = drawn.velocity[0] = rotate(turn, velocity);
+    for (Bodies* bodies : {&straight, &placed, &drawn}) apply_water_drag(*bodies, {0}, kDrag, kWater, 5);
+    ASSERT_NEAR(length(rotate_back(turn, placed.velocity[0]) - straight.velocity[0]), 0, 1e-13);
+
+    const auto resistance = [](const Bodies& bodies) {
+      return 1 / length(bodies.velocity[0]) - 0.5;
+    };  // = k t
+    const double off = std::abs(resistance(drawn) / resistance(placed) - 1);
+    worst = std::max(worst, off);
+    // A floe's width has a kink where it moves along an edge, and interpolation cuts it: by at most half the
+    // spacing of the known directions (1/16 rad) times the floe's aspect ratio.
+    const double aspect = std::max(length_of_floe, width_of_floe) / std::min(length_of_floe, width_of_floe);
+    ASSERT_LT(off, aspect / 32 + 1e-3) << aspect;
+  }
+  std::printf("drag of the same rectangle drawn turned differs by up to %.2g\n", worst);
+}
+
+TEST(WaterDrag, HeldBodiesKeepTheirVelocity) {
+  Bodies bodies;
+  NewBody held = floe_body(rectangle(10, 6), {});
+  held.is_held = true;
+  held.velocity = {1, 0};
+  held.angular_velocity = 0.1;
+  add_body(bodies, held);
+  apply_water_drag(bodies, {0}, kDrag, kWater, 10);
+  EXPECT_EQ(bodies.velocity[0], (Vector{1, 0}));
+  EXPECT_EQ(bodies.angular_velocity[0], 0.1);
+}
+
+}  // namespace
+}  // namespace polynya::dynamics

@@ -1,0 +1,174 @@
+// Crushing, Eqs. (1)–(3) of [Sawamura2017], against the printed branches, their limits and the laws of
+// friction.
+#include "fracture/crushing.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace polynya::fracture {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// The two branches as the paper prints them.
+double printed_area(double tangent_sum, double depth, double thickness, double hull_angle) {
+  const double reach = thickness * std::tan(hull_angle);
+  const double beyond = depth > reach ? depth - reach : 0;
+  return tangent_sum / (2 * std::sin(hull_angle)) * (depth * depth - beyond * beyond);
+}
+
+TEST(CrushedArea, IsThePrintedEquation) {
+  for (const double angle : {1.0, 11.3, 38.2, 60.0, 85.0}) {
+    for (const double thickness : {0.1, 0.5, 2.0}) {
+      for (double depth = 0.01; depth < 20; depth *= 1.7) {
+        const double expected = printed_area(2.5, depth, thickness, angle * kDegree);
+        EXPECT_NEAR(crushed_area(2.5, depth, thickness, angle * kDegree) / expected, 1, 1e-9)
+            << "hull " << angle << " deg, h " << thickness << " m, depth " << depth << " m";
+      }
+    }
+  }
+}
+
+TEST(CrushedArea, IsTheDifferenceOfPlanOverlapsOverTheSine) {
+  // General form: A_c = [S(ξ) − S(ξ − h tan θ_s)] / sin θ_s, with S(ξ) = T ξ² / 2 for a wedge.
+  const auto overlap = [](double depth) { return depth > 0 ? 1.7 * depth * depth / 2 : 0; };
+  for (const double depth : {0.05, 0.2, 0.4, 0.9, 3.0}) {
+    const double reach = 0.5 * std::tan(38.2 * kDegree);
+    const double expected = (overlap(depth) - overlap(depth - reach)) / std::sin(38.2 * kDegree);
+    EXPECT_NEAR(crushed_area(1.7, depth, 0.5, 38.2 * kDegree), expected, 1e-12);
+  }
+}
+
+TEST(CrushedArea, ValueAndSlopeAreContinuousWhereTheBranchesMeet) {
+  for (const double degrees : {0.1, 5.0, 38.2, 60.0, 80.0}) {
+    const double angle = degrees * kDegree;
+    const double thickness = 0.5;
+    const double tangent_sum = 2;
+    const double meet = thickness * std::tan(angle);
+    const auto area = [&](double depth) { return crushed_area(tangent_sum, depth, thickness, angle); };
+    const double expected =
+        tangent_sum * thickness * thickness * std::sin(angle) / (2 * std::cos(angle) * std::cos(angle));
+    EXPECT_NEAR(area(meet) / expected, 1, 1e-14);
+    EXPECT_NEAR(area(meet * (1 - 1e-15)) / area(meet * (1 + 1e-15)), 1, 1e-13);
+
+    // One-sided slopes, each by a difference whose error is of first order in its width and so tends to zero
+    // with it.
+    const double expected_slope = tangent_sum * thickness / std::cos(angle);
+    for (const double width : {1e-3, 1e-5}) {
+      const double below = (area(meet) - area(meet * (1 - width))) / (meet * width);
+      const double above = (area(meet * (1 + width)) - area(meet)) / (meet * width);
+      EXPECT_NEAR(below / expected_slope, 1, width) << degrees;
+      EXPECT_NEAR(above / expected_slope, 1, width) << degrees;
+    }
+  }
+}
+
+TEST(CrushedArea, TendsToTheVerticalWall) {
+  const double tangent_sum = 2;
+  const double depth = 0.3;
+  const double thickness = 0.5;
+  const double wall = tangent_sum * depth * thickness;
+  EXPECT_EQ(crushed_area(tangent_sum, depth, thickness, 0), wall);
+  // A_c = T h (2ξ − h tan θ) / 2 cos θ: off the wall's by T h² tan θ / 2 to first order.
+  for (double angle = 1e-2; angle > 1e-16; angle /= 10) {
+    const double expected_gap = tangent_sum * thickness * thickness * std::tan(angle) / 2;
+    EXPECT_NEAR(crushed_area(tangent_sum, depth, thickness, angle), wall, 1.01 * expected_gap + 1e-15)
+        << angle;
+  }
+}
+
+TEST(CrushedArea, DividesByNoZeroAndGrowsWithDepth) {
+  for (const double angle : {0.0, std::numeric_limits<double>::denorm_min(), 1e-300, 1e-12, 0.3, 1.5}) {
+    double last = 0;
+    for (double depth = 1e-12; depth < 100; depth *= 3) {
+      const double area = crushed_area(2, depth, 0.5, angle);
+      ASSERT_TRUE(std::isfinite(area)) << angle << ' ' << depth;
+      ASSERT_GT(area, last) << angle << ' ' << depth;
+      last = area;
+    }
+    EXPECT_EQ(crushed_area(2, 0, 0.5, angle), 0);
+    EXPECT_EQ(crushed_area(2, -1, 0.5, angle), 0);
+  }
+}
+
+TEST(HullAngle, OfThePapersShip) {
+  const double stem = 30 * kDegree;
+  EXPECT_NEAR(hull_angle_from_vertical(std::sin(27 * kDegree), stem) / kDegree, 38.2, 0.05);  // bow flank
+  EXPECT_NEAR(hull_angle_from_vertical(1, stem) / kDegree, 60, 1e-10);                        // stem
+  EXPECT_EQ(hull_angle_from_vertical(0, stem), 0);   // parallel midbody
+  EXPECT_EQ(hull_angle_from_vertical(-1, stem), 0);  // stern: a wall
+}
+
+TEST(CrushingShares, OnlyAHullLessSteepThanFrictionPressesTheIceDown) {
+  for (const double friction : {0.0, 0.05, 0.2, 0.6}) {
+    for (double degrees = 0; degrees < 90; degrees += 0.25) {
+      const double angle = degrees * kDegree;
+      const double over = angle - std::atan(friction);
+      if (std::abs(over) < 1e-9) continue;  // the edge itself, where rounding decides
+      EXPECT_EQ(crushing_shares(angle, friction, 1, 0).vertical > 0, over > 0) << friction << ' ' << degrees;
+    }
+  }
+  EXPECT_NEAR(std::atan(0.2) / kDegree, 11.3, 0.05);
+}
+
+TEST(CrushingShares, AtPureNormalApproachTheForceStandsOnTheFrictionCone) {
+  // Total force on the ice: 1 along the facet's normal and μ down the facet, so √(1 + μ²) in all.
+  for (const double degrees : {1.0, 11.0, 38.2, 60.0}) {
+    const CrushingShares shares = crushing_shares(degrees * kDegree, 0.2, 0.7, 0);
+    EXPECT_NEAR(std::hypot(shares.horizontal, shares.vertical), std::sqrt(1 + 0.2 * 0.2), 1e-14);
+    EXPECT_EQ(shares.tangential, 0);
+  }
+}
+
+TEST(CrushingShares, FrictionIsSharedBetweenDownAndAlongTheHull) {
+  // What is missing from V of the frictionless sin θ_s is μ s cos θ_s; the rest of the slip is along the
+  // hull.
+  const double friction = 0.2;
+  for (const double degrees : {5.0, 38.2, 60.0}) {
+    const double angle = degrees * kDegree;
+    for (const double slip : {0.0, 0.1, 1.0, 30.0}) {
+      const CrushingShares shares = crushing_shares(angle, friction, 0.5, slip);
+      const double down = (std::sin(angle) - shares.vertical) / std::cos(angle);
+      EXPECT_NEAR(std::hypot(down, shares.tangential), friction, 1e-14);
+      EXPECT_NEAR(down * slip, shares.tangential * 0.5 * std::sin(angle), 1e-14)
+          << "along the slip, as friction acts";
+    }
+  }
+}
+
+TEST(CrushingShares, PowerIsNeverFedIn) {
+  // What the hull does on the ice: H v_n + friction along the hull times the slip there. Never negative, and
+  // friction does not exceed μ F_n along the hull nor turn against the slip.
+  for (double degrees = 0; degrees < 90; degrees += 3) {
+    for (const double friction : {0.0, 0.2, 0.9}) {
+      for (const double approach : {0.0, 1e-9, 0.3, 5.0}) {
+        for (const double slip : {-8.0, -0.1, 0.0, 0.2, 40.0}) {
+          const CrushingShares shares = crushing_shares(degrees * kDegree, friction, approach, slip);
+          EXPECT_GT(shares.horizontal, 0);
+          EXPECT_GE(shares.tangential, 0);
+          EXPECT_LE(shares.tangential, friction);
+          EXPECT_LE(shares.vertical, std::sin(degrees * kDegree));
+          EXPECT_GE(shares.horizontal * approach + shares.tangential * std::abs(slip), 0);
+          EXPECT_EQ(shares.vertical, crushing_shares(degrees * kDegree, friction, approach, -slip).vertical);
+        }
+      }
+    }
+  }
+}
+
+TEST(CrushingShares, AVerticalWallTakesAllFrictionAlongItself) {
+  const CrushingShares shares = crushing_shares(0, 0.2, 1, 0);
+  EXPECT_EQ(shares.horizontal, 1);
+  EXPECT_LE(shares.vertical, 0);
+  EXPECT_EQ(shares.tangential, 0.2);
+}
+
+TEST(CrushingForce, IsStrengthTimesArea) {
+  EXPECT_DOUBLE_EQ(crushing_force({}, 0.1), 0.28e6);
+}
+
+}  // namespace
+}  // namespace polynya::fracture
