@@ -36,12 +36,14 @@ Cell cell_at(const std::vector<double>& axis, double x) {
 /// Rounding at the edge of an axis is not "outside".
 constexpr double kEdgeTolerance = 1e-9;
 
-bool is_ascending_positive(const std::vector<double>& axis) {
-  return axis.size() >= 2 && axis.front() > 0 &&
-         std::adjacent_find(axis.begin(), axis.end(), std::greater_equal<>()) == axis.end();
-}
-
 }  // namespace
+
+bool is_grid_axis(const std::vector<double>& values) {
+  if (values.size() < 2 || !(values.front() > 0) || !std::isfinite(values.back())) return false;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (!(values[i - 1] < values[i])) return false;
+  return true;
+}
 
 DatabaseGrid default_grid() {
   return {{20, 25, 30, 35, 40, 45, 50, 60, 75, 90, 105, 120, 135, 150, 165, 180},
@@ -55,8 +57,8 @@ BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid,
                                  std::vector<DatabaseEntry> entries)
     : settings_(settings), grid_(std::move(grid)), entries_(std::move(entries)) {
   assert(entries_.size() == grid_.size());
-  assert(is_ascending_positive(grid_.opening_angles_deg) && is_ascending_positive(grid_.mass_ratios) &&
-         is_ascending_positive(grid_.softnesses) && is_ascending_positive(grid_.froude_numbers));
+  assert(is_grid_axis(grid_.opening_angles_deg) && is_grid_axis(grid_.mass_ratios) &&
+         is_grid_axis(grid_.softnesses) && is_grid_axis(grid_.froude_numbers));
   coordinates_ = {mapped(grid_.opening_angles_deg, radians), grid_.mass_ratios,
                   mapped(grid_.softnesses, natural_log), mapped(grid_.froude_numbers, natural_log)};
   strides_[3] = 1;

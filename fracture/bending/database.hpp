@@ -40,6 +40,9 @@ struct DatabaseGrid {
   friend bool operator==(const DatabaseGrid&, const DatabaseGrid&) = default;
 };
 
+/// What one list of a grid must be: two values at least, finite, positive, strictly ascending.
+bool is_grid_axis(const std::vector<double>& values);
+
 /// The grid of the database that ships with Polynya.
 DatabaseGrid default_grid();
 

@@ -1,11 +1,12 @@
-#include <algorithm>
+#include <array>
 #include <atomic>
-#include <cassert>
 #include <charconv>
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "fracture/bending/database.hpp"
 #include "fracture/bending/wedge_solver.hpp"
@@ -45,11 +46,6 @@ std::optional<std::vector<DatabaseEntry>> solve_wedge(const Wedge& wedge, const 
   return entries;
 }
 
-bool is_usable(const std::vector<double>& axis) {
-  return axis.size() >= 2 && axis.front() > 0 &&
-         std::adjacent_find(axis.begin(), axis.end(), std::greater_equal<>()) == axis.end();
-}
-
 }  // namespace
 
 tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings& settings,
@@ -57,8 +53,8 @@ tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings
                                                             const BuildProgress& progress) {
   for (const auto* axis :
        {&grid.opening_angles_deg, &grid.mass_ratios, &grid.softnesses, &grid.froude_numbers})
-    if (!is_usable(*axis))
-      return tl::unexpected(DatabaseError{0, "every group needs at least two ascending positive values"});
+    if (!is_grid_axis(*axis))
+      return tl::unexpected(DatabaseError{0, "every group needs at least two positive, ascending values"});
   if (grid.opening_angles_deg.back() > 180)
     return tl::unexpected(DatabaseError{0, "opening angles above 180 degrees are not wedges"});
 

@@ -1,10 +1,8 @@
 #include "fracture/bending/database_text.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <optional>
 #include <utility>
@@ -189,7 +187,7 @@ class Reader {
 
 template <typename Number>
 void read_setting(Reader& reader, const Setting<Number>& setting, SolverSettings& settings) {
-  const Number value = reader.number<Number>(reader.item(setting.name));
+  const auto value = reader.number<Number>(reader.item(setting.name));
   if (!(value >= setting.least && value <= setting.most))
     reader.fail("out of range: " + std::string(setting.name));
   settings.*setting.member = value;
@@ -211,9 +209,8 @@ DatabaseGrid read_grid(Reader& reader) {
   DatabaseGrid grid;
   for (const auto& [name, member] : kGrids) {
     const std::vector<double> values = reader.numbers(reader.item(name), kMostGridValues);
-    const bool ascends = values.size() >= 2 && values.front() > 0 && std::isfinite(values.back()) &&
-                         std::is_sorted(values.begin(), values.end(), std::less_equal<>());
-    if (!ascends) reader.fail("the values of " + std::string(name) + " must be positive and ascend");
+    if (!is_grid_axis(values))
+      reader.fail("the values of " + std::string(name) + " must be positive and ascend");
     grid.*member = values;
   }
   if (!reader.has_failed() && grid.opening_angles_deg.back() > 180)

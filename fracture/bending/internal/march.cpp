@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fracture/bending/internal/failure.hpp"
 
@@ -61,8 +62,7 @@ MarchState stepped_to(const WedgeModes& modes, const WedgePush& push, const Moda
   return next;
 }
 
-/// One time step. Coupled, the penetration solves ξ + χ w_tip(ξ) = Fr τ, whose left side grows with ξ: by
-/// bisection.
+/// One time step. Coupled, bisection solves ξ + χ w_tip(ξ) = Fr τ, whose left side grows with ξ.
 MarchState next_state(const WedgeModes& modes, const WedgePush& push, const ModalStep& step, double time,
                       const MarchState& from) {
   const double free_depth = push.froude * time;
@@ -81,8 +81,7 @@ MarchState next_state(const WedgeModes& modes, const WedgePush& push, const Moda
   return stepped_to(modes, push, step, time, deep, from);
 }
 
-/// Penetration at which the push breaks the wedge if it is slow, where the peak moment first reaches the
-/// strength.
+/// Penetration at which a slow push breaks the wedge: where the static peak moment reaches the strength.
 std::optional<double> static_failure_depth(const WedgeModes& modes, const WedgePush& push) {
   const auto breaks = [&](double depth) {
     const Eigen::VectorXd radial = modes.radial_moment * modal_load(modes, push, depth).matrix();
@@ -106,38 +105,59 @@ double crossing(double before, double after) {
   return after > before ? std::clamp((kBreakingMoment - before) / (after - before), 0.0, 1.0) : 1.0;
 }
 
+/// A march at one moment, with what it does to the bisector.
+struct Moment {
+  MarchState state;
+  BisectorState bisector;
+};
+
+/// The break between two moments, by linear interpolation of the bisector's state.
+WedgeFailure failure_between(const WedgeModes& modes, const WedgePush& push, const Moment& whole,
+                             const Moment& broken) {
+  const double s =
+      crossing(peak_moment(modes, whole.bisector.radial), peak_moment(modes, broken.bisector.radial));
+  const auto between = [s](const Eigen::VectorXd& a, const Eigen::VectorXd& b) -> Eigen::VectorXd {
+    return a + s * (b - a);
+  };
+  WedgeFailure failure;
+  failure.time = whole.state.time + s * (broken.state.time - whole.state.time);
+  failure.penetration = whole.state.penetration + s * (broken.state.penetration - whole.state.penetration);
+  failure.force = push_force(push, failure.penetration);
+  failure.cusp_radius = cusp_radius(modes, between(whole.bisector.radial, broken.bisector.radial));
+  failure.crack_ratio =
+      peak_moment(modes, between(whole.bisector.hoop, broken.bisector.hoop)) / kBreakingMoment;
+  return failure;
+}
+
+/// When the hoop moment passed the strength between two moments.
+double crack_between(const WedgeModes& modes, const Moment& before, const Moment& after) {
+  const double s =
+      crossing(peak_moment(modes, before.bisector.hoop), peak_moment(modes, after.bisector.hoop));
+  return before.state.time + s * (after.state.time - before.state.time);
+}
+
+/// Steps of duration / steps until the wedge breaks, however long that takes.
 std::optional<WedgeFailure> march(const WedgeModes& modes, const WedgePush& push, double duration,
                                   int steps) {
   const ModalStep step(modes.inertia, duration / steps);
   const Eigen::ArrayXd rest = Eigen::ArrayXd::Zero(modes.inertia.size());
-  MarchState state{0, 0, rest, rest, rest};
-  BisectorState moments{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes.radii.size())),
-                        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes.radii.size()))};
+  Moment now{{0, 0, rest, rest, rest}, bisector_state(modes, rest.matrix())};
   std::optional<double> crack_time;
   double greatest_hoop = 0;
-  for (int i = 1; i <= kMostSteps && state.penetration <= kDeepest; ++i) {
-    const MarchState next = next_state(modes, push, step, duration * i / steps, state);
-    const BisectorState later = bisector_state(modes, next.amplitude.matrix());
-    const double hoop = peak_moment(modes, later.hoop);
-    const double length = next.time - state.time;
-    if (!crack_time && hoop >= kBreakingMoment)
-      crack_time = state.time + length * crossing(peak_moment(modes, moments.hoop), hoop);
-    const double peak = peak_moment(modes, later.radial);
-    if (peak >= kBreakingMoment) {
-      const double s = crossing(peak_moment(modes, moments.radial), peak);
-      WedgeFailure failure;
-      failure.time = state.time + s * length;
-      failure.penetration = state.penetration + s * (next.penetration - state.penetration);
-      failure.force = push_force(push, failure.penetration);
-      failure.cusp_radius = cusp_radius(modes, moments.radial + s * (later.radial - moments.radial));
-      if (crack_time && *crack_time < failure.time) failure.crack_time = crack_time;
-      const double hoop_then = peak_moment(modes, moments.hoop + s * (later.hoop - moments.hoop));
-      failure.crack_ratio = std::max(greatest_hoop, hoop_then) / kBreakingMoment;
+  for (int i = 1; i <= kMostSteps && now.state.penetration <= kDeepest; ++i) {
+    Moment next;
+    next.state = next_state(modes, push, step, duration * i / steps, now.state);
+    next.bisector = bisector_state(modes, next.state.amplitude.matrix());
+    const double hoop = peak_moment(modes, next.bisector.hoop);
+    if (!crack_time && hoop >= kBreakingMoment) crack_time = crack_between(modes, now, next);
+    if (peak_moment(modes, next.bisector.radial) >= kBreakingMoment) {
+      WedgeFailure failure = failure_between(modes, push, now, next);
+      failure.crack_ratio = std::max(failure.crack_ratio, greatest_hoop / kBreakingMoment);
+      if (crack_time && *crack_time <= failure.time) failure.crack_time = crack_time;
       return failure;
     }
     greatest_hoop = std::max(greatest_hoop, hoop);
-    state = next;
-    moments = later;
+    now = std::move(next);
   }
   return std::nullopt;
 }

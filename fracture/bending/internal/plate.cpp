@@ -26,7 +26,9 @@ std::vector<Legendre> even_legendre(double x, int terms) {
                    b.second + (2 * n - 1) * a.first});
   }
   std::vector<Legendre> even;
-  for (int j = 0; j < terms; ++j) even.push_back(all[static_cast<std::size_t>(2 * j)]);
+  even.reserve(all.size());
+  for (std::size_t n = 0; n < all.size() && even.size() < static_cast<std::size_t>(terms); n += 2)
+    even.push_back(all[n]);
   return even;
 }
 
