@@ -47,8 +47,8 @@ TEST(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
   const TemporaryFolder folder;
   write_file(folder / "wrong.json",
              R"({"ice": {"thicknes_m": 1}, "time": {"step_s": 0}, "floes": [{"rectangle": {"size_m": 3}}]})");
-  for (const auto& words : std::vector<std::vector<std::string>>{
-           {"validate", "wrong.json"}, {"run", "wrong.json"}, {"run", "missing.json"}}) {
+  for (const auto& words :
+       std::vector<std::vector<std::string>>{{"validate", "wrong.json"}, {"run", "wrong.json"}}) {
     const Outcome outcome = polynya(words, {folder.path()});
     EXPECT_EQ(outcome.code, 3);
     EXPECT_TRUE(outcome.out.empty());
@@ -59,6 +59,19 @@ TEST(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
   EXPECT_NE(told.find("did you mean \"thickness_m\"?"), std::string::npos);
   EXPECT_NE(told.find("wrong.json:1:47: time.step_s: found 0"), std::string::npos) << told;
   EXPECT_NE(told.find("3 problems in wrong.json"), std::string::npos);
+}
+
+TEST(CommandLine, ASceneThatCannotBeReadIsFive) {
+  const TemporaryFolder folder;
+  for (const std::string& file :
+       {std::string("missing.json"), folder.path().string(), std::string("/dev/zero")}) {
+    for (const char* command : {"run", "validate"}) {
+      const Outcome outcome = polynya({command, file}, {folder.path()});
+      EXPECT_EQ(outcome.code, 5);
+      EXPECT_NE(outcome.err.find(file + ": "), std::string::npos) << outcome.err;
+      EXPECT_FALSE(std::filesystem::exists(folder / "runs"));
+    }
+  }
 }
 
 TEST(CommandLine, InitWritesASceneThatIsValid) {

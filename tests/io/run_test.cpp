@@ -5,6 +5,7 @@
 
 #include "geometry/measures.hpp"
 #include "io/json_parser.hpp"
+#include "io/motion_index.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_reader.hpp"
 #include "io/run_writer.hpp"
