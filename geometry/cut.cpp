@@ -23,16 +23,12 @@ exact::Polygon exact_polygon_of(const Shape& shape) {
   return shape.exact ? *shape.exact : exact::exactly(shape.polygon);
 }
 
-// Within find_defect's limit, too.
-bool all_finite(const std::vector<Point>& points) {
-  return std::all_of(points.begin(), points.end(),
-                     [](Point p) { return std::abs(p.x) <= 1e70 && std::abs(p.y) <= 1e70; });
-}
+bool are_usable(const std::vector<Point>& points) { return std::all_of(points.begin(), points.end(), is_usable); }
 
 // Strictly convex, counter-clockwise and once around: then nothing else can be wrong with a ring.
 bool is_convex(const Ring& ring) {
   const std::size_t n = ring.size();
-  if (n < 3 || !all_finite(ring)) return false;
+  if (n < 3 || !are_usable(ring)) return false;
   int turns_back = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Point a = ring[i];
@@ -115,7 +111,7 @@ CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools
 
 CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body) {
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
-  if (!all_finite(polyline_in_body)) return refuse(CutFailure::kInvalidTool, {Defect::kNotFinite, {}});
+  if (!are_usable(polyline_in_body)) return refuse(CutFailure::kInvalidTool, {Defect::kNotFinite, {}});
   std::vector<Point> crack = polyline_in_body;
   crack.erase(std::unique(crack.begin(), crack.end()), crack.end());
   if (crack.size() < 2) return refuse(CutFailure::kInvalidTool, {Defect::kTooFewPoints, {}});

@@ -1,7 +1,6 @@
 #include "geometry/repair.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 
 #include "geometry/internal/arrangement.hpp"
@@ -48,10 +47,8 @@ Ring oriented(Ring ring, int turn) {
 tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule) {
   std::vector<Ring> usable;
   for (const Ring& ring : rings) {
-    for (const Point p : ring) {
-      if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-        return tl::unexpected(CutError{CutFailure::kInvalidShape, "a coordinate is not finite"});
-      }
+    if (!std::all_of(ring.begin(), ring.end(), is_usable)) {
+      return tl::unexpected(CutError{CutFailure::kInvalidShape, "not-finite"});
     }
     if (Ring kept = without_repeats(ring); kept.size() > 2) usable.push_back(std::move(kept));
   }
@@ -72,12 +69,9 @@ Ring without_repeats(const Ring& ring) {
 }
 
 Polygon normalised(const Polygon& polygon) {
-  const auto all_finite = [](const Ring& ring) {
-    return std::all_of(ring.begin(), ring.end(), [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
-  };
   // A ring that is not finite has no orientation; find_defect will name it.
   const auto turned = [&](const Ring& ring, int turn) {
-    return all_finite(ring) ? oriented(without_repeats(ring), turn) : ring;
+    return std::all_of(ring.begin(), ring.end(), is_usable) ? oriented(without_repeats(ring), turn) : ring;
   };
   Polygon result{turned(polygon.outer, 1), {}};
   for (const Ring& hole : polygon.holes) result.holes.push_back(turned(hole, -1));

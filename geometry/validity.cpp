@@ -1,7 +1,7 @@
 #include "geometry/validity.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <tuple>
 
@@ -20,13 +20,9 @@ struct Touch {
   std::size_t edge_j;
 };
 
-bool is_finite(Point p) {
-  return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
 Found find_ring_defect(const Ring& ring) {
   for (const Point p : ring) {
-    if (!is_finite(p)) return DefectAt{Defect::kNotFinite, {p}};
+    if (!is_usable(p)) return DefectAt{Defect::kNotFinite, {p}};
   }
   const auto differs_from_first = [&](Point p) { return p != ring.front(); };
   const auto second = std::find_if(ring.begin(), ring.end(), differs_from_first);

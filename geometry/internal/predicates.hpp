@@ -1,8 +1,16 @@
 #pragma once
 
+#include <cmath>
+
 #include "geometry/polygon.hpp"
 
 namespace polynya::geometry {
+
+/// Is the point finite, and within what the products of areas and moments can express?
+inline bool is_usable(Point p) {
+  constexpr double kLargest = 1e70;  // [m]
+  return std::abs(p.x) <= kLargest && std::abs(p.y) <= kLargest;
+}
 
 /// Sign of (b − a) × (d − c), exactly: +1 where the direction c→d is to the left of a→b.
 /// Decided in doubles where an error bound allows it, else in error-free doubles, else in rationals.

@@ -216,9 +216,14 @@ TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
 
 TEST(Hazards, HugeCoordinatesAreRefusedByName) {
   const Shape shape{{{{0, 0}, {1e200, 0}, {1e200, 1e200}}, {}}};
-  const CutOutcome outcome = cut_along(shape, {{-1, 1}, {1e200, 1}});
+  const CutOutcome outcome = cut_along(shape, {{-1, 1}, {5, 1}});
   ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().reason, CutFailure::kInvalidShape);
   EXPECT_EQ(outcome.error().detail, "not-finite");
+  EXPECT_EQ(repair({shape.polygon.outer}, FillRule::kNonZero).error().reason, CutFailure::kInvalidShape);
+  const CutOutcome by_huge_tool = cut_along(Shape{{kSquare, {}}}, {{-1, 1}, {1e200, 1}});
+  ASSERT_FALSE(by_huge_tool);
+  EXPECT_EQ(by_huge_tool.error().reason, CutFailure::kInvalidTool);
 }
 
 }  // namespace
