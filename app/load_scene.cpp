@@ -1,19 +1,29 @@
 #include "app/load_scene.hpp"
 
 #include <cstdio>
+#include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "io/source_text.hpp"
+
 namespace polynya::app {
 
-std::optional<io::LoadedScene> load_scene(const std::string& file, const io::SceneOverrides& overrides) {
-  auto loaded = io::read_scene_file(file, overrides);
+tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
+                                                   const io::SceneOverrides& overrides) {
+  auto text = io::read_text_file(file, io::kLongestScene);
+  if (!text) {
+    fmt::print(stderr, "polynya: {}: {}\n", file, text.error());
+    return tl::unexpected(kInputOutput);
+  }
+  auto loaded = io::read_scene(std::move(*text), file, std::filesystem::path(file).parent_path(), overrides);
   if (loaded) return std::move(*loaded);
   for (const io::Problem& problem : loaded.error()) fmt::print(stderr, "{}\n", to_string(problem));
   const std::size_t count = loaded.error().size();
   fmt::print(stderr, "polynya: {} problem{} in {}; nothing was written\n", count, count == 1 ? "" : "s",
              file);
-  return std::nullopt;
+  return tl::unexpected(kSceneInvalid);
 }
 
 }  // namespace polynya::app

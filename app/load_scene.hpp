@@ -1,13 +1,17 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
+#include <tl/expected.hpp>
+
+#include "app/exit_code.hpp"
 #include "io/scene_reader.hpp"
 
 namespace polynya::app {
 
-/// The scene of that file. Where it is wrong, every problem has been told on stderr and there is none.
-std::optional<io::LoadedScene> load_scene(const std::string& file, const io::SceneOverrides& overrides = {});
+/// The scene of that file. Where it cannot be read or is wrong, every problem has been told on stderr, and it
+/// is the code to exit with.
+tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
+                                                   const io::SceneOverrides& overrides = {});
 
 }  // namespace polynya::app

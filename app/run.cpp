@@ -110,7 +110,7 @@ void print_result(const io::RunSummary& summary, const io::RunWriter& writer) {
 
 int run(const RunOptions& options) {
   const auto loaded = load_scene(options.scene, {.until = options.until, .seed = options.seed});
-  if (!loaded) return kSceneInvalid;
+  if (!loaded) return loaded.error();
   const std::filesystem::path folder = options.out.empty()
                                            ? std::filesystem::path("runs") / loaded->scene.name
                                            : std::filesystem::path(options.out);

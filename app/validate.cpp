@@ -8,7 +8,7 @@ namespace polynya::app {
 
 int validate(const ValidateOptions& options) {
   const auto loaded = load_scene(options.scene);
-  if (!loaded) return kSceneInvalid;
+  if (!loaded) return loaded.error();
   if (options.resolved) {
     fmt::print("{}", loaded->resolved_text);
     return kDone;
