@@ -30,7 +30,7 @@ BendingLoad paper_load(double ship_speed) {
   return load;
 }
 
-// Ship speeds .1 … 4 m/s. Forces and times agree within 1 %, radii within 3.5 %: their maximum is flat.
+// Ship speeds .1 … 4 m/s, against an independent prototype of the same model.
 TEST(Failure, PapersIceAtFiveSpeeds) {
   struct Row {
     double speed, force_kN, time, radius;
@@ -43,9 +43,9 @@ TEST(Failure, PapersIceAtFiveSpeeds) {
                                                    {4, 75.5, .049, 1.39}}) {
     const auto forecast = direct_forecast(solver, paper_load(speed));
     ASSERT_TRUE(forecast.has_value()) << speed;
-    EXPECT_NEAR(forecast->capacity.vertical_force / 1e3 / force, 1, 0.01) << speed;
+    EXPECT_NEAR(forecast->capacity.vertical_force / 1e3 / force, 1, 0.005) << speed;
     EXPECT_NEAR(forecast->time / time, 1, 0.01) << speed;
-    EXPECT_NEAR(forecast->capacity.cusp_radius / radius, 1, 0.035) << speed;
+    EXPECT_NEAR(forecast->capacity.cusp_radius / radius, 1, 0.02) << speed;
   }
 }
 
@@ -58,7 +58,7 @@ TEST(Failure, GroupsAtThreeSpeeds) {
     const auto failure = solver.failure({froude, 1e-3, 0, 0});
     ASSERT_TRUE(failure.has_value());
     EXPECT_NEAR(failure->force / force, 1, 0.005) << froude;
-    EXPECT_NEAR(failure->cusp_radius / radius, 1, 0.015) << froude;
+    EXPECT_NEAR(failure->cusp_radius / radius, 1, 0.01) << froude;
     EXPECT_NEAR(failure->penetration, std::sqrt(1e-3 * failure->force), 1e-9);
     EXPECT_NEAR(failure->time * froude, failure->penetration, 1e-9);
   }

@@ -26,7 +26,7 @@ double heaving_disc_added_mass(int rings) {
   return added_mass(mesh).sum();
 }
 
-// One side of a disc heaving in unbounded water, 4/3 ρ a³ [Lamb1932, §102].
+// One side of a disc heaving in unbounded water, 4/3 ρ a³ [Lamb1932].
 TEST(Water, HeavingDiscAddedMass) {
   double previous = 1;
   for (const int rings : {8, 16, 32}) {
@@ -37,7 +37,7 @@ TEST(Water, HeavingDiscAddedMass) {
   EXPECT_LT(previous, 0.006);
 }
 
-// Added mass of a pitching disc, one side: 8/45 ρ a⁵ [Lamb1932, §102 gives 16/45 for both].
+// Added mass of a pitching disc, one side: 8/45 ρ a⁵ [Lamb1932]; 16/45 for both.
 TEST(Water, PitchingDiscAddedMass) {
   for (const auto& [rings, tolerance] : {std::pair{8, 4e-3}, {16, 1e-3}, {32, 5e-4}}) {
     const PanelMesh mesh = make_panel_mesh(rays_towards_edge(0, 1, rings), even_rays(kPi, 12));
