@@ -1,0 +1,263 @@
+// The pair finder against a search over all pairs, while a pack of floes moves, collides, sleeps, breaks up
+// and grows.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/pairs.hpp"
+#include "tests/dynamics/scenery.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+using geometry::Point;
+using geometry::Pose;
+using geometry::Vector;
+using namespace scenery;
+
+constexpr std::uint64_t kSeed = 99;
+constexpr double kStep = 0.05;
+
+struct Found {
+  BodyIndex a, b;
+  double width, depth, area;
+  friend auto operator<=>(const Found&, const Found&) = default;
+};
+
+/// Every pair of which one at least is awake, from nothing.
+std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule) {
+  std::vector<Found> found;
+  geometry::PatchScratch scratch;
+  for (BodyIndex a = 0; a < bodies.size(); ++a) {
+    for (BodyIndex b = a + 1; b < bodies.size(); ++b) {
+      if (!bodies.is_alive[a] || !bodies.is_alive[b] || (!bodies.is_awake[a] && !bodies.is_awake[b]))
+        continue;
+      if (distance(bodies.position[a], bodies.position[b]) >
+          bodies.bounding_radius[a] + bodies.bounding_radius[b])
+        continue;
+      const Pose a_from_b = relative_pose(water_from_body(bodies, a), water_from_body(bodies, b));
+      std::vector<geometry::NearPair> circles;
+      std::vector<geometry::NearPair> edges;
+      std::vector<geometry::ContactPatch> patches;
+      near_circles(*bodies.boundary[a], *bodies.boundary[b], a_from_b, 0, circles);
+      if (rule.is_circle_centres) {
+        find_circle_patches(*bodies.boundary[a], *bodies.boundary[b], a_from_b, circles, patches);
+      } else {
+        edges_of(*bodies.boundary[a], *bodies.boundary[b], circles, edges);
+        find_patches(*bodies.boundary[a], *bodies.boundary[b], a_from_b, edges, scratch, patches);
+      }
+      for (const geometry::ContactPatch& patch : patches)
+        found.push_back({a, b, patch.width, patch.depth, patch.area});
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// A pack of random floes, thrown at its middle.
+struct Pack {
+  Bodies bodies;
+  std::vector<BodyIndex> awake;
+  PairFinder finder;
+  Random random{kSeed};
+
+  Pack(const ContactRule& rule, int columns) : finder(rule, 15) {
+    for (int i = 0; i < columns * columns; ++i)
+      add({14.0 * (i % columns), 14.0 * (i / columns)}, i % 3 != 0, columns);
+    for (int i = 0; i < columns * columns; ++i) {
+      if (i % 3 != 0) wake(i);
+    }
+  }
+
+  void add(Point at, bool is_moving, int columns) {
+    NewBody body = floe_body(random_star(random, 5 + random.below(8), 3, 8), at, random.angle());
+    const Vector inwards = Point{7.0 * columns, 7.0 * columns} - at;
+    if (is_moving) {
+      body.velocity = 0.05 * inwards + Vector{random.between(-2, 2), random.between(-2, 2)};
+      body.angular_velocity = random.between(-0.4, 0.4);
+    }
+    const BodyIndex i = add_body(bodies, body);
+    finder.add(bodies, i);
+  }
+
+  void wake(BodyIndex i) {
+    if (bodies.is_awake[i]) return;
+    bodies.is_awake[i] = 1;
+    awake.insert(std::lower_bound(awake.begin(), awake.end(), i), i);
+    finder.wake(bodies, i);
+  }
+
+  void put_to_sleep(BodyIndex i) {
+    if (!bodies.is_awake[i]) return;
+    bodies.velocity[i] = {};
+    bodies.angular_velocity[i] = 0;
+    bodies.is_awake[i] = 0;
+    awake.erase(std::find(awake.begin(), awake.end(), i));
+    finder.sleep(bodies, i);
+  }
+
+  void remove(BodyIndex i) {
+    if (!bodies.is_alive[i]) return;
+    finder.remove(i);
+    bodies.is_alive[i] = 0;
+    if (bodies.is_awake[i]) awake.erase(std::find(awake.begin(), awake.end(), i));
+    bodies.is_awake[i] = 0;
+  }
+};
+
+void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
+  Pack pack(rule, columns);
+  ImpulseSolver solver;
+  std::vector<Contact> contacts;
+  std::size_t seen = 0;
+  for (int step = 0; step < steps; ++step) {
+    pack.finder.update(pack.bodies, pack.awake);
+    pack.finder.find_contacts(pack.bodies, kStep, contacts);
+    std::vector<Found> found;
+    for (const Contact& c : contacts) found.push_back({c.a, c.b, c.width, c.depth, c.area});
+    ASSERT_TRUE(std::is_sorted(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
+      return std::pair(p.a, p.b) < std::pair(q.a, q.b);
+    }));
+    // Bodies that sleep both may still be listed while their pair is known; brute force does not list them.
+    std::erase_if(found,
+                  [&](const Found& f) { return !pack.bodies.is_awake[f.a] && !pack.bodies.is_awake[f.b]; });
+    std::sort(found.begin(), found.end());
+    const std::vector<Found> expected = over_all_pairs(pack.bodies, rule);
+    ASSERT_EQ(found.size(), expected.size()) << "step " << step;
+    ASSERT_TRUE(found == expected) << "step " << step;
+    seen += found.size();
+
+    solver.solve(pack.bodies, contacts, {});
+    for (const Contact& c : contacts) {
+      if (c.total_normal_impulse() == 0) continue;
+      pack.wake(c.a);
+      pack.wake(c.b);
+    }
+    solver.separate(pack.bodies, contacts, {}, kStep);
+    integrate(pack.bodies, pack.awake, kStep);
+    if (step % 10 == 9) pack.put_to_sleep(pack.random.below(pack.bodies.size()));
+    if (step % 16 == 15) pack.remove(pack.random.below(pack.bodies.size()));
+    if (step % 16 == 15) {
+      pack.add({14.0 * columns + 10, pack.random.between(0, 14.0 * columns)}, true, columns);
+      pack.wake(pack.bodies.size() - 1);
+    }
+  }
+  std::printf("%zu contacts over %d steps\n", seen, steps);
+  EXPECT_GT(seen, 1000u);
+}
+
+TEST(PairFinder, FindsWhatASearchOverAllPairsFinds) {
+  run_against_brute_force({}, 14, 400);
+}
+
+TEST(PairFinder, FindsWhatASearchOverAllPairsFindsByCircles) {
+  run_against_brute_force({1.0, true}, 10, 200);
+}
+
+TEST(PairFinder, AFastFloeIsNotMissed) {
+  // 40 m in a step: out of every margin at once.
+  Bodies bodies;
+  NewBody bullet = floe_body(rectangle(4, 4), {-221, 0.5});
+  bullet.velocity = {800, 0};
+  add_body(bodies, floe_body(rectangle(40, 40), {0, 0}));
+  add_body(bodies, bullet);
+  PairFinder finder({}, 20);
+  for (const BodyIndex i : {0, 1}) finder.add(bodies, i);
+  for (const BodyIndex i : {0, 1}) finder.wake(bodies, i);
+  bodies.is_awake = {1, 1};
+  int met = 0;
+  std::vector<Contact> contacts;
+  for (int step = 0; step < 12; ++step) {
+    finder.update(bodies, {0, 1});
+    finder.find_contacts(bodies, kStep, contacts);
+    EXPECT_EQ(contacts.size(), over_all_pairs(bodies, {}).size()) << step;
+    met += !contacts.empty();
+    integrate(bodies, {0, 1}, kStep);
+  }
+  EXPECT_GT(met, 0);
+}
+
+TEST(PairFinder, TurningEverythingTurnsTheContacts) {
+  Random random(5);
+  int checked = 0;
+  for (int i = 0; i < 400; ++i) {
+    const geometry::Polygon a = random_star(random, 8, 5, 9);
+    const geometry::Polygon b = random_star(random, 8, 5, 9);
+    const NewBody first = floe_body(a, {0, 0}, random.angle());
+    NewBody second = floe_body(b, {random.between(10, 16), random.between(-3, 3)}, random.angle());
+    second.velocity = {-1, 0.3};
+    second.angular_velocity = 0.2;
+    const double angle = random.angle();
+    const geometry::Rotation turn = geometry::Rotation::by(angle);
+    const auto contacts_of = [&](bool is_turned) {
+      Bodies bodies;
+      for (NewBody body : {first, second}) {
+        if (is_turned) {
+          body.position = Point{50, -70} + rotate(turn, body.position - Point{});
+          body.velocity = rotate(turn, body.velocity);
+          body.angle += angle;
+        }
+        add_body(bodies, body);
+      }
+      PairFinder finder({}, 20);
+      for (const BodyIndex k : {0, 1}) finder.add(bodies, k);
+      for (const BodyIndex k : {0, 1}) finder.wake(bodies, k);
+      std::vector<Contact> contacts;
+      finder.find_contacts(bodies, kStep, contacts);
+      std::sort(contacts.begin(), contacts.end(),
+                [](const Contact& p, const Contact& q) { return p.area < q.area; });
+      for (Contact& c : contacts) c.record = nullptr;
+      return contacts;
+    };
+    const std::vector<Contact> straight = contacts_of(false);
+    const std::vector<Contact> turned = contacts_of(true);
+    ASSERT_EQ(straight.size(), turned.size()) << i;
+    for (std::size_t k = 0; k < straight.size(); ++k) {
+      if (straight[k].depth < 1e-6) continue;  // its normal is rounding
+      ++checked;
+      EXPECT_NEAR(length(rotate(turn, straight[k].normal) - turned[k].normal), 0, 1e-7);
+      EXPECT_NEAR(straight[k].approach_speed, turned[k].approach_speed, 1e-7);
+      EXPECT_NEAR(straight[k].slip_speed, turned[k].slip_speed, 1e-7);
+      EXPECT_NEAR(straight[k].area, turned[k].area, 1e-9);
+      EXPECT_NEAR(distance(Point{50, -70} + rotate(turn, straight[k].middle() - Point{}), turned[k].middle()),
+                  0, 1e-9);
+    }
+  }
+  EXPECT_GT(checked, 100);
+}
+
+TEST(PairFinder, AContactIsRememberedWhileItLastsAndForgottenAfter) {
+  Bodies bodies;
+  add_body(bodies, floe_body(rectangle(10, 40), {-5, 0}));
+  NewBody floe = floe_body(rectangle(8, 8), {3.9, 0}, 0);
+  floe.velocity = {-0.5, 0};
+  add_body(bodies, floe);
+  PairFinder finder({}, 20);
+  for (const BodyIndex i : {0, 1}) finder.add(bodies, i);
+  for (const BodyIndex i : {0, 1}) finder.wake(bodies, i);
+  std::vector<Contact> contacts;
+  for (int step = 1; step <= 10; ++step) {
+    finder.update(bodies, {0, 1});
+    finder.find_contacts(bodies, 0.01, contacts);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_NEAR(contacts[0].record->age, 0.01 * step, 1e-12);
+    EXPECT_NEAR(contacts[0].record->approach, 0.005 * step, 1e-12);
+    contacts[0].record->has_crushed = true;
+    integrate(bodies, {0, 1}, 0.01);
+  }
+  bodies.velocity[1] = {100, 0};
+  integrate(bodies, {1}, 0.01);
+  finder.update(bodies, {0, 1});
+  finder.find_contacts(bodies, 0.01, contacts);
+  EXPECT_TRUE(contacts.empty());
+  bodies.velocity[1] = {-100, 0};
+  integrate(bodies, {1}, 0.01);
+  finder.update(bodies, {0, 1});
+  finder.find_contacts(bodies, 0.01, contacts);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_FALSE(contacts[0].record->has_crushed);
+  EXPECT_NEAR(contacts[0].record->age, 0.01, 1e-12);
+}
+
+}  // namespace
+}  // namespace polynya::dynamics

@@ -1,0 +1,146 @@
+// The wedge of ice at a contact, and the straight crack through a floe.
+#include "geometry/wedge.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "geometry/crack_path.hpp"
+#include "geometry/cut.hpp"
+#include "tests/dynamics/scenery.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+using namespace scenery;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+TEST(WedgeAngles, OfASquaresCornerAreFortyFiveDegrees) {
+  const EdgeList edges = edge_list(rectangle(10, 10));
+  for (std::uint32_t corner = 0; corner < 4; ++corner) {
+    const Point tip = edges.from(corner);
+    const Vector inward = (Point{} - tip) / length(Point{} - tip);
+    const WedgeAngles angles = wedge_angles(edges, corner, tip, inward, 2.5);
+    EXPECT_NEAR(angles.front, 45 * kDegree, 1e-12) << corner;
+    EXPECT_NEAR(angles.back, 45 * kDegree, 1e-12) << corner;
+  }
+}
+
+TEST(WedgeAngles, OfAStraightEdgeAreRightAngles) {
+  const EdgeList edges = edge_list(rectangle(10, 10));
+  const WedgeAngles angles = wedge_angles(edges, 0, {1, -5}, {0, 1}, 2.5);
+  EXPECT_NEAR(angles.front, 90 * kDegree, 1e-12);
+  EXPECT_NEAR(angles.back, 90 * kDegree, 1e-12);
+}
+
+TEST(WedgeAngles, AreMeasuredFromTheInwardDirection) {
+  // A wedge of 60°, looked at 10° off its bisector: 40° and 20°, the boundary after the tip first.
+  const Polygon wedge{{{0, 0},
+                       {20 * std::cos(-30 * kDegree), 20 * std::sin(-30 * kDegree)},
+                       {20 * std::cos(30 * kDegree), 20 * std::sin(30 * kDegree)}},
+                      {}};
+  const Vector inward{std::cos(10 * kDegree), std::sin(10 * kDegree)};
+  const WedgeAngles angles = wedge_angles(edge_list(wedge), 0, {0, 0}, inward, 3);
+  EXPECT_NEAR(angles.front, 40 * kDegree, 1e-12);
+  EXPECT_NEAR(angles.back, 20 * kDegree, 1e-12);
+}
+
+TEST(WedgeAngles, OfAJaggedEdgeAreThoseOfWhereItLeads) {
+  // A straight edge roughened by teeth of 5 cm: seen over 3 m it is straight but for the teeth's angle, 0.05
+  // / 3.
+  Polygon jagged{{}, {}};
+  for (int i = 0; i <= 200; ++i) jagged.outer.push_back({-10 + 0.1 * i, i % 2 == 0 ? 0.0 : 0.05});
+  jagged.outer.push_back({10, 20});
+  jagged.outer.push_back({-10, 20});
+  const WedgeAngles angles = wedge_angles(edge_list(jagged), 100, jagged.outer[100], {0, 1}, 3);
+  EXPECT_NEAR(angles.front, 90 * kDegree, 0.05 / 3 * 1.01);
+  EXPECT_NEAR(angles.back, 90 * kDegree, 0.05 / 3 * 1.01);
+}
+
+TEST(WedgeAngles, TurnWithTheFloeAndMirrorWithIt) {
+  Random random(3);
+  for (int i = 0; i < 500; ++i) {
+    const Polygon floe = random_star(random, 9, 5, 12);
+    const EdgeList edges = edge_list(floe);
+    const auto edge = static_cast<std::uint32_t>(random.below(9));
+    const bool is_corner = i % 2 == 0;
+    const Point tip = is_corner ? edges.from(edge) : midpoint(edges.from(edge), edges.to(edge));
+    const Vector inward = (Point{} - tip) / length(Point{} - tip);
+    const WedgeAngles angles = wedge_angles(edges, edge, tip, inward, 2);
+    ASSERT_GE(std::min(angles.front, angles.back), 0);
+    ASSERT_LE(std::max(angles.front, angles.back), std::numbers::pi);
+
+    const Rotation turn = Rotation::by(random.angle());
+    Polygon turned = floe;
+    for (Point& p : turned.outer) p = Point{} + rotate(turn, p - Point{});
+    const WedgeAngles same =
+        wedge_angles(edge_list(turned), edge, Point{} + rotate(turn, tip - Point{}), rotate(turn, inward), 2);
+    ASSERT_NEAR(same.front, angles.front, 1e-9);
+    ASSERT_NEAR(same.back, angles.back, 1e-9);
+
+    Polygon mirrored;  // y → −y turns the ring around: vertex i becomes vertex 8 − i
+    for (const Point p : floe.outer) mirrored.outer.insert(mirrored.outer.begin(), {p.x, -p.y});
+    const std::uint32_t mirrored_edge = is_corner ? 8 - edge : (edge == 8 ? 8 : 7 - edge);
+    const WedgeAngles swapped =
+        wedge_angles(edge_list(mirrored), mirrored_edge, {tip.x, -tip.y}, {inward.x, -inward.y}, 2);
+    ASSERT_NEAR(swapped.front, angles.back, 1e-9) << i;
+    ASSERT_NEAR(swapped.back, angles.front, 1e-9) << i;
+  }
+}
+
+TEST(WedgeAngles, OfAFloeSmallerThanTheLengthAreFinite) {
+  const EdgeList edges = edge_list(rectangle(1, 1));
+  for (const Point tip : {Point{-0.5, -0.5}, Point{0.2, -0.5}}) {
+    const WedgeAngles angles = wedge_angles(edges, 0, tip, {0, 1}, 50);
+    EXPECT_TRUE(std::isfinite(angles.front) && std::isfinite(angles.back));
+    EXPECT_GE(std::min(angles.front, angles.back), 0);
+    EXPECT_LE(std::max(angles.front, angles.back), std::numbers::pi);
+  }
+}
+
+TEST(CrackPath, AcrossARectangleIsItsLength) {
+  const EdgeList edges = edge_list(rectangle(110, 200));
+  const CrackPath path = crack_path(edges, {-55, 20}, {1, 0}, 1e-3);
+  EXPECT_NEAR(path.length_in_ice, 110, 1e-12);
+  EXPECT_NEAR(distance(path.start, {-55 - 1e-3, 20}), 0, 1e-12);
+  EXPECT_NEAR(distance(path.end, {55 + 1e-3, 20}), 0, 1e-12);
+  const double slant = 0.3;
+  const CrackPath slanted = crack_path(edges, {-55, 20}, {std::cos(slant), std::sin(slant)}, 1e-3);
+  EXPECT_NEAR(slanted.length_in_ice, 110 / std::cos(slant), 1e-10);
+}
+
+TEST(CrackPath, FromInsideBeginsBehindThePointAndCountsOnlyWhatIsAhead) {
+  const EdgeList edges = edge_list(rectangle(110, 200));
+  const CrackPath path = crack_path(edges, {-54, 20}, {1, 0}, 1e-3);
+  EXPECT_NEAR(path.length_in_ice, 109, 1e-12);
+  EXPECT_NEAR(distance(path.start, {-55 - 1e-3, 20}), 0, 1e-12);
+}
+
+TEST(CrackPath, CountsIceOnly) {
+  Polygon plate = rectangle(100, 100);
+  plate.holes = {{{-10, -10}, {-10, 10}, {10, 10}, {10, -10}}};
+  EXPECT_NEAR(crack_path(edge_list(plate), {-50, 0}, {1, 0}, 1e-3).length_in_ice, 80, 1e-12);
+  EXPECT_NEAR(crack_path(edge_list(plate), {-50, 20}, {1, 0}, 1e-3).length_in_ice, 100, 1e-12);
+}
+
+TEST(CrackPath, CutAlongItAFloeSeparatesWithoutLossOfArea) {
+  Random random(8);
+  for (int i = 0; i < 300; ++i) {
+    const Polygon floe = random_star(random, 10, 4, 12);
+    const EdgeList edges = edge_list(floe);
+    const auto edge = static_cast<std::uint32_t>(random.below(10));
+    const Point from = edges.from(edge) + random.between(0.2, 0.8) * (edges.to(edge) - edges.from(edge));
+    // The origin sees every edge of a star, so this leads into the ice.
+    const Vector direction = (Point{} - from) / length(Point{} - from);
+    const CrackPath path = crack_path(edges, from, direction, 1e-3);
+    const CutOutcome outcome = cut_along({floe}, {path.start, path.end});
+    ASSERT_TRUE(outcome) << i << ": " << outcome.error().detail;
+    EXPECT_GE(outcome->pieces.size(), 2u);
+    EXPECT_TRUE(outcome->ledger.exact_balance);
+    ASSERT_GE(path.length_in_ice, 8 * 0.99) << "from the rim through the middle to the other rim";
+  }
+}
+
+}  // namespace
+}  // namespace polynya::geometry
