@@ -12,7 +12,8 @@ struct March {
   std::vector<geometry::Ring> cusps;
 };
 
-/// 500 overlapping discs marched around a 110 m × 200 m plate, turned by an angle so that nothing is axis-aligned.
+/// 500 overlapping discs marched around a 110 m × 200 m plate, turned by an angle so that nothing is
+/// axis-aligned.
 March march_of_cusps();
 
 /// A floe of 2000 vertices with a ragged outline, and the two ends of a line across it [m].

@@ -1,6 +1,7 @@
 // Polynya's exact cuts beside the libraries people would use instead, all in one run.
 //   build/bench/bench/polynya_bench_cuts [ROUNDS]
-// The rounds go around the libraries in turn, so that a busy machine is busy for all; the least time of each counts.
+// The rounds go around the libraries in turn, so that a busy machine is busy for all; the least time of each
+// counts.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -27,7 +28,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 template <typename Case>
-void compare(const char* title, const Case& data, std::vector<Contender<Case>> contenders, int rounds, int repeats) {
+void compare(const char* title, const Case& data, std::vector<Contender<Case>> contenders, int rounds,
+             int repeats) {
   for (int round = 0; round < rounds; ++round) {
     for (Contender<Case>& contender : contenders) {
       const auto start = std::chrono::steady_clock::now();
@@ -35,10 +37,11 @@ void compare(const char* title, const Case& data, std::vector<Contender<Case>> c
       contender.least_s = std::min(contender.least_s, seconds_since(start) / repeats);
     }
   }
-  std::printf("%s\n  %-16s %12s %10s %18s %9s\n", title, "library", "least [ms]", "vs ours", "area [m2]", "vertices");
+  std::printf("%s\n  %-16s %12s %10s %18s %9s\n", title, "library", "least [ms]", "vs ours", "area [m2]",
+              "vertices");
   for (const Contender<Case>& c : contenders) {
-    std::printf("  %-16s %12.4f %9.2fx %18.9f %9zu\n", c.name, c.least_s * 1e3, c.least_s / contenders.front().least_s,
-                c.result.area, c.result.vertices);
+    std::printf("  %-16s %12.4f %9.2fx %18.9f %9zu\n", c.name, c.least_s * 1e3,
+                c.least_s / contenders.front().least_s, c.result.area, c.result.vertices);
   }
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+
 #include <polyclipping/clipper.hpp>
 
 #include "bench/cut_cases.hpp"
@@ -13,11 +14,13 @@ constexpr double kScale = 1 << 20;
 ClipperLib::Path to_clipper(const geometry::Ring& ring) {
   ClipperLib::Path path;
   path.reserve(ring.size());
-  for (const geometry::Point p : ring) path.emplace_back(std::llround(p.x * kScale), std::llround(p.y * kScale));
+  for (const geometry::Point p : ring)
+    path.emplace_back(std::llround(p.x * kScale), std::llround(p.y * kScale));
   return path;
 }
 
-ClipperLib::Paths clip(ClipperLib::ClipType type, const ClipperLib::Path& subject, const ClipperLib::Path& tool) {
+ClipperLib::Paths clip(ClipperLib::ClipType type, const ClipperLib::Path& subject,
+                       const ClipperLib::Path& tool) {
   ClipperLib::Clipper clipper;
   clipper.AddPath(subject, ClipperLib::ptSubject, true);
   clipper.AddPath(tool, ClipperLib::ptClip, true);
@@ -26,7 +29,9 @@ ClipperLib::Paths clip(ClipperLib::ClipType type, const ClipperLib::Path& subjec
   return result;
 }
 
-double area(const ClipperLib::Path& path) { return ClipperLib::Area(path) / (kScale * kScale); }
+double area(const ClipperLib::Path& path) {
+  return ClipperLib::Area(path) / (kScale * kScale);
+}
 
 }  // namespace
 

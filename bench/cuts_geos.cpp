@@ -1,6 +1,6 @@
-#include <geos_c.h>
-
 #include <algorithm>
+
+#include <geos_c.h>
 
 #include "bench/cut_cases.hpp"
 
@@ -31,7 +31,8 @@ GEOSGeometry* to_geos(GEOSContextHandle_t geos, const geometry::Ring& ring) {
 }
 
 std::size_t vertices(GEOSContextHandle_t geos, const GEOSGeometry* geometry) {
-  return static_cast<std::size_t>(GEOSGetNumCoordinates_r(geos, geometry) - GEOSGetNumGeometries_r(geos, geometry));
+  return static_cast<std::size_t>(GEOSGetNumCoordinates_r(geos, geometry) -
+                                  GEOSGetNumGeometries_r(geos, geometry));
 }
 
 GEOSGeometry* largest_part(GEOSContextHandle_t geos, GEOSGeometry* whole) {

@@ -5,8 +5,8 @@
 #include <exception>
 #include <numbers>
 
-#include "geometry/internal/exact_polygon.hpp"
 #include "geometry/internal/edge_tree.hpp"
+#include "geometry/internal/exact_polygon.hpp"
 #include "geometry/internal/general_cut.hpp"
 #include "geometry/internal/local_cut.hpp"
 #include "geometry/internal/predicates.hpp"
@@ -23,7 +23,9 @@ exact::Polygon exact_polygon_of(const Shape& shape) {
   return shape.exact ? *shape.exact : exact::exactly(shape.polygon);
 }
 
-bool are_usable(const std::vector<Point>& points) { return std::all_of(points.begin(), points.end(), is_usable); }
+bool are_usable(const std::vector<Point>& points) {
+  return std::all_of(points.begin(), points.end(), is_usable);
+}
 
 // Strictly convex, counter-clockwise and once around: then nothing else can be wrong with a ring.
 bool is_convex(const Ring& ring) {
@@ -50,7 +52,8 @@ std::optional<DefectAt> find_tool_defect(const Polygon& tool) {
 bool is_simple(const std::vector<Point>& polyline) {
   if (polyline.size() == 2) return true;
   std::vector<Edge> edges;
-  for (std::size_t i = 1; i < polyline.size(); ++i) edges.push_back({polyline[i - 1], polyline[i], 0, static_cast<int>(i)});
+  for (std::size_t i = 1; i < polyline.size(); ++i)
+    edges.push_back({polyline[i - 1], polyline[i], 0, static_cast<int>(i)});
   return EdgeTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
     const SegmentMeeting meeting = meet(edges[i].a, edges[i].b, edges[j].a, edges[j].b);
     if (meeting.kind == Meeting::kNone) return true;
@@ -95,7 +98,8 @@ CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
   if (const auto found = find_tool_defect(tool_in_body)) return refuse(CutFailure::kInvalidTool, *found);
   if (!shape.exact && tool_in_body.holes.empty()) {
-    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tool_in_body.outer, true}); })) return *std::move(outcome);
+    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tool_in_body.outer, true}); }))
+      return *std::move(outcome);
   }
   return cut_by_polygons_generally(exact_polygon_of(shape), {tool_in_body});
 }
@@ -116,7 +120,8 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
   crack.erase(std::unique(crack.begin(), crack.end()), crack.end());
   if (crack.size() < 2) return refuse(CutFailure::kInvalidTool, {Defect::kTooFewPoints, {}});
   if (!shape.exact && is_simple(crack)) {
-    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {crack, false}); })) return *std::move(outcome);
+    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {crack, false}); }))
+      return *std::move(outcome);
   }
   return cut_along_generally(exact_polygon_of(shape), crack);
 }

@@ -28,6 +28,7 @@ struct CutLedger {
   double rounding_defect = 0;  ///< (pieces as returned + slivers) − (exact pieces), nearest double [m²]
   bool exact_balance = false;  ///< Σ exact pieces − parent is exactly 0, checked in rationals
   std::string exact_defect;    ///< that difference as a rational [m²]: "0", or the cut is refused
+  double dangling_length = 0;  ///< of crack that runs in the ice and separates nothing [m]
   int kept_exact = 0;          ///< pieces that would not round validly and keep rationals
 };
 
@@ -47,7 +48,8 @@ std::string_view name_of(CutFailure reason);
 
 struct CutError {
   CutFailure reason;
-  std::string detail;  ///< for people
+  std::string detail;          ///< for people
+  double dangling_length = 0;  ///< where a crack does not separate: how much of it runs in the ice [m]
 };
 
 using CutOutcome = tl::expected<CutResult, CutError>;
@@ -56,7 +58,8 @@ using CutOutcome = tl::expected<CutResult, CutError>;
 /// A transaction: pieces outside and inside whose exact areas sum to the shape's, or an error and no change.
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body);
 
-/// The same with a tool of several polygons with holes, which may touch or overlap: what any of them covers is inside.
+/// The same with a tool of several polygons with holes, which may touch or overlap: what any of them covers
+/// is inside.
 CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body);
 
 /// Cuts a shape along an open polyline in its body frame (a crack). The polyline separates where it crosses

@@ -13,8 +13,8 @@ struct Overlap {
   std::string exact_area;  ///< as a rational: "0" where the interiors are disjoint
 };
 
-/// The area two placed shapes share, exactly: each vertex is placed by its pose's doubles in rational arithmetic.
-/// Shapes are valid. Fails (kInternal) only where CGAL refuses.
+/// The area two placed shapes share, exactly: each vertex is placed by its pose's doubles in rational
+/// arithmetic. Shapes are valid. Fails (kInternal) only where CGAL refuses.
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b);
 

@@ -20,16 +20,16 @@ struct Repaired {
   CutLedger ledger;           ///< of rounding the crossings; its `area_before` is the exact repaired area
 };
 
-/// Makes valid polygons of rings that are not, exactly, on request only: nothing else in this room repairs. Repeated
-/// points are dropped and enclose nothing; rings of fewer than three points too. Fails where a coordinate is not
-/// finite (kInvalidShape) or where nothing is enclosed (kMisses).
+/// Makes valid polygons of rings that are not, exactly, on request only: nothing else in this room repairs.
+/// Repeated points are dropped and enclose nothing; rings of fewer than three points too. Fails where a
+/// coordinate is not finite (kInvalidShape) or where nothing is enclosed (kMisses).
 tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule);
 
 /// The ring without points equal to the one before, a closing point included.
 Ring without_repeats(const Ring& ring);
 
-/// The polygon without repeated points, its outer ring counter-clockwise and its holes clockwise, as find_defect and
-/// the cuts expect. Nothing else changes.
+/// The polygon without repeated points, its outer ring counter-clockwise and its holes clockwise, as
+/// find_defect and the cuts expect. Nothing else changes.
 Polygon normalised(const Polygon& polygon);
 
 }  // namespace polynya::geometry

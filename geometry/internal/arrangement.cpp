@@ -78,14 +78,17 @@ class Tracer {
     return regions;
   }
 
-  bool tool_meets_interior() const {
+  // How the tool's segments lie in the shape's interior.
+  void find_tool_inside(Overlay& result) const {
     for (auto e = arrangement_.edges_begin(); e != arrangement_.edges_end(); ++e) {
-      if (winding_[face_of(e)].shape == 0 || winding_[face_of(e->twin())].shape == 0) continue;
-      for (const std::size_t s : e->curve().data()) {
-        if (segments_[s].source == 1) return true;
-      }
+      const std::size_t left = face_of(e);
+      const std::size_t right = face_of(e->twin());
+      if (winding_[left].shape == 0 || winding_[right].shape == 0 || first_source(e) == 0) continue;
+      result.tool_meets_interior = true;
+      if (left != right) continue;
+      result.dangling_length +=
+          distance(rounded(from_cgal(e->source()->point())), rounded(from_cgal(e->target()->point())));
     }
-    return false;
   }
 
  private:
@@ -173,8 +176,8 @@ class Tracer {
     return next;
   }
 
-  // Only where one segment passes straight through a point that bounds no third region is that point no corner. Where
-  // the tool runs along the shape, the shape's segments tell: its own vertices stay.
+  // Only where one segment passes straight through a point that bounds no third region is that point no
+  // corner. Where the tool runs along the shape, the shape's segments tell: its own vertices stay.
   bool is_corner(Halfedge in, Halfedge out) const {
     const int source = std::min(first_source(in), first_source(out));
     for (const std::size_t s : in->curve().data()) {
@@ -206,7 +209,8 @@ class Tracer {
 
   void trace(Halfedge start, std::unordered_set<const void*>& visited, Polygon& polygon) const {
     std::vector<Halfedge> walk;
-    std::unordered_map<const void*, std::size_t> place;  // of each vertex: the edge of the walk that ends there
+    std::unordered_map<const void*, std::size_t>
+        place;  // of each vertex: the edge of the walk that ends there
     Halfedge e = start;
     do {
       visited.insert(&*e);
@@ -274,7 +278,9 @@ Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& cl
   Arrangement arrangement;
   CGAL::insert(arrangement, curves.begin(), curves.end());
   Tracer tracer(arrangement, segments, classify, seams);
-  return {tracer.regions(), tracer.tool_meets_interior()};
+  Overlay result{tracer.regions()};
+  tracer.find_tool_inside(result);
+  return result;
 }
 
 }  // namespace polynya::geometry::exact

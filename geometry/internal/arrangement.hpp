@@ -41,6 +41,7 @@ enum class Seams {
 struct Overlay {
   std::vector<Region> regions;
   bool tool_meets_interior = false;  ///< some tool segment runs where the shape winds on both sides
+  double dangling_length = 0;        ///< of those that have one face on both sides: dangles and bridges [m]
 };
 
 /// The exact overlay of all segments, by CGAL's arrangement: the general path and the oracle of the local

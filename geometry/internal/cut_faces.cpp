@@ -23,7 +23,8 @@ bool same_direction(const Ray& u, const Ray& v) {
   return cross_sign(u, v) == 0 && dot_sign(u.tail, u.head, v.tail, v.head) > 0;
 }
 
-// Vertices strictly after `from` and strictly before `to`; `wraps` where the run passes the ring's first vertex.
+// Vertices strictly after `from` and strictly before `to`; `wraps` where the run passes the ring's first
+// vertex.
 Run run_between(const Place& from, const Place& to, bool wraps, int size) {
   const int first = from.edge + 1;
   const int last = to.at_vertex ? to.edge - 1 : to.edge;
@@ -33,7 +34,8 @@ Run run_between(const Place& from, const Place& to, bool wraps, int size) {
 
 class Faces {
  public:
-  Faces(const Rings& rings, const Tool& tool, std::vector<Node>& nodes) : rings_(rings), tool_(tool), nodes_(nodes) {}
+  Faces(const Rings& rings, const Tool& tool, std::vector<Node>& nodes)
+      : rings_(rings), tool_(tool), nodes_(nodes) {}
 
   CutGraph trace() {
     find_chords();
@@ -69,20 +71,25 @@ class Faces {
 
   void find_chords() {
     const std::vector<int> order = order_along_tool(nodes_, tool_);
-    const int count = static_cast<int>(order.size());
+    if (order.empty()) return;
+    graph_.first_node = order.front();
+    graph_.last_node = order.back();
     const int size = static_cast<int>(tool_.points.size());
-    for (int i = 0; i < count; ++i) {
-      const bool is_last = i + 1 == count;
-      const int from = order[static_cast<std::size_t>(i)];
-      const Place& start = node(from).on_tool;
-      const bool is_end = !tool_.is_closed && start.at_vertex && start.edge + 1 == size;
-      const bool enters = !is_end && leads_inside(from, tool_at(from).on);
-      if (enters) graph_.tool_enters = true;
-      const bool is_start = !tool_.is_closed && start.at_vertex && start.edge == 0;
-      if (!is_start && leads_inside(from, tool_at(from).back)) graph_.tool_enters = true;
-      if (!enters || (is_last && !tool_.is_closed)) continue;
-      const int to = order[static_cast<std::size_t>(is_last ? 0 : i + 1)];
-      chords_.push_back({from, to, run_between(start, node(to).on_tool, is_last, size)});
+    if (!tool_.is_closed) {
+      const Place& first = node(order.front()).on_tool;
+      const Place& last = node(order.back()).on_tool;
+      const bool is_start = first.at_vertex && first.edge == 0;
+      const bool is_end = last.at_vertex && last.edge + 1 == size;
+      graph_.starts_inside = !is_start && leads_inside(order.front(), tool_at(order.front()).back);
+      graph_.ends_inside = !is_end && leads_inside(order.back(), tool_at(order.back()).on);
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const bool is_last = i + 1 == order.size();
+      if (is_last && !tool_.is_closed) return;
+      const int from = order[i];
+      const int to = order[is_last ? 0 : i + 1];
+      if (!leads_inside(from, tool_at(from).on)) continue;
+      chords_.push_back({from, to, run_between(node(from).on_tool, node(to).on_tool, is_last, size)});
       node(from).is_active = true;
       node(to).is_active = true;
     }
@@ -130,8 +137,8 @@ class Faces {
     return e.is_forward ? tool_at(e.to).back : tool_at(e.to).on;
   }
 
-  // The face on the left of an arriving half-edge lies clockwise of it: it goes on along the first half-edge met
-  // clockwise, which is the last one met counter-clockwise.
+  // The face on the left of an arriving half-edge lies clockwise of it: it goes on along the first half-edge
+  // met clockwise, which is the last one met counter-clockwise.
   void link() {
     const int count = static_cast<int>(graph_.half_edges.size());
     std::vector<std::vector<int>> leaving_node(nodes_.size());
@@ -162,7 +169,8 @@ class Faces {
         const HalfEdge& e = half_edge(h);
         if (e.is_chord && e.is_forward && tool_.is_closed) walk.part = Part::kInside;
         open.push_back(h);
-        const auto loop = std::find_if(open.begin(), open.end(), [&](int g) { return half_edge(g).from == e.to; });
+        const auto loop =
+            std::find_if(open.begin(), open.end(), [&](int g) { return half_edge(g).from == e.to; });
         if (loop == open.end()) continue;
         walk.loops.emplace_back(loop, open.end());
         open.erase(loop, open.end());

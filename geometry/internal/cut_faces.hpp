@@ -10,8 +10,8 @@ namespace polynya::geometry {
 
 /// A run of consecutive vertices between two places of a ring or polyline, ends left out.
 struct Run {
-  int first = 0;        ///< its first vertex
-  int count = 0;        ///< how many; they wrap around the ring
+  int first = 0;  ///< its first vertex
+  int count = 0;  ///< how many; they wrap around the ring
 };
 
 /// A directed stretch of boundary between two active nodes, a face of the cut shape on its left.
@@ -37,11 +37,15 @@ struct Walk {
 struct CutGraph {
   std::vector<HalfEdge> half_edges;  ///< all shape chains, then each chord forward and backward
   std::vector<Walk> walks;
-  std::vector<char> ring_is_cut;     ///< per ring of the shape: has it active nodes?
-  bool tool_enters = false;          ///< some part of the tool runs in the shape's interior (a dangling end counts)
+  std::vector<char> ring_is_cut;  ///< per ring of the shape: has it active nodes?
+  int first_node = -1;            ///< along the tool
+  int last_node = -1;
+  bool starts_inside = false;  ///< an open tool comes to its first node through the shape's interior
+  bool ends_inside = false;    ///< and leaves its last one into it
 };
 
-/// Which stretches of the tool are chords, and which faces they and the shape's chains bound. Marks active nodes.
+/// Which stretches of the tool are chords, and which faces they and the shape's chains bound. Marks active
+/// nodes.
 CutGraph trace_faces(const Rings& rings, const Tool& tool, std::vector<Node>& nodes);
 
 }  // namespace polynya::geometry

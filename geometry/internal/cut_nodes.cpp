@@ -10,7 +10,8 @@
 namespace polynya::geometry {
 namespace {
 
-// Which of the box's four sides a point is beyond. Two points beyond one side have nothing of the box between them.
+// Which of the box's four sides a point is beyond. Two points beyond one side have nothing of the box between
+// them.
 #ifdef __SSE2__
 class Sides {
  public:
@@ -66,9 +67,12 @@ class Collector {
     const Point d = tool_.point(tool_edge + 1);
     const SegmentMeeting meeting = meet(a, b, c, d);
     switch (meeting.kind) {
-      case Meeting::kNone: return;
-      case Meeting::kTouch: return add_touch(e, tool_edge, meeting.at);
-      case Meeting::kCross: return add_crossing(e, tool_edge);
+      case Meeting::kNone:
+        return;
+      case Meeting::kTouch:
+        return add_touch(e, tool_edge, meeting.at);
+      case Meeting::kCross:
+        return add_crossing(e, tool_edge);
       case Meeting::kOverlap:
         for (const Point end : {a, b}) {
           if (in_span(c, d, end)) add_touch(e, tool_edge, end);
@@ -98,7 +102,8 @@ class Collector {
     Node node;
     node.at = at;
     const int n = static_cast<int>(rings_[e.ring].size());
-    node.on_shape = place(e.ring, e.index, n, at, rings_.point(e.ring, e.index), rings_.point(e.ring, e.index + 1));
+    node.on_shape =
+        place(e.ring, e.index, n, at, rings_.point(e.ring, e.index), rings_.point(e.ring, e.index + 1));
     const int m = static_cast<int>(tool_.points.size());
     node.on_tool = place(0, tool_edge, m, at, tool_.point(tool_edge), tool_.point(tool_edge + 1));
     nodes_.push_back(std::move(node));
@@ -126,8 +131,8 @@ class Collector {
   std::vector<Node> nodes_;
 };
 
-// Does p come before q along the directed edge a→b, on which both lie? Rounding keeps order, so the rounded points
-// decide wherever they differ.
+// Does p come before q along the directed edge a→b, on which both lie? Rounding keeps order, so the rounded
+// points decide wherever they differ.
 bool comes_before(Point a, Point b, const Node& p, const Node& q) {
   if (a.x != b.x) {
     const bool ascending = a.x < b.x;
@@ -152,7 +157,9 @@ bool precedes(const Place& p, const Node& node_p, const Place& q, const Node& no
 
 }  // namespace
 
-exact::Point exact_point(const Node& node) { return node.is_rounded ? node.exactly_at : exact::exactly(node.at); }
+exact::Point exact_point(const Node& node) {
+  return node.is_rounded ? node.exactly_at : exact::exactly(node.at);
+}
 
 std::vector<EdgeId> edges_near(const Rings& rings, const Box& box) {
   std::vector<EdgeId> near;
@@ -172,7 +179,8 @@ std::vector<EdgeId> edges_near(const Rings& rings, const Box& box) {
   return near;
 }
 
-std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool, const std::vector<EdgeId>& near) {
+std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool,
+                                            const std::vector<EdgeId>& near) {
   std::vector<Box> tool_boxes;
   const int tool_edges = tool.edge_count();
   tool_boxes.reserve(static_cast<std::size_t>(tool_edges));
@@ -186,7 +194,9 @@ std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool
   }
   std::optional<std::vector<Node>> nodes = collector.nodes();
   if (!nodes) return {};
-  const auto ends = [&](const Place& p) { return std::pair(rings.point(p.ring, p.edge), rings.point(p.ring, p.edge + 1)); };
+  const auto ends = [&](const Place& p) {
+    return std::pair(rings.point(p.ring, p.edge), rings.point(p.ring, p.edge + 1));
+  };
   std::sort(nodes->begin(), nodes->end(),
             [&](const Node& p, const Node& q) { return precedes(p.on_shape, p, q.on_shape, q, ends); });
   return nodes;

@@ -19,12 +19,12 @@ struct Place {
 
 /// A point in which the tool meets the shape's boundary.
 struct Node {
-  Point at;                  ///< the nearest doubles
-  bool is_rounded = false;   ///< `at` is not the point itself
-  exact::Point exactly_at;   ///< the point itself, where `is_rounded`
+  Point at;                 ///< the nearest doubles
+  bool is_rounded = false;  ///< `at` is not the point itself
+  exact::Point exactly_at;  ///< the point itself, where `is_rounded`
   Place on_shape;
   Place on_tool;
-  bool is_active = false;    ///< a chord ends here
+  bool is_active = false;  ///< a chord ends here
 };
 
 /// The cutting tool of a local cut: a simple counter-clockwise ring, or a simple open polyline.
@@ -65,9 +65,11 @@ struct EdgeId {
 /// The shape's edges whose boxes overlap the box: a straight scan over all vertices.
 std::vector<EdgeId> edges_near(const Rings& rings, const Box& box);
 
-/// All points in which the tool meets the shape, each once, in order along the shape; none where some point is met
-/// twice by the shape or by the tool (rings that touch each other there): the local cut does not cover that.
-std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool, const std::vector<EdgeId>& near);
+/// All points in which the tool meets the shape, each once, in order along the shape; none where some point
+/// is met twice by the shape or by the tool (rings that touch each other there): the local cut does not cover
+/// that.
+std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool,
+                                            const std::vector<EdgeId>& near);
 
 /// The nodes' indices in order along the tool.
 std::vector<int> order_along_tool(const std::vector<Node>& nodes, const Tool& tool);

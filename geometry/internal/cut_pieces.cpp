@@ -12,8 +12,8 @@ namespace {
 
 using Source = PieceRing::Source;
 
-// Calls on_node(node, half-edge) and on_run(first, last, half-edge) for a loop's vertices in order; the half-edge is the
-// one along which the loop leaves them, [first, last) are iterators over points.
+// Calls on_node(node, half-edge) and on_run(first, last, half-edge) for a loop's vertices in order; the
+// half-edge is the one along which the loop leaves them, [first, last) are iterators over points.
 template <typename OnNode, typename OnRun>
 void for_each_stretch(const LocalCut& cut, const Loop& loop, OnNode on_node, OnRun on_run) {
   for (const int h : loop) {
@@ -41,7 +41,8 @@ std::size_t vertex_count(const LocalCut& cut, const Loop& loop) {
   return count;
 }
 
-// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward side.
+// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward
+// side.
 Ring write_loop(LocalCut& cut, const Loop& loop) {
   struct Vertex {
     bool is_node = false;
@@ -54,8 +55,8 @@ Ring write_loop(LocalCut& cut, const Loop& loop) {
   Vertex last;
   const auto note_edge = [&](Point to, const Vertex& v) {
     if (last.leaves_along->is_chord && !last.leaves_along->is_forward) return;
-    (last.is_rounded || v.is_rounded ? cut.changed : cut.placed).push_back(
-        {points.back(), to, last.is_rounded, v.is_rounded});
+    (last.is_rounded || v.is_rounded ? cut.changed : cut.placed)
+        .push_back({points.back(), to, last.is_rounded, v.is_rounded});
   };
   const auto append = [&](Point p, const Vertex& v) {
     if (points.empty()) {
@@ -75,17 +76,29 @@ Ring write_loop(LocalCut& cut, const Loop& loop) {
     }
   };
   for_each_stretch(
-      cut, loop, [&](const Node& node, const HalfEdge& e) { append(node.at, {true, node.is_rounded, &e}); }, append_run);
+      cut, loop,
+      [&](const Node& node, const HalfEdge& e) {
+        append(node.at, {true, node.is_rounded, &e});
+      },
+      append_run);
   note_edge(points.front(), first);
   return points;
 }
 
 void write(LocalCut& cut, PieceRing& ring) {
   switch (ring.source) {
-    case Source::kLoop: ring.points = write_loop(cut, ring.loop); break;
-    case Source::kShapeRing: ring.points = cut.rings[ring.shape_ring]; break;
-    case Source::kTool: ring.points = cut.tool.points; break;
-    case Source::kToolReversed: ring.points = {cut.tool.points.rbegin(), cut.tool.points.rend()}; break;
+    case Source::kLoop:
+      ring.points = write_loop(cut, ring.loop);
+      break;
+    case Source::kShapeRing:
+      ring.points = cut.rings[ring.shape_ring];
+      break;
+    case Source::kTool:
+      ring.points = cut.tool.points;
+      break;
+    case Source::kToolReversed:
+      ring.points = {cut.tool.points.rbegin(), cut.tool.points.rend()};
+      break;
   }
   ring.area = ring_area(ring.points);
 }
@@ -123,14 +136,15 @@ constexpr bool holds(const Box& outer, const Box& inner) {
          inner.high.y <= outer.high.y;
 }
 
-// Finds the shell of a hole by a vertex that no changed edge comes near, about which the rounded rings and the exact
-// ones agree.
+// Finds the shell of a hole by a vertex that no changed edge comes near, about which the rounded rings and
+// the exact ones agree.
 class Placer {
  public:
   Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans) {
     for (std::size_t i = 0; i < plans.size(); ++i) by_area_.push_back(i);
     const auto area = [&](std::size_t i) { return plans[i].rings.front().area.area; };
-    std::sort(by_area_.begin(), by_area_.end(), [&](std::size_t i, std::size_t j) { return area(i) < area(j); });
+    std::sort(by_area_.begin(), by_area_.end(),
+              [&](std::size_t i, std::size_t j) { return area(i) < area(j); });
     for (const Segment& s : cut.changed) swept_.push_back(swept_box(s));
   }
 
@@ -168,7 +182,8 @@ class Placer {
 };
 
 // The loops of one walk: one outer ring and its touching holes, or holes only.
-bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, std::vector<PieceRing>& homeless) {
+bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans,
+               std::vector<PieceRing>& homeless) {
   PiecePlan plan{{}, walk.part};
   std::vector<PieceRing> holes;
   for (const Loop& loop : walk.loops) {

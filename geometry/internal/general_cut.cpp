@@ -64,9 +64,13 @@ CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<Po
       return refuse(CutFailure::kMisses, "the crack does not meet the shape's interior");
     }
     if (overlay.regions.size() < 2) {
-      return refuse(CutFailure::kDoesNotSeparate, "the crack ends inside the ice or only bridges its holes");
+      return tl::unexpected(CutError{CutFailure::kDoesNotSeparate,
+                                     "the crack ends inside the ice or only bridges its holes",
+                                     overlay.dangling_length});
     }
-    return settle_regions(shape, std::move(overlay.regions));
+    CutOutcome outcome = settle_regions(shape, std::move(overlay.regions));
+    if (outcome) outcome->ledger.dangling_length = overlay.dangling_length;
+    return outcome;
   });
 }
 

@@ -27,8 +27,8 @@ Box around(const Box& a, const Box& b) {
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 
-// Twice the area between the straight edge that starts at `a` and the chain of points it was split into, with the
-// edge's own end last: zero where all points lie on it.
+// Twice the area between the straight edge that starts at `a` and the chain of points it was split into, with
+// the edge's own end last: zero where all points lie on it.
 Rational twice_area_between(const exact::Point& a, const std::vector<exact::Point>& chain) {
   Rational sum = 0;
   for (std::size_t i = 1; i < chain.size(); ++i) {
@@ -40,14 +40,15 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
 }
 
 struct Balance {
-  Rational defect = 0;   // twice Σ exact pieces − shape; every split edge by itself must give zero
+  Rational defect = 0;  // twice Σ exact pieces − shape; every split edge by itself must give zero
   bool is_exact = true;
   Rational rounding = 0;  // twice the area that rounding the nodes changed
 };
 
-// Σ pieces − shape, in shoelace terms: every chain of the shape stands in the pieces once, every chord once in each
-// direction, where its terms cancel; untouched rings are carried over. What is left is each split edge against the
-// sub-edges it became, and that is summed here in rationals: before rounding it must be zero.
+// Σ pieces − shape, in shoelace terms: every chain of the shape stands in the pieces once, every chord once
+// in each direction, where its terms cancel; untouched rings are carried over. What is left is each split
+// edge against the sub-edges it became, and that is summed here in rationals: before rounding it must be
+// zero.
 Balance balance_split_edges(const LocalCut& cut) {
   Balance balance;
   for (std::size_t begin = 0; begin < cut.nodes.size();) {
@@ -81,7 +82,8 @@ bool uses_all_once(const LocalCut& cut, const std::vector<PiecePlan>& plans) {
   std::vector<int> ring_uses(cut.graph.ring_is_cut.begin(), cut.graph.ring_is_cut.end());
   for (const PiecePlan& plan : plans) {
     for (const PieceRing& ring : plan.rings) {
-      if (ring.source == PieceRing::Source::kShapeRing) ++ring_uses[static_cast<std::size_t>(ring.shape_ring)];
+      if (ring.source == PieceRing::Source::kShapeRing)
+        ++ring_uses[static_cast<std::size_t>(ring.shape_ring)];
       for (const int h : ring.loop) ++uses[static_cast<std::size_t>(h)];
     }
   }
@@ -97,8 +99,8 @@ End end_at(const Segment& s, Point p) {
   return End::kNone;
 }
 
-// Two edges of a subdivision may share an end, and nothing else. A rounded node that came to lie on some other vertex is
-// not an end they share.
+// Two edges of a subdivision may share an end, and nothing else. A rounded node that came to lie on some
+// other vertex is not an end they share.
 bool are_apart(const Segment& s, const Segment& t) {
   const SegmentMeeting meeting = meet(s.from, s.to, t.from, t.to);
   if (meeting.kind == Meeting::kNone) return true;
@@ -127,8 +129,8 @@ bool clears_changed_edges(const LocalCut& cut, const Segment& t) {
                      [&](const Segment& s) { return !overlaps(box, box_of(s)) || are_apart(s, t); });
 }
 
-// Only edges that end in a rounded node can have come to meet another: all others lie as they did in the exact
-// subdivision, where edges meet in nodes only. So these few are held against all that is near them.
+// Only edges that end in a rounded node can have come to meet another: all others lie as they did in the
+// exact subdivision, where edges meet in nodes only. So these few are held against all that is near them.
 bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
   const std::vector<Segment>& changed = cut.changed;
   if (changed.empty()) return true;
@@ -141,15 +143,42 @@ bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std
       if (!are_apart(changed[i], changed[j])) return false;
     }
   }
-  const bool is_within = tool_box.low.x <= box.low.x && tool_box.low.y <= box.low.y && box.high.x <= tool_box.high.x &&
-                         box.high.y <= tool_box.high.y;
+  const bool is_within = tool_box.low.x <= box.low.x && tool_box.low.y <= box.low.y &&
+                         box.high.x <= tool_box.high.x && box.high.y <= tool_box.high.y;
   const std::vector<EdgeId> near = is_within ? near_tool : edges_near(cut.rings, box);
   return std::all_of(cut.placed.begin(), cut.placed.end(),
                      [&](const Segment& s) { return clears_changed_edges(cut, s); }) &&
          std::all_of(near.begin(), near.end(), [&](EdgeId e) {
-           return is_split(cut, e) ||
-                  clears_changed_edges(cut, {cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)});
+           return is_split(cut, e) || clears_changed_edges(cut, {cut.rings.point(e.ring, e.index),
+                                                                 cut.rings.point(e.ring, e.index + 1)});
          });
+}
+
+double length_along(const Tool& tool, int first, int last) {
+  double sum = 0;
+  for (int i = first; i < last; ++i) sum += distance(tool.point(i), tool.point(i + 1));
+  return sum;
+}
+
+// An open tool that neither touches itself nor joins rings separates all the way between its nodes: only what
+// comes before the first and after the last can dangle.
+double dangling_length(const LocalCut& cut, const Polygon& shape) {
+  const int last_vertex = static_cast<int>(cut.tool.points.size()) - 1;
+  if (cut.nodes.empty()) {
+    return contains_strictly(shape, cut.tool.points.front()) ? length_along(cut.tool, 0, last_vertex) : 0;
+  }
+  double sum = 0;
+  if (cut.graph.starts_inside) {
+    const Node& node = cut.nodes[static_cast<std::size_t>(cut.graph.first_node)];
+    sum +=
+        length_along(cut.tool, 0, node.on_tool.edge) + distance(cut.tool.point(node.on_tool.edge), node.at);
+  }
+  if (cut.graph.ends_inside) {
+    const Node& node = cut.nodes[static_cast<std::size_t>(cut.graph.last_node)];
+    const int next = node.on_tool.edge + 1;
+    sum += distance(node.at, cut.tool.point(next)) + length_along(cut.tool, next, last_vertex);
+  }
+  return sum;
 }
 
 // No chord: the tool runs past the ice, ends in it, or one lies within the other.
@@ -157,14 +186,16 @@ enum class Apart { kUncovered, kMisses, kToolInShape, kShapeInTool, kEndsInside 
 
 Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
   if (!cut.tool.is_closed) {
-    const bool enters = cut.nodes.empty() ? contains_strictly(shape, cut.tool.points.front()) : cut.graph.tool_enters;
+    const bool enters = cut.nodes.empty() ? contains_strictly(shape, cut.tool.points.front())
+                                          : cut.graph.starts_inside || cut.graph.ends_inside;
     return enters ? Apart::kEndsInside : Apart::kMisses;
   }
   if (cut.nodes.empty()) {
     if (contains_strictly(shape, cut.tool.points.front())) return Apart::kToolInShape;
     return side_of_ring(cut.tool.points, shape.outer.front()) > 0 ? Apart::kShapeInTool : Apart::kMisses;
   }
-  // Touching: a vertex of the shape that is off the tool's boundary tells; if there is none the general path does.
+  // Touching: a vertex of the shape that is off the tool's boundary tells; if there is none the general path
+  // does.
   for (const Point p : shape.outer) {
     const int side = side_of_ring(cut.tool.points, p);
     if (side != 0) return side > 0 ? Apart::kShapeInTool : Apart::kMisses;
@@ -225,8 +256,8 @@ bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans
   return true;
 }
 
-// Does the cut join no rings, or none that could pinch? A chord between two rings makes one boundary of both, and where
-// they touched already that boundary touches itself, away from all nodes.
+// Does the cut join no rings, or none that could pinch? A chord between two rings makes one boundary of both,
+// and where they touched already that boundary touches itself, away from all nodes.
 bool joins_no_touching_rings(const LocalCut& cut, const Polygon& shape) {
   const auto cut_rings = std::count(cut.graph.ring_is_cut.begin(), cut.graph.ring_is_cut.end(), 1);
   if (cut_rings <= 1) return true;
@@ -245,11 +276,17 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   cut.graph = trace_faces(rings, tool, cut.nodes);
   if (cut.graph.walks.empty()) {
     switch (relate_apart(cut, shape)) {
-      case Apart::kUncovered: return {};
-      case Apart::kMisses: return refuse(CutFailure::kMisses, "the tool does not meet the shape's interior");
-      case Apart::kEndsInside: return refuse(CutFailure::kDoesNotSeparate, "the crack ends inside the ice");
-      case Apart::kShapeInTool: return whole_shape_inside(shape);
-      case Apart::kToolInShape: break;
+      case Apart::kUncovered:
+        return {};
+      case Apart::kMisses:
+        return refuse(CutFailure::kMisses, "the tool does not meet the shape's interior");
+      case Apart::kEndsInside:
+        return tl::unexpected(CutError{CutFailure::kDoesNotSeparate, "the crack ends inside the ice",
+                                       dangling_length(cut, shape)});
+      case Apart::kShapeInTool:
+        return whole_shape_inside(shape);
+      case Apart::kToolInShape:
+        break;
     }
   }
   if (!joins_no_touching_rings(cut, shape)) return {};
@@ -257,8 +294,11 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   if (!plans || !uses_all_once(cut, *plans)) return {};
   const Balance balance = balance_split_edges(cut);
   if (!balance.is_exact) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
-  if (!is_cleanly_rounded(cut, *plans, tool_box, near_tool)) return settle_exactly(cut, shape, *plans);
-  return assemble(cut, std::move(*plans), balance);
+  CutOutcome outcome = is_cleanly_rounded(cut, *plans, tool_box, near_tool)
+                           ? assemble(cut, std::move(*plans), balance)
+                           : settle_exactly(cut, shape, *plans);
+  if (outcome && !tool.is_closed) outcome->ledger.dangling_length = dangling_length(cut, shape);
+  return outcome;
 }
 
 }  // namespace polynya::geometry

@@ -4,7 +4,8 @@
 
 namespace polynya::geometry {
 
-/// A ring's signed area with bounds on its errors, generous ones: whoever finds an area within them looks exactly.
+/// A ring's signed area with bounds on its errors, generous ones: whoever finds an area within them looks
+/// exactly.
 struct RingArea {
   double area = 0;       ///< compensated sum about the ring's first vertex [m²]
   double doubt = 0;      ///< |area − exact area of these vertices| is below this [m²]

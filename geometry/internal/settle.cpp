@@ -69,7 +69,8 @@ double moved_area(const Ring& ring, const geometry::Ring& rounded_ring) {
 // The most area that rounding can have moved across the boundary: every edge by the step of its ends.
 double moved_area(const Polygon& polygon, const geometry::Polygon& rounded) {
   double sum = moved_area(polygon.outer, rounded.outer);
-  for (std::size_t h = 0; h < polygon.holes.size(); ++h) sum += moved_area(polygon.holes[h], rounded.holes[h]);
+  for (std::size_t h = 0; h < polygon.holes.size(); ++h)
+    sum += moved_area(polygon.holes[h], rounded.holes[h]);
   return sum;
 }
 
@@ -79,13 +80,14 @@ std::vector<Polygon> enclosed_regions(const geometry::Polygon& rounded) {
   append_segments(segments, exactly(rounded), 0);
   const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
   std::vector<Polygon> polygons;
-  for (Region& region : overlay(segments, inside, Seams::kDissolve).regions) polygons.push_back(std::move(region.polygon));
+  for (Region& region : overlay(segments, inside, Seams::kDissolve).regions)
+    polygons.push_back(std::move(region.polygon));
   return polygons;
 }
 
-// Rounded rings that are no longer simple, retraced into polygons that are. Where they cross, the crossing is a new
-// vertex that must be rounded in turn: some rounds of that settle nearly always. None where they do not, or where
-// the area has changed by more than rounding can explain.
+// Rounded rings that are no longer simple, retraced into polygons that are. Where they cross, the crossing is
+// a new vertex that must be rounded in turn: some rounds of that settle nearly always. None where they do
+// not, or where the area has changed by more than rounding can explain.
 std::vector<geometry::Polygon> retraced(const geometry::Polygon& rounded, double exact_area, double moved) {
   constexpr int kRounds = 6;
   std::vector<geometry::Polygon> open{rounded};
@@ -128,8 +130,9 @@ void append_touches(const Point& a, const Point& b, const std::vector<const Poin
   }
 }
 
-// Where a hole touches the inside of an edge, rounding an end of that edge tears them apart or pushes one through the
-// other. With the point of touch as a vertex of both rings they stay together, and the region is the same.
+// Where a hole touches the inside of an edge, rounding an end of that edge tears them apart or pushes one
+// through the other. With the point of touch as a vertex of both rings they stay together, and the region is
+// the same.
 Polygon with_touches_as_vertices(const Polygon& polygon) {
   std::vector<const Ring*> rings{&polygon.outer};
   for (const Ring& hole : polygon.holes) rings.push_back(&hole);
@@ -203,10 +206,13 @@ void settle_piece(ExactPiece piece, Settling& settling) {
 void sort_pieces(std::vector<Piece>& pieces) {
   const auto lowest = [](const Piece& piece) {
     const geometry::Ring& ring = piece.shape.polygon.outer;
-    const auto less = [](geometry::Point a, geometry::Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+    const auto less = [](geometry::Point a, geometry::Point b) {
+      return std::tie(a.x, a.y) < std::tie(b.x, b.y);
+    };
     return *std::min_element(ring.begin(), ring.end(), less);
   };
-  if (pieces.size() == 2 && pieces[0].part != pieces[1].part) {  // the common cut: no need to look for vertices
+  if (pieces.size() == 2 &&
+      pieces[0].part != pieces[1].part) {  // the common cut: no need to look for vertices
     if (pieces[1].part < pieces[0].part) std::swap(pieces[0], pieces[1]);
     return;
   }
@@ -228,7 +234,8 @@ CutOutcome settle(const Rational& area_before, std::vector<ExactPiece> pieces) {
   for (const ExactPiece& piece : pieces) sum += area(piece.polygon);
   const Rational defect = sum - area_before;
   if (defect != 0) {
-    return tl::unexpected(CutError{CutFailure::kInternal, "exact piece areas are off by " + defect.get_str()});
+    return tl::unexpected(
+        CutError{CutFailure::kInternal, "exact piece areas are off by " + defect.get_str()});
   }
   Settling settling;
   CutLedger& ledger = settling.result.ledger;

@@ -1,5 +1,6 @@
-// libFuzzer target for the cuts. Two ways to read the bytes: as the stories of tests/geometry/dice.hpp, or as raw doubles,
-// which may be anything at all. Aborts where a cut is not sound or where the local path and CGAL's differ.
+// libFuzzer target for the cuts. Two ways to read the bytes: as the stories of tests/geometry/dice.hpp, or as
+// raw doubles, which may be anything at all. Aborts where a cut is not sound or where the local path and
+// CGAL's differ.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -25,15 +26,17 @@ void require(const testing::AssertionResult& result, const Shape& shape, const K
 }
 
 CutOutcome cut_and_check(const Shape& shape, const Knife& knife) {
-  CutOutcome outcome = knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
+  CutOutcome outcome =
+      knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
   require(trials::is_sound(shape, outcome), shape, knife);
   const bool was_tried = outcome || outcome.error().reason == CutFailure::kMisses ||
                          outcome.error().reason == CutFailure::kDoesNotSeparate;
   if (!was_tried || shape.exact) return outcome;
   const exact::Polygon exact_shape = exact::exactly(shape.polygon);
-  require(trials::are_equal(outcome, knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
-                                                   : cut_along_generally(exact_shape, knife.points)),
-          shape, knife);
+  require(
+      trials::are_equal(outcome, knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
+                                               : cut_along_generally(exact_shape, knife.points)),
+      shape, knife);
   return outcome;
 }
 

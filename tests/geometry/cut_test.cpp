@@ -121,6 +121,15 @@ TEST(Cut, CracksSeparateWhereTheyCrossFully) {
       << "crossing itself";
 }
 
+TEST(Cut, WhatDanglesIsMeasured) {
+  const Shape square = shape_of(kSquare);
+  EXPECT_EQ(cut_along(square, {{-1, 5}, {4, 5}}).error().dangling_length, 4);
+  EXPECT_EQ(cut_along(square, {{3, 5}, {5, 5}, {5, 8}}).error().dangling_length, 5);
+  EXPECT_EQ(cut_along(square, {{-1, 2}, {11, 2}, {11, 4}, {7, 4}})->ledger.dangling_length, 3);
+  EXPECT_EQ(cut_along(square, {{2, 1}, {-2, 1}, {-2, 3}, {12, 3}})->ledger.dangling_length, 2);
+  EXPECT_EQ(cut_along(square, {{-1, 5}, {11, 5}})->ledger.dangling_length, 0);
+}
+
 TEST(Cut, ACrackThroughAHoleSeparatesOnlyWithBothSides) {
   const Shape holed{{kSquare, {{{4, 4}, {4, 6}, {6, 6}, {6, 4}}}}};
   EXPECT_EQ(failure_of(cut_along(holed, {{-1, 5}, {5, 5}})), CutFailure::kDoesNotSeparate);

@@ -13,14 +13,17 @@
 namespace polynya::geometry::trials {
 namespace {
 
-Ring box_ring(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+Ring box_ring(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
 
 Ring comb(Dice& dice) {
   const int teeth = 1 + dice.below(6);
   Ring ring{{0, 0}, {2.0 * teeth, 0}};
   for (int tooth = teeth - 1; tooth >= 0; --tooth) {
     const double x = 2 * tooth;
-    for (const Point p : {Point{x + 1.5, 8}, Point{x + 1, 1}, Point{x + 0.5, 1}, Point{x, 8}}) ring.push_back(p);
+    for (const Point p : {Point{x + 1.5, 8}, Point{x + 1, 1}, Point{x + 0.5, 1}, Point{x, 8}})
+      ring.push_back(p);
   }
   return ring;
 }
@@ -28,7 +31,9 @@ Ring comb(Dice& dice) {
 Ring spiral(Dice& dice) {
   const int turns = 8 + dice.below(30);
   Ring ring;
-  const auto at = [](double radius, double angle) { return Point{radius * std::cos(angle), radius * std::sin(angle)}; };
+  const auto at = [](double radius, double angle) {
+    return Point{radius * std::cos(angle), radius * std::sin(angle)};
+  };
   for (int i = 0; i < turns; ++i) ring.push_back(at(2 + 0.2 * i, 0.4 * i));
   for (int i = turns - 1; i >= 0; --i) ring.push_back(at(1 + 0.2 * i, 0.4 * i));
   return ring;
@@ -48,18 +53,29 @@ Ring star(Dice& dice) {
 Ring on_grid(Dice& dice) {
   Ring ring;
   const int points = 3 + dice.below(5);
-  for (int i = 0; i < points; ++i) ring.push_back({static_cast<double>(dice.below(7)), static_cast<double>(dice.below(7))});
+  for (int i = 0; i < points; ++i)
+    ring.push_back({static_cast<double>(dice.below(7)), static_cast<double>(dice.below(7))});
   return ring;
 }
 
 Polygon with_holes(Dice& dice) {
   Polygon polygon{box_ring(0, 0, 8, 8), {}};
   switch (dice.below(5)) {
-    case 0: polygon.holes = {{{0, 0}, {3, 6}, {6, 3}}}; break;
-    case 1: polygon.holes = {{{0, 4}, {2, 5}, {2, 3}}}; break;
-    case 2: polygon.holes = {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}, {{4, 4}, {4, 6}, {6, 6}, {6, 4}}}; break;
-    case 3: polygon.holes = {{{0, 4}, {2, 5}, {3, 4}, {2, 3}}, {{3, 4}, {5, 6}, {5, 3}}}; break;
-    default: polygon.holes = {{{2, 2}, {2, 6}, {6, 6}, {6, 2}}}; break;
+    case 0:
+      polygon.holes = {{{0, 0}, {3, 6}, {6, 3}}};
+      break;
+    case 1:
+      polygon.holes = {{{0, 4}, {2, 5}, {2, 3}}};
+      break;
+    case 2:
+      polygon.holes = {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}, {{4, 4}, {4, 6}, {6, 6}, {6, 4}}};
+      break;
+    case 3:
+      polygon.holes = {{{0, 4}, {2, 5}, {3, 4}, {2, 3}}, {{3, 4}, {5, 6}, {5, 3}}};
+      break;
+    default:
+      polygon.holes = {{{2, 2}, {2, 6}, {6, 6}, {6, 2}}};
+      break;
   }
   return polygon;
 }
@@ -86,12 +102,17 @@ Polygon moved(Dice& dice, const Polygon& polygon) {
 double nudged(Dice& dice, double value) {
   const double far = std::numeric_limits<double>::infinity();
   switch (dice.below(8)) {
-    case 0: return std::nextafter(value, far);
-    case 1: return std::nextafter(value, -far);
-    default: return value;
+    case 0:
+      return std::nextafter(value, far);
+    case 1:
+      return std::nextafter(value, -far);
+    default:
+      return value;
   }
 }
-Point nudged(Dice& dice, Point p) { return {nudged(dice, p.x), nudged(dice, p.y)}; }
+Point nudged(Dice& dice, Point p) {
+  return {nudged(dice, p.x), nudged(dice, p.y)};
+}
 
 Point a_vertex(Dice& dice, const Polygon& floe) {
   const int rings = static_cast<int>(floe.holes.size()) + 1;
@@ -113,7 +134,8 @@ Point a_place(Dice& dice, const Polygon& floe) {
   const Box box = bounding_box(floe.outer);
   const Vector size = box.high - box.low;
   switch (dice.below(5)) {
-    case 0: return nudged(dice, a_vertex(dice, floe));
+    case 0:
+      return nudged(dice, a_vertex(dice, floe));
     case 1: {
       const EdgeOf e = an_edge(dice, floe);
       return nudged(dice, midpoint(e.a, e.b));
@@ -122,8 +144,10 @@ Point a_place(Dice& dice, const Polygon& floe) {
       const EdgeOf e = an_edge(dice, floe);
       return nudged(dice, e.a + dice.between(-0.5, 1.5) * (e.b - e.a));
     }
-    case 3: return {box.low.x + size.x * (dice.below(9) - 1) / 6, box.low.y + size.y * (dice.below(9) - 1) / 6};
-    default: return {box.low.x + size.x * dice.between(-0.2, 1.2), box.low.y + size.y * dice.between(-0.2, 1.2)};
+    case 3:
+      return {box.low.x + size.x * (dice.below(9) - 1) / 6, box.low.y + size.y * (dice.below(9) - 1) / 6};
+    default:
+      return {box.low.x + size.x * dice.between(-0.2, 1.2), box.low.y + size.y * dice.between(-0.2, 1.2)};
   }
 }
 
@@ -151,18 +175,34 @@ int Dice::below(int count) {
   return value % count;
 }
 
-double Dice::between(double low, double high) { return low + (high - low) * (byte() * 256 + byte()) / 65535.0; }
+double Dice::between(double low, double high) {
+  return low + (high - low) * (byte() * 256 + byte()) / 65535.0;
+}
 
 Polygon roll_floe(Dice& dice) {
   Polygon polygon;
   switch (dice.below(7)) {
-    case 0: polygon.outer = box_ring(0, 0, 1 + dice.below(10), 1 + dice.below(10)); break;
-    case 1: polygon.outer = box_ring(0, 0, 10, std::pow(10.0, -dice.below(16))); break;
-    case 2: polygon.outer = comb(dice); break;
-    case 3: polygon.outer = spiral(dice); break;
-    case 4: polygon.outer = star(dice); break;
-    case 5: polygon.outer = on_grid(dice); break;
-    default: polygon = with_holes(dice); break;
+    case 0:
+      polygon.outer = box_ring(0, 0, 1 + dice.below(10), 1 + dice.below(10));
+      break;
+    case 1:
+      polygon.outer = box_ring(0, 0, 10, std::pow(10.0, -dice.below(16)));
+      break;
+    case 2:
+      polygon.outer = comb(dice);
+      break;
+    case 3:
+      polygon.outer = spiral(dice);
+      break;
+    case 4:
+      polygon.outer = star(dice);
+      break;
+    case 5:
+      polygon.outer = on_grid(dice);
+      break;
+    default:
+      polygon = with_holes(dice);
+      break;
   }
   return normalised(moved(dice, polygon));
 }
@@ -170,7 +210,8 @@ Polygon roll_floe(Dice& dice) {
 Knife roll_knife(Dice& dice, const Polygon& floe) {
   switch (dice.below(6)) {
     case 0:
-    case 1: return {true, roll_disc(dice, floe)};
+    case 1:
+      return {true, roll_disc(dice, floe)};
     case 2: {  // a polygon over the floe's own places
       Ring ring;
       const int points = 3 + dice.below(3);

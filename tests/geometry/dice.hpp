@@ -9,8 +9,8 @@
 
 namespace polynya::geometry::trials {
 
-/// Decisions drawn from bytes, zero once they run out: the same bytes tell the same story to RapidCheck and to the
-/// fuzzer.
+/// Decisions drawn from bytes, zero once they run out: the same bytes tell the same story to RapidCheck and
+/// to the fuzzer.
 class Dice {
  public:
   explicit Dice(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
@@ -30,11 +30,12 @@ struct Knife {
   Ring points;
 };
 
-/// A floe of some awkward kind: needle, comb, spiral, star, holes touching the boundary, tiny or far away. May be invalid.
+/// A floe of some awkward kind: needle, comb, spiral, star, holes touching the boundary, tiny or far away.
+/// May be invalid.
 Polygon roll_floe(Dice& dice);
 
-/// A knife aimed at the floe's weak places: through vertices, tangent to edges, centred on vertices, along edges, one ulp
-/// beside them. May be invalid.
+/// A knife aimed at the floe's weak places: through vertices, tangent to edges, centred on vertices, along
+/// edges, one ulp beside them. May be invalid.
 Knife roll_knife(Dice& dice, const Polygon& floe);
 
 }  // namespace polynya::geometry::trials

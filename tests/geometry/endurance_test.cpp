@@ -1,12 +1,12 @@
-// Many successive cuts on one plate's descendants, their poses changing in between. POLYNYA_ENDURANCE_CUTS sets how many;
-// the ctest label `endurance` runs 100 000.
-#include <gtest/gtest.h>
-
+// Many successive cuts on one plate's descendants, their poses changing in between. POLYNYA_ENDURANCE_CUTS
+// sets how many; the ctest label `endurance` runs 100 000.
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "geometry/measures.hpp"
 #include "geometry/pose.hpp"
@@ -71,8 +71,11 @@ class Trial {
   }
 
   void tell(const char* when) const {
-    std::printf("%s: %d cuts, %d refused, %zu floes, %d kept exact (longest for %d cuts), slivers %.3g m², %.1f µs a cut\n",
-                when, cuts_, refused_, floes_.size(), kept_exact_, longest_exact_, slivers_, 1e6 * seconds_ / (cuts_ + refused_));
+    std::printf(
+        "%s: %d cuts, %d refused, %zu floes, %d kept exact (longest for %d cuts), slivers %.3g m², %.1f µs a "
+        "cut\n",
+        when, cuts_, refused_, floes_.size(), kept_exact_, longest_exact_, slivers_,
+        1e6 * seconds_ / (cuts_ + refused_));
   }
   int longest_exact() const { return longest_exact_; }
 
@@ -96,7 +99,8 @@ class Trial {
     const Point vertex = ring[random_() % ring.size()];
     const double size = std::sqrt(std::abs(signed_area(ring)));
     const auto kind = random_() % 10;
-    if (kind == 0) return cut_along(floe.shape, {vertex, ring[random_() % ring.size()]});  // in the body: vertex to vertex
+    if (kind == 0)
+      return cut_along(floe.shape, {vertex, ring[random_() % ring.size()]});  // in the body: vertex to vertex
     if (kind == 1) return cut_by_polygon(floe.shape, {disc_polygon(vertex, 0.2 * size, 0.01 * size), {}});
     const Point in_world = point_in_world(floe.world_from_body, vertex);
     const double angle = 2 * std::numbers::pi * unit();
@@ -104,7 +108,8 @@ class Trial {
     if (kind < 5) {
       const double reach = 4 * size + 50 * unit();
       const Point aim = in_world + 0.3 * size * direction;
-      return cut_along(floe.shape, {to_body(floe, aim - reach * direction), to_body(floe, aim + reach * direction)});
+      return cut_along(floe.shape,
+                       {to_body(floe, aim - reach * direction), to_body(floe, aim + reach * direction)});
     }
     const Point centre = in_world + (0.1 * size * unit()) * direction;
     Ring cusp = disc_polygon(centre, size * (0.02 + 0.25 * unit()), 0.004 * size);

@@ -1,10 +1,10 @@
 // Every hazard that is known to break floe cutters, met on purpose.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "geometry/internal/general_cut.hpp"
 #include "geometry/internal/local_cut.hpp"
@@ -28,7 +28,8 @@ Ring moved(Ring ring, const Pose& pose) {
   return ring;
 }
 
-// 6250 second cuts on degenerate first results made 33 wrong areas and 5 crashes where invalid roundings were trusted.
+// 6250 second cuts on degenerate first results made 33 wrong areas and 5 crashes where invalid roundings were
+// trusted.
 void cut_degenerate_floes_again(const Pose& pose, unsigned seed, int first_cuts) {
   std::mt19937 random(seed);
   const auto coordinate = [&] { return static_cast<double>(static_cast<int>(random() % 9) - 1); };
@@ -47,8 +48,10 @@ void cut_degenerate_floes_again(const Pose& pose, unsigned seed, int first_cuts)
       for (const Shape& shape : generation) {
         const Ring ring = knife();
         const bool as_crack = random() % 2 == 0;
-        const CutOutcome outcome = as_crack ? cut_along(shape, ring) : cut_by_polygon(shape, normalised({ring, {}}));
-        ASSERT_TRUE(is_sound(shape, outcome)) << trials::to_code(shape.polygon) << "\n" << trials::to_code(ring);
+        const CutOutcome outcome =
+            as_crack ? cut_along(shape, ring) : cut_by_polygon(shape, normalised({ring, {}}));
+        ASSERT_TRUE(is_sound(shape, outcome)) << trials::to_code(shape.polygon) << "\n"
+                                              << trials::to_code(ring);
         if (!outcome) {
           next.push_back(shape);
           continue;
@@ -65,7 +68,9 @@ void cut_degenerate_floes_again(const Pose& pose, unsigned seed, int first_cuts)
   testing::Test::RecordProperty("kept_exact", kept_exact);
 }
 
-TEST(Hazards, DegenerateCutsOnAGrid) { cut_degenerate_floes_again({}, 21, 250); }
+TEST(Hazards, DegenerateCutsOnAGrid) {
+  cut_degenerate_floes_again({}, 21, 250);
+}
 TEST(Hazards, DegenerateCutsMovedRigidlyInDoubles) {
   cut_degenerate_floes_again({{11.3, -4.7}, Rotation::by(0.61)}, 22, 250);
 }
@@ -83,14 +88,16 @@ TEST(Hazards, PinchAtTheLeftmostVertex) {
   EXPECT_EQ(outcome->pieces.size(), 2u);
 }
 
-// A valid polygon whose hole touches the shell's interior fails CGAL's own test and can crash a release build.
+// A valid polygon whose hole touches the shell's interior fails CGAL's own test and can crash a release
+// build.
 TEST(Hazards, HoleTouchingTheShellsInterior) {
   const Shape shape{{kSquare, {{{0, 3}, {2, 4}, {2, 2}}}}};
   ASSERT_FALSE(find_defect(shape.polygon));
   std::mt19937 random(23);
   std::uniform_real_distribution<double> place(-1, 7);
   for (int i = 0; i < 150; ++i) {
-    const Ring crack = i % 3 == 0 ? Ring{{-1, 3}, {7, static_cast<double>(i % 7)}} : Ring{{place(random), place(random)}, {place(random), place(random)}};
+    const Ring crack = i % 3 == 0 ? Ring{{-1, 3}, {7, static_cast<double>(i % 7)}}
+                                  : Ring{{place(random), place(random)}, {place(random), place(random)}};
     ASSERT_TRUE(is_sound(shape, cut_along(shape, crack)));
     const Point centre = i % 3 == 0 ? Point{0, 3} : Point{place(random), place(random)};
     ASSERT_TRUE(is_sound(shape, cut_by_polygon(shape, {disc_polygon(centre, 1.3, 0.05), {}})));
@@ -108,7 +115,8 @@ TEST(Hazards, FiftyThousandVerticesOnTheGeneralPath) {
   }
   const Shape shape{{ring, {}}};
   ASSERT_FALSE(find_defect(shape.polygon));
-  const CutOutcome outcome = cut_by_polygons_generally(exact::exactly(shape.polygon), {{disc_polygon({100, 3}, 5, 0.01), {}}});
+  const CutOutcome outcome =
+      cut_by_polygons_generally(exact::exactly(shape.polygon), {{disc_polygon({100, 3}, 5, 0.01), {}}});
   EXPECT_TRUE(is_sound(shape, outcome));
   EXPECT_TRUE(trials::are_equal(outcome, cut_by_polygon(shape, {disc_polygon({100, 3}, 5, 0.01), {}})));
 }
@@ -136,7 +144,8 @@ TEST(Hazards, NearCollinearCracks) {
   }
 }
 
-// Boost.Geometry drifts by 1e-2 m² in 1000 splits. Here the sum of all floes differs by what the ledgers say, exactly.
+// Boost.Geometry drifts by 1e-2 m² in 1000 splits. Here the sum of all floes differs by what the ledgers say,
+// exactly.
 TEST(Hazards, AThousandSplitsDoNotDrift) {
   std::mt19937 random(25);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -161,8 +170,8 @@ TEST(Hazards, AThousandSplitsDoNotDrift) {
   EXPECT_LT(std::abs(itemised), 1e-9);
 }
 
-// Each crack built from exact vertices triples their digits, each rotation adds 35 bits: tools are doubles and motion never
-// touches coordinates, so what has to stay exact stays short however often it is cut.
+// Each crack built from exact vertices triples their digits, each rotation adds 35 bits: tools are doubles
+// and motion never touches coordinates, so what has to stay exact stays short however often it is cut.
 TEST(Hazards, WhatStaysExactStaysShort) {
   std::mt19937 random(27);
   std::size_t longest = 0;  // bits in a denominator
@@ -176,7 +185,8 @@ TEST(Hazards, WhatStaysExactStaysShort) {
     if (find_defect(shape.polygon)) continue;
     for (int cut = 0; cut < 5; ++cut) {
       const trials::Knife knife = trials::roll_knife(dice, shape.polygon);
-      const CutOutcome outcome = knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
+      const CutOutcome outcome =
+          knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
       if (!outcome || outcome->pieces.empty()) continue;
       cut_again += shape.exact ? 1 : 0;
       shape = outcome->pieces.front().shape;
@@ -185,8 +195,10 @@ TEST(Hazards, WhatStaysExactStaysShort) {
         ++kept;
         shape = piece.shape;
         for (const exact::Point& p : piece.shape.exact->outer) {
-          if (std::abs(p.x.get_d()) < 1e-100 || std::abs(p.y.get_d()) < 1e-100) continue;  // subnormal: long to begin with
-          longest = std::max({longest, mpz_sizeinbase(p.x.get_den_mpz_t(), 2), mpz_sizeinbase(p.y.get_den_mpz_t(), 2)});
+          if (std::abs(p.x.get_d()) < 1e-100 || std::abs(p.y.get_d()) < 1e-100)
+            continue;  // subnormal: long to begin with
+          longest = std::max(
+              {longest, mpz_sizeinbase(p.x.get_den_mpz_t(), 2), mpz_sizeinbase(p.y.get_den_mpz_t(), 2)});
         }
       }
     }
@@ -195,7 +207,8 @@ TEST(Hazards, WhatStaysExactStaysShort) {
   EXPECT_GT(cut_again, 5);
   EXPECT_LT(longest, 3000u);
   RecordProperty("longest_denominator_bits", static_cast<int>(longest));
-  std::printf("%d kept exact, %d of them cut again, longest denominator %zu bits\n", kept, cut_again, longest);
+  std::printf("%d kept exact, %d of them cut again, longest denominator %zu bits\n", kept, cut_again,
+              longest);
 }
 
 // What CGAL or the arithmetic refuses is a value, whatever is fed past the checks.
@@ -203,12 +216,14 @@ TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
   std::mt19937 random(26);
   for (int i = 0; i < 300; ++i) {
     Ring ring;
-    for (int k = 0; k < 8; ++k) ring.push_back({static_cast<double>(random() % 5), static_cast<double>(random() % 5)});
+    for (int k = 0; k < 8; ++k)
+      ring.push_back({static_cast<double>(random() % 5), static_cast<double>(random() % 5)});
     const Ring shape = without_repeats(ring);
     if (shape.size() < 3) continue;
     static_cast<void>(cut_by_polygons_generally(exact::exactly(Polygon{shape, {}}), {{kSquare, {}}}));
     static_cast<void>(cut_along_generally(exact::exactly(Polygon{shape, {}}), {{-1, 2}, {7, 3}}));
-    static_cast<void>(cut_by_polygon(Shape{{shape, {}}, nullptr, true}, {disc_polygon({2, 2}, 1.5, 0.1), {}}));
+    static_cast<void>(
+        cut_by_polygon(Shape{{shape, {}}, nullptr, true}, {disc_polygon({2, 2}, 1.5, 0.1), {}}));
     static_cast<void>(cut_along(Shape{{shape, {}}, nullptr, true}, {{-1, 2}, {7, 3}}));
   }
   SUCCEED();

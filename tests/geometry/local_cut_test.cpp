@@ -1,9 +1,9 @@
 // The local path against the general one: wherever both answer they give the same bits.
 #include "geometry/internal/local_cut.hpp"
 
-#include <gtest/gtest.h>
-
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "geometry/internal/general_cut.hpp"
 #include "geometry/measures.hpp"
@@ -63,7 +63,11 @@ TEST(LocalCut, EqualsTheGeneralOneOverRandomFloes) {
       const Shape shape = shapes[random() % shapes.size()];
       const CutOutcome outcome =
           i % 3 != 0 ? compare_disc(shape, disc_polygon({place(random), place(random)}, 1.5, 0.02), tally)
-                     : compare_crack(shape, {{place(random), place(random)}, {place(random), place(random)}, {place(random), place(random)}}, tally);
+                     : compare_crack(shape,
+                                     {{place(random), place(random)},
+                                      {place(random), place(random)},
+                                      {place(random), place(random)}},
+                                     tally);
       if (!outcome) continue;
       for (const Piece& piece : outcome->pieces) shapes.push_back(piece.shape);
     }
@@ -74,7 +78,8 @@ TEST(LocalCut, EqualsTheGeneralOneOverRandomFloes) {
 }
 
 TEST(LocalCut, EqualsTheGeneralOneOnAnIntegerGrid) {
-  // Every degeneracy: through vertices, along edges, through earlier cuts' vertices, holes touching their shell.
+  // Every degeneracy: through vertices, along edges, through earlier cuts' vertices, holes touching their
+  // shell.
   std::mt19937 random(12);
   Tally tally;
   const auto coordinate = [&] { return static_cast<double>(static_cast<int>(random() % 9) - 1); };

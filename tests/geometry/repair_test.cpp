@@ -1,8 +1,8 @@
 #include "geometry/repair.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "geometry/overlap.hpp"
 #include "geometry/validity.hpp"
@@ -46,11 +46,13 @@ TEST(Repair, LeavesValidPolygonsAsTheyAre) {
 TEST(Repair, DropsSpikesAndRefusesWhatEnclosesNothing) {
   EXPECT_DOUBLE_EQ(repaired_area({{{0, 0}, {4, 0}, {4, 4}, {9, 4}, {4, 4}, {0, 4}}}, FillRule::kEvenOdd), 16);
   EXPECT_EQ(repair({{{0, 0}, {1, 1}, {2, 2}}}, FillRule::kEvenOdd).error().reason, CutFailure::kMisses);
-  EXPECT_EQ(repair({{{0, 0}, {1, std::nan("")}, {2, 2}}}, FillRule::kEvenOdd).error().reason, CutFailure::kInvalidShape);
+  EXPECT_EQ(repair({{{0, 0}, {1, std::nan("")}, {2, 2}}}, FillRule::kEvenOdd).error().reason,
+            CutFailure::kInvalidShape);
 }
 
 TEST(Repair, NormalisingOrientsAndDropsRepeats) {
-  const Polygon drawn{{{0, 0}, {0, 10}, {0, 10}, {10, 10}, {10, 0}, {0, 0}}, {{{2, 2}, {4, 2}, {4, 4}, {2, 4}, {2, 2}}}};
+  const Polygon drawn{{{0, 0}, {0, 10}, {0, 10}, {10, 10}, {10, 0}, {0, 0}},
+                      {{{2, 2}, {4, 2}, {4, 4}, {2, 4}, {2, 2}}}};
   EXPECT_FALSE(find_defect(normalised(drawn)));
   EXPECT_EQ(normalised(drawn).outer.size(), 4u);
 }

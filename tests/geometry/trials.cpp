@@ -10,7 +10,9 @@
 namespace polynya::geometry::trials {
 namespace {
 
-bool precedes(const exact::Point& a, const exact::Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+bool precedes(const exact::Point& a, const exact::Point& b) {
+  return a.x != b.x ? a.x < b.x : a.y < b.y;
+}
 
 bool ring_precedes(const exact::Ring& a, const exact::Ring& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), precedes);
@@ -61,13 +63,24 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   return testing::AssertionSuccess();
 }
 
+namespace {
+double dangling_of(const CutOutcome& outcome) {
+  return outcome ? outcome->ledger.dangling_length : outcome.error().dangling_length;
+}
+}  // namespace
+
 testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& other) {
+  const double dangling = dangling_of(one);
+  if (std::abs(dangling - dangling_of(other)) > 1e-12 * dangling + 1e-9) {
+    return testing::AssertionFailure() << "dangling " << dangling << " m and " << dangling_of(other) << " m";
+  }
   if (one.has_value() != other.has_value()) {
     return testing::AssertionFailure() << "one fails: " << name_of((one ? other : one).error().reason);
   }
   if (!one) {
     if (one.error().reason == other.error().reason) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << name_of(one.error().reason) << " and " << name_of(other.error().reason);
+    return testing::AssertionFailure()
+           << name_of(one.error().reason) << " and " << name_of(other.error().reason);
   }
   const auto listed = [](const CutOutcome& outcome) {
     std::vector<std::tuple<Part, std::vector<exact::Ring>, bool>> pieces;
@@ -83,14 +96,17 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
   if (listed(one) == listed(other)) {
     const double apart = one->ledger.rounding_defect - other->ledger.rounding_defect;
     if (std::abs(apart) < 1e-300) return testing::AssertionSuccess();  // subnormal defects do not scale
-    return testing::AssertionFailure() << "rounding defects differ: " << one->ledger.rounding_defect << " and "
-                                       << other->ledger.rounding_defect;
+    return testing::AssertionFailure() << "rounding defects differ: " << one->ledger.rounding_defect
+                                       << " and " << other->ledger.rounding_defect;
   }
   testing::AssertionResult failure = testing::AssertionFailure();
   failure << one->pieces.size() << " and " << other->pieces.size() << " pieces";
   for (const CutOutcome* outcome : {&one, &other}) {
     failure << "\n--";
-    for (const Piece& piece : (*outcome)->pieces) failure << "\n" << static_cast<int>(piece.part) << (piece.shape.exact ? " exact " : " ") << to_code(piece.shape.polygon);
+    for (const Piece& piece : (*outcome)->pieces)
+      failure << "\n"
+              << static_cast<int>(piece.part) << (piece.shape.exact ? " exact " : " ")
+              << to_code(piece.shape.polygon);
   }
   return failure;
 }
