@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""Runs the five scenes of the paper and writes the measured tables into docs/paper-comparison.md.
+
+    ./quickstart                      (or build the release preset)
+    python3 tools/paper_comparison.py
+
+Everything between the page's two markers is replaced; the text around them is written by hand.
+"""
+import csv
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+POLYNYA = ROOT / "build/release/app/polynya"
+PAGE = ROOT / "docs/paper-comparison.md"
+SCENES = ["fig4a", "fig4b", "fig4c", "fig6a", "fig6b"]
+SMALL_FLOES_END_M = {"fig4a": 206, "fig4b": 206, "fig4c": 206, "fig6a": 202.5, "fig6b": 216}
+
+
+def run(scene: pathlib.Path, folder: pathlib.Path) -> dict:
+    subprocess.run([POLYNYA, "run", scene, "--out", folder, "--overwrite", "--progress", "none"], check=True,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    with open(folder / "forces.csv") as file:
+        rows = [{k: (float(v) if k != "ship" else v) for k, v in row.items()} for row in csv.DictReader(file)]
+    return {
+        "summary": json.loads((folder / "summary.json").read_text()),
+        "scene": json.loads((folder / "scene.json").read_text()),
+        "events": [json.loads(line) for line in (folder / "events.ndjson").read_text().splitlines()],
+        "forces": rows,
+        "final": json.loads((folder / "final.geojson").read_text()),
+    }
+
+
+def variant(name: str, lateral_m: float, folder: pathlib.Path) -> pathlib.Path:
+    """The paper's scene with the ship on another course."""
+    text = (ROOT / f"scenes/sawamura2017-{name}.json").read_text()
+    text, count = re.subn(r'"position_m": \[-60, [0-9.]+\]', f'"position_m": [-60, {lateral_m}]', text)
+    assert count == 1
+    path = folder / f"{name}-{lateral_m}.json"
+    path.write_text(text)
+    return path
+
+
+def channel_widths(result: dict, end_m: float) -> list:
+    """Open width across the track at stations in the small floes, at the end of the run [m].
+
+    A station is where the ship's centre passed, carried on with the drift of the ice; the width is along y to the
+    nearest ice on either side."""
+    drift = result["scene"]["water"]["drift_m_per_s"]
+    end_s = result["forces"][-1]["t_s"]
+    rings = []
+    for feature in result["final"]["features"]:
+        if feature["geometry"]["type"] == "Polygon" and "floe_id" in feature["properties"]:
+            rings.append(feature["geometry"]["coordinates"][0])
+    widths = []
+    for row in result["forces"][::50]:
+        since = end_s - row["t_s"]
+        if not 30 < row["x_m"] < end_m - 30:
+            continue
+        x, y = row["x_m"] + drift[0] * since, row["y_m"] + drift[1] * since
+        above, below = float("inf"), float("inf")
+        for ring in rings:
+            for (x0, y0), (x1, y1) in zip(ring, ring[1:]):
+                if (x0 > x) == (x1 > x):
+                    continue
+                offset = y0 + (x - x0) / (x1 - x0) * (y1 - y0) - y
+                above = min(above, offset) if offset >= 0 else above
+                below = min(below, -offset) if offset < 0 else below
+        if above + below < float("inf"):
+            widths.append(above + below)
+    return widths
+
+
+def speed_at(result: dict, time_s: float) -> float:
+    return min(result["forces"], key=lambda row: abs(row["t_s"] - time_s))["speed_m_per_s"]
+
+
+def magnitude(row: dict) -> float:
+    return max(abs(row["surge_j_over_tau_c_N"]), abs(row["sway_j_over_tau_c_N"]))
+
+
+def table(head: list, rows: list) -> str:
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
+
+
+def main_table(results: dict) -> str:
+    rows = []
+    for name, result in results.items():
+        fractures = [e for e in result["events"] if e["kind"] in ("bend", "split")]
+        first = fractures[0]["t_s"] if fractures else float("nan")
+        removal = [magnitude(r) for r in result["forces"] if 0 < r["t_s"] < first]
+        breaking = [magnitude(r) for r in result["forces"] if r["t_s"] >= first]
+        splits = [e["t_s"] for e in fractures if e["kind"] == "split"]
+        widths = channel_widths(result, SMALL_FLOES_END_M[name])
+        last = result["forces"][-1]
+        rows.append([
+            name, f"{first:.0f}", sum(e["kind"] == "bend" for e in fractures), len(splits),
+            ", ".join(f"{t:.0f}" for t in splits), f"{max(removal) / 1e6:.3f}", f"{max(breaking) / 1e6:.2f}",
+            f"{statistics.mean(widths):.1f}" if widths else "closed", f"{speed_at(result, first):.2f}",
+            f"{last['heading_deg']:.0f}", f"{last['x_m']:.0f}"])
+    return table(["scene", "breaking starts, s", "bends", "splits", "splits at, s", "peak j/τ_c removing, MN",
+                  "peak j/τ_c breaking, MN", "channel in the small floes, m", "speed at the plates, m/s",
+                  "heading at 550 s, °", "ship at x, m"], rows)
+
+
+def split_table(results: dict) -> str:
+    """Both sides of Eq. (4) at the splits, and at the fracture that came nearest to one among the others."""
+    rows = []
+    for name, result in results.items():
+        plates = [e for e in result["events"] if e["kind"] in ("bend", "split")]
+        judged = [e for e in plates if e["criterion"]["splitting_force_N"] > 0]
+        ratio = lambda e: e["criterion"]["collision_force_N"] / e["criterion"]["splitting_force_N"]
+        shown = [e for e in judged if e["kind"] == "split"]
+        others = [e for e in judged if e["kind"] != "split"]
+        if others:
+            shown.append(max(others, key=ratio))
+        for e in shown:
+            c = e["criterion"]
+            why = "" if e["kind"] == "split" else (
+                "crack shorter than κ l" if c["crack_length_m"] < c["breakable_size_m"] else "too weak")
+            rows.append([name, f"{e['t_s']:.1f}", e["kind"], f"{c['collision_force_N'] / 1e6:.2f}",
+                         f"{c['splitting_force_N'] / 1e6:.2f}", f"{c['crack_length_m']:.1f}", why])
+    return table(["scene", "t, s", "what broke", "j/τ_c, MN", "F_s = n L h σ_t, MN", "L, m", "why no split"], rows)
+
+
+def course_table(folder: pathlib.Path) -> str:
+    rows = []
+    for name, courses in (("fig4b", [140, 145, 148, 149, 150, 151, 152, 155, 160]),
+                          ("fig4c", [140, 144, 145, 146, 147, 148, 150]), ("fig6a", [144, 145, 146, 147, 148, 150])):
+        for lateral in courses:
+            result = run(variant(name, lateral, folder), folder / "run")
+            counts, last = result["summary"]["counts"], result["forces"][-1]
+            rows.append([name, lateral, counts["bends"], counts["splits"], f"{last['x_m']:.0f}",
+                         f"{last['heading_deg']:.0f}"])
+    return table(["scene", "ship starts at y, m", "bends", "splits", "ship at x, m (550 s)", "heading, °"], rows)
+
+
+def main() -> int:
+    if not POLYNYA.exists():
+        print(f"{POLYNYA} is not there: ./quickstart builds it", file=sys.stderr)
+        return 1
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        results = {name: run(ROOT / f"scenes/sawamura2017-{name}.json", folder / name) for name in SCENES}
+        measured = "\n\n".join(["### The five scenes", main_table(results), "### Both sides of the splitting criterion",
+                                split_table(results), "### What the course does", course_table(folder)])
+    page = PAGE.read_text()
+    begin, end = "<!-- measured: begin -->", "<!-- measured: end -->"
+    head, rest = page.split(begin)
+    PAGE.write_text(head + begin + "\n\n" + measured + "\n\n" + end + rest.split(end)[1])
+    print(measured)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
