@@ -12,7 +12,7 @@ using geometry::Pose;
 using geometry::Vector;
 
 constexpr double kBoxMargin = 2.0;   ///< boxes are grown by this much, and renewed after that much travel [m]
-constexpr double kNearMargin = 0.5;  ///< contact circles within this distance are kept with a pair [m]
+constexpr double kNearMargin = 0.75;  ///< contact circles within this distance are kept with a pair [m]
 
 Box box_in_water(const Bodies& bodies, BodyIndex i) {
   const Pose pose = water_from_body(bodies, i);
@@ -119,7 +119,7 @@ void PairFinder::add_pair(BodyIndex a, BodyIndex b) {
   Pair& pair = pairs_[slot];
   pair.a = a;
   pair.b = b;
-  pair.known_until = -1;
+  pair.known_until = pair.quiet_until = -1;
   pair.circles.clear();
   pair.edges.clear();
   pair.records.clear();
@@ -172,10 +172,20 @@ void PairFinder::collect(const Bodies& bodies, Pair& pair, std::vector<Contact>&
   const Pose water_from_b = water_from_body(bodies, pair.b);
   const Pose a_from_b = relative_pose(water_from_a, water_from_b);
   patches_.clear();
+  int unpaired = 0;
   if (rule_.is_circle_centres) {
     find_circle_patches(a, b, a_from_b, pair.circles, patches_);
   } else {
-    unpaired_ += find_patches(a, b, a_from_b, pair.edges, scratch_, patches_);
+    unpaired = find_patches(a, b, a_from_b, pair.edges, scratch_, patches_);
+  }
+  unpaired_ += unpaired;
+  if (patches_.empty() && unpaired == 0) {
+    // Circles lie inside the ice: no two can overlap while the boundaries are apart.
+    const double free_way = least_distance(a, b, a_from_b, pair.edges);
+    constexpr double kRounding = 1e-9;  // of positions and distances, far more than it can be [m]
+    pair.quiet_until = bodies.travel[pair.a] + bodies.travel[pair.b] + std::max(0.0, free_way - kRounding);
+    pair.records.clear();
+    return;
   }
   const std::size_t first = contacts.size();
   records_.clear();
@@ -206,8 +216,11 @@ void PairFinder::find_contacts(Bodies& bodies, double dt, std::vector<Contact>& 
   contacts.clear();
   for (const std::uint32_t slot : active_) {
     Pair& pair = pairs_[slot];
-    if (bodies.travel[pair.a] + bodies.travel[pair.b] > pair.known_until) refresh(bodies, pair);
+    const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
+    if (travelled <= pair.quiet_until) continue;
+    if (travelled > pair.known_until) refresh(bodies, pair);
     if (pair.circles.empty()) {
+      pair.quiet_until = pair.known_until;
       pair.records.clear();
       continue;
     }

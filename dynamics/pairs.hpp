@@ -14,6 +14,8 @@ struct Pair {
   BodyIndex b = 0;
   /// Until the two have travelled farther than this together, only `edges` (or `circles`) can meet [m].
   double known_until = -1;
+  /// Until the two have travelled farther than this together, they cannot touch at all [m].
+  double quiet_until = -1;
   std::vector<geometry::NearPair> circles;  ///< contact circles near each other
   std::vector<geometry::NearPair> edges;    ///< the boundary edges behind them
   std::vector<ContactRecord> records;

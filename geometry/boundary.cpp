@@ -99,4 +99,26 @@ void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>&
   edge_pairs.erase(std::unique(edge_pairs.begin(), edge_pairs.end()), edge_pairs.end());
 }
 
+double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                      const std::vector<NearPair>& edge_pairs) {
+  double least = std::numeric_limits<double>::infinity();  // squared
+  const auto squared_to_segment = [](Point p, Point from, Point to) {
+    const Vector d = to - from;
+    const double along = std::clamp(dot(p - from, d) / squared_length(d), 0.0, 1.0);
+    return squared_length(from + along * d - p);
+  };
+  for (const NearPair pair : edge_pairs) {
+    const Point a0 = a.edges.from(pair.a);
+    const Point a1 = a.edges.to(pair.a);
+    const Point b0 = point_in_world(a_from_b, b.edges.from(pair.b));
+    const Point b1 = point_in_world(a_from_b, b.edges.to(pair.b));
+    const double b_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0);
+    const double a_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0);
+    if (b_sides <= 0 && a_sides <= 0) return 0;
+    least = std::min({least, squared_to_segment(a0, b0, b1), squared_to_segment(a1, b0, b1),
+                      squared_to_segment(b0, a0, a1), squared_to_segment(b1, a0, a1)});
+  }
+  return std::sqrt(least);
+}
+
 }  // namespace polynya::geometry

@@ -78,6 +78,10 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
                  const std::vector<NearPair>& edge_pairs, PatchScratch& scratch,
                  std::vector<ContactPatch>& patches);
 
+/// Least distance between the edges of the pairs, 0 where two cross or touch [m].
+double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                      const std::vector<NearPair>& edge_pairs);
+
 /// The paper's own rule: every pair of overlapping contact circles is a contact with its normal along the
 /// line of centres and its contact point half-way into the overlap. [Sawamura2017], Fig. 1. Depth is the
 /// circles' overlap; width and area are those of the circles' lens.
