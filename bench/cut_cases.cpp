@@ -42,13 +42,12 @@ March march_of_cusps() {
   return march;
 }
 
-Split split_of_floe() {
+Split split_of_floe(int vertices) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> ragged(0.97, 1.03);
   Split split;
-  constexpr int kVertices = 2000;
-  for (int i = 0; i < kVertices; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kVertices;
+  for (int i = 0; i < vertices; ++i) {
+    const double angle = 2 * std::numbers::pi * i / vertices;
     const double radius = 60 * (1 + 0.15 * std::sin(3 * angle)) * ragged(random);
     split.floe.push_back({radius * std::cos(angle), radius * std::sin(angle)});
   }

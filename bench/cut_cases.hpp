@@ -22,7 +22,7 @@ struct Split {
   geometry::Point from;
   geometry::Point to;
 };
-Split split_of_floe();
+Split split_of_floe(int vertices = 2000);
 
 /// What a library made of a case: enough to see that all did the same work.
 struct Result {
@@ -36,6 +36,10 @@ geometry::Ring half_plane(const Split& split);
 namespace polynya_cuts {
 Result march(const March& march);
 Result split(const Split& split);
+/// Seconds that the exact check of a valid floe of so many vertices takes, and that the general path takes to
+/// cut it.
+double seconds_to_validate(int vertices);
+double seconds_to_cut_generally(int vertices);
 }  // namespace polynya_cuts
 namespace boost_geometry {
 Result march(const March& march);

@@ -63,5 +63,16 @@ int main(int argc, char** argv) {
                   {"GEOS OverlayNG", geos::split},
                   {"Clipper 6", clipper::split}},
                  rounds, 20);
+  std::printf("cost by size of the floe, least of %d\n  %10s %18s %24s\n", rounds, "vertices",
+              "find_defect [ms]", "general path (CGAL) [ms]");
+  for (const int vertices : {1250, 2500, 5000, 10000}) {
+    double validate_s = std::numeric_limits<double>::infinity();
+    double general_s = validate_s;
+    for (int round = 0; round < rounds; ++round) {
+      validate_s = std::min(validate_s, polynya_cuts::seconds_to_validate(vertices));
+      general_s = std::min(general_s, polynya_cuts::seconds_to_cut_generally(vertices));
+    }
+    std::printf("  %10d %18.3f %24.2f\n", vertices, validate_s * 1e3, general_s * 1e3);
+  }
   return 0;
 }

@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
 #include "bench/cut_cases.hpp"
 #include "geometry/cut.hpp"
+#include "geometry/internal/general_cut.hpp"
+#include "geometry/validity.hpp"
 
 namespace polynya::bench::polynya_cuts {
 
@@ -35,6 +38,21 @@ Result split(const Split& split) {
   for (const Piece& piece : outcome->pieces) result.vertices += piece.shape.polygon.outer.size();
   result.area = outcome->ledger.area_outside;
   return result;
+}
+
+double seconds_to_validate(int vertices) {
+  const geometry::Polygon floe{split_of_floe(vertices).floe, {}};
+  const auto start = std::chrono::steady_clock::now();
+  if (geometry::find_defect(floe)) throw std::runtime_error("the floe is not valid");
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double seconds_to_cut_generally(int vertices) {
+  const Split split = split_of_floe(vertices);
+  const geometry::exact::Polygon floe = geometry::exact::exactly(geometry::Polygon{split.floe, {}});
+  const auto start = std::chrono::steady_clock::now();
+  if (!geometry::cut_along_generally(floe, {split.from, split.to})) throw std::runtime_error("no cut");
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace polynya::bench::polynya_cuts

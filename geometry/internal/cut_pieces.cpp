@@ -47,12 +47,13 @@ Ring write_loop(LocalCut& cut, const Loop& loop) {
   struct Vertex {
     bool is_node = false;
     bool is_rounded = false;
-    const HalfEdge* leaves_along = nullptr;
+    const HalfEdge* leaves_along;
   };
   Ring points;
   points.reserve(vertex_count(cut, loop));
-  Vertex first;
-  Vertex last;
+  const HalfEdge& start = cut.graph.half_edges[static_cast<std::size_t>(loop.front())];
+  Vertex first{true, false, &start};
+  Vertex last = first;
   const auto note_edge = [&](Point to, const Vertex& v) {
     if (last.leaves_along->is_chord && !last.leaves_along->is_forward) return;
     (last.is_rounded || v.is_rounded ? cut.changed : cut.placed)

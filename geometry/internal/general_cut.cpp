@@ -17,6 +17,7 @@ tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
 
 CutOutcome settle_regions(const exact::Polygon& shape, std::vector<exact::Region> regions) {
   std::vector<exact::ExactPiece> pieces;
+  pieces.reserve(regions.size());
   for (exact::Region& region : regions) {
     pieces.push_back({std::move(region.polygon), region.label == 1 ? Part::kInside : Part::kOutside});
   }

@@ -215,6 +215,7 @@ CutResult whole_shape_inside(const Polygon& shape) {
 
 CutOutcome settle_exactly(const LocalCut& cut, const Polygon& shape, const std::vector<PiecePlan>& plans) {
   std::vector<exact::ExactPiece> pieces;
+  pieces.reserve(plans.size());
   for (const PiecePlan& plan : plans) pieces.push_back({write_exactly(cut, plan), plan.part});
   return exact::settle(exact::area(shape), std::move(pieces));
 }

@@ -48,7 +48,7 @@ RingArea ring_area(const Ring& ring) {
   const double twice = (even.value + odd.value) + (even.lost + odd.lost);
   const double largest = std::max(std::abs(origin.x) + reach_x, std::abs(origin.y) + reach_y);
   const double step = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-  const double edges = static_cast<double>(n);
+  const auto edges = static_cast<double>(n);
   // Each term errs by at most 4ε of its two products, the compensated sums by next to nothing.
   constexpr double kUnderflow = 1e-280;
   return {twice / 2, 8 * std::numeric_limits<double>::epsilon() * edges * 2 * reach_x * reach_y + kUnderflow,
