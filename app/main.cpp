@@ -1,4 +1,3 @@
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -6,15 +5,25 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "io/version.hpp"
 
 namespace polynya::app {
-namespace {
 
-/// A subcommand: adds its options to the command line and returns what to do when it is chosen.
-using Command = std::function<int()>;
+void add_progress(CLI::App& command, ProgressKind& kind) {
+  static const std::map<std::string, ProgressKind> kKinds{{"auto", ProgressKind::kAuto},
+                                                          {"bar", ProgressKind::kBar},
+                                                          {"json", ProgressKind::kJson},
+                                                          {"none", ProgressKind::kNone}};
+  command
+      .add_option("--progress", kind, "auto: a bar on a terminal, else a line every ten seconds; on stderr")
+      ->type_name("auto|bar|json|none")
+      ->transform(CLI::CheckedTransformer(kKinds).description(""));
+}
+
+namespace {
 
 Command add_run(CLI::App& app) {
   auto* command = app.add_subcommand("run", "Run a scene and write its run folder");
@@ -37,15 +46,7 @@ Command add_run(CLI::App& app) {
                    "Accepted for scripts; this version steps on one thread, and results never depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  static const std::map<std::string, ProgressKind> kKinds{{"auto", ProgressKind::kAuto},
-                                                          {"bar", ProgressKind::kBar},
-                                                          {"json", ProgressKind::kJson},
-                                                          {"none", ProgressKind::kNone}};
-  command
-      ->add_option("--progress", options->progress,
-                   "auto: a bar on a terminal, else a line every ten seconds; on stderr")
-      ->type_name("auto|bar|json|none")
-      ->transform(CLI::CheckedTransformer(kKinds).description(""));
+  add_progress(*command, options->progress);
   command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
   return [options] { return run(*options); };
 }
@@ -100,8 +101,11 @@ int command_line(int count, char** words) {
   app.set_version_flag("--version", "polynya " + std::string(io::version()));
   app.require_subcommand(1);
   std::map<std::string, Command> commands;
-  constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {
-      {"run", add_run}, {"validate", add_validate}, {"schema", add_schema}, {"init", add_init}};
+  constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {{"run", add_run},
+                                                                          {"validate", add_validate},
+                                                                          {"schema", add_schema},
+                                                                          {"init", add_init},
+                                                                          {"database", add_database}};
   for (const auto& [name, add] : kCommands) {
     commands[name] = add(app);
   }

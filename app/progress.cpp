@@ -29,13 +29,6 @@ int terminal_width() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/// "1:05", "2:03:04".
-std::string clock_time(double seconds) {
-  const auto whole = static_cast<long long>(seconds + 0.5);
-  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
-}
-
 /// A bar of so many columns, in eighths.
 std::string bar(double part, int width) {
   static constexpr const char* kEighths[] = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
@@ -49,57 +42,61 @@ std::string bar(double part, int width) {
 
 }  // namespace
 
-Progress::Progress(ProgressKind kind, double until)
-    : kind_(settled(kind)), until_(until), start_(std::chrono::steady_clock::now()) {}
+ProgressOutput::ProgressOutput(ProgressKind kind)
+    : kind_(settled(kind)), start_(std::chrono::steady_clock::now()) {}
 
-double Progress::wall_time() const {
+double ProgressOutput::wall_time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void Progress::show(double sim_time, long long fractures) {
-  if (kind_ == ProgressKind::kNone) return;
+bool ProgressOutput::is_due() {
+  if (kind_ == ProgressKind::kNone) return false;
   const double now = wall_time();
-  if (now - last_shown_ < pause_of(kind_)) return;
+  if (now - last_shown_ < pause_of(kind_)) return false;
   last_shown_ = now;
-  draw(sim_time, fractures);
+  return true;
 }
 
-void Progress::finish(double sim_time, long long fractures) {
-  if (kind_ == ProgressKind::kBar) {
-    draw(sim_time, fractures);
-    std::fputs("\n", stderr);
-  } else if (kind_ == ProgressKind::kJson) {
-    draw(sim_time, fractures);
+void ProgressOutput::tell(const ProgressReport& report) const {
+  std::string line;
+  if (kind_ == ProgressKind::kJson) {
+    line = report.json + "\n";
+  } else if (kind_ == ProgressKind::kLines) {
+    line = report.line + "\n";
+  } else {
+    const int room = terminal_width() - static_cast<int>(report.beside_bar.size()) - 1;
+    line =
+        fmt::format("\r{}{}\x1b[K", room >= 8 ? bar(report.part, std::min(room, 40)) : "", report.beside_bar);
   }
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
 }
 
-void Progress::draw(double sim_time, long long fractures) {
+void ProgressOutput::finish(const ProgressReport& report) const {
+  if (kind_ == ProgressKind::kBar || kind_ == ProgressKind::kJson) tell(report);
+  if (kind_ == ProgressKind::kBar) std::fputs("\n", stderr);
+}
+
+std::string clock_time(double seconds) {
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+ProgressReport Progress::report(double sim_time, long long fractures) const {
   const double wall = std::max(wall_time(), 1e-9);
   const double rate = sim_time / wall;
   const double part = until_ > 0 ? sim_time / until_ : 1;
   const double left = rate > 0 ? std::max(0.0, until_ - sim_time) / rate : 0;
-  std::string line;
-  switch (kind_) {
-    case ProgressKind::kJson:
-      line = fmt::format(
-          R"({{"sim_time_s":{:.6g},"until_s":{:.6g},"wall_time_s":{:.3f},"real_time_factor":{:.4g},"time_left_s":{:.1f},"fractures":{}}})"
-          "\n",
-          sim_time, until_, wall, rate, left, fractures);
-      break;
-    case ProgressKind::kLines:
-      line = fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {} fractures\n",
-                         100 * part, sim_time, until_, rate, clock_time(left), fractures);
-      break;
-    default: {
-      const std::string words =
-          fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {} fractures", 100 * part,
-                      sim_time, until_, rate, clock_time(left), fractures);
-      const int room = terminal_width() - static_cast<int>(words.size()) - 1;
-      line = fmt::format("\r{}{}\x1b[K", room >= 8 ? bar(part, std::min(room, 40)) : "", words);
-    }
-  }
-  std::fputs(line.c_str(), stderr);
-  std::fflush(stderr);
+  return {
+      part,
+      fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {} fractures", 100 * part, sim_time,
+                  until_, rate, clock_time(left), fractures),
+      fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {} fractures",
+                  100 * part, sim_time, until_, rate, clock_time(left), fractures),
+      fmt::format(
+          R"({{"sim_time_s":{:.6g},"until_s":{:.6g},"wall_time_s":{:.3f},"real_time_factor":{:.4g},"time_left_s":{:.1f},"fractures":{}}})",
+          sim_time, until_, wall, rate, left, fractures)};
 }
 
 }  // namespace polynya::app

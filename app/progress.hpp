@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 namespace polynya::app {
 
@@ -12,25 +13,54 @@ enum class ProgressKind {
   kNone,
 };
 
-/// Tells on stderr how far a run is.
-class Progress {
- public:
-  Progress(ProgressKind kind, double until);
+/// One report of how far some work is, in each of its forms.
+struct ProgressReport {
+  double part = 0;         ///< done, 0..1
+  std::string beside_bar;  ///< follows the bar on its line
+  std::string line;        ///< without its newline
+  std::string json;        ///< one object, without its newline
+};
 
-  /// Cheap to call often: it looks at the clock and mostly returns.
-  void show(double sim_time, long long fractures);
-  /// Clears or completes what is shown.
-  void finish(double sim_time, long long fractures);
+/// Tells reports on stderr, at the pace of their kind.
+class ProgressOutput {
+ public:
+  explicit ProgressOutput(ProgressKind kind);
+
+  /// Whether it is time for a report; cheap to call often: it looks at the clock and mostly says no.
+  bool is_due();
+  void tell(const ProgressReport& report) const;
+  /// The last report: completes a bar, or is one object more.
+  void finish(const ProgressReport& report) const;
 
   double wall_time() const;  ///< since construction [s]
 
  private:
-  void draw(double sim_time, long long fractures);
   ProgressKind kind_;
-  double until_;  ///< [s]
   std::chrono::steady_clock::time_point start_;
   double last_shown_ = 0;  ///< wall time [s]
-  bool is_bar_drawn_ = false;
+};
+
+/// "1:05", "2:03:04".
+std::string clock_time(double seconds);
+
+/// Tells on stderr how far a run is.
+class Progress {
+ public:
+  Progress(ProgressKind kind, double until) : output_(kind), until_(until) {}
+
+  /// Cheap to call often.
+  void show(double sim_time, long long fractures) {
+    if (output_.is_due()) output_.tell(report(sim_time, fractures));
+  }
+  /// Clears or completes what is shown.
+  void finish(double sim_time, long long fractures) { output_.finish(report(sim_time, fractures)); }
+
+  double wall_time() const { return output_.wall_time(); }  ///< since construction [s]
+
+ private:
+  ProgressReport report(double sim_time, long long fractures) const;
+  ProgressOutput output_;
+  double until_;  ///< [s]
 };
 
 }  // namespace polynya::app

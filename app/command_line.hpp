@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+
+#include "app/progress.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace polynya::app {
+
+/// A subcommand: adds its options to the command line and returns what to do when it is chosen.
+using Command = std::function<int()>;
+
+/// `polynya database`, with its own subcommands.
+Command add_database(CLI::App& app);
+
+/// --progress, as every long command has it.
+void add_progress(CLI::App& command, ProgressKind& kind);
+
+}  // namespace polynya::app

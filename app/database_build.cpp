@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/database.hpp"
+#include "app/database_input.hpp"
+#include "app/exit_code.hpp"
+#include "app/stop_signal.hpp"
+#include "fracture/bending/database_text.hpp"
+#include "io/output_file.hpp"
+
+namespace polynya::app {
+namespace {
+
+constexpr std::size_t kMostWedgeAngles = 64;  ///< what the file's reader takes
+
+int fail(ExitCode code, const std::string& problem) {
+  fmt::print(stderr, "polynya: {}\n", problem);
+  return code;
+}
+
+/// Why the file cannot be written there, as far as can be told before the work; empty where it can.
+std::string obstacle(const std::filesystem::path& path, bool overwrite) {
+  std::error_code ignored;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder, ignored)) return folder.string() + ": no such folder";
+  if (!std::filesystem::exists(path, ignored)) return "";
+  if (!std::filesystem::is_regular_file(path, ignored)) return path.string() + ": it is not a file";
+  return overwrite ? "" : path.string() + ": it exists already; --overwrite replaces it";
+}
+
+ProgressReport report(std::size_t done, std::size_t total, double wall) {
+  const double part = static_cast<double>(done) / static_cast<double>(total);
+  const double left = part > 0 ? wall * (1 - part) / part : 0;
+  return {part, fmt::format(" {:3.0f} %  {}/{} wedges  {} left", 100 * part, done, total, clock_time(left)),
+          fmt::format("{:3.0f} %  {} of {} wedges, {} left", 100 * part, done, total, clock_time(left)),
+          fmt::format(R"({{"wedges":{},"wedges_total":{},"wall_time_s":{:.3f},"time_left_s":{:.1f}}})", done,
+                      total, wall, left)};
+}
+
+}  // namespace
+
+int database_build(const DatabaseBuildOptions& options) {
+  fracture::DatabaseGrid grid = fracture::default_grid();
+  if (const auto& angles = options.wedge_angles_deg; !angles.empty()) {
+    if (!fracture::is_grid_axis(angles) || angles.size() > kMostWedgeAngles)
+      return fail(kUsage, fmt::format("--wedge-angles takes 2 to {} angles, each above the one before",
+                                      kMostWedgeAngles));
+    grid.opening_angles_deg = angles;
+  }
+  if (const std::string problem = obstacle(options.out, options.overwrite); !problem.empty())
+    return fail(kInputOutput, problem);
+
+  fracture::SolverSettings settings;
+  settings.fluid = options.fluid;
+  const std::size_t wedges = grid.opening_angles_deg.size() * grid.mass_ratios.size();
+  const int threads = std::min(thread_count(options.threads), static_cast<int>(wedges));
+  ProgressOutput output(options.progress);
+  const auto built =
+      fracture::build_database(settings, grid, threads, [&](std::size_t done, std::size_t total) {
+        if (output.is_due()) output.tell(report(done, total, output.wall_time()));
+      });
+  if (!built) return fail(kNumericalFailure, built.error().message + "; nothing was written");
+  const double wall = output.wall_time();
+  output.finish(report(wedges, wedges, wall));
+
+  const std::string text = fracture::write_database(*built);
+  watch_signals();  // from here on a write that fails is an error, and a signal waits for it
+  std::string problem = obstacle(options.out, options.overwrite);
+  if (problem.empty()) problem = io::write_whole_file(options.out, text);
+  if (!problem.empty()) return fail(kInputOutput, problem);
+  fmt::print("database    {}, {} bytes\n", options.out, text.size());
+  fmt::print("solved      {} wedges, {} pushes, fluid {}, in {:.3g} s on {} thread{}\n", wedges,
+             built->entries().size(), fracture::fluid_name(options.fluid), wall, threads,
+             threads == 1 ? "" : "s");
+  fmt::print("hash        fnv1a64 {}\n", fracture::database_hash(*built));
+  if (text == fracture::default_database_text())
+    fmt::print("            byte for byte the database that ships with Polynya\n");
+  return kDone;
+}
+
+}  // namespace polynya::app

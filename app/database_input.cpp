@@ -1,0 +1,83 @@
+#include "app/database_input.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <numbers>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fracture/bending/database_text.hpp"
+#include "fracture/crushing.hpp"
+#include "io/source_text.hpp"
+
+namespace polynya::app {
+namespace {
+
+using DatabasePointer = std::shared_ptr<const fracture::BendingDatabase>;
+
+constexpr double kRadian = std::numbers::pi / 180;
+
+tl::unexpected<ExitCode> usage(const std::string& problem) {
+  fmt::print(stderr, "polynya: {}\n", problem);
+  return tl::unexpected(kUsage);
+}
+
+}  // namespace
+
+tl::expected<DatabasePointer, ExitCode> load_database(const std::string& file) {
+  // The shipped one lives as long as the program: nothing to delete.
+  if (file.empty()) return DatabasePointer(DatabasePointer(), &fracture::default_database());
+  const auto text = io::read_text_file(file, fracture::kLargestFile);
+  if (!text) {
+    fmt::print(stderr, "polynya: {}: {}\n", file, text.error());
+    return tl::unexpected(kInputOutput);
+  }
+  auto database = fracture::parse_database(*text);
+  if (database) return std::make_shared<const fracture::BendingDatabase>(*std::move(database));
+  fmt::print(stderr, "polynya: {}:{}: {}\n", file, database.error().line, database.error().message);
+  fmt::print(stderr, "polynya: {} is not an icebreaking database that this version reads\n", file);
+  return tl::unexpected(kInputOutput);
+}
+
+std::string database_title(const std::string& file) {
+  return file.empty() ? "the one that ships with Polynya" : file;
+}
+
+tl::expected<fracture::BendingLoad, ExitCode> bending_load(const DatabaseLoadOptions& options) {
+  const bool has_edges = options.front_angle_deg || options.back_angle_deg;
+  if (has_edges && !(options.front_angle_deg && options.back_angle_deg))
+    return usage("--front-angle and --back-angle go together");
+  if (has_edges && options.wedge_angle_deg)
+    return usage("--wedge-angle halves itself; give it, or --front-angle and --back-angle");
+  if (options.ice.density >= options.water.density)
+    return usage(fmt::format("ice of {:g} kg/m3 does not float in water of {:g} kg/m3", options.ice.density,
+                             options.water.density));
+  fracture::BendingLoad load;
+  load.ice = options.ice;
+  load.water = options.water;
+  const double half_angle = 0.5 * options.wedge_angle_deg.value_or(kUsualWedgeAngle);
+  load.front_half_angle = kRadian * options.front_angle_deg.value_or(half_angle);
+  load.back_half_angle = kRadian * options.back_angle_deg.value_or(half_angle);
+  load.hull_angle = kRadian * options.hull_angle_deg;
+  load.mean_approach_speed = options.speed;
+  load.vertical_to_crushing =
+      fracture::crushing_shares(load.hull_angle, load.ice.friction, options.speed, options.slip_speed)
+          .vertical;
+  return load;
+}
+
+std::string describe(const fracture::BendingLoad& load) {
+  const double front = load.front_half_angle / kRadian, back = load.back_half_angle / kRadian;
+  const std::string wedge = front == back ? fmt::format("{:g} deg wedge", front + back)
+                                          : fmt::format("wedge of {:g} + {:g} deg", front, back);
+  return fmt::format("{:g} m of ice, {}, hull {:g} deg from the vertical, v_n {:g} m/s", load.ice.thickness,
+                     wedge, load.hull_angle / kRadian, load.mean_approach_speed);
+}
+
+int thread_count(int asked) {
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace polynya::app

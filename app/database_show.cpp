@@ -1,0 +1,142 @@
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/database.hpp"
+#include "app/database_input.hpp"
+#include "app/database_plots.hpp"
+#include "app/exit_code.hpp"
+#include "app/stop_signal.hpp"
+#include "fracture/bending/database_text.hpp"
+#include "fracture/bending/studies.hpp"
+#include "io/output_file.hpp"
+
+namespace polynya::app {
+namespace {
+
+using fracture::BendingDatabase;
+using fracture::BendingLoad;
+using fracture::FsiDatabaseModel;
+using fracture::SliceAxis;
+using fracture::SlicePoint;
+
+constexpr double kDegree = 180 / std::numbers::pi;
+
+void print_parameters(const BendingDatabase& database, const std::string& file) {
+  const fracture::SolverSettings& settings = database.settings();
+  const std::string hash = fracture::database_hash(database);
+  const bool is_shipped = !file.empty() && hash == fracture::database_hash(fracture::default_database());
+  fmt::print("database        {}{}\n", database_title(file),
+             is_shipped ? ", the one that ships with Polynya" : "");
+  fmt::print("format          polynya-bending-database 1\n");
+  fmt::print("hash            fnv1a64 {}\n", hash);
+  fmt::print("fluid           {}\n", fracture::fluid_name(settings.fluid));
+  fmt::print("Poisson ratio   {:g}\n", settings.poisson_ratio);
+  if (settings.fluid == fracture::FluidModel::kLocalMass)
+    fmt::print("added mass      {:g} rho_w l\n", settings.local_mass);
+  fmt::print("plate           {} elements from {:g} l to {:g} l, {} angular terms\n",
+             settings.radial_elements, settings.inner_radius, settings.outer_radius, settings.angular_terms);
+  fmt::print("water           {} x {} panels on the half wedge", settings.panel_rings,
+             settings.panel_columns);
+  if (settings.fluid == fracture::FluidModel::kFreeSurface)
+    fmt::print(", x {} on the open water", settings.free_surface_columns);
+  fmt::print("\nmarch           {} steps to failure\n", settings.steps_to_failure);
+}
+
+void print_axis(const char* name, const std::vector<double>& values) {
+  std::string line = fmt::format("{:<16}{:>2}:", name, values.size());
+  for (const double value : values) line += fmt::format(" {:g}", value);
+  fmt::print("{}\n", line);
+}
+
+void print_grids(const BendingDatabase& database) {
+  const fracture::DatabaseGrid& grid = database.grid();
+  print_axis("2a [deg]", grid.opening_angles_deg);
+  print_axis("m", grid.mass_ratios);
+  print_axis("softness", grid.softnesses);
+  print_axis("Fr", grid.froude_numbers);
+  fmt::print("entries         {}: V/(sigma_f h2), R/l, crack ratio\n", database.entries().size());
+}
+
+/// A star where the table had to be left.
+std::string_view star(bool is_in_range) {
+  return is_in_range ? "" : "*";
+}
+
+void print_slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis, const char* abscissa,
+                 std::span<const double> values) {
+  fmt::print("\n| {} | V kN | R m | t s | crack first | Nevel V kN | R m | Kashtelyan V kN | R m |\n",
+             abscissa);
+  fmt::print("|---|---|---|---|---|---|---|---|---|\n");
+  const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
+  for (const SlicePoint& point : slice(model, load, axis, values)) {
+    const auto& [x, forecast, nevel, kashtelyan] = point;
+    fmt::print("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n",
+               x * scale, forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
+               forecast.capacity.cusp_radius, forecast.time,
+               forecast.capacity.radial_crack_first ? "yes" : "no", nevel.vertical_force / 1e3,
+               star(nevel.is_in_range), nevel.cusp_radius, kashtelyan.vertical_force / 1e3,
+               star(kashtelyan.is_in_range), kashtelyan.cusp_radius);
+  }
+}
+
+void print_slices(const FsiDatabaseModel& model, const BendingLoad& load) {
+  fmt::print("\nSlices through {}; * outside of the table, or of the published form's range\n",
+             describe(load));
+  constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4, 8};
+  constexpr double kThicknesses[] = {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3};
+  std::vector<double> angles{20, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165};
+  for (double& angle : angles) angle /= kDegree;
+  print_slice(model, load, SliceAxis::kSpeed, "v_n m/s", kSpeeds);
+  print_slice(model, load, SliceAxis::kOpeningAngle, "2a deg", angles);
+  print_slice(model, load, SliceAxis::kThickness, "h m", kThicknesses);
+}
+
+/// The pictures into the folder, which is made where it is missing. What went wrong; empty where all is well.
+std::string write_pictures(const std::vector<NamedChart>& charts, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return folder.string() + ": " + error.message();
+  watch_signals();  // a write past a limit is an error, not a signal
+  for (const auto& [file, chart] : charts) {
+    if (std::string problem = io::write_whole_file(folder / file, io::to_svg(chart)); !problem.empty())
+      return problem;
+    fmt::print("{}picture         {}\n", &file == &charts.front().file ? "\n" : "", (folder / file).string());
+  }
+  return "";
+}
+
+}  // namespace
+
+int database_show(const DatabaseShowOptions& options) {
+  const auto load = bending_load(options.load);
+  if (!load) return load.error();
+  if (load->vertical_to_crushing <= 0) {
+    fmt::print(stderr, "polynya: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
+               load->hull_angle * kDegree, load->ice.friction);
+    return kUsage;
+  }
+  const auto database = load_database(options.file);
+  if (!database) return database.error();
+  const FsiDatabaseModel model(*database);
+  print_parameters(**database, options.file);
+  print_grids(**database);
+  print_slices(model, *load);
+  if (options.svg_folder.empty()) return kDone;
+  const std::string title = fmt::format("{}, fluid {}", options.file.empty() ? "shipped" : options.file,
+                                        fracture::fluid_name((*database)->settings().fluid));
+  const std::string problem = write_pictures(database_charts(model, title, *load), options.svg_folder);
+  if (problem.empty()) return kDone;
+  std::fflush(stdout);
+  fmt::print(stderr, "polynya: {}\n", problem);
+  return kInputOutput;
+}
+
+}  // namespace polynya::app

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/database.hpp"
+#include "app/database_input.hpp"
+#include "app/exit_code.hpp"
+#include "fracture/bending/database_text.hpp"
+#include "fracture/bending/studies.hpp"
+
+namespace polynya::app {
+namespace {
+
+using fracture::AccuracyRow;
+using fracture::BendingDatabase;
+using fracture::BendingForecast;
+using fracture::BendingLoad;
+
+constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4};  // v_n [m/s]
+
+std::string force(const BendingForecast& forecast) {
+  return fmt::format("{:.2f}", forecast.capacity.vertical_force / 1e3);
+}
+
+std::string time(const BendingForecast& forecast) {
+  return fmt::format("{:.{}f}", forecast.time, forecast.time < 0.1 ? 4 : 3);
+}
+
+void study_fluid(const BendingLoad& load, const fracture::SolverSettings& settings) {
+  fmt::print("V kN, R m: {}\n\n", describe(load));
+  fmt::print("| v_n m/s | winkler | local-mass | potential | free-surface |\n|---|---|---|---|---|\n");
+  for (const fracture::FluidStudyRow& row : fluid_study(load, kSpeeds, settings)) {
+    std::string line = fmt::format("| {:g} |", row.speed);
+    for (const auto& forecast : row.by_fluid)
+      line += forecast ? fmt::format(" {}, {:.3f} |", force(*forecast), forecast->capacity.cusp_radius)
+                       : " does not break |";
+    fmt::print("{}\n", line);
+  }
+}
+
+std::string forecast_cells(const std::optional<BendingForecast>& forecast) {
+  if (!forecast) return " does not break | | |";
+  return fmt::format(" {} | {:.3f} | {} |", force(*forecast), forecast->capacity.cusp_radius,
+                     time(*forecast));
+}
+
+void study_couple(const BendingLoad& load, const fracture::SolverSettings& settings) {
+  fmt::print("{}\n\n", describe(load));
+  fmt::print("| v_n m/s | V kN | R m | t s | coupled: V kN | R m | t s |\n|---|---|---|---|---|---|---|\n");
+  for (const fracture::FeedbackStudyRow& row : feedback_study(load, kSpeeds, settings))
+    fmt::print("| {:g} |{}{}\n", row.speed, forecast_cells(row.ignored), forecast_cells(row.coupled));
+}
+
+/// Below which this share of the values lies.
+double quantile(std::vector<double> values, double share) {
+  std::ranges::sort(values);
+  const double place = share * static_cast<double>(values.size());
+  const auto rank = static_cast<std::size_t>(std::max(0.0, std::ceil(place) - 1));
+  return values[std::min(rank, values.size() - 1)];
+}
+
+void print_errors(const char* name, const std::vector<AccuracyRow>& rows, double AccuracyRow::*error) {
+  std::vector<double> sizes;
+  for (const AccuracyRow& row : rows) sizes.push_back(100 * std::abs(row.*error));
+  const AccuracyRow& worst =
+      *std::ranges::max_element(rows, {}, [error](const AccuracyRow& row) { return std::abs(row.*error); });
+  fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} deg, {:.4f}, {:.3g}, {:.3g} |\n", name,
+             quantile(sizes, 0.5), quantile(sizes, 0.9), quantile(sizes, 0.99), quantile(sizes, 1),
+             worst.groups.opening_angle * (180 / std::numbers::pi), worst.groups.mass_ratio,
+             worst.groups.softness, worst.groups.froude);
+}
+
+void study_accuracy(const BendingDatabase& database, const DatabaseStudyOptions& options) {
+  const fracture::AccuracyStudy study =
+      accuracy_study(database, options.points, options.seed, thread_count(options.threads));
+  fmt::print("Table against solution at {} random points of the whole box, seed {}; errors in %\n\n",
+             options.points, options.seed);
+  fmt::print(
+      "| | median | 90 of 100 | 99 of 100 | worst | worst at 2a, m, softness, Fr "
+      "|\n|---|---|---|---|---|---|\n");
+  print_errors("force", study.rows, &AccuracyRow::force_error);
+  print_errors("radius", study.rows, &AccuracyRow::radius_error);
+}
+
+}  // namespace
+
+int database_study(const DatabaseStudyOptions& options) {
+  const auto load = bending_load(options.load);
+  if (!load) return load.error();
+  const auto database = load_database(options.file);
+  if (!database) return database.error();
+  switch (options.study) {
+    case DatabaseStudy::kFluid:
+      study_fluid(*load, (*database)->settings());
+      break;
+    case DatabaseStudy::kCouple:
+      study_couple(*load, (*database)->settings());
+      break;
+    case DatabaseStudy::kAccuracy:
+      study_accuracy(**database, options);
+      break;
+  }
+  return kDone;
+}
+
+}  // namespace polynya::app
