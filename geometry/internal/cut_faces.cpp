@@ -43,6 +43,9 @@ class Faces {
     add_chord_half_edges();
     link();
     walk();
+    const auto is_possible = [](const HalfEdge& e) { return e.run.count >= 0; };
+    graph_.is_consistent =
+        graph_.is_consistent && std::all_of(graph_.half_edges.begin(), graph_.half_edges.end(), is_possible);
     return std::move(graph_);
   }
 
@@ -157,10 +160,13 @@ class Faces {
     }
   }
 
+  // A walk that comes back to a node it has left before closes a loop there.
   void walk() {
-    const int count = static_cast<int>(graph_.half_edges.size());
-    std::vector<char> visited(static_cast<std::size_t>(count), 0);
-    for (int start = 0; start < count; ++start) {
+    const std::size_t count = graph_.half_edges.size();
+    constexpr int kNowhere = -1;
+    std::vector<char> visited(count, 0);
+    std::vector<int> place(nodes_.size(), kNowhere);  // in `open`, of the half-edge that leaves the node
+    for (int start = 0; start < static_cast<int>(count); ++start) {
       if (visited[static_cast<std::size_t>(start)] != 0) continue;
       Walk walk;
       Loop open;  // the chain so far, its loops taken off
@@ -168,13 +174,18 @@ class Faces {
         visited[static_cast<std::size_t>(h)] = 1;
         const HalfEdge& e = half_edge(h);
         if (e.is_chord && e.is_forward && tool_.is_closed) walk.part = Part::kInside;
+        place[static_cast<std::size_t>(e.from)] = static_cast<int>(open.size());
         open.push_back(h);
-        const auto loop =
-            std::find_if(open.begin(), open.end(), [&](int g) { return half_edge(g).from == e.to; });
-        if (loop == open.end()) continue;
-        walk.loops.emplace_back(loop, open.end());
-        open.erase(loop, open.end());
+        const int loop = place[static_cast<std::size_t>(e.to)];
+        if (loop == kNowhere) continue;
+        walk.loops.emplace_back(open.begin() + loop, open.end());
+        for (auto g = open.begin() + loop; g != open.end(); ++g) {
+          place[static_cast<std::size_t>(half_edge(*g).from)] = kNowhere;
+        }
+        open.resize(static_cast<std::size_t>(loop));
       }
+      if (!open.empty()) graph_.is_consistent = false;
+      for (const int h : open) place[static_cast<std::size_t>(half_edge(h).from)] = kNowhere;
       graph_.walks.push_back(std::move(walk));
     }
   }

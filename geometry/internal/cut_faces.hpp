@@ -38,6 +38,7 @@ struct CutGraph {
   std::vector<HalfEdge> half_edges;  ///< all shape chains, then each chord forward and backward
   std::vector<Walk> walks;
   std::vector<char> ring_is_cut;  ///< per ring of the shape: has it active nodes?
+  bool is_consistent = true;      ///< false only if the shape or the tool was not what it was said to be
   int first_node = -1;            ///< along the tool
   int last_node = -1;
   bool starts_inside = false;  ///< an open tool comes to its first node through the shape's interior

@@ -34,6 +34,12 @@ class EdgeTree {
     return nodes_.empty() || join_self(0, visit);
   }
 
+  /// Calls visit(i) for every edge whose box overlaps this one, until it returns false.
+  template <typename Visit>
+  bool for_each_near(const Box& box, Visit visit) const {
+    return nodes_.empty() || query(0, box, visit);
+  }
+
  private:
   struct Node {
     Box box;
@@ -43,6 +49,17 @@ class EdgeTree {
   static constexpr std::size_t kLeaf = 4;
 
   std::size_t build(std::size_t first, std::size_t last);
+
+  template <typename Visit>
+  bool query(std::size_t n, const Box& box, Visit& visit) const {
+    const Node& node = nodes_[n];
+    if (!overlaps(node.box, box)) return true;
+    if (node.left != 0) return query(node.left, box, visit) && query(node.right, box, visit);
+    for (std::size_t i = node.first; i < node.last; ++i) {
+      if (overlaps(box_of(edges_[i]), box) && !visit(i)) return false;
+    }
+    return true;
+  }
 
   template <typename Visit>
   bool join_self(std::size_t n, Visit& visit) const {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "geometry/internal/cut_pieces.hpp"
 #include "geometry/internal/edge_tree.hpp"
 #include "geometry/internal/settle.hpp"
+#include "geometry/internal/subdivision_check.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -15,16 +15,6 @@ using exact::Rational;
 
 tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
   return tl::unexpected(CutError{reason, std::move(detail)});
-}
-
-Box box_of(const Segment& s) {
-  return {{std::min(s.from.x, s.to.x), std::min(s.from.y, s.to.y)},
-          {std::max(s.from.x, s.to.x), std::max(s.from.y, s.to.y)}};
-}
-
-Box around(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 
 // Twice the area between the straight edge that starts at `a` and the chain of points it was split into, with
@@ -89,69 +79,6 @@ bool uses_all_once(const LocalCut& cut, const std::vector<PiecePlan>& plans) {
   }
   const auto once = [](int count) { return count == 1; };
   return std::all_of(uses.begin(), uses.end(), once) && std::all_of(ring_uses.begin(), ring_uses.end(), once);
-}
-
-enum class End { kNone, kExact, kRounded };
-
-End end_at(const Segment& s, Point p) {
-  if (p == s.from) return s.from_is_rounded ? End::kRounded : End::kExact;
-  if (p == s.to) return s.to_is_rounded ? End::kRounded : End::kExact;
-  return End::kNone;
-}
-
-// Two edges of a subdivision may share an end, and nothing else. A rounded node that came to lie on some
-// other vertex is not an end they share.
-bool are_apart(const Segment& s, const Segment& t) {
-  const SegmentMeeting meeting = meet(s.from, s.to, t.from, t.to);
-  if (meeting.kind == Meeting::kNone) return true;
-  const End end = end_at(s, meeting.at);
-  return meeting.kind == Meeting::kTouch && end != End::kNone && end == end_at(t, meeting.at);
-}
-
-bool rounded_nodes_are_distinct(const std::vector<Node>& nodes) {
-  std::vector<std::pair<double, double>> points;
-  for (const Node& node : nodes) {
-    if (node.is_active && node.is_rounded) points.emplace_back(node.at.x, node.at.y);
-  }
-  std::sort(points.begin(), points.end());
-  return std::adjacent_find(points.begin(), points.end()) == points.end();
-}
-
-bool is_split(const LocalCut& cut, EdgeId e) {
-  return std::any_of(cut.nodes.begin(), cut.nodes.end(), [&](const Node& node) {
-    return node.is_active && node.on_shape == Place{e.ring, e.index, false};
-  });
-}
-
-bool clears_changed_edges(const LocalCut& cut, const Segment& t) {
-  const Box box = box_of(t);
-  return std::all_of(cut.changed.begin(), cut.changed.end(),
-                     [&](const Segment& s) { return !overlaps(box, box_of(s)) || are_apart(s, t); });
-}
-
-// Only edges that end in a rounded node can have come to meet another: all others lie as they did in the
-// exact subdivision, where edges meet in nodes only. So these few are held against all that is near them.
-bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
-  const std::vector<Segment>& changed = cut.changed;
-  if (changed.empty()) return true;
-  if (!rounded_nodes_are_distinct(cut.nodes)) return false;
-  Box box = box_of(changed.front());
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    if (changed[i].from == changed[i].to) return false;
-    box = around(box, box_of(changed[i]));
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!are_apart(changed[i], changed[j])) return false;
-    }
-  }
-  const bool is_within = tool_box.low.x <= box.low.x && tool_box.low.y <= box.low.y &&
-                         box.high.x <= tool_box.high.x && box.high.y <= tool_box.high.y;
-  const std::vector<EdgeId> near = is_within ? near_tool : edges_near(cut.rings, box);
-  return std::all_of(cut.placed.begin(), cut.placed.end(),
-                     [&](const Segment& s) { return clears_changed_edges(cut, s); }) &&
-         std::all_of(near.begin(), near.end(), [&](EdgeId e) {
-           return is_split(cut, e) || clears_changed_edges(cut, {cut.rings.point(e.ring, e.index),
-                                                                 cut.rings.point(e.ring, e.index + 1)});
-         });
 }
 
 double length_along(const Tool& tool, int first, int last) {
@@ -275,6 +202,7 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   if (!nodes) return {};
   LocalCut cut{rings, tool, std::move(*nodes), {}, {}, {}};
   cut.graph = trace_faces(rings, tool, cut.nodes);
+  if (!cut.graph.is_consistent) return {};
   if (cut.graph.walks.empty()) {
     switch (relate_apart(cut, shape)) {
       case Apart::kUncovered:
