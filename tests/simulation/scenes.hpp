@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "geometry/measures.hpp"
+#include "simulation/simulation.hpp"
+#include "simulation/world.hpp"
+
+namespace polynya::simulation::scenes {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+inline geometry::Polygon rectangle(double x0, double y0, double x1, double y1) {
+  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
+}
+
+inline FloeSpec floe(const geometry::Polygon& polygon, geometry::Vector velocity = {},
+                     double angular_velocity = 0) {
+  return {polygon, velocity, angular_velocity};
+}
+
+/// The paper's ship, its stem at `stem`, heading along x.
+inline ShipSpec icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1) {
+  ShipSpec ship;
+  ship.name = "icebreaker";
+  ship.hull.waterline = wedge_bow_waterline(120, 24, 27 * kDegree);
+  ship.hull.stem_angle = 30 * kDegree;
+  ship.mass = 1e7;
+  ship.moment_of_inertia = 5e9;
+  ship.position_in_world = {stem.x - 60, stem.y};
+  ship.speed = speed;
+  ship.propulsion = propulsion;
+  return ship;
+}
+
+/// A box-shaped ship with vertical walls: it can only crush.
+inline ShipSpec barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1) {
+  ShipSpec ship = icebreaker(middle_of_bow, propulsion, speed);
+  ship.name = "barge";
+  ship.hull.waterline = rectangle(-60, -12, 60, 12).outer;
+  ship.hull.angles_from_vertical = {0, 0, 0, 0};
+  return ship;
+}
+
+/// Everything a run told.
+struct Story {
+  std::vector<Event> events;
+  std::vector<Birth> births;
+  std::vector<FloeId> deaths;
+  std::vector<ShipSample> samples;
+};
+
+inline void listen(Simulation& simulation, Story& story) {
+  Journal& journal = simulation.journal();
+  story.events.insert(story.events.end(), journal.events.begin(), journal.events.end());
+  story.births.insert(story.births.end(), journal.births.begin(), journal.births.end());
+  story.deaths.insert(story.deaths.end(), journal.deaths.begin(), journal.deaths.end());
+  story.samples.insert(story.samples.end(), journal.samples.begin(), journal.samples.end());
+  journal.clear();
+}
+
+inline Story run(Simulation& simulation, double until) {
+  Story story;
+  listen(simulation, story);
+  while (simulation.time() < until - 1e-9 && !simulation.numerical_failure()) {
+    simulation.step();
+    listen(simulation, story);
+  }
+  return story;
+}
+
+/// Ice and water without drag, so that nothing but contacts changes a velocity.
+inline Scene without_drag() {
+  Scene scene;
+  scene.water.drag_coefficient = 0;
+  return scene;
+}
+
+}  // namespace polynya::simulation::scenes
