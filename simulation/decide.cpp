@@ -95,6 +95,18 @@ double least_splitting_force(const World& world) {
                                    world.scene.fracture.splitting_shape_factor);
 }
 
+/// The crack that would start at the contact, along the hull's normal through all ice ahead, and what it takes.
+void measure_crack(const World& world, const Contact& c, PendingFracture& pending) {
+  const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
+  pending.crack_in_body =
+      geometry::crack_path(world.bodies.boundary[c.b]->edges, point_in_body(water_from_floe, c.middle()),
+                           rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
+  const double length = pending.crack_in_body.length_in_ice;
+  pending.criteria.crack_length = length;
+  pending.criteria.splitting_force = fracture::splitting_force(
+      world.scene.fracture.splitting, world.scene.ice, length, world.scene.fracture.splitting_shape_factor);
+}
+
 PendingFracture judge(World& world, const Contact& c, const CrushingContact& crushing, double impulse) {
   PendingFracture pending;
   fracture::FailureCriteria& criteria = pending.criteria;
@@ -103,15 +115,7 @@ PendingFracture judge(World& world, const Contact& c, const CrushingContact& cru
   criteria.collision_force = impulse / world.scene.contact.contact_time;
   if (criteria.floe_size < criteria.breakable_size || c.approach_speed <= 0) return pending;
 
-  if (criteria.collision_force > least_splitting_force(world)) {
-    const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
-    const geometry::CrackPath path =
-        geometry::crack_path(world.bodies.boundary[c.b]->edges, point_in_body(water_from_floe, c.middle()),
-                             rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
-    criteria.crack_length = path.length_in_ice;
-    criteria.splitting_force = fracture::splitting_force(world.scene.fracture.splitting, world.scene.ice,
-                                                         path.length_in_ice, world.scene.fracture.splitting_shape_factor);
-  }
+  if (criteria.collision_force > least_splitting_force(world)) measure_crack(world, c, pending);
   if (crushing.shares.vertical > 0) {
     // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
     const double crushing_impulse = crushing.shares.horizontal * crushing.normal_force * world.scene.time.step;
@@ -125,6 +129,8 @@ PendingFracture judge(World& world, const Contact& c, const CrushingContact& cru
     }
   }
   pending.failure = fracture::decide(criteria);
+  // Too weak for any crack, but the record of a bend states the other criterion's two sides as well.
+  if (pending.failure == fracture::Failure::kBend && criteria.crack_length == 0) measure_crack(world, c, pending);
   pending.ship = c.a;
   pending.floe = world.floe_of(c.b);
   pending.point_in_water = c.middle();

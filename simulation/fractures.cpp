@@ -1,15 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/crack_path.hpp"
 #include "geometry/cut.hpp"
 #include "geometry/measures.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {
 namespace {
-
-constexpr double kCrackMargin = 1e-3;  ///< a crack starts and ends this far outside the ice [m]
 
 geometry::CutOutcome cut(const World& world, const PendingFracture& pending) {
   const geometry::Shape& shape = world.floes[pending.floe].shape;
@@ -18,12 +15,7 @@ geometry::CutOutcome cut(const World& world, const PendingFracture& pending) {
                                                        world.scene.fracture.cusp_sagitta);
     return geometry::cut_by_polygon(shape, {disc, {}});
   }
-  const BodyIndex body = world.body_of(pending.floe);
-  const geometry::Pose pose = dynamics::water_from_body(world.bodies, body);
-  const geometry::CrackPath path =
-      geometry::crack_path(world.bodies.boundary[body]->edges, point_in_body(pose, pending.point_in_water),
-                           rotate_back(pose.rotation, pending.normal), kCrackMargin);
-  return geometry::cut_along(shape, {path.start, path.end});
+  return geometry::cut_along(shape, {pending.crack_in_body.start, pending.crack_in_body.end});
 }
 
 Event event_of(const World& world, const PendingFracture& pending, EventKind kind) {

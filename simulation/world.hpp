@@ -9,6 +9,7 @@
 #include "dynamics/pairs.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/decision.hpp"
+#include "geometry/crack_path.hpp"
 #include "simulation/journal.hpp"
 #include "simulation/scene.hpp"
 
@@ -46,6 +47,7 @@ struct PendingFracture {
   geometry::Vector normal;          ///< from the hull into the ice, water frame
   double penetration = 0;           ///< [m]
   double cusp_radius = 0;           ///< [m]
+  geometry::CrackPath crack_in_body;  ///< of a split
   fracture::FailureCriteria criteria;
   dynamics::ContactRecord* record = nullptr;  ///< of the contact that broke it, valid during the step
 };

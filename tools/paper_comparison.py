@@ -94,7 +94,8 @@ def main_table(results: dict) -> str:
     for name, result in results.items():
         fractures = [e for e in result["events"] if e["kind"] in ("bend", "split")]
         first = fractures[0]["t_s"] if fractures else float("nan")
-        removal = [magnitude(r) for r in result["forces"] if 0 < r["t_s"] < first]
+        # The ship presses on a plate for a moment before it breaks: removal ends 5 s before the first fracture.
+        removal = [magnitude(r) for r in result["forces"] if 0 < r["t_s"] < first - 5]
         breaking = [magnitude(r) for r in result["forces"] if r["t_s"] >= first]
         splits = [e["t_s"] for e in fractures if e["kind"] == "split"]
         widths = channel_widths(result, SMALL_FLOES_END_M[name])
@@ -117,9 +118,12 @@ def split_table(results: dict) -> str:
         judged = [e for e in plates if e["criterion"]["splitting_force_N"] > 0]
         ratio = lambda e: e["criterion"]["collision_force_N"] / e["criterion"]["splitting_force_N"]
         shown = [e for e in judged if e["kind"] == "split"]
+        # Beside the splits, what came nearest to one, and what came nearest in the last hundred seconds of breaking.
         others = [e for e in judged if e["kind"] != "split"]
-        if others:
-            shown.append(max(others, key=ratio))
+        late = [e for e in others if e["t_s"] > plates[-1]["t_s"] - 100]
+        for nearest in (max(others, key=ratio), max(late, key=ratio)):
+            if nearest not in shown:
+                shown.append(nearest)
         for e in shown:
             c = e["criterion"]
             why = "" if e["kind"] == "split" else (
