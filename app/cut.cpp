@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/cut_floes.hpp"
+#include "app/exit_code.hpp"
+#include "app/geometry_commands.hpp"
+#include "app/read_input.hpp"
+#include "io/cut_ops.hpp"
+#include "io/cut_report.hpp"
+
+namespace polynya::app {
+namespace {
+
+constexpr std::size_t kLongestOps = std::size_t{64} << 20;  ///< [bytes]
+constexpr std::size_t kMostTold = 100;                      ///< messages; the ledger has all
+constexpr std::size_t kMostVertices = 4;                    ///< in a message; likewise
+
+/// Ends the command; the message has been made.
+struct Failure {
+  ExitCode code;
+  std::string words;
+};
+template <class Value>
+using Outcome = tl::expected<Value, Failure>;
+
+tl::unexpected<Failure> fail(ExitCode code, std::string words) {
+  return tl::unexpected(Failure{code, std::move(words)});
+}
+tl::unexpected<Failure> fail(const std::string& where, const io::ToolError& error) {
+  const bool is_invalid = error.kind == io::ToolError::Kind::kInvalidPolygon;
+  return fail(is_invalid ? kRefused : kUsage, fmt::format("{}: {}", where, error.words));
+}
+
+Outcome<std::vector<double>> numbers(const char* option, const std::string& text, std::size_t wanted) {
+  auto read = io::read_numbers(text, wanted);
+  if (!read) return fail(kUsage, fmt::format("{}: {}", option, read.error()));
+  return *std::move(read);
+}
+
+template <class Tool>
+Outcome<std::vector<io::CutOp>> one_op(const char* where, io::ToolOutcome<Tool> tool, io::Keep keep) {
+  if (!tool) return fail(where, tool.error());
+  return std::vector<io::CutOp>{{std::move(*tool), keep}};
+}
+
+Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
+  if (!options.disc.empty()) {
+    const auto n = numbers("--disc", options.disc, 3);
+    if (!n) return tl::unexpected(n.error());
+    return one_op("--disc", io::disc_tool(*n, options.sagitta), options.keep);
+  }
+  if (!options.crack.empty()) {
+    const auto n = numbers("--crack", options.crack, 3);
+    if (!n) return tl::unexpected(n.error());
+    return std::vector<io::CutOp>{{io::CrackTool{{(*n)[0], (*n)[1]}, (*n)[2]}, options.keep}};
+  }
+  if (!options.line.empty()) {
+    const auto n = numbers("--line", options.line, 4);
+    if (!n) return tl::unexpected(n.error());
+    return one_op("--line", io::line_tool({{(*n)[0], (*n)[1]}, {(*n)[2], (*n)[3]}}), options.keep);
+  }
+  const std::string& file = options.polygon.empty() ? options.ops : options.polygon;
+  auto text = read_input(file, options.polygon.empty() ? kLongestOps : io::kLongestFloeText);
+  if (!text) return fail(kInputOutput, fmt::format("{}: {}", file, text.error()));
+  if (!options.polygon.empty()) return one_op(file.c_str(), io::polygon_tool(std::move(*text)), options.keep);
+  auto ops = io::read_cut_ops(std::move(*text), {options.keep, options.sagitta});
+  if (!ops) return fail(file, ops.error());
+  return *std::move(ops);
+}
+
+io::FloeFormat output_format(const std::string& file, io::FloeFormat of_input) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  for (const auto& [ending, format] : {std::pair{".geojson", io::FloeFormat::kGeojson},
+                                       {".json", io::FloeFormat::kGeojson},
+                                       {".ndjson", io::FloeFormat::kNdjson},
+                                       {".jsonl", io::FloeFormat::kNdjson},
+                                       {".geojsonl", io::FloeFormat::kNdjson},
+                                       {".wkt", io::FloeFormat::kWkt}}) {
+    if (extension == ending) return format;
+  }
+  return of_input;
+}
+
+/// Told as "floes.geojson:3: feature 1: …"; past the hundredth only counted.
+void tell_floes(const std::string& name, const io::CutReport& report) {
+  std::size_t told = 0;
+  const auto tell = [&](const io::CutFloe& floe, const std::string& words) {
+    if (++told > kMostTold) return;
+    fmt::print(stderr, "{}:{}: feature {}, polygon {}: {}\n", name, floe.line, floe.feature, floe.member,
+               words);
+  };
+  for (const io::CutFloe& floe : report.floes) {
+    if (floe.rejected) {
+      std::string words = floe.rejected->reason;
+      if (!floe.rejected->detail.empty()) words += ": " + floe.rejected->detail;
+      const auto& vertices = floe.rejected->vertices;
+      for (std::size_t i = 0; i < std::min(vertices.size(), kMostVertices); ++i)
+        words += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", vertices[i].x, vertices[i].y);
+      if (vertices.size() > kMostVertices)
+        words += fmt::format(" and {} more", vertices.size() - kMostVertices);
+      tell(floe, words);
+    }
+    if (floe.repair) {
+      tell(floe,
+           fmt::format("{}, repaired ({}): {} polygon{}, {:+} m2 to the {} m2 drawn", floe.repair->defect,
+                       floe.repair->rule, floe.repair->shapes, floe.repair->shapes == 1 ? "" : "s",
+                       floe.repair->area_changed, floe.repair->area_drawn));
+    }
+    for (const io::Dangling& one : floe.dangling) {
+      tell(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m", one.from.x,
+                             one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
+    }
+  }
+  if (told > kMostTold) fmt::print(stderr, "polynya: {} more; the ledger has all\n", told - kMostTold);
+}
+
+void tell_totals(const io::CutReport& report) {
+  const io::CutTotals totals = io::totals_of(report);
+  fmt::print(stderr,
+             "polynya: {} floe{} -> {} piece{}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect "
+             "{}, rounding "
+             "{:.2e} m2)\n",
+             totals.floes - totals.rejected, totals.floes - totals.rejected == 1 ? "" : "s", totals.pieces,
+             totals.pieces == 1 ? "" : "s", totals.area, totals.area_of_pieces, totals.removed,
+             totals.exact_defect, totals.rounding_defect);
+  if (totals.kept_exact > 0) {
+    fmt::print(
+        stderr,
+        "polynya: {} piece{} would not round validly; written as the nearest doubles (\"is_exact\": false)\n",
+        totals.kept_exact, totals.kept_exact == 1 ? "" : "s");
+  }
+  if (totals.rejected > 0) fmt::print(stderr, "polynya: {} refused; the others were cut\n", totals.rejected);
+}
+
+/// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
+std::string write_results(const CutOptions& options, const io::CutReport& report, io::FloeFormat of_input) {
+  std::string ledger = options.ledger;
+  std::string out = options.out;
+  if (ledger.empty() && out != "-") ledger = "-";
+  if (out.empty() && !ledger.empty() && ledger != "-") out = "-";
+  if (!out.empty()) {
+    const std::string failure = write_output(out, to_floe_text(report, output_format(out, of_input)));
+    if (!failure.empty()) return failure;
+  } else {
+    fmt::print(stderr,
+               "polynya: the ledger is on stdout; name --out FILE for the pieces, or --ledger FILE\n");
+  }
+  return ledger.empty() ? "" : write_output(ledger, to_ledger_json(report));
+}
+
+Outcome<bool> cut_all(const CutOptions& options) {
+  if (options.out == "-" && options.ledger == "-")
+    return fail(kUsage, "--out and --ledger cannot both be stdout");
+  if (options.floes == "-" && (options.polygon == "-" || options.ops == "-"))
+    return fail(kUsage, "stdin can be read once");
+  auto ops = read_ops(options);
+  if (!ops) return tl::unexpected(ops.error());
+  const std::string name = options.floes == "-" ? "stdin" : options.floes;
+  auto text = read_input(options.floes, io::kLongestFloeText);
+  if (!text) return fail(kInputOutput, fmt::format("{}: {}", name, text.error()));
+  const auto floes = io::read_floe_text(std::move(*text));
+  if (!floes) return fail(kInputOutput, fmt::format("{}:{}", name, floes.error()));
+  if (floes->has_more_coordinates) fmt::print(stderr, "note: third coordinates are passed over\n");
+  const io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
+  tell_floes(name, report);
+  if (const std::string failure = write_results(options, report, floes->format); !failure.empty())
+    return fail(kInputOutput, failure);
+  tell_totals(report);
+  return io::totals_of(report).rejected == 0;
+}
+
+}  // namespace
+
+int cut(const CutOptions& options) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error where it happens
+  const auto all_cut = cut_all(options);
+  if (all_cut) return *all_cut ? kDone : kRefused;
+  fmt::print(stderr, "polynya: {}\n", all_cut.error().words);
+  return all_cut.error().code;
+}
+
+}  // namespace polynya::app

@@ -1,0 +1,232 @@
+#include "app/cut_floes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/dangling.hpp"
+#include "geometry/cut.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/validity.hpp"
+
+namespace polynya::app {
+namespace {
+
+using geometry::Part;
+using geometry::Piece;
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Shape;
+
+/// Floes go by their own ids where every one has one of its own, else by their number in the text.
+std::vector<std::int64_t> ids_of(const std::vector<io::FloeEntry>& entries) {
+  std::set<std::int64_t> own;
+  for (const io::FloeEntry& entry : entries) {
+    if (entry.floe_id) own.insert(*entry.floe_id);
+  }
+  std::vector<std::int64_t> ids;
+  for (const io::FloeEntry& entry : entries)
+    ids.push_back(own.size() == entries.size() ? *entry.floe_id : std::ssize(ids));
+  return ids;
+}
+
+std::vector<geometry::Ring> rings_of(const Polygon& polygon) {
+  std::vector<geometry::Ring> rings{polygon.outer};
+  rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+  return rings;
+}
+
+/// cos and sin, exact at whole quarter turns.
+geometry::Vector direction_of(double angle_deg) {
+  const double angle = std::remainder(angle_deg, 360);  // exact
+  if (angle == 0) return {1, 0};
+  if (angle == 90) return {0, 1};
+  if (angle == -90) return {0, -1};
+  if (std::abs(angle) == 180) return {-1, 0};
+  return {std::cos(angle * std::numbers::pi / 180), std::sin(angle * std::numbers::pi / 180)};
+}
+
+/// The crack's line from beyond the box to beyond it. The reach is a power of two, so that floes about as far
+/// from the point share the very same line.
+std::vector<Point> across(const io::CrackTool& crack, const geometry::Box& box) {
+  double farthest = 0;
+  for (const double x : {box.low.x, box.high.x}) {
+    for (const double y : {box.low.y, box.high.y})
+      farthest = std::max(farthest, distance(crack.point, {x, y}));
+  }
+  const double reach = std::ldexp(1.0, std::ilogb(std::max(farthest, 1e-300)) + 2);
+  const geometry::Vector arm = reach * direction_of(crack.angle_deg);
+  return {crack.point - arm, crack.point + arm};
+}
+
+/// One floe on its way through all cuts.
+class FloeCutter {
+ public:
+  explicit FloeCutter(io::CutFloe& floe) : floe_(floe) {}
+
+  /// False where the polygon is refused.
+  bool take(const Polygon& as_drawn, std::optional<geometry::FillRule> repair_rule) {
+    Polygon polygon = geometry::normalised(as_drawn);
+    const auto defect = find_defect(polygon);
+    if (defect && repair_rule && repair(polygon, *defect, *repair_rule)) return true;
+    if (defect) {
+      if (!floe_.rejected) floe_.rejected = {{std::string(name_of(defect->defect)), "", defect->places}};
+      return false;
+    }
+    floe_.area = measure(polygon).area;
+    add({{.polygon = std::move(polygon), .exact = nullptr, .known_valid = true}, Part::kOutside});
+    return true;
+  }
+
+  void apply(const io::CutOp& op, std::size_t number) {
+    std::vector<Piece> before = std::exchange(pieces_, {});
+    for (Piece& piece : before) {
+      auto outcome = std::visit([&](const auto& tool) { return cut(piece.shape, tool); }, op.tool);
+      const bool is_area =
+          std::holds_alternative<io::DiscTool>(op.tool) || std::holds_alternative<io::PolygonTool>(op.tool);
+      if (outcome) {
+        count(outcome->ledger);
+        note_dangling(op, outcome->ledger.dangling_length, piece, outcome->pieces);
+        for (Piece& child : outcome->pieces) {
+          if (!is_area) child.part = piece.part;
+          if (is_area && !keeps(op.keep, child.part))
+            floe_.removed += measure(child.shape.polygon).area;
+          else
+            pieces_.push_back(std::move(child));
+        }
+        continue;
+      }
+      const geometry::CutError& error = outcome.error();
+      const bool is_no_failure = error.reason == geometry::CutFailure::kMisses ||
+                                 error.reason == geometry::CutFailure::kDoesNotSeparate;
+      if (!is_no_failure) {
+        floe_.rejected = {
+            {std::string(name_of(error.reason)), fmt::format("cut {}: {}", number, error.detail), {}}};
+      } else {
+        note_dangling(op, error.dangling_length, piece, {piece});
+      }
+      if (is_no_failure && is_area) {
+        piece.part = Part::kOutside;
+        if (!keeps(op.keep, Part::kOutside)) {
+          floe_.removed += measure(piece.shape.polygon).area;
+          continue;
+        }
+      }
+      pieces_.push_back(std::move(piece));
+    }
+  }
+
+  void finish(std::int64_t& next_id) {
+    for (Piece& piece : pieces_) {
+      const double area = measure(piece.shape.polygon).area;
+      floe_.area_of_pieces += area;
+      floe_.pieces.push_back(
+          {next_id++, piece.part, area, std::move(piece.shape.polygon), piece.shape.exact == nullptr});
+    }
+  }
+
+ private:
+  void add(Piece piece) {
+    const geometry::Box box = bounding_box(piece.shape.polygon.outer);
+    if (pieces_.empty()) box_ = box;
+    box_.low = {std::min(box_.low.x, box.low.x), std::min(box_.low.y, box.low.y)};
+    box_.high = {std::max(box_.high.x, box.high.x), std::max(box_.high.y, box.high.y)};
+    pieces_.push_back(std::move(piece));
+  }
+
+  bool repair(const Polygon& polygon, const geometry::DefectAt& defect, geometry::FillRule rule) {
+    auto repaired = geometry::repair(rings_of(polygon), rule);
+    if (!repaired) {
+      // Rings that are not finite keep that name; others enclose nothing.
+      if (repaired.error().reason != geometry::CutFailure::kInvalidShape) {
+        floe_.rejected = {
+            {std::string(name_of(defect.defect)), "not repaired: " + repaired.error().detail, defect.places}};
+      }
+      return false;
+    }
+    floe_.area = repaired->ledger.area_before;
+    floe_.repair = {repair_rule_name(rule), std::string(name_of(defect.defect)), repaired->area_drawn,
+                    repaired->area_changed, repaired->shapes.size()};
+    count(repaired->ledger);
+    for (Shape& shape : repaired->shapes) add({std::move(shape), Part::kOutside});
+    return true;
+  }
+  static std::string_view repair_rule_name(geometry::FillRule rule) {
+    return rule == geometry::FillRule::kEvenOdd ? "even-odd" : "non-zero";
+  }
+
+  static bool keeps(io::Keep keep, Part part) {
+    return keep == io::Keep::kBoth || (keep == io::Keep::kInside) == (part == Part::kInside);
+  }
+
+  static geometry::CutOutcome cut(const Shape& shape, const io::DiscTool& disc) {
+    return cut_by_polygon(shape, disc.polygon);
+  }
+  static geometry::CutOutcome cut(const Shape& shape, const io::PolygonTool& tool) {
+    return cut_by_polygons(shape, tool.polygons);
+  }
+  static geometry::CutOutcome cut(const Shape& shape, const io::LineTool& line) {
+    return cut_along(shape, line.path);
+  }
+  geometry::CutOutcome cut(const Shape& shape, const io::CrackTool& crack) const {
+    return cut_along(shape, across(crack, box_));
+  }
+
+  void count(const geometry::CutLedger& ledger) {
+    floe_.rounding_defect += ledger.rounding_defect;
+    floe_.slivers += ledger.slivers;
+    floe_.area_slivers += ledger.area_slivers;
+    floe_.removed += ledger.area_slivers;
+    // Geometry refuses a cut whose pieces do not sum to their parent exactly; were it ever not so, it shows
+    // here.
+    if (ledger.exact_defect != "0") floe_.exact_defect = ledger.exact_defect;
+  }
+
+  void note_dangling(const io::CutOp& op, double length, const Piece& before,
+                     const std::vector<Piece>& after) {
+    const auto* line = std::get_if<io::LineTool>(&op.tool);
+    if (!line || !(length > 0)) return;
+    floe_.dangling_length += length;
+    std::vector<Polygon> polygons;
+    for (const Piece& piece : after) polygons.push_back(piece.shape.polygon);
+    const auto found = find_dangling(line->path, before.shape.polygon, polygons);
+    floe_.dangling.insert(floe_.dangling.end(), found.begin(), found.end());
+  }
+
+  io::CutFloe& floe_;
+  std::vector<Piece> pieces_;
+  geometry::Box box_{};  ///< of the whole floe, so that a crack is one line for all its pieces
+};
+
+}  // namespace
+
+io::CutReport cut_floes(const std::vector<io::FloeEntry>& entries, std::vector<io::CutOp> ops,
+                        std::optional<geometry::FillRule> repair_rule) {
+  io::CutReport report{std::move(ops), {}};
+  const std::vector<std::int64_t> ids = ids_of(entries);
+  std::int64_t next_id = ids.empty() ? 0 : 1 + *std::ranges::max_element(ids);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const io::FloeEntry& entry = entries[i];
+    io::CutFloe& floe = report.floes.emplace_back();
+    floe.floe_id = ids[i];
+    floe.feature = entry.feature;
+    floe.member = entry.member;
+    floe.line = entry.line;
+    if (!entry.refusal.empty()) {
+      floe.rejected = {{entry.refusal, entry.detail, {}}};
+      continue;
+    }
+    FloeCutter cutter(floe);
+    if (!cutter.take(entry.polygon, repair_rule)) continue;
+    for (std::size_t number = 0; number < report.ops.size(); ++number)
+      cutter.apply(report.ops[number], number);
+    cutter.finish(next_id);
+  }
+  return report;
+}
+
+}  // namespace polynya::app

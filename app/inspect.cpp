@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "app/exit_code.hpp"
+#include "app/geometry_commands.hpp"
+#include "app/inspect_views.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/validity.hpp"
+#include "io/motion_index.hpp"
+
+namespace polynya::app {
+namespace {
+
+using simulation::FloeId;
+
+int usage_error(const std::string& words) {
+  fmt::print(stderr, "polynya: {}\n", words);
+  return kUsage;
+}
+
+std::string unknown_floe(const io::Run& run, FloeId id) {
+  return fmt::format("there is no floe {}; they go from 0 to {}", id, std::ssize(run.floes) - 1);
+}
+
+std::string_view validity_of(const simulation::Birth& birth) {
+  if (!birth.is_exact) return "kept-exact";
+  const auto found = find_defect(birth.polygon_in_body);
+  return found ? name_of(found->defect) : "yes";
+}
+
+std::string table(const io::Run& run, double time) {
+  const io::MotionIndex motions(run);
+  std::string text =
+      fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>9} {}\n", "floe", "parent",
+                  "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "m_per_s", "valid");
+  for (const io::RunFloe& floe : run.floes) {
+    const simulation::Birth& birth = floe.birth;
+    if (!run.is_alive(birth.floe, time)) continue;
+    const auto motion = motions.floe_at(birth.floe, time);
+    text += fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>9} {}\n",
+                        birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
+                        birth.time, birth.area, perimeter(birth.polygon_in_body),
+                        vertex_count(birth.polygon_in_body), birth.polygon_in_body.holes.size(), birth.mass,
+                        motion ? fmt::format("{:.5f}", length(motion->velocity)) : "-", validity_of(birth));
+  }
+  return text;
+}
+
+int print_floe(const io::Run& run, const InspectOptions& options) {
+  const io::RunFloe* floe = run.floe(*options.floe);
+  if (!floe) return usage_error(unknown_floe(run, *options.floe));
+  ShapeView view{floe->birth, floe->birth.polygon_in_body, {}};
+  if (options.at) {
+    const auto motion = io::MotionIndex(run).floe_at(floe->birth.floe, *options.at);
+    if (!run.is_alive(floe->birth.floe, *options.at) || !motion) {
+      const std::string end = run.is_alive(floe->birth.floe, run.end_time())
+                                  ? "to the end"
+                                  : fmt::format("to {:g} s", floe->died);
+      return usage_error(fmt::format("floe {} lived from {:g} s {}", *options.floe, floe->birth.time, end));
+    }
+    view.polygon = polygon_in_world(floe->birth, *motion);
+    view.time_in_world = options.at;
+  }
+  fmt::print("{}", to_text(view, options.format));
+  return kDone;
+}
+
+int print(const io::Run& run, const InspectOptions& options) {
+  if (options.at && !(*options.at >= run.start_time() && *options.at <= run.end_time())) {
+    return usage_error(fmt::format("--at {:g}: the run goes from {:g} to {:g} s", *options.at,
+                                   run.start_time(), run.end_time()));
+  }
+  const double time = options.at.value_or(run.end_time());
+  if (options.floe) return print_floe(run, options);
+  if (options.lineage) {
+    if (!run.floe(*options.lineage)) return usage_error(unknown_floe(run, *options.lineage));
+    fmt::print("{}", lineage_tree(run, *options.lineage));
+    return kDone;
+  }
+  if (options.check) {
+    const io::RunCheck check = io::check_run(run, options.at);
+    fmt::print("{}", check_text(check));
+    return check.is_sound() ? kDone : kRefused;
+  }
+  fmt::print("{}", options.fsd ? size_distribution(run, time) : table(run, time));
+  return kDone;
+}
+
+}  // namespace
+
+int inspect(const InspectOptions& options) {
+  std::signal(SIGPIPE, SIG_IGN);  // `| head` is no failure worth a signal
+  const auto run = io::read_run(options.run);
+  if (!run) {
+    fmt::print(stderr, "polynya: {}\n", run.error());
+    return kInputOutput;
+  }
+  const int code = print(*run, options);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) return kInputOutput;
+  return code;
+}
+
+}  // namespace polynya::app

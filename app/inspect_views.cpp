@@ -1,0 +1,197 @@
+#include "app/inspect_views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "io/json_writer.hpp"
+#include "io/wkt.hpp"
+
+namespace polynya::app {
+namespace {
+
+using geometry::Ring;
+using simulation::FloeId;
+
+std::string as_geojson(const ShapeView& view) {
+  const simulation::Birth& birth = view.birth;
+  std::string text;
+  io::JsonWriter json(text);
+  json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(birth.floe);
+  json.key("parent_id");
+  if (birth.parent == simulation::kNoFloe)
+    json.null();
+  else
+    json.value(birth.parent);
+  json.key("born_s").value(birth.time).key("generation").value(birth.generation);
+  json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
+  json.key("frame").value(view.time_in_world ? "world" : "body");
+  if (view.time_in_world) json.key("t_s").value(*view.time_in_world);
+  if (!birth.is_exact) json.key("is_exact").value(false);
+  json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
+  const auto write = [&json](Ring ring) {
+    ring.push_back(ring.front());
+    json.value(ring);
+  };
+  write(view.polygon.outer);
+  std::ranges::for_each(view.polygon.holes, write);
+  json.close(']').close('}').close('}');
+  return text + "\n";
+}
+
+std::string as_svg(const ShapeView& view) {
+  const geometry::Box box = bounding_box(view.polygon.outer);
+  const geometry::Vector size = box.high - box.low;
+  const double margin = 0.02 * std::max(size.x, size.y);
+  std::string text = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='{} {} {} {}'>\n<title>floe {}, metres</title>\n<path "
+      "d='",
+      box.low.x - margin, -box.high.y - margin, size.x + 2 * margin, size.y + 2 * margin, view.birth.floe);
+  const auto write = [&text](const Ring& ring) {
+    char command = 'M';
+    for (const geometry::Point p : ring) {
+      fmt::format_to(std::back_inserter(text), "{}{} {}", command, p.x, 0.0 - p.y);
+      command = 'L';
+    }
+    text += 'Z';
+  };
+  write(view.polygon.outer);
+  std::ranges::for_each(view.polygon.holes, write);
+  text +=
+      "' fill='#fbeec2' fill-rule='evenodd' stroke='#3d5261' vector-effect='non-scaling-stroke'/>\n</svg>\n";
+  return text;
+}
+
+std::string told(const io::Run& run, const simulation::Event& event) {
+  const auto& ships = run.scene.scene.ships;
+  const auto& c = event.criteria;
+  const bool is_split = event.kind == simulation::EventKind::kSplit;
+  const std::string ship = event.ship >= 0 && event.ship < std::ssize(ships)
+                               ? fmt::format(" by {}", ships[static_cast<std::size_t>(event.ship)].name)
+                               : "";
+  std::string text = fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): {} {:.4g} N {} {} {:.4g} N", event.time,
+                                 name_of(event.kind), ship, event.point_in_world.x, event.point_in_world.y,
+                                 is_split ? "collision force" : "vertical force",
+                                 is_split ? c.collision_force : c.vertical_force,
+                                 is_split ? ">" : ">=", is_split ? "splitting force" : "bending capacity",
+                                 is_split ? c.splitting_force : c.bending_capacity);
+  if (event.submerged_area > 0) text += fmt::format("; {:.6g} m2 submerged", event.submerged_area);
+  if (event.brash_area > 0) text += fmt::format("; {:.6g} m2 brash", event.brash_area);
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const ShapeView& view, ShapeFormat format) {
+  if (format == ShapeFormat::kGeojson) return as_geojson(view);
+  if (format == ShapeFormat::kSvg) return as_svg(view);
+  std::string text;
+  io::append_wkt(text, view.polygon);
+  return text + "\n";
+}
+
+std::string lineage_tree(const io::Run& run, FloeId floe) {
+  std::string text;
+  const std::vector<FloeId> ids = run.lineage(floe);
+  for (const FloeId id : ids) {
+    const io::RunFloe& at = *run.floe(id);
+    text += fmt::format("floe {}  {:.6f} m2{}\n", id, at.birth.area,
+                        at.birth.parent == simulation::kNoFloe ? "  as in the scene" : "");
+    if (id == floe) {
+      text += at.death_event ? fmt::format("broke at {:.6g} s\n", at.died) : "lives to the end\n";
+      continue;
+    }
+    if (!at.death_event) continue;
+    const simulation::Event& event = run.events[*at.death_event];
+    text += fmt::format("|  {}\n", told(run, event));
+    for (const FloeId child : event.children) {
+      if (std::ranges::find(ids, child) == ids.end() && run.floe(child))
+        text += fmt::format("|--floe {}  {:.6f} m2\n", child, run.floe(child)->birth.area);
+    }
+  }
+  return text;
+}
+
+std::string size_distribution(const io::Run& run, double time) {
+  std::vector<double> areas;
+  for (const io::RunFloe& floe : run.floes) {
+    if (run.is_alive(floe.birth.floe, time)) areas.push_back(floe.birth.area);
+  }
+  std::ranges::sort(areas);
+  double total = 0;
+  for (const double area : areas) total += area;
+  std::string text = fmt::format("{} floes, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
+                                 areas.size(), total, time);
+  if (areas.empty()) return text;
+  text += fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", std::sqrt(areas.front()),
+                      std::sqrt(areas[areas.size() / 2]), std::sqrt(areas.back()));
+  text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2",
+                      "area_%", "from_on");
+  const auto edge = [](int number) {  // …, 1, 2, 5, 10, 20, 50, …
+    static constexpr double kSteps[] = {1, 2, 5};
+    const int decade = static_cast<int>(std::floor(number / 3.0));
+    return kSteps[number - 3 * decade] * std::pow(10.0, decade);
+  };
+  int number = 3 * static_cast<int>(std::floor(std::log10(std::sqrt(areas.front())))) - 1;
+  while (edge(number + 1) <= std::sqrt(areas.front())) ++number;
+  for (std::size_t i = 0; i < areas.size(); ++number) {
+    const std::size_t first = i;
+    double area = 0;
+    for (; i < areas.size() && std::sqrt(areas[i]) < edge(number + 1); ++i) area += areas[i];
+    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", edge(number), edge(number + 1),
+                        i - first, area, 100 * area / total, areas.size() - first);
+  }
+  return text;
+}
+
+std::string check_text(const io::RunCheck& check) {
+  std::string text;
+  const auto add = [&text](const std::string& line) { text += line + "\n"; };
+  const auto from = [](simulation::FloeId floe) {
+    return floe == simulation::kNoFloe ? std::string() : fmt::format(" (floe {})", floe);
+  };
+  add(fmt::format("validity   {} shapes, {} invalid, {} kept exact and not judged", check.shapes,
+                  check.invalid.size(), check.kept_exact));
+  for (const io::InvalidFloe& floe : check.invalid) {
+    std::string line = fmt::format("           floe {}: {}", floe.floe, floe.defect);
+    for (std::size_t i = 0; i < std::min<std::size_t>(floe.places_in_body.size(), 4); ++i)
+      line += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", floe.places_in_body[i].x,
+                          floe.places_in_body[i].y);
+    add(line);
+  }
+  add(fmt::format("areas      recorded - ring at most {:.2e} m2{}, {} beyond {:g} of the area",
+                  check.recorded_area.value, from(check.recorded_area.floe), check.recorded_area.wrong,
+                  io::kAreaTolerance));
+  add(
+      fmt::format("fractures  {}: pieces + submerged + brash - rounding - parent at most {:.2e} m2{}, {} "
+                  "beyond {:g} of it",
+                  check.fractures, check.balance.value, from(check.balance.floe), check.balance.wrong,
+                  io::kAreaTolerance));
+  add(check.siblings.area > 0 ? fmt::format("           pieces of one fracture share at most {:.2e} m2 in "
+                                            "their body frame (floes {} and {})",
+                                            check.siblings.area, check.siblings.first, check.siblings.second)
+                              : "           pieces of one fracture share 0 m2 in their body frame, exactly");
+  add(
+      fmt::format("overlap    {} moments, {} pairs with boxes that meet, {} not decided; {} pairs of floes "
+                  "share more than "
+                  "1e-6 m2 at some moment",
+                  check.moments, check.pairs, check.undecided, check.overlapping_pairs));
+  add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice",
+                  check.most_shared, check.most_shared_time,
+                  check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));
+  if (check.worst.first != simulation::kNoFloe) {
+    add(fmt::format(
+        "           most of a pair {:.6g} m2, floes {} and {} at {:.6g} s, a vertex {:.4g} m deep",
+        check.worst.area, check.worst.first, check.worst.second, check.worst.time, check.worst.depth));
+  }
+  add("           Overlap is part of the contact model: ice in contact is let in by the depth it crushes, "
+      "and frames are");
+  add("           right to 1 mm and 1e-5 rad. Shared areas are exact for the poses on record; areas are sums "
+      "of doubles.");
+  add(check.is_sound() ? "sound" : "NOT SOUND");
+  return text;
+}
+
+}  // namespace polynya::app

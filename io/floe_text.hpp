@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "geometry/polygon.hpp"
+#include "io/json_value.hpp"
+
+namespace polynya::io {
+
+inline constexpr std::size_t kLongestFloeText = std::size_t{256} << 20;  ///< [bytes]
+
+/// How a text of floes is written.
+enum class FloeFormat { kGeojson, kNdjson, kWkt };
+
+/// A polygon as it stands in a text, or what stands there in place of one.
+struct FloeEntry {
+  geometry::Polygon polygon;  ///< rings as drawn: either way round, closed or not; NaN where no number stands
+  std::size_t feature = 0;    ///< which feature, line or WKT geometry of the text, from 0
+  std::size_t member = 0;     ///< which polygon of it, from 0
+  std::size_t line = 1;       ///< in the text, from 1
+  std::optional<std::int64_t> floe_id;  ///< its property of that name
+  std::string refusal;                  ///< "not-a-polygon", "no-geometry", "malformed", "syntax", or empty
+  std::string detail;                   ///< for people
+};
+
+struct FloeText {
+  FloeFormat format = FloeFormat::kGeojson;
+  std::vector<FloeEntry> entries;     ///< in the order of the text
+  bool has_more_coordinates = false;  ///< Z or M values were passed over
+};
+
+/// Reads the polygons of a text: GeoJSON (Polygon, MultiPolygon, Feature, FeatureCollection,
+/// GeometryCollection), NDJSON (one of these a line; also a run's floes.ndjson) or WKT, told apart by the
+/// content. What is no polygon is an entry with its refusal; validity is not looked at. The error is for a
+/// text that cannot be read at all: "line:column: words".
+tl::expected<FloeText, std::string> read_floe_text(std::string text);
+
+/// The polygons of one GeoJSON value, likewise.
+FloeText read_floe_json(const JsonValue& geojson);
+
+/// JSON in which also NaN, Infinity and numbers beyond the doubles stand, as Python and others write them:
+/// each of them becomes an empty text, which no number is. The error is "line:column: words".
+tl::expected<JsonValue, std::string> parse_lenient_json(std::string text);
+
+}  // namespace polynya::io

@@ -1,0 +1,216 @@
+#include "io/run_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "geometry/measures.hpp"
+#include "geometry/overlap.hpp"
+#include "geometry/validity.hpp"
+#include "io/motion_index.hpp"
+#include "io/near_part.hpp"
+#include "io/overlap.hpp"
+
+namespace polynya::io {
+namespace {
+
+using geometry::Box;
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Pose;
+using simulation::FloeId;
+
+void see(Worst& worst, double value, double scale, FloeId floe) {
+  if (!(std::abs(value) <= std::abs(worst.value))) {
+    worst.value = value;
+    worst.floe = floe;
+  }
+  if (!(std::abs(value) <= kAreaTolerance * scale)) ++worst.wrong;
+}
+
+void check_shapes(const Run& run, RunCheck& check) {
+  for (const RunFloe& floe : run.floes) {
+    ++check.shapes;
+    const simulation::Birth& birth = floe.birth;
+    if (!birth.is_exact) {
+      ++check.kept_exact;
+    } else if (const auto found = geometry::find_defect(birth.polygon_in_body)) {
+      check.invalid.push_back({birth.floe, std::string(name_of(found->defect)), found->places});
+    }
+    const double area = geometry::measure(birth.polygon_in_body).area;
+    see(check.recorded_area, birth.area - area, area, birth.floe);
+  }
+}
+
+void check_fracture(const Run& run, const simulation::Event& event, RunCheck& check) {
+  ++check.fractures;
+  const auto area_of = [&](FloeId id) { return geometry::measure(run.floe(id)->birth.polygon_in_body).area; };
+  const double before = area_of(event.floe);
+  double after = event.submerged_area + event.brash_area - event.rounding_defect;
+  std::vector<FloeId> children;
+  for (const FloeId child : event.children) {
+    if (run.floe(child)) children.push_back(child);
+  }
+  for (const FloeId child : children) after += area_of(child);
+  see(check.balance, after - before, before, event.floe);
+  for (std::size_t i = 0; i < children.size(); ++i) {
+    for (std::size_t j = i + 1; j < children.size(); ++j) {
+      const Polygon& a = run.floe(children[i])->birth.polygon_in_body;
+      const Polygon& b = run.floe(children[j])->birth.polygon_in_body;
+      const auto shared = shared_area(a, {}, b, {});
+      if (!shared) ++check.undecided;
+      if (shared && *shared > check.siblings.area)
+        check.siblings = {children[i], children[j], event.time, *shared, 0};
+    }
+  }
+}
+
+/// A floe at a moment.
+struct Placed {
+  FloeId floe = 0;
+  Motion motion;
+  Pose world_from_body;
+  Box box_in_world;
+};
+
+Placed placed(const simulation::Birth& birth, const Motion& motion) {
+  Placed floe{birth.floe, motion, {{}, geometry::Rotation::by(motion.angle)}, {}};
+  floe.world_from_body.position =
+      motion.position - rotate(floe.world_from_body.rotation, birth.centroid_in_body - Point{});
+  geometry::Ring ring;
+  for (const Point p : birth.polygon_in_body.outer) ring.push_back(point_in_world(floe.world_from_body, p));
+  const Box box = bounding_box(ring);
+  floe.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
+  return floe;
+}
+
+bool is_same_place(const Motion& a, const Motion& b) {
+  return a.position == b.position && a.angle == b.angle;
+}
+
+double depth_in(const Polygon& polygon, Point point) {
+  if (!contains(polygon, point)) return 0;
+  double nearest = INFINITY;
+  const auto see_ring = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point p = ring[i];
+      const geometry::Vector edge = ring[(i + 1) % ring.size()] - p;
+      const double part = std::clamp(dot(point - p, edge) / squared_length(edge), 0.0, 1.0);
+      nearest = std::min(nearest, distance(point, p + part * edge));
+    }
+  };
+  see_ring(polygon.outer);
+  std::ranges::for_each(polygon.holes, see_ring);
+  return nearest;
+}
+
+class OverlapCheck {
+ public:
+  OverlapCheck(const Run& run, RunCheck& check) : run_(run), check_(check), motions_(run) {}
+
+  void look_at(double time) {
+    ++check_.moments;
+    place_floes(time);
+    double shared = 0;
+    double ice = 0;
+    for (const Placed& floe : floes_) ice += birth(floe.floe).area;
+    for_near_pairs([&](const Placed& a, const Placed& b) {
+      ++check_.pairs;
+      const double area = shared_by(a, b);
+      shared += area;
+      if (area > kTouchingArea) overlapping_.insert({a.floe, b.floe});
+      if (area > check_.worst.area) check_.worst = {a.floe, b.floe, time, area, 0};
+    });
+    if (shared > check_.most_shared || check_.moments == 1) {
+      check_.most_shared = shared;
+      check_.most_shared_time = time;
+      check_.ice_then = ice;
+    }
+    check_.overlapping_pairs = overlapping_.size();
+  }
+
+  void finish() {
+    SharedIce& worst = check_.worst;
+    if (worst.first == simulation::kNoFloe) return;
+    const Polygon a = polygon_in_world(birth(worst.first), *motions_.floe_at(worst.first, worst.time));
+    const Polygon b = polygon_in_world(birth(worst.second), *motions_.floe_at(worst.second, worst.time));
+    for (const Point p : a.outer) worst.depth = std::max(worst.depth, depth_in(b, p));
+    for (const Point p : b.outer) worst.depth = std::max(worst.depth, depth_in(a, p));
+  }
+
+ private:
+  const simulation::Birth& birth(FloeId floe) const { return run_.floe(floe)->birth; }
+
+  void place_floes(double time) {
+    std::map<FloeId, Placed> before;
+    for (Placed& floe : floes_) before[floe.floe] = floe;
+    floes_.clear();
+    for (const RunFloe& floe : run_.floes) {
+      if (!run_.is_alive(floe.birth.floe, time)) continue;
+      const auto motion = motions_.floe_at(floe.birth.floe, time);
+      if (!motion) continue;
+      const auto known = before.find(floe.birth.floe);
+      const bool is_still = known != before.end() && is_same_place(known->second.motion, *motion);
+      floes_.push_back(is_still ? known->second : placed(floe.birth, *motion));
+    }
+    std::ranges::stable_sort(floes_, {}, [](const Placed& floe) { return floe.box_in_world.low.x; });
+  }
+
+  template <class Use>
+  void for_near_pairs(Use use) const {
+    for (std::size_t i = 0; i < floes_.size(); ++i) {
+      const Box& box = floes_[i].box_in_world;
+      for (std::size_t j = i + 1; j < floes_.size() && floes_[j].box_in_world.low.x <= box.high.x; ++j) {
+        if (!overlaps(box, floes_[j].box_in_world)) continue;
+        const bool is_first = floes_[i].floe < floes_[j].floe;
+        use(is_first ? floes_[i] : floes_[j], is_first ? floes_[j] : floes_[i]);
+      }
+    }
+  }
+
+  double shared_by(const Placed& a, const Placed& b) {
+    Known& known = known_[{a.floe, b.floe}];
+    if (known.is_set && is_same_place(known.a, a.motion) && is_same_place(known.b, b.motion))
+      return known.area;
+    const auto area = shared_area(birth(a.floe).polygon_in_body, a.world_from_body,
+                                  birth(b.floe).polygon_in_body, b.world_from_body);
+    if (!area) ++check_.undecided;
+    known = {true, a.motion, b.motion, area.value_or(0)};
+    return known.area;
+  }
+
+  /// What is known of a pair from the last moment it was looked at.
+  struct Known {
+    bool is_set = false;
+    Motion a, b;
+    double area = 0;
+  };
+
+  const Run& run_;
+  RunCheck& check_;
+  MotionIndex motions_;
+  std::vector<Placed> floes_;  ///< living, by the left of their boxes
+  std::map<std::pair<FloeId, FloeId>, Known> known_;
+  std::set<std::pair<FloeId, FloeId>> overlapping_;
+};
+
+}  // namespace
+
+RunCheck check_run(const Run& run, std::optional<double> only_at) {
+  RunCheck check;
+  check_shapes(run, check);
+  for (const simulation::Event& event : run.events) {
+    if (event.kind != simulation::EventKind::kRejectedCut) check_fracture(run, event, check);
+  }
+  OverlapCheck overlaps(run, check);
+  if (only_at) {
+    overlaps.look_at(*only_at);
+  } else {
+    for (const Frame& frame : run.frames) overlaps.look_at(frame.time);
+  }
+  overlaps.finish();
+  return check;
+}
+
+}  // namespace polynya::io
