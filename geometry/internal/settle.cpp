@@ -197,7 +197,11 @@ void settle_piece(ExactPiece piece, Settling& settling) {
   // A piece of no more area than rounding moves has no width that doubles can express.
   if (exact_area.get_d() <= moved) return settling.add_sliver(exact_area);
   std::vector<geometry::Polygon> parts = retraced(rounded, exact_area.get_d(), moved);
-  if (parts.empty()) return settling.add_exact(std::move(piece.polygon), rounded, piece.part, exact_area);
+  if (parts.empty()) {
+    geometry::Polygon looks = weld(rounded);  // no edge of no length, for those who only look
+    if (looks.outer.empty()) looks = rounded;
+    return settling.add_exact(std::move(piece.polygon), std::move(looks), piece.part, exact_area);
+  }
   for (geometry::Polygon& part : parts) settling.add(std::move(part), piece.part);
 }
 
