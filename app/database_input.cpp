@@ -19,6 +19,8 @@ using DatabasePointer = std::shared_ptr<const fracture::BendingDatabase>;
 
 constexpr double kRadian = std::numbers::pi / 180;
 
+constexpr double kNarrowestWedge = 0.1;  ///< as --wedge-angle allows [deg]
+
 tl::unexpected<ExitCode> usage(const std::string& problem) {
   fmt::print(stderr, "polynya: {}\n", problem);
   return tl::unexpected(kUsage);
@@ -50,7 +52,9 @@ tl::expected<fracture::BendingLoad, ExitCode> bending_load(const DatabaseLoadOpt
   if (has_edges && !(options.front_angle_deg && options.back_angle_deg))
     return usage("--front-angle and --back-angle go together");
   if (has_edges && options.wedge_angle_deg)
-    return usage("--wedge-angle halves itself; give it, or --front-angle and --back-angle");
+    return usage("--wedge-angle and the pair --front-angle, --back-angle exclude each other");
+  if (has_edges && *options.front_angle_deg + *options.back_angle_deg < kNarrowestWedge)
+    return usage("between --front-angle and --back-angle there is no ice");
   if (options.ice.density >= options.water.density)
     return usage(fmt::format("ice of {:g} kg/m3 does not float in water of {:g} kg/m3", options.ice.density,
                              options.water.density));

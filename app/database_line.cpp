@@ -153,7 +153,9 @@ void add_database_study(CLI::App& app, Commands& commands) {
   command->add_option("--points", options->points, "of accuracy")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "of accuracy's points")->capture_default_str();
+  command->add_option("--seed", options->seed, "of accuracy's points")
+      ->check(between(0, 9007199254740991))
+      ->capture_default_str();
   add_threads(*command, options->threads);
   command->add_option("--database", options->file, "The database; the shipped one if not given")
       ->type_name("FILE");

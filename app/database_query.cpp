@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -29,6 +32,17 @@ bool can_bend(const BendingLoad& load) {
   return load.vertical_to_crushing > 0;
 }
 
+/// The items of "softness, Froude number".
+std::vector<std::string_view> listed(std::string_view names) {
+  std::vector<std::string_view> items;
+  while (!names.empty()) {
+    const std::size_t comma = names.find(", ");
+    items.push_back(names.substr(0, comma));
+    names.remove_prefix(comma == std::string_view::npos ? names.size() : comma + 2);
+  }
+  return items;
+}
+
 // ---- as JSON
 
 /// A member; null where the ice cannot bend.
@@ -48,13 +62,9 @@ void write_published(io::JsonWriter& json, std::string_view name, const BendingC
   json.key("in_range").value(is_known && capacity.is_in_range).close('}');
 }
 
-void write_outside(io::JsonWriter& json, std::string_view names) {
+void write_outside(io::JsonWriter& json, const std::string& names) {
   json.key("outside").open('[');
-  while (!names.empty()) {
-    const std::size_t comma = names.find(", ");
-    json.value(names.substr(0, comma));
-    names.remove_prefix(comma == std::string_view::npos ? names.size() : comma + 2);
-  }
+  for (const std::string_view name : listed(names)) json.value(name);
   json.close(']');
 }
 
@@ -167,6 +177,23 @@ void print_for_people(const DatabaseQueryOptions& options, const BendingDatabase
     fmt::print("The ice only crushes: friction outweighs what presses it down.\n");
 }
 
+/// The groups by those names with their range in the table: "softness (3e-05 to 0.1)".
+std::string with_ranges(const std::string& names, const BendingDatabase& database) {
+  const fracture::DatabaseGrid& grid = database.grid();
+  const std::vector<double>* const axes[] = {&grid.opening_angles_deg, &grid.mass_ratios, &grid.softnesses,
+                                             &grid.froude_numbers};
+  std::string text;
+  for (const std::string_view name : listed(names)) {
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+    const auto axis = std::ranges::find(fracture::kGroupNames, name) - fracture::kGroupNames.begin();
+    if (axis < std::ssize(axes))
+      text += fmt::format(" ({:g} to {:g})", axes[axis]->front(), axes[axis]->back());
+    else
+      text += fmt::format(" (only {:g})", database.settings().poisson_ratio);
+  }
+  return text;
+}
+
 }  // namespace
 
 int database_query(const DatabaseQueryOptions& options) {
@@ -189,7 +216,7 @@ int database_query(const DatabaseQueryOptions& options) {
                load->hull_angle * kDegree, load->ice.friction);
   else if (!answer.database.outside.empty())
     fmt::print(stderr, "note: outside the database: {}; the answer is its nearest edge's\n",
-               answer.database.outside);
+               with_ranges(answer.database.outside, **database));
   return kDone;
 }
 
