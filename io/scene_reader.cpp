@@ -23,7 +23,7 @@ std::string hash_of(std::string_view text) {
   return fmt::format("{:016x}", hash);
 }
 
-void put(JsonValue& object, const std::string& key, decltype(JsonValue::data) data) {
+void put(JsonValue& object, const std::string& key, JsonValue::Data data) {
   if (!object.is(JsonKind::kObject)) return;
   JsonValue* member = object.find(key);
   if (!member)

@@ -25,10 +25,16 @@ std::size_t whole_lines(const std::filesystem::path& path) {
   return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
-/// Returns when a running run has put rows behind the header on disk.
-void wait_for_rows(const std::filesystem::path& forces) {
-  std::error_code not_there_yet;
-  while (!(std::filesystem::file_size(forces, not_there_yet) > 2000) || not_there_yet) {
+/// Waits until a running run has put rows behind the header on disk. False where it ended before.
+bool has_rows(pid_t child, const std::filesystem::path& forces) {
+  while (true) {
+    std::error_code not_there_yet;
+    const auto size = std::filesystem::file_size(forces, not_there_yet);
+    if (!not_there_yet && size > 2000) return true;
+    siginfo_t ended{};
+    if (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+        ended.si_pid == child)
+      return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }
@@ -86,7 +92,7 @@ TEST(RunCommand, ASignalLeavesAWholeFolder) {
     const Start start{folder.path()};
     const pid_t child =
         start_polynya({"run", scene_path("sawamura2017-fig4c"), "--until", "1e6", "--out", "run"}, start);
-    wait_for_rows(folder / "run/forces.csv");
+    ASSERT_TRUE(has_rows(child, folder / "run/forces.csv")) << wait_for(child, start).err;
     kill(child, signal);
     const Outcome outcome = wait_for(child, start);
     EXPECT_EQ(outcome.code, 6) << outcome.err;
@@ -106,7 +112,7 @@ TEST(RunCommand, AKilledRunLeavesAUsableFolder) {
   const Start start{folder.path()};
   const pid_t child =
       start_polynya({"run", scene_path("sawamura2017-fig4c"), "--until", "1e6", "--out", "run"}, start);
-  wait_for_rows(folder / "run/forces.csv");
+  ASSERT_TRUE(has_rows(child, folder / "run/forces.csv")) << wait_for(child, start).err;
   kill(child, SIGKILL);
   EXPECT_EQ(wait_for(child, start).code, -SIGKILL);
   const auto run = io::read_run(folder / "run");
