@@ -16,6 +16,10 @@ using Command = std::function<int()>;
 /// `polynya database`, with its own subcommands.
 Command add_database(CLI::App& app);
 
+/// `polynya cut` and `polynya inspect`.
+Command add_cut(CLI::App& app);
+Command add_inspect(CLI::App& app);
+
 /// --progress, as every long command has it.
 void add_progress(CLI::App& command, ProgressKind& kind);
 

@@ -86,37 +86,16 @@ class FloeCutter {
     std::vector<Piece> before = std::exchange(pieces_, {});
     for (Piece& piece : before) {
       auto outcome = std::visit([&](const auto& tool) { return cut(piece.shape, tool); }, op.tool);
-      const bool is_area =
-          std::holds_alternative<io::DiscTool>(op.tool) || std::holds_alternative<io::PolygonTool>(op.tool);
-      if (outcome) {
-        count(outcome->ledger);
-        note_dangling(op, outcome->ledger.dangling_length, piece, outcome->pieces);
-        for (Piece& child : outcome->pieces) {
-          if (!is_area) child.part = piece.part;
-          if (is_area && !keeps(op.keep, child.part))
-            floe_.removed += measure(child.shape.polygon).area;
-          else
-            pieces_.push_back(std::move(child));
-        }
+      if (!outcome) {
+        put_uncut(op, number, std::move(piece), outcome.error());
         continue;
       }
-      const geometry::CutError& error = outcome.error();
-      const bool is_no_failure = error.reason == geometry::CutFailure::kMisses ||
-                                 error.reason == geometry::CutFailure::kDoesNotSeparate;
-      if (!is_no_failure) {
-        floe_.rejected = {
-            {std::string(name_of(error.reason)), fmt::format("cut {}: {}", number, error.detail), {}}};
-      } else {
-        note_dangling(op, error.dangling_length, piece, {piece});
+      count(outcome->ledger);
+      note_dangling(op, outcome->ledger.dangling_length, piece, outcome->pieces);
+      for (Piece& child : outcome->pieces) {
+        if (!is_area(op)) child.part = piece.part;
+        put(op, std::move(child));
       }
-      if (is_no_failure && is_area) {
-        piece.part = Part::kOutside;
-        if (!keeps(op.keep, Part::kOutside)) {
-          floe_.removed += measure(piece.shape.polygon).area;
-          continue;
-        }
-      }
-      pieces_.push_back(std::move(piece));
     }
   }
 
@@ -159,8 +138,31 @@ class FloeCutter {
     return rule == geometry::FillRule::kEvenOdd ? "even-odd" : "non-zero";
   }
 
-  static bool keeps(io::Keep keep, Part part) {
-    return keep == io::Keep::kBoth || (keep == io::Keep::kInside) == (part == Part::kInside);
+  static bool is_area(const io::CutOp& op) {
+    return std::holds_alternative<io::DiscTool>(op.tool) || std::holds_alternative<io::PolygonTool>(op.tool);
+  }
+
+  void put(const io::CutOp& op, Piece piece) {
+    const bool is_kept = !is_area(op) || op.keep == io::Keep::kBoth ||
+                         (op.keep == io::Keep::kInside) == (piece.part == Part::kInside);
+    if (is_kept)
+      pieces_.push_back(std::move(piece));
+    else
+      floe_.removed += measure(piece.shape.polygon).area;
+  }
+
+  void put_uncut(const io::CutOp& op, std::size_t number, Piece piece, const geometry::CutError& error) {
+    const bool is_whole_by_rights = error.reason == geometry::CutFailure::kMisses ||
+                                    error.reason == geometry::CutFailure::kDoesNotSeparate;
+    if (!is_whole_by_rights) {
+      const std::string detail = fmt::format("cut {}: {}", number, error.detail);
+      floe_.rejected = io::Rejection{std::string(name_of(error.reason)), detail, {}};
+      pieces_.push_back(std::move(piece));
+      return;
+    }
+    note_dangling(op, error.dangling_length, piece, {piece});
+    if (is_area(op)) piece.part = Part::kOutside;
+    put(op, std::move(piece));
   }
 
   static geometry::CutOutcome cut(const Shape& shape, const io::DiscTool& disc) {

@@ -105,7 +105,9 @@ int command_line(int count, char** words) {
                                                                           {"validate", add_validate},
                                                                           {"schema", add_schema},
                                                                           {"init", add_init},
-                                                                          {"database", add_database}};
+                                                                          {"database", add_database},
+                                                                          {"cut", add_cut},
+                                                                          {"inspect", add_inspect}};
   for (const auto& [name, add] : kCommands) {
     commands[name] = add(app);
   }

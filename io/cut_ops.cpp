@@ -10,6 +10,7 @@
 #include "geometry/repair.hpp"
 #include "geometry/validity.hpp"
 #include "io/floe_text.hpp"
+#include "io/lenient_json.hpp"
 #include "io/problem.hpp"
 
 namespace polynya::io {

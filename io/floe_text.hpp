@@ -44,8 +44,4 @@ tl::expected<FloeText, std::string> read_floe_text(std::string text);
 /// The polygons of one GeoJSON value, likewise.
 FloeText read_floe_json(const JsonValue& geojson);
 
-/// JSON in which also NaN, Infinity and numbers beyond the doubles stand, as Python and others write them:
-/// each of them becomes an empty text, which no number is. The error is "line:column: words".
-tl::expected<JsonValue, std::string> parse_lenient_json(std::string text);
-
 }  // namespace polynya::io

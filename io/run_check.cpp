@@ -60,6 +60,7 @@ void check_fracture(const Run& run, const simulation::Event& event, RunCheck& ch
       const Polygon& b = run.floe(children[j])->birth.polygon_in_body;
       const auto shared = shared_area(a, {}, b, {});
       if (!shared) ++check.undecided;
+      if (shared && *shared > kAreaTolerance * before) ++check.overlapping_siblings;
       if (shared && *shared > check.siblings.area)
         check.siblings = {children[i], children[j], event.time, *shared, 0};
     }

@@ -39,7 +39,9 @@ struct RunCheck {
   std::size_t kept_exact = 0;  ///< shapes that live on as rationals; their doubles are not judged
   Worst recorded_area;         ///< recorded − that of the ring
   std::size_t fractures = 0;
-  Worst balance;       ///< children + submerged + brash − rounding defect − parent
+  Worst balance;  ///< children + submerged + brash − rounding defect − parent
+  std::size_t overlapping_siblings =
+      0;               ///< pieces of one fracture sharing more than kAreaTolerance of their parent
   SharedIce siblings;  ///< the most that pieces of one fracture share in their body frame
 
   std::size_t moments = 0;            ///< at which floes were looked at
@@ -52,7 +54,8 @@ struct RunCheck {
   std::size_t undecided = 0;          ///< pairs whose overlap geometry failed to find
 
   bool is_sound() const {
-    return invalid.empty() && recorded_area.wrong == 0 && balance.wrong == 0 && undecided == 0;
+    return invalid.empty() && recorded_area.wrong == 0 && balance.wrong == 0 && overlapping_siblings == 0 &&
+           undecided == 0;
   }
 };
 
