@@ -14,7 +14,7 @@ using BodyIndex = std::int32_t;
 
 /// How water holds a body back, by its shape alone. Made once per shape (water_drag.hpp).
 struct DragShape {
-  static constexpr int kDirections = 64;
+  static constexpr int kDirections = 128;
   std::array<double, kDirections + 1> width{};  ///< across the directions of drag_direction(k) [m]; last = first
   double rotational = 0;                        ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
 };

@@ -15,6 +15,9 @@ Mobility mobility(const Bodies& bodies, BodyIndex i, Vector arm) {
   return {bodies.inverse_mass[i], bodies.inverse_moment[i], arm};
 }
 
+/// Friction while sliding can raise the impulse that ends an approach above the frictionless one; seldom to twice it.
+constexpr double kFrictionSlack = 2;
+
 std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
@@ -85,21 +88,28 @@ ImpulseSolver::Row ImpulseSolver::row_of(const Bodies& bodies, const Contact& c,
   row.limit = 0.5 * c.impulse_limit;
   row.friction = c.friction;
   row.normal_impulse = row.tangent_impulse = 0;
-  if (c.record != nullptr) {
-    row.normal_impulse = std::min(c.record->last_impulse[end], row.limit);
-    const double most = row.friction * row.normal_impulse;
-    row.tangent_impulse = std::clamp(c.record->last_tangent_impulse[end], -most, most);
-  }
+  if (c.record != nullptr) row.normal_impulse = std::min(c.record->start_impulse[end], row.limit);
   return row;
 }
 
-void ImpulseSolver::fill_rows(const Bodies& bodies, const std::vector<Contact>& contacts) {
+void ImpulseSolver::fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, double restitution) {
   rows_.clear();
+  couplings_.clear();
   for (const std::uint32_t i : order_) {
-    for (int end = 0; end < 2; ++end) {
-      rows_.push_back(row_of(bodies, contacts[i], end));
-      push(rows_.back(), rows_.back().normal_impulse, rows_.back().tangent_impulse);
+    for (int end = 0; end < 2; ++end) rows_.push_back(row_of(bodies, contacts[i], end));
+    const Row* ends = &rows_[rows_.size() - 2];
+    const Mover& a = movers_[ends[0].a];
+    const Mover& b = movers_[ends[0].b];
+    couplings_.push_back(a.inverse_mass + b.inverse_mass +
+                         ends[0].normal_turn_a * ends[1].normal_turn_a * a.inverse_moment +
+                         ends[0].normal_turn_b * ends[1].normal_turn_b * b.inverse_moment);
+    if (ContactRecord* record = contacts[i].record; record != nullptr) {
+      record->most_to_give = std::max(
+          record->most_to_give, kFrictionSlack * restitution * isolated_impulse(ends, couplings_.back()));
     }
+  }
+  for (const Row& row : rows_) {
+    if (row.normal_impulse != 0) push(row, row.normal_impulse, 0);
   }
 }
 
@@ -116,35 +126,85 @@ inline void ImpulseSolver::push(const Row& row, double normal_impulse, double ta
       b.inverse_moment * (normal_impulse * row.normal_turn_b + tangent_impulse * row.tangent_turn_b);
 }
 
-/// Brings one end of a contact line to rest within its bounds, normal first, then friction. Returns by how much that
-/// changed the velocity there [m/s].
-inline double ImpulseSolver::visit(Row& row) {
+/// Normal velocity of b away from a at one end [m/s].
+inline double ImpulseSolver::apart_at(const Row& row) const {
   const Mover& a = movers_[row.a];
   const Mover& b = movers_[row.b];
-  const double apart = dot(b.velocity - a.velocity, row.normal) + b.angular_velocity * row.normal_turn_b -
-                       a.angular_velocity * row.normal_turn_a;
-  const double normal_impulse = std::clamp(row.normal_impulse - apart * row.normal_mass, row.least, row.limit);
-  const double normal_change = normal_impulse - row.normal_impulse;
-  if (normal_change != 0) push(row, normal_change, 0);
-  row.normal_impulse = normal_impulse;
-  if (normal_impulse == 0 && row.tangent_impulse == 0) return std::abs(normal_change) / row.normal_mass;
+  return dot(b.velocity - a.velocity, row.normal) + b.angular_velocity * row.normal_turn_b -
+         a.angular_velocity * row.normal_turn_a;
+}
 
+inline void ImpulseSolver::press(Row& row, double normal_impulse) {
+  if (normal_impulse == row.normal_impulse) return;
+  push(row, normal_impulse - row.normal_impulse, 0);
+  row.normal_impulse = normal_impulse;
+}
+
+/// What would bring both ends to rest, if no other body were there: the solution p of K p = approach, p ≥ 0 [N s].
+double ImpulseSolver::isolated_impulse(const Row* ends, double coupling) const {
+  const double approach[2] = {-apart_at(ends[0]), -apart_at(ends[1])};
+  const double k0 = 1 / ends[0].normal_mass;
+  const double k1 = 1 / ends[1].normal_mass;
+  const double determinant = k0 * k1 - coupling * coupling;
+  if (determinant > 1e-9 * k0 * k1) {
+    const double p0 = (k1 * approach[0] - coupling * approach[1]) / determinant;
+    const double p1 = (k0 * approach[1] - coupling * approach[0]) / determinant;
+    if (p0 >= 0 && p1 >= 0) return p0 + p1;
+  }
+  return std::max({0.0, approach[0] / k0, approach[1] / k1});
+}
+
+/// Brings both ends of a contact line to rest within their bounds. Returns by how much that changed a velocity [m/s].
+inline double ImpulseSolver::visit_normals(Row* ends, double coupling) {
+  Row& r0 = ends[0];
+  Row& r1 = ends[1];
+  const double before[2] = {r0.normal_impulse, r1.normal_impulse};
+  const double apart[2] = {apart_at(r0), apart_at(r1)};
+  const double k0 = 1 / r0.normal_mass;
+  const double k1 = 1 / r1.normal_mass;
+  const double determinant = k0 * k1 - coupling * coupling;
+  bool is_done = false;
+  if (determinant > 1e-9 * k0 * k1) {
+    const double p0 = before[0] - (k1 * apart[0] - coupling * apart[1]) / determinant;
+    const double p1 = before[1] - (k0 * apart[1] - coupling * apart[0]) / determinant;
+    const bool is_within = p0 >= r0.least && p1 >= r1.least && p0 <= r0.limit && p1 <= r1.limit;
+    const bool is_beyond = (p0 > r0.limit && p1 > r1.limit) || (p0 < r0.least && p1 < r1.least);
+    is_done = is_within || is_beyond;
+    if (is_done) {
+      press(r0, std::clamp(p0, r0.least, r0.limit));
+      press(r1, std::clamp(p1, r1.least, r1.limit));
+    }
+  }
+  if (!is_done) {
+    press(r0, std::clamp(before[0] - apart[0] * r0.normal_mass, r0.least, r0.limit));
+    press(r1, std::clamp(before[1] - apart_at(r1) * r1.normal_mass, r1.least, r1.limit));
+  }
+  return std::max(std::abs(r0.normal_impulse - before[0]) * k0, std::abs(r1.normal_impulse - before[1]) * k1);
+}
+
+/// Brings the slip at one end to rest within the Coulomb cone. Returns by how much that changed the velocity [m/s].
+inline double ImpulseSolver::visit_friction(Row& row) {
+  if (row.normal_impulse == 0 && row.tangent_impulse == 0) return 0;
+  const Mover& a = movers_[row.a];
+  const Mover& b = movers_[row.b];
   const double slip = dot(b.velocity - a.velocity, perpendicular(row.normal)) +
                       b.angular_velocity * row.tangent_turn_b - a.angular_velocity * row.tangent_turn_a;
-  const double most = row.friction * normal_impulse;
+  const double most = row.friction * row.normal_impulse;
   const double tangent_impulse = std::clamp(row.tangent_impulse - slip * row.tangent_mass, -most, most);
-  const double tangent_change = tangent_impulse - row.tangent_impulse;
-  if (tangent_change != 0) push(row, 0, tangent_change);
+  const double change = tangent_impulse - row.tangent_impulse;
+  if (change != 0) push(row, 0, change);
   row.tangent_impulse = tangent_impulse;
-  return std::max(std::abs(normal_change) / row.normal_mass, std::abs(tangent_change) / row.tangent_mass);
+  return std::abs(change) / row.tangent_mass;
 }
 
 void ImpulseSolver::sweep(const Island& island, const SolverSettings& settings, SolverResult& result) {
-  Row* const begin = rows_.data() + island.first;
   for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
     double largest_change = 0;
-    for (Row* row = begin; row != begin + island.count; ++row) {
-      largest_change = std::max(largest_change, visit(*row));
+    for (std::uint32_t i = island.first; i < island.first + island.count; i += 2) {
+      Row* ends = &rows_[i];
+      largest_change = std::max(largest_change, visit_normals(ends, couplings_[i / 2]));
+      largest_change = std::max(largest_change, visit_friction(ends[0]));
+      largest_change = std::max(largest_change, visit_friction(ends[1]));
     }
     result.row_visits += island.count;
     if (largest_change <= settings.tolerance) return;
@@ -160,10 +220,10 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
     const double compression = ends[0].normal_impulse + ends[1].normal_impulse;
     double owed = restitution * compression;
     if (record != nullptr) {
-      owed += record->owed_impulse;
+      owed = std::min(owed + record->owed_impulse, record->most_to_give - record->given_impulse);
       for (int end = 0; end < 2; ++end) {
+        record->start_impulse[end] = std::min(record->last_impulse[end], ends[end].normal_impulse);
         record->last_impulse[end] = ends[end].normal_impulse;
-        record->last_tangent_impulse[end] = ends[end].tangent_impulse;
       }
     }
     if (owed <= 0) continue;
@@ -178,7 +238,10 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
       push(row, given, 0);
       gave = gave || given > 0;
     }
-    if (record != nullptr) record->owed_impulse = still_owed;
+    if (record != nullptr) {
+      record->owed_impulse = still_owed;
+      record->given_impulse += owed - still_owed;
+    }
   }
   return gave;
 }
@@ -200,7 +263,7 @@ void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
 SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings) {
   SolverResult result;
   find_islands(bodies, contacts);
-  fill_rows(bodies, contacts);
+  fill_rows(bodies, contacts, settings.restitution);
   result.islands = static_cast<int>(islands_.size());
   for (const Island& island : islands_) {
     sweep(island, settings, result);

@@ -25,11 +25,13 @@ struct SolverResult {
 /// Catto2005] over both ends of every contact line, each end with Eq. (5) corrected, normal impulses within
 /// [0, limit/2], friction within the Coulomb cone. A floe pinched between two bodies so feels both. Bodies that touch
 /// make islands, and each island is swept until it has converged.
-/// Compression first: impulses that end every approach, starting from those of the step before. Then restitution, as
-/// Poisson's share of the compression: a contact gives back ε times the impulse that compressed it, so one that is not
-/// limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says, and one that crushes gets there over as many steps as
-/// the ice needs. Last, whatever the restitution pushed together is held apart. Writes the impulses into the contacts,
-/// and what the next step needs of them into their records.
+/// Compression first: impulses that end every approach, starting from what the last two steps had in common (a steady
+/// push goes on, a blow does not). Then restitution, as Poisson's share of the compression: a contact gives back ε times
+/// the impulse that compressed it, so one that is not limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says, and one
+/// that crushes gets there over as many steps as the ice needs; never more than twice ε times what would have
+/// ended the approach of its two bodies alone, so a squeeze from elsewhere does not charge it. Last, whatever the restitution
+/// pushed together is held apart. Writes the impulses into the contacts, and what the next step needs into their records.
+/// The two ends of a line are solved together, so that a symmetric push stays symmetric.
 class ImpulseSolver {
  public:
   SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
@@ -65,9 +67,13 @@ class ImpulseSolver {
   void find_islands(const Bodies& bodies, const std::vector<Contact>& contacts);
   std::int32_t mover_of(const Bodies& bodies, BodyIndex body);
   Row row_of(const Bodies& bodies, const Contact& contact, int end) const;
-  void fill_rows(const Bodies& bodies, const std::vector<Contact>& contacts);
+  void fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, double restitution);
   void push(const Row& row, double normal_impulse, double tangent_impulse);
-  double visit(Row& row);
+  double apart_at(const Row& row) const;
+  void press(Row& row, double normal_impulse);
+  double visit_normals(Row* ends, double coupling);
+  double visit_friction(Row& row);
+  double isolated_impulse(const Row* ends, double coupling) const;
   void sweep(const Island& island, const SolverSettings& settings, SolverResult& result);
   bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution);
   void write_back(Bodies& bodies, std::vector<Contact>& contacts);
@@ -79,6 +85,7 @@ class ImpulseSolver {
   std::vector<std::uint32_t> order_;          // contacts, island by island
   std::vector<Island> islands_;
   std::vector<Row> rows_;                     // two for each contact, in order_
+  std::vector<double> couplings_;             // how an impulse at one end moves the other, per contact in order_ [1/kg]
 };
 
 }  // namespace polynya::dynamics

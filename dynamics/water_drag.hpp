@@ -8,12 +8,12 @@ namespace polynya::dynamics {
 /// Width of a shape across each direction and its rotational drag integral, about `centroid` in its frame [m].
 DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid);
 
-/// The k-th of the 64 directions over half a turn at which widths are known: evenly around a diamond, since that
+/// The k-th of the 128 directions over half a turn at which widths are known: evenly around a diamond, since that
 /// needs no arctangent to find one's place among them. Not of unit length.
 geometry::Vector drag_direction(int k);
 
-/// Width across a direction in the body frame (of any length > 0), interpolated between the known ones: for a square
-/// at most 1e-3 below the true one [m].
+/// Width across a direction in the body frame (of any length > 0), interpolated between the known ones [m]:
+/// within 2e-4 for a square, and within aspect/64 of the width of a slender piece where its kink falls between two.
 double width_across(const DragShape& shape, geometry::Vector direction_in_body);
 
 /// Lets the water brake every awake body over dt. Eq. (6) of [Sawamura2017]:

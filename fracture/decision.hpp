@@ -12,6 +12,7 @@ struct FailureCriteria {
   double collision_force = 0;   ///< j / τ_c of Eq. (5) [N]
   double splitting_force = 0;   ///< F_s [N]; of use only where crack_length ≥ breakable_size
   double crack_length = 0;      ///< path of the crack in ice [m]
+  bool has_ice_beside = true;   ///< ice on both sides of the crack's mouth; else it would only pare the edge
   double vertical_force = 0;    ///< V of the crushing contact, down on the ice [N]
   double bending_capacity = 0;  ///< V_b [N]
 };
@@ -20,7 +21,8 @@ struct FailureCriteria {
 /// else the contact crushes.
 constexpr Failure decide(const FailureCriteria& c) {
   if (c.floe_size < c.breakable_size) return Failure::kNone;
-  if (c.crack_length >= c.breakable_size && c.collision_force > c.splitting_force) return Failure::kSplit;
+  const bool can_crack = c.crack_length >= c.breakable_size && c.has_ice_beside;
+  if (can_crack && c.collision_force > c.splitting_force) return Failure::kSplit;
   if (c.vertical_force > 0 && c.vertical_force >= c.bending_capacity) return Failure::kBend;
   return Failure::kCrush;
 }

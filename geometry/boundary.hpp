@@ -65,9 +65,11 @@ struct PatchScratch {
     std::uint32_t edge_a, edge_b;
     double along_a, along_b;
     bool is_entering;  ///< a's boundary enters b here
+    std::uint32_t place_on_a;  ///< in the order along a
   };
   std::vector<Crossing> crossings;
-  std::vector<std::uint32_t> order_b;
+  std::vector<Crossing> by_b;  ///< the same, in the order along b
+  std::vector<Point> side_a, side_b;  ///< the overlap's two sides, (along the line, off it) [m]
 };
 
 /// The contact patches of two overlapping bodies, from the edges near each other (edges_of). Each stretch of

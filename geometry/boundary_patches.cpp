@@ -36,9 +36,34 @@ void find_crossings(const Boundary& a, const Boundary& b, const Pose& a_from_b,
     const double turn = cross(a1 - a0, b1 - b0);
     const double along_a = turn != 0 ? std::clamp(cross(b0 - a0, b1 - b0) / turn, 0.0, 1.0) : 0.5;
     const double along_b = turn != 0 ? std::clamp(cross(b0 - a0, a1 - a0) / turn, 0.0, 1.0) : 0.5;
-    crossings.push_back({a0 + along_a * (a1 - a0), pair.a, pair.b, along_a, along_b, !starts_inside});
+    crossings.push_back({a0 + along_a * (a1 - a0), pair.a, pair.b, along_a, along_b, !starts_inside, 0});
   }
 }
+
+/// Crossings at one place of an edge come in either order by rounding; along a ring they must enter and leave in turn.
+/// `at(i)` is the i-th crossing of the order, by reference; only crossings of one ring follow one another.
+template <typename At, typename RingOf, typename IsSamePlace>
+void alternate_ties(std::size_t count, At at, RingOf ring_of, IsSamePlace is_same_place) {
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const std::uint32_t ring = ring_of(at(i));
+    bool last_was_entering = false;
+    if (i > 0 && ring_of(at(i - 1)) == ring) {
+      last_was_entering = at(i - 1).is_entering;
+    } else {  // the ring's first crossing follows its last
+      std::size_t last = i;
+      while (last + 1 < count && ring_of(at(last + 1)) == ring) ++last;
+      last_was_entering = at(last).is_entering;
+    }
+    if (at(i).is_entering != last_was_entering) continue;
+    for (std::size_t k = i + 1; k < count && ring_of(at(k)) == ring && is_same_place(at(i), at(k)); ++k) {
+      if (at(k).is_entering == at(i).is_entering) continue;
+      std::swap(at(i), at(k));
+      break;
+    }
+  }
+}
+
+constexpr double kSamePlace = 1e-9;  ///< along an edge, as a share of it
 
 bool is_before_on_a(const Crossing& p, const Crossing& q) {
   return p.edge_a != q.edge_a ? p.edge_a < q.edge_a : p.along_a < q.along_a;
@@ -47,8 +72,7 @@ bool is_before_on_b(const Crossing& p, const Crossing& q) {
   return p.edge_b != q.edge_b ? p.edge_b < q.edge_b : p.along_b < q.along_b;
 }
 
-/// What a chain of vertices adds to a patch: area between chain and contact line, and how far it reaches off
-/// it.
+/// What a chain of vertices adds to a patch: area between chain and contact line, and how far it reaches off it.
 struct ChainExtent {
   double area = 0;
   double depth = 0;
@@ -57,15 +81,18 @@ struct ChainExtent {
   bool is_closed = false;  ///< the chain did arrive
 };
 
-/// Walks `edges` from a point on edge `first` to a point on edge `last`, measuring along `outward` from the
-/// line.
+/// Walks `edges` from a point on edge `first` to a point on edge `last`, measuring along `outward` from the line.
+/// Writes the chain's points as (along the line, off the line) into `profile`.
 template <typename InFrame>
-ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to,
-                 Vector outward, bool wraps, InFrame in_frame) {
+ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to, Vector outward,
+                 bool wraps, InFrame in_frame, std::vector<Point>& profile) {
   constexpr int kMostVertices = 4096;  // a stretch this long is no contact: the bodies stand in each other
   ChainExtent extent;
   extent.tip = midpoint(from, to);
   extent.tip_edge = first;
+  const Vector along = (to - from) / distance(from, to);
+  profile.clear();
+  profile.push_back({0, 0});
   Point previous = from;
   std::uint32_t edge = first;
   for (int k = 0; k < kMostVertices && (edge != last || wraps); ++k) {
@@ -74,6 +101,7 @@ ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::ui
     const Point vertex = in_frame(edges.from(edge));
     extent.area += 0.5 * cross(previous - from, vertex - from);
     const double off = dot(vertex - from, outward);
+    profile.push_back({dot(vertex - from, along), off});
     if (off > extent.depth) {
       extent.depth = off;
       extent.tip = vertex;
@@ -81,9 +109,37 @@ ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::ui
     }
     previous = vertex;
   }
+  profile.push_back({distance(from, to), 0});
   extent.area += 0.5 * cross(previous - from, to - from);
   extent.is_closed = edge == last;
   return extent;
+}
+
+/// How far a profile reaches off the line at a place along it, at most.
+double off_at(const std::vector<Point>& profile, double along) {
+  double off = 0;
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const Point p = profile[i - 1];
+    const Point q = profile[i];
+    if (std::min(p.x, q.x) > along || std::max(p.x, q.x) < along) continue;
+    off = std::max({off, q.x == p.x ? std::max(p.y, q.y) : p.y + (along - p.x) / (q.x - p.x) * (q.y - p.y)});
+  }
+  return off;
+}
+
+/// Greatest thickness of the overlap across the contact line: it is at a vertex of either side. The sides' greatest
+/// extents do not simply add: two faces shifted along each other reach farthest at opposite ends of the line.
+double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& b_side, double line) {
+  constexpr std::size_t kMostProduct = 4096;  // beyond, the sum is near enough for bodies that stand in each other
+  double most = 0;
+  double sum = 0;
+  for (const Point p : a_side) sum = std::max(sum, p.y);
+  const double a_extent = sum;
+  for (const Point p : b_side) sum = std::max(sum, a_extent + p.y);
+  if (a_side.size() * b_side.size() > kMostProduct) return sum;
+  for (const Point p : a_side) most = std::max(most, p.y + off_at(b_side, line - p.x));
+  for (const Point p : b_side) most = std::max(most, p.y + off_at(a_side, line - p.x));
+  return most;
 }
 
 }  // namespace
@@ -96,10 +152,22 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
   find_crossings(a, b, a_from_b, edge_pairs, crossings);
   if (crossings.empty()) return 0;
   std::sort(crossings.begin(), crossings.end(), is_before_on_a);
-  scratch.order_b.resize(crossings.size());
-  for (std::uint32_t i = 0; i < crossings.size(); ++i) scratch.order_b[i] = i;
-  std::sort(scratch.order_b.begin(), scratch.order_b.end(),
-            [&](std::uint32_t p, std::uint32_t q) { return is_before_on_b(crossings[p], crossings[q]); });
+  alternate_ties(
+      crossings.size(), [&](std::size_t i) -> Crossing& { return crossings[i]; },
+      [&](const Crossing& p) { return a.edges.ring[p.edge_a]; },
+      [](const Crossing& p, const Crossing& q) {
+        return p.edge_a == q.edge_a && std::abs(p.along_a - q.along_a) < kSamePlace;
+      });
+  std::vector<Crossing>& by_b = scratch.by_b;
+  for (std::uint32_t i = 0; i < crossings.size(); ++i) crossings[i].place_on_a = i;
+  by_b = crossings;
+  std::sort(by_b.begin(), by_b.end(), is_before_on_b);
+  alternate_ties(
+      by_b.size(), [&](std::size_t i) -> Crossing& { return by_b[i]; },
+      [&](const Crossing& p) { return b.edges.ring[p.edge_b]; },
+      [](const Crossing& p, const Crossing& q) {
+        return p.edge_b == q.edge_b && std::abs(p.along_b - q.along_b) < kSamePlace;
+      });
 
   const auto next_on_a = [&](std::size_t i) -> std::size_t {
     const std::uint32_t ring = a.edges.ring[crossings[i].edge_a];
@@ -107,13 +175,13 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
     while (i > 0 && a.edges.ring[crossings[i - 1].edge_a] == ring) --i;
     return i;
   };
-  const auto& order = scratch.order_b;
   const auto next_on_b = [&](std::size_t i) -> std::size_t {
-    auto at = static_cast<std::size_t>(std::find(order.begin(), order.end(), i) - order.begin());
+    std::size_t at = 0;
+    while (by_b[at].place_on_a != i) ++at;
     const std::uint32_t ring = b.edges.ring[crossings[i].edge_b];
-    if (at + 1 < order.size() && b.edges.ring[crossings[order[at + 1]].edge_b] == ring) return order[at + 1];
-    while (at > 0 && b.edges.ring[crossings[order[at - 1]].edge_b] == ring) --at;
-    return order[at];
+    if (at + 1 < by_b.size() && b.edges.ring[by_b[at + 1].edge_b] == ring) return by_b[at + 1].place_on_a;
+    while (at > 0 && b.edges.ring[by_b[at - 1].edge_b] == ring) --at;
+    return by_b[at].place_on_a;
   };
 
   int left_out = 0;
@@ -133,7 +201,8 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
     const auto as_is = [](Point p) { return p; };
     const auto from_b = [&](Point p) { return point_in_world(a_from_b, p); };
     const ChainExtent on_a = walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, patch.normal,
-                                  enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is);
+                                  enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is,
+                                  scratch.side_a);
     bool is_closed = on_a.is_closed;
     patch.area = on_a.area;
     patch.depth = on_a.depth;
@@ -142,9 +211,10 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
     if (next_on_b(j) == i) {
       const ChainExtent on_b =
           walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, -patch.normal,
-               leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b);
+               leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b,
+                                    scratch.side_b);
       patch.area += on_b.area;
-      patch.depth += on_b.depth;
+      patch.depth = thickness_of(scratch.side_a, scratch.side_b, width);
       if (on_b.depth > 0) {
         patch.tip_of_b = on_b.tip;
         patch.tip_edge_of_b = on_b.tip_edge;

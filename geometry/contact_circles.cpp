@@ -100,7 +100,7 @@ Point nearest_on_segment(Point a, Point b, Point p) {
 /// point: shrink the circle onto the nearest boundary point inside it until there is none.
 double inscribed_radius(const EdgeList& edges, const EdgeGrid& grid, Point touch, Vector inward,
                         double radius) {
-  constexpr int kMostShrinks = 16;  // each one at least finds a nearer edge; a dozen are never seen
+  constexpr int kMostShrinks = 64;  // a few are the rule; very sharp corners took up to twenty
   for (int shrink = 0; shrink < kMostShrinks; ++shrink) {
     const Point centre = touch + radius * inward;
     const double inside = radius * (1 - 1e-9);

@@ -21,8 +21,8 @@ inline double crushed_overlap_area(const Overlap& overlap, double thickness, dou
   const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
   const double reach = thickness * std::tan(hull_angle);
   const double sine = std::sin(hull_angle);
+  if (sine == 0) return overlap.area * p / overlap.depth * thickness;
   if (reach >= overlap.depth) return overlap.area / sine;
-  if (sine < 1e-6) return overlap.area * p / overlap.depth * thickness;
   return overlap.area / sine * -std::expm1(p * std::log1p(-reach / overlap.depth));
 }
 

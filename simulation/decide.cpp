@@ -71,12 +71,16 @@ CrushingContact crushing_at(const World& world, const Contact& c) {
   return crushing;
 }
 
-fracture::BendingLoad bending_load(const World& world, const Contact& c, const CrushingContact& crushing) {
+geometry::WedgeAngles wedge_at(const World& world, const Contact& c) {
   const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
   const double l = fracture::characteristic_length(world.scene.ice, world.scene.water.water);
-  const geometry::WedgeAngles wedge = geometry::wedge_angles(
-      world.bodies.boundary[c.b]->edges, c.tip_edge_of_b, point_in_body(water_from_floe, c.tip_of_b),
-      rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
+  return geometry::wedge_angles(world.bodies.boundary[c.b]->edges, c.tip_edge_of_b,
+                                point_in_body(water_from_floe, c.tip_of_b),
+                                rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
+}
+
+fracture::BendingLoad bending_load(const World& world, const Contact& c, const CrushingContact& crushing) {
+  const geometry::WedgeAngles wedge = wedge_at(world, c);
   fracture::BendingLoad load;
   load.ice = world.scene.ice;
   load.water = world.scene.water.water;
@@ -102,6 +106,9 @@ void measure_crack(const World& world, const Contact& c, PendingFracture& pendin
       geometry::crack_path(world.bodies.boundary[c.b]->edges, point_in_body(water_from_floe, c.middle()),
                            rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
   const double length = pending.crack_in_body.length_in_ice;
+  // At the corner that an earlier crack left, the next one would run along its face and pare it strip by strip.
+  const geometry::WedgeAngles wedge = wedge_at(world, c);
+  pending.criteria.has_ice_beside = std::min(wedge.front, wedge.back) >= fracture::kSmallestHalfAngle;
   pending.criteria.crack_length = length;
   pending.criteria.splitting_force = fracture::splitting_force(
       world.scene.fracture.splitting, world.scene.ice, length, world.scene.fracture.splitting_shape_factor);

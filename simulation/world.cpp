@@ -82,10 +82,14 @@ World::World(Scene scene_of_run)
     floe.angular_velocity = spec.angular_velocity;
     const FloeId id = add_floe(*this, floe);
     ledger.initial_ice_area += floes[id].area;
-    if (spec.velocity != Vector{} || spec.angular_velocity != 0) wake(*this, body_of(id));
   }
   counts.floes_initial = static_cast<std::int64_t>(floes.size());
+  // Only now: a body that wakes looks for its neighbours once, so they all have to be there.
   for (BodyIndex ship = 0; ship < ship_count(); ++ship) wake(*this, ship);
+  for (std::size_t i = 0; i < scene.floes.size(); ++i) {
+    const FloeSpec& spec = scene.floes[i];
+    if (spec.velocity != Vector{} || spec.angular_velocity != 0) wake(*this, body_of(static_cast<FloeId>(i)));
+  }
 }
 
 FloeId add_floe(World& world, const NewFloe& floe) {
