@@ -18,7 +18,7 @@ struct ContactRecord {
   double given_impulse = 0;          ///< of restitution, since first contact [N s]
   double most_to_give = 0;           ///< bound of it, by the fastest approach yet of the two bodies alone [N s]
   double last_impulse[2] = {0, 0};   ///< compression at the last step [N s]
-  double start_impulse[2] = {0, 0};  ///< where the solver starts: what the last two steps have in common [N s]
+  double start_impulse[2] = {0, 0};  ///< where the solver starts, as the last two steps foretell it [N s]
   bool has_crushed = false;
   bool was_refused = false;          ///< a fracture here was refused by geometry: not tried again
   bool is_continued = false;         ///< taken over by a contact of the next step already

@@ -18,6 +18,9 @@ Mobility mobility(const Bodies& bodies, BodyIndex i, Vector arm) {
 /// Friction while sliding can raise the impulse that ends an approach above the frictionless one; seldom to twice it.
 constexpr double kFrictionSlack = 2;
 
+/// How much of an unconverged step's impulses the next one starts from: a wrong guess must die out, not build up.
+constexpr double kTrustUnconverged = 0.5;
+
 std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
@@ -197,7 +200,7 @@ inline double ImpulseSolver::visit_friction(Row& row) {
   return std::abs(change) / row.tangent_mass;
 }
 
-void ImpulseSolver::sweep(const Island& island, const SolverSettings& settings, SolverResult& result) {
+bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings, SolverResult& result) {
   for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
     double largest_change = 0;
     for (std::uint32_t i = island.first; i < island.first + island.count; i += 2) {
@@ -207,12 +210,14 @@ void ImpulseSolver::sweep(const Island& island, const SolverSettings& settings, 
       largest_change = std::max(largest_change, visit_friction(ends[1]));
     }
     result.row_visits += island.count;
-    if (largest_change <= settings.tolerance) return;
+    if (largest_change <= settings.tolerance) return true;
   }
   ++result.unconverged;
+  return false;
 }
 
-bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contacts, double restitution) {
+bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contacts, double restitution,
+                              bool is_converged) {
   bool gave = false;
   for (std::uint32_t i = island.first; i < island.first + island.count; i += 2) {
     Row* ends = &rows_[i];
@@ -222,7 +227,11 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
     if (record != nullptr) {
       owed = std::min(owed + record->owed_impulse, record->most_to_give - record->given_impulse);
       for (int end = 0; end < 2; ++end) {
-        record->start_impulse[end] = std::min(record->last_impulse[end], ends[end].normal_impulse);
+        // The next step's, as the last two foretell it: steady or falling in proportion, never more than both.
+        const double last = record->last_impulse[end];
+        const double now = ends[end].normal_impulse;
+        const double start = now < last ? now * (now / last) : last;
+        record->start_impulse[end] = is_converged ? start : kTrustUnconverged * start;
         record->last_impulse[end] = ends[end].normal_impulse;
       }
     }
@@ -266,8 +275,8 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   fill_rows(bodies, contacts, settings.restitution);
   result.islands = static_cast<int>(islands_.size());
   for (const Island& island : islands_) {
-    sweep(island, settings, result);
-    if (give_back(island, contacts, settings.restitution)) sweep(island, settings, result);
+    const bool is_converged = sweep(island, settings, result);
+    if (give_back(island, contacts, settings.restitution, is_converged)) sweep(island, settings, result);
   }
   write_back(bodies, contacts);
   return result;

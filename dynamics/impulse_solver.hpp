@@ -25,7 +25,7 @@ struct SolverResult {
 /// Catto2005] over both ends of every contact line, each end with Eq. (5) corrected, normal impulses within
 /// [0, limit/2], friction within the Coulomb cone. A floe pinched between two bodies so feels both. Bodies that touch
 /// make islands, and each island is swept until it has converged.
-/// Compression first: impulses that end every approach, starting from what the last two steps had in common (a steady
+/// Compression first: impulses that end every approach, starting from what the last two steps foretell (a steady
 /// push goes on, a blow does not). Then restitution, as Poisson's share of the compression: a contact gives back ε times
 /// the impulse that compressed it, so one that is not limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says, and one
 /// that crushes gets there over as many steps as the ice needs; never more than twice ε times what would have
@@ -74,8 +74,8 @@ class ImpulseSolver {
   double visit_normals(Row* ends, double coupling);
   double visit_friction(Row& row);
   double isolated_impulse(const Row* ends, double coupling) const;
-  void sweep(const Island& island, const SolverSettings& settings, SolverResult& result);
-  bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution);
+  bool sweep(const Island& island, const SolverSettings& settings, SolverResult& result);
+  bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution, bool is_converged);
   void write_back(Bodies& bodies, std::vector<Contact>& contacts);
 
   std::vector<Mover> movers_;

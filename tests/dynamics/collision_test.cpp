@@ -344,5 +344,21 @@ TEST(ContactsTogether, MirroredScenesGiveMirroredResults) {
   EXPECT_NEAR(contacts[0].normal_impulse[0], contacts[0].normal_impulse[1], 1e-6);
 }
 
+TEST(ContactsTogether, PinchedOverManyStepsOfThirtySweepsThePlateComesToTheShipsSpeedFromBelow) {
+  for (const double restitution : {0.0, 0.1}) {
+    Pinch pinch;
+    SolverSettings settings;
+    settings.restitution = restitution;
+    ImpulseSolver solver;
+    for (int step = 0; step < 1000; ++step) {
+      solver.solve(pinch.bodies, pinch.contacts, settings);
+      ASSERT_LE(pinch.bodies.velocity[2].x, 1 + 1.001 * restitution + 1e-3) << step;
+      ASSERT_LE(pinch.bodies.velocity[1].x, 1 + 2 * restitution + 1e-3) << step;
+    }
+    EXPECT_GT(pinch.bodies.velocity[2].x, 0.99);
+    EXPECT_NEAR(pinch.bodies.velocity[2].y, 0, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace polynya::dynamics

@@ -1,0 +1,82 @@
+// Each of these once went wrong. They state what must hold, not what the code gave.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/simulation/scenes.hpp"
+
+namespace polynya::simulation::scenes {
+namespace {
+
+/// A floe that starts in motion was woken before the floes behind it in the scene were there, and ran into them.
+TEST(Regression, AMovingFloeMeetsFloesThatTheSceneListsLater) {
+  for (const bool is_mover_first : {true, false}) {
+    Scene scene;
+    scene.water.drag_coefficient = 0;
+    const FloeSpec mover = floe(rectangle(0, 0, 10, 10), {1, 0});
+    const FloeSpec rester = floe(rectangle(10.5, 0, 20.5, 10));
+    scene.floes = is_mover_first ? std::vector{mover, rester} : std::vector{rester, mover};
+    Simulation simulation(scene);
+    while (simulation.world().contacts.empty() && simulation.time() < 3) simulation.step();
+    EXPECT_NEAR(simulation.time(), 0.5, 3 * scene.time.step) << is_mover_first;
+    EXPECT_LT(simulation.world().contacts.front().depth, 2 * scene.time.step);
+  }
+}
+
+/// Restitution was charged by the whole squeeze, step after step, and threw the small floe off at 1.45 m/s.
+TEST(Regression, APinchedFloeIsNotThrownOff) {
+  for (const double restitution : {0.0, 0.1, 0.3}) {
+    Scene scene;
+    scene.contact.restitution = restitution;
+    scene.fracture.breakable_size_factor = 1e3;
+    scene.ships = {barge({0, 0}, ConstantSpeed{1})};
+    scene.floes = {floe(rectangle(0.1, -5, 10.1, 5)), floe(rectangle(10.2, -55, 210.2, 55))};
+    Simulation simulation(scene);
+    double fastest = 0;
+    double spin = 0;
+    for (int i = 0; i < 2000; ++i) {
+      simulation.step();
+      for (const FloeState& state : simulation.floe_states()) {
+        fastest = std::max(fastest, length(state.velocity));
+        spin = std::max(spin, std::abs(state.angular_velocity));
+      }
+    }
+    EXPECT_LT(fastest, 1 + std::max(1.001 * restitution, 0.02)) << restitution;
+    EXPECT_LT(spin, 1e-12) << "a symmetric pinch turns";
+  }
+}
+
+/// With a weak criterion the halves of a floe split again every step along the crack they had just left.
+TEST(Regression, ACrackIsNotParedStripByStrip) {
+  Scene scene;
+  scene.fracture.splitting = fracture::SplittingModel::kLefm;
+  scene.ships = {icebreaker({0, 3}, ConstantSpeed{0.5}, 0.5)};
+  scene.floes = {floe(rectangle(0.5, -40, 70, 50))};
+  Simulation simulation(scene);
+  while (simulation.time() < 5) simulation.step();
+  EXPECT_GE(simulation.counts().splits, 1);
+  EXPECT_LE(simulation.counts().splits, 10);
+  for (const FloeState& state : simulation.floe_states()) EXPECT_GT(state.area, 10) << state.floe;
+}
+
+/// The scene's own comment: j = (1 + ε) v m_eff, worked by hand.
+TEST(Regression, TwoFloesMeetAsEquation5SaysByHand) {
+  Scene scene;
+  scene.water.drag_coefficient = 0;
+  scene.contact.restitution = 0.1;
+  const double v = 0.3;
+  scene.floes = {floe(rectangle(0, 0, 10, 10), {v, 0}), floe(rectangle(11, 0, 31, 10))};  // 45 t on 90 t
+  Simulation simulation(scene);
+  while (simulation.time() < 6) simulation.step();
+  const double m0 = 45e3;
+  const double m1 = 90e3;
+  const double impulse = 1.1 * v * m0 * m1 / (m0 + m1);
+  const auto states = simulation.floe_states();
+  EXPECT_NEAR(states[0].velocity.x, v - impulse / m0, 1e-8);
+  EXPECT_NEAR(states[1].velocity.x, impulse / m1, 1e-8);
+  EXPECT_NEAR(states[0].angular_velocity, 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace polynya::simulation::scenes
