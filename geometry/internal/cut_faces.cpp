@@ -39,10 +39,9 @@ class Faces {
 
   CutGraph trace() {
     find_chords();
-    add_shape_chains();
-    add_chord_half_edges();
-    link();
-    walk();
+    build();
+    graph_.rings_met = static_cast<int>(std::count(graph_.ring_is_cut.begin(), graph_.ring_is_cut.end(), 1));
+    if (!tool_.is_closed && graph_.rings_met > 1 && drop_bridges()) build();
     const auto is_possible = [](const HalfEdge& e) { return e.run.count >= 0; };
     graph_.is_consistent =
         graph_.is_consistent && std::all_of(graph_.half_edges.begin(), graph_.half_edges.end(), is_possible);
@@ -70,6 +69,39 @@ class Faces {
     const Directions shape = shape_at(n);
     if (same_direction(ray, shape.on) || same_direction(ray, shape.back)) return false;
     return met_before(shape.on, ray, shape.back);
+  }
+
+  void build() {
+    graph_.half_edges.clear();
+    graph_.walks.clear();
+    add_shape_chains();
+    add_chord_half_edges();
+    link();
+    walk();
+  }
+
+  // A chord with one face on both sides joins two rings and separates nothing. Taking all of them away leaves
+  // the faces as they are. (In a face's boundary, both sides of such a chord are in one walk.)
+  bool drop_bridges() {
+    std::vector<int> walk_of(graph_.half_edges.size(), -1);
+    for (std::size_t w = 0; w < graph_.walks.size(); ++w) {
+      for (const Loop& loop : graph_.walks[w].loops) {
+        for (const int h : loop) walk_of[static_cast<std::size_t>(h)] = static_cast<int>(w);
+      }
+    }
+    std::vector<Chord> kept;
+    for (std::size_t c = 0; c < chords_.size(); ++c) {
+      const std::size_t forward = first_chord_ + 2 * c;
+      if (walk_of[forward] == walk_of[forward + 1]) {
+        graph_.bridges.push_back(graph_.half_edges[forward]);
+      } else {
+        kept.push_back(chords_[c]);
+      }
+    }
+    for (Node& n : nodes_) n.is_active = false;
+    for (const Chord& chord : kept) node(chord.from).is_active = node(chord.to).is_active = true;
+    chords_ = std::move(kept);
+    return !graph_.bridges.empty();
   }
 
   void find_chords() {
@@ -123,7 +155,7 @@ class Faces {
   }
 
   void add_chord_half_edges() {
-    first_chord_ = static_cast<int>(graph_.half_edges.size());
+    first_chord_ = graph_.half_edges.size();
     for (const Chord& chord : chords_) {
       graph_.half_edges.push_back({chord.from, chord.to, true, true, 0, chord.run});
       graph_.half_edges.push_back({chord.to, chord.from, true, false, 0, chord.run});
@@ -198,7 +230,7 @@ class Faces {
   CutGraph graph_;
   std::vector<Chord> chords_;
   std::vector<int> next_;
-  int first_chord_ = 0;
+  std::size_t first_chord_ = 0;
 };
 
 }  // namespace

@@ -37,6 +37,8 @@ struct Walk {
 struct CutGraph {
   std::vector<HalfEdge> half_edges;  ///< all shape chains, then each chord forward and backward
   std::vector<Walk> walks;
+  std::vector<HalfEdge> bridges;  ///< stretches of the tool from ring to ring that separate nothing
+  int rings_met = 0;              ///< how many rings of the shape chords and bridges end on
   std::vector<char> ring_is_cut;  ///< per ring of the shape: has it active nodes?
   bool is_consistent = true;      ///< false only if the shape or the tool was not what it was said to be
   int first_node = -1;            ///< along the tool

@@ -123,13 +123,17 @@ int turn_of(const LocalCut& cut, const PieceRing& ring) {
   return sgn(exact::area(write_exactly(cut, ring)));
 }
 
+// More than rounding can have moved the ends of the edge.
+double reach(const Segment& s) {
+  const double size = std::max({std::abs(s.from.x), std::abs(s.from.y), std::abs(s.to.x), std::abs(s.to.y)});
+  return 4 * (std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
+}
+
 // A box that holds the edge before and after its ends were rounded.
 Box swept_box(const Segment& s) {
-  const double size = std::max({std::abs(s.from.x), std::abs(s.from.y), std::abs(s.to.x), std::abs(s.to.y)});
-  const double margin = 4 * (std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
   return grown({{std::min(s.from.x, s.to.x), std::min(s.from.y, s.to.y)},
                 {std::max(s.from.x, s.to.x), std::max(s.from.y, s.to.y)}},
-               margin);
+               reach(s));
 }
 
 constexpr bool holds(const Box& outer, const Box& inner) {
@@ -141,12 +145,11 @@ constexpr bool holds(const Box& outer, const Box& inner) {
 // the exact ones agree.
 class Placer {
  public:
-  Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans) {
+  Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans), changed_(cut.changed) {
     for (std::size_t i = 0; i < plans.size(); ++i) by_area_.push_back(i);
     const auto area = [&](std::size_t i) { return plans[i].rings.front().area.area; };
     std::sort(by_area_.begin(), by_area_.end(),
               [&](std::size_t i, std::size_t j) { return area(i) < area(j); });
-    for (const Segment& s : cut.changed) swept_.push_back(swept_box(s));
   }
 
   bool place(PieceRing hole) {
@@ -173,13 +176,20 @@ class Placer {
     return {};
   }
 
+  // Within reach of an edge of the shell whose ends were rounded? (An edge that ends in p itself is not the
+  // shell's: p is off it.) The threshold is well above the errors of the product.
   bool is_doubtful(Point p) const {
-    return std::any_of(swept_.begin(), swept_.end(), [&](const Box& box) { return overlaps(box, {p, p}); });
+    return std::any_of(changed_.begin(), changed_.end(), [&](const Segment& s) {
+      if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
+      const Vector along = s.to - s.from;
+      return std::abs(cross(along, p - s.from)) <=
+             8 * reach(s) * (std::abs(along.x) + std::abs(along.y) + reach(s));
+    });
   }
 
   std::vector<PiecePlan>& plans_;
   std::vector<std::size_t> by_area_;
-  std::vector<Box> swept_;
+  const std::vector<Segment>& changed_;
 };
 
 // The loops of one walk: one outer ring and its touching holes, or holes only.

@@ -87,8 +87,8 @@ double length_along(const Tool& tool, int first, int last) {
   return sum;
 }
 
-// An open tool that neither touches itself nor joins rings separates all the way between its nodes: only what
-// comes before the first and after the last can dangle.
+// An open tool that does not touch itself separates all the way between its nodes, bridges apart: only those
+// and what comes before the first and after the last dangle.
 double dangling_length(const LocalCut& cut, const Polygon& shape) {
   const int last_vertex = static_cast<int>(cut.tool.points.size()) - 1;
   if (cut.nodes.empty()) {
@@ -105,6 +105,15 @@ double dangling_length(const LocalCut& cut, const Polygon& shape) {
     const int next = node.on_tool.edge + 1;
     sum += distance(node.at, cut.tool.point(next)) + length_along(cut.tool, next, last_vertex);
   }
+  for (const HalfEdge& bridge : cut.graph.bridges) {
+    Point from = cut.nodes[static_cast<std::size_t>(bridge.from)].at;
+    for (int i = 0; i < bridge.run.count; ++i) {
+      const Point to = cut.tool.point(bridge.run.first + i);
+      sum += distance(from, to);
+      from = to;
+    }
+    sum += distance(from, cut.nodes[static_cast<std::size_t>(bridge.to)].at);
+  }
   return sum;
 }
 
@@ -113,8 +122,9 @@ enum class Apart { kUncovered, kMisses, kToolInShape, kShapeInTool, kEndsInside 
 
 Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
   if (!cut.tool.is_closed) {
-    const bool enters = cut.nodes.empty() ? contains_strictly(shape, cut.tool.points.front())
-                                          : cut.graph.starts_inside || cut.graph.ends_inside;
+    const bool enters = cut.nodes.empty()
+                            ? contains_strictly(shape, cut.tool.points.front())
+                            : cut.graph.starts_inside || cut.graph.ends_inside || !cut.graph.bridges.empty();
     return enters ? Apart::kEndsInside : Apart::kMisses;
   }
   if (cut.nodes.empty()) {
@@ -187,9 +197,7 @@ bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans
 // Does the cut join no rings, or none that could pinch? A chord between two rings makes one boundary of both,
 // and where they touched already that boundary touches itself, away from all nodes.
 bool joins_no_touching_rings(const LocalCut& cut, const Polygon& shape) {
-  const auto cut_rings = std::count(cut.graph.ring_is_cut.begin(), cut.graph.ring_is_cut.end(), 1);
-  if (cut_rings <= 1) return true;
-  return cut.tool.is_closed && !has_touching_rings(shape);
+  return cut.graph.rings_met <= 1 || !has_touching_rings(shape);
 }
 
 }  // namespace
@@ -202,7 +210,7 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   if (!nodes) return {};
   LocalCut cut{rings, tool, std::move(*nodes), {}, {}, {}};
   cut.graph = trace_faces(rings, tool, cut.nodes);
-  if (!cut.graph.is_consistent) return {};
+  if (!cut.graph.is_consistent || !joins_no_touching_rings(cut, shape)) return {};
   if (cut.graph.walks.empty()) {
     switch (relate_apart(cut, shape)) {
       case Apart::kUncovered:
@@ -218,7 +226,6 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
         break;
     }
   }
-  if (!joins_no_touching_rings(cut, shape)) return {};
   std::optional<std::vector<PiecePlan>> plans = plan_pieces(cut);
   if (!plans || !uses_all_once(cut, *plans)) return {};
   const Balance balance = balance_split_edges(cut);
