@@ -154,8 +154,8 @@ std::string write_results(const CutOptions& options, const io::CutReport& report
 }
 
 Outcome<bool> cut_all(const CutOptions& options) {
-  if (options.out == "-" && options.ledger == "-")
-    return fail(kUsage, "--out and --ledger cannot both be stdout");
+  if (!options.out.empty() && options.out == options.ledger)
+    return fail(kUsage, "--out and --ledger are one and the same");
   if (options.floes == "-" && (options.polygon == "-" || options.ops == "-"))
     return fail(kUsage, "stdin can be read once");
   auto ops = read_ops(options);
@@ -177,7 +177,8 @@ Outcome<bool> cut_all(const CutOptions& options) {
 }  // namespace
 
 int cut(const CutOptions& options) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error where it happens
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error where it happens, and so is a full disk
+  std::signal(SIGXFSZ, SIG_IGN);
   const auto all_cut = cut_all(options);
   if (all_cut) return *all_cut ? kDone : kRefused;
   fmt::print(stderr, "polynya: {}\n", all_cut.error().words);

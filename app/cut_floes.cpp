@@ -40,13 +40,17 @@ std::vector<geometry::Ring> rings_of(const Polygon& polygon) {
   return rings;
 }
 
-/// cos and sin, exact at whole quarter turns.
+/// cos and sin, exact at whole quarter turns and equal between them.
 geometry::Vector direction_of(double angle_deg) {
-  const double angle = std::remainder(angle_deg, 360);  // exact
-  if (angle == 0) return {1, 0};
-  if (angle == 90) return {0, 1};
-  if (angle == -90) return {0, -1};
-  if (std::abs(angle) == 180) return {-1, 0};
+  constexpr double kDiagonal = 1 / std::numbers::sqrt2;
+  constexpr geometry::Vector kEighths[] = {
+      {1, 0}, {kDiagonal, kDiagonal}, {0, 1}, {-kDiagonal, kDiagonal}, {-1, 0}};
+  const double angle = std::remainder(angle_deg, 360);  // exact, from −180 to 180
+  const double eighths = std::abs(angle) / 45;
+  if (eighths == std::floor(eighths)) {
+    const geometry::Vector up = kEighths[static_cast<int>(eighths)];
+    return {up.x, angle < 0 ? -up.y : up.y};
+  }
   return {std::cos(angle * std::numbers::pi / 180), std::sin(angle * std::numbers::pi / 180)};
 }
 

@@ -54,12 +54,16 @@ int print_floe(const io::Run& run, const InspectOptions& options) {
   if (!floe) return usage_error(unknown_floe(run, *options.floe));
   ShapeView view{floe->birth, floe->birth.polygon_in_body, {}};
   if (options.at) {
-    const auto motion = io::MotionIndex(run).floe_at(floe->birth.floe, *options.at);
-    if (!run.is_alive(floe->birth.floe, *options.at) || !motion) {
-      const std::string end = run.is_alive(floe->birth.floe, run.end_time())
-                                  ? "to the end"
-                                  : fmt::format("to {:g} s", floe->died);
+    if (!run.is_alive(floe->birth.floe, *options.at)) {
+      const std::string end =
+          floe->death_event ? fmt::format("to {:g} s", floe->died) : std::string("to the end");
       return usage_error(fmt::format("floe {} lived from {:g} s {}", *options.floe, floe->birth.time, end));
+    }
+    const auto motion = io::MotionIndex(run).floe_at(floe->birth.floe, *options.at);
+    if (!motion) {
+      return usage_error(
+          fmt::format("floe {} lived from {:g} to {:g} s, between two frames: where is not on record",
+                      *options.floe, floe->birth.time, floe->died));
     }
     view.polygon = polygon_in_world(floe->birth, *motion);
     view.time_in_world = options.at;

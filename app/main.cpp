@@ -87,11 +87,14 @@ constexpr auto kExamples =
     "  polynya run scenes/sawamura2017-fig4b.json     the paper's voyage, to runs/sawamura2017-fig4b\n"
     "  polynya init my-scene.json                     a commented scene to start from\n"
     "  polynya validate my-scene.json                 everything that is wrong with a scene\n"
+    "  polynya inspect runs/my-scene --check          the floes of a run, and whether they are right\n"
+    "  polynya cut floes.geojson --disc 10,5,3        cut floes outside any simulation\n"
     "\n"
     "Polynya simulates an icebreaker in pack ice: floes are pushed, plates break by bending and splitting.\n";
 
 constexpr auto kCodes =
-    "Exit codes: 0 done, 2 usage, 3 scene invalid, 4 numerical failure, 5 input/output, 6 stopped on a "
+    "Exit codes: 0 done, 2 usage, 3 scene invalid, 4 numerical failure or geometry refused, 5 input/output, "
+    "6 stopped on a "
     "signal.\n"
     "Data goes to stdout, messages to stderr.\n";
 
@@ -101,13 +104,9 @@ int command_line(int count, char** words) {
   app.set_version_flag("--version", "polynya " + std::string(io::version()));
   app.require_subcommand(1);
   std::map<std::string, Command> commands;
-  constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {{"run", add_run},
-                                                                          {"validate", add_validate},
-                                                                          {"schema", add_schema},
-                                                                          {"init", add_init},
-                                                                          {"database", add_database},
-                                                                          {"cut", add_cut},
-                                                                          {"inspect", add_inspect}};
+  constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {
+      {"run", add_run},           {"validate", add_validate}, {"schema", add_schema},  {"init", add_init},
+      {"database", add_database}, {"cut", add_cut},           {"inspect", add_inspect}};
   for (const auto& [name, add] : kCommands) {
     commands[name] = add(app);
   }

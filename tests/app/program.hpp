@@ -21,6 +21,7 @@ struct Outcome {
 struct Start {
   std::filesystem::path folder;         ///< its working folder, where its output is kept too
   rlim_t largest_file = RLIM_INFINITY;  ///< [bytes]
+  std::filesystem::path input = {};     ///< its stdin; none if empty
 };
 
 /// Starts the built polynya; its stdout and stderr go to files in the folder.
@@ -29,6 +30,7 @@ inline pid_t start_polynya(const std::vector<std::string>& words, const Start& s
   if (child != 0) return child;
   std::filesystem::current_path(start.folder);
   if (!freopen("stdout.txt", "w", stdout) || !freopen("stderr.txt", "w", stderr)) _exit(126);
+  if (!freopen(start.input.empty() ? "/dev/null" : start.input.c_str(), "r", stdin)) _exit(126);
   if (start.largest_file != RLIM_INFINITY) {
     const rlimit limit{start.largest_file, start.largest_file};
     setrlimit(RLIMIT_FSIZE, &limit);

@@ -1,0 +1,187 @@
+#include "program.hpp"
+#include <gtest/gtest.h>
+
+#include "geometry/repair.hpp"
+#include "io/floe_text.hpp"
+#include "io/json_parser.hpp"
+#include "io/motion_index.hpp"
+#include "io/run_reader.hpp"
+
+namespace polynya::tests {
+namespace {
+
+/// One real run for all: an icebreaker 30 s into a plate.
+class InspectCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    const Outcome outcome =
+        polynya({"run", scene_path("level-plate"), "--until", "30", "--out", "run"}, {folder->path()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    auto read = io::read_run(folder->path() / "run");
+    ASSERT_TRUE(read.has_value()) << read.error();
+    run = new io::Run(std::move(*read));
+    ASSERT_GT(run->events.size(), 5U);
+  }
+  static void TearDownTestSuite() {
+    delete run;
+    delete folder;
+  }
+  static Outcome inspect(std::vector<std::string> words, const std::string& of = "run") {
+    words.insert(words.begin(), {"inspect", of});
+    return polynya(words, {folder->path()});
+  }
+  static std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> all;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) all.push_back(line);
+    return all;
+  }
+  static std::size_t living_at(double time) {
+    std::size_t count = 0;
+    for (const io::RunFloe& floe : run->floes) count += run->is_alive(floe.birth.floe, time) ? 1 : 0;
+    return count;
+  }
+
+  static inline TemporaryFolder* folder = nullptr;
+  static inline io::Run* run = nullptr;
+};
+
+TEST_F(InspectCommand, TheTableHasALineForEachLivingFloe) {
+  const Outcome at_end = inspect({});
+  ASSERT_EQ(at_end.code, 0) << at_end.err;
+  const auto all = lines(at_end.out);
+  ASSERT_EQ(all.size(), 1 + living_at(run->end_time()));
+  for (const char* column :
+       {"floe", "parent", "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "valid"})
+    EXPECT_NE(all[0].find(column), std::string::npos) << column;
+  EXPECT_EQ(all[1].substr(all[1].size() - 4), " yes");
+  const auto at_start = lines(inspect({"--at", "0"}).out);
+  ASSERT_EQ(at_start.size(), 2U);
+  std::istringstream first(at_start[1]);
+  std::string id, parent, born;
+  double area = 0, perimeter = 0, vertices = 0;
+  first >> id >> parent >> born >> area >> perimeter >> vertices;
+  EXPECT_EQ(id + parent + born, "0-0");
+  EXPECT_EQ(area, 300 * 150);
+  EXPECT_EQ(perimeter, 2 * (300 + 150));
+  EXPECT_EQ(vertices, 4);
+}
+
+TEST_F(InspectCommand, AFloesShapeReadsBackToTheSameDoubles) {
+  const simulation::Birth& birth = run->floes[3].birth;
+  for (const char* format : {"wkt", "geojson"}) {
+    const auto floes = io::read_floe_text(inspect({"--floe", "3", "--format", format}).out);
+    ASSERT_TRUE(floes.has_value());
+    EXPECT_EQ(geometry::normalised(floes->entries.at(0).polygon), birth.polygon_in_body) << format;
+  }
+  const simulation::Birth& last = run->floes.back().birth;
+  const auto moved = io::read_floe_text(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).out);
+  ASSERT_TRUE(moved.has_value());
+  const auto motion = io::MotionIndex(*run).floe_at(last.floe, 30);
+  EXPECT_EQ(geometry::normalised(moved->entries.at(0).polygon), polygon_in_world(last, *motion));
+  const io::JsonDocument feature = io::parse_json(inspect({"--floe", "3", "--format", "geojson"}).out);
+  EXPECT_EQ(feature.root.find("properties")->find("parent_id")->number(), static_cast<double>(birth.parent));
+  EXPECT_EQ(feature.root.find("properties")->find("frame")->text(), "body");
+  const std::string svg = inspect({"--floe", "3", "--format", "svg"}).out;
+  EXPECT_EQ(svg.find("<svg "), 0U);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST_F(InspectCommand, TheLineageLeadsFromTheSceneToTheFloe) {
+  const simulation::FloeId last = run->floes.back().birth.floe;
+  const auto ids = run->lineage(last);
+  const std::string tree = inspect({"--lineage", std::to_string(last)}).out;
+  std::size_t at = 0;
+  for (const simulation::FloeId id : ids) {
+    const std::size_t found = tree.find("floe " + std::to_string(id) + "  ", at);
+    ASSERT_NE(found, std::string::npos) << id << "\n" << tree;
+    at = found;
+  }
+  EXPECT_EQ(tree.find("floe 0  45000.000000 m2  as in the scene"), 0U);
+  EXPECT_NE(tree.find("bend by icebreaker at ("), std::string::npos);
+  const auto count = [&](const char* words) {
+    std::size_t many = 0;
+    for (std::size_t from = tree.find(words); from != std::string::npos; from = tree.find(words, from + 1))
+      ++many;
+    return many;
+  };
+  EXPECT_EQ(count(" by icebreaker at ("), ids.size() - 1) << "one fracture between each and the next";
+}
+
+TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
+  const Outcome outcome = inspect({"--check"});
+  EXPECT_EQ(outcome.code, 0) << outcome.out;
+  const auto all = lines(outcome.out);
+  EXPECT_EQ(all.front().find("validity   " + std::to_string(run->floes.size()) + " shapes, 0 invalid"), 0U)
+      << outcome.out;
+  EXPECT_EQ(all.back(), "sound");
+  EXPECT_NE(outcome.out.find(std::to_string(run->frames.size()) + " moments"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("Overlap is part of the contact model"), std::string::npos);
+}
+
+/// A ring with two vertices exchanged, or an area that is not its ring's: the check tells which floe.
+TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {
+  for (const bool is_ring : {true, false}) {
+    std::filesystem::remove_all(folder->path() / "damaged");
+    std::filesystem::copy(folder->path() / "run", folder->path() / "damaged");
+    std::string floes = read_file(folder->path() / "damaged/floes.ndjson");
+    const std::string good = is_ring ? "[300,-75],[300,75]" : "\"area_m2\":45000";
+    const std::size_t at = floes.find(good);
+    ASSERT_NE(at, std::string::npos);
+    floes.replace(at, good.size(), is_ring ? "[300,75],[300,-75]" : "\"area_m2\":45001");
+    write_file(folder->path() / "damaged/floes.ndjson", floes);
+    const Outcome outcome = inspect({"--check"}, "damaged");
+    EXPECT_EQ(outcome.code, 4) << outcome.out;
+    EXPECT_NE(outcome.out.find(is_ring ? "floe 0: self-crossing" : "(floe 0), 1 beyond"), std::string::npos)
+        << outcome.out;
+    EXPECT_EQ(lines(outcome.out).back(), "NOT SOUND");
+  }
+}
+
+TEST_F(InspectCommand, TheSizeDistributionCountsEveryFloe) {
+  const auto all = lines(inspect({"--fsd"}).out);
+  ASSERT_GT(all.size(), 3U);
+  EXPECT_EQ(all[0].find(std::to_string(living_at(run->end_time())) + " floes, "), 0U);
+  std::size_t floes = 0;
+  double percent = 0;
+  for (std::size_t i = 3; i < all.size(); ++i) {
+    std::istringstream row(all[i]);
+    double from = 0, below = 0, area = 0, share = 0;
+    std::size_t count = 0;
+    row >> from >> below >> count >> area >> share;
+    EXPECT_LT(from, below);
+    floes += count;
+    percent += share;
+  }
+  EXPECT_EQ(floes, living_at(run->end_time()));
+  EXPECT_NEAR(percent, 100, 0.01);
+}
+
+TEST_F(InspectCommand, WrongUsageIsTwoAndNoRunIsFive) {
+  const std::vector<std::vector<std::string>> wrong{{"--floe", "99999"},
+                                                    {"--floe", "-1"},
+                                                    {"--lineage", "99999"},
+                                                    {"--at", "1e9"},
+                                                    {"--at", "-1"},
+                                                    {"--at", "soon"},
+                                                    {"--format", "svg"},
+                                                    {"--floe", "1", "--format", "png"},
+                                                    {"--floe", "1", "--check"},
+                                                    {"--check", "--fsd"},
+                                                    {"--floe", "1", "--lineage", "1"},
+                                                    {"--floe", "0", "--at", "30"}};
+  for (const auto& words : wrong) {
+    const Outcome outcome = inspect(words);
+    EXPECT_EQ(outcome.code, 2) << words.front() << outcome.out;
+    EXPECT_FALSE(outcome.err.empty());
+    EXPECT_TRUE(outcome.out.empty());
+  }
+  EXPECT_EQ(polynya({"inspect"}, {folder->path()}).code, 2);
+  EXPECT_EQ(inspect({}, "no-such-run").code, 5);
+  EXPECT_EQ(inspect({}, "run/scene.json").code, 5);
+}
+
+}  // namespace
+}  // namespace polynya::tests

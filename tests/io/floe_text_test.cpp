@@ -1,0 +1,203 @@
+#include "io/floe_text.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "geometry/repair.hpp"
+#include "io/cut_report.hpp"
+#include "io/wkt.hpp"
+
+namespace polynya::io {
+namespace {
+
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Ring;
+
+const Ring kSquare{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+
+FloeText read(const std::string& text) {
+  auto floes = read_floe_text(text);
+  EXPECT_TRUE(floes.has_value()) << (floes ? "" : floes.error()) << "\n" << text;
+  return floes ? *std::move(floes) : FloeText{};
+}
+
+/// Doubles of every kind there is: random bits, and what printers get wrong.
+std::vector<double> hard_doubles() {
+  std::vector<double> values{
+      0.1,   1.0 / 3, 5e-324, 2.2250738585072014e-308, 1e23, 9007199254740993.0, 1e-6, 123456.789e-300,
+      1e300, -0.7,    1e21,   std::nextafter(1.0, 2)};
+  std::mt19937_64 dice(20240917);
+  while (values.size() < 3000) {
+    const std::uint64_t bits = dice();
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  return values;
+}
+
+TEST(FloeText, EveryFormatReadsBackToTheSameDoubles) {
+  const std::vector<double> values = hard_doubles();
+  Polygon polygon;
+  for (std::size_t i = 0; i + 1 < values.size(); i += 2)
+    (i < 2000                ? polygon.outer
+     : polygon.holes.empty() ? polygon.holes.emplace_back()
+                             : polygon.holes.back())
+        .push_back({values[i], values[i + 1]});
+  CutReport report;
+  report.floes.emplace_back().pieces.push_back({1, geometry::Part::kOutside, 1, polygon, true});
+  for (const FloeFormat format : {FloeFormat::kGeojson, FloeFormat::kNdjson, FloeFormat::kWkt}) {
+    const FloeText floes = read(to_floe_text(report, format));
+    ASSERT_EQ(floes.entries.size(), 1U);
+    Polygon back = floes.entries.front().polygon;
+    ASSERT_EQ(back.outer.front(), back.outer.back()) << "rings are written closed";
+    back.outer.pop_back();
+    back.holes.front().pop_back();
+    EXPECT_EQ(back, polygon);
+  }
+}
+
+TEST(FloeText, TheFormatIsToldByContent) {
+  const std::string square = R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]]]})";
+  const std::string collection = R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"floe_id":7},"geometry":)" +
+                                 square + "}\n]}\n";
+  for (const std::string& text :
+       {square, square + "\n", "\xEF\xBB\xBF \n" + square, collection, "// a note\n" + square})
+    EXPECT_EQ(read(text).format, FloeFormat::kGeojson) << text;
+  for (const std::string& text : {square + "\n" + square, "\n" + square + "\r\n\r\n" + square + "\r\n",
+                                  "\x1E" + square + "\n\x1E" + square + "\n"}) {
+    const FloeText floes = read(text);
+    EXPECT_EQ(floes.format, FloeFormat::kNdjson) << text;
+    EXPECT_EQ(floes.entries.size(), 2U);
+  }
+  for (const std::string text :
+       {"POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0))", "polygon((0 0,4 0,4 4,0 4))",
+        "# a note\nSRID=4326;Polygon Z ((0 0 9, 4 0 9, 4 4 9, 0 4 9, 0 0 9));\n",
+        "POLYGONZM((0 0 1 2,4 0 1 2,4 4 1 2,0 4 1 2))", "MULTIPOLYGON(((0 0,4 0,4 4,0 4,0 0)))",
+        "GEOMETRYCOLLECTION(POLYGON((0 0,4 0,4 4,0 4,0 0)),MULTIPOLYGON EMPTY)"}) {
+    const FloeText floes = read(text);
+    EXPECT_EQ(floes.format, FloeFormat::kWkt) << text;
+    ASSERT_EQ(floes.entries.size(), 1U) << text;
+    EXPECT_EQ(geometry::normalised(floes.entries.front().polygon), (Polygon{kSquare, {}})) << text;
+  }
+  EXPECT_EQ(read(collection).entries.front().floe_id, 7);
+}
+
+TEST(FloeText, WhatStandsInATextIsNumberedAndPlaced) {
+  const FloeText floes = read(R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "geometry": {"type": "MultiPolygon", "coordinates": [
+      [[[0,0],[1,0],[0,1]]],
+      [[[5,0],[6,0],[5,1]]]]}},
+    {"type": "Feature", "geometry": null},
+    {"type": "Feature", "geometry": {"type": "GeometryCollection", "geometries": [
+      {"type": "Point", "coordinates": [0, 0]},
+      {"type": "Polygon", "coordinates": [[[7,0],[8,0],[7,1]]]}]}},
+    {"type": "Polygon", "coordinates": [[[7,0],[8,0,3],[7,1]], 5]},
+    {"type": "Polygon", "coordinates": []},
+    7]})");
+  struct Expected {
+    std::size_t feature, member, line;
+    std::string refusal;
+  };
+  const std::vector<Expected> expected{
+      {0, 0, 3, ""}, {0, 1, 4, ""},          {1, 0, 5, "no-geometry"}, {2, 0, 7, "not-a-polygon"},
+      {2, 1, 8, ""}, {3, 0, 9, "malformed"}, {4, 0, 10, ""},           {5, 0, 11, "malformed"}};
+  ASSERT_EQ(floes.entries.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const FloeEntry& entry = floes.entries[i];
+    EXPECT_EQ(entry.feature, expected[i].feature) << i;
+    EXPECT_EQ(entry.member, expected[i].member) << i;
+    EXPECT_EQ(entry.line, expected[i].line) << i;
+    EXPECT_EQ(entry.refusal, expected[i].refusal) << i << entry.detail;
+  }
+  EXPECT_TRUE(floes.has_more_coordinates);
+}
+
+TEST(FloeText, ABadLineLeavesTheOthers) {
+  const std::string square = R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]]]})";
+  const FloeText lines = read(square + "\n{\"type\": oops}\n" + square + "\n");
+  ASSERT_EQ(lines.entries.size(), 3U);
+  EXPECT_EQ(lines.entries[1].refusal, "syntax");
+  EXPECT_EQ(lines.entries[1].line, 2U);
+  EXPECT_EQ(lines.entries[2].feature, 2U);
+  const FloeText wkt = read("POLYGON((0 0,1 0,0 1))\nPOLYGON((0 0,1 x\nPOINT(1 2)\nPOLYGON((0 0,2 0,0 2))");
+  ASSERT_EQ(wkt.entries.size(), 4U);
+  EXPECT_EQ(wkt.entries[1].refusal, "syntax");
+  EXPECT_EQ(wkt.entries[1].detail, "found 'x', expected a number");
+  EXPECT_EQ(wkt.entries[2].refusal, "not-a-polygon");
+  EXPECT_TRUE(wkt.entries[3].refusal.empty());
+  EXPECT_EQ(wkt.entries[3].line, 4U);
+}
+
+TEST(FloeText, NumbersThatAreNoneBecomeNan) {
+  const FloeText floes = read(R"({"note": "NaN 1e999 // \"", "type": "MultiPolygon", "coordinates": [
+    [[[NaN,0],[4,-Infinity],[1e999,null]]], [[[0,0],[1e-999,0],[4,4]]]]})");
+  ASSERT_EQ(floes.entries.size(), 2U);
+  const Ring& ring = floes.entries[0].polygon.outer;
+  EXPECT_TRUE(std::isnan(ring[0].x) && std::isnan(ring[1].y) && std::isnan(ring[2].x) &&
+              std::isnan(ring[2].y));
+  EXPECT_EQ(ring[1].x, 4);
+  EXPECT_EQ(floes.entries[1].polygon.outer[1], (Point{0, 0}));
+  const Ring wkt = read("POLYGON ((nan inf, 1e999 1e-999, -Infinity 3))").entries.front().polygon.outer;
+  EXPECT_TRUE(std::isnan(wkt[0].x) && std::isinf(wkt[0].y) && std::isinf(wkt[1].x) && std::isinf(wkt[2].x));
+  EXPECT_EQ(wkt[1].y, 0);
+}
+
+TEST(FloeText, ARunsFloesAreNdjson) {
+  const FloeText floes = read(
+      "{\"floe_id\":0,\"parent_id\":null,\"ring_m\":[[0,0],[4,0],[4,4],[0,4]],\"holes_m\":[]}\n"
+      "{\"floe_id\":1,\"parent_id\":0,\"ring_m\":[[0,0],[4,0],[4,4],[0,4]],\"holes_m\":[[[1,1],[1,2],[2,1]]]}"
+      "\n");
+  ASSERT_EQ(floes.entries.size(), 2U);
+  EXPECT_EQ(floes.entries[1].floe_id, 1);
+  EXPECT_EQ(floes.entries[1].polygon, (Polygon{kSquare, {{{1, 1}, {1, 2}, {2, 1}}}}));
+}
+
+TEST(FloeText, WhatCannotBeReadIsToldWithItsPlace) {
+  for (const auto& [text, place] : {std::pair{"", "1:1: "},
+                                    {" \n ", "1:1: "},
+                                    {"(1 2)", "1:1: neither"},
+                                    {"{\"type\": \"Polygon\",\n \"coordinates\": [[[0 0]]]}", "2:22: "},
+                                    {"{\"type\": \"Polygon\"", "1:19: "}}) {
+    const auto floes = read_floe_text(text);
+    ASSERT_FALSE(floes.has_value()) << text;
+    EXPECT_EQ(floes.error().find(place), 0U) << floes.error();
+  }
+  std::string deep(100'000, '[');
+  EXPECT_FALSE(read_floe_text(deep).has_value());
+  std::string nested;
+  for (int i = 0; i < 100'000; ++i) nested += "GEOMETRYCOLLECTION(";
+  EXPECT_EQ(read(nested).entries.front().refusal, "syntax");
+}
+
+/// Whatever bytes stand there, reading ends and tells; every truncation and many corruptions of a good text.
+TEST(FloeText, AnyDamageIsSurvived) {
+  const std::vector<std::string> good{
+      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"floe_id":3},"geometry":)"
+      R"({"type":"MultiPolygon","coordinates":[[[[0,0],[4,0],[4,4e0],[0,4],[0,0]],[[1,1],[1,2],[2,1]]]]}}]})",
+      "SRID=3;MULTIPOLYGON Z (((0 0 1, 4 0 1, 4 4 1), (1 1 1, 1 2 1, 2 1 1)), EMPTY); "
+      "GEOMETRYCOLLECTION(POINT(1 2))",
+      "{\"ring_m\":[[0,0],[4,0],[4,4]]}\n{\"ring_m\":[[0,0],[NaN,0],[4,4]]}\n"};
+  std::mt19937 dice(7);
+  std::size_t readable = 0;
+  for (const std::string& text : good) {
+    for (std::size_t length = 0; length < text.size(); ++length)
+      readable += read_floe_text(text.substr(0, length)) ? 1 : 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+      std::string damaged = text;
+      for (int i = 0; i < 3; ++i)
+        damaged[dice() % damaged.size()] = "{}[](),:\"\\ \n/*#0-eNZ;\x1E\xFF\0"[dice() % 26];
+      readable += read_floe_text(damaged) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(readable, 1000U);
+}
+
+}  // namespace
+}  // namespace polynya::io

@@ -1,0 +1,156 @@
+#include "io/run_check.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "geometry/measures.hpp"
+#include "geometry/overlap.hpp"
+#include "io/near_part.hpp"
+
+namespace polynya::io {
+namespace {
+
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Pose;
+using geometry::Ring;
+
+/// A star-shaped ring with a random radius at each vertex.
+Ring star(std::mt19937& dice, int vertices, double radius) {
+  std::uniform_real_distribution<double> part(0.3, 1);
+  Ring ring;
+  for (int i = 0; i < vertices; ++i) {
+    const double angle = 2 * std::numbers::pi * i / vertices;
+    const double r = radius * part(dice);
+    ring.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  return ring;
+}
+
+/// The near part decides like the whole: exact overlaps of long jagged floes with small ones, in any pose,
+/// with and without a hole, agree to the last bit with those of the whole rings.
+TEST(NearPart, SharesTheSameAreaAsTheWhole) {
+  std::mt19937 dice(11);
+  std::uniform_real_distribution<double> place(-14, 14), turn(-4, 4);
+  int overlapping = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Polygon large{star(dice, 200, 10), {}};
+    if (trial % 2 == 0) {
+      Ring hole = star(dice, 40, 2.9);
+      large.holes.emplace_back(hole.rbegin(), hole.rend());
+    }
+    const Polygon small{star(dice, 8, trial % 3 == 0 ? 6 : 1.5), {}};
+    const Pose world_from_large{{place(dice), place(dice)}, geometry::Rotation::by(turn(dice))};
+    const Pose world_from_small{{place(dice), place(dice)}, geometry::Rotation::by(turn(dice))};
+    const auto whole = overlap({.polygon = large}, world_from_large, {.polygon = small}, world_from_small);
+    const auto near = shared_area(small, world_from_small, large, world_from_large);
+    ASSERT_TRUE(whole.has_value() && near.has_value());
+    EXPECT_EQ(*near, whole->area) << trial;
+    overlapping += whole->area > 0 ? 1 : 0;
+  }
+  EXPECT_GT(overlapping, 50);
+}
+
+TEST(NearPart, LeavesFewVerticesOfALongRing) {
+  std::mt19937 dice(3);
+  const Ring ring = star(dice, 4000, 100);
+  const Ring near = near_part(ring, {{60, 0}, {62, 2}});
+  EXPECT_LT(near.size(), 200U);
+  EXPECT_GT(near.size(), 2U);
+}
+
+Ring square(double x, double y, double size) {
+  return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
+}
+
+RunFloe floe(simulation::FloeId id, simulation::FloeId parent, double born, Ring ring) {
+  RunFloe result;
+  result.birth.floe = id;
+  result.birth.parent = parent;
+  result.birth.time = born;
+  result.birth.polygon_in_body = {std::move(ring), {}};
+  const geometry::Measures measures = measure(result.birth.polygon_in_body);
+  result.birth.area = measures.area;
+  result.birth.centroid_in_body = measures.centroid;
+  return result;
+}
+
+/// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards
+/// it.
+Run small_run() {
+  Run run;
+  run.floes = {
+      floe(0, simulation::kNoFloe, 0, square(0, 0, 4)), floe(1, simulation::kNoFloe, 0, square(5, 1, 2)),
+      floe(2, 0, 1, {{0, 0}, {4, 0}, {4, 2}, {0, 2}}), floe(3, 0, 1, {{0, 2}, {4, 2}, {4, 4}, {0, 4}})};
+  run.floes[0].died = 1;
+  run.floes[0].death_event = 0;
+  simulation::Event event;
+  event.kind = simulation::EventKind::kSplit;
+  event.time = 1;
+  event.floe = 0;
+  event.children = {2, 3};
+  run.events.push_back(event);
+  for (int t = 0; t <= 3; ++t) {
+    Frame frame;
+    frame.time = t;
+    for (const RunFloe& one : run.floes) {
+      if (!run.is_alive(one.birth.floe, t)) continue;
+      Motion motion;
+      motion.position = one.birth.centroid_in_body;
+      if (one.birth.floe == 1) motion.position.x -= 0.5 * t;
+      frame.floes.push_back({one.birth.floe, motion});
+    }
+    run.frames.push_back(std::move(frame));
+  }
+  return run;
+}
+
+TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
+  const RunCheck check = check_run(small_run());
+  EXPECT_TRUE(check.is_sound());
+  EXPECT_EQ(check.shapes, 4U);
+  EXPECT_EQ(check.fractures, 1U);
+  EXPECT_EQ(check.siblings.area, 0);
+  EXPECT_EQ(check.moments, 4U);
+  // At 3 s floe 1 has come 0.5 m into both halves, over one metre of each.
+  EXPECT_EQ(check.overlapping_pairs, 2U);
+  EXPECT_EQ(check.most_shared, 1.0);
+  EXPECT_EQ(check.most_shared_time, 3);
+  EXPECT_EQ(check.ice_then, 20);
+  EXPECT_EQ(check.worst.area, 0.5);
+  EXPECT_EQ(check.worst.depth, 0.5);
+  EXPECT_EQ(check_run(small_run(), 2).most_shared, 0) << "they touch at 2 s";
+}
+
+TEST(RunCheck, WhatIsWrongIsFound) {
+  auto crossed = small_run();
+  std::swap(crossed.floes[1].birth.polygon_in_body.outer[0], crossed.floes[1].birth.polygon_in_body.outer[1]);
+  const RunCheck of_crossed = check_run(crossed, 0);
+  ASSERT_EQ(of_crossed.invalid.size(), 1U);
+  EXPECT_EQ(of_crossed.invalid.front().floe, 1);
+  EXPECT_EQ(of_crossed.invalid.front().defect, "self-crossing");
+
+  auto misprinted = small_run();
+  misprinted.floes[1].birth.area += 1e-6;
+  EXPECT_EQ(check_run(misprinted).recorded_area.wrong, 1U);
+  EXPECT_EQ(check_run(misprinted).recorded_area.floe, 1);
+
+  auto leaking = small_run();
+  leaking.floes[3] = floe(3, 0, 1, {{0, 2}, {4, 2}, {4, 3.999}, {0, 4}});
+  const RunCheck of_leaking = check_run(leaking);
+  EXPECT_EQ(of_leaking.balance.wrong, 1U);
+  EXPECT_NEAR(of_leaking.balance.value, -0.002, 1e-12);
+
+  auto doubled = small_run();
+  doubled.floes[3] = floe(3, 0, 1, {{0, 1}, {4, 1}, {4, 3}, {0, 3}});
+  const RunCheck of_doubled = check_run(doubled);
+  EXPECT_EQ(of_doubled.balance.wrong, 0U) << "the areas add up";
+  EXPECT_EQ(of_doubled.siblings.area, 4) << "but the pieces share a strip";
+  for (const RunCheck& check : {of_crossed, of_leaking, of_doubled}) EXPECT_FALSE(check.is_sound());
+}
+
+}  // namespace
+}  // namespace polynya::io
