@@ -9,7 +9,7 @@ namespace polynya::dynamics {
 struct SolverSettings {
   double restitution = 0.1;       ///< ε of Eq. (5) [-]
   int most_sweeps = 30;           ///< over all contacts of a step
-  double tolerance = 1e-7;       ///< stop when no impulse changes the velocity at its contact by more [m/s]
+  double tolerance = 1e-7;        ///< stop when no impulse changes the velocity at its contact by more [m/s]
   double separation_time = 1.0;   ///< over which left-over overlap decays [s]
   double slop = 1e-4;             ///< overlap that is left alone [m]
 };

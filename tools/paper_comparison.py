@@ -115,19 +115,19 @@ def split_table(results: dict) -> str:
     rows = []
     for name, result in results.items():
         plates = [e for e in result["events"] if e["kind"] in ("bend", "split")]
-        judged = [e for e in plates if e["criterion"]["splitting_force_N"] > 0]
         ratio = lambda e: e["criterion"]["collision_force_N"] / e["criterion"]["splitting_force_N"]
-        shown = [e for e in judged if e["kind"] == "split"]
-        # Beside the splits, what came nearest to one, and what came nearest in the last hundred seconds of breaking.
-        others = [e for e in judged if e["kind"] != "split"]
-        late = [e for e in others if e["t_s"] > plates[-1]["t_s"] - 100]
-        for nearest in (max(others, key=ratio), max(late, key=ratio)):
-            if nearest not in shown:
-                shown.append(nearest)
+        can_crack = lambda e: e["criterion"]["crack_length_m"] >= e["criterion"]["breakable_size_m"]
+        shown = [e for e in plates if e["kind"] == "split"]
+        # Beside the splits: of the bends with a crack long enough to count, what came nearest to one, in the whole run
+        # and after its last split.
+        others = [e for e in plates if e["kind"] == "bend" and can_crack(e)]
+        after = [e for e in others if not shown or e["t_s"] > shown[-1]["t_s"]]
+        for candidates in (others, after):
+            if candidates and max(candidates, key=ratio) not in shown:
+                shown.append(max(candidates, key=ratio))
         for e in shown:
             c = e["criterion"]
-            why = "" if e["kind"] == "split" else (
-                "crack shorter than κ l" if c["crack_length_m"] < c["breakable_size_m"] else "too weak")
+            why = "" if e["kind"] == "split" else "j/τ_c < F_s"
             rows.append([name, f"{e['t_s']:.1f}", e["kind"], f"{c['collision_force_N'] / 1e6:.2f}",
                          f"{c['splitting_force_N'] / 1e6:.2f}", f"{c['crack_length_m']:.1f}", why])
     return table(["scene", "t, s", "what broke", "j/τ_c, MN", "F_s = n L h σ_t, MN", "L, m", "why no split"], rows)
