@@ -38,6 +38,7 @@ class Trial {
     const std::size_t i = pick();
     Floe floe = floes_[i];
     floe.world_from_body = {{1000 * unit(), 1000 * unit()}, Rotation::by(2 * std::numbers::pi * unit())};
+    vertices_ += static_cast<double>(vertex_count(floe.shape.polygon));
     const auto start = std::chrono::steady_clock::now();
     const CutOutcome outcome = cut(floe);
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -73,9 +74,9 @@ class Trial {
   void tell(const char* when) const {
     std::printf(
         "%s: %d cuts, %d refused, %zu floes, %d kept exact (longest for %d cuts), slivers %.3g m², %.1f µs a "
-        "cut\n",
+        "cut of %.1f vertices\n",
         when, cuts_, refused_, floes_.size(), kept_exact_, longest_exact_, slivers_,
-        1e6 * seconds_ / (cuts_ + refused_));
+        1e6 * seconds_ / (cuts_ + refused_), vertices_ / (cuts_ + refused_));
   }
   int longest_exact() const { return longest_exact_; }
 
@@ -124,6 +125,7 @@ class Trial {
   exact::Rational itemised_ = 0;
   double slivers_ = 0;
   double seconds_ = 0;
+  double vertices_ = 0;  // of the floes cut
   int cuts_ = 0;
   int refused_ = 0;
   int kept_exact_ = 0;
