@@ -59,14 +59,12 @@ void ImpulseSolver::find_islands(const Bodies& bodies, const std::vector<Contact
     const BodyIndex free_body = bodies.inverse_mass[c.a] != 0 ? c.a : c.b;
     return root_of(island_of_mover_, mover_of_body_[free_body]);
   };
-  order_.resize(contacts.size());
-  for (std::uint32_t i = 0; i < contacts.size(); ++i) order_[i] = i;
-  std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t p, std::uint32_t q) {
-    return island_root(contacts[p]) < island_root(contacts[q]);
-  });
+  order_.clear();
+  for (std::uint32_t i = 0; i < contacts.size(); ++i) order_.push_back({island_root(contacts[i]), i});
+  std::sort(order_.begin(), order_.end());
   std::int32_t previous = -1;
   for (std::uint32_t i = 0; i < order_.size(); ++i) {
-    const std::int32_t root = island_root(contacts[order_[i]]);
+    const std::int32_t root = order_[i].island;
     if (root != previous) islands_.push_back({2 * i, 0});
     previous = root;
     islands_.back().count += 2;
@@ -98,7 +96,7 @@ ImpulseSolver::Row ImpulseSolver::row_of(const Bodies& bodies, const Contact& c,
 void ImpulseSolver::fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, double restitution) {
   rows_.clear();
   couplings_.clear();
-  for (const std::uint32_t i : order_) {
+  for (const auto [island, i] : order_) {
     for (int end = 0; end < 2; ++end) rows_.push_back(row_of(bodies, contacts[i], end));
     const Row* ends = &rows_[rows_.size() - 2];
     const Mover& a = movers_[ends[0].a];
@@ -221,7 +219,7 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
   bool gave = false;
   for (std::uint32_t i = island.first; i < island.first + island.count; i += 2) {
     Row* ends = &rows_[i];
-    ContactRecord* record = contacts[order_[i / 2]].record;
+    ContactRecord* record = contacts[order_[i / 2].contact].record;
     const double compression = ends[0].normal_impulse + ends[1].normal_impulse;
     double owed = restitution * compression;
     if (record != nullptr) {
@@ -257,7 +255,7 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
 
 void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    Contact& c = contacts[order_[i / 2]];
+    Contact& c = contacts[order_[i / 2].contact];
     c.normal_impulse[i % 2] = rows_[i].normal_impulse;
     c.tangent_impulse[i % 2] = rows_[i].tangent_impulse;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <vector>
 
 #include "dynamics/contact.hpp"
@@ -59,6 +60,11 @@ class ImpulseSolver {
     double friction;
     double normal_impulse, tangent_impulse;
   };
+  struct Place {
+    std::int32_t island;  // its root among the movers
+    std::uint32_t contact;
+    friend auto operator<=>(const Place&, const Place&) = default;
+  };
   struct Island {
     std::uint32_t first = 0;  // rows
     std::uint32_t count = 0;
@@ -82,7 +88,7 @@ class ImpulseSolver {
   std::vector<BodyIndex> body_of_mover_;
   std::vector<std::int32_t> mover_of_body_;   // −1 where the body has none
   std::vector<std::int32_t> island_of_mover_; // union-find parents, then island numbers
-  std::vector<std::uint32_t> order_;          // contacts, island by island
+  std::vector<Place> order_;                  // contacts, island by island
   std::vector<Island> islands_;
   std::vector<Row> rows_;                     // two for each contact, in order_
   std::vector<double> couplings_;             // how an impulse at one end moves the other, per contact in order_ [1/kg]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <tuple>
 
 namespace polynya::dynamics {
 namespace {
@@ -83,8 +84,8 @@ void PairFinder::remove(BodyIndex body) {
 void PairFinder::wake(const Bodies& bodies, BodyIndex body) { connect(bodies, body); }
 
 void PairFinder::sleep(const Bodies& bodies, BodyIndex body) {
-  const std::vector<std::uint32_t> own = entries_[body].pairs;
-  for (const std::uint32_t pair : own) {
+  own_pairs_ = entries_[body].pairs;
+  for (const std::uint32_t pair : own_pairs_) {
     const BodyIndex other = pairs_[pair].a == body ? pairs_[pair].b : pairs_[pair].a;
     if (!bodies.is_awake[other]) drop_pair(pair);
   }
@@ -145,8 +146,8 @@ void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
   for (const BodyIndex body : awake) {
     if (bodies.travel[body] <= entries_[body].travel_limit) continue;
     place(bodies, body);
-    const std::vector<std::uint32_t> own = entries_[body].pairs;
-    for (const std::uint32_t pair : own) {
+    own_pairs_ = entries_[body].pairs;
+    for (const std::uint32_t pair : own_pairs_) {
       if (!overlaps(entries_[pairs_[pair].a].box, entries_[pairs_[pair].b].box)) drop_pair(pair);
     }
     connect(bodies, body);
@@ -200,6 +201,7 @@ void PairFinder::collect(const Bodies& bodies, Pair& pair, std::vector<Contact>&
     c.depth = patch.depth;
     c.area = patch.area;
     c.tip_edge_of_b = patch.tip_edge_of_b;
+    c.place = static_cast<std::uint32_t>(records_.size());
     const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -
                             velocity_at(bodies, c.a, c.middle() - bodies.position[c.a]);
     c.approach_speed = -dot(relative, c.normal);
@@ -226,8 +228,9 @@ void PairFinder::find_contacts(Bodies& bodies, double dt, std::vector<Contact>& 
     }
     collect(bodies, pair, contacts, dt);
   }
-  std::stable_sort(contacts.begin(), contacts.end(),
-                   [](const Contact& p, const Contact& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  std::sort(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
+    return std::tie(p.a, p.b, p.place) < std::tie(q.a, q.b, q.place);
+  });
 }
 
 }  // namespace polynya::dynamics

@@ -75,6 +75,7 @@ class PairFinder {
   std::vector<geometry::ContactPatch> patches_;
   geometry::PatchScratch scratch_;
   std::vector<ContactRecord> records_;    // of the pair at hand, being renewed
+  std::vector<std::uint32_t> own_pairs_;  // of a body, while some of them are dropped
   std::int64_t unpaired_ = 0;
 };
 
