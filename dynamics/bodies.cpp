@@ -9,7 +9,8 @@ namespace polynya::dynamics {
 BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   assert(body.mass > 0 && body.moment > 0 && body.boundary);
   double radius = 0;
-  for (const geometry::Point p : body.boundary->edges.vertices) radius = std::max(radius, distance(p, body.centroid));
+  for (const geometry::Point p : body.boundary->edges.vertices)
+    radius = std::max(radius, distance(p, body.centroid));
   bodies.position.push_back(body.position);
   bodies.angle.push_back(body.angle);
   bodies.rotation.push_back(geometry::Rotation::by(body.angle));
@@ -32,8 +33,9 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
 
 namespace {
 
-/// The rotation by `turn` after r, for the small turns of a step [rad]. Cayley's form: a rotation to the last bit or
-/// two however many follow one another, by 2 atan(turn/2), which is turn³/12 short: 1e-14 at 0.01 rad/s and 5 ms.
+/// The rotation by `turn` after r, for the small turns of a step [rad]. Cayley's form: a rotation to the last
+/// bit or two however many follow one another, by 2 atan(turn/2), which is turn³/12 short: 1e-14 at 0.01
+/// rad/s and 5 ms.
 geometry::Rotation turned(geometry::Rotation r, double turn) {
   const double h = 0.5 * turn;
   const double scale = 1 / (1 + h * h);
@@ -53,7 +55,8 @@ void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn)
 }
 
 void integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt) {
-  for (const BodyIndex i : awake) move_body(bodies, i, dt * bodies.velocity[i], dt * bodies.angular_velocity[i]);
+  for (const BodyIndex i : awake)
+    move_body(bodies, i, dt * bodies.velocity[i], dt * bodies.angular_velocity[i]);
 }
 
 }  // namespace polynya::dynamics

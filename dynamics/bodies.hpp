@@ -15,31 +15,32 @@ using BodyIndex = std::int32_t;
 /// How water holds a body back, by its shape alone. Made once per shape (water_drag.hpp).
 struct DragShape {
   static constexpr int kDirections = 128;
-  std::array<double, kDirections + 1> width{};  ///< across the directions of drag_direction(k) [m]; last = first
-  double rotational = 0;                        ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
+  std::array<double, kDirections + 1>
+      width{};            ///< across the directions of drag_direction(k) [m]; last = first
+  double rotational = 0;  ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
 };
 
-/// The rigid bodies of a world, ships and floes alike, as columns. Positions and velocities are in the water frame,
-/// which drifts over ground with the water's uniform velocity: ice at rest in it is at rest exactly.
+/// The rigid bodies of a world, ships and floes alike, as columns. Positions and velocities are in the water
+/// frame, which drifts over ground with the water's uniform velocity: ice at rest in it is at rest exactly.
 /// Bodies are only ever added; one that broke is marked dead and its index is not used again.
 struct Bodies {
   // Hot: read or written every step while awake.
-  std::vector<geometry::Point> position;       ///< centre of mass in the water frame [m]
-  std::vector<double> angle;                   ///< of the body's axes [rad]
-  std::vector<geometry::Rotation> rotation;    ///< cosine and sine of angle
-  std::vector<geometry::Vector> velocity;      ///< of the centre of mass relative to the water [m/s]
-  std::vector<double> angular_velocity;        ///< [rad/s]
-  std::vector<double> inverse_mass;            ///< 0: held [1/kg]
-  std::vector<double> inverse_moment;          ///< 0: held [1/(kg m²)]
-  std::vector<double> travel;                  ///< no point of the body has moved farther since it came to be [m]
-  std::vector<double> bounding_radius;         ///< about the centre of mass [m]
+  std::vector<geometry::Point> position;     ///< centre of mass in the water frame [m]
+  std::vector<double> angle;                 ///< of the body's axes [rad]
+  std::vector<geometry::Rotation> rotation;  ///< cosine and sine of angle
+  std::vector<geometry::Vector> velocity;    ///< of the centre of mass relative to the water [m/s]
+  std::vector<double> angular_velocity;      ///< [rad/s]
+  std::vector<double> inverse_mass;          ///< 0: held [1/kg]
+  std::vector<double> inverse_moment;        ///< 0: held [1/(kg m²)]
+  std::vector<double> travel;           ///< no point of the body has moved farther since it came to be [m]
+  std::vector<double> bounding_radius;  ///< about the centre of mass [m]
   std::vector<std::uint8_t> is_awake;
   // Cold.
   std::vector<std::uint8_t> is_alive;
-  std::vector<double> mass;                    ///< [kg], also of held bodies
-  std::vector<double> moment;                  ///< of inertia about the centre of mass [kg m²]
-  std::vector<geometry::Point> centroid;       ///< centre of mass in the body frame [m]
-  std::vector<double> thickness;               ///< of the ice, or the draught that meets water [m]
+  std::vector<double> mass;               ///< [kg], also of held bodies
+  std::vector<double> moment;             ///< of inertia about the centre of mass [kg m²]
+  std::vector<geometry::Point> centroid;  ///< centre of mass in the body frame [m]
+  std::vector<double> thickness;          ///< of the ice, or the draught that meets water [m]
   std::vector<std::shared_ptr<const geometry::Boundary>> boundary;
   std::vector<std::shared_ptr<const DragShape>> drag;  ///< null: the water does not hold it back
 
@@ -48,15 +49,15 @@ struct Bodies {
 
 /// What a body is when it comes to be.
 struct NewBody {
-  geometry::Point position;          ///< centre of mass, water frame [m]
-  double angle = 0;                  ///< [rad]
-  geometry::Vector velocity;         ///< relative to the water [m/s]
-  double angular_velocity = 0;       ///< [rad/s]
-  double mass = 0;                   ///< [kg]
-  double moment = 0;                 ///< [kg m²]
-  bool is_held = false;              ///< its velocity does not answer to impulses
-  geometry::Point centroid;          ///< in the body frame [m]
-  double thickness = 0;              ///< [m]
+  geometry::Point position;     ///< centre of mass, water frame [m]
+  double angle = 0;             ///< [rad]
+  geometry::Vector velocity;    ///< relative to the water [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
+  double mass = 0;              ///< [kg]
+  double moment = 0;            ///< [kg m²]
+  bool is_held = false;         ///< its velocity does not answer to impulses
+  geometry::Point centroid;     ///< in the body frame [m]
+  double thickness = 0;         ///< [m]
   std::shared_ptr<const geometry::Boundary> boundary;
   std::shared_ptr<const DragShape> drag;
 };

@@ -11,12 +11,14 @@ struct Mobility {
   geometry::Vector arm;       ///< from the centre of mass to the contact point [m]
 };
 
-/// 1 / [1/m_i + 1/m_k + (r_i × n)²/I_i + (r_k × n)²/I_k]: the mass that meets an impulse along n at the contact [kg].
-/// Eq. (5) of [Sawamura2017]. Deviation: as printed r_i and r_k are crossed; that reading gains energy.
+/// 1 / [1/m_i + 1/m_k + (r_i × n)²/I_i + (r_k × n)²/I_k]: the mass that meets an impulse along n at the
+/// contact [kg]. Eq. (5) of [Sawamura2017]. Deviation: as printed r_i and r_k are crossed; that reading gains
+/// energy.
 inline double effective_mass(const Mobility& i, const Mobility& k, geometry::Vector direction) {
   const double turn_i = cross(i.arm, direction);
   const double turn_k = cross(k.arm, direction);
-  return 1 / (i.inverse_mass + k.inverse_mass + turn_i * turn_i * i.inverse_moment + turn_k * turn_k * k.inverse_moment);
+  return 1 / (i.inverse_mass + k.inverse_mass + turn_i * turn_i * i.inverse_moment +
+              turn_k * turn_k * k.inverse_moment);
 }
 
 /// j = (1 + ε) v_n m_eff [N s] for an approach speed v_n > 0 [m/s], 0 otherwise. Eq. (5) of [Sawamura2017].

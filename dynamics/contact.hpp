@@ -13,36 +13,37 @@ struct ContactRecord {
   geometry::Point first_touch_in_b;  ///< the point of b that was touched first [m]
   double age = 0;                    ///< since first contact [s]
   double approach = 0;               ///< ∫ max(0, v_n) dt [m]
-  double crushed_depth = 0;          ///< overlap that crushing made: the ice is gone, nothing pushes it apart [m]
-  double owed_impulse = 0;           ///< of restitution, that crushing ice could not give yet [N s]
-  double given_impulse = 0;          ///< of restitution, since first contact [N s]
-  double most_to_give = 0;           ///< bound of it, by the fastest approach yet of the two bodies alone [N s]
+  double crushed_depth = 0;  ///< overlap that crushing made: the ice is gone, nothing pushes it apart [m]
+  double owed_impulse = 0;   ///< of restitution, that crushing ice could not give yet [N s]
+  double given_impulse = 0;  ///< of restitution, since first contact [N s]
+  double most_to_give = 0;   ///< bound of it, by the fastest approach yet of the two bodies alone [N s]
   double last_impulse[2] = {0, 0};   ///< compression at the last step [N s]
   double start_impulse[2] = {0, 0};  ///< where the solver starts, as the last two steps foretell it [N s]
   bool has_crushed = false;
-  bool was_refused = false;          ///< a fracture here was refused by geometry: not tried again
-  bool is_continued = false;         ///< taken over by a contact of the next step already
+  bool was_refused = false;   ///< a fracture here was refused by geometry: not tried again
+  bool is_continued = false;  ///< taken over by a contact of the next step already
 };
 
 /// Two bodies that overlap, at one step. In the water frame; the normal points from a into b; a < b.
 struct Contact {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  geometry::Point ends[2];     ///< the ends of the contact line [m]
-  geometry::Point tip_of_b;    ///< the point of b farthest inside a [m]
-  geometry::Vector normal;     ///< unit
-  double width = 0;            ///< of the contact line [m]
-  double depth = 0;            ///< of the overlap along the normal [m]
-  double area = 0;             ///< of the overlap [m²]
-  double approach_speed = 0;   ///< v_n at the middle, positive when approaching [m/s]
-  double slip_speed = 0;       ///< along the contact line [m/s]
+  geometry::Point ends[2];          ///< the ends of the contact line [m]
+  geometry::Point tip_of_b;         ///< the point of b farthest inside a [m]
+  geometry::Vector normal;          ///< unit
+  double width = 0;                 ///< of the contact line [m]
+  double depth = 0;                 ///< of the overlap along the normal [m]
+  double area = 0;                  ///< of the overlap [m²]
+  double approach_speed = 0;        ///< v_n at the middle, positive when approaching [m/s]
+  double slip_speed = 0;            ///< along the contact line [m/s]
   std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
-  std::uint32_t place = 0;     ///< among the contacts of its two bodies
+  std::uint32_t place = 0;          ///< among the contacts of its two bodies
   ContactRecord* record = nullptr;  ///< lives in its pair; valid during the step
 
   // Decided between finding and solving.
-  double impulse_limit = std::numeric_limits<double>::infinity();  ///< what crushing ice carries in the step [N s]
-  double friction = 0;          ///< most tangential per normal impulse [-]
+  double impulse_limit =
+      std::numeric_limits<double>::infinity();  ///< what crushing ice carries in the step [N s]
+  double friction = 0;                          ///< most tangential per normal impulse [-]
 
   // Found by the solver.
   double normal_impulse[2] = {0, 0};   ///< on b along the normal, at each end [N s]

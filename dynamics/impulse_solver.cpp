@@ -15,10 +15,12 @@ Mobility mobility(const Bodies& bodies, BodyIndex i, Vector arm) {
   return {bodies.inverse_mass[i], bodies.inverse_moment[i], arm};
 }
 
-/// Friction while sliding can raise the impulse that ends an approach above the frictionless one; seldom to twice it.
+/// Friction while sliding can raise the impulse that ends an approach above the frictionless one; seldom to
+/// twice it.
 constexpr double kFrictionSlack = 2;
 
-/// How much of an unconverged step's impulses the next one starts from: a wrong guess must die out, not build up.
+/// How much of an unconverged step's impulses the next one starts from: a wrong guess must die out, not build
+/// up.
 constexpr double kTrustUnconverged = 0.5;
 
 std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t i) {
@@ -141,7 +143,8 @@ inline void ImpulseSolver::press(Row& row, double normal_impulse) {
   row.normal_impulse = normal_impulse;
 }
 
-/// What would bring both ends to rest, if no other body were there: the solution p of K p = approach, p ≥ 0 [N s].
+/// What would bring both ends to rest, if no other body were there: the solution p of K p = approach, p ≥ 0
+/// [N s].
 double ImpulseSolver::isolated_impulse(const Row* ends, double coupling) const {
   const double approach[2] = {-apart_at(ends[0]), -apart_at(ends[1])};
   const double k0 = 1 / ends[0].normal_mass;
@@ -155,7 +158,8 @@ double ImpulseSolver::isolated_impulse(const Row* ends, double coupling) const {
   return std::max({0.0, approach[0] / k0, approach[1] / k1});
 }
 
-/// Brings both ends of a contact line to rest within their bounds. Returns by how much that changed a velocity [m/s].
+/// Brings both ends of a contact line to rest within their bounds. Returns by how much that changed a
+/// velocity [m/s].
 inline double ImpulseSolver::visit_normals(Row* ends, double coupling) {
   Row& r0 = ends[0];
   Row& r1 = ends[1];
@@ -183,7 +187,8 @@ inline double ImpulseSolver::visit_normals(Row* ends, double coupling) {
   return std::max(std::abs(r0.normal_impulse - before[0]) * k0, std::abs(r1.normal_impulse - before[1]) * k1);
 }
 
-/// Brings the slip at one end to rest within the Coulomb cone. Returns by how much that changed the velocity [m/s].
+/// Brings the slip at one end to rest within the Coulomb cone. Returns by how much that changed the velocity
+/// [m/s].
 inline double ImpulseSolver::visit_friction(Row& row) {
   if (row.normal_impulse == 0 && row.tangent_impulse == 0) return 0;
   const Mover& a = movers_[row.a];
@@ -225,7 +230,8 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
     if (record != nullptr) {
       owed = std::min(owed + record->owed_impulse, record->most_to_give - record->given_impulse);
       for (int end = 0; end < 2; ++end) {
-        // The next step's, as the last two foretell it: steady or falling in proportion, never more than both.
+        // The next step's, as the last two foretell it: steady or falling in proportion, never more than
+        // both.
         const double last = record->last_impulse[end];
         const double now = ends[end].normal_impulse;
         const double start = now < last ? now * (now / last) : last;
@@ -267,7 +273,8 @@ void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
   }
 }
 
-SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings) {
+SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts,
+                                  const SolverSettings& settings) {
   SolverResult result;
   find_islands(bodies, contacts);
   fill_rows(bodies, contacts, settings.restitution);
@@ -282,16 +289,18 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
 
 int ImpulseSolver::separate(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings,
                             double dt) {
-  // Each contact moves its own bodies by its own share, one after the other: a relaxation, not a solution, since
-  // left-over overlap is a few centimetres that may take a second to go.
+  // Each contact moves its own bodies by its own share, one after the other: a relaxation, not a solution,
+  // since left-over overlap is a few centimetres that may take a second to go.
   int moved = 0;
   const double share = std::min(1.0, dt / settings.separation_time);
   for (const Contact& c : contacts) {
-    const double excess = c.depth - std::max(settings.slop, c.record != nullptr ? c.record->crushed_depth : 0.0);
+    const double excess =
+        c.depth - std::max(settings.slop, c.record != nullptr ? c.record->crushed_depth : 0.0);
     if (excess <= 0) continue;
     const Vector arm_a = c.middle() - bodies.position[c.a];
     const Vector arm_b = c.middle() - bodies.position[c.b];
-    const double push_mass = effective_mass(mobility(bodies, c.a, arm_a), mobility(bodies, c.b, arm_b), c.normal);
+    const double push_mass =
+        effective_mass(mobility(bodies, c.a, arm_a), mobility(bodies, c.b, arm_b), c.normal);
     const double p = share * excess * push_mass;  // [kg m]: an impulse times a second
     for (const auto& [body, arm, sign] : {std::tuple{c.a, arm_a, -1.0}, std::tuple{c.b, arm_b, 1.0}}) {
       move_body(bodies, body, sign * p * bodies.inverse_mass[body] * c.normal,

@@ -8,38 +8,39 @@
 namespace polynya::dynamics {
 
 struct SolverSettings {
-  double restitution = 0.1;       ///< ε of Eq. (5) [-]
-  int most_sweeps = 30;           ///< over all contacts of a step
-  double tolerance = 1e-7;        ///< stop when no impulse changes the velocity at its contact by more [m/s]
-  double separation_time = 1.0;   ///< over which left-over overlap decays [s]
-  double slop = 1e-4;             ///< overlap that is left alone [m]
+  double restitution = 0.1;      ///< ε of Eq. (5) [-]
+  int most_sweeps = 30;          ///< over all contacts of a step
+  double tolerance = 1e-7;       ///< stop when no impulse changes the velocity at its contact by more [m/s]
+  double separation_time = 1.0;  ///< over which left-over overlap decays [s]
+  double slop = 1e-4;            ///< overlap that is left alone [m]
 };
 
 struct SolverResult {
-  int islands = 0;            ///< groups of bodies that touch one another
-  int unconverged = 0;        ///< islands that used all their sweeps
+  int islands = 0;              ///< groups of bodies that touch one another
+  int unconverged = 0;          ///< islands that used all their sweeps
   std::int64_t row_visits = 0;  ///< ends of contact lines visited, over all sweeps
   bool is_converged() const { return unconverged == 0; }
 };
 
 /// Finds the impulses of all contacts of one step together and applies them: sequential impulses [Baraff1997,
 /// Catto2005] over both ends of every contact line, each end with Eq. (5) corrected, normal impulses within
-/// [0, limit/2], friction within the Coulomb cone. A floe pinched between two bodies so feels both. Bodies that touch
-/// make islands, and each island is swept until it has converged.
-/// Compression first: impulses that end every approach, starting from what the last two steps foretell (a steady
-/// push goes on, a blow does not). Then restitution, as Poisson's share of the compression: a contact gives back ε times
-/// the impulse that compressed it, so one that is not limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says, and one
+/// [0, limit/2], friction within the Coulomb cone. A floe pinched between two bodies so feels both. Bodies
+/// that touch make islands, and each island is swept until it has converged. Compression first: impulses that
+/// end every approach, starting from what the last two steps foretell (a steady push goes on, a blow does
+/// not). Then restitution, as Poisson's share of the compression: a contact gives back ε times the impulse
+/// that compressed it, so one that is not limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says, and one
 /// that crushes gets there over as many steps as the ice needs; never more than twice ε times what would have
-/// ended the approach of its two bodies alone, so a squeeze from elsewhere does not charge it. Last, whatever the restitution
-/// pushed together is held apart. Writes the impulses into the contacts, and what the next step needs into their records.
-/// The two ends of a line are solved together, so that a symmetric push stays symmetric.
+/// ended the approach of its two bodies alone, so a squeeze from elsewhere does not charge it. Last, whatever
+/// the restitution pushed together is held apart. Writes the impulses into the contacts, and what the next
+/// step needs into their records. The two ends of a line are solved together, so that a symmetric push stays
+/// symmetric.
 class ImpulseSolver {
  public:
   SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
 
-  /// Moves overlapping bodies apart without giving them speed (split impulse): along the normals, in proportion to
-  /// their inverse masses, the overlap beyond what crushing made decays over separation_time. Returns how many
-  /// contacts it moved.
+  /// Moves overlapping bodies apart without giving them speed (split impulse): along the normals, in
+  /// proportion to their inverse masses, the overlap beyond what crushing made decays over separation_time.
+  /// Returns how many contacts it moved.
   int separate(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings, double dt);
 
  private:
@@ -49,14 +50,14 @@ class ImpulseSolver {
     double inverse_mass;
     double inverse_moment;
   };
-  struct Row {  // one end of one contact line; directions as seen by its two bodies
-    std::int32_t a, b;              // movers
+  struct Row {          // one end of one contact line; directions as seen by its two bodies
+    std::int32_t a, b;  // movers
     geometry::Vector normal;
     double normal_turn_a, normal_turn_b;    // arm × normal [m]
     double tangent_turn_a, tangent_turn_b;  // arm × perpendicular(normal) [m]
     double normal_mass, tangent_mass;       // [kg]
-    double least;     // of the normal impulse: what restitution gave [N s]
-    double limit;     // [N s]
+    double least;                           // of the normal impulse: what restitution gave [N s]
+    double limit;                           // [N s]
     double friction;
     double normal_impulse, tangent_impulse;
   };
@@ -86,12 +87,12 @@ class ImpulseSolver {
 
   std::vector<Mover> movers_;
   std::vector<BodyIndex> body_of_mover_;
-  std::vector<std::int32_t> mover_of_body_;   // −1 where the body has none
-  std::vector<std::int32_t> island_of_mover_; // union-find parents, then island numbers
-  std::vector<Place> order_;                  // contacts, island by island
+  std::vector<std::int32_t> mover_of_body_;    // −1 where the body has none
+  std::vector<std::int32_t> island_of_mover_;  // union-find parents, then island numbers
+  std::vector<Place> order_;                   // contacts, island by island
   std::vector<Island> islands_;
-  std::vector<Row> rows_;                     // two for each contact, in order_
-  std::vector<double> couplings_;             // how an impulse at one end moves the other, per contact in order_ [1/kg]
+  std::vector<Row> rows_;          // two for each contact, in order_
+  std::vector<double> couplings_;  // how an impulse at one end moves the other, per contact in order_ [1/kg]
 };
 
 }  // namespace polynya::dynamics

@@ -16,7 +16,8 @@ class PairGrid {
   void insert(BodyIndex body, const geometry::Box& box);
   void remove(BodyIndex body, const geometry::Box& box);
 
-  /// Calls visit(other) for each body in the cells of the box; one that spans several of them comes several times.
+  /// Calls visit(other) for each body in the cells of the box; one that spans several of them comes several
+  /// times.
   template <typename Visit>
   void for_each_near(const geometry::Box& box, Visit visit) const {
     for_cells(box, [&](std::int64_t key) {

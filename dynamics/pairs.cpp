@@ -12,7 +12,7 @@ using geometry::Point;
 using geometry::Pose;
 using geometry::Vector;
 
-constexpr double kBoxMargin = 2.0;   ///< boxes are grown by this much, and renewed after that much travel [m]
+constexpr double kBoxMargin = 2.0;  ///< boxes are grown by this much, and renewed after that much travel [m]
 constexpr double kNearMargin = 0.75;  ///< contact circles within this distance are kept with a pair [m]
 
 Box box_in_water(const Bodies& bodies, BodyIndex i) {
@@ -31,7 +31,8 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
   return box;
 }
 
-/// The record of a contact: the nearest old one that may be the same contact, or a new one, brought up to date.
+/// The record of a contact: the nearest old one that may be the same contact, or a new one, brought up to
+/// date.
 ContactRecord record_of(std::vector<ContactRecord>& old_records, const Contact& c, const Pose& water_from_b,
                         double tolerance, double dt) {
   const Point here = point_in_body(water_from_b, c.middle());
@@ -81,7 +82,9 @@ void PairFinder::remove(BodyIndex body) {
   entry.is_in = false;
 }
 
-void PairFinder::wake(const Bodies& bodies, BodyIndex body) { connect(bodies, body); }
+void PairFinder::wake(const Bodies& bodies, BodyIndex body) {
+  connect(bodies, body);
+}
 
 void PairFinder::sleep(const Bodies& bodies, BodyIndex body) {
   own_pairs_ = entries_[body].pairs;
@@ -95,9 +98,10 @@ void PairFinder::connect(const Bodies& bodies, BodyIndex body) {
   const Box box = entries_[body].box;
   grid_.for_each_near(box, [&](BodyIndex other) {
     if (other == body || !overlaps(box, entries_[other].box)) return;
-    if (bodies.inverse_mass[body] == 0 && bodies.inverse_mass[other] == 0) return;  // nothing could come of it
+    if (bodies.inverse_mass[body] == 0 && bodies.inverse_mass[other] == 0)
+      return;  // nothing could come of it
     const auto& smaller = entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs
-                                                                                    : entries_[other].pairs;
+                                                                                     : entries_[other].pairs;
     const BodyIndex a = std::min(body, other);
     const BodyIndex b = std::max(body, other);
     for (const std::uint32_t pair : smaller) {

@@ -23,13 +23,13 @@ struct Pair {
 
 /// How contacts are found.
 struct ContactRule {
-  double circle_radius = 1.0;     ///< [m]
-  bool is_circle_centres = false; ///< the paper's own normals, instead of those of the boundary
+  double circle_radius = 1.0;      ///< [m]
+  bool is_circle_centres = false;  ///< the paper's own normals, instead of those of the boundary
 };
 
-/// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the contact circles that
-/// are near each other, until the bodies have moved so far that others might be. Both bounds are conservative: what is
-/// culled cannot touch, so the contacts are those of a search over everything.
+/// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the contact
+/// circles that are near each other, until the bodies have moved so far that others might be. Both bounds are
+/// conservative: what is culled cannot touch, so the contacts are those of a search over everything.
 class PairFinder {
  public:
   PairFinder(const ContactRule& rule, double grid_cell);
@@ -45,16 +45,17 @@ class PairFinder {
   /// Renews boxes and pairs of the awake bodies that have travelled out of their grown boxes.
   void update(const Bodies& bodies, const std::vector<BodyIndex>& awake);
 
-  /// All contacts of the present positions, ordered by (a, b, place). Contact records are kept over the steps.
+  /// All contacts of the present positions, ordered by (a, b, place). Contact records are kept over the
+  /// steps.
   void find_contacts(Bodies& bodies, double dt, std::vector<Contact>& contacts);
 
   /// Contact stretches whose crossings did not pair up (see geometry::find_patches), over all steps.
   std::int64_t unpaired_stretches() const { return unpaired_; }
 
  private:
-  struct Entry {  // one body's place in the grid
-    geometry::Box box;              // grown
-    double travel_limit = 0;        // the box holds until the body has travelled this far
+  struct Entry {              // one body's place in the grid
+    geometry::Box box;        // grown
+    double travel_limit = 0;  // the box holds until the body has travelled this far
     std::vector<std::uint32_t> pairs;
     bool is_in = false;
   };
@@ -68,9 +69,9 @@ class PairFinder {
   ContactRule rule_;
   PairGrid grid_;
   std::vector<Entry> entries_;
-  std::vector<Pair> pairs_;               // slots; free ones have a == b
+  std::vector<Pair> pairs_;  // slots; free ones have a == b
   std::vector<std::uint32_t> free_pairs_;
-  std::vector<std::uint32_t> active_;     // pairs in use
+  std::vector<std::uint32_t> active_;  // pairs in use
   std::vector<std::uint32_t> place_in_active_;
   std::vector<geometry::ContactPatch> patches_;
   geometry::PatchScratch scratch_;

@@ -13,7 +13,8 @@ DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point cent
   for (int k = 0; k < DragShape::kDirections; ++k) {
     const Vector along = drag_direction(k);
     const Vector across = perpendicular(along) / length(along);
-    // The known directions are not evenly spaced in angle: each stands for dθ = |d'| / |d|² of the diamond's edge.
+    // The known directions are not evenly spaced in angle: each stands for dθ = |d'| / |d|² of the diamond's
+    // edge.
     const double share = (2.0 / DragShape::kDirections) / squared_length(along) / std::numbers::pi;
     double low = 0;
     double high = 0;
@@ -54,13 +55,15 @@ double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, dou
     const double speed = length(u);
     if (speed > 0) {
       const double width = width_across(*shape, rotate_back(bodies.rotation[i], u));
-      const double shrink = 1 / (1 + half_rate * bodies.thickness[i] * width * bodies.inverse_mass[i] * speed);
+      const double shrink =
+          1 / (1 + half_rate * bodies.thickness[i] * width * bodies.inverse_mass[i] * speed);
       bodies.velocity[i] = shrink * u;
       work += 0.5 * bodies.mass[i] * speed * speed * (1 - shrink * shrink);
     }
     const double omega = bodies.angular_velocity[i];
     if (omega != 0) {
-      const double resistance = half_rate * bodies.thickness[i] * shape->rotational * bodies.inverse_moment[i];
+      const double resistance =
+          half_rate * bodies.thickness[i] * shape->rotational * bodies.inverse_moment[i];
       const double shrink = 1 / (1 + resistance * std::abs(omega));
       bodies.angular_velocity[i] = shrink * omega;
       work += 0.5 * bodies.moment[i] * omega * omega * (1 - shrink * shrink);

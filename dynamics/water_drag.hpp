@@ -5,24 +5,26 @@
 
 namespace polynya::dynamics {
 
-/// Width of a shape across each direction and its rotational drag integral, about `centroid` in its frame [m].
+/// Width of a shape across each direction and its rotational drag integral, about `centroid` in its frame
+/// [m].
 DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid);
 
-/// The k-th of the 128 directions over half a turn at which widths are known: evenly around a diamond, since that
-/// needs no arctangent to find one's place among them. Not of unit length.
+/// The k-th of the 128 directions over half a turn at which widths are known: evenly around a diamond, since
+/// that needs no arctangent to find one's place among them. Not of unit length.
 geometry::Vector drag_direction(int k);
 
 /// Width across a direction in the body frame (of any length > 0), interpolated between the known ones [m]:
-/// within 2e-4 for a square, and within aspect/64 of the width of a slender piece where its kink falls between two.
+/// within 2e-4 for a square, and within aspect/64 of the width of a slender piece where its kink falls
+/// between two.
 double width_across(const DragShape& shape, geometry::Vector direction_in_body);
 
 /// Lets the water brake every awake body over dt. Eq. (6) of [Sawamura2017]:
 ///   F = −½ C_D ρ_w A |u| u,   A = h × width across u,
-/// with u relative to the water, and the same law for the rotation, each strip at distance s from the centre moving
-/// at ω s through the water: M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions.
-/// Deviation: the paper prints the floe's own velocity for u; a drifting floe would be braked by its own current.
-/// Solved exactly over the step for constant A, v⁺ = v / (1 + c |v| dt): no step is too long for it.
-/// Returns the work done on the water [J].
+/// with u relative to the water, and the same law for the rotation, each strip at distance s from the centre
+/// moving at ω s through the water: M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over
+/// directions. Deviation: the paper prints the floe's own velocity for u; a drifting floe would be braked by
+/// its own current. Solved exactly over the step for constant A, v⁺ = v / (1 + c |v| dt): no step is too long
+/// for it. Returns the work done on the water [J].
 double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, double drag_coefficient,
                         double water_density, double dt);
 

@@ -5,17 +5,19 @@
 namespace polynya::fracture {
 
 inline constexpr double kSmallestHalfAngle = 0.174532925199432957;  ///< 10°, least wedge half-angle [rad]
-inline constexpr double kLargestHalfAngle = 1.43116998663535025;    ///< 82°: tan diverges at a straight edge [rad]
+inline constexpr double kLargestHalfAngle =
+    1.43116998663535025;  ///< 82°: tan diverges at a straight edge [rad]
 
 /// The hull's inclination from the vertical where its waterline's plan normal has the forward component
-/// sin α: tan θ_s = sin α / tan φ, with the stem angle φ from the horizontal and the waterline angle α from the
-/// centreline [rad]. Aft of midships (sin α < 0) the wall is taken as vertical.
+/// sin α: tan θ_s = sin α / tan φ, with the stem angle φ from the horizontal and the waterline angle α from
+/// the centreline [rad]. Aft of midships (sin α < 0) the wall is taken as vertical.
 double hull_angle_from_vertical(double sine_waterline_angle, double stem_angle);
 
 /// Crushed contact area A_c [m²]. Eq. (2) of [Sawamura2017], both branches at once:
 ///   A_c = T / (2 sin θ_s) · [ξ² − ⟨ξ − h tan θ_s⟩²],   ⟨x⟩ = max(0, x)
 /// T = tan θ_wf + tan θ_wb, ξ penetration along the plan normal [m], h thickness [m], θ_s hull angle from the
-/// vertical [rad], 0 ≤ θ_s < π/2. Its limit at the vertical wall, T ξ h, is used there: nothing divides by zero.
+/// vertical [rad], 0 ≤ θ_s < π/2. Its limit at the vertical wall, T ξ h, is used there: nothing divides by
+/// zero.
 double crushed_area(double tangent_sum, double penetration, double thickness, double hull_angle);
 
 /// The forces between hull and ice while it crushes, per newton of the facet's normal force F_n.
@@ -25,13 +27,15 @@ struct CrushingShares {
   double tangential = 0;  ///< most that friction may carry along the hull, / F_n
 };
 
-/// H = F_n (cos θ_s + μ sin θ_s), V = F_n (sin θ_s − μ cos θ_s · s), s = v_n sin θ_s / √(v_n² sin² θ_s + v_t²);
-/// what is left of μ F_n acts along the hull, μ F_n √(1 − s²). Eqs. (1), (3) of [Sawamura2017] on the inclined facet.
-/// approach_speed v_n and slip_speed v_t along the hull [m/s].
-/// Deviation: at θ_s = 0 all friction is tangential, as for any vertical wall.
+/// H = F_n (cos θ_s + μ sin θ_s), V = F_n (sin θ_s − μ cos θ_s · s), s = v_n sin θ_s / √(v_n² sin² θ_s +
+/// v_t²); what is left of μ F_n acts along the hull, μ F_n √(1 − s²). Eqs. (1), (3) of [Sawamura2017] on the
+/// inclined facet. approach_speed v_n and slip_speed v_t along the hull [m/s]. Deviation: at θ_s = 0 all
+/// friction is tangential, as for any vertical wall.
 CrushingShares crushing_shares(double hull_angle, double friction, double approach_speed, double slip_speed);
 
 /// F_n = σ_c A_c [N]. Eq. (1) of [Sawamura2017].
-inline double crushing_force(const Ice& ice, double area) { return ice.compressive_strength * area; }
+inline double crushing_force(const Ice& ice, double area) {
+  return ice.compressive_strength * area;
+}
 
 }  // namespace polynya::fracture

@@ -17,8 +17,8 @@ struct FailureCriteria {
   double bending_capacity = 0;  ///< V_b [N]
 };
 
-/// Small floes are pushed away; else a hard enough hit splits; else ice pressed down enough breaks off a cusp;
-/// else the contact crushes.
+/// Small floes are pushed away; else a hard enough hit splits; else ice pressed down enough breaks off a
+/// cusp; else the contact crushes.
 constexpr Failure decide(const FailureCriteria& c) {
   if (c.floe_size < c.breakable_size) return Failure::kNone;
   const bool can_crack = c.crack_length >= c.breakable_size && c.has_ice_beside;

@@ -6,15 +6,15 @@ namespace polynya::fracture {
 
 /// Ice as the fracture laws need it. Defaults are the paper's ice [Sawamura2017]; the paper gives no ν.
 struct Ice {
-  double thickness = 0.5;              ///< h [m]
-  double density = 900;                ///< ρ_i [kg/m³]
-  double youngs_modulus = 5.4e9;       ///< E [Pa]
-  double poisson_ratio = 0.3;          ///< ν [-]
-  double flexural_strength = 0.8e6;    ///< σ_f [Pa]
-  double compressive_strength = 2.8e6; ///< σ_c [Pa]
-  double tensile_strength = 0.8e6;     ///< σ_t [Pa]
-  double fracture_toughness = 150e3;   ///< K_IC [Pa √m]
-  double friction = 0.2;               ///< μ, hull on ice and ice on ice [-]
+  double thickness = 0.5;               ///< h [m]
+  double density = 900;                 ///< ρ_i [kg/m³]
+  double youngs_modulus = 5.4e9;        ///< E [Pa]
+  double poisson_ratio = 0.3;           ///< ν [-]
+  double flexural_strength = 0.8e6;     ///< σ_f [Pa]
+  double compressive_strength = 2.8e6;  ///< σ_c [Pa]
+  double tensile_strength = 0.8e6;      ///< σ_t [Pa]
+  double fracture_toughness = 150e3;    ///< K_IC [Pa √m]
+  double friction = 0.2;                ///< μ, hull on ice and ice on ice [-]
 };
 
 struct Water {

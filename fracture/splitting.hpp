@@ -13,8 +13,8 @@ inline double michel_splitting_force(const Ice& ice, double path_length, double 
 }
 
 /// Force that drives an edge crack across a floe, F = 0.209 h K_IC √L [N] (*recall*: linear elastic fracture
-/// mechanics of an edge crack under mouth forces after [Bhat1988], K_IC 115–250 kPa √m; the coefficient could not
-/// be looked up here).
+/// mechanics of an edge crack under mouth forces after [Bhat1988], K_IC 115–250 kPa √m; the coefficient could
+/// not be looked up here).
 inline double lefm_splitting_force(const Ice& ice, double path_length) {
   return 0.209 * ice.thickness * ice.fracture_toughness * std::sqrt(path_length);
 }

@@ -64,11 +64,11 @@ struct PatchScratch {
     Point point;
     std::uint32_t edge_a, edge_b;
     double along_a, along_b;
-    bool is_entering;  ///< a's boundary enters b here
+    bool is_entering;          ///< a's boundary enters b here
     std::uint32_t place_on_a;  ///< in the order along a
   };
   std::vector<Crossing> crossings;
-  std::vector<Crossing> by_b;  ///< the same, in the order along b
+  std::vector<Crossing> by_b;         ///< the same, in the order along b
   std::vector<Point> side_a, side_b;  ///< the overlap's two sides, (along the line, off it) [m]
 };
 

@@ -40,8 +40,9 @@ void find_crossings(const Boundary& a, const Boundary& b, const Pose& a_from_b,
   }
 }
 
-/// Crossings at one place of an edge come in either order by rounding; along a ring they must enter and leave in turn.
-/// `at(i)` is the i-th crossing of the order, by reference; only crossings of one ring follow one another.
+/// Crossings at one place of an edge come in either order by rounding; along a ring they must enter and leave
+/// in turn. `at(i)` is the i-th crossing of the order, by reference; only crossings of one ring follow one
+/// another.
 template <typename At, typename RingOf, typename IsSamePlace>
 void alternate_ties(std::size_t count, At at, RingOf ring_of, IsSamePlace is_same_place) {
   for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -72,7 +73,8 @@ bool is_before_on_b(const Crossing& p, const Crossing& q) {
   return p.edge_b != q.edge_b ? p.edge_b < q.edge_b : p.along_b < q.along_b;
 }
 
-/// What a chain of vertices adds to a patch: area between chain and contact line, and how far it reaches off it.
+/// What a chain of vertices adds to a patch: area between chain and contact line, and how far it reaches off
+/// it.
 struct ChainExtent {
   double area = 0;
   double depth = 0;
@@ -81,11 +83,11 @@ struct ChainExtent {
   bool is_closed = false;  ///< the chain did arrive
 };
 
-/// Walks `edges` from a point on edge `first` to a point on edge `last`, measuring along `outward` from the line.
-/// Writes the chain's points as (along the line, off the line) into `profile`.
+/// Walks `edges` from a point on edge `first` to a point on edge `last`, measuring along `outward` from the
+/// line. Writes the chain's points as (along the line, off the line) into `profile`.
 template <typename InFrame>
-ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to, Vector outward,
-                 bool wraps, InFrame in_frame, std::vector<Point>& profile) {
+ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to,
+                 Vector outward, bool wraps, InFrame in_frame, std::vector<Point>& profile) {
   constexpr int kMostVertices = 4096;  // a stretch this long is no contact: the bodies stand in each other
   ChainExtent extent;
   extent.tip = midpoint(from, to);
@@ -127,10 +129,12 @@ double off_at(const std::vector<Point>& profile, double along) {
   return off;
 }
 
-/// Greatest thickness of the overlap across the contact line: it is at a vertex of either side. The sides' greatest
-/// extents do not simply add: two faces shifted along each other reach farthest at opposite ends of the line.
+/// Greatest thickness of the overlap across the contact line: it is at a vertex of either side. The sides'
+/// greatest extents do not simply add: two faces shifted along each other reach farthest at opposite ends of
+/// the line.
 double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& b_side, double line) {
-  constexpr std::size_t kMostProduct = 4096;  // beyond, the sum is near enough for bodies that stand in each other
+  constexpr std::size_t kMostProduct =
+      4096;  // beyond, the sum is near enough for bodies that stand in each other
   double most = 0;
   double sum = 0;
   for (const Point p : a_side) sum = std::max(sum, p.y);
@@ -142,25 +146,19 @@ double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& 
   return most;
 }
 
-}  // namespace
-
-int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                 const std::vector<NearPair>& edge_pairs, PatchScratch& scratch,
-                 std::vector<ContactPatch>& patches) {
-  std::vector<Crossing>& crossings = scratch.crossings;
-  crossings.clear();
-  find_crossings(a, b, a_from_b, edge_pairs, crossings);
-  if (crossings.empty()) return 0;
-  std::sort(crossings.begin(), crossings.end(), is_before_on_a);
+/// The crossings of two boundaries, in their orders along both.
+void order_crossings(const Boundary& a, const Boundary& b, PatchScratch& scratch) {
+  std::vector<Crossing>& by_a = scratch.crossings;
+  std::sort(by_a.begin(), by_a.end(), is_before_on_a);
   alternate_ties(
-      crossings.size(), [&](std::size_t i) -> Crossing& { return crossings[i]; },
+      by_a.size(), [&](std::size_t i) -> Crossing& { return by_a[i]; },
       [&](const Crossing& p) { return a.edges.ring[p.edge_a]; },
       [](const Crossing& p, const Crossing& q) {
         return p.edge_a == q.edge_a && std::abs(p.along_a - q.along_a) < kSamePlace;
       });
+  for (std::uint32_t i = 0; i < by_a.size(); ++i) by_a[i].place_on_a = i;
   std::vector<Crossing>& by_b = scratch.by_b;
-  for (std::uint32_t i = 0; i < crossings.size(); ++i) crossings[i].place_on_a = i;
-  by_b = crossings;
+  by_b = by_a;
   std::sort(by_b.begin(), by_b.end(), is_before_on_b);
   alternate_ties(
       by_b.size(), [&](std::size_t i) -> Crossing& { return by_b[i]; },
@@ -168,70 +166,82 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
       [](const Crossing& p, const Crossing& q) {
         return p.edge_b == q.edge_b && std::abs(p.along_b - q.along_b) < kSamePlace;
       });
+}
 
-  const auto next_on_a = [&](std::size_t i) -> std::size_t {
-    const std::uint32_t ring = a.edges.ring[crossings[i].edge_a];
-    if (i + 1 < crossings.size() && a.edges.ring[crossings[i + 1].edge_a] == ring) return i + 1;
-    while (i > 0 && a.edges.ring[crossings[i - 1].edge_a] == ring) --i;
-    return i;
-  };
-  const auto next_on_b = [&](std::size_t i) -> std::size_t {
-    std::size_t at = 0;
-    while (by_b[at].place_on_a != i) ++at;
-    const std::uint32_t ring = b.edges.ring[crossings[i].edge_b];
-    if (at + 1 < by_b.size() && b.edges.ring[by_b[at + 1].edge_b] == ring) return by_b[at + 1].place_on_a;
-    while (at > 0 && b.edges.ring[by_b[at - 1].edge_b] == ring) --at;
-    return by_b[at].place_on_a;
-  };
+/// The crossing that follows number i along its ring, in an order of crossings.
+template <typename RingOf>
+std::size_t next_on_ring(const std::vector<Crossing>& order, std::size_t i, RingOf ring_of) {
+  const std::uint32_t ring = ring_of(order[i]);
+  if (i + 1 < order.size() && ring_of(order[i + 1]) == ring) return i + 1;
+  while (i > 0 && ring_of(order[i - 1]) == ring) --i;
+  return i;
+}
+
+/// The patch of one stretch of a's boundary inside b, from its entering to its leaving crossing; false where
+/// its sides do not close.
+bool make_patch(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
+                const Crossing& leave, bool closes_on_b, PatchScratch& scratch, ContactPatch& patch) {
+  const Vector line = leave.point - enter.point;
+  patch.width = length(line);
+  if (patch.width < 1e-12) return false;
+  patch.normal = -perpendicular(line) / patch.width;
+  const auto as_is = [](Point p) { return p; };
+  const auto from_b = [&](Point p) { return point_in_world(a_from_b, p); };
+  const ChainExtent on_a =
+      walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, patch.normal,
+           enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is, scratch.side_a);
+  patch.area = on_a.area;
+  patch.depth = on_a.depth;
+  patch.tip_of_b = midpoint(enter.point, leave.point);
+  patch.tip_edge_of_b = enter.edge_b;
+  bool is_closed = on_a.is_closed;
+  if (closes_on_b) {
+    const ChainExtent on_b =
+        walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, -patch.normal,
+             leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b, scratch.side_b);
+    patch.area += on_b.area;
+    patch.depth = thickness_of(scratch.side_a, scratch.side_b, patch.width);
+    if (on_b.depth > 0) {
+      patch.tip_of_b = on_b.tip;
+      patch.tip_edge_of_b = on_b.tip_edge;
+    }
+    is_closed = is_closed && on_b.is_closed;
+  }
+  patch.ends[0] = enter.point;
+  patch.ends[1] = leave.point;
+  patch.area = std::max(patch.area, 0.0);
+  patch.edge_of_a = enter.edge_a;
+  patch.edge_of_b = enter.edge_b;
+  return is_closed;
+}
+
+}  // namespace
+
+int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                 const std::vector<NearPair>& edge_pairs, PatchScratch& scratch,
+                 std::vector<ContactPatch>& patches) {
+  const std::vector<Crossing>& by_a = scratch.crossings;
+  const std::vector<Crossing>& by_b = scratch.by_b;
+  scratch.crossings.clear();
+  find_crossings(a, b, a_from_b, edge_pairs, scratch.crossings);
+  if (by_a.empty()) return 0;
+  order_crossings(a, b, scratch);
+  const auto ring_on_a = [&](const Crossing& p) { return a.edges.ring[p.edge_a]; };
+  const auto ring_on_b = [&](const Crossing& p) { return b.edges.ring[p.edge_b]; };
 
   int left_out = 0;
-  for (std::size_t i = 0; i < crossings.size(); ++i) {
-    if (!crossings[i].is_entering) continue;
-    const Crossing& enter = crossings[i];
-    const std::size_t j = next_on_a(i);
-    const Crossing& leave = crossings[j];
-    const Vector line = leave.point - enter.point;
-    const double width = length(line);
-    if (j == i || leave.is_entering || width < 1e-12) {
-      ++left_out;
-      continue;
-    }
+  for (std::size_t i = 0; i < by_a.size(); ++i) {
+    if (!by_a[i].is_entering) continue;
+    const std::size_t j = next_on_ring(by_a, i, ring_on_a);
+    std::size_t j_on_b = 0;
+    while (by_b[j_on_b].place_on_a != j) ++j_on_b;
+    const bool closes_on_b = by_b[next_on_ring(by_b, j_on_b, ring_on_b)].place_on_a == i;
     ContactPatch patch;
-    patch.normal = -perpendicular(line) / width;
-    const auto as_is = [](Point p) { return p; };
-    const auto from_b = [&](Point p) { return point_in_world(a_from_b, p); };
-    const ChainExtent on_a = walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, patch.normal,
-                                  enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is,
-                                  scratch.side_a);
-    bool is_closed = on_a.is_closed;
-    patch.area = on_a.area;
-    patch.depth = on_a.depth;
-    patch.tip_of_b = midpoint(enter.point, leave.point);
-    patch.tip_edge_of_b = enter.edge_b;
-    if (next_on_b(j) == i) {
-      const ChainExtent on_b =
-          walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, -patch.normal,
-               leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b,
-                                    scratch.side_b);
-      patch.area += on_b.area;
-      patch.depth = thickness_of(scratch.side_a, scratch.side_b, width);
-      if (on_b.depth > 0) {
-        patch.tip_of_b = on_b.tip;
-        patch.tip_edge_of_b = on_b.tip_edge;
-      }
-      is_closed = is_closed && on_b.is_closed;
-    }
-    if (!is_closed) {
+    if (!by_a[j].is_entering && make_patch(a, b, a_from_b, by_a[i], by_a[j], closes_on_b, scratch, patch)) {
+      patches.push_back(patch);
+    } else {
       ++left_out;
-      continue;
     }
-    patch.ends[0] = enter.point;
-    patch.ends[1] = leave.point;
-    patch.width = width;
-    patch.area = std::max(patch.area, 0.0);
-    patch.edge_of_a = enter.edge_a;
-    patch.edge_of_b = enter.edge_b;
-    patches.push_back(patch);
   }
   return left_out;
 }

@@ -36,7 +36,7 @@ class EdgeGrid {
     const auto [r0, r1] = span(p.y - radius - low_.y, p.y + radius - low_.y, rows_);
     for (std::int64_t r = r0; r <= r1; ++r) {
       for (std::int64_t c = c0; c <= c1; ++c) {
-        const std::size_t cell = static_cast<std::size_t>(r * columns_ + c);
+        const auto cell = static_cast<std::size_t>(r * columns_ + c);
         for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k) visit(edge_[k]);
       }
     }
@@ -195,8 +195,8 @@ std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges, double 
     if (l > radius) {  // a long edge carries several circles
       const double pieces = std::ceil(l / radius);
       const Vector step = (edges.to(e) - edges.from(e)) / pieces;
-      for (double k = 0; k < pieces; ++k) {
-        const Point from = edges.from(e) + k * step;
+      for (int k = 0; k < static_cast<int>(pieces); ++k) {
+        const Point from = edges.from(e) + static_cast<double>(k) * step;
         const Stretch stretch{e, 1, from, from + 0.5 * step, from + step, e};
         circles.push_back(circle_for(edges, grid, stretch, radius));
       }

@@ -21,7 +21,8 @@ struct EdgeList {
 
 EdgeList edge_list(const Polygon& polygon);
 
-/// A circle that touches the boundary from inside and stands for the piece of boundary around its touching point.
+/// A circle that touches the boundary from inside and stands for the piece of boundary around its touching
+/// point.
 struct ContactCircle {
   Point centre;                  ///< in the body frame [m]
   double radius = 0;             ///< at most the setting's; smaller where the ice is too narrow for it [m]
@@ -32,8 +33,8 @@ struct ContactCircle {
 
 /// Contact circles along all boundaries of a polygon, in ring order, one per `radius` of boundary or less.
 /// [Sawamura2017] sets them along waterline and floe edges with a radius of 1.0 m.
-/// Deviation: a circle never leaves the ice. Near corners and in narrow places it shrinks until it touches the
-/// boundary twice, so the circles' union tends to the polygon as the radius tends to zero.
+/// Deviation: a circle never leaves the ice. Near corners and in narrow places it shrinks until it touches
+/// the boundary twice, so the circles' union tends to the polygon as the radius tends to zero.
 std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges, double radius);
 
 }  // namespace polynya::geometry

@@ -32,7 +32,8 @@ double eq5_impulse(const World& world, const Contact& c) {
   return dynamics::collision_impulse(c.approach_speed, world.scene.contact.restitution, mass);
 }
 
-/// θ_s where the contact is: by the waterline's normal from the stem angle, or from the hull's own table [rad].
+/// θ_s where the contact is: by the waterline's normal from the stem angle, or from the hull's own table
+/// [rad].
 double hull_angle_at(const World& world, const Contact& c) {
   const Hull& hull = world.scene.ships[c.a].hull;
   const geometry::Pose pose = dynamics::water_from_body(world.bodies, c.a);
@@ -56,18 +57,19 @@ double hull_angle_at(const World& world, const Contact& c) {
 
 /// The fracture load of one ship contact while ice crushes there.
 struct CrushingContact {
-  double hull_angle = 0;   ///< θ_s [rad]
-  double normal_force = 0; ///< F_n on the facet [N]
+  double hull_angle = 0;    ///< θ_s [rad]
+  double normal_force = 0;  ///< F_n on the facet [N]
   fracture::CrushingShares shares;
 };
 
 CrushingContact crushing_at(const World& world, const Contact& c) {
   CrushingContact crushing;
   crushing.hull_angle = hull_angle_at(world, c);
-  const double area = crushed_overlap_area({c.width, c.depth, c.area}, world.scene.ice.thickness, crushing.hull_angle);
+  const double area =
+      crushed_overlap_area({c.width, c.depth, c.area}, world.scene.ice.thickness, crushing.hull_angle);
   crushing.normal_force = fracture::crushing_force(world.scene.ice, area);
-  crushing.shares =
-      fracture::crushing_shares(crushing.hull_angle, world.scene.ice.friction, c.approach_speed, c.slip_speed);
+  crushing.shares = fracture::crushing_shares(crushing.hull_angle, world.scene.ice.friction, c.approach_speed,
+                                              c.slip_speed);
   return crushing;
 }
 
@@ -99,14 +101,16 @@ double least_splitting_force(const World& world) {
                                    world.scene.fracture.splitting_shape_factor);
 }
 
-/// The crack that would start at the contact, along the hull's normal through all ice ahead, and what it takes.
+/// The crack that would start at the contact, along the hull's normal through all ice ahead, and what it
+/// takes.
 void measure_crack(const World& world, const Contact& c, PendingFracture& pending) {
   const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
   pending.crack_in_body =
       geometry::crack_path(world.bodies.boundary[c.b]->edges, point_in_body(water_from_floe, c.middle()),
                            rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
   const double length = pending.crack_in_body.length_in_ice;
-  // At the corner that an earlier crack left, the next one would run along its face and pare it strip by strip.
+  // At the corner that an earlier crack left, the next one would run along its face and pare it strip by
+  // strip.
   const geometry::WedgeAngles wedge = wedge_at(world, c);
   pending.criteria.has_ice_beside = std::min(wedge.front, wedge.back) >= fracture::kSmallestHalfAngle;
   pending.criteria.crack_length = length;
@@ -125,7 +129,8 @@ PendingFracture judge(World& world, const Contact& c, const CrushingContact& cru
   if (criteria.collision_force > least_splitting_force(world)) measure_crack(world, c, pending);
   if (crushing.shares.vertical > 0) {
     // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
-    const double crushing_impulse = crushing.shares.horizontal * crushing.normal_force * world.scene.time.step;
+    const double crushing_impulse =
+        crushing.shares.horizontal * crushing.normal_force * world.scene.time.step;
     const double pressed = crushing_impulse > 0 ? std::min(1.0, impulse / crushing_impulse) : 0;
     criteria.vertical_force = pressed * crushing.shares.vertical * crushing.normal_force;
     const fracture::BendingCapacity capacity = world.bending->capacity(bending_load(world, c, crushing));
@@ -137,7 +142,8 @@ PendingFracture judge(World& world, const Contact& c, const CrushingContact& cru
   }
   pending.failure = fracture::decide(criteria);
   // Too weak for any crack, but the record of a bend states the other criterion's two sides as well.
-  if (pending.failure == fracture::Failure::kBend && criteria.crack_length == 0) measure_crack(world, c, pending);
+  if (pending.failure == fracture::Failure::kBend && criteria.crack_length == 0)
+    measure_crack(world, c, pending);
   pending.ship = c.a;
   pending.floe = world.floe_of(c.b);
   pending.point_in_water = c.middle();
@@ -168,9 +174,10 @@ void decide(World& world) {
   for (Contact& c : world.contacts) {
     c.friction = world.scene.ice.friction;
     if (!world.is_ship(c.a)) {  // floe against floe: vertical walls, of the same ice
-      c.impulse_limit =
-          fracture::crushing_force(world.scene.ice, crushed_overlap_area({c.width, c.depth, c.area},
-                                                                         world.scene.ice.thickness, 0)) * dt;
+      c.impulse_limit = fracture::crushing_force(
+                            world.scene.ice,
+                            crushed_overlap_area({c.width, c.depth, c.area}, world.scene.ice.thickness, 0)) *
+                        dt;
       continue;
     }
     const double impulse = eq5_impulse(world, c);
@@ -180,7 +187,8 @@ void decide(World& world) {
     c.impulse_limit = crushing.shares.horizontal * crushing.normal_force * dt;
     c.friction = crushing.shares.tangential / crushing.shares.horizontal;
     const PendingFracture pending = judge(world, c, crushing, impulse);
-    const bool breaks = pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
+    const bool breaks =
+        pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
     if (breaks && !c.record->was_refused) world.fractures.push_back(pending);
   }
 }

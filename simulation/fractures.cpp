@@ -88,7 +88,8 @@ void apply_fractures(World& world) {
   std::stable_sort(world.fractures.begin(), world.fractures.end(),
                    [](const PendingFracture& p, const PendingFracture& q) { return p.floe < q.floe; });
   for (const PendingFracture& pending : world.fractures) {
-    if (!world.is_alive(pending.floe)) continue;  // it broke in this step already; its pieces are judged in the next
+    if (!world.is_alive(pending.floe))
+      continue;  // it broke in this step already; its pieces are judged in the next
     const geometry::CutOutcome outcome = cut(world, pending);
     if (outcome) {
       replace_by_pieces(world, pending, *outcome);

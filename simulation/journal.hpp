@@ -20,31 +20,31 @@ std::string_view name_of(EventKind kind);
 struct Event {
   double time = 0;  ///< [s]
   EventKind kind = EventKind::kBend;
-  int ship = 0;                          ///< index in the scene
-  FloeId floe = kNoFloe;                 ///< the floe that broke (its children's parent)
+  int ship = 0;           ///< index in the scene
+  FloeId floe = kNoFloe;  ///< the floe that broke (its children's parent)
   std::vector<FloeId> children;
-  geometry::Point point_in_world;        ///< contact point [m]
-  geometry::Vector normal_in_world;      ///< unit, from the hull into the ice
-  fracture::FailureCriteria criteria;    ///< both sides of what was decided
-  double cusp_radius = 0;                ///< R, bends only [m]
-  double penetration = 0;                ///< ξ when it broke [m]
-  double submerged_area = 0;             ///< [m²]
-  double brash_area = 0;                 ///< pieces below the size limit and slivers [m²]
-  double rounding_defect = 0;            ///< [m²]
-  std::string reason;                    ///< of a rejected cut
+  geometry::Point point_in_world;      ///< contact point [m]
+  geometry::Vector normal_in_world;    ///< unit, from the hull into the ice
+  fracture::FailureCriteria criteria;  ///< both sides of what was decided
+  double cusp_radius = 0;              ///< R, bends only [m]
+  double penetration = 0;              ///< ξ when it broke [m]
+  double submerged_area = 0;           ///< [m²]
+  double brash_area = 0;               ///< pieces below the size limit and slivers [m²]
+  double rounding_defect = 0;          ///< [m²]
+  std::string reason;                  ///< of a rejected cut
 };
 
 /// A floe's shape when it came to be. Written as one line of floes.ndjson.
 struct Birth {
   FloeId floe = 0;
   FloeId parent = kNoFloe;
-  double time = 0;         ///< [s]
-  int generation = 0;      ///< fractures since the scene's floe
-  double area = 0;         ///< [m²]
-  double mass = 0;         ///< [kg]
-  geometry::Point centroid_in_body;  ///< [m]
-  geometry::Polygon polygon_in_body; ///< body frame: the scene's coordinates of the floe's oldest ancestor
-  bool is_exact = true;    ///< false where the doubles only approximate a shape kept in rationals
+  double time = 0;                    ///< [s]
+  int generation = 0;                 ///< fractures since the scene's floe
+  double area = 0;                    ///< [m²]
+  double mass = 0;                    ///< [kg]
+  geometry::Point centroid_in_body;   ///< [m]
+  geometry::Polygon polygon_in_body;  ///< body frame: the scene's coordinates of the floe's oldest ancestor
+  bool is_exact = true;               ///< false where the doubles only approximate a shape kept in rationals
 };
 
 /// One recorded moment of one ship. Forces are in the ship's frame, by ice on the ship.
@@ -60,12 +60,12 @@ struct ShipSample {
   double surge_max = 0;    ///< largest true force of a single step in the interval, by magnitude [N]
   double sway_max = 0;     ///< [N]
   double yaw_max = 0;      ///< [N m]
-  geometry::Point position_in_world;  ///< [m]
-  double heading = 0;                 ///< [rad]
-  geometry::Vector velocity_in_world; ///< over ground [m/s]
-  double yaw_rate = 0;                ///< [rad/s]
-  double thrust = 0;                  ///< along the heading; for a constant-speed ship what held it [N]
-  int contacts = 0;                   ///< at the sampled step
+  geometry::Point position_in_world;   ///< [m]
+  double heading = 0;                  ///< [rad]
+  geometry::Vector velocity_in_world;  ///< over ground [m/s]
+  double yaw_rate = 0;                 ///< [rad/s]
+  double thrust = 0;                   ///< along the heading; for a constant-speed ship what held it [N]
+  int contacts = 0;                    ///< at the sampled step
 };
 
 /// What a step has to tell. The caller takes it and clears it; the vectors keep their capacity.
@@ -101,7 +101,7 @@ struct Counts {
   std::int64_t rejected_cuts = 0;
   std::int64_t floated_cusps = 0;
   std::int64_t brash_pieces = 0;
-  std::int64_t kept_exact = 0;      ///< shapes that had to stay in rationals
+  std::int64_t kept_exact = 0;  ///< shapes that had to stay in rationals
   std::int64_t database_out_of_range = 0;
   std::int64_t unconverged_steps = 0;  ///< steps in which the impulse solver used all its sweeps
   std::int64_t steps = 0;

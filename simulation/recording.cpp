@@ -7,8 +7,12 @@ namespace {
 
 using geometry::Vector;
 
-double larger(double a, double b) { return std::abs(b) > std::abs(a) ? b : a; }
-Vector larger(Vector a, Vector b) { return {larger(a.x, b.x), larger(a.y, b.y)}; }
+double larger(double a, double b) {
+  return std::abs(b) > std::abs(a) ? b : a;
+}
+Vector larger(Vector a, Vector b) {
+  return {larger(a.x, b.x), larger(a.y, b.y)};
+}
 
 /// Adds what a contact's impulses did to the ship at its end `arm` from the centre of gravity.
 void add_contact(World& world, const dynamics::Contact& c, BodyIndex ship, double sign) {

@@ -12,8 +12,8 @@
 
 namespace polynya::simulation {
 
-/// A scene as the simulation needs it: every default filled in, every floe spelled out. SI units, angles in radians.
-/// The JSON form and its field table are io's (docs/scene.md).
+/// A scene as the simulation needs it: every default filled in, every floe spelled out. SI units, angles in
+/// radians. The JSON form and its field table are io's (docs/scene.md).
 
 struct StepSettings {
   double step = 0.005;  ///< Δt [s]
@@ -33,7 +33,7 @@ enum class ContactNormal {
 };
 
 struct ContactSettings {
-  double circle_radius = 1.0;    ///< [m]
+  double circle_radius = 1.0;  ///< [m]
   ContactNormal normal = ContactNormal::kBoundary;
   double restitution = 0.1;      ///< ε of Eq. (5) [-]; friction is the ice's μ
   double contact_time = 0.5;     ///< τ_c, only for the paper's peak force j/τ_c [s]
@@ -51,14 +51,14 @@ struct FractureSettings {
   fracture::SplittingModel splitting = fracture::SplittingModel::kMichel;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
   CuspFate cusp_fate = CuspFate::kSubmerge;
-  double cusp_sagitta = 0.02;         ///< a cusp's polygon stays this close to its circle [m]
-  double smallest_floe_area = 0.1;    ///< smaller pieces leave the floe list as brash [m²]
+  double cusp_sagitta = 0.02;       ///< a cusp's polygon stays this close to its circle [m]
+  double smallest_floe_area = 0.1;  ///< smaller pieces leave the floe list as brash [m²]
 };
 
 /// A waterline in the ship's frame (origin at the centre of gravity, x forward, y to port) [m].
 struct Hull {
-  geometry::Ring waterline;              ///< counter-clockwise
-  double stem_angle = 0.5236;            ///< φ, of the stem from the horizontal [rad]
+  geometry::Ring waterline;                  ///< counter-clockwise
+  double stem_angle = 0.5236;                ///< φ, of the stem from the horizontal [rad]
   std::vector<double> angles_from_vertical;  ///< θ_s per waterline vertex [rad]; empty: from the stem angle
 };
 
@@ -107,8 +107,8 @@ struct Scene {
   std::vector<FloeSpec> floes;
 };
 
-/// A wedge-bowed waterline of the given length and beam [m]: straight flanks from the stem at the entrance angle from
-/// the centreline [rad], a parallel midbody, a square stern. Origin amidships.
+/// A wedge-bowed waterline of the given length and beam [m]: straight flanks from the stem at the entrance
+/// angle from the centreline [rad], a parallel midbody, a square stern. Origin amidships.
 geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle);
 
 }  // namespace polynya::simulation

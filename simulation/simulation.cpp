@@ -21,12 +21,24 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-void Simulation::step() { simulation::step(*world_); }
-std::optional<std::string> Simulation::numerical_failure() const { return world_->failure; }
-double Simulation::time() const { return world_->time(); }
-const Scene& Simulation::scene() const { return world_->scene; }
-Journal& Simulation::journal() { return world_->journal; }
-const World& Simulation::world() const { return *world_; }
+void Simulation::step() {
+  simulation::step(*world_);
+}
+std::optional<std::string> Simulation::numerical_failure() const {
+  return world_->failure;
+}
+double Simulation::time() const {
+  return world_->time();
+}
+const Scene& Simulation::scene() const {
+  return world_->scene;
+}
+Journal& Simulation::journal() {
+  return world_->journal;
+}
+const World& Simulation::world() const {
+  return *world_;
+}
 
 AreaLedger Simulation::area_ledger() const {
   AreaLedger ledger = world_->ledger;
@@ -41,7 +53,8 @@ AreaLedger Simulation::area_ledger() const {
 Counts Simulation::counts() const {
   Counts counts = world_->counts;
   counts.steps = world_->steps;
-  for (FloeId id = 0; id < static_cast<FloeId>(world_->floes.size()); ++id) counts.floes_final += world_->is_alive(id);
+  for (FloeId id = 0; id < static_cast<FloeId>(world_->floes.size()); ++id)
+    counts.floes_final += world_->is_alive(id);
   return counts;
 }
 

@@ -20,11 +20,11 @@ struct FloeState {
   double born = 0;  ///< [s]
   int generation = 0;
   geometry::Pose world_from_body;
-  double angle = 0;             ///< of world_from_body [rad]
-  geometry::Vector velocity;    ///< of the centre of mass over ground [m/s]
-  double angular_velocity = 0;  ///< [rad/s]
-  double area = 0;              ///< [m²]
-  double mass = 0;              ///< [kg]
+  double angle = 0;                                    ///< of world_from_body [rad]
+  geometry::Vector velocity;                           ///< of the centre of mass over ground [m/s]
+  double angular_velocity = 0;                         ///< [rad/s]
+  double area = 0;                                     ///< [m²]
+  double mass = 0;                                     ///< [kg]
   const geometry::Polygon* polygon_in_body = nullptr;  ///< lives as long as the floe
 };
 

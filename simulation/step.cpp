@@ -10,8 +10,8 @@ namespace {
 
 using geometry::Vector;
 
-/// Floes slower than this, all their points included, that touch nothing are at rest with the water [m/s]. Quadratic
-/// drag alone never brings anything to rest.
+/// Floes slower than this, all their points included, that touch nothing are at rest with the water [m/s].
+/// Quadratic drag alone never brings anything to rest.
 constexpr double kRestSpeed = 1e-4;
 constexpr double kRunawaySpeed = 1e3;  ///< beyond it the numbers mean nothing any more [m/s]
 
@@ -33,7 +33,9 @@ void note_crushing(World& world) {
 
 }  // namespace
 
-void find_pairs(World& world) { world.pairs.update(world.bodies, world.awake); }
+void find_pairs(World& world) {
+  world.pairs.update(world.bodies, world.awake);
+}
 
 void find_contacts(World& world) {
   world.pairs.find_contacts(world.bodies, world.scene.time.step, world.contacts);
@@ -43,7 +45,8 @@ void find_contacts(World& world) {
 
 void solve_impulses(World& world) {
   if (world.contacts.empty()) return;
-  const dynamics::SolverResult result = world.solver.solve(world.bodies, world.contacts, world.solver_settings);
+  const dynamics::SolverResult result =
+      world.solver.solve(world.bodies, world.contacts, world.solver_settings);
   if (!result.is_converged()) ++world.counts.unconverged_steps;
   note_crushing(world);
   for (const dynamics::Contact& c : world.contacts) {
@@ -55,10 +58,12 @@ void solve_impulses(World& world) {
 
 void apply_forces(World& world) {
   const double dt = world.scene.time.step;
-  apply_water_drag(world.bodies, world.awake, world.scene.water.drag_coefficient, world.scene.water.water.density, dt);
+  apply_water_drag(world.bodies, world.awake, world.scene.water.drag_coefficient,
+                   world.scene.water.water.density, dt);
   for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
     if (const auto* thrust = std::get_if<ConstantThrust>(&world.scene.ships[ship].propulsion)) {
-      world.bodies.velocity[ship] += dt * thrust->thrust * world.bodies.inverse_mass[ship] * heading_of(world, ship);
+      world.bodies.velocity[ship] +=
+          dt * thrust->thrust * world.bodies.inverse_mass[ship] * heading_of(world, ship);
     }
   }
 }
@@ -72,8 +77,8 @@ void integrate_motion(World& world) {
     const double rim = std::abs(world.bodies.angular_velocity[i]) * world.bodies.bounding_radius[i];
     if (std::abs(v.x) + std::abs(v.y) + rim < kRunawaySpeed) continue;
     if (!world.failure) {
-      world.failure = "body " + std::to_string(i) + " has no finite speed below 1000 m/s at t = " +
-                      std::to_string(world.time()) + " s";
+      world.failure = "body " + std::to_string(i) +
+                      " has no finite speed below 1000 m/s at t = " + std::to_string(world.time()) + " s";
     }
   }
 }

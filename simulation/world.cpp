@@ -28,7 +28,8 @@ std::unique_ptr<fracture::BendingModel> make_bending_model(BendingModelKind kind
   return std::make_unique<fracture::FsiDatabaseModel>();
 }
 
-/// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them [m].
+/// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them
+/// [m].
 double grid_cell(const Scene& scene) {
   std::vector<double> sizes;
   for (const FloeSpec& floe : scene.floes) {
@@ -67,7 +68,8 @@ World::World(Scene scene_of_run)
       bending(make_bending_model(scene.fracture.bending)),
       breakable_size(scene.fracture.breakable_size_factor *
                      breakable_length(scene.ice, scene.water.water, scene.fracture.characteristic_length)),
-      pairs({scene.contact.circle_radius, scene.contact.normal == ContactNormal::kCircleCentres}, grid_cell(scene)),
+      pairs({scene.contact.circle_radius, scene.contact.normal == ContactNormal::kCircleCentres},
+            grid_cell(scene)),
       loads(scene.ships.size()) {
   solver_settings.restitution = scene.contact.restitution;
   solver_settings.most_sweeps = scene.contact.iterations;
@@ -95,7 +97,7 @@ World::World(Scene scene_of_run)
 FloeId add_floe(World& world, const NewFloe& floe) {
   const geometry::Measures measures = geometry::measure(floe.shape.polygon);
   const fracture::Ice& ice = world.scene.ice;
-  const FloeId id = static_cast<FloeId>(world.floes.size());
+  const auto id = static_cast<FloeId>(world.floes.size());
   dynamics::NewBody body;
   body.mass = ice.density * ice.thickness * measures.area;
   body.moment = ice.density * ice.thickness * measures.second_moment;
@@ -108,7 +110,8 @@ FloeId add_floe(World& world, const NewFloe& floe) {
   body.thickness = ice.thickness;
   body.boundary = std::make_shared<geometry::Boundary>(
       geometry::make_boundary(floe.shape.polygon, world.scene.contact.circle_radius));
-  body.drag = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(floe.shape.polygon, measures.centroid));
+  body.drag =
+      std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(floe.shape.polygon, measures.centroid));
   world.floes.push_back({floe.parent, world.time(), floe.generation, measures.area, floe.shape});
   const BodyIndex index = add_body(world.bodies, body);
   assert(world.floe_of(index) == id);

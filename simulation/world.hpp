@@ -20,21 +20,21 @@ using dynamics::BodyIndex;
 /// A floe's cold data. Its body is at index ships + floe id; both are never reused.
 struct Floe {
   FloeId parent = kNoFloe;
-  double born = 0;       ///< [s]
-  int generation = 0;    ///< fractures since the scene's floe
-  double area = 0;       ///< [m²]
-  geometry::Shape shape; ///< body frame: the scene's coordinates of its oldest ancestor; empty once it broke
+  double born = 0;        ///< [s]
+  int generation = 0;     ///< fractures since the scene's floe
+  double area = 0;        ///< [m²]
+  geometry::Shape shape;  ///< body frame: the scene's coordinates of its oldest ancestor; empty once it broke
 };
 
 /// Sums over a recording interval, in the ship's frame.
 struct ShipLoads {
-  geometry::Vector impulse;      ///< by ice on the ship [N s]
-  double angular_impulse = 0;    ///< [N m s]
-  geometry::Vector largest;      ///< single-step true force, component by component [N]
-  double largest_moment = 0;     ///< [N m]
-  geometry::Vector peak;         ///< the paper's j/τ_c, component by component [N]
-  double peak_moment = 0;        ///< [N m]
-  int contacts = 0;              ///< at the last step
+  geometry::Vector impulse;    ///< by ice on the ship [N s]
+  double angular_impulse = 0;  ///< [N m s]
+  geometry::Vector largest;    ///< single-step true force, component by component [N]
+  double largest_moment = 0;   ///< [N m]
+  geometry::Vector peak;       ///< the paper's j/τ_c, component by component [N]
+  double peak_moment = 0;      ///< [N m]
+  int contacts = 0;            ///< at the last step
 };
 
 /// A fracture decided in this step, to be applied at its end.
@@ -42,12 +42,12 @@ struct PendingFracture {
   fracture::Failure failure = fracture::Failure::kNone;
   int ship = 0;
   FloeId floe = 0;
-  geometry::Point point_in_water;   ///< contact point [m]
+  geometry::Point point_in_water;       ///< contact point [m]
   geometry::Point first_touch_in_body;  ///< of the floe: the cusp's centre [m]
-  geometry::Vector normal;          ///< from the hull into the ice, water frame
-  double penetration = 0;           ///< [m]
-  double cusp_radius = 0;           ///< [m]
-  geometry::CrackPath crack_in_body;  ///< of a split
+  geometry::Vector normal;              ///< from the hull into the ice, water frame
+  double penetration = 0;               ///< [m]
+  double cusp_radius = 0;               ///< [m]
+  geometry::CrackPath crack_in_body;    ///< of a split
   fracture::FailureCriteria criteria;
   dynamics::ContactRecord* record = nullptr;  ///< of the contact that broke it, valid during the step
 };
@@ -60,23 +60,23 @@ struct World {
   std::unique_ptr<fracture::BendingModel> bending;
   double breakable_size = 0;  ///< κ l [m]
 
-  dynamics::Bodies bodies;    ///< the ships first, then floes by id
-  std::vector<Floe> floes;    ///< by id
+  dynamics::Bodies bodies;  ///< the ships first, then floes by id
+  std::vector<Floe> floes;  ///< by id
   std::vector<BodyIndex> awake;
   dynamics::PairFinder pairs;
   dynamics::ImpulseSolver solver;
   dynamics::SolverSettings solver_settings;
 
-  std::vector<dynamics::Contact> contacts;   ///< of the present step
-  std::vector<PendingFracture> fractures;    ///< of the present step
-  std::vector<ShipLoads> loads;              ///< per ship, since the last sample
-  std::vector<ShipLoads> step_loads;         ///< per ship, of the present step
-  std::vector<std::int64_t> touched_at_step; ///< per body: the last step at which it touched something
+  std::vector<dynamics::Contact> contacts;    ///< of the present step
+  std::vector<PendingFracture> fractures;     ///< of the present step
+  std::vector<ShipLoads> loads;               ///< per ship, since the last sample
+  std::vector<ShipLoads> step_loads;          ///< per ship, of the present step
+  std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
   std::int64_t steps_per_sample = 1;
 
   std::int64_t steps = 0;
   Journal journal;
-  AreaLedger ledger;   ///< initial, submerged, brash, rounding; the rest is derived
+  AreaLedger ledger;  ///< initial, submerged, brash, rounding; the rest is derived
   Counts counts;
   std::optional<std::string> failure;
 
@@ -86,7 +86,9 @@ struct World {
   BodyIndex body_of(FloeId floe) const { return static_cast<BodyIndex>(floe) + ship_count(); }
   FloeId floe_of(BodyIndex body) const { return body - ship_count(); }
   bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
-  geometry::Vector drift() const { return time() * scene.water.drift; }  ///< of the water frame over ground [m]
+  geometry::Vector drift() const {
+    return time() * scene.water.drift;
+  }  ///< of the water frame over ground [m]
 };
 
 /// What a floe is when it comes to be; the world gives it an id and a body.
@@ -95,12 +97,13 @@ struct NewFloe {
   FloeId parent = kNoFloe;
   int generation = 0;
   geometry::Pose water_from_body;
-  double angle = 0;                       ///< of water_from_body [rad]
-  geometry::Vector velocity;              ///< of the body frame's origin relative to the water [m/s]
-  double angular_velocity = 0;            ///< [rad/s]
+  double angle = 0;             ///< of water_from_body [rad]
+  geometry::Vector velocity;    ///< of the body frame's origin relative to the water [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
 };
 
-/// Takes a floe into the world, at rest or moving as a part of a rigid body whose frame is the floe's; writes its birth.
+/// Takes a floe into the world, at rest or moving as a part of a rigid body whose frame is the floe's; writes
+/// its birth.
 FloeId add_floe(World& world, const NewFloe& floe);
 
 /// Takes a floe out of the world.
