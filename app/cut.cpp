@@ -144,7 +144,7 @@ std::string write_results(const CutOptions& options, const io::CutReport& report
   if (ledger.empty() && out != "-") ledger = "-";
   if (out.empty() && !ledger.empty() && ledger != "-") out = "-";
   if (!out.empty()) {
-    const std::string failure = write_output(out, to_floe_text(report, output_format(out, of_input)));
+    std::string failure = write_output(out, to_floe_text(report, output_format(out, of_input)));
     if (!failure.empty()) return failure;
   } else {
     fmt::print(stderr,

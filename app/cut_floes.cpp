@@ -29,6 +29,7 @@ std::vector<std::int64_t> ids_of(const std::vector<io::FloeEntry>& entries) {
     if (entry.floe_id) own.insert(*entry.floe_id);
   }
   std::vector<std::int64_t> ids;
+  ids.reserve(entries.size());
   for (const io::FloeEntry& entry : entries)
     ids.push_back(own.size() == entries.size() ? *entry.floe_id : std::ssize(ids));
   return ids;
@@ -198,6 +199,7 @@ class FloeCutter {
     if (!line || !(length > 0)) return;
     floe_.dangling_length += length;
     std::vector<Polygon> polygons;
+    polygons.reserve(after.size());
     for (const Piece& piece : after) polygons.push_back(piece.shape.polygon);
     const auto found = find_dangling(line->path, before.shape.polygon, polygons);
     floe_.dangling.insert(floe_.dangling.end(), found.begin(), found.end());

@@ -181,11 +181,13 @@ std::string check_text(const io::RunCheck& check) {
   add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice",
                   check.most_shared, check.most_shared_time,
                   check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));
-  if (check.worst.first != simulation::kNoFloe) {
-    add(fmt::format(
-        "           most of a pair {:.6g} m2, floes {} and {} at {:.6g} s, a vertex {:.4g} m deep",
-        check.worst.area, check.worst.first, check.worst.second, check.worst.time, check.worst.depth));
-  }
+  const auto add_pair = [&](const char* words, const io::SharedIce& pair) {
+    if (pair.first == simulation::kNoFloe) return;
+    add(fmt::format("           {}: floes {} and {} at {:.6g} s, {:.6g} m2, a vertex {:.4g} m deep", words,
+                    pair.first, pair.second, pair.time, pair.area, pair.depth));
+  };
+  add_pair("largest", check.worst);
+  add_pair("deepest", check.deepest);
   add("           Overlap is part of the contact model: ice in contact is let in by the depth it crushes, "
       "and frames are");
   add("           right to 1 mm and 1e-5 rad. Shared areas are exact for the poses on record; areas are sums "

@@ -108,7 +108,7 @@ ToolOutcome<Keep> read_keep(const JsonValue& value) {
     if (value.text() == "inside") return Keep::kInside;
     if (value.text() == "both") return Keep::kBoth;
   }
-  return malformed("keep: expected \"outside\", \"inside\" or \"both\"");
+  return malformed(R"(keep: expected "outside", "inside" or "both")");
 }
 
 ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) {
@@ -128,7 +128,7 @@ ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) 
       sagitta = member.value.number();
     } else if (member.key == "disc" || member.key == "crack" || member.key == "line" ||
                member.key == "polygon") {
-      if (tool) return malformed(fmt::format("\"{}\" and \"{}\" in one: {}", tool->key, member.key, kForm));
+      if (tool) return malformed(fmt::format(R"("{}" and "{}" in one: {})", tool->key, member.key, kForm));
       tool = &member;
     } else {
       const std::string meant =

@@ -106,6 +106,16 @@ double depth_in(const Polygon& polygon, Point point) {
   return nearest;
 }
 
+/// Of the deepest outer vertex of `a` in `b` [m].
+double deepest_vertex(const Polygon& a, const Polygon& b) {
+  const Box box = bounding_box(b.outer);
+  double depth = 0;
+  for (const Point p : a.outer) {
+    if (overlaps({p, p}, box)) depth = std::max(depth, depth_in(b, p));
+  }
+  return depth;
+}
+
 class OverlapCheck {
  public:
   OverlapCheck(const Run& run, RunCheck& check) : run_(run), check_(check), motions_(run) {}
@@ -118,10 +128,12 @@ class OverlapCheck {
     for (const Placed& floe : floes_) ice += birth(floe.floe).area;
     for_near_pairs([&](const Placed& a, const Placed& b) {
       ++check_.pairs;
-      const double area = shared_by(a, b);
-      shared += area;
-      if (area > kTouchingArea) overlapping_.insert({a.floe, b.floe});
-      if (area > check_.worst.area) check_.worst = {a.floe, b.floe, time, area, 0};
+      const Known& known = shared_by(a, b);
+      shared += known.area;
+      if (known.area > kTouchingArea) overlapping_.insert({a.floe, b.floe});
+      const SharedIce pair{a.floe, b.floe, time, known.area, known.depth};
+      if (pair.area > check_.worst.area) check_.worst = pair;
+      if (pair.depth > check_.deepest.depth) check_.deepest = pair;
     });
     if (shared > check_.most_shared || check_.moments == 1) {
       check_.most_shared = shared;
@@ -129,15 +141,6 @@ class OverlapCheck {
       check_.ice_then = ice;
     }
     check_.overlapping_pairs = overlapping_.size();
-  }
-
-  void finish() {
-    SharedIce& worst = check_.worst;
-    if (worst.first == simulation::kNoFloe) return;
-    const Polygon a = polygon_in_world(birth(worst.first), *motions_.floe_at(worst.first, worst.time));
-    const Polygon b = polygon_in_world(birth(worst.second), *motions_.floe_at(worst.second, worst.time));
-    for (const Point p : a.outer) worst.depth = std::max(worst.depth, depth_in(b, p));
-    for (const Point p : b.outer) worst.depth = std::max(worst.depth, depth_in(a, p));
   }
 
  private:
@@ -170,23 +173,28 @@ class OverlapCheck {
     }
   }
 
-  double shared_by(const Placed& a, const Placed& b) {
-    Known& known = known_[{a.floe, b.floe}];
-    if (known.is_set && is_same_place(known.a, a.motion) && is_same_place(known.b, b.motion))
-      return known.area;
-    const auto area = shared_area(birth(a.floe).polygon_in_body, a.world_from_body,
-                                  birth(b.floe).polygon_in_body, b.world_from_body);
-    if (!area) ++check_.undecided;
-    known = {true, a.motion, b.motion, area.value_or(0)};
-    return known.area;
-  }
-
   /// What is known of a pair from the last moment it was looked at.
   struct Known {
     bool is_set = false;
     Motion a, b;
-    double area = 0;
+    double area = 0;   ///< [m²]
+    double depth = 0;  ///< 0 where they share less than kTouchingArea [m]
   };
+
+  const Known& shared_by(const Placed& a, const Placed& b) {
+    Known& known = known_[{a.floe, b.floe}];
+    if (known.is_set && is_same_place(known.a, a.motion) && is_same_place(known.b, b.motion)) return known;
+    const auto area = shared_area(birth(a.floe).polygon_in_body, a.world_from_body,
+                                  birth(b.floe).polygon_in_body, b.world_from_body);
+    if (!area) ++check_.undecided;
+    known = {true, a.motion, b.motion, area.value_or(0), 0};
+    if (known.area > kTouchingArea) {
+      const Polygon first = polygon_in_world(birth(a.floe), a.motion);
+      const Polygon second = polygon_in_world(birth(b.floe), b.motion);
+      known.depth = std::max(deepest_vertex(first, second), deepest_vertex(second, first));
+    }
+    return known;
+  }
 
   const Run& run_;
   RunCheck& check_;
@@ -210,7 +218,6 @@ RunCheck check_run(const Run& run, std::optional<double> only_at) {
   } else {
     for (const Frame& frame : run.frames) overlaps.look_at(frame.time);
   }
-  overlaps.finish();
   return check;
 }
 

@@ -122,6 +122,7 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
   EXPECT_EQ(check.ice_then, 20);
   EXPECT_EQ(check.worst.area, 0.5);
   EXPECT_EQ(check.worst.depth, 0.5);
+  EXPECT_EQ(check.deepest.depth, 0.5);
   EXPECT_EQ(check_run(small_run(), 2).most_shared, 0) << "they touch at 2 s";
 }
 
