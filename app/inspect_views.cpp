@@ -59,8 +59,8 @@ std::string as_svg(const ShapeView& view) {
   };
   write(view.polygon.outer);
   std::ranges::for_each(view.polygon.holes, write);
-  text +=
-      "' fill='#fbeec2' fill-rule='evenodd' stroke='#3d5261' vector-effect='non-scaling-stroke'/>\n</svg>\n";
+  text += fmt::format("' fill='#fbeec2' fill-rule='evenodd' stroke='#3d5261' stroke-width='{}'/>\n</svg>\n",
+                      margin / 8);
   return text;
 }
 
