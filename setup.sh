@@ -7,8 +7,8 @@ cd "$(dirname "$0")"
 declare -A packages=(
   [build]="g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libgmp-dev libmpfr-dev
            nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev librsvg2-bin"
-  [test]="libgtest-dev librapidcheck-dev chipmunk-dev python3"
-  [bench]="libbenchmark-dev libbox2d-dev chipmunk-dev libgeos-dev libpolyclipping-dev"
+  [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3"
+  [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"
 )
 
 is_installed() {
