@@ -66,6 +66,7 @@ double quantile(std::vector<double> values, double share) {
 
 void print_errors(const char* name, const std::vector<AccuracyRow>& rows, double AccuracyRow::*error) {
   std::vector<double> sizes;
+  sizes.reserve(rows.size());
   for (const AccuracyRow& row : rows) sizes.push_back(100 * std::abs(row.*error));
   const AccuracyRow& worst =
       *std::ranges::max_element(rows, {}, [error](const AccuracyRow& row) { return std::abs(row.*error); });

@@ -206,7 +206,8 @@ class SvgChart {
     add("<g font-size='16'>\n");
     for (std::size_t i = 0; i < curves.size(); ++i) {
       const double x = kLeft + pitch * static_cast<double>(i % legend_columns());
-      const double y = top + kLegendLine * static_cast<double>(i / legend_columns());
+      const std::size_t line = i / legend_columns();
+      const double y = top + kLegendLine * static_cast<double>(line);
       add("<path d='M{:.2f} {:.2f}h48' stroke='{}' stroke-width='3' stroke-dasharray='{}'/>", x, y - 5.5,
           colour_of(curves[i]), dash_array(curves[i].dash));
       add("<text x='{:.2f}' y='{:.2f}'>{}</text>\n", x + 58, y, escaped(curves[i].name));
