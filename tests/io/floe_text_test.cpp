@@ -192,7 +192,7 @@ TEST(FloeText, AnyDamageIsSurvived) {
     for (int trial = 0; trial < 3000; ++trial) {
       std::string damaged = text;
       for (int i = 0; i < 3; ++i)
-        damaged[dice() % damaged.size()] = "{}[](),:\"\\ \n/*#0-eNZ;\x1E\xFF\0"[dice() % 26];
+        damaged[dice() % damaged.size()] = "{}[](),:\"\\ \n/*#0-eNZ;\x1E\xFF\0"[dice() % 24];
       readable += read_floe_text(damaged) ? 1 : 0;
     }
   }
