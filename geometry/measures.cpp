@@ -2,22 +2,11 @@
 
 #include <cmath>
 
+#include "geometry/internal/compensated_sum.hpp"
 #include "geometry/internal/predicates.hpp"
 
 namespace polynya::geometry {
 namespace {
-
-// Neumaier's sum: the error does not grow with the number of terms.
-struct Sum {
-  double value = 0;
-  double lost = 0;
-  void operator+=(double term) {
-    const double next = value + term;
-    lost += std::abs(value) >= std::abs(term) ? (value - next) + term : (term - next) + value;
-    value = next;
-  }
-  double total() const { return value + lost; }
-};
 
 // Calls visit(u, v, w) for each edge a→b with u = a − origin, v = b − origin, w = u × v. Taking vertices from
 // a nearby origin first is what keeps the digits of a polygon far from its frame's origin.
@@ -39,7 +28,7 @@ void for_each_edge(const Polygon& polygon, Point origin, Visit visit) {
 }
 
 double ring_length(const Ring& ring) {
-  Sum sum;
+  CompensatedSum sum;
   for_each_edge(ring, Point{}, [&sum](Vector u, Vector v, double) { sum += length(v - u); });
   return sum.total();
 }
@@ -48,7 +37,7 @@ double ring_length(const Ring& ring) {
 
 double signed_area(const Ring& ring) {
   if (ring.size() < 3) return 0;
-  Sum twice_area;
+  CompensatedSum twice_area;
   for_each_edge(ring, ring.front(), [&](Vector, Vector, double w) { twice_area += w; });
   return twice_area.total() / 2;
 }
@@ -57,9 +46,9 @@ Measures measure(const Polygon& polygon) {
   if (polygon.outer.size() < 3) return {};
   const Box box = bounding_box(polygon.outer);
   const Point origin = midpoint(box.low, box.high);
-  Sum twice_area;
-  Sum first_x;
-  Sum first_y;
+  CompensatedSum twice_area;
+  CompensatedSum first_x;
+  CompensatedSum first_y;
   for_each_edge(polygon, origin, [&](Vector u, Vector v, double w) {
     twice_area += w;
     first_x += w * (u.x + v.x);
@@ -70,7 +59,7 @@ Measures measure(const Polygon& polygon) {
   if (result.area == 0) return {0, origin, 0};
   const Vector offset = Vector{first_x.total(), first_y.total()} / (6 * result.area);
   result.centroid = origin + offset;
-  Sum second;  // about the centroid directly: no parallel-axis subtraction
+  CompensatedSum second;  // about the centroid directly: no parallel-axis subtraction
   for_each_edge(polygon, origin, [&](Vector u, Vector v, double) {
     const Vector a = u - offset;
     const Vector b = v - offset;

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "io/xml_text.hpp"
+
 namespace polynya::io {
 namespace {
 
@@ -18,22 +20,6 @@ constexpr double kLeft = 92;          ///< of a frame, for the y axis' numbers a
 constexpr double kRight = 24;         ///< [px]
 constexpr double kBelow = 80;         ///< of a frame, for the x axis' numbers and label [px]
 constexpr double kLegendLine = 30;    ///< [px]
-
-/// Escapes text for XML.
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else
-      safe += c;
-  }
-  return safe;
-}
 
 /// An axis with its range, its ticks, and where on the paper a value lies.
 struct Scale {

@@ -10,6 +10,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include "io/xml_text.hpp"
+
 extern char** environ;
 
 namespace polynya::io {
@@ -34,22 +36,6 @@ constexpr auto kShip = "#2b2b2b";
 constexpr auto kTrack = "#d55e00";
 constexpr auto kBend = "#0072b2";
 constexpr auto kSplit = "#d55e00";
-
-/// Escapes text for XML.
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else
-      safe += c;
-  }
-  return safe;
-}
 
 class SvgMap {
  public:

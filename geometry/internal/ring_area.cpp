@@ -4,30 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/internal/compensated_sum.hpp"
+
 namespace polynya::geometry {
-namespace {
-
-// A sum that keeps the exact error of its additions (Knuth's two-sum, which needs no branch).
-struct Sum {
-  double value = 0;
-  double lost = 0;
-  void operator+=(double term) {
-    const double next = value + term;
-    const double virtual_term = next - value;
-    lost += (value - (next - virtual_term)) + (term - virtual_term);
-    value = next;
-  }
-};
-
-}  // namespace
-
 RingArea ring_area(const Ring& ring) {
   const std::size_t n = ring.size();
   if (n < 3) return {};
   const Point origin = ring.front();
   // Two sums side by side: one alone waits for its own last addition.
-  Sum even;
-  Sum odd;
+  CompensatedSum even;
+  CompensatedSum odd;
   double reach_x = 0;  // of all vertices from the origin
   double reach_y = 0;
   Vector u{0, 0};
