@@ -212,7 +212,6 @@ bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings, 
       largest_change = std::max(largest_change, visit_friction(ends[0]));
       largest_change = std::max(largest_change, visit_friction(ends[1]));
     }
-    result.row_visits += island.count;
     if (largest_change <= settings.tolerance) return true;
   }
   ++result.unconverged;
@@ -278,7 +277,6 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   SolverResult result;
   find_islands(bodies, contacts);
   fill_rows(bodies, contacts, settings.restitution);
-  result.islands = static_cast<int>(islands_.size());
   for (const Island& island : islands_) {
     const bool is_converged = sweep(island, settings, result);
     if (give_back(island, contacts, settings.restitution, is_converged)) sweep(island, settings, result);

@@ -16,9 +16,7 @@ struct SolverSettings {
 };
 
 struct SolverResult {
-  int islands = 0;              ///< groups of bodies that touch one another
-  int unconverged = 0;          ///< islands that used all their sweeps
-  std::int64_t row_visits = 0;  ///< ends of contact lines visited, over all sweeps
+  int unconverged = 0;  ///< islands that used all their sweeps
   bool is_converged() const { return unconverged == 0; }
 };
 

@@ -53,8 +53,6 @@ struct ContactPatch {
   double depth = 0;                 ///< extent of the overlap along the normal [m]
   double area = 0;                  ///< of the overlap [m²]
   Point tip_of_b;                   ///< the point of b farthest inside a [m]
-  std::uint32_t edge_of_a = 0;      ///< the edge of a at the first end
-  std::uint32_t edge_of_b = 0;      ///< the edge of b at the first end
   std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
 };
 

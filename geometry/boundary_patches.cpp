@@ -210,8 +210,6 @@ bool make_patch(const Boundary& a, const Boundary& b, const Pose& a_from_b, cons
   patch.ends[0] = enter.point;
   patch.ends[1] = leave.point;
   patch.area = std::max(patch.area, 0.0);
-  patch.edge_of_a = enter.edge_a;
-  patch.edge_of_b = enter.edge_b;
   return is_closed;
 }
 
@@ -267,8 +265,7 @@ void find_circle_patches(const Boundary& a, const Boundary& b, const Pose& a_fro
     patch.ends[0] = middle - half_chord * perpendicular(patch.normal);
     patch.ends[1] = middle + half_chord * perpendicular(patch.normal);
     patch.tip_of_b = ca.centre + (centres - cb.radius) * patch.normal;
-    patch.edge_of_a = ca.first_edge;
-    patch.edge_of_b = patch.tip_edge_of_b = cb.first_edge;
+    patch.tip_edge_of_b = cb.first_edge;
     patches.push_back(patch);
   }
 }

@@ -23,9 +23,9 @@ std::unique_ptr<fracture::BendingModel> make_bending_model(BendingModelKind kind
     case BendingModelKind::kKashtelyan:
       return std::make_unique<fracture::KashtelyanModel>();
     case BendingModelKind::kFsiDatabase:
-      break;
+      return std::make_unique<fracture::FsiDatabaseModel>();
   }
-  return std::make_unique<fracture::FsiDatabaseModel>();
+  return nullptr;  // no other kind
 }
 
 /// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them
