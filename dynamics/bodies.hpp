@@ -34,6 +34,7 @@ struct Bodies {
   std::vector<double> inverse_moment;        ///< 0: held [1/(kg m²)]
   std::vector<double> travel;           ///< no point of the body has moved farther since it came to be [m]
   std::vector<double> bounding_radius;  ///< about the centre of mass [m]
+  std::vector<double> rim_speed;        ///< no point of the body was faster at the last integration [m/s]
   std::vector<std::uint8_t> is_awake;
   // Cold.
   std::vector<std::uint8_t> is_alive;
@@ -70,6 +71,21 @@ inline geometry::Pose water_from_body(const Bodies& bodies, BodyIndex i) {
   return {bodies.position[i] - rotate(r, bodies.centroid[i] - geometry::Point{}), r};
 }
 
+/// Where b's centre of mass and axes are in the frame of a's.
+inline geometry::Pose centre_a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  return geometry::relative_pose({bodies.position[a], bodies.rotation[a]},
+                                 {bodies.position[b], bodies.rotation[b]});
+}
+
+/// Placement of b's frame in a's, from that of their centres of mass.
+inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b,
+                               const geometry::Pose& centre_a_from_b) {
+  const geometry::Vector centroid_of_a = bodies.centroid[a] - geometry::Point{};
+  const geometry::Vector centroid_of_b = bodies.centroid[b] - geometry::Point{};
+  return {centre_a_from_b.position + centroid_of_a - rotate(centre_a_from_b.rotation, centroid_of_b),
+          centre_a_from_b.rotation};
+}
+
 /// Velocity of a point of the body at `arm` from its centre of mass, v + ω × r [m/s].
 inline geometry::Vector velocity_at(const Bodies& bodies, BodyIndex i, geometry::Vector arm) {
   return bodies.velocity[i] + cross(bodies.angular_velocity[i], arm);
@@ -78,7 +94,8 @@ inline geometry::Vector velocity_at(const Bodies& bodies, BodyIndex i, geometry:
 /// Moves a body by a displacement [m] and a small turn [rad].
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn);
 
-/// Moves every awake body with its velocity over dt [s].
-void integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt);
+/// Moves every awake body with its velocity over dt [s]. Returns the greatest rim speed, not a number where
+/// one is not [m/s].
+double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt);
 
 }  // namespace polynya::dynamics

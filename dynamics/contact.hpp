@@ -46,8 +46,8 @@ struct Contact {
   double friction = 0;                          ///< most tangential per normal impulse [-]
 
   // Found by the solver.
-  double normal_impulse[2] = {0, 0};   ///< on b along the normal, at each end [N s]
-  double tangent_impulse[2] = {0, 0};  ///< on b along perpendicular(normal) [N s]
+  double normal_impulse[2] = {0, 0};  ///< on b along the normal, at each end [N s]
+  double slip_impulse = 0;            ///< on b along perpendicular(normal), anywhere on the line [N s]
 
   geometry::Point middle() const { return midpoint(ends[0], ends[1]); }
   double total_normal_impulse() const { return normal_impulse[0] + normal_impulse[1]; }

@@ -1,18 +1,16 @@
 #pragma once
 
-#include <compare>
 #include <vector>
 
 #include "dynamics/contact.hpp"
+#include "dynamics/contact_islands.hpp"
 
 namespace polynya::dynamics {
 
 struct SolverSettings {
-  double restitution = 0.1;      ///< ε of Eq. (5) [-]
-  int most_sweeps = 30;          ///< over all contacts of a step
-  double tolerance = 1e-7;       ///< stop when no impulse changes the velocity at its contact by more [m/s]
-  double separation_time = 1.0;  ///< over which left-over overlap decays [s]
-  double slop = 1e-4;            ///< overlap that is left alone [m]
+  double restitution = 0.1;  ///< ε of Eq. (5) [-]
+  int most_sweeps = 30;      ///< over all contacts of a step
+  double tolerance = 1e-7;   ///< stop when no impulse changes the velocity at its contact by more [m/s]
 };
 
 struct SolverResult {
@@ -31,15 +29,10 @@ struct SolverResult {
 /// ended the approach of its two bodies alone, so a squeeze from elsewhere does not charge it. Last, whatever
 /// the restitution pushed together is held apart. Writes the impulses into the contacts, and what the next
 /// step needs into their records. The two ends of a line are solved together, so that a symmetric push stays
-/// symmetric.
+/// symmetric; they slip alike, since the line is the direction of slip, so friction has one impulse.
 class ImpulseSolver {
  public:
   SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
-
-  /// Moves overlapping bodies apart without giving them speed (split impulse): along the normals, in
-  /// proportion to their inverse masses, the overlap beyond what crushing made decays over separation_time.
-  /// Returns how many contacts it moved.
-  int separate(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings, double dt);
 
  private:
   struct Mover {  // a body's velocity while it is being solved for
@@ -48,49 +41,45 @@ class ImpulseSolver {
     double inverse_mass;
     double inverse_moment;
   };
-  struct Row {          // one end of one contact line; directions as seen by its two bodies
+  struct Row {          // one contact line; directions as seen by its two bodies, [0] and [1] its ends
     std::int32_t a, b;  // movers
     geometry::Vector normal;
-    double normal_turn_a, normal_turn_b;    // arm × normal [m]
-    double tangent_turn_a, tangent_turn_b;  // arm × perpendicular(normal) [m]
-    double normal_mass, tangent_mass;       // [kg]
-    double least;                           // of the normal impulse: what restitution gave [N s]
-    double limit;                           // [N s]
+    double turn_a[2], turn_b[2];      // arm × normal [m]
+    double slip_turn_a, slip_turn_b;  // arm × perpendicular(normal), the same at both ends [m]
+    double softness[2];               // velocity per impulse, at each end by its own [1/kg]
+    double coupling;                  // at one end by the other's [1/kg]
+    double stiffness;                 // 1 / determinant of the two; 0 where they do not differ [kg²]
+    double slip_softness, slip_mass;  // velocity along the line per impulse [1/kg], and its inverse
+    double least[2];                  // of the normal impulse: what restitution gave [N s]
+    double limit;                     // of the normal impulse at each end [N s]
     double friction;
-    double normal_impulse, tangent_impulse;
-  };
-  struct Place {
-    std::int32_t island;  // its root among the movers
-    std::uint32_t contact;
-    friend auto operator<=>(const Place&, const Place&) = default;
-  };
-  struct Island {
-    std::uint32_t first = 0;  // rows
-    std::uint32_t count = 0;
+    double normal_impulse[2];
+    double slip_impulse;
   };
 
-  void find_islands(const Bodies& bodies, const std::vector<Contact>& contacts);
-  std::int32_t mover_of(const Bodies& bodies, BodyIndex body);
-  Row row_of(const Bodies& bodies, const Contact& contact, int end) const;
+  struct Way {  // of a row's impulses through the sweeps
+    double before[3];
+    double along[3];
+  };
+  struct Momentum {
+    double last = 0;  // size of the last sweep's changes
+    int steps = 0;
+  };
+
+  Row row_of(const Bodies& bodies, const Contact& contact, std::uint32_t index) const;
   void fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, double restitution);
-  void push(const Row& row, double normal_impulse, double tangent_impulse);
-  double apart_at(const Row& row) const;
-  void press(Row& row, double normal_impulse);
-  double visit_normals(Row* ends, double coupling);
-  double visit_friction(Row& row);
-  double isolated_impulse(const Row* ends, double coupling) const;
+  void push(const Row& row, double impulse_0, double impulse_1, double slip_impulse);
+  double visit(Row& row);
+  double isolated_impulse(const Row& row) const;
+  void go_on(const Island& island, Momentum& momentum);
   bool sweep(const Island& island, const SolverSettings& settings, SolverResult& result);
   bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution, bool is_converged);
   void write_back(Bodies& bodies, std::vector<Contact>& contacts);
 
-  std::vector<Mover> movers_;
-  std::vector<BodyIndex> body_of_mover_;
-  std::vector<std::int32_t> mover_of_body_;    // −1 where the body has none
-  std::vector<std::int32_t> island_of_mover_;  // union-find parents, then island numbers
-  std::vector<Place> order_;                   // contacts, island by island
-  std::vector<Island> islands_;
-  std::vector<Row> rows_;          // two for each contact, in order_
-  std::vector<double> couplings_;  // how an impulse at one end moves the other, per contact in order_ [1/kg]
+  ContactIslands islands_;
+  std::vector<Mover> movers_;  // by their places in the islands
+  std::vector<Row> rows_;      // in the islands' order
+  std::vector<Way> ways_;      // of the rows
 };
 
 }  // namespace polynya::dynamics

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
 
 namespace polynya::dynamics {
 namespace {
@@ -10,9 +9,11 @@ namespace {
 using geometry::Box;
 using geometry::Point;
 using geometry::Pose;
+using geometry::Rotation;
 using geometry::Vector;
 
 constexpr double kBoxMargin = 2.0;  ///< boxes are grown by this much, and renewed after that much travel [m]
+constexpr double kRounding = 1e-9;  ///< of positions and distances, far more than it can be [m]
 constexpr double kNearMargin = 0.75;  ///< contact circles within this distance are kept with a pair [m]
 
 Box box_in_water(const Bodies& bodies, BodyIndex i) {
@@ -31,30 +32,73 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
   return box;
 }
 
-/// The record of a contact: the nearest old one that may be the same contact, or a new one, brought up to
-/// date.
-ContactRecord record_of(std::vector<ContactRecord>& old_records, const Contact& c, const Pose& water_from_b,
-                        double tolerance, double dt) {
-  const Point here = point_in_body(water_from_b, c.middle());
-  ContactRecord* old = nullptr;
-  double nearest = tolerance + 0.5 * c.width;
-  for (ContactRecord& record : old_records) {
-    const double d = distance(record.last_point_in_b, here);
-    if (record.is_continued || d > nearest) continue;
-    nearest = d;
-    old = &record;
+/// The records of a pair's contacts, brought up to date. A record goes on with the nearest contact that may
+/// be the same; one without a contact is over.
+class RecordKeeper {
+ public:
+  RecordKeeper(std::vector<ContactRecord>& records, std::vector<ContactRecord>& scratch, double circle_radius,
+               double dt)
+      : records_(records), renewed_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
+
+  void renew(Contact* contacts, std::size_t count, const Bodies& bodies) {
+    if (count == 1 && records_.size() == 1) {  // nearly always, and then in place
+      const Point here = point_in_b(bodies, contacts[0], contacts[0].middle());
+      const double reach = tolerance_ + 0.5 * contacts[0].width;
+      if (squared_length(here - records_[0].last_point_in_b) > reach * reach)
+        records_[0] = new_record(bodies, contacts[0]);
+      bring_up_to_date(records_[0], contacts[0], here);
+    } else {
+      renewed_.clear();
+      for (std::size_t i = 0; i < count; ++i) renewed_.push_back(record_of(contacts[i], bodies));
+      std::swap(records_, renewed_);
+    }
+    for (std::size_t i = 0; i < count; ++i) contacts[i].record = &records_[i];
   }
-  ContactRecord record;
-  record.first_touch_in_b = point_in_body(water_from_b, c.tip_of_b);
-  if (old != nullptr) {
-    record = *old;
-    old->is_continued = true;
+
+ private:
+  static Point point_in_b(const Bodies& bodies, const Contact& c, Point point_in_water) {
+    return bodies.centroid[c.b] + rotate_back(bodies.rotation[c.b], point_in_water - bodies.position[c.b]);
   }
-  record.last_point_in_b = here;
-  record.age += dt;
-  record.approach += std::max(0.0, c.approach_speed) * dt;
-  record.crushed_depth = std::min(record.crushed_depth, c.depth);
-  return record;
+  static ContactRecord new_record(const Bodies& bodies, const Contact& c) {
+    ContactRecord record;
+    record.first_touch_in_b = point_in_b(bodies, c, c.tip_of_b);
+    return record;
+  }
+  ContactRecord record_of(const Contact& c, const Bodies& bodies) {
+    const Point here = point_in_b(bodies, c, c.middle());
+    ContactRecord* old = nullptr;
+    double nearest = tolerance_ + 0.5 * c.width;
+    for (ContactRecord& record : records_) {
+      const double d = distance(record.last_point_in_b, here);
+      if (record.is_continued || d > nearest) continue;
+      nearest = d;
+      old = &record;
+    }
+    ContactRecord record = old != nullptr ? *old : new_record(bodies, c);
+    if (old != nullptr) old->is_continued = true;
+    bring_up_to_date(record, c, here);
+    return record;
+  }
+  void bring_up_to_date(ContactRecord& record, const Contact& c, Point here) const {
+    record.last_point_in_b = here;
+    record.age += dt_;
+    record.approach += std::max(0.0, c.approach_speed) * dt_;
+    record.crushed_depth = std::min(record.crushed_depth, c.depth);
+  }
+
+  std::vector<ContactRecord>& records_;
+  std::vector<ContactRecord>& renewed_;
+  double tolerance_;  // between a contact's places in two steps, beside half its width [m]
+  double dt_;
+};
+
+/// What is left of the way that `known` holds for, b being at `place` [m].
+double way_left(const Bodies& bodies, BodyIndex b, const Pose& place, const KnownNear& known) {
+  if (known.way < 0) return known.way;
+  const Rotation was = known.a_from_b.rotation;
+  const Vector turn{place.rotation.cosine - was.cosine, place.rotation.sine - was.sine};  // as a chord
+  return known.way - distance(place.position, known.a_from_b.position) -
+         length(turn) * bodies.bounding_radius[b];
 }
 
 }  // namespace
@@ -116,7 +160,6 @@ void PairFinder::add_pair(BodyIndex a, BodyIndex b) {
   if (free_pairs_.empty()) {
     slot = static_cast<std::uint32_t>(pairs_.size());
     pairs_.emplace_back();
-    place_in_active_.push_back(0);
   } else {
     slot = free_pairs_.back();
     free_pairs_.pop_back();
@@ -124,26 +167,46 @@ void PairFinder::add_pair(BodyIndex a, BodyIndex b) {
   Pair& pair = pairs_[slot];
   pair.a = a;
   pair.b = b;
-  pair.known_until = pair.quiet_until = -1;
+  pair.is_dropped = false;
+  pair.known.way = pair.quiet.way = pair.known_until = -1;
   pair.circles.clear();
   pair.edges.clear();
   pair.records.clear();
   entries_[a].pairs.push_back(slot);
   entries_[b].pairs.push_back(slot);
-  place_in_active_[slot] = static_cast<std::uint32_t>(active_.size());
-  active_.push_back(slot);
+  new_pairs_.push_back({a, b, -1, slot});
 }
 
 void PairFinder::drop_pair(std::uint32_t slot) {
-  const Pair& pair = pairs_[slot];
+  Pair& pair = pairs_[slot];
   for (const BodyIndex body : {pair.a, pair.b}) {
     auto& own = entries_[body].pairs;
     own.erase(std::find(own.begin(), own.end(), slot));
   }
-  active_[place_in_active_[slot]] = active_.back();
-  place_in_active_[active_.back()] = place_in_active_[slot];
-  active_.pop_back();
-  free_pairs_.push_back(slot);
+  pair.is_dropped = true;
+  has_dropped_ = true;
+}
+
+/// Brings the list of active pairs up to date, in order.
+void PairFinder::tidy() {
+  const auto settle = [&](std::vector<ActivePair>& list) {
+    std::erase_if(list, [&](const ActivePair& active) {
+      if (!pairs_[active.slot].is_dropped) return false;
+      free_pairs_.push_back(active.slot);
+      return true;
+    });
+  };
+  if (has_dropped_) {
+    settle(active_);
+    settle(new_pairs_);
+    has_dropped_ = false;
+  }
+  if (new_pairs_.empty()) return;
+  std::sort(new_pairs_.begin(), new_pairs_.end());
+  const auto middle = static_cast<std::ptrdiff_t>(active_.size());
+  active_.insert(active_.end(), new_pairs_.begin(), new_pairs_.end());
+  std::inplace_merge(active_.begin(), active_.begin() + middle, active_.end());
+  new_pairs_.clear();
 }
 
 void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
@@ -156,26 +219,55 @@ void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
     }
     connect(bodies, body);
   }
+  tidy();
 }
 
-void PairFinder::refresh(const Bodies& bodies, Pair& pair) {
+void PairFinder::refresh(const Bodies& bodies, Pair& pair, const Pose& place) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
-  const Pose a_from_b = relative_pose(water_from_body(bodies, pair.a), water_from_body(bodies, pair.b));
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
   pair.circles.clear();
   pair.edges.clear();
   const double apart = near_circles(a, b, a_from_b, kNearMargin, pair.circles);
   if (!pair.circles.empty()) edges_of(a, b, pair.circles, pair.edges);
-  const double free_way = pair.circles.empty() ? apart : kNearMargin;
-  pair.known_until = bodies.travel[pair.a] + bodies.travel[pair.b] + free_way * (1 - 1e-9);
+  pair.known = {place, (pair.circles.empty() ? apart : kNearMargin) * (1 - 1e-9)};
 }
 
-void PairFinder::collect(const Bodies& bodies, Pair& pair, std::vector<Contact>& contacts, double dt) {
+/// Finds the contacts of a pair. Returns how far the two can move from here without touching [m].
+double PairFinder::examine(const Bodies& bodies, Pair& pair, const Pose& place,
+                           std::vector<Contact>& contacts, double dt) {
+  const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
+  if (travelled > pair.known_until) {
+    if (way_left(bodies, pair.b, place, pair.known) < kRounding) refresh(bodies, pair, place);
+    pair.known_until = travelled + way_left(bodies, pair.b, place, pair.known) - kRounding;
+  }
+  if (pair.circles.empty()) {
+    pair.records.clear();
+    pair.quiet = pair.known;
+    return way_left(bodies, pair.b, place, pair.quiet);
+  }
+  const std::size_t first = contacts.size();
+  const bool is_apart = collect(bodies, pair, place, contacts);
+  if (!is_apart) {
+    RecordKeeper(pair.records, records_, rule_.circle_radius, dt)
+        .renew(contacts.data() + first, contacts.size() - first, bodies);
+    pair.quiet.way = -1;
+    return -1;
+  }
+  // Circles lie inside the ice: no two can overlap while the boundaries are apart.
+  const double free_way = least_distance(*bodies.boundary[pair.a], *bodies.boundary[pair.b],
+                                         a_from_b(bodies, pair.a, pair.b, place), pair.edges);
+  pair.records.clear();
+  pair.quiet = {place, std::min(free_way, way_left(bodies, pair.b, place, pair.known)) - kRounding};
+  return pair.quiet.way;
+}
+
+/// Finds the contacts of a pair among the edges known to be near. Returns whether the two are apart.
+bool PairFinder::collect(const Bodies& bodies, const Pair& pair, const Pose& place,
+                         std::vector<Contact>& contacts) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
-  const Pose water_from_a = water_from_body(bodies, pair.a);
-  const Pose water_from_b = water_from_body(bodies, pair.b);
-  const Pose a_from_b = relative_pose(water_from_a, water_from_b);
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
   patches_.clear();
   int unpaired = 0;
   if (rule_.is_circle_centres) {
@@ -184,18 +276,11 @@ void PairFinder::collect(const Bodies& bodies, Pair& pair, std::vector<Contact>&
     unpaired = find_patches(a, b, a_from_b, pair.edges, scratch_, patches_);
   }
   unpaired_ += unpaired;
-  if (patches_.empty() && unpaired == 0) {
-    // Circles lie inside the ice: no two can overlap while the boundaries are apart.
-    const double free_way = least_distance(a, b, a_from_b, pair.edges);
-    constexpr double kRounding = 1e-9;  // of positions and distances, far more than it can be [m]
-    pair.quiet_until = bodies.travel[pair.a] + bodies.travel[pair.b] + std::max(0.0, free_way - kRounding);
-    pair.records.clear();
-    return;
-  }
-  const std::size_t first = contacts.size();
-  records_.clear();
+  if (patches_.empty()) return unpaired == 0;
+  const Pose water_from_a = water_from_body(bodies, pair.a);
+  std::uint32_t number = 0;
   for (const geometry::ContactPatch& patch : patches_) {
-    Contact c;
+    Contact& c = contacts.emplace_back();
     c.a = pair.a;
     c.b = pair.b;
     for (int end = 0; end < 2; ++end) c.ends[end] = point_in_world(water_from_a, patch.ends[end]);
@@ -205,36 +290,27 @@ void PairFinder::collect(const Bodies& bodies, Pair& pair, std::vector<Contact>&
     c.depth = patch.depth;
     c.area = patch.area;
     c.tip_edge_of_b = patch.tip_edge_of_b;
-    c.place = static_cast<std::uint32_t>(records_.size());
+    c.place = number++;
     const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -
                             velocity_at(bodies, c.a, c.middle() - bodies.position[c.a]);
     c.approach_speed = -dot(relative, c.normal);
     c.slip_speed = dot(relative, perpendicular(c.normal));
-
-    records_.push_back(record_of(pair.records, c, water_from_b, 0.25 * rule_.circle_radius, dt));
-    contacts.push_back(c);
   }
-  std::swap(pair.records, records_);  // a record without a contact is over
-  for (std::size_t i = 0; i < pair.records.size(); ++i) contacts[first + i].record = &pair.records[i];
+  return false;
 }
 
 void PairFinder::find_contacts(Bodies& bodies, double dt, std::vector<Contact>& contacts) {
   contacts.clear();
-  for (const std::uint32_t slot : active_) {
-    Pair& pair = pairs_[slot];
-    const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
-    if (travelled <= pair.quiet_until) continue;
-    if (travelled > pair.known_until) refresh(bodies, pair);
-    if (pair.circles.empty()) {
-      pair.quiet_until = pair.known_until;
-      pair.records.clear();
-      continue;
-    }
-    collect(bodies, pair, contacts, dt);
+  tidy();
+  for (ActivePair& active : active_) {
+    const double travelled = bodies.travel[active.a] + bodies.travel[active.b];
+    if (travelled <= active.quiet_until) continue;
+    Pair& pair = pairs_[active.slot];
+    const Pose place = centre_a_from_b(bodies, active.a, active.b);
+    double way = way_left(bodies, active.b, place, pair.quiet);
+    if (way < kRounding) way = examine(bodies, pair, place, contacts, dt);
+    active.quiet_until = travelled + std::max(0.0, way - kRounding);
   }
-  std::sort(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
-    return std::tie(p.a, p.b, p.place) < std::tie(q.a, q.b, q.place);
-  });
 }
 
 }  // namespace polynya::dynamics

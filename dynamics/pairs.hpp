@@ -8,14 +8,21 @@
 
 namespace polynya::dynamics {
 
+/// What was found at some relative place of two bodies holds while no point of one has moved farther than
+/// this in the frame of the other.
+struct KnownNear {
+  geometry::Pose a_from_b;  ///< where it was found, of b's centre of mass
+  double way = -1;          ///< [m]; negative: nothing is known
+};
+
 /// Two bodies near enough to meet, with what is known of their distance. a < b.
 struct Pair {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  /// Until the two have travelled farther than this together, only `edges` (or `circles`) can meet [m].
-  double known_until = -1;
-  /// Until the two have travelled farther than this together, they cannot touch at all [m].
-  double quiet_until = -1;
+  bool is_dropped = false;  ///< its slot is free once the list of pairs is tidied
+  KnownNear known;          ///< only `edges` (or `circles`) can meet
+  double known_until = -1;  ///< and surely so until the two have travelled farther than this together [m]
+  KnownNear quiet;          ///< they cannot touch at all
   std::vector<geometry::NearPair> circles;  ///< contact circles near each other
   std::vector<geometry::NearPair> edges;    ///< the boundary edges behind them
   std::vector<ContactRecord> records;
@@ -28,8 +35,9 @@ struct ContactRule {
 };
 
 /// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the contact
-/// circles that are near each other, until the bodies have moved so far that others might be. Both bounds are
-/// conservative: what is culled cannot touch, so the contacts are those of a search over everything.
+/// circles that are near each other, until the bodies have moved so far relative to each other that others
+/// might be. All bounds are conservative: what is culled cannot touch, so the contacts are those of a search
+/// over everything.
 class PairFinder {
  public:
   PairFinder(const ContactRule& rule, double grid_cell);
@@ -59,20 +67,33 @@ class PairFinder {
     std::vector<std::uint32_t> pairs;
     bool is_in = false;
   };
+  struct ActivePair {
+    BodyIndex a, b;
+    double quiet_until;  // the two cannot touch until they have travelled farther than this together [m]
+    std::uint32_t slot;
+    friend bool operator<(const ActivePair& p, const ActivePair& q) {
+      return p.a != q.a ? p.a < q.a : p.b < q.b;
+    }
+  };
   void place(const Bodies& bodies, BodyIndex body);
   void connect(const Bodies& bodies, BodyIndex body);
   void add_pair(BodyIndex a, BodyIndex b);
   void drop_pair(std::uint32_t pair);
-  void refresh(const Bodies& bodies, Pair& pair);
-  void collect(const Bodies& bodies, Pair& pair, std::vector<Contact>& contacts, double dt);
+  void tidy();
+  void refresh(const Bodies& bodies, Pair& pair, const geometry::Pose& place);
+  double examine(const Bodies& bodies, Pair& pair, const geometry::Pose& place,
+                 std::vector<Contact>& contacts, double dt);
+  bool collect(const Bodies& bodies, const Pair& pair, const geometry::Pose& place,
+               std::vector<Contact>& contacts);
 
   ContactRule rule_;
   PairGrid grid_;
   std::vector<Entry> entries_;
-  std::vector<Pair> pairs_;  // slots; free ones have a == b
+  std::vector<Pair> pairs_;  // slots
   std::vector<std::uint32_t> free_pairs_;
-  std::vector<std::uint32_t> active_;  // pairs in use
-  std::vector<std::uint32_t> place_in_active_;
+  std::vector<ActivePair> active_;     // pairs in use, by (a, b), and dropped ones until tidied
+  std::vector<ActivePair> new_pairs_;  // not yet in active_
+  bool has_dropped_ = false;
   std::vector<geometry::ContactPatch> patches_;
   geometry::PatchScratch scratch_;
   std::vector<ContactRecord> records_;    // of the pair at hand, being renewed

@@ -38,7 +38,8 @@ Vector drag_direction(int k) {
 double width_across(const DragShape& shape, Vector direction_in_body) {
   Vector d = direction_in_body;
   if (d.y < 0) d = -d;
-  const double t = d.x >= 0 ? d.y / (d.x + d.y) : 1 - d.x / (d.y - d.x);
+  const double from_axis = d.y / (std::abs(d.x) + d.y);
+  const double t = d.x >= 0 ? from_axis : 2 - from_axis;
   const double at = t * (0.5 * DragShape::kDirections);
   const int k = std::min(static_cast<int>(at), DragShape::kDirections - 1);
   return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);

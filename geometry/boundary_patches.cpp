@@ -8,18 +8,17 @@ namespace {
 
 using Crossing = PatchScratch::Crossing;
 
-// Which side of edge (p, q) point r is on, true for left. A zero is decided as if all of b were moved by (ε,
-// ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and leaving.
-bool is_left_of_a_edge(Point p, Point q, Point r_of_b) {
-  const double turn = cross(q - p, r_of_b - p);
-  if (turn != 0) return turn > 0;
-  const Vector d = q - p;
+// Which side of an edge along d a point is on, by the sign of its turn, true for left. A zero is decided as
+// if all of b were moved by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate
+// between entering and leaving.
+bool is_left_of_a_edge(Vector d, double turn_of_b) {
+  if (turn_of_b != 0) [[likely]]
+    return turn_of_b > 0;
   return d.y != 0 ? d.y < 0 : d.x > 0;
 }
-bool is_left_of_b_edge(Point p, Point q, Point r_of_a) {
-  const double turn = cross(q - p, r_of_a - p);
-  if (turn != 0) return turn > 0;
-  const Vector d = q - p;
+bool is_left_of_b_edge(Vector d, double turn_of_a) {
+  if (turn_of_a != 0) [[likely]]
+    return turn_of_a > 0;
   return d.y != 0 ? d.y > 0 : d.x < 0;
 }
 
@@ -30,13 +29,21 @@ void find_crossings(const Boundary& a, const Boundary& b, const Pose& a_from_b,
     const Point a1 = a.edges.to(pair.a);
     const Point b0 = point_in_world(a_from_b, b.edges.from(pair.b));
     const Point b1 = point_in_world(a_from_b, b.edges.to(pair.b));
-    if (is_left_of_a_edge(a0, a1, b0) == is_left_of_a_edge(a0, a1, b1)) continue;
-    const bool starts_inside = is_left_of_b_edge(b0, b1, a0);
-    if (starts_inside == is_left_of_b_edge(b0, b1, a1)) continue;
-    const double turn = cross(a1 - a0, b1 - b0);
-    const double along_a = turn != 0 ? std::clamp(cross(b0 - a0, b1 - b0) / turn, 0.0, 1.0) : 0.5;
-    const double along_b = turn != 0 ? std::clamp(cross(b0 - a0, a1 - a0) / turn, 0.0, 1.0) : 0.5;
-    crossings.push_back({a0 + along_a * (a1 - a0), pair.a, pair.b, along_a, along_b, !starts_inside, 0});
+    const Vector da = a1 - a0;
+    const Vector db = b1 - b0;
+    const Vector ab = b0 - a0;
+    const double b_turns[2] = {cross(da, ab), cross(da, b1 - a0)};
+    const double a_turns[2] = {-cross(db, ab), cross(db, a1 - b0)};
+    // Side by side, not one after the other: which of the four decides cannot be foretold.
+    const bool is_a_crossed = is_left_of_a_edge(da, b_turns[0]) != is_left_of_a_edge(da, b_turns[1]);
+    const bool starts_inside = is_left_of_b_edge(db, a_turns[0]);
+    const bool is_b_crossed = starts_inside != is_left_of_b_edge(db, a_turns[1]);
+    if (!(is_a_crossed & is_b_crossed)) continue;
+    const double turn = cross(da, db);
+    const double per_turn = 1 / turn;
+    const double along_a = turn != 0 ? std::clamp(cross(ab, db) * per_turn, 0.0, 1.0) : 0.5;
+    const double along_b = turn != 0 ? std::clamp(cross(ab, da) * per_turn, 0.0, 1.0) : 0.5;
+    crossings.push_back({a0 + along_a * da, pair.a, pair.b, along_a, along_b, !starts_inside, 0});
   }
 }
 
@@ -87,12 +94,12 @@ struct ChainExtent {
 /// line. Writes the chain's points as (along the line, off the line) into `profile`.
 template <typename InFrame>
 ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to,
-                 Vector outward, bool wraps, InFrame in_frame, std::vector<Point>& profile) {
+                 double width, Vector outward, bool wraps, InFrame in_frame, std::vector<Point>& profile) {
   constexpr int kMostVertices = 4096;  // a stretch this long is no contact: the bodies stand in each other
   ChainExtent extent;
   extent.tip = midpoint(from, to);
   extent.tip_edge = first;
-  const Vector along = (to - from) / distance(from, to);
+  const Vector along = perpendicular(outward);
   profile.clear();
   profile.push_back({0, 0});
   Point previous = from;
@@ -111,7 +118,7 @@ ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::ui
     }
     previous = vertex;
   }
-  profile.push_back({distance(from, to), 0});
+  profile.push_back({width, 0});
   extent.area += 0.5 * cross(previous - from, to - from);
   extent.is_closed = edge == last;
   return extent;
@@ -139,8 +146,9 @@ double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& 
   double sum = 0;
   for (const Point p : a_side) sum = std::max(sum, p.y);
   const double a_extent = sum;
+  if (b_side.size() == 2) return a_extent;  // a straight side is the line itself
   for (const Point p : b_side) sum = std::max(sum, a_extent + p.y);
-  if (a_side.size() * b_side.size() > kMostProduct) return sum;
+  if (a_side.size() == 2 || a_side.size() * b_side.size() > kMostProduct) return sum;
   for (const Point p : a_side) most = std::max(most, p.y + off_at(b_side, line - p.x));
   for (const Point p : b_side) most = std::max(most, p.y + off_at(a_side, line - p.x));
   return most;
@@ -184,11 +192,11 @@ bool make_patch(const Boundary& a, const Boundary& b, const Pose& a_from_b, cons
   const Vector line = leave.point - enter.point;
   patch.width = length(line);
   if (patch.width < 1e-12) return false;
-  patch.normal = -perpendicular(line) / patch.width;
+  patch.normal = (-1 / patch.width) * perpendicular(line);
   const auto as_is = [](Point p) { return p; };
   const auto from_b = [&](Point p) { return point_in_world(a_from_b, p); };
   const ChainExtent on_a =
-      walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, patch.normal,
+      walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, patch.width, patch.normal,
            enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is, scratch.side_a);
   patch.area = on_a.area;
   patch.depth = on_a.depth;
@@ -197,7 +205,7 @@ bool make_patch(const Boundary& a, const Boundary& b, const Pose& a_from_b, cons
   bool is_closed = on_a.is_closed;
   if (closes_on_b) {
     const ChainExtent on_b =
-        walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, -patch.normal,
+        walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, patch.width, -patch.normal,
              leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b, scratch.side_b);
     patch.area += on_b.area;
     patch.depth = thickness_of(scratch.side_a, scratch.side_b, patch.width);
@@ -213,6 +221,16 @@ bool make_patch(const Boundary& a, const Boundary& b, const Pose& a_from_b, cons
   return is_closed;
 }
 
+/// Appends the patch of a stretch; returns 1 where there is none.
+int add_patch(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
+              const Crossing& leave, bool closes_on_b, PatchScratch& scratch,
+              std::vector<ContactPatch>& patches) {
+  patches.emplace_back();
+  if (make_patch(a, b, a_from_b, enter, leave, closes_on_b, scratch, patches.back())) return 0;
+  patches.pop_back();
+  return 1;
+}
+
 }  // namespace
 
 int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
@@ -223,6 +241,11 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
   scratch.crossings.clear();
   find_crossings(a, b, a_from_b, edge_pairs, scratch.crossings);
   if (by_a.empty()) return 0;
+  if (by_a.size() == 2 &&
+      by_a[0].is_entering != by_a[1].is_entering) {  // nearly all contacts: no order to find
+    const bool is_first = by_a[0].is_entering;
+    return add_patch(a, b, a_from_b, by_a[is_first ? 0 : 1], by_a[is_first ? 1 : 0], true, scratch, patches);
+  }
   order_crossings(a, b, scratch);
   const auto ring_on_a = [&](const Crossing& p) { return a.edges.ring[p.edge_a]; };
   const auto ring_on_b = [&](const Crossing& p) { return b.edges.ring[p.edge_b]; };
@@ -234,12 +257,8 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
     std::size_t j_on_b = 0;
     while (by_b[j_on_b].place_on_a != j) ++j_on_b;
     const bool closes_on_b = by_b[next_on_ring(by_b, j_on_b, ring_on_b)].place_on_a == i;
-    ContactPatch patch;
-    if (!by_a[j].is_entering && make_patch(a, b, a_from_b, by_a[i], by_a[j], closes_on_b, scratch, patch)) {
-      patches.push_back(patch);
-    } else {
-      ++left_out;
-    }
+    left_out +=
+        by_a[j].is_entering ? 1 : add_patch(a, b, a_from_b, by_a[i], by_a[j], closes_on_b, scratch, patches);
   }
   return left_out;
 }

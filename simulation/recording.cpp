@@ -17,12 +17,12 @@ Vector larger(Vector a, Vector b) {
 /// Adds what a contact's impulses did to the ship at its end `arm` from the centre of gravity.
 void add_contact(World& world, const dynamics::Contact& c, BodyIndex ship, double sign) {
   ShipLoads& loads = world.step_loads[ship];
-  for (int end = 0; end < 2; ++end) {
-    const Vector impulse =
-        sign * (c.normal_impulse[end] * c.normal + c.tangent_impulse[end] * perpendicular(c.normal));
+  const auto add = [&](geometry::Point at, Vector impulse) {
     loads.impulse += rotate_back(world.bodies.rotation[ship], impulse);
-    loads.angular_impulse += cross(c.ends[end] - world.bodies.position[ship], impulse);
-  }
+    loads.angular_impulse += cross(at - world.bodies.position[ship], impulse);
+  };
+  for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal);
+  add(c.middle(), sign * c.slip_impulse * perpendicular(c.normal));
   ++loads.contacts;
 }
 

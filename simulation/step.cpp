@@ -70,17 +70,14 @@ void apply_forces(World& world) {
 
 void integrate_motion(World& world) {
   const double dt = world.scene.time.step;
-  world.solver.separate(world.bodies, world.contacts, world.solver_settings, dt);
-  integrate(world.bodies, world.awake, dt);
-  for (const BodyIndex i : world.awake) {
-    const Vector v = world.bodies.velocity[i];
-    const double rim = std::abs(world.bodies.angular_velocity[i]) * world.bodies.bounding_radius[i];
-    if (std::abs(v.x) + std::abs(v.y) + rim < kRunawaySpeed) continue;
-    if (!world.failure) {
-      world.failure = "body " + std::to_string(i) +
-                      " has no finite speed below 1000 m/s at t = " + std::to_string(world.time()) + " s";
-    }
-  }
+  separate(world.bodies, world.contacts, world.separation_settings, dt);
+  const double fastest = integrate(world.bodies, world.awake, dt);
+  if (fastest < kRunawaySpeed || world.failure) return;
+  const auto runaway = std::find_if(world.awake.begin(), world.awake.end(), [&](BodyIndex i) {
+    return !(world.bodies.rim_speed[i] < kRunawaySpeed);
+  });
+  world.failure = "body " + std::to_string(*runaway) +
+                  " has no finite speed below 1000 m/s at t = " + std::to_string(world.time()) + " s";
 }
 
 void put_to_rest(World& world) {
@@ -91,8 +88,7 @@ void put_to_rest(World& world) {
   }
   std::erase_if(world.awake, [&](BodyIndex i) {
     if (world.is_ship(i) || world.touched_at_step[i] == world.steps) return false;
-    const double rim = std::abs(world.bodies.angular_velocity[i]) * world.bodies.bounding_radius[i];
-    if (length(world.bodies.velocity[i]) + rim >= kRestSpeed) return false;
+    if (world.bodies.rim_speed[i] >= kRestSpeed) return false;
     world.bodies.velocity[i] = {};
     world.bodies.angular_velocity[i] = 0;
     world.bodies.is_awake[i] = 0;

@@ -73,7 +73,7 @@ World::World(Scene scene_of_run)
       loads(scene.ships.size()) {
   solver_settings.restitution = scene.contact.restitution;
   solver_settings.most_sweeps = scene.contact.iterations;
-  solver_settings.separation_time = scene.contact.separation_time;
+  separation_settings.time = scene.contact.separation_time;
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
   for (const ShipSpec& ship : scene.ships) add_ship(*this, ship);
   for (const FloeSpec& spec : scene.floes) {

@@ -7,6 +7,7 @@
 
 #include "dynamics/impulse_solver.hpp"
 #include "dynamics/pairs.hpp"
+#include "dynamics/separation.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/crack_path.hpp"
@@ -66,6 +67,7 @@ struct World {
   dynamics::PairFinder pairs;
   dynamics::ImpulseSolver solver;
   dynamics::SolverSettings solver_settings;
+  dynamics::SeparationSettings separation_settings;
 
   std::vector<dynamics::Contact> contacts;    ///< of the present step
   std::vector<PendingFracture> fractures;     ///< of the present step

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/pairs.hpp"
+#include "dynamics/separation.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {
@@ -35,7 +36,7 @@ std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule)
       if (distance(bodies.position[a], bodies.position[b]) >
           bodies.bounding_radius[a] + bodies.bounding_radius[b])
         continue;
-      const Pose a_from_b = relative_pose(water_from_body(bodies, a), water_from_body(bodies, b));
+      const Pose a_from_b = dynamics::a_from_b(bodies, a, b, centre_a_from_b(bodies, a, b));
       std::vector<geometry::NearPair> circles;
       std::vector<geometry::NearPair> edges;
       std::vector<geometry::ContactPatch> patches;
@@ -133,7 +134,7 @@ void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
       pack.wake(c.a);
       pack.wake(c.b);
     }
-    solver.separate(pack.bodies, contacts, {}, kStep);
+    separate(pack.bodies, contacts, {}, kStep);
     integrate(pack.bodies, pack.awake, kStep);
     if (step % 10 == 9) pack.put_to_sleep(pack.random.below(pack.bodies.size()));
     if (step % 16 == 15) pack.remove(pack.random.below(pack.bodies.size()));
