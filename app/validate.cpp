@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
@@ -14,10 +16,23 @@ int validate(const ValidateOptions& options) {
     return kDone;
   }
   const simulation::Scene& scene = loaded->scene;
-  fmt::print("{}: valid; \"{}\" with {} ship{} and {} floe{}, {:g} s in steps of {:g} s, hash {}\n",
-             options.scene, scene.name, scene.ships.size(), scene.ships.size() == 1 ? "" : "s",
-             scene.floes.size(), scene.floes.size() == 1 ? "" : "s", scene.time.until, scene.time.step,
-             loaded->hash);
+  const auto structures =
+      static_cast<std::size_t>(std::ranges::count_if(scene.ships, [](const simulation::ShipSpec& ship) {
+        return std::holds_alternative<simulation::FixedInPlace>(ship.propulsion);
+      }));
+  const auto counted = [](std::size_t count, std::string_view noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+  };
+  fmt::print("{}: valid; \"{}\" with {}{} and {}, {:g} s in steps of {:g} s, hash {}\n", options.scene,
+             scene.name, counted(scene.ships.size() - structures, "ship"),
+             structures > 0 ? ", " + counted(structures, "structure") : "",
+             counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step, loaded->hash);
+  for (const io::FieldReport& field : loaded->fields) {
+    const simulation::FloeFieldOutcome& outcome = field.outcome;
+    fmt::print("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
+               field.group, outcome.count, outcome.mean_size, 100 * outcome.size_spread,
+               100 * outcome.concentration(), outcome.region_area, outcome.left_out);
+  }
   return kDone;
 }
 

@@ -46,27 +46,29 @@ double width_across(const DragShape& shape, Vector direction_in_body) {
 }
 
 double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, double drag_coefficient,
-                        double water_density, double dt) {
+                        double water_density, double dt, const ShearCurrent& current) {
   const double half_rate = 0.5 * drag_coefficient * water_density * dt;
   double work = 0;
   for (const BodyIndex i : awake) {
     const DragShape* shape = bodies.drag[i].get();
     if (shape == nullptr) continue;
-    const Vector u = bodies.velocity[i];
+    const Vector flow = current.is_still() ? Vector{} : current.velocity_at(bodies.position[i]);
+    const Vector u = bodies.velocity[i] - flow;
     const double speed = length(u);
     if (speed > 0) {
       const double width = width_across(*shape, rotate_back(bodies.rotation[i], u));
       const double shrink =
           1 / (1 + half_rate * bodies.thickness[i] * width * bodies.inverse_mass[i] * speed);
-      bodies.velocity[i] = shrink * u;
+      bodies.velocity[i] = flow + shrink * u;
       work += 0.5 * bodies.mass[i] * speed * speed * (1 - shrink * shrink);
     }
-    const double omega = bodies.angular_velocity[i];
+    const double turning = current.is_still() ? 0 : current.angular_velocity();
+    const double omega = bodies.angular_velocity[i] - turning;
     if (omega != 0) {
       const double resistance =
           half_rate * bodies.thickness[i] * shape->rotational * bodies.inverse_moment[i];
       const double shrink = 1 / (1 + resistance * std::abs(omega));
-      bodies.angular_velocity[i] = shrink * omega;
+      bodies.angular_velocity[i] = turning + shrink * omega;
       work += 0.5 * bodies.moment[i] * omega * omega * (1 - shrink * shrink);
     }
   }

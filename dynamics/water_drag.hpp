@@ -18,14 +18,32 @@ geometry::Vector drag_direction(int k);
 /// between two.
 double width_across(const DragShape& shape, geometry::Vector direction_in_body);
 
+/// A current that grows linearly across its direction, in the water frame (which drifts with the uniform
+/// part).
+struct ShearCurrent {
+  geometry::Vector along{1, 0};  ///< unit direction of the current
+  double rate = 0;               ///< per distance to port of `along` from the origin [1/s]
+  geometry::Point origin;        ///< [m]
+
+  bool is_still() const { return rate == 0; }
+  geometry::Vector velocity_at(geometry::Point p) const {
+    return rate * dot(perpendicular(along), p - origin) * along;
+  }
+  double angular_velocity() const {
+    return -0.5 * rate;
+  }  ///< of the water itself, half its vorticity [rad/s]
+};
+
 /// Lets the water brake every awake body over dt. Eq. (6) of [Sawamura2017]:
 ///   F = −½ C_D ρ_w A |u| u,   A = h × width across u,
-/// with u relative to the water, and the same law for the rotation, each strip at distance s from the centre
-/// moving at ω s through the water: M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over
-/// directions. Deviation: the paper prints the floe's own velocity for u; a drifting floe would be braked by
-/// its own current. Solved exactly over the step for constant A, v⁺ = v / (1 + c |v| dt): no step is too long
-/// for it. Returns the work done on the water [J].
+/// with u relative to the water at the centre of mass, and the same law for the rotation, ω relative to half
+/// the water's vorticity, each strip at distance s from the centre moving at ω s through the water:
+/// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions. What a current's strain
+/// does to a body's rotation is left out: a long floe would not turn evenly. Deviation: the paper prints the
+/// floe's own velocity for u; a drifting floe would be braked by its own current. Solved exactly over the
+/// step for constant A, v⁺ = v / (1 + c |v| dt): no step is too long for it. Returns the energy lost, of the
+/// motion relative to the water [J].
 double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, double drag_coefficient,
-                        double water_density, double dt);
+                        double water_density, double dt, const ShearCurrent& current = {});
 
 }  // namespace polynya::dynamics

@@ -13,10 +13,6 @@ using geometry::Polygon;
 using geometry::Ring;
 using geometry::Vector;
 
-Polygon rectangle(Point corner, Vector size) {
-  return {{corner, {corner.x + size.x, corner.y}, corner + size, {corner.x, corner.y + size.y}}, {}};
-}
-
 std::vector<Polygon> lattice(const FloeGroup& group) {
   std::vector<Polygon> floes;
   floes.reserve(static_cast<std::size_t>(group.columns) * static_cast<std::size_t>(group.rows));
@@ -36,6 +32,10 @@ void open_ring(Ring& ring) {
 
 }  // namespace
 
+Polygon rectangle(Point corner, Vector size) {
+  return {{corner, {corner.x + size.x, corner.y}, corner + size, {corner.x, corner.y + size.y}}, {}};
+}
+
 std::vector<Polygon> floes_of(const FloeGroup& group) {
   switch (group.form) {
     case FloeGroup::Form::kLattice:
@@ -49,6 +49,7 @@ std::vector<Polygon> floes_of(const FloeGroup& group) {
     }
     case FloeGroup::Form::kPolygon:
       return {in_house_notation(group.polygon)};
+    case FloeGroup::Form::kField:
     case FloeGroup::Form::kFile:
       break;
   }

@@ -53,8 +53,13 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, Pr
          fmt::format("at most {:g} steps", kMostSteps));
   double fastest = geometry::length(scene.water.drift);
   for (const auto& ship : scene.ships) fastest = std::max(fastest, std::abs(ship.speed));
-  for (const auto& floe : scene.floes)
-    fastest = std::max(fastest, geometry::length(floe.velocity + scene.water.drift));
+  const simulation::ShearSettings& shear = scene.water.shear;
+  const geometry::Rotation course = geometry::Rotation::by(shear.direction);
+  for (const auto& floe : scene.floes) {
+    const geometry::Vector off = rotate_back(course, floe.polygon_in_world.outer.front() - shear.origin);
+    const geometry::Vector current = rotate(course, {shear.rate * off.y, 0});
+    fastest = std::max(fastest, geometry::length(floe.velocity + scene.water.drift + current));
+  }
   if (fastest * scene.time.step >= scene.contact.circle_radius)
     tell("time.step_s",
          fmt::format("{}: {:.3g} m in one step at {:.3g} m/s", scene.time.step, fastest * scene.time.step,
@@ -64,22 +69,6 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, Pr
   if (scene.ships.empty() && scene.floes.empty() && problems.count() == 0)
     problems.add(0, resolved.offset,
                  {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
-}
-
-std::string describe(const geometry::DefectAt& defect) {
-  std::string text(name_of(defect.defect));
-  for (std::size_t i = 0; i < std::min<std::size_t>(defect.places.size(), 3); ++i) {
-    text += fmt::format("{} ({}, {})", i == 0 ? " at" : ",", defect.places[i].x, defect.places[i].y);
-  }
-  return text;
-}
-
-Polygon waterline_in_world(const simulation::ShipSpec& ship) {
-  const geometry::Pose world_from_ship{ship.position_in_world, geometry::Rotation::by(ship.heading)};
-  Polygon outline;
-  for (const geometry::Point p : ship.hull.waterline)
-    outline.outer.push_back(point_in_world(world_from_ship, p));
-  return outline;
 }
 
 /// A body that takes part in the search for overlaps.
@@ -94,7 +83,8 @@ void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vecto
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
     const auto& ship = draft.scene.ships[i];
     const Origin& origin = draft.ship_origins[i];
-    const std::string path = fmt::format("ships[{}]", origin.group);
+    const std::string path =
+        fmt::format("{}[{}]", origin.is_structure ? "structures" : "ships", origin.group);
     const auto tell = [&](std::string_view key, std::string found, std::string allowed) {
       problems.add(origin.source, origin.offset,
                    {.path = fmt::format("{}.{}", path, key),
@@ -103,15 +93,16 @@ void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vecto
     };
     for (std::size_t k = 0; k < i; ++k) {
       if (draft.scene.ships[k].name == ship.name)
-        tell("name", fmt::format("\"{}\" a second time", ship.name), "each ship its own name");
+        tell("name", fmt::format("\"{}\" a second time", ship.name), "each ship and structure its own name");
     }
     const auto& hull = ship.hull;
     if (!hull.angles_from_vertical.empty() && hull.angles_from_vertical.size() != hull.waterline.size())
       tell("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
            fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
     if (const auto defect = geometry::find_defect({hull.waterline, {}})) {
-      tell("hull", "an invalid waterline: " + describe(*defect),
-           "a simple ring with an area; a wedge bow must end before the stern");
+      tell(origin.is_structure ? "waterline_m" : "hull", "an invalid waterline: " + describe(*defect),
+           origin.is_structure ? "a simple ring with an area"
+                               : "a simple ring with an area; a wedge bow must end before the stern");
       continue;
     }
     outlines.push_back(waterline_in_world(ship));
@@ -124,7 +115,7 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
   for (std::size_t i = 0; i < draft.scene.floes.size(); ++i) {
     const Polygon& polygon = draft.scene.floes[i].polygon_in_world;
     const Origin& origin = draft.floe_origins[i];
-    if (!origin.is_rectangle) {
+    if (!origin.is_known_valid) {
       if (const auto defect = geometry::find_defect(polygon)) {
         problems.add(origin.source, origin.offset,
                      {.path = path_of(draft, i),
@@ -148,7 +139,7 @@ void check_overlaps(const std::vector<Named>& named, const std::vector<Polygon>&
     problems.add(second.origin->source, second.origin->offset,
                  {.path = second.path,
                   .found = fmt::format("an overlap with {}{}", first.path, area),
-                  .allowed = first.is_ship && !second.is_ship ? "floes outside the ship's waterline"
+                  .allowed = first.is_ship && !second.is_ship ? "floes outside the waterline"
                                                               : "bodies that at most touch"});
   }
   if (overlaps.size() == kMostOverlaps)
@@ -157,6 +148,22 @@ void check_overlaps(const std::vector<Named>& named, const std::vector<Polygon>&
 }
 
 }  // namespace
+
+std::string describe(const geometry::DefectAt& defect) {
+  std::string text(name_of(defect.defect));
+  for (std::size_t i = 0; i < std::min<std::size_t>(defect.places.size(), 3); ++i) {
+    text += fmt::format("{} ({}, {})", i == 0 ? " at" : ",", defect.places[i].x, defect.places[i].y);
+  }
+  return text;
+}
+
+Polygon waterline_in_world(const simulation::ShipSpec& ship) {
+  const geometry::Pose world_from_ship{ship.position_in_world, geometry::Rotation::by(ship.heading)};
+  Polygon outline;
+  for (const geometry::Point p : ship.hull.waterline)
+    outline.outer.push_back(point_in_world(world_from_ship, p));
+  return outline;
+}
 
 void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
   check_water_and_time(draft, resolved, problems);

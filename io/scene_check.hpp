@@ -1,10 +1,17 @@
 #pragma once
 
+#include "geometry/validity.hpp"
 #include "io/json_value.hpp"
 #include "io/problem_collector.hpp"
 #include "io/scene_draft.hpp"
 
 namespace polynya::io {
+
+/// A waterline in the world.
+geometry::Polygon waterline_in_world(const simulation::ShipSpec& ship);
+
+/// "self-crossing at (5, 5), (0, 0)".
+std::string describe(const geometry::DefectAt& defect);
 
 /// What no single field can tell: ice that would sink, a step too long for the speeds, invalid outlines,
 /// floes that overlap each other or lie in a ship. Tells every problem with its place.

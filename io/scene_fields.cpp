@@ -57,6 +57,17 @@ const Object kTime{{{"step_s", Kind::kNumber, "s", from(1e-5, 1), "0.005", "time
                     {"until_s", Kind::kNumber, "s", above(0, 1e7), "550", "simulated time to run to",
                      [](Draft& d, const Value& v) { d.scene.time.until = v.number(); }}}};
 
+const Object kShear{
+    {{"rate_per_s", Kind::kNumber, "1/s", from(-1, 1), "0",
+      "how much faster the current runs along its direction, per metre to port of the origin",
+      [](Draft& d, const Value& v) { d.scene.water.shear.rate = v.number(); }},
+     {"direction_deg", Kind::kNumber, "°", from(-360, 360), "0",
+      "of the current, from the x axis, counter-clockwise",
+      [](Draft& d, const Value& v) { d.scene.water.shear.direction = radians(v); }},
+     {"origin_m", Kind::kVector, "m", coordinate(), "[0, 0]",
+      "a point where the water has the drift alone, at the start; it is carried along by the drift",
+      [](Draft& d, const Value& v) { d.scene.water.shear.origin = point_of(v); }}}};
+
 const Object kWater{
     {{"density_kg_per_m3", Kind::kNumber, "kg/m³", from(500, 2000), "1000", "density ρ_w",
       [](Draft& d, const Value& v) { d.scene.water.water.density = v.number(); }},
@@ -64,7 +75,17 @@ const Object kWater{
       [](Draft& d, const Value& v) { d.scene.water.drag_coefficient = v.number(); }},
      {"drift_m_per_s", Kind::kVector, "m/s", from(-10, 10), "[0, 0]",
       "velocity of the water, and of all ice with it",
-      [](Draft& d, const Value& v) { d.scene.water.drift = vector_of(v); }}}};
+      [](Draft& d, const Value& v) { d.scene.water.drift = vector_of(v); }},
+     {"shear",
+      Kind::kObject,
+      "",
+      {},
+      "{}",
+      "a current that changes linearly across its direction, on top of the drift",
+      nullptr,
+      {},
+      "",
+      &kShear}}};
 
 const Object kIce{
     {{"thickness_m", Kind::kNumber, "m", above(0, 20), "0.5", "thickness h of every floe",
@@ -124,9 +145,10 @@ const Object kBending{{{"model",
                         "\"fsi-database\"",
                         "what a wedge of ice bears before its cusp breaks off",
                         [](Draft& d, const Value& v) {
-                          d.scene.fracture.bending = v.text() == "nevel"        ? BendingModelKind::kNevel
-                                                     : v.text() == "kashtelyan" ? BendingModelKind::kKashtelyan
-                                                                                : BendingModelKind::kFsiDatabase;
+                          d.scene.fracture.bending = v.text() == "nevel" ? BendingModelKind::kNevel
+                                                     : v.text() == "kashtelyan"
+                                                         ? BendingModelKind::kKashtelyan
+                                                         : BendingModelKind::kFsiDatabase;
                         },
                         {"fsi-database", "nevel", "kashtelyan"}}}};
 
@@ -306,6 +328,100 @@ const Object kShip{
       d.hull_length = 0;
     }};
 
+const Object kStructure{
+    {{"name",
+      Kind::kName,
+      "",
+      {},
+      "\"structure-#\"",
+      "its name in the outputs; # is its number",
+      [](Draft& d, const Value& v) { d.ship().name = v.text(); }},
+     {"radius_m",
+      Kind::kNumber,
+      "m",
+      from(0.1, 1000),
+      "",
+      "of a cylinder or cone at the waterline",
+      [](Draft& d, const Value& v) { d.structure_radius = v.number(); },
+      {},
+      "cylinder"},
+     {"waterline_m",
+      Kind::kRing,
+      "m",
+      from(-1000, 1000),
+      "",
+      "the waterline in the structure's frame",
+      [](Draft& d, const Value& v) { d.ship().hull.waterline = ring_of(v); },
+      {},
+      "outline"},
+     {"position_m", Kind::kVector, "m", coordinate(), "[0, 0]", "of its frame's origin; moments are about it",
+      [](Draft& d, const Value& v) { d.ship().position_in_world = point_of(v); }},
+     {"heading_deg", Kind::kNumber, "°", from(-360, 360), "0",
+      "of its frame, from the x axis, counter-clockwise; forces are in that frame",
+      [](Draft& d, const Value& v) { d.ship().heading = radians(v); }},
+     {"wall_angle_deg", Kind::kNumber, "°", below(0, 89), "0",
+      "inclination of its walls from the vertical, all around: 0 crushes the ice, more presses it down as a "
+      "hull does",
+      [](Draft& d, const Value& v) { d.structure_slope = radians(v); }}},
+    {"cylinder", "outline"},
+    [](Draft& d) {
+      d.scene.ships.emplace_back();
+      d.structure_radius = 0;
+    }};
+
+const Object kField{
+    {{"corner_m",
+      Kind::kVector,
+      "m",
+      coordinate(),
+      "",
+      "corner of its region with the least x and y",
+      [](Draft& d, const Value& v) { d.group.origin = point_of(v); },
+      {},
+      "rectangle"},
+     {"extent_m",
+      Kind::kNumberOrVector,
+      "m",
+      from(0.1, 1e6),
+      "",
+      "sides of its region",
+      [](Draft& d, const Value& v) { d.group.extent = vector_of(v); },
+      {},
+      "rectangle"},
+     {"outline_m",
+      Kind::kRing,
+      "m",
+      coordinate(),
+      "",
+      "its region point by point; floes that would cross it are left out",
+      [](Draft& d, const Value& v) { d.group.field.region = ring_of(v); },
+      {},
+      "outline"},
+     {"floe_size_m", Kind::kNumber, "m", from(0.1, 1e4), "", "mean of the floes' √area",
+      [](Draft& d, const Value& v) {
+        d.group.form = FloeGroup::Form::kField;
+        d.group.field.floe_size = v.number();
+      }},
+     {"size_spread", Kind::kNumber, "", from(0, 0.5), "0.25",
+      "standard deviation of the floes' √area / its mean; they are lognormal, cut off at 2.5 deviations",
+      [](Draft& d, const Value& v) { d.group.field.size_spread = v.number(); }},
+     {"concentration", Kind::kNumber, "", above(0, 0.99), "", "share of the region that ice covers",
+      [](Draft& d, const Value& v) { d.group.field.concentration = v.number(); }},
+     {"gap_m", Kind::kNumber, "m", from(1e-6, 1000), "0.05",
+      "least distance between floes, and of floes from what is kept clear",
+      [](Draft& d, const Value& v) { d.group.field.gap = v.number(); }},
+     {"most_corners", Kind::kInteger, "", from(3, 32), "8", "of a floe; floes are convex",
+      [](Draft& d, const Value& v) { d.group.field.most_corners = static_cast<int>(v.number()); }},
+     {"keep_clear_m", Kind::kRings, "m", coordinate(), "[]",
+      "regions no floe may reach into; ships and structures are kept clear without being asked for",
+      [](Draft& d, const Value& v) {
+        for (const Value& ring : v.items()) d.group.field.kept_clear.push_back({ring_of(ring), {}});
+      }},
+     {"seed", Kind::kInteger, "", from(0, 9007199254740991), "0",
+      "another one gives another field; the scene's seed is added",
+      [](Draft& d, const Value& v) { d.group.field.seed = static_cast<std::uint64_t>(v.number()); }}},
+    {"rectangle", "outline"}};
+
 const Object kLattice{
     {{"origin_m", Kind::kVector, "m", coordinate(), "[0, 0]",
       "corner of the lattice's area with the least x and y",
@@ -358,6 +474,16 @@ const Object kFloes{
       &kLattice},
      {"rectangle", Kind::kObject, "", {}, "", "one rectangle", nullptr, {}, "rectangle", &kRectangle},
      {"polygon", Kind::kObject, "", {}, "", "one polygon, with holes", nullptr, {}, "polygon", &kPolygon},
+     {"field",
+      Kind::kObject,
+      "",
+      {},
+      "",
+      "random convex floes at a concentration",
+      nullptr,
+      {},
+      "field",
+      &kField},
      {"file",
       Kind::kText,
       "",
@@ -372,12 +498,12 @@ const Object kFloes{
       {},
       "file"},
      {"velocity_m_per_s", Kind::kVector, "m/s", from(-20, 20), "[0, 0]",
-      "of the centre of mass relative to the water at the start",
+      "of the centre of mass relative to the water there, at the start",
       [](Draft& d, const Value& v) { d.group.velocity = vector_of(v); }},
      {"angular_velocity_deg_per_s", Kind::kNumber, "°/s", from(-360, 360), "0",
-      "counter-clockwise, at the start",
+      "counter-clockwise, at the start; a shear's own turning comes on top",
       [](Draft& d, const Value& v) { d.group.angular_velocity = radians(v); }}},
-    {"lattice", "rectangle", "polygon", "file"},
+    {"lattice", "rectangle", "polygon", "field", "file"},
     [](Draft& d) { d.group = {}; }};
 
 const Object kScene{
@@ -395,8 +521,7 @@ const Object kScene{
       "\"\"",
       "for people",
       [](Draft& d, const Value& v) { d.description = v.text(); }},
-     {"seed", Kind::kInteger, "", from(0, 9007199254740991), "1",
-      "of whatever is random; nothing is in this version, the seed only stands in the record",
+     {"seed", Kind::kInteger, "", from(0, 9007199254740991), "1", "of whatever is random: the floe fields",
       [](Draft& d, const Value& v) { d.scene.seed = static_cast<std::uint64_t>(v.number()); }},
      {"time", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &kTime},
      {"water", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &kWater},
@@ -405,6 +530,16 @@ const Object kScene{
      {"fracture", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &kFracture},
      {"record", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &kRecord},
      {"ships", Kind::kList, "", from(0, 100), "[]", "the ships", nullptr, {}, "", &kShip},
+     {"structures",
+      Kind::kList,
+      "",
+      from(0, 100),
+      "[]",
+      "what stands in the ice and does not move",
+      nullptr,
+      {},
+      "",
+      &kStructure},
      {"floes",
       Kind::kList,
       "",

@@ -1,9 +1,11 @@
 #include "io/scene_reader.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "geometry/validity.hpp"
 #include "io/floe_group.hpp"
 #include "io/geojson_reader.hpp"
 #include "io/json_parser.hpp"
@@ -77,7 +79,8 @@ class SceneReading {
     build();
     check_scene(draft_, resolved_, problems_);
     if (problems_.count() > 0) return tl::unexpected(problems_.take());
-    LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description), to_json_text(resolved_), ""};
+    LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description), to_json_text(resolved_), "",
+                       std::move(fields_)};
     loaded.hash = hash_of(loaded.resolved_text);
     return loaded;
   }
@@ -111,6 +114,8 @@ class SceneReading {
     bind_scene(resolved_, draft_, [&](std::string_view list, std::size_t index, const JsonValue& item) {
       if (list == "ships")
         add_ship(index, item);
+      else if (list == "structures")
+        add_structure(index, item);
       else
         add_floes(index, item, floes);
     });
@@ -134,10 +139,24 @@ class SceneReading {
     draft_.ship_origins.push_back({.offset = item.offset, .group = index});
   }
 
+  /// A structure is a ship that stands on the ground.
+  void add_structure(std::size_t index, const JsonValue& item) {
+    simulation::ShipSpec& structure = draft_.ship();
+    simulation::Hull& hull = structure.hull;
+    hull.waterline = draft_.structure_radius > 0
+                         ? simulation::cylinder_waterline(draft_.structure_radius)
+                         : in_house_notation(geometry::Polygon{hull.waterline, {}}).outer;
+    hull.angles_from_vertical.assign(hull.waterline.size(), draft_.structure_slope);
+    structure.mass = structure.moment_of_inertia = std::numeric_limits<double>::infinity();
+    structure.propulsion = simulation::FixedInPlace{};
+    draft_.ship_origins.push_back({.offset = item.offset, .group = index, .is_structure = true});
+  }
+
   void add_floes(std::size_t index, const JsonValue& item, JsonValue& resolved_floes) {
     const std::string path = fmt::format("floes[{}]", index);
     const FloeGroup& group = draft_.group;
     if (group.form == FloeGroup::Form::kFile) return add_file(index, item, resolved_floes);
+    if (group.form == FloeGroup::Form::kField) return add_field(index, item, resolved_floes);
     if (group.form == FloeGroup::Form::kLattice) {
       if (!check_lattice(item, path)) return;
     } else if (!has_room_for(1, item, path)) {
@@ -149,9 +168,63 @@ class SceneReading {
       add_floe(polygons[i], {.offset = item.offset,
                              .group = index,
                              .member = group.form == FloeGroup::Form::kLattice ? static_cast<int>(i) : -1,
-                             .is_rectangle = is_rectangle});
+                             .is_known_valid = is_rectangle});
     }
     resolved_floes.items().push_back(item);
+  }
+
+  void add_field(std::size_t index, const JsonValue& item, JsonValue& resolved_floes) {
+    const std::string path = fmt::format("floes[{}].field", index);
+    const JsonValue& json = *item.find("field");
+    simulation::FloeField field = draft_.group.field;
+    complete(field);
+    if (!check_rings(field, json, path)) return;
+    const double count = simulation::floe_count(field);
+    if (count < 1)
+      return tell(json.offset, path, "room for less than one floe",
+                  "a region for some floes of floe_size_m at the concentration");
+    if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), item, path)) return;
+    simulation::FloeFieldOutcome outcome = simulation::make_floe_field(field);
+    if (outcome.reachable_concentration < field.concentration)
+      return tell(json.find("concentration")->offset, path + ".concentration",
+                  show(*json.find("concentration")),
+                  fmt::format("at most {:.3g} with this gap_m", outcome.reachable_concentration));
+    int member = 0;
+    for (geometry::Polygon& floe : outcome.floes) {
+      add_floe(std::move(floe),
+               {.offset = item.offset, .group = index, .member = member++, .is_known_valid = true});
+    }
+    outcome.floes.clear();
+    fields_.push_back({index, std::move(outcome)});
+    resolved_floes.items().push_back(item);
+  }
+
+  /// What a field needs to know of the rest of the scene.
+  void complete(simulation::FloeField& field) const {
+    const FloeGroup& group = draft_.group;
+    field.is_rectangle = group.extent != geometry::Vector{};
+    field.region = field.is_rectangle ? rectangle(group.origin, group.extent).outer
+                                      : in_house_notation({field.region, {}}).outer;
+    field.seed += draft_.scene.seed;
+    for (geometry::Polygon& clear : field.kept_clear) clear = in_house_notation(std::move(clear));
+    for (const auto& ship : draft_.scene.ships) {
+      if (ship.hull.waterline.size() >= 3) field.kept_clear.push_back(waterline_in_world(ship));
+    }
+  }
+
+  bool check_rings(const simulation::FloeField& field, const JsonValue& json, const std::string& path) {
+    const auto check = [&](const geometry::Ring& ring, const JsonValue& at, const std::string& key) {
+      const auto defect = geometry::find_defect({ring, {}});
+      if (defect) tell(at.offset, path + "." + key, "an invalid ring: " + describe(*defect), "a simple ring");
+      return !defect;
+    };
+    bool is_good = field.is_rectangle || check(field.region, *json.find("outline_m"), "outline_m");
+    const JsonValue& rings = *json.find("keep_clear_m");
+    for (std::size_t i = 0; i < rings.items().size(); ++i) {
+      const std::string key = fmt::format("keep_clear_m[{}]", i);
+      is_good = check(field.kept_clear[i].outer, rings.items()[i], key) && is_good;
+    }
+    return is_good;
   }
 
   bool check_lattice(const JsonValue& item, const std::string& path) {
@@ -224,6 +297,7 @@ class SceneReading {
   ProblemCollector problems_;
   JsonValue resolved_;
   SceneDraft draft_;
+  std::vector<FieldReport> fields_;
 };
 
 /// A file's stem as a scene's name.

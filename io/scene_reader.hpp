@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 
 #include "io/problem.hpp"
+#include "simulation/floe_field.hpp"
 #include "simulation/scene.hpp"
 
 namespace polynya::io {
@@ -17,12 +18,19 @@ inline constexpr std::size_t kLongestScene = std::size_t{64} << 20;       ///< [
 inline constexpr std::size_t kLongestFloesFile = std::size_t{256} << 20;  ///< [bytes]
 inline constexpr std::size_t kMostFloes = 1'000'000;
 
+/// How a random field of the scene came out.
+struct FieldReport {
+  std::size_t group = 0;                 ///< index in the scene's "floes"
+  simulation::FloeFieldOutcome outcome;  ///< without its floes; they are the scene's
+};
+
 struct LoadedScene {
   simulation::Scene scene;
   std::string description;
   std::string
       resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
   std::string hash;   ///< of resolved_text: 16 hexadecimal digits, FNV-1a
+  std::vector<FieldReport> fields;
 };
 
 /// What the command line puts in place of the scene's own.

@@ -167,6 +167,7 @@ constexpr auto kExampleFloes = R"(  "floes": [
     {"lattice": {"origin_m": [100, -60], "columns": 5, "rows": 6, "pitch_m": 20, "size_m": 15}},
     {"polygon": {"outer_m": [[210, -20], [240, -25], [250, 10], [225, 30]]}}
     // {"file": "floes.geojson"}  polygons from a file beside this one
+    // {"field": {"corner_m": [250, -60], "extent_m": [200, 120], "floe_size_m": 15, "concentration": 0.5}}
   ]
 )";
 

@@ -1,6 +1,8 @@
 #include "simulation/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace polynya::simulation {
 
@@ -11,6 +13,18 @@ geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_a
           {-0.5 * length, 0.5 * beam},
           {-0.5 * length, -0.5 * beam},
           {0.5 * length - bow, -0.5 * beam}};
+}
+
+geometry::Ring cylinder_waterline(double radius) {
+  constexpr double kSagitta = 0.01;  // [m]
+  const double half_turn = std::acos(std::max(-1.0, 1 - kSagitta / radius));
+  const int corners = std::max(24, static_cast<int>(std::ceil(std::numbers::pi / half_turn)));
+  geometry::Ring ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return ring;
 }
 
 }  // namespace polynya::simulation

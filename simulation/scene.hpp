@@ -20,10 +20,19 @@ struct StepSettings {
   double until = 550;   ///< simulated time to run to [s]
 };
 
+/// A current that grows linearly across its direction, on top of the uniform drift and carried by it: at x it
+/// runs along `direction` at rate · (distance of x from the line through `origin`, to port of the direction).
+struct ShearSettings {
+  double rate = 0;         ///< [1/s]
+  double direction = 0;    ///< of the current, from the x axis, counter-clockwise [rad]
+  geometry::Point origin;  ///< a point that moves with the drift alone, where it is at the start [m]
+};
+
 struct WaterSettings {
   fracture::Water water;
   double drag_coefficient = 0.5;  ///< C_D of Eq. (6) [-]
   geometry::Vector drift;         ///< velocity of the water, and of all ice with it [m/s]
+  ShearSettings shear;
 };
 
 /// How the normal of a contact is found.
@@ -70,8 +79,11 @@ struct ConstantThrust {
 struct ConstantSpeed {
   double speed = 0;  ///< [m/s]
 };
-using Propulsion = std::variant<ConstantThrust, ConstantSpeed>;
+/// Stands on the ground and does not give: a structure. Its mass is infinite.
+struct FixedInPlace {};
+using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace>;
 
+/// A ship, or a structure: a ship that does not move.
 struct ShipSpec {
   std::string name;
   Hull hull;
@@ -85,8 +97,8 @@ struct ShipSpec {
 
 struct FloeSpec {
   geometry::Polygon polygon_in_world;  ///< valid, at the start [m]
-  geometry::Vector velocity;           ///< of the centre of mass relative to the water at the start [m/s]
-  double angular_velocity = 0;         ///< [rad/s]
+  geometry::Vector velocity;    ///< of the centre of mass relative to the water there, at the start [m/s]
+  double angular_velocity = 0;  ///< relative to the water's own turning there, at the start [rad/s]
 };
 
 struct RecordSettings {
@@ -103,12 +115,16 @@ struct Scene {
   ContactSettings contact;
   FractureSettings fracture;
   RecordSettings record;
-  std::vector<ShipSpec> ships;
+  std::vector<ShipSpec> ships;  ///< and then the structures
   std::vector<FloeSpec> floes;
 };
 
 /// A wedge-bowed waterline of the given length and beam [m]: straight flanks from the stem at the entrance
 /// angle from the centreline [rad], a parallel midbody, a square stern. Origin amidships.
 geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle);
+
+/// The waterline of a vertical or conical cylinder about the origin [m], as a polygon of at least 24 corners
+/// that stays within 1 cm of the circle, corners on it.
+geometry::Ring cylinder_waterline(double radius);
 
 }  // namespace polynya::simulation

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/water_drag.hpp"
-
 namespace polynya::simulation {
 namespace {
 
 using geometry::Vector;
 
-/// Floes slower than this, all their points included, that touch nothing are at rest with the water [m/s].
-/// Quadratic drag alone never brings anything to rest.
-constexpr double kRestSpeed = 1e-4;
 constexpr double kRunawaySpeed = 1e3;  ///< beyond it the numbers mean nothing any more [m/s]
 
 Vector heading_of(const World& world, BodyIndex ship) {
@@ -59,7 +54,7 @@ void solve_impulses(World& world) {
 void apply_forces(World& world) {
   const double dt = world.scene.time.step;
   apply_water_drag(world.bodies, world.awake, world.scene.water.drag_coefficient,
-                   world.scene.water.water.density, dt);
+                   world.scene.water.water.density, dt, world.current);
   for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
     if (const auto* thrust = std::get_if<ConstantThrust>(&world.scene.ships[ship].propulsion)) {
       world.bodies.velocity[ship] +=
@@ -89,6 +84,7 @@ void put_to_rest(World& world) {
   std::erase_if(world.awake, [&](BodyIndex i) {
     if (world.is_ship(i) || world.touched_at_step[i] == world.steps) return false;
     if (world.bodies.rim_speed[i] >= kRestSpeed) return false;
+    if (!world.is_current_still_at(i)) return false;  // for a moment only
     world.bodies.velocity[i] = {};
     world.bodies.angular_velocity[i] = 0;
     world.bodies.is_awake[i] = 0;

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "dynamics/water_drag.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/kashtelyan.hpp"
 #include "fracture/bending/nevel.hpp"
@@ -52,6 +51,10 @@ void add_ship(World& world, const ShipSpec& ship) {
     speed = held->speed;
     body.is_held = true;
   }
+  if (std::holds_alternative<FixedInPlace>(ship.propulsion)) {
+    speed = 0;
+    body.is_held = true;
+  }
   body.velocity = speed * ahead - world.scene.water.drift;
   body.mass = ship.mass;
   body.moment = ship.moment_of_inertia;
@@ -59,6 +62,10 @@ void add_ship(World& world, const ShipSpec& ship) {
       geometry::make_boundary({ship.hull.waterline, {}}, world.scene.contact.circle_radius));
   const BodyIndex index = add_body(world.bodies, body);
   world.pairs.add(world.bodies, index);
+}
+
+dynamics::ShearCurrent current_of(const ShearSettings& shear) {
+  return {{std::cos(shear.direction), std::sin(shear.direction)}, shear.rate, shear.origin};
 }
 
 }  // namespace
@@ -75,13 +82,19 @@ World::World(Scene scene_of_run)
   solver_settings.most_sweeps = scene.contact.iterations;
   separation_settings.time = scene.contact.separation_time;
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
+  current = current_of(scene.water.shear);
   for (const ShipSpec& ship : scene.ships) add_ship(*this, ship);
   for (const FloeSpec& spec : scene.floes) {
     NewFloe floe;
     floe.shape.polygon = spec.polygon_in_world;
     const Point centroid = geometry::measure(spec.polygon_in_world).centroid;
-    floe.velocity = spec.velocity - cross(spec.angular_velocity, centroid - Point{});
     floe.angular_velocity = spec.angular_velocity;
+    floe.velocity = spec.velocity;
+    if (!current.is_still()) {  // at rest in a sheared current is to go and turn with it
+      floe.velocity += current.velocity_at(centroid);
+      floe.angular_velocity += current.angular_velocity();
+    }
+    floe.velocity -= cross(floe.angular_velocity, centroid - Point{});
     const FloeId id = add_floe(*this, floe);
     ledger.initial_ice_area += floes[id].area;
   }
@@ -90,7 +103,9 @@ World::World(Scene scene_of_run)
   for (BodyIndex ship = 0; ship < ship_count(); ++ship) wake(*this, ship);
   for (std::size_t i = 0; i < scene.floes.size(); ++i) {
     const FloeSpec& spec = scene.floes[i];
-    if (spec.velocity != Vector{} || spec.angular_velocity != 0) wake(*this, body_of(static_cast<FloeId>(i)));
+    const BodyIndex body = body_of(static_cast<FloeId>(i));
+    if (spec.velocity != Vector{} || spec.angular_velocity != 0 || !is_current_still_at(body))
+      wake(*this, body);
   }
 }
 
@@ -119,6 +134,12 @@ FloeId add_floe(World& world, const NewFloe& floe) {
   world.journal.births.push_back({id, floe.parent, world.time(), floe.generation, measures.area, body.mass,
                                   measures.centroid, floe.shape.polygon, floe.shape.exact == nullptr});
   return id;
+}
+
+bool World::is_current_still_at(BodyIndex body) const {
+  if (current.is_still()) return true;
+  const double rim = std::abs(current.angular_velocity()) * bodies.bounding_radius[body];
+  return length(current.velocity_at(bodies.position[body])) + rim < kRestSpeed;
 }
 
 void retire_floe(World& world, FloeId floe) {

@@ -8,6 +8,7 @@
 #include "dynamics/impulse_solver.hpp"
 #include "dynamics/pairs.hpp"
 #include "dynamics/separation.hpp"
+#include "dynamics/water_drag.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/crack_path.hpp"
@@ -59,7 +60,8 @@ struct World {
 
   Scene scene;
   std::unique_ptr<fracture::BendingModel> bending;
-  double breakable_size = 0;  ///< κ l [m]
+  double breakable_size = 0;       ///< κ l [m]
+  dynamics::ShearCurrent current;  ///< in the water frame
 
   dynamics::Bodies bodies;  ///< the ships first, then floes by id
   std::vector<Floe> floes;  ///< by id
@@ -88,6 +90,9 @@ struct World {
   BodyIndex body_of(FloeId floe) const { return static_cast<BodyIndex>(floe) + ship_count(); }
   FloeId floe_of(BodyIndex body) const { return body - ship_count(); }
   bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
+  /// Would a body at rest in the water frame stay there, as far as the water goes? A sheared current carries
+  /// it off.
+  bool is_current_still_at(BodyIndex body) const;
   geometry::Vector drift() const {
     return time() * scene.water.drift;
   }  ///< of the water frame over ground [m]
@@ -112,5 +117,9 @@ FloeId add_floe(World& world, const NewFloe& floe);
 void retire_floe(World& world, FloeId floe);
 
 void wake(World& world, BodyIndex body);
+
+/// Floes slower than this, all their points included, that touch nothing are at rest with the water [m/s].
+/// Quadratic drag alone never brings anything to rest.
+inline constexpr double kRestSpeed = 1e-4;
 
 }  // namespace polynya::simulation

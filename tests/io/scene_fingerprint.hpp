@@ -17,8 +17,9 @@ inline std::string text_of(const geometry::Ring& ring) {
 /// Everything a scene holds, as text: two scenes are the same where their fingerprints are.
 inline std::string fingerprint(const simulation::Scene& s) {
   std::string text = fmt::format("{} {} {} {}\n", s.name, s.seed, s.time.step, s.time.until);
-  text += fmt::format("water {} {} {} {}\n", s.water.water.density, s.water.drag_coefficient, s.water.drift.x,
-                      s.water.drift.y);
+  text += fmt::format("water {} {} {} {} {} {} {} {}\n", s.water.water.density, s.water.drag_coefficient,
+                      s.water.drift.x, s.water.drift.y, s.water.shear.rate, s.water.shear.direction,
+                      s.water.shear.origin.x, s.water.shear.origin.y);
   text +=
       fmt::format("ice {} {} {} {} {} {} {} {} {}\n", s.ice.thickness, s.ice.density, s.ice.youngs_modulus,
                   s.ice.poisson_ratio, s.ice.flexural_strength, s.ice.compressive_strength,
@@ -40,8 +41,10 @@ inline std::string fingerprint(const simulation::Scene& s) {
     for (const double angle : ship.hull.angles_from_vertical) text += fmt::format(" {}", angle);
     if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&ship.propulsion))
       text += fmt::format(" thrust {}\n", thrust->thrust);
+    else if (const auto* held = std::get_if<simulation::ConstantSpeed>(&ship.propulsion))
+      text += fmt::format(" speed {}\n", held->speed);
     else
-      text += fmt::format(" speed {}\n", std::get<simulation::ConstantSpeed>(ship.propulsion).speed);
+      text += " fixed\n";
   }
   for (const auto& floe : s.floes) {
     text += fmt::format("floe {} {} {} {}", text_of(floe.polygon_in_world.outer), floe.velocity.x,

@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "temporary_folder.hpp"
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "geometry/measures.hpp"
@@ -264,6 +265,81 @@ TEST(PaperScenes, HoldThePapersIce) {
       EXPECT_LE(outline.high.y, 300);
     }
     EXPECT_NEAR(area / (550.0 * 300.0), 0.62, 0.014);
+  }
+}
+
+TEST(Scene, AFieldTellsHowItCameOut) {
+  const auto loaded = read_scene(R"({
+    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7,
+               "moment_of_inertia_kg_m2": 5e9, "position_m": [100, 100], "propulsion": {"thrust_N": 2e4}}],
+    "structures": [{"radius_m": 20, "position_m": [300, 100]}],
+    "floes": [{"rectangle": {"corner_m": [-50, 0], "size_m": 10}},
+              {"field": {"corner_m": [0, 0], "extent_m": [400, 200], "floe_size_m": 10, "concentration": 0.8}}]
+  })",
+                                 "scene.json", ".");
+  ASSERT_TRUE(loaded) << all_of(
+      loaded.error());  // no floe in the ship or the structure, no two over one another
+  ASSERT_EQ(loaded->fields.size(), 1u);
+  EXPECT_EQ(loaded->fields[0].group, 1u);
+  const auto& outcome = loaded->fields[0].outcome;
+  EXPECT_EQ(static_cast<std::size_t>(outcome.count) + 1, loaded->scene.floes.size());
+  EXPECT_GT(outcome.left_out, 30);
+  EXPECT_DOUBLE_EQ(outcome.region_area, 8e4);
+  double area = 0;
+  for (std::size_t i = 1; i < loaded->scene.floes.size(); ++i)
+    area += geometry::measure(loaded->scene.floes[i].polygon_in_world).area;
+  EXPECT_NEAR(area, outcome.floe_area, 1e-6);
+}
+
+TEST(Scene, AFieldFollowsTheScenesSeedAndItsOwn) {
+  const auto first_corner = [](int scene_seed, int field_seed) {
+    const auto loaded = read_scene(fmt::format(R"({{"seed": {}, "floes": [{{"field": {{"corner_m": [0, 0],
+      "extent_m": 100, "floe_size_m": 10, "concentration": 0.5, "seed": {}}}}}]}})",
+                                               scene_seed, field_seed),
+                                   "s", ".");
+    return loaded->scene.floes.front().polygon_in_world.outer.front();
+  };
+  EXPECT_EQ(first_corner(1, 0), first_corner(1, 0));
+  EXPECT_NE(first_corner(1, 0), first_corner(2, 0));
+  EXPECT_NE(first_corner(1, 0), first_corner(1, 1));
+}
+
+TEST(Scene, FieldsAndStructuresHaveTheirOwnMistakes) {
+  struct Case {
+    std::string text, path, found;
+  };
+  const auto field = [](const std::string& more) {
+    return R"({"floes": [{"field": {"corner_m": [0, 0], "extent_m": 100, "floe_size_m": 10, )" + more +
+           "}}]}";
+  };
+  for (
+      const Case& c : std::vector<Case>{
+          {field(R"("concentration": 0.95, "gap_m": 3)"), "floes[0].field.concentration", "0.95"},
+          {field(R"("concentration": 0.005)"), "floes[0].field", "less than one floe"},
+          {field(R"("concentration": 0)"), "floes[0].field.concentration", "0"},
+          {field(R"("concentration": 0.5, "most_corners": 2)"), "floes[0].field.most_corners", "2"},
+          {field(R"("concentration": 0.5, "keep_clear_m": [[[0, 0], [9, 9], [9, 0], [0, 9]]])"),
+           "floes[0].field.keep_clear_m[0]", "self-crossing"},
+          {R"({"floes": [{"field": {"corner_m": [0, 0], "extent_m": 1e6, "floe_size_m": 1, "concentration": 0.5}}]})",
+           "floes[0].field", "floes in all"},
+          {R"({"floes": [{"field": {"outline_m": [[0, 0], [90, 90], [90, 0], [0, 90]], "floe_size_m": 10,
+               "concentration": 0.5}}]})",
+           "floes[0].field.outline_m", "self-crossing"},
+          {R"({"structures": [{"radius_m": 5}], "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 9}}]})",
+           "floes[0]", "an overlap with structures[0]"},
+          {R"({"structures": [{"waterline_m": [[0, 0], [9, 9], [9, 0], [0, 9]]}]})",
+           "structures[0].waterline_m", "an invalid waterline"},
+          {R"({"structures": [{"radius_m": 5}, {"radius_m": 5, "position_m": [50, 0], "name": "structure-1"}]})",
+           "structures[1].name", "a second time"},
+          {R"({"structures": [{"radius_m": 5, "waterline_m": [[0, 0], [1, 0], [0, 1]]}]})", "structures[0]",
+           "together"},
+          {R"({"water": {"shear": {"rate_per_s": 0.5}}, "floes": [{"rectangle": {"corner_m": [0, 9000], "size_m": 9}}]})",
+           "time.step_s", "at 4.5e+03 m/s"}}) {
+    const auto problems = problems_of(c.text);
+    ASSERT_FALSE(problems.empty()) << c.text;
+    EXPECT_EQ(problems.front().path, c.path) << all_of(problems);
+    EXPECT_NE(problems.front().found.find(c.found), std::string::npos) << all_of(problems);
+    EXPECT_GT(problems.front().line, 0);
   }
 }
 

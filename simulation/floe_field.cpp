@@ -1,0 +1,299 @@
+#include "simulation/floe_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/measures.hpp"
+#include "geometry/power_diagram.hpp"
+#include "simulation/random.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Box;
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Ring;
+using geometry::Site;
+using geometry::Vector;
+
+constexpr double kFarthestDeviation = 2.5;  ///< of the logarithm of a floe's size, in standard deviations
+constexpr int kRelaxations = 12;
+constexpr double kShortestEdge = 0.1;  ///< of a floe, in sizes of its cell
+
+/// e^x for moderate x, without a library's: (1 + x/2²⁰)^(2²⁰), to 1e-6.
+double exponential(double x) {
+  double power = 1 + x * 0x1p-20;
+  for (int i = 0; i < 20; ++i) power *= power;
+  return power;
+}
+/// ln(1 + x) for 0 ≤ x ≤ 1, likewise: 2 artanh(x / (2 + x)).
+double logarithm_of_one_plus(double x) {
+  const double y = x / (2 + x);
+  double sum = 0;
+  double power = y;
+  for (int k = 1; k < 40; k += 2) {
+    sum += power / k;
+    power *= y * y;
+  }
+  return 2 * sum;
+}
+
+/// Lognormal floe areas [m²].
+std::vector<double> draw_areas(const FloeField& field, std::size_t count, Random& random) {
+  const double variance = logarithm_of_one_plus(field.size_spread * field.size_spread);
+  const double sigma = std::sqrt(variance);
+  std::vector<double> areas(count);
+  for (double& area : areas) {
+    const double z = std::clamp(random.normal(), -kFarthestDeviation, kFarthestDeviation);
+    const double size = field.floe_size * exponential(sigma * z - 0.5 * variance);
+    area = size * size;
+  }
+  return areas;
+}
+
+/// As many points as there are areas, in rows of a shaken lattice.
+std::vector<Site> first_sites(const Box& box, const std::vector<double>& areas, Random& random) {
+  const Vector extent = box.high - box.low;
+  const auto count = static_cast<double>(areas.size());
+  const auto rows = static_cast<std::size_t>(
+      std::clamp(std::round(std::sqrt(count * extent.y / extent.x)), 1.0, std::max(1.0, count)));
+  std::vector<Site> sites;
+  sites.reserve(areas.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::size_t in_row = (row + 1) * areas.size() / rows - row * areas.size() / rows;
+    for (std::size_t k = 0; k < in_row; ++k) {
+      const double x = (static_cast<double>(k) + random.uniform()) / static_cast<double>(in_row);
+      const double y = (static_cast<double>(row) + random.uniform()) / static_cast<double>(rows);
+      sites.push_back({box.low + Vector{x * extent.x, y * extent.y}, 0});
+    }
+  }
+  return sites;
+}
+
+struct CellMeasures {
+  double area = 0;
+  Point centroid;
+};
+
+/// Of a convex ring, from its first corner: cheaper than geometry::measure, and precise far from the origin.
+CellMeasures measure_cell(const Ring& ring) {
+  double twice_area = 0;
+  Vector moment;
+  for (std::size_t i = 2; i < ring.size(); ++i) {
+    const Vector p = ring[i - 1] - ring[0];
+    const Vector q = ring[i] - ring[0];
+    const double part = cross(p, q);
+    twice_area += part;
+    moment += part * (p + q);
+  }
+  if (!(twice_area > 0)) return {};
+  return {0.5 * twice_area, ring[0] + moment / (3 * twice_area)};
+}
+
+/// Cells whose areas go with `targets` [m²], nearly: sites move to their centroids while weights follow the
+/// areas' errors.
+std::vector<Ring> relaxed_cells(std::vector<Site> sites, const std::vector<double>& targets, const Box& box) {
+  std::vector<Ring> cells = power_diagram(sites, box);
+  for (int pass = 0; pass < kRelaxations; ++pass) {
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      const CellMeasures cell = cells[i].empty() ? CellMeasures{} : measure_cell(cells[i]);
+      if (cell.area > 0) sites[i].point = cell.centroid;
+      // A hexagon's area grows by √3 per unit of weight while its neighbours stay. Weights wait until the
+      // sites have spread: too early, they would leave close sites without a cell.
+      if (pass > 0) sites[i].weight += 0.3 * (targets[i] - cell.area);
+    }
+    cells = power_diagram(sites, box);
+  }
+  return cells;
+}
+
+double corner_area(const Ring& ring, std::size_t i) {
+  const std::size_t n = ring.size();
+  return 0.5 * cross(ring[i] - ring[(i + n - 1) % n], ring[(i + 1) % n] - ring[i]);
+}
+
+/// Takes corners off a convex ring, those that cost least area first, until it has few enough and none of its
+/// edges is very short. What is left lies within what was.
+void reduce_corners(Ring& ring, int most, double shortest) {
+  while (ring.size() > 3) {
+    const std::size_t n = ring.size();
+    std::size_t least = n;
+    const auto consider = [&](std::size_t i) {
+      if (least == n || corner_area(ring, i) < corner_area(ring, least)) least = i;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      if (distance(ring[i], ring[(i + 1) % n]) >= shortest) continue;
+      consider(i);
+      consider((i + 1) % n);
+    }
+    if (least == n && n > static_cast<std::size_t>(most)) {
+      for (std::size_t i = 0; i < n; ++i) consider(i);
+    }
+    if (least == n) return;
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+}
+
+/// A floe in the making: its cell with reduced corners, the area it should have, and the most it can have.
+struct Cell {
+  Ring ring;
+  Point centroid;
+  double area = 0;
+  double wanted = 0;
+  double most = 0;
+};
+
+double least_distance_to_edges(const Ring& ring, Point inside) {
+  double least = INFINITY;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector edge = ring[(i + 1) % ring.size()] - ring[i];
+    least = std::min(least, cross(edge, inside - ring[i]) / length(edge));
+  }
+  return least;
+}
+
+std::vector<Cell> make_cells(const FloeField& field, const Box& box) {
+  // Seeds that follow one another must not give sequences that follow one another.
+  Random random(Random(field.seed).next());
+  const auto count = static_cast<std::size_t>(std::max(1.0, floe_count(field)));
+  std::vector<double> areas = draw_areas(field, count, random);
+  std::vector<Site> sites = first_sites(box, areas, random);
+  double sum = 0;
+  for (const double area : areas) sum += area;
+  const double box_area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
+  for (double& area : areas) area *= box_area / sum;
+  std::vector<Ring> rings = relaxed_cells(std::move(sites), areas, box);
+  std::vector<Cell> cells;
+  cells.reserve(rings.size());
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    if (rings[i].empty()) continue;
+    Cell cell;
+    cell.ring = std::move(rings[i]);
+    reduce_corners(cell.ring, field.most_corners, kShortestEdge * std::sqrt(areas[i]));
+    const CellMeasures measures = measure_cell(cell.ring);
+    if (!(measures.area > 0)) continue;
+    cell.centroid = measures.centroid;
+    cell.area = measures.area;
+    cell.wanted = field.concentration * areas[i];
+    // Shrunk by s about a point at distance d from an edge, the edge moves in by (1 − s) d.
+    const double s = 1 - 0.5 * field.gap / least_distance_to_edges(cell.ring, cell.centroid);
+    cell.most = s > 0 ? s * s * cell.area : 0;
+    cells.push_back(std::move(cell));
+  }
+  return cells;
+}
+
+/// λ with Σ min(λ wanted, most) = total, or as near as it gets.
+double common_factor(const std::vector<Cell>& cells, double total) {
+  double low = 0;
+  double high = 64;
+  for (int i = 0; i < 60; ++i) {
+    const double factor = 0.5 * (low + high);
+    double sum = 0;
+    for (const Cell& cell : cells) sum += std::min(factor * cell.wanted, cell.most);
+    (sum < total ? low : high) = factor;
+  }
+  return 0.5 * (low + high);
+}
+
+double squared_distance(Point p, Point from, Point to) {
+  const Vector edge = to - from;
+  const double along = std::clamp(dot(p - from, edge) / squared_length(edge), 0.0, 1.0);
+  return squared_length(p - (from + along * edge));
+}
+
+bool cross_each_other(Point a, Point b, Point c, Point d) {
+  const auto side = [](Point from, Point to, Point p) { return cross(to - from, p - from) > 0; };
+  return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+}
+
+bool comes_near_ring(const Ring& floe, const Ring& ring, double gap) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point a = ring[i];
+    const Point b = ring[(i + 1) % ring.size()];
+    for (std::size_t k = 0; k < floe.size(); ++k) {
+      const Point c = floe[k];
+      const Point d = floe[(k + 1) % floe.size()];
+      const double nearest = std::min({squared_distance(a, c, d), squared_distance(b, c, d),
+                                       squared_distance(c, a, b), squared_distance(d, a, b)});
+      if (nearest < gap * gap || cross_each_other(a, b, c, d)) return true;
+    }
+  }
+  return false;
+}
+
+/// Where floes may not be: what is kept clear, and beyond an outline.
+class Obstacles {
+ public:
+  explicit Obstacles(const FloeField& field) : field_(field) {
+    for (const Polygon& polygon : field.kept_clear)
+      boxes_.push_back(grown(bounding_box(polygon.outer), field.gap));
+  }
+
+  bool forbid(const Ring& floe) const {
+    if (!field_.is_rectangle &&
+        (comes_near_ring(floe, field_.region, 0) || !geometry::contains({field_.region, {}}, floe.front())))
+      return true;
+    const Box box = bounding_box(floe);
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      if (!overlaps(box, boxes_[i])) continue;
+      const Polygon& polygon = field_.kept_clear[i];
+      if (comes_near_ring(floe, polygon.outer, field_.gap) || geometry::contains(polygon, floe.front()) ||
+          geometry::contains({floe, {}}, polygon.outer.front()))
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  const FloeField& field_;
+  std::vector<Box> boxes_;
+};
+
+}  // namespace
+
+double floe_count(const FloeField& field) {
+  const Box box = bounding_box(field.region);
+  const double area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
+  const double mean_area = field.floe_size * field.floe_size * (1 + field.size_spread * field.size_spread);
+  return std::round(field.concentration * area / mean_area);
+}
+
+FloeFieldOutcome make_floe_field(const FloeField& field) {
+  const Box box = bounding_box(field.region);
+  const std::vector<Cell> cells = make_cells(field, box);
+  const double box_area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
+  const double factor = common_factor(cells, field.concentration * box_area);
+  FloeFieldOutcome outcome;
+  outcome.region_area = geometry::signed_area(field.region);
+  outcome.reachable_concentration = 0;
+  for (const Cell& cell : cells) outcome.reachable_concentration += cell.most / box_area;
+  const Obstacles obstacles(field);
+  double size_sum = 0;
+  for (const Cell& cell : cells) {
+    const double area = std::min(factor * cell.wanted, cell.most);
+    if (area <= 0) continue;
+    const double s = std::sqrt(area / cell.area);
+    Ring floe;
+    floe.reserve(cell.ring.size());
+    for (const Point p : cell.ring) floe.push_back(cell.centroid + s * (p - cell.centroid));
+    if (obstacles.forbid(floe)) {
+      ++outcome.left_out;
+      continue;
+    }
+    outcome.floe_area += area;
+    size_sum += std::sqrt(area);
+    outcome.floes.push_back({std::move(floe), {}});
+  }
+  const auto count = static_cast<double>(outcome.floes.size());
+  outcome.count = static_cast<int>(outcome.floes.size());
+  if (count > 0) {
+    outcome.mean_size = size_sum / count;
+    const double variance = outcome.floe_area / count - outcome.mean_size * outcome.mean_size;
+    outcome.size_spread = std::sqrt(std::max(0.0, variance)) / outcome.mean_size;
+  }
+  return outcome;
+}
+
+}  // namespace polynya::simulation
