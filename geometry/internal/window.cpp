@@ -22,7 +22,7 @@ class Marker {
     is_near_[static_cast<std::size_t>(ring)][static_cast<std::size_t>(index)] = 1;
   }
 
-  // By boxes of nearest doubles: rounding keeps order, so boxes that overlap still do.
+  // A tool's points are doubles, and edges without double ends are in the window anyway.
   void mark_near_tool(const std::vector<exact::SourceSegment>& tool) {
     std::vector<Edge> edges;
     Ring ends;
@@ -34,7 +34,10 @@ class Marker {
     const EdgeTree tree(edges);
     for (const EdgeId e : edges_near(rings_, bounding_box(ends))) {
       const Edge edge{rings_.point(e.ring, e.index), rings_.point(e.ring, e.index + 1)};
-      if (!tree.for_each_near(box_of(edge), [](std::size_t) { return false; })) mark(e.ring, e.index);
+      const bool is_clear = tree.for_each_near(box_of(edge), [&](std::size_t i) {
+        return meet(edge.a, edge.b, edges[i].a, edges[i].b).kind == Meeting::kNone;
+      });
+      if (!is_clear) mark(e.ring, e.index);
     }
   }
 

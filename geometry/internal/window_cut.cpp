@@ -231,6 +231,7 @@ std::optional<CutOutcome> cut_along_in_window(const Shape& shape,
     const Point to = polyline_in_body[i];
     if (from != to) tool.push_back({exact::exactly(from), exact::exactly(to), 1});
   }
+  if (tool.empty()) return refuse(CutFailure::kMisses, "the crack has no length");
   const exact::Classifier classify = [](Winding w) { return w.shape <= 0 ? -1 : 0; };
   const Window window = open_window(rings, tool);
   std::optional<WindowOverlay> overlay =
