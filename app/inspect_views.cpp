@@ -190,8 +190,7 @@ std::string check_text(const io::RunCheck& check) {
   add_pair("deepest", check.deepest);
   add("           Overlap is part of the contact model: ice in contact is let in by the depth it crushes, "
       "and frames are");
-  add("           right to 1 mm and 1e-5 rad. Shared areas are exact for the poses on record; areas are sums "
-      "of doubles.");
+  add("           right to 1 mm and 1e-5 rad. All areas are exact for the rings and poses on record.");
   add(check.is_sound() ? "sound" : "NOT SOUND");
   return text;
 }

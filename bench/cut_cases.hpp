@@ -36,10 +36,14 @@ geometry::Ring half_plane(const Split& split);
 namespace polynya_cuts {
 Result march(const March& march);
 Result split(const Split& split);
-/// Seconds that the exact check of a valid floe of so many vertices takes, and that the general path takes to
-/// cut it.
+/// Seconds that the exact check of a valid floe of so many vertices takes.
 double seconds_to_validate(int vertices);
+/// Seconds for one crack across it and for two discs: by the overlay of the whole shape, and as the cuts do
+/// it, in a window. The crack's floe is one that is kept exact: else the local path would cut it.
 double seconds_to_cut_generally(int vertices);
+double seconds_to_cut_kept_exact(int vertices);
+double seconds_to_cut_by_two_generally(int vertices);
+double seconds_to_cut_by_two(int vertices);
 }  // namespace polynya_cuts
 namespace boost_geometry {
 Result march(const March& march);

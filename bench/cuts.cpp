@@ -63,16 +63,24 @@ int main(int argc, char** argv) {
                   {"GEOS OverlayNG", geos::split},
                   {"Clipper 6", clipper::split}},
                  rounds, 20);
-  std::printf("cost by size of the floe, least of %d\n  %10s %18s %24s\n", rounds, "vertices",
-              "find_defect [ms]", "general path (CGAL) [ms]");
-  for (const int vertices : {1250, 2500, 5000, 10000}) {
-    double validate_s = std::numeric_limits<double>::infinity();
-    double general_s = validate_s;
-    for (int round = 0; round < rounds; ++round) {
-      validate_s = std::min(validate_s, polynya_cuts::seconds_to_validate(vertices));
-      general_s = std::min(general_s, polynya_cuts::seconds_to_cut_generally(vertices));
+  using Seconds = double (*)(int);
+  const std::vector<std::pair<const char*, Seconds>> columns{
+      {"find_defect", polynya_cuts::seconds_to_validate},
+      {"crack, whole", polynya_cuts::seconds_to_cut_generally},
+      {"crack, window", polynya_cuts::seconds_to_cut_kept_exact},
+      {"2 discs, whole", polynya_cuts::seconds_to_cut_by_two_generally},
+      {"2 discs, window", polynya_cuts::seconds_to_cut_by_two}};
+  std::printf("exact cost by size of the floe [ms], least of %d\n  %10s", rounds, "vertices");
+  for (const auto& [name, run] : columns) std::printf(" %16s", name);
+  for (const int vertices : {1250, 2500, 5000, 10000, 100000}) {
+    std::vector<double> least(columns.size(), std::numeric_limits<double>::infinity());
+    for (int round = 0; round < (vertices > 10000 ? 1 : rounds); ++round) {
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        least[i] = std::min(least[i], columns[i].second(vertices));
     }
-    std::printf("  %10d %18.3f %24.2f\n", vertices, validate_s * 1e3, general_s * 1e3);
+    std::printf("\n  %10d", vertices);
+    for (const double seconds : least) std::printf(" %16.3f", seconds * 1e3);
   }
+  std::printf("\n");
   return 0;
 }

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <memory>
 #include <stdexcept>
 
 #include "bench/cut_cases.hpp"
@@ -47,12 +49,46 @@ double seconds_to_validate(int vertices) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+namespace {
+
+double seconds_of(const std::function<bool()>& cut) {
+  const auto start = std::chrono::steady_clock::now();
+  if (!cut()) throw std::runtime_error("no cut");
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Near both ends of the split's line: most of the floe is far from them.
+std::vector<geometry::Polygon> two_discs(const Split& split) {
+  return {{geometry::disc_polygon(midpoint(split.from, split.to), 3, 0.02), {}},
+          {geometry::disc_polygon(split.floe.front(), 3, 0.02), {}}};
+}
+
+}  // namespace
+
 double seconds_to_cut_generally(int vertices) {
   const Split split = split_of_floe(vertices);
   const geometry::exact::Polygon floe = geometry::exact::exactly(geometry::Polygon{split.floe, {}});
-  const auto start = std::chrono::steady_clock::now();
-  if (!geometry::cut_along_generally(floe, {split.from, split.to})) throw std::runtime_error("no cut");
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds_of([&] { return geometry::cut_along_generally(floe, {split.from, split.to}).has_value(); });
+}
+
+double seconds_to_cut_by_two_generally(int vertices) {
+  const Split split = split_of_floe(vertices);
+  const geometry::exact::Polygon floe = geometry::exact::exactly(geometry::Polygon{split.floe, {}});
+  return seconds_of([&] { return geometry::cut_by_polygons_generally(floe, two_discs(split)).has_value(); });
+}
+
+double seconds_to_cut_by_two(int vertices) {
+  const Split split = split_of_floe(vertices);
+  const Shape floe{{split.floe, {}}, nullptr, true};
+  return seconds_of([&] { return cut_by_polygons(floe, two_discs(split)).has_value(); });
+}
+
+double seconds_to_cut_kept_exact(int vertices) {
+  const Split split = split_of_floe(vertices);
+  geometry::Polygon polygon{split.floe, {}};
+  auto exactly = std::make_shared<const geometry::exact::Polygon>(geometry::exact::exactly(polygon));
+  const Shape floe{std::move(polygon), std::move(exactly), true};
+  return seconds_of([&] { return cut_along(floe, {split.from, split.to}).has_value(); });
 }
 
 }  // namespace polynya::bench::polynya_cuts

@@ -10,6 +10,7 @@
 #include "geometry/internal/general_cut.hpp"
 #include "geometry/internal/local_cut.hpp"
 #include "geometry/internal/predicates.hpp"
+#include "geometry/internal/window_cut.hpp"
 #include "geometry/validity.hpp"
 
 namespace polynya::geometry {
@@ -71,6 +72,12 @@ std::optional<CutOutcome> guarded(Work work) {
   }
 }
 
+CutOutcome cut_by_polygons_exactly(const Shape& shape, const std::vector<Polygon>& tools) {
+  if (auto outcome = guarded([&] { return cut_by_polygons_in_window(shape, tools); }))
+    return *std::move(outcome);
+  return cut_by_polygons_generally(exact_polygon_of(shape), tools);
+}
+
 std::optional<DefectAt> find_shape_defect(const Shape& shape) {
   if (shape.known_valid || shape.exact) return {};
   return find_defect(shape.polygon);
@@ -101,7 +108,7 @@ CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
     if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tool_in_body.outer, true}); }))
       return *std::move(outcome);
   }
-  return cut_by_polygons_generally(exact_polygon_of(shape), {tool_in_body});
+  return cut_by_polygons_exactly(shape, {tool_in_body});
 }
 
 CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body) {
@@ -110,7 +117,7 @@ CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools
   for (const Polygon& tool : tools_in_body) {
     if (const auto found = find_tool_defect(tool)) return refuse(CutFailure::kInvalidTool, *found);
   }
-  return cut_by_polygons_generally(exact_polygon_of(shape), tools_in_body);
+  return cut_by_polygons_exactly(shape, tools_in_body);
 }
 
 CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body) {
@@ -123,6 +130,7 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
     if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {crack, false}); }))
       return *std::move(outcome);
   }
+  if (auto outcome = guarded([&] { return cut_along_in_window(shape, crack); })) return *std::move(outcome);
   return cut_along_generally(exact_polygon_of(shape), crack);
 }
 

@@ -14,7 +14,9 @@ struct Overlap {
 };
 
 /// The area two placed shapes share, exactly: each vertex is placed by its pose's doubles in rational
-/// arithmetic. Shapes are valid. Fails (kInternal) only where CGAL refuses.
+/// arithmetic. A shape covers the points around which its rings wind more often counter-clockwise than
+/// clockwise: those inside it where it is valid. Rings may cross themselves and each other. Fails (kInternal)
+/// only where CGAL refuses.
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b);
 

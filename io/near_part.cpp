@@ -63,7 +63,8 @@ std::optional<double> shared_area(const Polygon& a, const Pose& world_from_a, co
   for (const Ring& hole : a.holes) {
     if (Ring part = near_part(hole, box); part.size() > 2) near.holes.push_back(std::move(part));
   }
-  // Where the near part winds differently from the whole, b does not wind at all.
+  // The near part may cross itself, as overlap allows. Where it winds differently from the whole, b does not
+  // wind at all.
   const auto shared =
       geometry::overlap({.polygon = std::move(near)}, world_from_a, {.polygon = b}, world_from_b);
   if (!shared) return {};

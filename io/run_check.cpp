@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "geometry/exact_area.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/overlap.hpp"
 #include "geometry/validity.hpp"
@@ -38,22 +39,26 @@ void check_shapes(const Run& run, RunCheck& check) {
     } else if (const auto found = geometry::find_defect(birth.polygon_in_body)) {
       check.invalid.push_back({birth.floe, std::string(name_of(found->defect)), found->places});
     }
-    const double area = geometry::measure(birth.polygon_in_body).area;
-    see(check.recorded_area, birth.area - area, area, birth.floe);
+    const Polygon* const ring[]{&birth.polygon_in_body};
+    const double recorded[]{birth.area};
+    see(check.recorded_area, geometry::exact_balance({}, ring, recorded), birth.area, birth.floe);
   }
 }
 
 void check_fracture(const Run& run, const simulation::Event& event, RunCheck& check) {
   ++check.fractures;
-  const auto area_of = [&](FloeId id) { return geometry::measure(run.floe(id)->birth.polygon_in_body).area; };
-  const double before = area_of(event.floe);
-  double after = event.submerged_area + event.brash_area - event.rounding_defect;
   std::vector<FloeId> children;
+  std::vector<const Polygon*> after;
   for (const FloeId child : event.children) {
-    if (run.floe(child)) children.push_back(child);
+    if (!run.floe(child)) continue;
+    children.push_back(child);
+    after.push_back(&run.floe(child)->birth.polygon_in_body);
   }
-  for (const FloeId child : children) after += area_of(child);
-  see(check.balance, after - before, before, event.floe);
+  const simulation::Birth& parent = run.floe(event.floe)->birth;
+  const double before = parent.area;
+  const Polygon* const parents[]{&parent.polygon_in_body};
+  const double terms[]{event.submerged_area, event.brash_area, -event.rounding_defect};
+  see(check.balance, geometry::exact_balance(after, parents, terms), before, event.floe);
   for (std::size_t i = 0; i < children.size(); ++i) {
     for (std::size_t j = i + 1; j < children.size(); ++j) {
       const Polygon& a = run.floe(children[i])->birth.polygon_in_body;

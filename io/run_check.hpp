@@ -20,8 +20,8 @@ struct Worst {
   simulation::FloeId floe = simulation::kNoFloe;
   std::size_t wrong = 0;  ///< how many are beyond kAreaTolerance of the floe's area
 };
-inline constexpr double kAreaTolerance =
-    1e-9;  ///< relative; areas are sums of doubles, this is far beyond their error
+/// Relative. Areas of rings are exact; recorded ones are sums of doubles, this is far beyond their error.
+inline constexpr double kAreaTolerance = 1e-9;
 
 /// Ice that two floes share.
 struct SharedIce {
@@ -60,10 +60,10 @@ struct RunCheck {
   }
 };
 
-/// Validity and shared areas are decided exactly, for the doubles on record; areas are compensated sums of
-/// doubles. Overlaps are looked for at every frame, or at one moment only. What stands in frames is right to
-/// 1 mm (frames.hpp), and the contact model lets floes overlap by the depth they crush: neither is told apart
-/// here.
+/// Validity, areas, balances and shared areas are found exactly, for the doubles on record, and areas rounded
+/// once to be told. Overlaps are looked for at every frame, or at one moment only. What stands in frames is
+/// right to 1 mm (frames.hpp), and the contact model lets floes overlap by the depth they crush: neither is
+/// told apart here.
 RunCheck check_run(const Run& run, std::optional<double> only_at = {});
 
 }  // namespace polynya::io

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -100,7 +101,9 @@ class WktReader {
     if (type == "POLYGON") {
       geometry.polygons.push_back(read_polygon(geometry));
     } else if (type == "MULTIPOLYGON") {
-      read_list([&] { geometry.polygons.push_back(read_polygon(geometry)); });
+      read_list([&] {
+        if (!take_empty()) geometry.polygons.push_back(read_polygon(geometry));
+      });
     } else if (type == "GEOMETRYCOLLECTION") {
       if (depth >= kDeepestCollection) throw SyntaxError("collections nested too deep");
       read_list([&] { read_geometry(geometry, depth + 1); });
@@ -128,17 +131,20 @@ class WktReader {
     } while (take(','));
     expect(')');
   }
+  /// What holds nothing may stand for a polygon of several or for a ring.
+  bool take_empty() {
+    skip_blanks();
+    if (at_ >= text_.size() || !is_letter(text_[at_])) return false;
+    if (take_word() != "EMPTY") fail("'(' or EMPTY");
+    return true;
+  }
   geometry::Polygon read_polygon(WktGeometry& geometry) {
     geometry::Polygon polygon;
-    skip_blanks();
-    if (at_ < text_.size() && is_letter(text_[at_])) {
-      if (take_word() != "EMPTY") fail("'(' or EMPTY");
-      return polygon;
-    }
     bool is_first = true;
     read_list([&] {
-      geometry::Ring& ring = is_first ? polygon.outer : polygon.holes.emplace_back();
-      is_first = false;
+      const bool is_shell = std::exchange(is_first, false);
+      if (take_empty()) return;  // GEOS writes empty holes; an empty shell is left without points
+      geometry::Ring& ring = is_shell ? polygon.outer : polygon.holes.emplace_back();
       read_list([&] { ring.push_back(read_point(geometry)); });
     });
     return polygon;

@@ -259,15 +259,16 @@ exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan) {
   return polygon;
 }
 
+bool may_have_swept(const std::vector<Segment>& changed, const Box& ring_box) {
+  return std::any_of(changed.begin(), changed.end(),
+                     [&](const Segment& s) { return holds(swept_box(s), ring_box); });
+}
+
 bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan) {
   if (plan.rings.size() < 2) return false;
-  for (const PieceRing& ring : plan.rings) {
-    const Box box = bounding_box(ring.points);
-    for (const Segment& s : cut.changed) {
-      if (holds(swept_box(s), box)) return true;
-    }
-  }
-  return false;
+  return std::any_of(plan.rings.begin(), plan.rings.end(), [&](const PieceRing& ring) {
+    return may_have_swept(cut.changed, bounding_box(ring.points));
+  });
 }
 
 }  // namespace polynya::geometry

@@ -25,13 +25,19 @@ bool are_apart(const Segment& s, const Segment& t) {
   return meeting.kind == Meeting::kTouch && end != End::kNone && end == end_at(t, meeting.at);
 }
 
-bool rounded_nodes_are_distinct(const std::vector<Node>& nodes) {
-  std::vector<std::pair<double, double>> points;
+std::vector<Edge> edges_of(const std::vector<Segment>& segments) {
+  std::vector<Edge> edges;
+  edges.reserve(segments.size());
+  for (const Segment& s : segments) edges.push_back({s.from, s.to});
+  return edges;
+}
+
+std::vector<Point> rounded_nodes(const std::vector<Node>& nodes) {
+  std::vector<Point> points;
   for (const Node& node : nodes) {
-    if (node.is_active && node.is_rounded) points.emplace_back(node.at.x, node.at.y);
+    if (node.is_active && node.is_rounded) points.push_back(node.at);
   }
-  std::sort(points.begin(), points.end());
-  return std::adjacent_find(points.begin(), points.end()) == points.end();
+  return points;
 }
 
 // The nodes come in order along the shape.
@@ -53,36 +59,47 @@ bool holds(const Box& outer, const Box& inner) {
 
 }  // namespace
 
+bool are_distinct(std::vector<Point> points) {
+  const auto less = [](Point a, Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+  std::sort(points.begin(), points.end(), less);
+  return std::adjacent_find(points.begin(), points.end()) == points.end();
+}
+
+bool changed_edges_are_apart(const std::vector<Segment>& changed) {
+  const auto has_no_length = [](const Segment& s) { return s.from == s.to; };
+  if (std::any_of(changed.begin(), changed.end(), has_no_length)) return false;
+  const std::vector<Edge> edges = edges_of(changed);
+  return EdgeTree(edges).for_each_pair(
+      [&](std::size_t i, std::size_t j) { return are_apart(changed[i], changed[j]); });
+}
+
+bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment>& others) {
+  const std::vector<Edge> edges = edges_of(changed);
+  const EdgeTree tree(edges);
+  return std::all_of(others.begin(), others.end(), [&](const Segment& t) {
+    return tree.for_each_near(box_of(Edge{t.from, t.to}),
+                              [&](std::size_t i) { return are_apart(changed[i], t); });
+  });
+}
+
 // Only edges that end in a rounded node can have come to meet another: all others lie as they did in the
 // exact subdivision, where edges meet in nodes only. So these few are held against all that is near them.
 bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
   if (cut.changed.empty()) return true;
-  if (!rounded_nodes_are_distinct(cut.nodes)) return false;
-  std::vector<Edge> edges;
-  edges.reserve(cut.changed.size());
+  if (!are_distinct(rounded_nodes(cut.nodes)) || !changed_edges_are_apart(cut.changed)) return false;
+  if (!are_clear_of(cut.changed, cut.placed)) return false;
   Ring ends;
   for (const Segment& s : cut.changed) {
-    if (s.from == s.to) return false;
-    edges.push_back({s.from, s.to});
     ends.push_back(s.from);
     ends.push_back(s.to);
   }
-  const EdgeTree tree(edges);
-  const auto clears = [&](const Segment& t) {
-    return tree.for_each_near(box_of(Edge{t.from, t.to}),
-                              [&](std::size_t i) { return are_apart(cut.changed[i], t); });
-  };
-  if (!tree.for_each_pair(
-          [&](std::size_t i, std::size_t j) { return are_apart(cut.changed[i], cut.changed[j]); })) {
-    return false;
-  }
-  if (!std::all_of(cut.placed.begin(), cut.placed.end(), clears)) return false;
   const Box box = bounding_box(ends);
-  const std::vector<EdgeId> near = holds(tool_box, box) ? near_tool : edges_near(cut.rings, box);
-  return std::all_of(near.begin(), near.end(), [&](EdgeId e) {
-    return is_split(cut, e) ||
-           clears({cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)});
-  });
+  std::vector<Segment> others;
+  for (const EdgeId e : holds(tool_box, box) ? near_tool : edges_near(cut.rings, box)) {
+    if (!is_split(cut, e))
+      others.push_back({cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)});
+  }
+  return are_clear_of(cut.changed, others);
 }
 
 }  // namespace polynya::geometry

@@ -40,9 +40,24 @@ CutOutcome cut_and_check(const Shape& shape, const Knife& knife) {
   return outcome;
 }
 
+// What the general path covers: several polygons, cracks that cross themselves, shapes kept exact.
+void cut_in_window_and_check(Dice& dice, Shape shape) {
+  if (!shape.exact && dice.below(2) == 1) shape = trials::roll_exact_piece(dice, shape);
+  const trials::ManyKnives knives = trials::roll_knives(dice, shape.polygon);
+  if (!knives.is_crack && knives.polygons.empty()) return;
+  const std::optional<CutOutcome> outcome = trials::cut_in_window(shape, knives);
+  testing::AssertionResult held = outcome ? trials::is_sound(shape, *outcome) : testing::AssertionFailure();
+  if (held) held = trials::are_equal(*outcome, trials::cut_generally(shape, knives));
+  if (held) return;
+  std::fprintf(stderr, "%s\n%s%s%s\n", held.message(), trials::to_code(shape.polygon).c_str(),
+               shape.exact ? " exact" : "", trials::to_code(knives).c_str());
+  std::abort();
+}
+
 void tell_story(Dice dice) {
   Shape shape{trials::roll_floe(dice)};
   if (find_defect(shape.polygon)) return;
+  if (dice.below(4) == 0) return cut_in_window_and_check(dice, shape);
   for (int cut = 0; cut < 3 && !dice.is_empty(); ++cut) {
     const CutOutcome outcome = cut_and_check(shape, trials::roll_knife(dice, shape.polygon));
     if (!outcome || outcome->pieces.empty()) continue;

@@ -9,6 +9,7 @@
 #include "geometry/internal/predicates.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/repair.hpp"
+#include "geometry/validity.hpp"
 
 namespace polynya::geometry::trials {
 namespace {
@@ -231,6 +232,37 @@ Knife roll_knife(Dice& dice, const Polygon& floe) {
       return {false, crack};
     }
   }
+}
+
+ManyKnives roll_knives(Dice& dice, const Polygon& floe) {
+  ManyKnives knives;
+  knives.is_crack = dice.below(3) == 0;
+  if (knives.is_crack) {
+    const int points = 2 + dice.below(7);
+    for (int i = 0; i < points; ++i) knives.crack.push_back(a_place(dice, floe));
+    if (dice.below(3) == 0) knives.crack.push_back(knives.crack.front());
+    knives.crack.erase(std::unique(knives.crack.begin(), knives.crack.end()), knives.crack.end());
+    if (knives.crack.size() < 2) knives.crack = {floe.outer[0], floe.outer[1]};
+    return knives;
+  }
+  const int count = 1 + dice.below(3);
+  for (int i = 0; i < count; ++i) {
+    Knife knife = roll_knife(dice, floe);
+    Polygon polygon{std::move(knife.points), {}};
+    if (dice.below(3) == 0) {
+      const Point towards = a_place(dice, floe);
+      Ring hole = polygon.outer;
+      for (Point& p : hole) p = towards + 0.5 * (p - towards);
+      polygon.holes.push_back(std::move(hole));
+    }
+    polygon = normalised(polygon);
+    if (!find_defect(polygon)) {
+      knives.polygons.push_back(std::move(polygon));
+    } else if (polygon.holes.clear(); !find_defect(polygon)) {
+      knives.polygons.push_back(std::move(polygon));
+    }
+  }
+  return knives;
 }
 
 }  // namespace polynya::geometry::trials

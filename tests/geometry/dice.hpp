@@ -38,4 +38,13 @@ Polygon roll_floe(Dice& dice);
 /// edges, one ulp beside them. May be invalid.
 Knife roll_knife(Dice& dice, const Polygon& floe);
 
+/// A tool that the general path cuts with: several polygons, which may overlap, touch and have holes, or a
+/// crack that may cross itself.
+struct ManyKnives {
+  bool is_crack = false;
+  std::vector<Polygon> polygons;  ///< valid ones
+  Ring crack;
+};
+ManyKnives roll_knives(Dice& dice, const Polygon& floe);
+
 }  // namespace polynya::geometry::trials

@@ -1,11 +1,15 @@
 #include "geometry/measures.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include "geometry/cut.hpp"
+#include "geometry/exact_area.hpp"
+#include "geometry/internal/exact_polygon.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -81,6 +85,49 @@ TEST(Measures, DiscStaysWithinItsSagitta) {
       EXPECT_NEAR(distance(ring[i], {1, 2}), 10, 1e-14);
     }
   }
+}
+
+// The law behind the exact area: the same sum in plain rationals, term by term, over coordinates of all
+// sizes.
+TEST(ExactArea, EqualsTheShoelaceSumInRationals) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  std::uniform_int_distribution<int> exponent(-60, 60);
+  for (int trial = 0; trial < 300; ++trial) {
+    Ring ring;
+    for (int i = 0; i < 3 + trial % 20; ++i) {
+      ring.push_back({std::ldexp(mantissa(random), trial % 3 == 0 ? 4 : exponent(random)),
+                      i % 5 == 0 ? -0.0 : std::ldexp(mantissa(random), exponent(random))});
+    }
+    EXPECT_EQ(exact::area(ring), exact::area(exact::exactly(ring)));
+    EXPECT_EQ(exact_area({ring, {}}), exact::nearest_double(exact::area(exact::exactly(ring))));
+  }
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(exact::area(Ring{{0, 0}, {tiny, 0}, {0, tiny}}),
+            exact::area(exact::exactly(Ring{{0, 0}, {tiny, 0}, {0, tiny}})));
+}
+
+TEST(ExactArea, SeesWhatSumsOfDoublesLose) {
+  // A square of 2^27 m with a corner cut off at 2^-27 m: the areas are 2^54 and 2^-55 m² apart.
+  const double large = std::ldexp(1.0, 27);
+  const double small = std::ldexp(1.0, -27);
+  const Polygon square{{{0, 0}, {large, 0}, {large, large}, {0, large}}, {}};
+  const Polygon corner{{{0, 0}, {small, 0}, {0, small}}, {}};
+  const Polygon rest{{{small, 0}, {large, 0}, {large, large}, {0, large}, {0, small}}, {}};
+  EXPECT_EQ(exact_area(rest), exact_area(square)) << "no double tells them apart";
+  const Polygon* const before[]{&square};
+  const Polygon* const both[]{&rest, &corner};
+  EXPECT_EQ(exact_balance(both, before, {}), 0);
+  EXPECT_EQ(exact_balance({both, 1}, before, {}), -std::ldexp(1.0, -55));
+  const double lost[]{std::ldexp(1.0, -55)};
+  EXPECT_EQ(exact_balance({both, 1}, before, lost), 0);
+}
+
+TEST(ExactArea, WhatIsNotFiniteHasNone) {
+  EXPECT_TRUE(std::isnan(exact_area({{{0, 0}, {1, NAN}, {1, 1}}, {}})));
+  EXPECT_TRUE(std::isnan(exact_area({{{0, 0}, {1, 0}, {1, 1}}, {{{0, 0}, {INFINITY, 0}, {1, 1}}}})));
+  const double term[]{NAN};
+  EXPECT_TRUE(std::isnan(exact_balance({}, {}, term)));
 }
 
 }  // namespace

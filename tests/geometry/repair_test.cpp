@@ -1,6 +1,8 @@
 #include "geometry/repair.hpp"
 
 #include <cmath>
+#include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +69,51 @@ TEST(Overlap, IsExactWhereFloesAreSiblings) {
   EXPECT_EQ(overlap(square, {}, square, {{20, 3}, {}})->exact_area, "0");
   // The quarter turn in doubles is a turn by a little less; the shared area is still what those doubles say.
   EXPECT_NEAR(overlap(square, {}, square, {{10, 0}, Rotation::by(std::acos(0.0))})->area, 100, 1e-13);
+}
+
+// Rings that cross themselves and each other, on a grid: each unit cell is covered or not as they wind around
+// its centre, counted independently along a ray.
+TEST(Overlap, TakesRingsThatCrossThemselvesByTheirWinding) {
+  std::mt19937 random(17);
+  const auto walk = [&] {
+    Ring ring;
+    Point p{4, 4};
+    for (int i = 0; i < 10; ++i) {
+      p.x = static_cast<double>(random() % 8);
+      ring.push_back(p);
+      p.y = static_cast<double>(random() % 8);
+      ring.push_back(p);
+    }
+    ring.push_back({ring.front().x, p.y});
+    return without_repeats(ring);
+  };
+  const auto winding = [](const Ring& ring, Point p) {
+    int sum = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point a = ring[i];
+      const Point b = ring[(i + 1) % ring.size()];
+      if (a.x > p.x && (a.y < p.y) != (b.y < p.y)) sum += a.y < b.y ? 1 : -1;
+    }
+    return sum;
+  };
+  int shared_cells = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Shape a{{walk(), {walk()}}};
+    const Shape b{{walk(), {}}};
+    int expected = 0;
+    for (int x = 0; x < 8; ++x) {
+      for (int y = 0; y < 8; ++y) {
+        const Point centre{x + 0.5, y + 0.5};
+        const bool in_a = winding(a.polygon.outer, centre) + winding(a.polygon.holes[0], centre) > 0;
+        expected += in_a && winding(b.polygon.outer, centre) > 0 ? 1 : 0;
+      }
+    }
+    const auto shared = overlap(a, {}, b, {});
+    ASSERT_TRUE(shared.has_value());
+    EXPECT_EQ(shared->exact_area, std::to_string(expected));
+    shared_cells += expected;
+  }
+  EXPECT_GT(shared_cells, 100);
 }
 
 TEST(CutByPolygons, TakesWhatAnyToolCovers) {

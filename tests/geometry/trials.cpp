@@ -4,6 +4,9 @@
 #include <sstream>
 #include <tuple>
 
+#include "geometry/internal/arrangement.hpp"
+#include "geometry/internal/general_cut.hpp"
+#include "geometry/internal/window_cut.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/validity.hpp"
 
@@ -109,6 +112,41 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
               << to_code(piece.shape.polygon);
   }
   return failure;
+}
+
+std::optional<CutOutcome> cut_in_window(const Shape& shape, const ManyKnives& knives) {
+  return knives.is_crack ? cut_along_in_window(shape, knives.crack)
+                         : cut_by_polygons_in_window(shape, knives.polygons);
+}
+
+CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives) {
+  const exact::Polygon exact_shape = shape.exact ? *shape.exact : exact::exactly(shape.polygon);
+  return knives.is_crack ? cut_along_generally(exact_shape, knives.crack)
+                         : cut_by_polygons_generally(exact_shape, knives.polygons);
+}
+
+Shape roll_exact_piece(Dice& dice, const Shape& shape) {
+  const Knife knife = roll_knife(dice, shape.polygon);
+  std::vector<exact::SourceSegment> segments;
+  append_segments(segments, exact::exactly(shape.polygon), 0);
+  for (std::size_t i = knife.is_ring ? 0 : 1; i < knife.points.size(); ++i) {
+    const Point from = knife.points[i == 0 ? knife.points.size() - 1 : i - 1];
+    if (from != knife.points[i])
+      segments.push_back({exact::exactly(from), exact::exactly(knife.points[i]), 1});
+  }
+  const auto inside = [](exact::Winding w) { return w.shape > 0 ? 0 : -1; };
+  exact::Overlay overlay = exact::overlay(segments, inside, exact::Seams::kKeep);
+  const auto i = static_cast<std::size_t>(dice.below(static_cast<int>(overlay.regions.size())));
+  exact::Polygon& piece = overlay.regions[i].polygon;
+  Polygon looks = exact::rounded(piece);
+  return {std::move(looks), std::make_shared<const exact::Polygon>(std::move(piece)), true};
+}
+
+std::string to_code(const ManyKnives& knives) {
+  if (knives.is_crack) return "\ncrack " + to_code(knives.crack);
+  std::string code;
+  for (const Polygon& polygon : knives.polygons) code += "\npolygon " + to_code(polygon);
+  return code;
 }
 
 std::string to_code(const Ring& ring) {

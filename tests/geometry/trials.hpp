@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "geometry/cut.hpp"
 #include "geometry/internal/exact_polygon.hpp"
+#include "tests/geometry/dice.hpp"
 
 namespace polynya::geometry::trials {
 
@@ -20,8 +22,17 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
 /// Same failure, or the same pieces with the very same vertices (rings may start elsewhere).
 testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& other);
 
+/// The same cut on the window around it, and on the whole shape.
+std::optional<CutOutcome> cut_in_window(const Shape& shape, const ManyKnives& knives);
+CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives);
+
+/// A piece of the shape as a cut leaves it before rounding, kept exact; the shape itself where the knife
+/// rolled does not cut it.
+Shape roll_exact_piece(Dice& dice, const Shape& shape);
+
 /// Vertices as C++ that can be pasted into a fixture.
 std::string to_code(const Polygon& polygon);
 std::string to_code(const Ring& ring);
+std::string to_code(const ManyKnives& knives);
 
 }  // namespace polynya::geometry::trials

@@ -80,7 +80,9 @@ TEST(FloeText, TheFormatIsToldByContent) {
        {"POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0))", "polygon((0 0,4 0,4 4,0 4))",
         "# a note\nSRID=4326;Polygon Z ((0 0 9, 4 0 9, 4 4 9, 0 4 9, 0 0 9));\n",
         "POLYGONZM((0 0 1 2,4 0 1 2,4 4 1 2,0 4 1 2))", "MULTIPOLYGON(((0 0,4 0,4 4,0 4,0 0)))",
-        "GEOMETRYCOLLECTION(POLYGON((0 0,4 0,4 4,0 4,0 0)),MULTIPOLYGON EMPTY)"}) {
+        "GEOMETRYCOLLECTION(POLYGON((0 0,4 0,4 4,0 4,0 0)),MULTIPOLYGON EMPTY)",
+        "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), EMPTY)",
+        "MULTIPOLYGON (EMPTY, ((0 0, 4 0, 4 4, 0 4, 0 0), EMPTY), empty)"}) {
     const FloeText floes = read(text);
     EXPECT_EQ(floes.format, FloeFormat::kWkt) << text;
     ASSERT_EQ(floes.entries.size(), 1U) << text;

@@ -8,6 +8,8 @@
 
 #include "geometry/measures.hpp"
 #include "geometry/overlap.hpp"
+#include "geometry/repair.hpp"
+#include "geometry/validity.hpp"
 #include "io/near_part.hpp"
 
 namespace polynya::io {
@@ -52,6 +54,25 @@ TEST(NearPart, SharesTheSameAreaAsTheWhole) {
     overlapping += whole->area > 0 ? 1 : 0;
   }
   EXPECT_GT(overlapping, 50);
+}
+
+/// What is drawn straight far from the box may cross the rest of the ring: geometry::overlap takes that.
+TEST(NearPart, MayCrossItselfAndSharesTheSame) {
+  std::mt19937 dice(29);
+  std::uniform_real_distribution<double> place(-9, 9);
+  int crossing = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Ring ring = star(dice, 120, 10);
+    const geometry::Box box{{place(dice), place(dice)}, {10, 10}};
+    const Polygon tile{{box.low, {10, box.low.y}, {10, 10}, {box.low.x, 10}}, {}};
+    const Ring near = near_part(ring, box);
+    if (near.size() > 2 && geometry::find_defect(geometry::normalised({near, {}}))) ++crossing;
+    const auto whole = geometry::overlap({.polygon = {ring, {}}}, {}, {.polygon = tile}, {});
+    const auto part = geometry::overlap({.polygon = {near, {}}}, {}, {.polygon = tile}, {});
+    ASSERT_TRUE(whole.has_value() && part.has_value());
+    EXPECT_EQ(part->exact_area, whole->exact_area) << trial;
+  }
+  EXPECT_GT(crossing, 10);
 }
 
 TEST(NearPart, LeavesFewVerticesOfALongRing) {

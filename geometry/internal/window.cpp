@@ -1,0 +1,148 @@
+#include "geometry/internal/window.hpp"
+
+#include <algorithm>
+
+#include "geometry/internal/edge_tree.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+std::size_t wrapped(int i, std::size_t size) {
+  const auto at = static_cast<std::size_t>(i);
+  return at < size ? at : at - size;
+}
+
+class Marker {
+ public:
+  explicit Marker(const ShapeRings& shape) : shape_(shape), rings_(shape.rings()) {
+    for (int r = 0; r < rings_.count(); ++r) is_near_.emplace_back(rings_[r].size(), 0);
+  }
+
+  void mark(int ring, int index) {
+    is_near_[static_cast<std::size_t>(ring)][static_cast<std::size_t>(index)] = 1;
+  }
+
+  // A tool's points are doubles, and edges without double ends are in the window anyway.
+  void mark_near_tool(const std::vector<exact::SourceSegment>& tool) {
+    std::vector<Edge> edges;
+    Ring ends;
+    for (const exact::SourceSegment& s : tool) {
+      edges.push_back({exact::rounded(s.from), exact::rounded(s.to)});
+      ends.push_back(edges.back().a);
+      ends.push_back(edges.back().b);
+    }
+    const EdgeTree tree(edges);
+    for (const EdgeId e : edges_near(rings_, bounding_box(ends))) {
+      const Edge edge{rings_.point(e.ring, e.index), rings_.point(e.ring, e.index + 1)};
+      const bool is_clear = tree.for_each_near(box_of(edge), [&](std::size_t i) {
+        return meet(edge.a, edge.b, edges[i].a, edges[i].b).kind == Meeting::kNone;
+      });
+      if (!is_clear) mark(e.ring, e.index);
+    }
+  }
+
+  // Where rings touch, the pieces' boundaries may have to be parted: all of it belongs to the window.
+  void mark_touches() {
+    const std::vector<Edge> edges = edges_of(shape_.nearest());
+    const auto is_double = [&](const Edge& e) { return shape_.has_double_ends({e.ring, e.index}); };
+    EdgeTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
+      const Edge& e = edges[i];
+      const Edge& f = edges[j];
+      if (e.ring == f.ring) return true;
+      if (is_double(e) && is_double(f) && meet(e.a, e.b, f.a, f.b).kind == Meeting::kNone) return true;
+      mark(e.ring, e.index);
+      mark(f.ring, f.index);
+      return true;
+    });
+  }
+
+  void mark_rationals() {
+    for (int r = 0; r < rings_.count(); ++r) {
+      const int n = static_cast<int>(rings_[r].size());
+      for (int i = 0; i < n; ++i) {
+        if (!shape_.has_double_ends({r, i})) mark(r, i);
+      }
+    }
+  }
+
+  Window window() const {
+    Window window;
+    for (int r = 0; r < rings_.count(); ++r) append_ring(r, window);
+    return window;
+  }
+
+ private:
+  void append_ring(int ring, Window& window) const {
+    const std::vector<char>& near = is_near_[static_cast<std::size_t>(ring)];
+    const std::size_t n = near.size();
+    const auto start = static_cast<std::size_t>(std::find(near.begin(), near.end(), char{1}) - near.begin());
+    if (start == n) {
+      window.far_rings.push_back(ring);
+      return;
+    }
+    const auto first_near = window.near.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = (start + k) % n;
+      if (near[i] != 0) {
+        const bool comes_after_chain = k > 0 && near[(i + n - 1) % n] == 0;
+        window.near.push_back({ring, static_cast<int>(i)});
+        window.chain_before.push_back(comes_after_chain ? static_cast<int>(window.chains.size()) - 1 : -1);
+        window.chain_after.push_back(-1);
+      } else if (near[(i + n - 1) % n] != 0) {
+        window.chain_after.back() = static_cast<int>(window.chains.size());
+        window.chains.push_back({ring, static_cast<int>(i), 1});
+      } else {
+        ++window.chains.back().count;
+      }
+    }
+    if (near[(start + n - 1) % n] == 0)
+      window.chain_before[first_near] = static_cast<int>(window.chains.size()) - 1;
+  }
+
+  const ShapeRings& shape_;
+  Rings rings_;
+  std::vector<std::vector<char>> is_near_;
+};
+
+}  // namespace
+
+ShapeRings::ShapeRings(const Shape& shape) : shape_(shape) {
+  if (!shape.exact) return;
+  rounded_ = exact::rounded(*shape.exact);
+  for (int r = 0; r < rings().count(); ++r) {
+    is_rational_.emplace_back();
+    const Ring& ring = rings()[r];
+    for (int i = 0; i < static_cast<int>(ring.size()); ++i)
+      is_rational_.back().push_back(exact::exactly(ring[static_cast<std::size_t>(i)]) == point(r, i) ? 0 : 1);
+  }
+}
+
+exact::Point ShapeRings::point(int ring, int i) const {
+  const std::size_t at = wrapped(i, rings()[ring].size());
+  if (!shape_.exact) return exact::exactly(rings()[ring][at]);
+  return ring == 0 ? shape_.exact->outer[at] : shape_.exact->holes[static_cast<std::size_t>(ring) - 1][at];
+}
+
+bool ShapeRings::is_double(int ring, int i) const {
+  if (is_rational_.empty()) return true;
+  const std::vector<char>& is_rational = is_rational_[static_cast<std::size_t>(ring)];
+  return is_rational[wrapped(i, is_rational.size())] == 0;
+}
+
+bool ShapeRings::has_double_ends(EdgeId e) const {
+  return is_double(e.ring, e.index) && is_double(e.ring, e.index + 1);
+}
+
+exact::Polygon ShapeRings::exactly() const {
+  return shape_.exact ? *shape_.exact : exact::exactly(shape_.polygon);
+}
+
+Window open_window(const ShapeRings& shape, const std::vector<exact::SourceSegment>& tool) {
+  Marker marker(shape);
+  marker.mark_near_tool(tool);
+  marker.mark_rationals();
+  if (shape.rings().count() > 1) marker.mark_touches();
+  return marker.window();
+}
+
+}  // namespace polynya::geometry
