@@ -20,6 +20,9 @@ Command add_database(CLI::App& app);
 Command add_cut(CLI::App& app);
 Command add_inspect(CLI::App& app);
 
+/// `polynya view`.
+Command add_view(CLI::App& app);
+
 /// --progress, as every long command has it.
 void add_progress(CLI::App& command, ProgressKind& kind);
 

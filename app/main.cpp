@@ -88,6 +88,7 @@ constexpr auto kExamples =
     "  polynya init my-scene.json                     a commented scene to start from\n"
     "  polynya validate my-scene.json                 everything that is wrong with a scene\n"
     "  polynya inspect runs/my-scene --check          the floes of a run, and whether they are right\n"
+    "  polynya view runs/my-scene                     a page that plays the run in a browser\n"
     "  polynya cut floes.geojson --disc 10,5,3        cut floes outside any simulation\n"
     "\n"
     "Polynya simulates an icebreaker in pack ice: floes are pushed, plates break by bending and splitting.\n";
@@ -105,8 +106,8 @@ int command_line(int count, char** words) {
   app.require_subcommand(1);
   std::map<std::string, Command> commands;
   constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {
-      {"run", add_run},           {"validate", add_validate}, {"schema", add_schema},  {"init", add_init},
-      {"database", add_database}, {"cut", add_cut},           {"inspect", add_inspect}};
+      {"run", add_run},           {"validate", add_validate}, {"schema", add_schema},   {"init", add_init},
+      {"database", add_database}, {"cut", add_cut},           {"inspect", add_inspect}, {"view", add_view}};
   for (const auto& [name, add] : kCommands) {
     commands[name] = add(app);
   }

@@ -74,27 +74,32 @@ std::string FrameEncoder::header() {
   return bytes;
 }
 
+std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes) {
+  std::string bytes(kFrameMark);
+  append(bytes, static_cast<std::uint32_t>(ships.size()));
+  append(bytes, static_cast<std::uint32_t>(floes.size()));
+  append(bytes, std::uint32_t{0});
+  append(bytes, time);
+  for (const Motion& ship : ships) append(bytes, ship);
+  for (const FloeMotion& floe : floes) {
+    append(bytes, floe.floe);
+    append(bytes, floe.motion);
+  }
+  return bytes;
+}
+
 std::string FrameEncoder::encode(double time, std::span<const Motion> ships,
                                  std::span<const FloeMotion> floes) {
-  std::string records;
-  std::uint32_t count = 0;
+  std::vector<FloeMotion> written;
   for (const FloeMotion& floe : floes) {
     const auto id = static_cast<std::size_t>(floe.floe);
     if (id >= told_.size()) told_.resize(id + 1);
     Told& told = told_[id];
     if (told.time >= 0 && is_close(carried_on(told.motion, time - told.time), floe.motion)) continue;
     told = {time, floe.motion};
-    append(records, floe.floe);
-    append(records, floe.motion);
-    ++count;
+    written.push_back(floe);
   }
-  std::string bytes(kFrameMark);
-  append(bytes, static_cast<std::uint32_t>(ships.size()));
-  append(bytes, count);
-  append(bytes, std::uint32_t{0});
-  append(bytes, time);
-  for (const Motion& ship : ships) append(bytes, ship);
-  return bytes + records;
+  return frame_bytes(time, ships, written);
 }
 
 tl::expected<std::vector<Frame>, std::string> decode_frames(std::string_view bytes) {

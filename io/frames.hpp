@@ -44,6 +44,9 @@ struct FloeMotion {
   Motion motion;
 };
 
+/// A frame's bytes, of exactly these ships and floes.
+std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
+
 /// Makes frames' bytes; remembers what was told last of each floe.
 class FrameEncoder {
  public:

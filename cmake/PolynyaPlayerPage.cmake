@@ -1,0 +1,39 @@
+# The player's page (io/player) as a C++ source: its style sheets and scripts are put into its HTML, and that into
+# one constant, when one of them changes. Building needs nothing but CMake.
+#
+#   polynya_player_page(FOLDER OUTPUT)
+#
+# As a script, `cmake -DFOLDER=… -DOUTPUT=… -P PolynyaPlayerPage.cmake` writes OUTPUT.
+
+# In the order they stand in the page.
+set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
+set(POLYNYA_PLAYER_SCRIPTS numbers.js run_data.js motion.js palette.js map_view.js draw_ice.js draw_marks.js plot.js timeline.js
+  floe_card.js gestures.js keyboard.js page.js player.js)
+
+function(polynya_player_page folder output)
+  set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} player.html vendor/uPlot.iife.min.js)
+  list(TRANSFORM parts PREPEND ${folder}/)
+  set(script ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
+  add_custom_command(OUTPUT ${output} DEPENDS ${parts} ${script} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${folder} -DOUTPUT=${output} -P ${script})
+endfunction()
+
+if(CMAKE_SCRIPT_MODE_FILE)
+  function(join_files variable)
+    set(all "")
+    foreach(name IN LISTS ARGN)
+      file(READ ${FOLDER}/${name} text)
+      string(APPEND all "${text}")
+    endforeach()
+    set(${variable} "${all}" PARENT_SCOPE)
+  endfunction()
+  join_files(page player.html)
+  join_files(styles ${POLYNYA_PLAYER_STYLES})
+  join_files(plot vendor/uPlot.iife.min.js)
+  join_files(scripts ${POLYNYA_PLAYER_SCRIPTS})
+  string(REPLACE "/*{{styles}}*/" "${styles}" page "${page}")
+  string(REPLACE "/*{{plot}}*/" "${plot}" page "${page}")
+  string(REPLACE "/*{{scripts}}*/" "${scripts}" page "${page}")
+  file(WRITE ${OUTPUT} "#include \"io/player_page.hpp\"\n\nnamespace polynya::io {\n\n"
+    "const std::string_view kPlayerTemplate = R\"player~(${page})player~\";\n\n}  // namespace polynya::io\n")
+endif()

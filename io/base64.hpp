@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace polynya::io {
+
+/// Bytes as base64 text (RFC 4648, with padding, no line breaks).
+std::string to_base64(std::string_view bytes);
+
+}  // namespace polynya::io

@@ -1,0 +1,131 @@
+// Places the floes alive at a time and draws them. Floes of one class go into paths of a few hundred points
+// each: far fewer calls than a path a floe, and far faster to fill than one path for all.
+
+const pointsInPath = 400;
+
+/** The floes alive now and where they are. */
+function makePlaces(run, motions) {
+  const { floes } = run;
+  const places = {
+    living: new Int32Array(floes.count),
+    count: 0,
+    x: new Float64Array(floes.count),
+    y: new Float64Array(floes.count),
+    cos: new Float64Array(floes.count),
+    sin: new Float64Array(floes.count),
+    vx: new Float64Array(floes.count),
+    vy: new Float64Array(floes.count),
+  };
+  places.place = (id) => {
+    const m = motions.floe(id);
+    places.x[id] = m[0];
+    places.y[id] = m[1];
+    places.cos[id] = Math.cos(m[2]);
+    places.sin[id] = Math.sin(m[2]);
+    places.vx[id] = m[3];
+    places.vy[id] = m[4];
+  };
+  places.isAlive = (id, time) => floes.born[id] <= time && time < floes.died[id];
+  places.setTime = (time) => {
+    motions.setTime(time);
+    places.count = 0;
+    for (let i = 0; i < floes.count; ++i) {
+      if (!places.isAlive(i, time)) continue;
+      places.place(i);
+      places.living[places.count++] = i;
+    }
+  };
+  return places;
+}
+
+/** Adds a floe's rings to the path, in pixels. Points nearer than half a pixel are left out. */
+function traceFloe(context, view, floes, places, id) {
+  const c = places.cos[id] * view.scale;
+  const s = places.sin[id] * view.scale;
+  const x0 = (places.x[id] - view.x) * view.scale + view.width / 2;
+  const y0 = (view.y - places.y[id]) * view.scale + view.height / 2;
+  const { points, ringsOf, ringEnds } = floes;
+  let k = ringsOf[id] > 0 ? ringEnds[ringsOf[id] - 1] : 0;
+  let traced = 0;
+  for (let ring = ringsOf[id]; ring < ringsOf[id + 1]; ++ring) {
+    let lastX = NaN;
+    let lastY = NaN;
+    for (; k < ringEnds[ring]; ++k) {
+      const px = points[2 * k];
+      const py = points[2 * k + 1];
+      const x = x0 + c * px - s * py;
+      const y = y0 - s * px - c * py;
+      if (Math.abs(x - lastX) < 0.5 && Math.abs(y - lastY) < 0.5) continue;
+      if (Number.isNaN(lastX)) context.moveTo(x, y);
+      else context.lineTo(x, y);
+      lastX = x;
+      lastY = y;
+      ++traced;
+    }
+    context.closePath();
+  }
+  return traced;
+}
+
+/** The class of a value among growing edges. */
+function classOf(value, edges) {
+  let k = 0;
+  while (k < edges.length && value >= edges[k]) ++k;
+  return k;
+}
+
+function classOfFloe(id, colourBy, edges, floes, places) {
+  if (colourBy === "generation") return classOf(floes.generation[id], edges);
+  if (colourBy === "size") return classOf(Math.sqrt(floes.area[id]), edges);
+  return classOf(Math.hypot(places.vx[id], places.vy[id]), edges);
+}
+
+function drawIce(context, view, run, places, colouring, colourBy, colours) {
+  const { floes } = run;
+  const buckets = colouring.colours.map(() => []);
+  for (let n = 0; n < places.count; ++n) {
+    const id = places.living[n];
+    if (view.shows(places.x[id], places.y[id], floes.reach[id]))
+      buckets[classOfFloe(id, colourBy, colouring.edges, floes, places)].push(id);
+  }
+  context.strokeStyle = colours["ice-edge"];
+  context.lineWidth = Math.min(1.1, Math.max(0.35, 0.4 * view.scale));
+  context.lineJoin = "round";
+  buckets.forEach((ids, k) => {
+    context.fillStyle = colouring.colours[k];
+    drawChunks(context, ids, (id) => traceFloe(context, view, floes, places, id));
+  });
+}
+
+/** Fills and strokes what `trace` adds to the path for each id, a few hundred points at a time. */
+function drawChunks(context, ids, trace, strokes = true) {
+  let traced = 0;
+  const flush = () => {
+    context.fill();
+    if (strokes) context.stroke();
+    context.beginPath();
+    traced = 0;
+  };
+  context.beginPath();
+  for (const id of ids) {
+    traced += trace(id);
+    if (traced >= pointsInPath) flush();
+  }
+  if (traced > 0) flush();
+}
+
+/** The scene's floes where they were at the start, so that open water shows what it was. */
+function drawStartIce(context, view, run, start, colours) {
+  context.fillStyle = colours["start-ice"];
+  const { floes } = run;
+  const seen = start.ids.filter((id) => view.shows(start.x[id], start.y[id], floes.reach[id]));
+  drawChunks(context, seen, (id) => traceFloe(context, view, floes, start, id), false);
+}
+
+/** Where floes of the scene are at the run's first moment. */
+function startPlaces(run, motions, time) {
+  const start = makePlaces(run, motions);
+  start.setTime(time);
+  start.ids = Array.from(start.living.subarray(0, start.count));
+  return start;
+}

@@ -1,0 +1,125 @@
+// Which floe is under a point, and what is known of it.
+
+/** The floe at a point of the world, the smallest where several overlap; −1 where there is water. */
+function floeAt(run, places, x, y) {
+  const { floes } = run;
+  let best = -1;
+  for (let n = 0; n < places.count; ++n) {
+    const id = places.living[n];
+    const dx = x - places.x[id];
+    const dy = y - places.y[id];
+    if (dx * dx + dy * dy > floes.reach[id] ** 2) continue;
+    const c = places.cos[id];
+    const s = places.sin[id];
+    if (contains(floes, id, c * dx + s * dy, -s * dx + c * dy) && (best < 0 || floes.area[id] < floes.area[best])) best = id;
+  }
+  return best;
+}
+
+/** Whether a floe's polygon holds a point, given from its centroid in its body frame. Even-odd over all rings. */
+function contains(floes, id, x, y) {
+  const { points, ringsOf, ringEnds } = floes;
+  let isInside = false;
+  let first = ringsOf[id] > 0 ? ringEnds[ringsOf[id] - 1] : 0;
+  for (let ring = ringsOf[id]; ring < ringsOf[id + 1]; ++ring) {
+    const end = ringEnds[ring];
+    for (let k = first, j = end - 1; k < end; j = k++) {
+      const [xk, yk, xj, yj] = [points[2 * k], points[2 * k + 1], points[2 * j], points[2 * j + 1]];
+      if (yk > y !== yj > y && x < ((xj - xk) * (y - yk)) / (yj - yk) + xk) isInside = !isInside;
+    }
+    first = end;
+  }
+  return isInside;
+}
+
+/** The floes that broke to make this one, oldest first, itself last. */
+function lineageOf(floes, id) {
+  const ids = [];
+  for (let at = id; at >= 0; at = floes.parent[at]) ids.unshift(at);
+  return ids;
+}
+
+/** What `polynya inspect` prints of a floe, in its digits. */
+function floeFacts(run, places, motions, id) {
+  const { floes } = run;
+  const speed = motions.isTold(id) ? Math.hypot(places.vx[id], places.vy[id]) : null;
+  return {
+    floe: [String(id), id],
+    parent: [floes.parent[id] < 0 ? "none, of the scene" : String(floes.parent[id]), floes.parent[id]],
+    generation: [String(floes.generation[id]), floes.generation[id]],
+    area: [`${floes.area[id].toFixed(6)} m\u00b2`, floes.area[id]],
+    mass: [`${sixDigits(floes.mass[id])} kg`, floes.mass[id]],
+    speed: [speed === null ? "\u2013 (lived between two frames)" : `${speed.toFixed(5)} m/s`, speed],
+    born: [`${sixDigits(floes.born[id])} s`, floes.born[id]],
+    broke: [Number.isFinite(floes.died[id]) ? `${sixDigits(floes.died[id])} s` : "not in this run", floes.died[id]],
+  };
+}
+
+function showFloeCard(host, run, places, motions, id, time, actions) {
+  if (id < 0) {
+    host.replaceChildren(make("p", { class: "hint" }, "Point at a floe, or tap it. A click keeps it."));
+    return;
+  }
+  const facts = floeFacts(run, places, motions, id);
+  if (!places.isAlive(id, time)) facts.speed = ["\u2013 (not alive now)", null];
+  const list = make("dl");
+  for (const [name, [words, value]] of Object.entries(facts))
+    list.append(make("dt", {}, name), make("dd", { "data-fact": name, "data-value": String(value) }, words));
+  host.replaceChildren(list, make("h3", {}, "Fracture lineage"), lineageList(run, id, actions));
+}
+
+const longestLineage = 8;
+
+/** The floe's ancestors, each with the fracture that ended it, then itself and what it became. */
+function lineageList(run, id, actions) {
+  const { floes, info } = run;
+  const breaks = run.breakOf;
+  const ids = lineageOf(floes, id);
+  const list = make("ol", { class: "lineage" });
+  const skipped = Math.max(0, ids.length - longestLineage);
+  const shown = skipped > 0 ? [ids[0], ...ids.slice(skipped + 1)] : ids;
+  shown.forEach((floe, k) => {
+    if (k === 1 && skipped > 0) list.append(make("li", { class: "hint" }, `\u2026 ${skipped} more`));
+    const item = make("li", floe === id ? { class: "self" } : {});
+    item.append(button(`floe ${floe}`, () => actions.select(floe)));
+    if (breaks.has(floe)) {
+      const event = info.events[breaks.get(floe)];
+      item.append(" ", button(`${kindWords[event.kind]} ${event.t_s.toFixed(1)} s`, () => actions.goToEvent(breaks.get(floe))));
+    }
+    list.append(item);
+  });
+  const children = floes.children.get(id) ?? [];
+  if (children.length > 0) {
+    const item = make("li", {}, "became ");
+    for (const child of children) item.append(button(String(child), () => actions.select(child)), " ");
+    list.append(item);
+  }
+  return list;
+}
+
+function button(words, onClick) {
+  const element = make("button", { type: "button", class: "link" }, words);
+  element.addEventListener("click", onClick);
+  return element;
+}
+
+function showEventCard(host, run, event) {
+  if (!event) {
+    host.replaceChildren(make("p", { class: "hint" }, run.info.events.length > 0
+      ? "Click a mark on the timeline." : "Nothing broke in this run."));
+    return;
+  }
+  const ship = run.info.ships[event.ship];
+  const unit = loadUnit(Math.max(event.load_N ?? 0, event.capacity_N ?? 0), "N");
+  const inUnit = (value) => (value === null ? "\u2013" : `${shortNumber(value * unit.factor)} ${unit.name}`);
+  const rows = {
+    event: kindWords[event.kind], time: `${event.t_s.toFixed(3)} s`, ship: ship ? ship.name : "\u2013",
+    floe: String(event.floe), pieces: event.children.join(", ") || "\u2013",
+    at: `(${event.point_m.map((v) => minus(v.toFixed(1))).join(", ")}) m`,
+    load: inUnit(event.load_N), capacity: inUnit(event.capacity_N),
+  };
+  if (event.reason) rows.reason = event.reason;
+  const list = make("dl");
+  for (const [name, words] of Object.entries(rows)) list.append(make("dt", {}, name), make("dd", {}, words));
+  host.replaceChildren(list);
+}

@@ -1,0 +1,61 @@
+// Keys. The list is also the help.
+
+const keyHelp = [
+  ["Space", "play, pause"],
+  ["\u2190 \u2192", "back, forward one frame; with Shift ten"],
+  ["Home End", "start, end"],
+  ["[ ]", "event before, event after"],
+  ["< >", "slower, faster"],
+  ["+ \u2212", "zoom"],
+  ["W A S D", "move the map"],
+  ["0", "whole run"],
+  ["F", "follow the ship (the next ship)"],
+  ["1 2 3", "colour by generation, speed, size"],
+  ["H", "channel"], ["C", "contact circles"], ["V", "velocities"], ["B", "fracture marks"],
+  ["T", "light, dark"],
+  ["Esc", "let go of the floe; close this"],
+  ["?", "this help"],
+];
+
+function watchKeys(actions) {
+  const keys = {
+    " ": () => actions.togglePlay(),
+    ArrowLeft: (event) => actions.stepFrames(event.shiftKey ? -10 : -1),
+    ArrowRight: (event) => actions.stepFrames(event.shiftKey ? 10 : 1),
+    Home: () => actions.goToEnd(false),
+    End: () => actions.goToEnd(true),
+    "[": () => actions.stepEvent(-1),
+    "]": () => actions.stepEvent(1),
+    "<": () => actions.changeRate(-1),
+    ">": () => actions.changeRate(1),
+    "+": () => actions.zoomCentre(1.4),
+    "=": () => actions.zoomCentre(1.4),
+    "-": () => actions.zoomCentre(1 / 1.4),
+    0: () => actions.fit(),
+    w: () => actions.pan(0, 60),
+    a: () => actions.pan(60, 0),
+    s: () => actions.pan(0, -60),
+    d: () => actions.pan(-60, 0),
+    f: () => actions.follow(),
+    1: () => actions.colourBy("generation"),
+    2: () => actions.colourBy("speed"),
+    3: () => actions.colourBy("size"),
+    h: () => actions.toggleLayer("channel"),
+    c: () => actions.toggleLayer("circles"),
+    v: () => actions.toggleLayer("velocities"),
+    b: () => actions.toggleLayer("fractures"),
+    t: () => actions.toggleTheme(),
+    "?": () => actions.toggleHelp(),
+    Escape: () => actions.letGo(),
+  };
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const inField = event.target.closest("select, input[type=text]");
+    const onButton = event.target.closest("button, input, summary") && (event.key === " " || event.key === "Enter");
+    const action = keys[event.key] ?? keys[event.key.toLowerCase()];
+    if (!action || onButton || (inField && event.key !== "Escape")) return;
+    event.preventDefault();
+    action(event);
+  });
+  byId("keys").replaceChildren(...keyHelp.flatMap(([key, words]) => [make("dt", {}, key), make("dd", {}, words)]));
+}

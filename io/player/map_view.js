@@ -1,0 +1,70 @@
+// The map's camera: y up in the world, down on the screen.
+
+function makeMapView(stage, canvases) {
+  const view = { x: 0, y: 0, scale: 1, width: 1, height: 1, ratio: 1 };
+
+  view.resize = () => {
+    const box = stage.getBoundingClientRect();
+    view.width = Math.max(1, box.width);
+    view.height = Math.max(1, box.height);
+    view.ratio = Math.min(window.devicePixelRatio || 1, 2);
+    for (const canvas of canvases) {
+      canvas.width = Math.round(view.width * view.ratio);
+      canvas.height = Math.round(view.height * view.ratio);
+    }
+  };
+  view.toScreen = (x, y) => [(x - view.x) * view.scale + view.width / 2, (view.y - y) * view.scale + view.height / 2];
+  view.toWorld = (px, py) => [(px - view.width / 2) / view.scale + view.x, view.y - (py - view.height / 2) / view.scale];
+
+  /** Zooms so that what is under the screen point stays there. */
+  view.zoomAt = (px, py, factor) => {
+    const [x, y] = view.toWorld(px, py);
+    view.scale = Math.min(400, Math.max(1e-3, view.scale * factor));
+    const [newX, newY] = view.toWorld(px, py);
+    view.x += x - newX;
+    view.y += y - newY;
+  };
+  view.panBy = (dx, dy) => {
+    view.x -= dx / view.scale;
+    view.y += dy / view.scale;
+  };
+  view.fit = (box) => {
+    const margin = 1.04;
+    view.x = (box.left + box.right) / 2;
+    view.y = (box.bottom + box.top) / 2;
+    view.scale = Math.min(view.width / ((box.right - box.left) * margin), view.height / ((box.top - box.bottom) * margin));
+  };
+  /** Whether a disc in the world shows on the screen. */
+  view.shows = (x, y, radius) =>
+    Math.abs(x - view.x) - radius < view.width / 2 / view.scale && Math.abs(y - view.y) - radius < view.height / 2 / view.scale;
+  return view;
+}
+
+/** What a run covers at its start, with the ships' tracks. */
+function extentOf(run, motions) {
+  const { floes, info, frames } = run;
+  const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
+  const include = (x, y) => {
+    box.left = Math.min(box.left, x);
+    box.right = Math.max(box.right, x);
+    box.bottom = Math.min(box.bottom, y);
+    box.top = Math.max(box.top, y);
+  };
+  for (let i = 0; i < floes.count; ++i) {
+    if (floes.parent[i] >= 0) continue;
+    const [first, end] = pointsOf(floes, i);
+    for (let k = first; k < end; ++k) include(floes.points[2 * k] + floes.cx[i], floes.points[2 * k + 1] + floes.cy[i]);
+  }
+  info.ships.forEach((ship, index) => {
+    const reach = Math.max(...ship.waterline_m.map(([x, y]) => Math.hypot(x, y)));
+    const width = Math.max(...ship.waterline_m.map(([, y]) => Math.abs(y)));
+    for (let f = 0; f < frames.times.length; ++f) {
+      const [x, y, heading] = motions.shipInFrame(index, f);
+      const along = [Math.cos(heading) * reach, Math.sin(heading) * reach];
+      include(x - along[0], y - along[1] - width);
+      include(x + along[0], y + along[1] + width);
+    }
+  });
+  if (!(box.right > box.left)) return { left: -50, right: 50, bottom: -50, top: 50 };
+  return box;
+}

@@ -1,0 +1,36 @@
+// Numbers and words as they are shown.
+
+const byId = (id) => document.getElementById(id);
+
+/** An element with attributes and children. */
+function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+
+const minus = (text) => text.replace(/^-/, "\u2212");
+
+/** A force [N] or moment [N m] in the unit that suits `largest`. */
+function loadUnit(largest, base) {
+  if (largest >= 1e6) return { factor: 1e-6, name: "M" + base };
+  if (largest >= 1e3) return { factor: 1e-3, name: "k" + base };
+  return { factor: 1, name: base };
+}
+
+/** The longest of 1, 2, 5 × 10ⁿ that is at most `room`. */
+function roundBelow(room) {
+  const decade = 10 ** Math.floor(Math.log10(room));
+  return decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
+}
+
+/** Six significant digits, without an exponent where they can be read without. */
+function sixDigits(value) {
+  const text = value.toPrecision(6);
+  return text.includes("e") && Math.abs(value) < 1e12 && Math.abs(value) >= 1e-6 ? String(Number(text)) : text;
+}
+
+function shortNumber(value) {
+  return String(Number(value.toPrecision(3)));
+}

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/run_reader.hpp"
+
+namespace polynya::io {
+
+/// Columns of numbers one after the other, each at a multiple of 8 bytes, as the player reads them. `table`
+/// tells of each: name, type ("f64", "f32", "i32", "u8"), first byte, how many numbers.
+class ColumnWriter {
+ public:
+  struct Column {
+    std::string name;
+    const char* type = "u8";
+    std::size_t offset = 0;  ///< [bytes]
+    std::size_t count = 0;
+  };
+  void add(const std::string& name, const std::vector<double>& values);
+  void add(const std::string& name, const std::vector<float>& values);
+  void add(const std::string& name, const std::vector<std::int32_t>& values);
+  void add(const std::string& name, std::string_view bytes);
+  const std::vector<Column>& table() const { return table_; }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void add_raw(const std::string& name, const char* type, const void* data, std::size_t count,
+               std::size_t size);
+  std::vector<Column> table_;
+  std::string bytes_;
+};
+
+/// Every floe of the run: parent, generation, born_s, died_s, area_m2, mass_kg, centroid_m, and its rings as
+/// single-precision points from its centroid (for drawing; right to 1e-7 of the floe's size).
+void add_floes(ColumnWriter& columns, const Run& run);
+
+/// The contact circles of every floe and hull with the scene's radius, x, y from the centroid of the oldest
+/// ancestor (0 for a hull) and radius. Pieces of one floe share the circles that are theirs both: each floe
+/// has runs of circles (`circle_runs`: first, count; `circle_runs_of`: where the floe's runs begin; hulls
+/// after the floes). Returns false, adding nothing, where there are more circles than `most`.
+bool add_contact_circles(ColumnWriter& columns, const Run& run, std::size_t most);
+
+}  // namespace polynya::io
