@@ -42,8 +42,9 @@ struct Bodies {
   std::vector<double> moment;             ///< of inertia about the centre of mass [kg m²]
   std::vector<geometry::Point> centroid;  ///< centre of mass in the body frame [m]
   std::vector<double> thickness;          ///< of the ice, or the draught that meets water [m]
-  std::vector<std::shared_ptr<const geometry::Boundary>> boundary;
-  std::vector<std::shared_ptr<const DragShape>> drag;  ///< null: the water does not hold it back
+  std::vector<std::shared_ptr<geometry::Boundary>> boundary;  ///< made ready when somebody comes near
+  std::vector<std::shared_ptr<const DragShape>>
+      drag;  ///< null: the water does not hold it back, or it sleeps
 
   BodyIndex size() const { return static_cast<BodyIndex>(position.size()); }
 };
@@ -59,7 +60,7 @@ struct NewBody {
   bool is_held = false;         ///< its velocity does not answer to impulses
   geometry::Point centroid;     ///< in the body frame [m]
   double thickness = 0;         ///< [m]
-  std::shared_ptr<const geometry::Boundary> boundary;
+  std::shared_ptr<geometry::Boundary> boundary;
   std::shared_ptr<const DragShape> drag;
 };
 

@@ -14,15 +14,13 @@ using geometry::Vector;
 
 constexpr double kBoxMargin = 2.0;  ///< boxes are grown by this much, and renewed after that much travel [m]
 constexpr double kRounding = 1e-9;  ///< of positions and distances, far more than it can be [m]
-constexpr double kNearMargin = 0.75;  ///< contact circles within this distance are kept with a pair [m]
+constexpr double kNearMargin = 0.75;  ///< pieces of boundary within this distance are kept with a pair [m]
 
 Box box_in_water(const Bodies& bodies, BodyIndex i) {
   const Pose pose = water_from_body(bodies, i);
-  const geometry::CircleNode& all = bodies.boundary[i]->tree.front();
-  const Point centre = point_in_world(pose, all.centre);
-  Box box = geometry::grown({centre, centre}, all.reach);
-  if (bodies.boundary[i]->edges.size() > 64) return box;
-  box = {point_in_world(pose, bodies.boundary[i]->edges.vertices.front()), {}};
+  if (bodies.boundary[i]->edges.size() > 64)
+    return geometry::grown({bodies.position[i], bodies.position[i]}, bodies.bounding_radius[i]);
+  Box box = {point_in_world(pose, bodies.boundary[i]->edges.vertices.front()), {}};
   box.high = box.low;
   for (const Point p : bodies.boundary[i]->edges.vertices) {
     const Point q = point_in_world(pose, p);
@@ -151,11 +149,15 @@ void PairFinder::connect(const Bodies& bodies, BodyIndex body) {
     for (const std::uint32_t pair : smaller) {
       if (pairs_[pair].a == a && pairs_[pair].b == b) return;
     }
-    add_pair(a, b);
+    add_pair(bodies, a, b);
   });
 }
 
-void PairFinder::add_pair(BodyIndex a, BodyIndex b) {
+void PairFinder::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  for (const BodyIndex body : {a, b}) {
+    geometry::Boundary& boundary = *bodies.boundary[body];
+    if (!boundary.is_ready()) make_ready(boundary, {rule_.circle_radius, rule_.is_circle_centres});
+  }
   std::uint32_t slot = 0;
   if (free_pairs_.empty()) {
     slot = static_cast<std::uint32_t>(pairs_.size());
@@ -169,7 +171,7 @@ void PairFinder::add_pair(BodyIndex a, BodyIndex b) {
   pair.b = b;
   pair.is_dropped = false;
   pair.known.way = pair.quiet.way = pair.known_until = -1;
-  pair.circles.clear();
+  pair.covers.clear();
   pair.edges.clear();
   pair.records.clear();
   entries_[a].pairs.push_back(slot);
@@ -226,11 +228,11 @@ void PairFinder::refresh(const Bodies& bodies, Pair& pair, const Pose& place) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
-  pair.circles.clear();
+  pair.covers.clear();
   pair.edges.clear();
-  const double apart = near_circles(a, b, a_from_b, kNearMargin, pair.circles);
-  if (!pair.circles.empty()) edges_of(a, b, pair.circles, pair.edges);
-  pair.known = {place, (pair.circles.empty() ? apart : kNearMargin) * (1 - 1e-9)};
+  const double apart = near_covers(a, b, a_from_b, kNearMargin, pair.covers);
+  if (!pair.covers.empty()) edges_of(a, b, pair.covers, pair.edges);
+  pair.known = {place, (pair.covers.empty() ? apart : kNearMargin) * (1 - 1e-9)};
 }
 
 /// Finds the contacts of a pair. Returns how far the two can move from here without touching [m].
@@ -241,7 +243,7 @@ double PairFinder::examine(const Bodies& bodies, Pair& pair, const Pose& place,
     if (way_left(bodies, pair.b, place, pair.known) < kRounding) refresh(bodies, pair, place);
     pair.known_until = travelled + way_left(bodies, pair.b, place, pair.known) - kRounding;
   }
-  if (pair.circles.empty()) {
+  if (pair.covers.empty()) {
     pair.records.clear();
     pair.quiet = pair.known;
     return way_left(bodies, pair.b, place, pair.quiet);
@@ -271,7 +273,7 @@ bool PairFinder::collect(const Bodies& bodies, const Pair& pair, const Pose& pla
   patches_.clear();
   int unpaired = 0;
   if (rule_.is_circle_centres) {
-    find_circle_patches(a, b, a_from_b, pair.circles, patches_);
+    find_circle_patches(a, b, a_from_b, pair.covers, patches_);
   } else {
     unpaired = find_patches(a, b, a_from_b, pair.edges, scratch_, patches_);
   }

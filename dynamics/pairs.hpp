@@ -20,11 +20,11 @@ struct Pair {
   BodyIndex a = 0;
   BodyIndex b = 0;
   bool is_dropped = false;  ///< its slot is free once the list of pairs is tidied
-  KnownNear known;          ///< only `edges` (or `circles`) can meet
+  KnownNear known;          ///< only `edges` (or the circles of `covers`) can meet
   double known_until = -1;  ///< and surely so until the two have travelled farther than this together [m]
   KnownNear quiet;          ///< they cannot touch at all
-  std::vector<geometry::NearPair> circles;  ///< contact circles near each other
-  std::vector<geometry::NearPair> edges;    ///< the boundary edges behind them
+  std::vector<geometry::NearPair> covers;  ///< pieces of boundary near each other
+  std::vector<geometry::NearPair> edges;   ///< the edges they lie on
   std::vector<ContactRecord> records;
 };
 
@@ -34,10 +34,10 @@ struct ContactRule {
   bool is_circle_centres = false;  ///< the paper's own normals, instead of those of the boundary
 };
 
-/// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the contact
-/// circles that are near each other, until the bodies have moved so far relative to each other that others
-/// might be. All bounds are conservative: what is culled cannot touch, so the contacts are those of a search
-/// over everything.
+/// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the pieces of
+/// boundary that are near each other, one contact circle each, until the bodies have moved so far relative to
+/// each other that others might be. All bounds are conservative: what is culled cannot touch, so the contacts
+/// are those of a search over everything.
 class PairFinder {
  public:
   PairFinder(const ContactRule& rule, double grid_cell);
@@ -77,7 +77,7 @@ class PairFinder {
   };
   void place(const Bodies& bodies, BodyIndex body);
   void connect(const Bodies& bodies, BodyIndex body);
-  void add_pair(BodyIndex a, BodyIndex b);
+  void add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b);
   void drop_pair(std::uint32_t pair);
   void tidy();
   void refresh(const Bodies& bodies, Pair& pair, const geometry::Pose& place);

@@ -7,24 +7,24 @@
 namespace polynya::geometry {
 namespace {
 
-constexpr std::uint32_t kLeafCircles = 4;
+constexpr std::uint32_t kLeafCovers = 4;
 
-/// Builds the node over circles [first, first + count) and everything below it; returns its index.
+/// Builds the node over covers [first, first + count) and everything below it; returns its index.
 std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t count) {
   const auto index = static_cast<std::uint32_t>(boundary.tree.size());
   boundary.tree.push_back({});
-  const auto begin = boundary.circles.begin() + first;
+  const auto begin = boundary.covers.begin() + first;
   Box box{begin->centre, begin->centre};
   for (auto c = begin; c != begin + count; ++c) {
     box.low = {std::min(box.low.x, c->centre.x), std::min(box.low.y, c->centre.y)};
     box.high = {std::max(box.high.x, c->centre.x), std::max(box.high.y, c->centre.y)};
   }
-  CircleNode node{midpoint(box.low, box.high), 0, first, count, 0};
+  CoverNode node{midpoint(box.low, box.high), 0, first, count, 0};
   for (auto c = begin; c != begin + count; ++c) {
     node.reach = std::max(node.reach, distance(node.centre, c->centre) + c->reach);
   }
   node.reach *= 1 + 1e-12;
-  if (count > kLeafCircles) {
+  if (count > kLeafCovers) {
     build_node(boundary, first, count / 2);
     node.right = build_node(boundary, first + count / 2, count - count / 2);
   }
@@ -32,31 +32,48 @@ std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t 
   return index;
 }
 
-double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
+double gap(const CoverNode& a, const CoverNode& b, Point b_centre_in_a) {
   return distance(a.centre, b_centre_in_a) - a.reach - b.reach;
 }
 
 }  // namespace
 
-Boundary make_boundary(const Polygon& polygon, double circle_radius) {
+Boundary make_outline(const Polygon& polygon) {
   Boundary boundary;
   boundary.edges = edge_list(polygon);
-  boundary.circles = sample_contact_circles(boundary.edges, circle_radius);
-  boundary.tree.reserve(boundary.circles.size());
-  build_node(boundary, 0, static_cast<std::uint32_t>(boundary.circles.size()));
   return boundary;
 }
 
-double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
-                    std::vector<NearPair>& circle_pairs) {
+void make_ready(Boundary& boundary, const CoverRule& rule) {
+  boundary.pieces = boundary_pieces(boundary.edges, rule.circle_radius);
+  boundary.covers.reserve(boundary.pieces.size());
+  if (rule.has_circles) {
+    boundary.circles = sample_contact_circles(boundary.edges, boundary.pieces, rule.circle_radius);
+    for (const ContactCircle& circle : boundary.circles)
+      boundary.covers.push_back({circle.centre, circle.reach});
+  } else {
+    for (const BoundaryPiece& piece : boundary.pieces) boundary.covers.push_back({piece.middle, piece.reach});
+  }
+  boundary.tree.reserve(boundary.covers.size());
+  build_node(boundary, 0, static_cast<std::uint32_t>(boundary.covers.size()));
+}
+
+Boundary make_boundary(const Polygon& polygon, const CoverRule& rule) {
+  Boundary boundary = make_outline(polygon);
+  make_ready(boundary, rule);
+  return boundary;
+}
+
+double near_covers(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
+                   std::vector<NearPair>& cover_pairs) {
   double bound = std::numeric_limits<double>::infinity();
   NearPair stack[128];  // depth of both trees: a boundary of 2^60 circles would fit
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
     const NearPair pair = stack[--top];
-    const CircleNode& na = a.tree[pair.a];
-    const CircleNode& nb = b.tree[pair.b];
+    const CoverNode& na = a.tree[pair.a];
+    const CoverNode& nb = b.tree[pair.b];
     const double d = gap(na, nb, point_in_world(a_from_b, nb.centre));
     if (d > margin) {
       bound = std::min(bound, d);
@@ -64,11 +81,11 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
     }
     if (na.right == 0 && nb.right == 0) {
       for (std::uint32_t k = nb.first; k < nb.first + nb.count; ++k) {
-        const Point centre = point_in_world(a_from_b, b.circles[k].centre);
+        const Point centre = point_in_world(a_from_b, b.covers[k].centre);
         for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
-          const double free = distance(a.circles[i].centre, centre) - a.circles[i].reach - b.circles[k].reach;
+          const double free = distance(a.covers[i].centre, centre) - a.covers[i].reach - b.covers[k].reach;
           bound = std::min(bound, free);
-          if (free <= margin) circle_pairs.push_back({i, k});
+          if (free <= margin) cover_pairs.push_back({i, k});
         }
       }
     } else if (nb.right == 0 || (na.right != 0 && na.reach >= nb.reach)) {
@@ -82,11 +99,11 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
   return bound;
 }
 
-void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
+void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& cover_pairs,
               std::vector<NearPair>& edge_pairs) {
-  for (const NearPair pair : circle_pairs) {
-    const ContactCircle& ca = a.circles[pair.a];
-    const ContactCircle& cb = b.circles[pair.b];
+  for (const NearPair pair : cover_pairs) {
+    const BoundaryPiece& ca = a.pieces[pair.a];
+    const BoundaryPiece& cb = b.pieces[pair.b];
     std::uint32_t ea = ca.first_edge;
     for (std::uint32_t i = 0; i < ca.edges; ++i, ea = a.edges.next[ea]) {
       std::uint32_t eb = cb.first_edge;

@@ -8,41 +8,63 @@
 
 namespace polynya::geometry {
 
-/// A node of the tree over a boundary's contact circles: a circle that covers its circles' pieces of
-/// boundary.
-struct CircleNode {
+/// A circle that covers a piece of boundary.
+struct Cover {
+  Point centre;      ///< [m]
+  double reach = 0;  ///< [m]
+};
+
+/// A node of the tree over a boundary's covers: a circle that covers all of its own.
+struct CoverNode {
   Point centre;             ///< [m]
   double reach = 0;         ///< [m]
-  std::uint32_t first = 0;  ///< first contact circle
-  std::uint32_t count = 0;  ///< number of contact circles; children split them in halves
+  std::uint32_t first = 0;  ///< first cover
+  std::uint32_t count = 0;  ///< number of covers; children split them in halves
   std::uint32_t right = 0;  ///< index of the second child, the first is the next node; 0 at a leaf
 };
 
-/// A body's boundary, ready for finding contacts: its edges, its contact circles, and a tree over the
-/// circles. Everything is in the body frame and is made once, when the shape comes to be.
-struct Boundary {
-  EdgeList edges;
-  std::vector<ContactCircle> circles;
-  std::vector<CircleNode> tree;
+/// How a boundary is covered.
+struct CoverRule {
+  double circle_radius = 1.0;  ///< of contact circles, and the most length of a piece [m]
+  bool has_circles = false;    ///< contact circles touch the boundary from inside (find_circle_patches wants
+                             ///< them); without, covers stand on it and are tighter
 };
 
-Boundary make_boundary(const Polygon& polygon, double circle_radius);
+/// A body's boundary: its edges and, once it is ready for finding contacts, its pieces, covers of the pieces
+/// and a tree over the covers. Everything is in the body frame.
+struct Boundary {
+  EdgeList edges;
+  std::vector<BoundaryPiece> pieces;
+  std::vector<ContactCircle> circles;  ///< of the pieces; empty where the rule has none
+  std::vector<Cover> covers;           ///< of the pieces: the circles' centres, or the pieces' middles
+  std::vector<CoverNode> tree;
 
-/// A pair of edges (or of contact circles) of two boundaries that are near each other.
+  bool is_ready() const { return !tree.empty(); }
+};
+
+/// A boundary of which only the edges are there yet: a floe that nobody comes near needs no more.
+Boundary make_outline(const Polygon& polygon);
+
+/// Makes a boundary ready for finding contacts.
+void make_ready(Boundary& boundary, const CoverRule& rule);
+
+Boundary make_boundary(const Polygon& polygon, const CoverRule& rule);
+
+/// A pair of edges (or of covers) of two boundaries that are near each other.
 struct NearPair {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   friend auto operator<=>(const NearPair&, const NearPair&) = default;
 };
 
-/// Finds what two boundaries have near each other: all pairs of contact circles whose pieces of boundary may
-/// be within `margin` [m]. Appends to `circle_pairs`. Returns a lower bound of the distance between the
+/// Finds what two boundaries have near each other: all pairs of covers within `margin` of each other [m], and
+/// so all pieces. Appends to `cover_pairs`. Returns a lower bound of the distance between the
 /// boundaries [m], of use where nothing is within the margin.
-double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
-                    std::vector<NearPair>& circle_pairs);
+double near_covers(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
+                   std::vector<NearPair>& cover_pairs);
 
-/// The pairs of edges behind pairs of circles, each once, in order.
-void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
+/// The pairs of edges behind pairs of covers, each once, in order.
+void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& cover_pairs,
               std::vector<NearPair>& edge_pairs);
 
 /// Where two bodies overlap, seen as one contact. In the frame of a.

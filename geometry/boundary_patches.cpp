@@ -284,7 +284,7 @@ void find_circle_patches(const Boundary& a, const Boundary& b, const Pose& a_fro
     patch.ends[0] = middle - half_chord * perpendicular(patch.normal);
     patch.ends[1] = middle + half_chord * perpendicular(patch.normal);
     patch.tip_of_b = ca.centre + (centres - cb.radius) * patch.normal;
-    patch.tip_edge_of_b = cb.first_edge;
+    patch.tip_edge_of_b = b.pieces[pair.b].first_edge;
     patches.push_back(patch);
   }
 }

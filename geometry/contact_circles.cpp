@@ -123,46 +123,43 @@ double inscribed_radius(const EdgeList& edges, const EdgeGrid& grid, Point touch
   return radius;
 }
 
-/// A stretch of boundary: whole short edges in a row, or a part of one long edge.
-struct Stretch {
-  std::uint32_t first_edge;
-  std::uint32_t edges;
-  Point from, middle, to;
-  std::uint32_t middle_edge;
-};
-
-ContactCircle circle_for(const EdgeList& edges, const EdgeGrid& grid, const Stretch& stretch, double radius) {
-  const Vector along = edges.to(stretch.middle_edge) - edges.from(stretch.middle_edge);
-  const Vector inward = perpendicular(along) / length(along);
-  ContactCircle circle;
-  circle.radius = inscribed_radius(edges, grid, stretch.middle, inward, radius);
-  circle.centre = stretch.middle + circle.radius * inward;
-  circle.first_edge = stretch.first_edge;
-  circle.edges = stretch.edges;
-  circle.reach = std::max(distance(circle.centre, stretch.from), distance(circle.centre, stretch.to));
-  std::uint32_t e = stretch.first_edge;
-  for (std::uint32_t k = 1; k < stretch.edges; ++k) {
-    e = edges.next[e];
-    circle.reach = std::max(circle.reach, distance(circle.centre, edges.from(e)));
+/// Sets the middle and the reach of a run of whole edges of this length in all [m].
+void measure_run(const EdgeList& edges, BoundaryPiece& piece, double total) {
+  double before = 0;
+  std::uint32_t e = piece.first_edge;
+  for (std::uint32_t k = 0; k < piece.edges; ++k, e = edges.next[e]) {
+    const double l = distance(edges.from(e), edges.to(e));
+    if (before + l < 0.5 * total && k + 1 < piece.edges) {
+      before += l;
+      continue;
+    }
+    const double t = std::clamp((0.5 * total - before) / l, 0.0, 1.0);
+    piece.middle = edges.from(e) + t * (edges.to(e) - edges.from(e));
+    piece.middle_edge = e;
+    break;
   }
-  circle.reach *= 1 + 1e-12;  // the rounding of the distances
-  return circle;
+  piece.reach = 0.5 * total * (1 + 1e-12);  // no chord is longer than its way
 }
 
-/// The point half-way along a run of whole edges, and the edge it is on.
-void set_middle(const EdgeList& edges, Stretch& stretch, double total) {
-  double before = 0;
-  std::uint32_t e = stretch.first_edge;
-  for (std::uint32_t k = 0; k < stretch.edges; ++k, e = edges.next[e]) {
-    const double l = distance(edges.from(e), edges.to(e));
-    if (before + l >= 0.5 * total || k + 1 == stretch.edges) {
-      const double t = std::clamp((0.5 * total - before) / l, 0.0, 1.0);
-      stretch.middle = edges.from(e) + t * (edges.to(e) - edges.from(e));
-      stretch.middle_edge = e;
-      return;
-    }
-    before += l;
-  }
+/// How far the piece goes from a point on the perpendicular of its middle [m].
+double reach_from(const EdgeList& edges, const BoundaryPiece& piece, Point centre) {
+  if (piece.edges == 1) return std::hypot(distance(centre, piece.middle), piece.reach);
+  std::uint32_t e = piece.first_edge;
+  double reach = distance(centre, edges.from(e));
+  for (std::uint32_t k = 0; k < piece.edges; ++k, e = edges.next[e])
+    reach = std::max(reach, distance(centre, edges.to(e)));
+  return reach;
+}
+
+ContactCircle circle_for(const EdgeList& edges, const EdgeGrid& grid, const BoundaryPiece& piece,
+                         double radius) {
+  const Vector along = edges.to(piece.middle_edge) - edges.from(piece.middle_edge);
+  const Vector inward = perpendicular(along) / length(along);
+  ContactCircle circle;
+  circle.radius = inscribed_radius(edges, grid, piece.middle, inward, radius);
+  circle.centre = piece.middle + circle.radius * inward;
+  circle.reach = reach_from(edges, piece, circle.centre) * (1 + 1e-12);  // the rounding of the distances
+  return circle;
 }
 
 }  // namespace
@@ -185,38 +182,40 @@ EdgeList edge_list(const Polygon& polygon) {
   return edges;
 }
 
-std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges, double radius) {
-  std::vector<ContactCircle> circles;
-  const EdgeGrid grid(edges, 2 * radius);
+std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius) {
+  std::vector<BoundaryPiece> pieces;
   const auto count = static_cast<std::uint32_t>(edges.size());
-  std::uint32_t e = 0;
-  while (e < count) {
+  for (std::uint32_t e = 0; e < count; ++e) {
     const double l = distance(edges.from(e), edges.to(e));
-    if (l > radius) {  // a long edge carries several circles
-      const double pieces = std::ceil(l / radius);
-      const Vector step = (edges.to(e) - edges.from(e)) / pieces;
-      for (int k = 0; k < static_cast<int>(pieces); ++k) {
-        const Point from = edges.from(e) + static_cast<double>(k) * step;
-        const Stretch stretch{e, 1, from, from + 0.5 * step, from + step, e};
-        circles.push_back(circle_for(edges, grid, stretch, radius));
-      }
-      ++e;
+    if (l > radius) {  // a long edge carries several
+      const double parts = std::ceil(l / radius);
+      const Vector step = (edges.to(e) - edges.from(e)) / parts;
+      const double reach = 0.5 * l / parts * (1 + 1e-12);
+      for (int k = 0; k < static_cast<int>(parts); ++k)
+        pieces.push_back({edges.from(e) + (k + 0.5) * step, reach, e, 1, e});
       continue;
     }
-    Stretch stretch{e, 1, edges.from(e), {}, edges.to(e), e};  // short edges share one
+    BoundaryPiece piece{{}, 0, e, 1, e};  // short edges share one
     double total = l;
-    while (edges.next[e] == e + 1 && e + 1 < count) {
+    while (edges.next[e] == e + 1) {
       const double more = distance(edges.from(e + 1), edges.to(e + 1));
       if (total + more > radius) break;
       ++e;
-      ++stretch.edges;
+      ++piece.edges;
       total += more;
-      stretch.to = edges.to(e);
     }
-    set_middle(edges, stretch, total);
-    circles.push_back(circle_for(edges, grid, stretch, radius));
-    ++e;
+    measure_run(edges, piece, total);
+    pieces.push_back(piece);
   }
+  return pieces;
+}
+
+std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges,
+                                                  const std::vector<BoundaryPiece>& pieces, double radius) {
+  std::vector<ContactCircle> circles;
+  circles.reserve(pieces.size());
+  const EdgeGrid grid(edges, 2 * radius);
+  for (const BoundaryPiece& piece : pieces) circles.push_back(circle_for(edges, grid, piece, radius));
   return circles;
 }
 

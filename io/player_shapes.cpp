@@ -74,7 +74,9 @@ class CircleTable {
  public:
   /// The circles of one polygon. `family` keeps circles of floes in different frames apart.
   void add(FloeId family, const geometry::Polygon& polygon, Point origin, double radius) {
-    for (const geometry::ContactCircle& circle : sample_contact_circles(edge_list(polygon), radius)) {
+    const geometry::EdgeList edges = edge_list(polygon);
+    for (const geometry::ContactCircle& circle :
+         sample_contact_circles(edges, boundary_pieces(edges, radius), radius)) {
       const auto next = static_cast<std::int32_t>(circles.size() / 3);
       const auto [found, is_new] =
           numbers_.try_emplace({family, circle.centre.x, circle.centre.y, circle.radius}, next);

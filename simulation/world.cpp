@@ -58,8 +58,7 @@ void add_ship(World& world, const ShipSpec& ship) {
   body.velocity = speed * ahead - world.scene.water.drift;
   body.mass = ship.mass;
   body.moment = ship.moment_of_inertia;
-  body.boundary = std::make_shared<geometry::Boundary>(
-      geometry::make_boundary({ship.hull.waterline, {}}, world.scene.contact.circle_radius));
+  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline({ship.hull.waterline, {}}));
   const BodyIndex index = add_body(world.bodies, body);
   world.pairs.add(world.bodies, index);
 }
@@ -123,10 +122,7 @@ FloeId add_floe(World& world, const NewFloe& floe) {
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
   body.angular_velocity = floe.angular_velocity;
   body.thickness = ice.thickness;
-  body.boundary = std::make_shared<geometry::Boundary>(
-      geometry::make_boundary(floe.shape.polygon, world.scene.contact.circle_radius));
-  body.drag =
-      std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(floe.shape.polygon, measures.centroid));
+  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline(floe.shape.polygon));
   world.floes.push_back({floe.parent, world.time(), floe.generation, measures.area, floe.shape});
   const BodyIndex index = add_body(world.bodies, body);
   assert(world.floe_of(index) == id);
@@ -159,6 +155,10 @@ void retire_floe(World& world, FloeId floe) {
 void wake(World& world, BodyIndex body) {
   if (world.bodies.is_awake[body]) return;
   world.bodies.is_awake[body] = 1;
+  if (!world.is_ship(body) && world.bodies.drag[body] == nullptr) {  // water holds back what moves
+    world.bodies.drag[body] = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(
+        world.floes[world.floe_of(body)].shape.polygon, world.bodies.centroid[body]));
+  }
   world.awake.insert(std::lower_bound(world.awake.begin(), world.awake.end(), body), body);
   world.pairs.wake(world.bodies, body);
 }

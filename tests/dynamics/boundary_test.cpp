@@ -62,7 +62,8 @@ TEST_F(RandomFloes, CirclesLieInsideAndTouchTheBoundary) {
     const Polygon polygon = random_floe(random_);
     const EdgeList edges = edge_list(polygon);
     const double radius = random_.between(0.2, 3);
-    for (const ContactCircle& circle : sample_contact_circles(edges, radius)) {
+    for (const ContactCircle& circle :
+         sample_contact_circles(edges, boundary_pieces(edges, radius), radius)) {
       double nearest = std::numeric_limits<double>::infinity();
       for (std::uint32_t e = 0; e < edges.size(); ++e) {
         nearest = std::min(nearest, distance_to_segment(circle.centre, edges.from(e), edges.to(e)));
@@ -83,52 +84,57 @@ TEST_F(RandomFloes, CirclesLieInsideAndTouchTheBoundary) {
   EXPECT_LT(far_off, all / 1000);
 }
 
-TEST_F(RandomFloes, CirclesCoverAllBoundaryOneForEachRadiusOfIt) {
+TEST_F(RandomFloes, PiecesAndTheirCirclesCoverAllBoundaryOneForEachRadiusOfIt) {
   for (int i = 0; i < 300; ++i) {
     const Polygon polygon = random_floe(random_);
     const EdgeList edges = edge_list(polygon);
     const double radius = random_.between(0.2, 3);
-    const std::vector<ContactCircle> circles = sample_contact_circles(edges, radius);
-    std::vector<std::vector<const ContactCircle*>> of_edge(edges.size());
-    for (const ContactCircle& circle : circles) {
-      std::uint32_t e = circle.first_edge;
+    const std::vector<BoundaryPiece> pieces = boundary_pieces(edges, radius);
+    const std::vector<ContactCircle> circles = sample_contact_circles(edges, pieces, radius);
+    ASSERT_EQ(circles.size(), pieces.size());
+    std::vector<std::vector<std::size_t>> of_edge(edges.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      std::uint32_t e = pieces[p].first_edge;
       double along = 0;
-      for (std::uint32_t k = 0; k < circle.edges; ++k, e = edges.next[e]) {
-        of_edge[e].push_back(&circle);
+      for (std::uint32_t k = 0; k < pieces[p].edges; ++k, e = edges.next[e]) {
+        of_edge[e].push_back(p);
         along += distance(edges.from(e), edges.to(e));
       }
-      ASSERT_TRUE(circle.edges == 1 || along <= radius * (1 + 1e-12));
+      ASSERT_TRUE(pieces[p].edges == 1 || along <= radius * (1 + 1e-12));
     }
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
       for (int k = 0; k <= 50; ++k) {
-        const Point p = edges.from(e) + (k / 50.0) * (edges.to(e) - edges.from(e));
-        const bool is_covered = std::any_of(
-            of_edge[e].begin(), of_edge[e].end(),
-            [&](const ContactCircle* c) { return distance(c->centre, p) <= c->reach * (1 + 1e-9); });
+        const Point at = edges.from(e) + (k / 50.0) * (edges.to(e) - edges.from(e));
+        const auto covers = [&](Point centre, double reach) {
+          return distance(centre, at) <= reach * (1 + 1e-9);
+        };
+        const bool is_covered = std::any_of(of_edge[e].begin(), of_edge[e].end(), [&](std::size_t p) {
+          return covers(circles[p].centre, circles[p].reach) && covers(pieces[p].middle, pieces[p].reach);
+        });
         ASSERT_TRUE(is_covered) << "floe " << i << ", edge " << e << " at " << k / 50.0;
       }
       ASSERT_GE(static_cast<double>(of_edge[e].size()) * radius,
                 distance(edges.from(e), edges.to(e)) * (1 - 1e-12));
     }
-    ASSERT_LE(static_cast<double>(circles.size()),
+    ASSERT_LE(static_cast<double>(pieces.size()),
               perimeter(polygon) / radius + static_cast<double>(edges.size()));
   }
 }
 
-TEST_F(RandomFloes, TheTreesNodesCoverTheirCircles) {
+TEST_F(RandomFloes, TheTreesNodesCoverTheirPieces) {
   for (int i = 0; i < 100; ++i) {
-    const Boundary boundary = make_boundary(random_floe(random_), 1);
+    const Boundary boundary = make_boundary(random_floe(random_), {1, i % 2 == 0});
     for (std::size_t n = 0; n < boundary.tree.size(); ++n) {
-      const CircleNode& node = boundary.tree[n];
+      const CoverNode& node = boundary.tree[n];
       for (std::uint32_t c = node.first; c < node.first + node.count; ++c) {
-        ASSERT_LE(distance(node.centre, boundary.circles[c].centre) + boundary.circles[c].reach, node.reach);
+        ASSERT_LE(distance(node.centre, boundary.covers[c].centre) + boundary.covers[c].reach, node.reach);
       }
       if (node.right == 0) continue;
       ASSERT_EQ(boundary.tree[n + 1].count + boundary.tree[node.right].count, node.count);
       ASSERT_EQ(boundary.tree[n + 1].first, node.first);
       ASSERT_EQ(boundary.tree[node.right].first, node.first + boundary.tree[n + 1].count);
     }
-    ASSERT_EQ(boundary.tree.front().count, boundary.circles.size());
+    ASSERT_EQ(boundary.tree.front().count, boundary.covers.size());
   }
 }
 
@@ -138,16 +144,16 @@ TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
   std::size_t crossings = 0;
   for (int i = 0; i < 3000; ++i) {
     const double radius = random_.between(0.3, 2);
-    const Boundary a = make_boundary(random_floe(random_), radius);
-    const Boundary b = make_boundary(random_floe(random_), radius);
+    const Boundary a = make_boundary(random_floe(random_), {radius, i % 3 == 0});
+    const Boundary b = make_boundary(random_floe(random_), {radius, i % 3 == 0});
     const double away = random_.between(0, 40);
     const double towards = random_.angle();
     const Pose a_from_b{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
     const double margin = i % 2 == 0 ? 0 : random_.between(0, 1);
-    std::vector<NearPair> circle_pairs;
+    std::vector<NearPair> cover_pairs;
     std::vector<NearPair> edge_pairs;
-    const double bound = near_circles(a, b, a_from_b, margin, circle_pairs);
-    edges_of(a, b, circle_pairs, edge_pairs);
+    const double bound = near_covers(a, b, a_from_b, margin, cover_pairs);
+    edges_of(a, b, cover_pairs, edge_pairs);
     ASSERT_TRUE(std::is_sorted(edge_pairs.begin(), edge_pairs.end()));
     ASSERT_TRUE(std::adjacent_find(edge_pairs.begin(), edge_pairs.end()) == edge_pairs.end());
     const std::set<NearPair> found(edge_pairs.begin(), edge_pairs.end());

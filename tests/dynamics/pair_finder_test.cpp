@@ -40,7 +40,7 @@ std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule)
       std::vector<geometry::NearPair> circles;
       std::vector<geometry::NearPair> edges;
       std::vector<geometry::ContactPatch> patches;
-      near_circles(*bodies.boundary[a], *bodies.boundary[b], a_from_b, 0, circles);
+      near_covers(*bodies.boundary[a], *bodies.boundary[b], a_from_b, 0, circles);
       if (rule.is_circle_centres) {
         find_circle_patches(*bodies.boundary[a], *bodies.boundary[b], a_from_b, circles, patches);
       } else {

@@ -20,11 +20,11 @@ struct Found {
 };
 
 Found patches_of(const Polygon& a, const Polygon& b, const Pose& a_from_b, double radius = 1) {
-  const Boundary boundary_a = make_boundary(a, radius);
-  const Boundary boundary_b = make_boundary(b, radius);
+  const Boundary boundary_a = make_boundary(a, {radius});
+  const Boundary boundary_b = make_boundary(b, {radius});
   std::vector<NearPair> circles;
   std::vector<NearPair> edges;
-  near_circles(boundary_a, boundary_b, a_from_b, 0, circles);
+  near_covers(boundary_a, boundary_b, a_from_b, 0, circles);
   edges_of(boundary_a, boundary_b, circles, edges);
   PatchScratch scratch;
   Found found;
@@ -247,12 +247,12 @@ TEST_F(RandomPatches, TheCircleRadiusDoesNotMatterToThem) {
 
 TEST(CirclePatch, StandsOnTheLineOfCentresHalfWayIntoTheLens) {
   // Two squares face to face: circles of 1 m, whose centres are 1 m inside the faces.
-  const Boundary a = make_boundary(rectangle(10, 2, {-5, 0}), 1);
-  const Boundary b = make_boundary(rectangle(10, 2), 1);
+  const Boundary a = make_boundary(rectangle(10, 2, {-5, 0}), {1, true});
+  const Boundary b = make_boundary(rectangle(10, 2), {1, true});
   const double depth = 0.3;
   const Pose pose{{5 - depth, 0}, {}};
   std::vector<NearPair> circles;
-  near_circles(a, b, pose, 0.5, circles);
+  near_covers(a, b, pose, 0.5, circles);
   std::vector<ContactPatch> patches;
   find_circle_patches(a, b, pose, circles, patches);
   ASSERT_FALSE(patches.empty());

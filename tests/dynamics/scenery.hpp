@@ -67,7 +67,8 @@ inline dynamics::NewBody floe_body(const geometry::Polygon& polygon, geometry::P
   body.moment = kDensity * kThickness * measures.second_moment;
   body.centroid = measures.centroid;
   body.thickness = kThickness;
-  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_boundary(polygon, circle_radius));
+  body.boundary =
+      std::make_shared<geometry::Boundary>(geometry::make_boundary(polygon, {circle_radius, true}));
   body.drag = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(polygon, measures.centroid));
   return body;
 }
