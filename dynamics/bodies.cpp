@@ -4,6 +4,10 @@
 #include <cassert>
 #include <cmath>
 
+#include <boost/container/small_vector.hpp>
+
+#include "dynamics/chunks.hpp"
+
 namespace polynya::dynamics {
 
 BodyIndex add_body(Bodies& bodies, const NewBody& body) {
@@ -57,19 +61,28 @@ void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn)
   bodies.rotation[i] = turned(bodies.rotation[i], turn);
 }
 
-double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt) {
-  double fastest = 0;
-  for (const BodyIndex i : awake) {
-    const double omega = bodies.angular_velocity[i];
-    const double rim = length(bodies.velocity[i]) + std::abs(omega) * bodies.bounding_radius[i];
-    bodies.rim_speed[i] = rim;
-    if (rim > fastest || rim != rim) fastest = rim;  // nothing is greater than what is not a number
-    bodies.position[i] += dt * bodies.velocity[i];
-    bodies.travel[i] += dt * rim;
-    bodies.angle[i] += dt * omega;
-    bodies.rotation[i] = turned(bodies.rotation[i], dt * omega);
+double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt, int threads) {
+  boost::container::small_vector<double, 16> fastest(chunk_count(awake.size(), kBodiesPerChunk));
+  const auto is_faster = [](double rim, double than) { return rim > than || rim != rim; };
+  for_chunks(awake.size(), kBodiesPerChunk, threads,
+             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const BodyIndex i = awake[k];
+                 const double omega = bodies.angular_velocity[i];
+                 const double rim = length(bodies.velocity[i]) + std::abs(omega) * bodies.bounding_radius[i];
+                 bodies.rim_speed[i] = rim;
+                 if (is_faster(rim, fastest[chunk])) fastest[chunk] = rim;
+                 bodies.position[i] += dt * bodies.velocity[i];
+                 bodies.travel[i] += dt * rim;
+                 bodies.angle[i] += dt * omega;
+                 bodies.rotation[i] = turned(bodies.rotation[i], dt * omega);
+               }
+             });
+  double most = 0;
+  for (const double rim : fastest) {
+    if (is_faster(rim, most)) most = rim;
   }
-  return fastest;
+  return most;
 }
 
 }  // namespace polynya::dynamics

@@ -15,9 +15,9 @@ using BodyIndex = std::int32_t;
 /// How water holds a body back, by its shape alone. Made once per shape (water_drag.hpp).
 struct DragShape {
   static constexpr int kDirections = 128;
-  std::array<double, kDirections + 1>
-      width{};            ///< across the directions of drag_direction(k) [m]; last = first
   double rotational = 0;  ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
+  std::array<double, kDirections + 1>
+      width{};  ///< across the directions of drag_direction(k) [m]; last = first
 };
 
 /// The rigid bodies of a world, ships and floes alike, as columns. Positions and velocities are in the water
@@ -97,6 +97,9 @@ void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn)
 
 /// Moves every awake body with its velocity over dt [s]. Returns the greatest rim speed, not a number where
 /// one is not [m/s].
-double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt);
+double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt, int threads = 1);
+
+/// Bodies that one thread takes at a time: fewer are not worth another thread.
+inline constexpr std::size_t kBodiesPerChunk = 1024;
 
 }  // namespace polynya::dynamics

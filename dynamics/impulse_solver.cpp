@@ -1,7 +1,10 @@
 #include "dynamics/impulse_solver.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "dynamics/chunks.hpp"
 
 namespace polynya::dynamics {
 namespace {
@@ -15,6 +18,9 @@ constexpr double kFrictionSlack = 2;
 /// How much of an unconverged step's impulses the next one starts from: a wrong guess must die out, not build
 /// up.
 constexpr double kTrustUnconverged = 0.5;
+
+/// Contacts that one thread takes at a time: fewer are not worth another thread.
+constexpr std::size_t kContactsPerChunk = 256;
 
 /// Two ends whose impulses move the contact line almost alike are solved one after the other.
 constexpr double kAlike = 1e-9;
@@ -54,21 +60,31 @@ ImpulseSolver::Row ImpulseSolver::row_of(const Bodies& bodies, const Contact& c,
   return row;
 }
 
-void ImpulseSolver::fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, double restitution) {
+void ImpulseSolver::fill_rows(const Bodies& bodies, std::vector<Contact>& contacts,
+                              const SolverSettings& settings) {
   movers_.clear();
   for (const BodyIndex body : islands_.bodies_touched()) {
     movers_.push_back({bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
                        bodies.inverse_moment[body]});
   }
-  rows_.clear();
-  for (const std::uint32_t i : islands_.order()) {
-    rows_.push_back(row_of(bodies, contacts[i], i));
-    if (ContactRecord* record = contacts[i].record; record != nullptr) {
-      record->most_to_give =
-          std::max(record->most_to_give, kFrictionSlack * restitution * isolated_impulse(rows_.back()));
-    }
-  }
-  for (std::size_t k = 0; k < rows_.size(); ++k) {  // only now: the isolated impulses want the bare approach
+  rows_.resize(contacts.size());
+  ways_.resize(contacts.size());
+  for_chunks(rows_.size(), kContactsPerChunk, settings.threads,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const std::uint32_t i = islands_.order()[k];
+                 rows_[k] = row_of(bodies, contacts[i], i);
+                 ContactRecord* record = contacts[i].record;
+                 if (record == nullptr) continue;
+                 record->most_to_give = std::max(record->most_to_give, kFrictionSlack * settings.restitution *
+                                                                           isolated_impulse(rows_[k]));
+               }
+             });
+}
+
+/// Starts an island from the impulses that its last steps foretell.
+void ImpulseSolver::start(const Island& island, const std::vector<Contact>& contacts) {
+  for (std::uint32_t k = island.first; k < island.first + island.count; ++k) {
     const ContactRecord* record = contacts[islands_.order()[k]].record;
     if (record == nullptr || (record->start_impulse[0] == 0 && record->start_impulse[1] == 0)) continue;
     Row& row = rows_[k];
@@ -192,14 +208,13 @@ void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
   }
 }
 
-bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings, SolverResult& result) {
+bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) {
   constexpr int kPlainSweeps = 4;  // most islands need no more
   Momentum momentum;
   for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
     double largest_change = 0;
     const bool is_plain = sweep < kPlainSweeps;
     if (!is_plain) {
-      ways_.resize(rows_.size());
       for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
         const Row& row = rows_[i];
         ways_[i].before[0] = row.normal_impulse[0];
@@ -212,7 +227,6 @@ bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings, 
     if (largest_change <= settings.tolerance) return true;
     if (!is_plain && sweep + 1 < settings.most_sweeps) go_on(island, momentum);
   }
-  ++result.unconverged;
   return false;
 }
 
@@ -273,15 +287,23 @@ void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
 
 SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts,
                                   const SolverSettings& settings) {
-  SolverResult result;
   islands_.find(bodies, contacts);
-  fill_rows(bodies, contacts, settings.restitution);
-  for (const Island& island : islands_.islands()) {
-    const bool is_converged = sweep(island, settings, result);
-    if (give_back(island, contacts, settings.restitution, is_converged)) sweep(island, settings, result);
-  }
+  fill_rows(bodies, contacts, settings);
+  std::atomic<int> unconverged = 0;
+  const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
+  for_chunks(islands_.islands().size(), 4, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Island& island = islands_.islands()[k];
+      start(island, contacts);
+      const bool is_converged = sweep(island, settings);
+      bool is_settled = true;
+      if (give_back(island, contacts, settings.restitution, is_converged))
+        is_settled = sweep(island, settings);
+      if (!is_converged || !is_settled) ++unconverged;
+    }
+  });
   write_back(bodies, contacts);
-  return result;
+  return {unconverged};
 }
 
 }  // namespace polynya::dynamics

@@ -10,6 +10,7 @@ namespace polynya::dynamics {
 struct SolverSettings {
   double restitution = 0.1;  ///< ε of Eq. (5) [-]
   int most_sweeps = 30;      ///< over all contacts of a step
+  int threads = 1;           ///< for islands side by side
   double tolerance = 1e-7;   ///< stop when no impulse changes the velocity at its contact by more [m/s]
 };
 
@@ -67,12 +68,13 @@ class ImpulseSolver {
   };
 
   Row row_of(const Bodies& bodies, const Contact& contact, std::uint32_t index) const;
-  void fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, double restitution);
+  void fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
+  void start(const Island& island, const std::vector<Contact>& contacts);
   void push(const Row& row, double impulse_0, double impulse_1, double slip_impulse);
   double visit(Row& row);
   double isolated_impulse(const Row& row) const;
   void go_on(const Island& island, Momentum& momentum);
-  bool sweep(const Island& island, const SolverSettings& settings, SolverResult& result);
+  bool sweep(const Island& island, const SolverSettings& settings);
   bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution, bool is_converged);
   void write_back(Bodies& bodies, std::vector<Contact>& contacts);
 

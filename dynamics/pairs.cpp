@@ -1,7 +1,8 @@
 #include "dynamics/pairs.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "dynamics/chunks.hpp"
 
 namespace polynya::dynamics {
 namespace {
@@ -9,12 +10,8 @@ namespace {
 using geometry::Box;
 using geometry::Point;
 using geometry::Pose;
-using geometry::Rotation;
-using geometry::Vector;
 
 constexpr double kBoxMargin = 2.0;  ///< boxes are grown by this much, and renewed after that much travel [m]
-constexpr double kRounding = 1e-9;  ///< of positions and distances, far more than it can be [m]
-constexpr double kNearMargin = 0.75;  ///< pieces of boundary within this distance are kept with a pair [m]
 
 Box box_in_water(const Bodies& bodies, BodyIndex i) {
   const Pose pose = water_from_body(bodies, i);
@@ -28,75 +25,6 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
     box.high = {std::max(box.high.x, q.x), std::max(box.high.y, q.y)};
   }
   return box;
-}
-
-/// The records of a pair's contacts, brought up to date. A record goes on with the nearest contact that may
-/// be the same; one without a contact is over.
-class RecordKeeper {
- public:
-  RecordKeeper(std::vector<ContactRecord>& records, std::vector<ContactRecord>& scratch, double circle_radius,
-               double dt)
-      : records_(records), renewed_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
-
-  void renew(Contact* contacts, std::size_t count, const Bodies& bodies) {
-    if (count == 1 && records_.size() == 1) {  // nearly always, and then in place
-      const Point here = point_in_b(bodies, contacts[0], contacts[0].middle());
-      const double reach = tolerance_ + 0.5 * contacts[0].width;
-      if (squared_length(here - records_[0].last_point_in_b) > reach * reach)
-        records_[0] = new_record(bodies, contacts[0]);
-      bring_up_to_date(records_[0], contacts[0], here);
-    } else {
-      renewed_.clear();
-      for (std::size_t i = 0; i < count; ++i) renewed_.push_back(record_of(contacts[i], bodies));
-      std::swap(records_, renewed_);
-    }
-    for (std::size_t i = 0; i < count; ++i) contacts[i].record = &records_[i];
-  }
-
- private:
-  static Point point_in_b(const Bodies& bodies, const Contact& c, Point point_in_water) {
-    return bodies.centroid[c.b] + rotate_back(bodies.rotation[c.b], point_in_water - bodies.position[c.b]);
-  }
-  static ContactRecord new_record(const Bodies& bodies, const Contact& c) {
-    ContactRecord record;
-    record.first_touch_in_b = point_in_b(bodies, c, c.tip_of_b);
-    return record;
-  }
-  ContactRecord record_of(const Contact& c, const Bodies& bodies) {
-    const Point here = point_in_b(bodies, c, c.middle());
-    ContactRecord* old = nullptr;
-    double nearest = tolerance_ + 0.5 * c.width;
-    for (ContactRecord& record : records_) {
-      const double d = distance(record.last_point_in_b, here);
-      if (record.is_continued || d > nearest) continue;
-      nearest = d;
-      old = &record;
-    }
-    ContactRecord record = old != nullptr ? *old : new_record(bodies, c);
-    if (old != nullptr) old->is_continued = true;
-    bring_up_to_date(record, c, here);
-    return record;
-  }
-  void bring_up_to_date(ContactRecord& record, const Contact& c, Point here) const {
-    record.last_point_in_b = here;
-    record.age += dt_;
-    record.approach += std::max(0.0, c.approach_speed) * dt_;
-    record.crushed_depth = std::min(record.crushed_depth, c.depth);
-  }
-
-  std::vector<ContactRecord>& records_;
-  std::vector<ContactRecord>& renewed_;
-  double tolerance_;  // between a contact's places in two steps, beside half its width [m]
-  double dt_;
-};
-
-/// What is left of the way that `known` holds for, b being at `place` [m].
-double way_left(const Bodies& bodies, BodyIndex b, const Pose& place, const KnownNear& known) {
-  if (known.way < 0) return known.way;
-  const Rotation was = known.a_from_b.rotation;
-  const Vector turn{place.rotation.cosine - was.cosine, place.rotation.sine - was.sine};  // as a chord
-  return known.way - distance(place.position, known.a_from_b.position) -
-         length(turn) * bodies.bounding_radius[b];
 }
 
 }  // namespace
@@ -176,7 +104,7 @@ void PairFinder::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
   pair.records.clear();
   entries_[a].pairs.push_back(slot);
   entries_[b].pairs.push_back(slot);
-  new_pairs_.push_back({a, b, -1, slot});
+  new_.push_back({a, b, -1, slot});
 }
 
 void PairFinder::drop_pair(std::uint32_t slot) {
@@ -186,29 +114,39 @@ void PairFinder::drop_pair(std::uint32_t slot) {
     own.erase(std::find(own.begin(), own.end(), slot));
   }
   pair.is_dropped = true;
-  has_dropped_ = true;
+  ++dropped_;
 }
 
-/// Brings the list of active pairs up to date, in order.
-void PairFinder::tidy() {
-  const auto settle = [&](std::vector<ActivePair>& list) {
-    std::erase_if(list, [&](const ActivePair& active) {
-      if (!pairs_[active.slot].is_dropped) return false;
-      free_pairs_.push_back(active.slot);
-      return true;
-    });
+/// Takes the dropped pairs out of a list.
+void PairFinder::settle(std::vector<ActivePair>& list) {
+  std::erase_if(list, [&](const ActivePair& active) {
+    if (!pairs_[active.slot].is_dropped) return false;
+    free_pairs_.push_back(active.slot);
+    return true;
+  });
+}
+
+/// Brings the lists of pairs up to date, in order. The long one is touched only when enough has come
+/// together.
+void PairFinder::merge_new() {
+  const auto merge = [](std::vector<ActivePair>& list, const std::vector<ActivePair>& more) {
+    const auto middle = static_cast<std::ptrdiff_t>(list.size());
+    list.insert(list.end(), more.begin(), more.end());
+    std::inplace_merge(list.begin(), list.begin() + middle, list.end());
   };
-  if (has_dropped_) {
+  std::sort(new_.begin(), new_.end());
+  merge(young_, new_);
+  new_.clear();
+  const std::size_t many = 16 + active_.size() / 8;
+  if (dropped_ > many) {
     settle(active_);
-    settle(new_pairs_);
-    has_dropped_ = false;
+    settle(young_);
+    dropped_ = 0;
   }
-  if (new_pairs_.empty()) return;
-  std::sort(new_pairs_.begin(), new_pairs_.end());
-  const auto middle = static_cast<std::ptrdiff_t>(active_.size());
-  active_.insert(active_.end(), new_pairs_.begin(), new_pairs_.end());
-  std::inplace_merge(active_.begin(), active_.begin() + middle, active_.end());
-  new_pairs_.clear();
+  if (young_.size() > many) {
+    merge(active_, young_);
+    young_.clear();
+  }
 }
 
 void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
@@ -221,98 +159,60 @@ void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
     }
     connect(bodies, body);
   }
-  tidy();
+  if (!new_.empty() || dropped_ > 0) merge_new();
 }
 
-void PairFinder::refresh(const Bodies& bodies, Pair& pair, const Pose& place) {
-  const geometry::Boundary& a = *bodies.boundary[pair.a];
-  const geometry::Boundary& b = *bodies.boundary[pair.b];
-  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
-  pair.covers.clear();
-  pair.edges.clear();
-  const double apart = near_covers(a, b, a_from_b, kNearMargin, pair.covers);
-  if (!pair.covers.empty()) edges_of(a, b, pair.covers, pair.edges);
-  pair.known = {place, (pair.covers.empty() ? apart : kNearMargin) * (1 - 1e-9)};
-}
-
-/// Finds the contacts of a pair. Returns how far the two can move from here without touching [m].
-double PairFinder::examine(const Bodies& bodies, Pair& pair, const Pose& place,
-                           std::vector<Contact>& contacts, double dt) {
-  const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
-  if (travelled > pair.known_until) {
-    if (way_left(bodies, pair.b, place, pair.known) < kRounding) refresh(bodies, pair, place);
-    pair.known_until = travelled + way_left(bodies, pair.b, place, pair.known) - kRounding;
-  }
-  if (pair.covers.empty()) {
-    pair.records.clear();
-    pair.quiet = pair.known;
-    return way_left(bodies, pair.b, place, pair.quiet);
-  }
-  const std::size_t first = contacts.size();
-  const bool is_apart = collect(bodies, pair, place, contacts);
-  if (!is_apart) {
-    RecordKeeper(pair.records, records_, rule_.circle_radius, dt)
-        .renew(contacts.data() + first, contacts.size() - first, bodies);
-    pair.quiet.way = -1;
-    return -1;
-  }
-  // Circles lie inside the ice: no two can overlap while the boundaries are apart.
-  const double free_way = least_distance(*bodies.boundary[pair.a], *bodies.boundary[pair.b],
-                                         a_from_b(bodies, pair.a, pair.b, place), pair.edges);
-  pair.records.clear();
-  pair.quiet = {place, std::min(free_way, way_left(bodies, pair.b, place, pair.known)) - kRounding};
-  return pair.quiet.way;
-}
-
-/// Finds the contacts of a pair among the edges known to be near. Returns whether the two are apart.
-bool PairFinder::collect(const Bodies& bodies, const Pair& pair, const Pose& place,
-                         std::vector<Contact>& contacts) {
-  const geometry::Boundary& a = *bodies.boundary[pair.a];
-  const geometry::Boundary& b = *bodies.boundary[pair.b];
-  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
-  patches_.clear();
-  int unpaired = 0;
-  if (rule_.is_circle_centres) {
-    find_circle_patches(a, b, a_from_b, pair.covers, patches_);
-  } else {
-    unpaired = find_patches(a, b, a_from_b, pair.edges, scratch_, patches_);
-  }
-  unpaired_ += unpaired;
-  if (patches_.empty()) return unpaired == 0;
-  const Pose water_from_a = water_from_body(bodies, pair.a);
-  std::uint32_t number = 0;
-  for (const geometry::ContactPatch& patch : patches_) {
-    Contact& c = contacts.emplace_back();
-    c.a = pair.a;
-    c.b = pair.b;
-    for (int end = 0; end < 2; ++end) c.ends[end] = point_in_world(water_from_a, patch.ends[end]);
-    c.tip_of_b = point_in_world(water_from_a, patch.tip_of_b);
-    c.normal = rotate(water_from_a.rotation, patch.normal);
-    c.width = patch.width;
-    c.depth = patch.depth;
-    c.area = patch.area;
-    c.tip_edge_of_b = patch.tip_edge_of_b;
-    c.place = number++;
-    const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -
-                            velocity_at(bodies, c.a, c.middle() - bodies.position[c.a]);
-    c.approach_speed = -dot(relative, c.normal);
-    c.slip_speed = dot(relative, perpendicular(c.normal));
-  }
-  return false;
-}
-
-void PairFinder::find_contacts(Bodies& bodies, double dt, std::vector<Contact>& contacts) {
-  contacts.clear();
-  tidy();
+/// The pairs that may have come to touch since they were last looked at, by (a, b).
+void PairFinder::find_due(const Bodies& bodies) {
+  due_.clear();
+  const auto consider = [&](ActivePair& active) {
+    if (bodies.travel[active.a] + bodies.travel[active.b] > active.quiet_until &&
+        !pairs_[active.slot].is_dropped) {
+      due_.push_back(&active);
+    }
+  };
+  auto young = young_.begin();
   for (ActivePair& active : active_) {
-    const double travelled = bodies.travel[active.a] + bodies.travel[active.b];
-    if (travelled <= active.quiet_until) continue;
-    Pair& pair = pairs_[active.slot];
-    const Pose place = centre_a_from_b(bodies, active.a, active.b);
-    double way = way_left(bodies, active.b, place, pair.quiet);
-    if (way < kRounding) way = examine(bodies, pair, place, contacts, dt);
-    active.quiet_until = travelled + std::max(0.0, way - kRounding);
+    while (young != young_.end() && *young < active) consider(*young++);
+    consider(active);
   }
+  while (young != young_.end()) consider(*young++);
+}
+
+void PairFinder::examine(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
+                         std::vector<Contact>& contacts) {
+  Pair& pair = pairs_[active.slot];
+  const Pose place = centre_a_from_b(bodies, active.a, active.b);
+  double way = way_left(bodies, active.b, place, pair.quiet);
+  if (way < kRounding) way = examine_pair(bodies, pair, place, rule_, dt, scratch, contacts);
+  const double travelled = bodies.travel[active.a] + bodies.travel[active.b];
+  active.quiet_until = travelled + std::max(0.0, way - kRounding);
+}
+
+void PairFinder::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
+  constexpr std::size_t kPairsPerShare = 256;  // fewer are not worth another thread
+  contacts.clear();
+  if (!new_.empty() || dropped_ > 0) merge_new();
+  find_due(bodies);
+  if (shares_.size() < chunk_count(due_.size(), kPairsPerShare))
+    shares_.resize(chunk_count(due_.size(), kPairsPerShare));
+  if (due_.size() <= kPairsPerShare) {
+    for (ActivePair* active : due_) examine(bodies, *active, dt, shares_.front().scratch, contacts);
+    return;
+  }
+  for_chunks(due_.size(), kPairsPerShare, threads, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    Share& share = shares_[k];
+    share.contacts.clear();
+    for (std::size_t i = begin; i < end; ++i) examine(bodies, *due_[i], dt, share.scratch, share.contacts);
+  });
+  for (std::size_t k = 0; k < chunk_count(due_.size(), kPairsPerShare); ++k)
+    contacts.insert(contacts.end(), shares_[k].contacts.begin(), shares_[k].contacts.end());
+}
+
+std::int64_t PairFinder::unpaired_stretches() const {
+  std::int64_t unpaired = 0;
+  for (const Share& share : shares_) unpaired += share.scratch.unpaired;
+  return unpaired;
 }
 
 }  // namespace polynya::dynamics

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+
+#include <boost/container/small_vector.hpp>
+
+#include "dynamics/chunks.hpp"
 
 namespace polynya::dynamics {
 
@@ -45,34 +50,50 @@ double width_across(const DragShape& shape, Vector direction_in_body) {
   return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
 }
 
-double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, double drag_coefficient,
-                        double water_density, double dt, const ShearCurrent& current) {
-  const double half_rate = 0.5 * drag_coefficient * water_density * dt;
-  double work = 0;
-  for (const BodyIndex i : awake) {
-    const DragShape* shape = bodies.drag[i].get();
-    if (shape == nullptr) continue;
-    const Vector flow = current.is_still() ? Vector{} : current.velocity_at(bodies.position[i]);
-    const Vector u = bodies.velocity[i] - flow;
-    const double speed = length(u);
-    if (speed > 0) {
-      const double width = width_across(*shape, rotate_back(bodies.rotation[i], u));
-      const double shrink =
-          1 / (1 + half_rate * bodies.thickness[i] * width * bodies.inverse_mass[i] * speed);
-      bodies.velocity[i] = flow + shrink * u;
-      work += 0.5 * bodies.mass[i] * speed * speed * (1 - shrink * shrink);
-    }
-    const double turning = current.is_still() ? 0 : current.angular_velocity();
-    const double omega = bodies.angular_velocity[i] - turning;
-    if (omega != 0) {
-      const double resistance =
-          half_rate * bodies.thickness[i] * shape->rotational * bodies.inverse_moment[i];
-      const double shrink = 1 / (1 + resistance * std::abs(omega));
-      bodies.angular_velocity[i] = turning + shrink * omega;
-      work += 0.5 * bodies.moment[i] * omega * omega * (1 - shrink * shrink);
-    }
+namespace {
+
+/// Brakes one body over the step; half_rate is ½ C_D ρ_w Δt. Returns the energy it lost, relative to the
+/// water [J].
+double brake(Bodies& bodies, BodyIndex i, const DragShape& shape, double half_rate,
+             const ShearCurrent& current) {
+  const bool is_still = current.is_still();
+  const double rate = half_rate * bodies.thickness[i];
+  const Vector flow = is_still ? Vector{} : current.velocity_at(bodies.position[i]);
+  const Vector u = bodies.velocity[i] - flow;
+  const double speed = length(u);
+  double lost = 0;
+  if (speed > 0) {
+    const double width = width_across(shape, rotate_back(bodies.rotation[i], u));
+    const double shrink = 1 / (1 + rate * width * bodies.inverse_mass[i] * speed);
+    bodies.velocity[i] = flow + shrink * u;
+    lost += 0.5 * bodies.mass[i] * speed * speed * (1 - shrink * shrink);
   }
-  return work;
+  const double turning = is_still ? 0 : current.angular_velocity();
+  const double omega = bodies.angular_velocity[i] - turning;
+  if (omega != 0) {
+    const double shrink = 1 / (1 + rate * shape.rotational * bodies.inverse_moment[i] * std::abs(omega));
+    bodies.angular_velocity[i] = turning + shrink * omega;
+    lost += 0.5 * bodies.moment[i] * omega * omega * (1 - shrink * shrink);
+  }
+  return lost;
+}
+
+}  // namespace
+
+double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
+                        double dt, int threads) {
+  const double half_rate = 0.5 * water.drag_coefficient * water.density * dt;
+  boost::container::small_vector<double, 16> work(chunk_count(awake.size(), kBodiesPerChunk));
+  for_chunks(awake.size(), kBodiesPerChunk, threads,
+             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+               double lost = 0;
+               for (std::size_t k = begin; k < end; ++k) {
+                 const DragShape* shape = bodies.drag[awake[k]].get();
+                 if (shape != nullptr) lost += brake(bodies, awake[k], *shape, half_rate, water.current);
+               }
+               work[chunk] = lost;
+             });
+  return std::accumulate(work.begin(), work.end(), 0.0);
 }
 
 }  // namespace polynya::dynamics

@@ -34,6 +34,12 @@ struct ShearCurrent {
   }  ///< of the water itself, half its vorticity [rad/s]
 };
 
+struct WaterDrag {
+  double drag_coefficient = 0.5;  ///< C_D [-]
+  double density = 1000;          ///< ρ_w [kg/m³]
+  ShearCurrent current;
+};
+
 /// Lets the water brake every awake body over dt. Eq. (6) of [Sawamura2017]:
 ///   F = −½ C_D ρ_w A |u| u,   A = h × width across u,
 /// with u relative to the water at the centre of mass, and the same law for the rotation, ω relative to half
@@ -43,7 +49,7 @@ struct ShearCurrent {
 /// floe's own velocity for u; a drifting floe would be braked by its own current. Solved exactly over the
 /// step for constant A, v⁺ = v / (1 + c |v| dt): no step is too long for it. Returns the energy lost, of the
 /// motion relative to the water [J].
-double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, double drag_coefficient,
-                        double water_density, double dt, const ShearCurrent& current = {});
+double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
+                        double dt, int threads = 1);
 
 }  // namespace polynya::dynamics

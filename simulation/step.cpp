@@ -33,13 +33,14 @@ void find_pairs(World& world) {
 }
 
 void find_contacts(World& world) {
-  world.pairs.find_contacts(world.bodies, world.scene.time.step, world.contacts);
+  world.pairs.find_contacts(world.bodies, world.scene.time.step, world.contacts, world.threads);
   world.counts.peak_contacts =
       std::max(world.counts.peak_contacts, static_cast<std::int64_t>(world.contacts.size()));
 }
 
 void solve_impulses(World& world) {
   if (world.contacts.empty()) return;
+  world.solver_settings.threads = world.threads;
   const dynamics::SolverResult result =
       world.solver.solve(world.bodies, world.contacts, world.solver_settings);
   if (!result.is_converged()) ++world.counts.unconverged_steps;
@@ -53,8 +54,9 @@ void solve_impulses(World& world) {
 
 void apply_forces(World& world) {
   const double dt = world.scene.time.step;
-  apply_water_drag(world.bodies, world.awake, world.scene.water.drag_coefficient,
-                   world.scene.water.water.density, dt, world.current);
+  const WaterSettings& water = world.scene.water;
+  apply_water_drag(world.bodies, world.awake, {water.drag_coefficient, water.water.density, world.current},
+                   dt, world.threads);
   for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
     if (const auto* thrust = std::get_if<ConstantThrust>(&world.scene.ships[ship].propulsion)) {
       world.bodies.velocity[ship] +=
@@ -66,7 +68,7 @@ void apply_forces(World& world) {
 void integrate_motion(World& world) {
   const double dt = world.scene.time.step;
   separate(world.bodies, world.contacts, world.separation_settings, dt);
-  const double fastest = integrate(world.bodies, world.awake, dt);
+  const double fastest = integrate(world.bodies, world.awake, dt, world.threads);
   if (fastest < kRunawaySpeed || world.failure) return;
   const auto runaway = std::find_if(world.awake.begin(), world.awake.end(), [&](BodyIndex i) {
     return !(world.bodies.rim_speed[i] < kRunawaySpeed);

@@ -59,6 +59,7 @@ struct World {
   explicit World(Scene scene_of_run);
 
   Scene scene;
+  int threads = 1;  ///< to step with; results do not depend on it
   std::unique_ptr<fracture::BendingModel> bending;
   double breakable_size = 0;       ///< κ l [m]
   dynamics::ShearCurrent current;  ///< in the water frame

@@ -36,7 +36,7 @@ geometry::Polygon regular(int corners, double radius) {
 TEST(WaterDrag, AFloeThatMovesWithTheWaterFeelsNothing) {
   // Velocities are relative to the water, so a drifting floe has none: nothing changes, to the last bit.
   Bodies bodies = one_floe(rectangle(10, 6), 0.7);
-  EXPECT_EQ(apply_water_drag(bodies, {0}, kDrag, kWater, 100), 0);
+  EXPECT_EQ(apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 100), 0);
   EXPECT_EQ(bodies.velocity[0], Vector{});
   EXPECT_EQ(bodies.angular_velocity[0], 0);
 }
@@ -49,7 +49,7 @@ TEST(WaterDrag, AFreeFloeSlowsAsTheClosedForm) {
     const double k = kDrag * kWater * kThickness * 6 / (2 * bodies.mass[0]);
     double time = 0;
     for (int step = 0; step < 2000; ++step) {
-      apply_water_drag(bodies, {0}, kDrag, kWater, dt);
+      apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, dt);
       time += dt;
     }
     EXPECT_NEAR(bodies.velocity[0].x * (1 + k * 1.5 * time) / 1.5, 1, 1e-11) << dt;
@@ -71,7 +71,7 @@ TEST(WaterDrag, AFreeSpinSlowsAsTheClosedForm) {
     Bodies bodies = one_floe(regular(64, 9));
     bodies.angular_velocity[0] = omega;
     const double k = kDrag * kWater * kThickness * bodies.drag[0]->rotational / (2 * bodies.moment[0]);
-    for (int step = 0; step < 3000; ++step) apply_water_drag(bodies, {0}, kDrag, kWater, 0.02);
+    for (int step = 0; step < 3000; ++step) apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 0.02);
     EXPECT_NEAR(bodies.angular_velocity[0] * (1 + k * 0.3 * 60) / omega, 1, 1e-11);
     EXPECT_EQ(bodies.velocity[0], Vector{});
   }
@@ -85,8 +85,8 @@ TEST(WaterDrag, ActsAgainstTheVelocityAndTakesTheEnergyItReports) {
     bodies.angular_velocity[0] = random.between(-1, 1);
     const Vector v = bodies.velocity[0];
     const double before = kinetic_energy(bodies);
-    const double work =
-        apply_water_drag(bodies, {0}, random.between(0, 2), kWater, std::pow(10.0, random.between(-4, 4)));
+    const double work = apply_water_drag(bodies, {0}, {random.between(0, 2), kWater, {}},
+                                         std::pow(10.0, random.between(-4, 4)));
     const double after = kinetic_energy(bodies);
     ASSERT_LE(after, before);
     ASSERT_NEAR((before - after) / before, work / before, 1e-12);
@@ -129,7 +129,8 @@ TEST(WaterDrag, ATurnedFloeWithATurnedVelocityFeelsTheSameDragTurned) {
     Bodies drawn = one_floe(corners);
     straight.velocity[0] = velocity;
     placed.velocity[0] = drawn.velocity[0] = rotate(turn, velocity);
-    for (Bodies* bodies : {&straight, &placed, &drawn}) apply_water_drag(*bodies, {0}, kDrag, kWater, 5);
+    for (Bodies* bodies : {&straight, &placed, &drawn})
+      apply_water_drag(*bodies, {0}, {kDrag, kWater, {}}, 5);
     ASSERT_NEAR(length(rotate_back(turn, placed.velocity[0]) - straight.velocity[0]), 0, 1e-13);
 
     const auto resistance = [](const Bodies& bodies) {
@@ -152,7 +153,7 @@ TEST(WaterDrag, HeldBodiesKeepTheirVelocity) {
   held.velocity = {1, 0};
   held.angular_velocity = 0.1;
   add_body(bodies, held);
-  apply_water_drag(bodies, {0}, kDrag, kWater, 10);
+  apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 10);
   EXPECT_EQ(bodies.velocity[0], (Vector{1, 0}));
   EXPECT_EQ(bodies.angular_velocity[0], 0.1);
 }
