@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include <malloc.h>
+
 #include "io/scene_reader.hpp"
 #include "simulation/world.hpp"
 
@@ -18,8 +20,10 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Linux keeps the process's peak memory, and forgets it when told so.
+/// Linux keeps the process's peak memory, and forgets it when told so. What an earlier run left is given
+/// back.
 void forget_peak_memory() {
+  malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 double peak_memory() {

@@ -138,8 +138,9 @@ void PairFinder::sleep(const Bodies& bodies, BodyIndex body) {
 
 void PairFinder::connect(const Bodies& bodies, BodyIndex body) {
   const Box box = entries_[body].box;
-  grid_.for_each_near(box, [&](BodyIndex other) {
-    if (other == body || !overlaps(box, entries_[other].box)) return;
+  const auto meet = [&](BodyIndex other) {
+    if (other == body) return;
+    if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
     if (bodies.inverse_mass[body] == 0 && bodies.inverse_mass[other] == 0)
       return;  // nothing could come of it
     const auto& smaller = entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs
@@ -150,7 +151,11 @@ void PairFinder::connect(const Bodies& bodies, BodyIndex body) {
       if (pairs_[pair].a == a && pairs_[pair].b == b) return;
     }
     add_pair(bodies, a, b);
-  });
+  };
+  if (rule_.is_culling) return grid_.for_each_near(box, meet);
+  for (BodyIndex other = 0; other < bodies.size(); ++other) {
+    if (entries_[other].is_in) meet(other);
+  }
 }
 
 void PairFinder::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
@@ -212,6 +217,7 @@ void PairFinder::tidy() {
 }
 
 void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
+  if (!rule_.is_culling) return tidy();
   for (const BodyIndex body : awake) {
     if (bodies.travel[body] <= entries_[body].travel_limit) continue;
     place(bodies, body);
@@ -306,8 +312,9 @@ void PairFinder::find_contacts(Bodies& bodies, double dt, std::vector<Contact>& 
   tidy();
   for (ActivePair& active : active_) {
     const double travelled = bodies.travel[active.a] + bodies.travel[active.b];
-    if (travelled <= active.quiet_until) continue;
+    if (rule_.is_culling && travelled <= active.quiet_until) continue;
     Pair& pair = pairs_[active.slot];
+    if (!rule_.is_culling) pair.known.way = pair.quiet.way = pair.known_until = -1;
     const Pose place = centre_a_from_b(bodies, active.a, active.b);
     double way = way_left(bodies, active.b, place, pair.quiet);
     if (way < kRounding) way = examine(bodies, pair, place, contacts, dt);

@@ -32,6 +32,7 @@ struct Pair {
 struct ContactRule {
   double circle_radius = 1.0;      ///< [m]
   bool is_circle_centres = false;  ///< the paper's own normals, instead of those of the boundary
+  bool is_culling = true;  ///< false: all pairs with one awake are looked at anew in every step (tests)
 };
 
 /// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the pieces of
