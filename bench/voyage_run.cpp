@@ -81,6 +81,26 @@ RunCost run_peer(const char* name, const PeerScene& scene, const Limits& limits)
   return cost;
 }
 
+RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
+  RunCost cost;
+  cost.engine = "Polynya";
+  cost.step = simulation.scene().time.step;
+  simulation.journal().clear();
+  run_steps(cost, limits, [&](bool counts_contacts) {
+    StepReport report;
+    const auto before = Clock::now();
+    simulation.step();
+    simulation.journal().clear();
+    report.seconds = seconds_since(before);
+    report.awake = static_cast<int>(simulation.world().awake.size()) - simulation.world().ship_count();
+    report.contacts = counts_contacts ? touching_pairs(simulation.world().contacts) : -1;
+    return report;
+  });
+  cost.bends = static_cast<int>(simulation.counts().bends);
+  cost.splits = static_cast<int>(simulation.counts().splits);
+  return cost;
+}
+
 }  // namespace
 
 double RunCost::total() const {
@@ -121,28 +141,18 @@ simulation::Scene load(const std::string& file, const Edit& edit) {
 }
 
 RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits) {
-  RunCost cost;
-  cost.engine = "Polynya";
   forget_peak_memory();
   const auto start = Clock::now();
   simulation::Simulation simulation(load(file, edit));
-  simulation.journal().clear();
-  cost.load = seconds_since(start);
-  cost.step = simulation.scene().time.step;
-  run_steps(cost, limits, [&](bool counts_contacts) {
-    StepReport report;
-    const auto before = Clock::now();
-    simulation.step();
-    simulation.journal().clear();
-    report.seconds = seconds_since(before);
-    report.awake = static_cast<int>(simulation.world().awake.size()) - simulation.world().ship_count();
-    report.contacts = counts_contacts ? touching_pairs(simulation.world().contacts) : -1;
-    return report;
-  });
+  const double load_time = seconds_since(start);
+  RunCost cost = step_through(simulation, limits);
+  cost.load = load_time;
   cost.memory = peak_memory();
-  cost.bends = static_cast<int>(simulation.counts().bends);
-  cost.splits = static_cast<int>(simulation.counts().splits);
   return cost;
+}
+RunCost run_polynya(const simulation::Scene& scene, const Limits& limits) {
+  simulation::Simulation simulation{simulation::Scene(scene)};
+  return step_through(simulation, limits);
 }
 
 RunCost run_box2d(const PeerScene& scene, const Limits& limits) {

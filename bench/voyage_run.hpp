@@ -39,7 +39,9 @@ struct RunCost {
 using Edit = std::function<void(simulation::Scene&)>;
 simulation::Scene load(const std::string& file, const Edit& edit = {});
 
+/// Loading included, which is timed.
 RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits);
+RunCost run_polynya(const simulation::Scene& scene, const Limits& limits);
 RunCost run_box2d(const PeerScene& scene, const Limits& limits);
 RunCost run_chipmunk(const PeerScene& scene, const Limits& limits);
 
