@@ -14,8 +14,9 @@ out=build/performance
 mkdir -p "$out"
 quick=()
 [ "${1:-}" != --quick ] || quick=(--quick)
-# stderr: Chipmunk says that Debian builds it with its checks on.
-"$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 40 --csv "$out/voyages.csv" 2>"$out/voyages.log" | tee "$out/voyages.md"
+# Chipmunk says on stdout that Debian builds it with its checks on.
+"$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 40 --csv "$out/voyages.csv" 2>"$out/voyages.log" |
+  grep --line-buffered "^|" | tee "$out/voyages.md"
 "$bin/polynya_bench_profile" "${quick[@]}" | tee "$out/profile.md"
 "$bin/polynya_bench_scaling" "${quick[@]}" --csv "$out/scaling.csv" --svg "$out/scaling.svg"
 "$bin/polynya_bench_micro" --benchmark_format=csv >"$out/micro.csv" 2>"$out/micro.log"
