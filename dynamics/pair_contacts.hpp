@@ -31,6 +31,7 @@ struct Pair {
 struct ContactRule {
   double circle_radius = 1.0;      ///< [m]
   bool is_circle_centres = false;  ///< the paper's own normals, instead of those of the boundary
+  bool is_culling = true;  ///< false: all pairs with one awake are looked at anew in every step (tests)
 };
 
 /// Reusable memory of examine_pair.

@@ -66,8 +66,9 @@ void PairFinder::sleep(const Bodies& bodies, BodyIndex body) {
 
 void PairFinder::connect(const Bodies& bodies, BodyIndex body) {
   const Box box = entries_[body].box;
-  grid_.for_each_near(box, [&](BodyIndex other) {
-    if (other == body || !overlaps(box, entries_[other].box)) return;
+  const auto meet = [&](BodyIndex other) {
+    if (other == body) return;
+    if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
     if (bodies.inverse_mass[body] == 0 && bodies.inverse_mass[other] == 0)
       return;  // nothing could come of it
     const auto& smaller = entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs
@@ -78,7 +79,11 @@ void PairFinder::connect(const Bodies& bodies, BodyIndex body) {
       if (pairs_[pair].a == a && pairs_[pair].b == b) return;
     }
     add_pair(bodies, a, b);
-  });
+  };
+  if (rule_.is_culling) return grid_.for_each_near(box, meet);
+  for (BodyIndex other = 0; other < bodies.size(); ++other) {
+    if (entries_[other].is_in) meet(other);
+  }
 }
 
 void PairFinder::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
@@ -151,6 +156,7 @@ void PairFinder::merge_new() {
 
 void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
   for (const BodyIndex body : awake) {
+    if (!rule_.is_culling) break;  // every pair is there already
     if (bodies.travel[body] <= entries_[body].travel_limit) continue;
     place(bodies, body);
     own_pairs_ = entries_[body].pairs;
@@ -166,10 +172,9 @@ void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
 void PairFinder::find_due(const Bodies& bodies) {
   due_.clear();
   const auto consider = [&](ActivePair& active) {
-    if (bodies.travel[active.a] + bodies.travel[active.b] > active.quiet_until &&
-        !pairs_[active.slot].is_dropped) {
-      due_.push_back(&active);
-    }
+    const bool is_quiet = bodies.travel[active.a] + bodies.travel[active.b] <= active.quiet_until;
+    if ((is_quiet && rule_.is_culling) || pairs_[active.slot].is_dropped) return;
+    due_.push_back(&active);
   };
   auto young = young_.begin();
   for (ActivePair& active : active_) {
@@ -182,6 +187,7 @@ void PairFinder::find_due(const Bodies& bodies) {
 void PairFinder::examine(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
                          std::vector<Contact>& contacts) {
   Pair& pair = pairs_[active.slot];
+  if (!rule_.is_culling) pair.known.way = pair.quiet.way = pair.known_until = -1;
   const Pose place = centre_a_from_b(bodies, active.a, active.b);
   double way = way_left(bodies, active.b, place, pair.quiet);
   if (way < kRounding) way = examine_pair(bodies, pair, place, rule_, dt, scratch, contacts);

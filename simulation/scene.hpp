@@ -119,6 +119,13 @@ struct Scene {
   std::vector<FloeSpec> floes;
 };
 
+/// What a run leaves out because it would change nothing. Not part of a scene: tests switch it off and
+/// compare.
+struct Shortcuts {
+  bool culls = true;   ///< pairs of bodies are not looked at while they cannot have met
+  bool sleeps = true;  ///< floes at rest that touch nothing are not stepped
+};
+
 /// A wedge-bowed waterline of the given length and beam [m]: straight flanks from the stem at the entrance
 /// angle from the centreline [rad], a parallel midbody, a square stern. Origin amidships.
 geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle);

@@ -16,7 +16,8 @@ std::string_view name_of(EventKind kind) {
   return "unknown";
 }
 
-Simulation::Simulation(Scene scene) : world_(std::make_unique<World>(std::move(scene))) {}
+Simulation::Simulation(Scene scene, Shortcuts shortcuts)
+    : world_(std::make_unique<World>(std::move(scene), shortcuts)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

@@ -38,7 +38,7 @@ struct ShipState {
 /// A run in progress: the scene's world, stepped.
 class Simulation {
  public:
-  explicit Simulation(Scene scene);
+  explicit Simulation(Scene scene, Shortcuts shortcuts = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

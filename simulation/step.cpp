@@ -78,6 +78,7 @@ void integrate_motion(World& world) {
 }
 
 void put_to_rest(World& world) {
+  if (!world.shortcuts.sleeps) return;
   world.touched_at_step.resize(static_cast<std::size_t>(world.bodies.size()), -1);
   for (const dynamics::Contact& c : world.contacts) {
     world.touched_at_step[c.a] = world.steps;

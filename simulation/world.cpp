@@ -69,12 +69,14 @@ dynamics::ShearCurrent current_of(const ShearSettings& shear) {
 
 }  // namespace
 
-World::World(Scene scene_of_run)
+World::World(Scene scene_of_run, Shortcuts shortcuts_of_run)
     : scene(std::move(scene_of_run)),
+      shortcuts(shortcuts_of_run),
       bending(make_bending_model(scene.fracture.bending)),
       breakable_size(scene.fracture.breakable_size_factor *
                      breakable_length(scene.ice, scene.water.water, scene.fracture.characteristic_length)),
-      pairs({scene.contact.circle_radius, scene.contact.normal == ContactNormal::kCircleCentres},
+      pairs({scene.contact.circle_radius, scene.contact.normal == ContactNormal::kCircleCentres,
+             shortcuts.culls},
             grid_cell(scene)),
       loads(scene.ships.size()) {
   solver_settings.restitution = scene.contact.restitution;
@@ -103,8 +105,8 @@ World::World(Scene scene_of_run)
   for (std::size_t i = 0; i < scene.floes.size(); ++i) {
     const FloeSpec& spec = scene.floes[i];
     const BodyIndex body = body_of(static_cast<FloeId>(i));
-    if (spec.velocity != Vector{} || spec.angular_velocity != 0 || !is_current_still_at(body))
-      wake(*this, body);
+    const bool is_moving = spec.velocity != Vector{} || spec.angular_velocity != 0;
+    if (is_moving || !is_current_still_at(body) || !shortcuts.sleeps) wake(*this, body);
   }
 }
 

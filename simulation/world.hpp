@@ -56,10 +56,11 @@ struct PendingFracture {
 
 /// Everything a run is made of. The stages of step.hpp work on it.
 struct World {
-  explicit World(Scene scene_of_run);
+  explicit World(Scene scene_of_run, Shortcuts shortcuts_of_run = {});
 
   Scene scene;
   int threads = 1;  ///< to step with; results do not depend on it
+  Shortcuts shortcuts;
   std::unique_ptr<fracture::BendingModel> bending;
   double breakable_size = 0;       ///< κ l [m]
   dynamics::ShearCurrent current;  ///< in the water frame

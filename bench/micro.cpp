@@ -1,0 +1,132 @@
+// Parts of a step, on a jam: 2000 floes of 15 m at 80 % that a sheared current has carried for 60 s. And one
+// cut, one question to the database, one random field.
+//   polynya_bench_micro [--benchmark_filter=REGEX]
+#include <cmath>
+
+#include <benchmark/benchmark.h>
+
+#include "dynamics/water_drag.hpp"
+#include "fracture/bending/fsi_database_model.hpp"
+#include "geometry/cut.hpp"
+#include "simulation/floe_field.hpp"
+#include "simulation/step.hpp"
+
+namespace polynya::bench {
+namespace {
+
+using simulation::World;
+
+simulation::FloeField field_of(int floes, double concentration) {
+  simulation::FloeField field;
+  field.concentration = concentration;
+  const double side = std::sqrt(floes * 225 * (1 + field.size_spread * field.size_spread) / concentration);
+  field.region = {{0, 0}, {side, 0}, {side, side}, {0, side}};
+  return field;
+}
+
+/// A jam, ready for the stage that is measured.
+World make_jam() {
+  simulation::Scene scene;
+  scene.time.step = 0.05;
+  scene.water.shear.rate = 0.005;
+  for (auto& polygon : simulation::make_floe_field(field_of(2000, 0.8)).floes)
+    scene.floes.push_back({std::move(polygon), {}, 0});
+  World world(std::move(scene));
+  while (world.time() < 60) {
+    simulation::step(world);
+    world.journal.clear();
+  }
+  return world;
+}
+
+/// A stage on a world that goes on from step to step; only the stage is under the clock. The same 400 steps
+/// for every stage, so that all see the same contacts.
+void measure_stage(benchmark::State& state, void (*stage)(World&)) {
+  World world = make_jam();
+  using Stage = void (*)(World&);
+  const Stage stages[] = {simulation::find_pairs,      simulation::find_contacts, simulation::decide,
+                          simulation::solve_impulses,  simulation::tally_loads,   simulation::apply_forces,
+                          simulation::integrate_motion};
+  double contacts = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    for (const Stage each : stages) {
+      if (each == stage) state.ResumeTiming();
+      each(world);
+      if (each == stage) state.PauseTiming();
+    }
+    ++world.steps;
+    contacts += static_cast<double>(world.contacts.size());
+    world.journal.clear();
+    state.ResumeTiming();
+  }
+  state.counters["contacts"] = contacts / static_cast<double>(state.iterations());
+  state.counters["awake"] = static_cast<double>(world.awake.size());
+}
+
+void FindPairs(benchmark::State& state) {
+  measure_stage(state, simulation::find_pairs);
+}
+void FindContacts(benchmark::State& state) {
+  measure_stage(state, simulation::find_contacts);
+}
+void SolveImpulses(benchmark::State& state) {
+  measure_stage(state, simulation::solve_impulses);
+}
+void WaterDrag(benchmark::State& state) {
+  measure_stage(state, simulation::apply_forces);
+}
+void Integrate(benchmark::State& state) {
+  measure_stage(state, simulation::integrate_motion);
+}
+BENCHMARK(FindPairs)->Iterations(400)->Unit(benchmark::kMicrosecond);
+BENCHMARK(FindContacts)->Iterations(400)->Unit(benchmark::kMicrosecond);
+BENCHMARK(SolveImpulses)->Iterations(400)->Unit(benchmark::kMicrosecond);
+BENCHMARK(WaterDrag)->Iterations(400)->Unit(benchmark::kMicrosecond);
+BENCHMARK(Integrate)->Iterations(400)->Unit(benchmark::kMicrosecond);
+
+/// A cusp of 3 m off a round plate of so many vertices.
+void CutCusp(benchmark::State& state) {
+  const auto corners = static_cast<int>(state.range(0));
+  geometry::Shape plate;
+  for (int i = 0; i < corners; ++i) {
+    const geometry::Rotation r = geometry::Rotation::by(2 * 3.14159265358979 * i / corners);
+    plate.polygon.outer.push_back({150 * r.cosine, 150 * r.sine});
+  }
+  plate.known_valid = true;
+  const geometry::Ring disc = geometry::disc_polygon({150, 0.7}, 3, 0.02);
+  for (auto _ : state) {
+    const auto cut = geometry::cut_by_polygon(plate, {disc, {}});
+    if (!cut) state.SkipWithError("the cut failed");
+    benchmark::DoNotOptimize(cut);
+  }
+}
+BENCHMARK(CutCusp)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+
+/// A crack through the middle of the same plate.
+void SplitPlate(benchmark::State& state) {
+  geometry::Shape plate{{{{0, 0}, {110, 0}, {110, 200}, {0, 200}}, {}}};
+  for (auto _ : state) benchmark::DoNotOptimize(geometry::cut_along(plate, {{-1, 90}, {111, 103}}));
+}
+BENCHMARK(SplitPlate)->Unit(benchmark::kMicrosecond);
+
+void QueryDatabase(benchmark::State& state) {
+  const fracture::FsiDatabaseModel model;
+  fracture::BendingLoad load;
+  for (auto _ : state) {
+    load.mean_approach_speed = load.mean_approach_speed > 2 ? 0.1 : load.mean_approach_speed + 0.01;
+    benchmark::DoNotOptimize(model.capacity(load));
+  }
+}
+BENCHMARK(QueryDatabase);
+
+void MakeField(benchmark::State& state) {
+  const auto field = field_of(static_cast<int>(state.range(0)), 0.53);
+  for (auto _ : state) benchmark::DoNotOptimize(simulation::make_floe_field(field));
+}
+BENCHMARK(MakeField)->Arg(1000)->Arg(100000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace polynya::bench
+
+BENCHMARK_MAIN();

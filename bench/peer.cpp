@@ -1,0 +1,88 @@
+#include "bench/peer.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "simulation/world.hpp"
+
+namespace polynya::bench {
+
+using geometry::Point;
+using geometry::Rotation;
+using geometry::Vector;
+
+namespace {
+
+bool is_convex(const geometry::Ring& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point corner = ring[(i + 1) % ring.size()];
+    if (cross(corner - ring[i], ring[(i + 2) % ring.size()] - corner) < -1e-9) return false;
+  }
+  return true;
+}
+
+PeerBody body_at(const simulation::World& world, simulation::BodyIndex i, const geometry::Ring& outline) {
+  if (!is_convex(outline)) {
+    std::fprintf(stderr, "bench: a body is not convex, the peers could not take it as it is\n");
+    std::exit(1);
+  }
+  const dynamics::Bodies& bodies = world.bodies;
+  PeerBody body;
+  for (const Point p : outline) body.outline.push_back(Point{} + (p - bodies.centroid[i]));
+  body.mass = bodies.mass[i];
+  body.moment = bodies.moment[i];
+  body.position = bodies.position[i];
+  body.angle = bodies.angle[i];
+  body.velocity = bodies.velocity[i];
+  body.angular_velocity = bodies.angular_velocity[i];
+  body.is_held = bodies.inverse_mass[i] == 0;
+  return body;
+}
+
+}  // namespace
+
+PeerScene peer_scene(const simulation::Simulation& simulation) {
+  const simulation::World& world = simulation.world();
+  PeerScene scene;
+  scene.current = world.current;
+  scene.friction = world.scene.ice.friction;
+  scene.restitution = world.scene.contact.restitution;
+  scene.step = world.scene.time.step;
+  for (simulation::BodyIndex i = 0; i < world.ship_count(); ++i) {
+    const simulation::ShipSpec& ship = world.scene.ships[i];
+    PeerBody body = body_at(world, i, ship.hull.waterline);
+    if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&ship.propulsion))
+      body.thrust = thrust->thrust;
+    if (std::holds_alternative<simulation::FixedInPlace>(ship.propulsion))
+      body.radius = distance(ship.hull.waterline.front(), {});
+    scene.bodies.push_back(std::move(body));
+  }
+  for (std::size_t id = 0; id < world.scene.floes.size(); ++id) {
+    const auto i = world.body_of(static_cast<simulation::FloeId>(id));
+    PeerBody body = body_at(world, i, world.scene.floes[id].polygon_in_world.outer);
+    body.drag = 0.5 * world.scene.water.drag_coefficient * world.scene.water.water.density *
+                world.scene.ice.thickness;
+    body.shape = world.bodies.drag[i].get();
+    scene.bodies.push_back(std::move(body));
+  }
+  return scene;
+}
+
+Vector drag_acceleration(const PeerBody& body, const dynamics::ShearCurrent& current, Point p, Vector v,
+                         Rotation r) {
+  if (body.shape == nullptr) return {};
+  const Vector u = current.is_still() ? v : v - current.velocity_at(p);
+  const double speed = length(u);
+  if (speed == 0) return {};
+  const double width = dynamics::width_across(*body.shape, rotate_back(r, u));
+  return (-body.drag * width * speed / body.mass) * u;
+}
+
+double drag_spin(const PeerBody& body, const dynamics::ShearCurrent& current, double angular_velocity) {
+  if (body.shape == nullptr) return 0;
+  const double omega = angular_velocity - current.angular_velocity();
+  return -body.drag * body.shape->rotational * std::abs(omega) * omega / body.moment;
+}
+
+}  // namespace polynya::bench

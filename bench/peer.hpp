@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dynamics/water_drag.hpp"
+#include "simulation/simulation.hpp"
+
+namespace polynya::bench {
+
+/// The rigid bodies of a scene as another engine can take them: the same outlines, masses, places and
+/// velocities that Polynya starts with, in the water frame. Nothing in them breaks or crushes.
+struct PeerBody {
+  geometry::Ring outline;  ///< convex, about the centre of mass, in the body's axes [m]
+  double radius = 0;       ///< of a cylinder, which the peers take as a circle [m]; 0: see outline
+  double mass = 0;         ///< [kg]
+  double moment = 0;       ///< [kg m²]
+  geometry::Point position;
+  double angle = 0;  ///< [rad]
+  geometry::Vector velocity;
+  double angular_velocity = 0;
+  bool is_held = false;                        ///< its velocity does not answer to impulses
+  double thrust = 0;                           ///< along its x axis [N]
+  double drag = 0;                             ///< ½ C_D ρ_w h [kg/m³]; 0: the water does not hold it back
+  const dynamics::DragShape* shape = nullptr;  ///< lives as long as the simulation it came from
+};
+
+struct PeerScene {
+  std::vector<PeerBody> bodies;
+  dynamics::ShearCurrent current;
+  double friction = 0;
+  double restitution = 0;
+  double step = 0;  ///< [s]
+};
+
+/// The bodies a simulation starts with. Outlines must be convex and without holes.
+PeerScene peer_scene(const simulation::Simulation& simulation);
+
+/// What a step cost and what it had to do.
+struct StepReport {
+  double seconds = 0;
+  int awake = 0;     ///< bodies that moved
+  int contacts = 0;  ///< pairs that touch; −1: not counted at this step
+};
+
+/// Box2D 2.4.1, in floats: 8 velocity and 3 position iterations, as its manual recommends; sleeping on, with
+/// its own thresholds (1 cm/s, 2°/s, 0.5 s); continuous collision off. Bodies at rest start asleep. Drag as
+/// Eq. (6), put on from outside the clock.
+class Box2dWorld {
+ public:
+  explicit Box2dWorld(const PeerScene& scene);
+  ~Box2dWorld();
+  StepReport step(bool counts_contacts);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Chipmunk 7.0.3, in doubles: 10 iterations, its default; sleeping on, with Box2D's thresholds (its own
+/// would be off); its default broad phase, a tree of boxes. Bodies at rest start asleep. Drag as Eq. (6) in
+/// its velocity callback, inside the clock.
+class ChipmunkWorld {
+ public:
+  explicit ChipmunkWorld(const PeerScene& scene);
+  ~ChipmunkWorld();
+  StepReport step(bool counts_contacts);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Acceleration by the water of Eq. (6) on a body that moves with v at p and is turned by r [m/s²].
+geometry::Vector drag_acceleration(const PeerBody& body, const dynamics::ShearCurrent& current,
+                                   geometry::Point p, geometry::Vector v, geometry::Rotation r);
+/// The same of its spin [rad/s²].
+double drag_spin(const PeerBody& body, const dynamics::ShearCurrent& current, double angular_velocity);
+
+}  // namespace polynya::bench

@@ -1,0 +1,133 @@
+// How the cost of a step grows: with floes, awake floes, touching pairs and boundary vertices.
+//   polynya_bench_scaling [--quick] [--csv FILE] [--svg FILE]
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "bench/voyage_run.hpp"
+#include "io/chart.hpp"
+#include "simulation/floe_field.hpp"
+
+namespace polynya::bench {
+namespace {
+
+struct Sample {
+  double x = 0;
+  RunCost cost;
+};
+struct Sweep {
+  std::string name;
+  std::string x_label;
+  std::string title;
+  std::vector<Sample> samples;
+};
+
+std::vector<simulation::FloeSpec> field_floes(int count, double concentration) {
+  simulation::FloeField field;
+  field.concentration = concentration;
+  const double mean_area = 225 * (1 + field.size_spread * field.size_spread);
+  const double side = std::sqrt(count * mean_area / concentration);
+  field.region = {{0, 0}, {side, 0}, {side, side}, {0, side}};
+  std::vector<simulation::FloeSpec> floes;
+  for (auto& polygon : simulation::make_floe_field(field).floes) floes.push_back({std::move(polygon), {}, 0});
+  return floes;
+}
+
+/// The voyage of field-10000 through a field of another size: the ship goes in the middle of its side.
+simulation::Scene voyage_through(int floes) {
+  simulation::Scene scene = load("field-10000.json");
+  scene.floes = field_floes(floes, 0.53);
+  scene.ships.front().position_in_world.y = 0.5 * std::sqrt(floes * 225 * 1.0625 / 0.53);
+  return scene;
+}
+
+/// Floes that all move, in a sheared current, without a structure.
+simulation::Scene sheared(int floes, double concentration) {
+  simulation::Scene scene = load("cylinder-shear.json");
+  scene.ships.clear();
+  scene.floes = field_floes(floes, concentration);
+  scene.water.shear.rate = 0.002;
+  return scene;
+}
+
+simulation::Scene round_plate(int corners) {
+  simulation::Scene scene = load("level-plate.json");
+  geometry::Ring ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + 0.3) / corners;
+    ring.push_back({150 + 150 * std::cos(angle), 150 * std::sin(angle)});
+  }
+  scene.floes.front().polygon_in_world = {ring, {}};
+  return scene;
+}
+
+std::vector<Sweep> run_sweeps(bool is_quick) {
+  std::vector<Sweep> sweeps{{"floes", "floes in the field", "same voyage, more floes", {}},
+                            {"awake", "floes, all awake", "sheared, 80 % cover", {}},
+                            {"contacts", "touching pairs", "2000 floes, 50 to 90 %", {}},
+                            {"vertices", "vertices of the plate", "one plate being broken", {}}};
+  const double part = is_quick ? 0.1 : 1;
+  const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until) {
+    const auto steps = std::lround(part * until / scene.time.step);
+    RunCost cost = run_polynya(scene, {1e9, steps});
+    std::fprintf(stderr, "%s %g: %.1f us\n", sweep.name.c_str(), x, 1e6 * cost.mean_step());
+    sweep.samples.push_back({x > 0 ? x : cost.mean_contacts, std::move(cost)});
+  };
+  for (const int floes : {1000, 3000, 10000, 30000, 100000})
+    measure(sweeps[0], floes, voyage_through(floes), 40);  // the smallest field is 40 s of way deep
+  for (const int floes : {100, 300, 1000, 3000, 10000}) measure(sweeps[1], floes, sheared(floes, 0.8), 100);
+  for (const double concentration : {0.5, 0.6, 0.7, 0.8, 0.9})
+    measure(sweeps[2], 0, sheared(2000, concentration), 100);
+  for (const int corners : {30, 100, 300, 1000, 3000, 10000})
+    measure(sweeps[3], corners, round_plate(corners), 100);
+  return sweeps;
+}
+
+io::Chart chart_of(const std::vector<Sweep>& sweeps) {
+  io::Chart chart;
+  chart.title = "Cost of a step";
+  chart.caption = "Mean wall time of a step over a run, one thread. Commands: bench/performance.sh.";
+  for (const Sweep& sweep : sweeps) {
+    io::Chart::Panel panel;
+    panel.title = sweep.title;
+    panel.x = {sweep.x_label, true};
+    panel.y = {"step [µs]", true};
+    io::Chart::Curve mean{"mean", 0, io::Chart::Dash::kSolid, {}};
+    io::Chart::Curve median{"median", 1, io::Chart::Dash::kDashed, {}};
+    for (const Sample& sample : sweep.samples) {
+      mean.points.push_back({sample.x, 1e6 * sample.cost.mean_step(), false});
+      median.points.push_back({sample.x, 1e6 * sample.cost.median_step(), false});
+    }
+    panel.curves = {mean, median};
+    chart.panels.push_back(panel);
+  }
+  return chart;
+}
+
+}  // namespace
+}  // namespace polynya::bench
+
+int main(int count, char** words) {
+  using namespace polynya::bench;
+  bool is_quick = false;
+  std::string csv;
+  std::string svg;
+  for (int i = 1; i < count; ++i) {
+    if (std::strcmp(words[i], "--quick") == 0) is_quick = true;
+    if (std::strcmp(words[i], "--csv") == 0 && i + 1 < count) csv = words[++i];
+    if (std::strcmp(words[i], "--svg") == 0 && i + 1 < count) svg = words[++i];
+  }
+  const auto sweeps = run_sweeps(is_quick);
+  std::ofstream table(csv.empty() ? "/dev/stdout" : csv);
+  table << "sweep,x,mean_us,median_us,mean_awake,mean_contacts\n";
+  for (const Sweep& sweep : sweeps) {
+    for (const Sample& s : sweep.samples) {
+      table << sweep.name << ',' << s.x << ',' << 1e6 * s.cost.mean_step() << ','
+            << 1e6 * s.cost.median_step() << ',' << s.cost.mean_awake << ',' << s.cost.mean_contacts << '\n';
+    }
+  }
+  if (!svg.empty()) std::ofstream(svg) << polynya::io::to_svg(chart_of(sweeps));
+}

@@ -1,0 +1,185 @@
+// Whole runs side by side with Box2D 2.4.1 and Chipmunk 7.0.3 stepping the same bodies at the same step,
+// without any fracture. One process, one engine after another.
+//   polynya_bench_voyages [--quick] [--csv FILE] [--only CASE] [--peer-seconds S]
+// Prints the table of docs/performance.md (Markdown). bench/performance.sh puts it there.
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <numbers>
+#include <string>
+
+#include "bench/voyage_run.hpp"
+
+namespace polynya::bench {
+namespace {
+
+struct Options {
+  bool is_quick = false;
+  std::string csv;
+  std::string only;
+  double peer_seconds = 120;  ///< at most, for each peer's run of a case [s]
+};
+
+/// One row of the table: a scene, and what is compared.
+struct Case {
+  std::string name;
+  std::string scene;
+  Edit edit;
+  double until = 0;  ///< [s]
+  bool has_peers = true;
+  std::string compared_to;  ///< the case whose step time is the yardstick; empty: none
+  int repeats = 1;          ///< the quietest counts
+};
+
+/// As many floes again, far away from the voyage.
+void double_the_field(simulation::Scene& scene) {
+  double low = INFINITY;
+  double high = -INFINITY;
+  for (const auto& floe : scene.floes) {
+    for (const geometry::Point p : floe.polygon_in_world.outer) {
+      low = std::min(low, p.y);
+      high = std::max(high, p.y);
+    }
+  }
+  const std::size_t count = scene.floes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    simulation::FloeSpec floe = scene.floes[i];
+    for (geometry::Point& p : floe.polygon_in_world.outer) p.y += high - low + 20;
+    scene.floes.push_back(std::move(floe));
+  }
+}
+
+/// A round plate of 300 m in level-plate's place, its outline drawn with so many corners.
+Edit round_plate(int corners) {
+  return [corners](simulation::Scene& scene) {
+    geometry::Ring ring;
+    for (int i = 0; i < corners; ++i) {
+      // Not symmetric about the course, so that no corner lies just ahead of the stem.
+      const double angle = 2 * std::numbers::pi * (i + 0.3) / corners;
+      ring.push_back({150 + 150 * std::cos(angle), 150 * std::sin(angle)});
+    }
+    scene.floes.front().polygon_in_world = {ring, {}};
+  };
+}
+
+std::vector<Case> cases(bool is_quick) {
+  const double part = is_quick ? 0.1 : 1;
+  return {{"voyage", "sawamura2017-fig4b.json", {}, 550 * part, true, "", 3},
+          {"field-10000", "field-10000.json", {}, 500 * part, true, "", 3},
+          {"field-20000", "field-10000.json", double_the_field, 500 * part, false, "field-10000", 3},
+          {"field-100000", "field-100000.json", {}, 500 * part, true, "", 1},
+          {"cylinder-shear", "cylinder-shear.json", {}, 400 * part, true, "", 1},
+          {"plate-100", "level-plate.json", round_plate(100), 200 * part, false, "", 3},
+          {"plate-10000", "level-plate.json", round_plate(10000), 200 * part, false, "plate-100", 3}};
+}
+
+void print_row(const Case& at, const RunCost& cost, std::size_t floes, const std::string& ratio,
+               std::FILE* csv) {
+  std::printf("| %s | %s | %zu | %.4g | %.0f | %.1f | %.1f | %.0f | %.1f | %.4g | %.2f | %.0f | %s |\n",
+              at.name.c_str(), cost.engine.c_str(), floes, cost.step,
+              cost.step * static_cast<double>(cost.steps), 1e6 * cost.mean_step(), 1e6 * cost.median_step(),
+              cost.mean_awake, cost.mean_contacts, cost.real_time_factor(), cost.load, cost.memory,
+              ratio.c_str());
+  std::fflush(stdout);
+  if (csv == nullptr) return;
+  std::fprintf(csv, "%s,%s,%zu,%.6g,%.6g,%.4f,%.4f,%.2f,%d,%.2f,%.6g,%.4f,%.1f,%d,%d,%s\n", at.name.c_str(),
+               cost.engine.c_str(), floes, cost.step, cost.step * static_cast<double>(cost.steps),
+               1e6 * cost.mean_step(), 1e6 * cost.median_step(), cost.mean_awake, cost.most_awake,
+               cost.mean_contacts, cost.real_time_factor(), cost.load, cost.memory, cost.bends, cost.splits,
+               ratio.c_str());
+  std::fflush(csv);
+}
+
+std::string times(double ratio) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", ratio);
+  return text;
+}
+
+/// The run with the least time of so many.
+RunCost quietest(int repeats, const std::function<RunCost()>& run) {
+  RunCost best = run();
+  for (int i = 1; i < repeats; ++i) {
+    RunCost next = run();
+    if (next.mean_step() < best.mean_step()) best = std::move(next);
+  }
+  return best;
+}
+
+/// The runs of two cases one after another, alternating, so that a noisy neighbour disturbs both.
+void run_case(const Case& at, const std::vector<Case>& all, const Options& options, std::FILE* csv) {
+  const simulation::Scene scene = load(at.scene, at.edit);
+  const auto steps = std::lround(at.until / scene.time.step);
+  const auto ours = [&](const Case& which) { return run_polynya(which.scene, which.edit, {1e9, steps}); };
+  const auto yardstick =
+      std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
+  if (yardstick != all.end()) {
+    RunCost base = ours(*yardstick);
+    RunCost cost = ours(at);
+    for (int i = 1; i < at.repeats; ++i) {
+      base = std::min(base, ours(*yardstick), [](auto& p, auto& q) { return p.total() < q.total(); });
+      cost = std::min(cost, ours(at), [](auto& p, auto& q) { return p.total() < q.total(); });
+    }
+    print_row(at, cost, scene.floes.size(),
+              times(cost.mean_step() / base.mean_step()) + " x " + yardstick->name, csv);
+    return;
+  }
+  const RunCost cost = quietest(at.repeats, [&] { return ours(at); });
+  print_row(at, cost, scene.floes.size(), "", csv);
+  if (!at.has_peers) return;
+  const simulation::Simulation start{simulation::Scene(scene)};
+  const PeerScene bodies = peer_scene(start);
+  for (const auto& run_peer : {run_box2d, run_chipmunk}) {
+    const Limits limits{options.peer_seconds, steps};
+    RunCost peer = run_peer(bodies, limits);
+    if (peer.total() < 0.2 * options.peer_seconds)
+      peer = std::min(peer, run_peer(bodies, limits), [](auto& p, auto& q) { return p.total() < q.total(); });
+    // Over the same steps, where the peer was stopped early.
+    print_row(at, peer, scene.floes.size(),
+              times(peer.total() / cost.total_of_first(peer.steps)) + " x Polynya", csv);
+  }
+}
+
+Options options_of(int count, char** words) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const bool has_value = i + 1 < count;
+    if (std::strcmp(words[i], "--quick") == 0) {
+      options.is_quick = true;
+      options.peer_seconds = 10;
+    } else if (std::strcmp(words[i], "--csv") == 0 && has_value) {
+      options.csv = words[++i];
+    } else if (std::strcmp(words[i], "--only") == 0 && has_value) {
+      options.only = words[++i];
+    } else if (std::strcmp(words[i], "--peer-seconds") == 0 && has_value) {
+      options.peer_seconds = std::atof(words[++i]);
+    } else {
+      std::fprintf(stderr, "usage: %s [--quick] [--csv FILE] [--only CASE] [--peer-seconds S]\n", words[0]);
+      std::exit(2);
+    }
+  }
+  return options;
+}
+
+}  // namespace
+}  // namespace polynya::bench
+
+int main(int count, char** words) {
+  using namespace polynya::bench;
+  const Options options = options_of(count, words);
+  std::FILE* csv = options.csv.empty() ? nullptr : std::fopen(options.csv.c_str(), "w");
+  if (csv != nullptr)
+    std::fputs(
+        "case,engine,floes,step_s,covered_s,mean_us,median_us,mean_awake,most_awake,mean_contacts,"
+        "real_time_factor,load_s,peak_MiB,bends,splits,ratio\n",
+        csv);
+  std::puts(
+      "| case | engine | floes | Δt s | run s | µs/step, mean | median | awake | touching pairs | × real "
+      "time | load s | peak MiB | step time |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+  const auto all = cases(options.is_quick);
+  for (const Case& at : all) {
+    if (options.only.empty() || options.only == at.name) run_case(at, all, options, csv);
+  }
+  if (csv != nullptr) std::fclose(csv);
+}
