@@ -10,6 +10,7 @@
 #include "app/exit_code.hpp"
 #include "app/geometry_commands.hpp"
 #include "app/read_input.hpp"
+#include "app/tell.hpp"
 #include "io/cut_ops.hpp"
 #include "io/cut_report.hpp"
 
@@ -89,10 +90,9 @@ io::FloeFormat output_format(const std::string& file, io::FloeFormat of_input) {
 /// Told as "floes.geojson:3: feature 1: …"; past the hundredth only counted.
 void tell_floes(const std::string& name, const io::CutReport& report) {
   std::size_t told = 0;
-  const auto tell = [&](const io::CutFloe& floe, const std::string& words) {
+  const auto tell_of = [&](const io::CutFloe& floe, const std::string& words) {
     if (++told > kMostTold) return;
-    fmt::print(stderr, "{}:{}: feature {}, polygon {}: {}\n", name, floe.line, floe.feature, floe.member,
-               words);
+    tell("{}:{}: feature {}, polygon {}: {}\n", name, floe.line, floe.feature, floe.member, words);
   };
   for (const io::CutFloe& floe : report.floes) {
     if (floe.rejected) {
@@ -103,38 +103,40 @@ void tell_floes(const std::string& name, const io::CutReport& report) {
         words += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", vertices[i].x, vertices[i].y);
       if (vertices.size() > kMostVertices)
         words += fmt::format(" and {} more", vertices.size() - kMostVertices);
-      tell(floe, words);
+      tell_of(floe, words);
     }
     if (floe.repair) {
-      tell(floe,
-           fmt::format("{}, repaired ({}): {} polygon{}, {:+} m2 to the {} m2 drawn", floe.repair->defect,
-                       floe.repair->rule, floe.repair->shapes, floe.repair->shapes == 1 ? "" : "s",
-                       floe.repair->area_changed, floe.repair->area_drawn));
+      tell_of(floe,
+              fmt::format("{}, repaired ({}): {} polygon{}, {:+} m2 to the {} m2 drawn", floe.repair->defect,
+                          floe.repair->rule, floe.repair->shapes, floe.repair->shapes == 1 ? "" : "s",
+                          floe.repair->area_changed, floe.repair->area_drawn));
     }
     for (const io::Dangling& one : floe.dangling) {
-      tell(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m", one.from.x,
-                             one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
+      tell_of(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m", one.from.x,
+                                one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
     }
   }
-  if (told > kMostTold) fmt::print(stderr, "polynya: {} more; the ledger has all\n", told - kMostTold);
+  if (told > kMostTold) tell("polynya: {} more; the ledger has all\n", told - kMostTold);
 }
 
 void tell_totals(const io::CutReport& report) {
   const io::CutTotals totals = io::totals_of(report);
-  fmt::print(stderr,
-             "polynya: {} floe{} -> {} piece{}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect "
-             "{}, rounding "
-             "{:.2e} m2)\n",
-             totals.floes - totals.rejected, totals.floes - totals.rejected == 1 ? "" : "s", totals.pieces,
-             totals.pieces == 1 ? "" : "s", totals.area, totals.area_of_pieces, totals.removed,
-             totals.exact_defect, totals.rounding_defect);
+  tell(
+      "polynya: {} floe{} -> {} piece{}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect "
+      "{}, rounding "
+      "{:.2e} m2)\n",
+      totals.floes - totals.rejected, totals.floes - totals.rejected == 1 ? "" : "s", totals.pieces,
+      totals.pieces == 1 ? "" : "s", totals.area, totals.area_of_pieces, totals.removed, totals.exact_defect,
+      totals.rounding_defect);
   if (totals.kept_exact > 0) {
-    fmt::print(
-        stderr,
+    tell(
         "polynya: {} piece{} would not round validly; written as the nearest doubles (\"is_exact\": false)\n",
         totals.kept_exact, totals.kept_exact == 1 ? "" : "s");
   }
-  if (totals.rejected > 0) fmt::print(stderr, "polynya: {} refused; the others were cut\n", totals.rejected);
+  if (totals.rejected > 0) {
+    tell("polynya: {} refused; {}\n", totals.rejected,
+         totals.rejected == totals.floes ? "nothing was cut" : "the others were cut");
+  }
 }
 
 /// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
@@ -147,8 +149,7 @@ std::string write_results(const CutOptions& options, const io::CutReport& report
     std::string failure = write_output(out, to_floe_text(report, output_format(out, of_input)));
     if (!failure.empty()) return failure;
   } else {
-    fmt::print(stderr,
-               "polynya: the ledger is on stdout; name --out FILE for the pieces, or --ledger FILE\n");
+    tell("polynya: the ledger is on stdout; name --out FILE for the pieces, or --ledger FILE\n");
   }
   return ledger.empty() ? "" : write_output(ledger, to_ledger_json(report));
 }
@@ -165,7 +166,7 @@ Outcome<bool> cut_all(const CutOptions& options) {
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));
   if (!floes) return fail(kInputOutput, fmt::format("{}:{}", name, floes.error()));
-  if (floes->has_more_coordinates) fmt::print(stderr, "note: third coordinates are passed over\n");
+  if (floes->has_more_coordinates) tell("note: third coordinates are passed over\n");
   const io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
   tell_floes(name, report);
   if (const std::string failure = write_results(options, report, floes->format); !failure.empty())
@@ -181,7 +182,7 @@ int cut(const CutOptions& options) {
   std::signal(SIGXFSZ, SIG_IGN);
   const auto all_cut = cut_all(options);
   if (all_cut) return *all_cut ? kDone : kRefused;
-  fmt::print(stderr, "polynya: {}\n", all_cut.error().words);
+  tell("polynya: {}\n", all_cut.error().words);
   return all_cut.error().code;
 }
 

@@ -7,6 +7,7 @@
 #include "app/exit_code.hpp"
 #include "app/geometry_commands.hpp"
 #include "app/inspect_views.hpp"
+#include "app/tell.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/validity.hpp"
 #include "io/motion_index.hpp"
@@ -17,7 +18,7 @@ namespace {
 using simulation::FloeId;
 
 int usage_error(const std::string& words) {
-  fmt::print(stderr, "polynya: {}\n", words);
+  tell("polynya: {}\n", words);
   return kUsage;
 }
 
@@ -68,7 +69,7 @@ int print_floe(const io::Run& run, const InspectOptions& options) {
     view.polygon = polygon_in_world(floe->birth, *motion);
     view.time_in_world = options.at;
   }
-  fmt::print("{}", to_text(view, options.format));
+  say(to_text(view, options.format));
   return kDone;
 }
 
@@ -81,25 +82,26 @@ int print(const io::Run& run, const InspectOptions& options) {
   if (options.floe) return print_floe(run, options);
   if (options.lineage) {
     if (!run.floe(*options.lineage)) return usage_error(unknown_floe(run, *options.lineage));
-    fmt::print("{}", lineage_tree(run, *options.lineage));
+    say(lineage_tree(run, *options.lineage));
     return kDone;
   }
   if (options.check) {
     const io::RunCheck check = io::check_run(run, options.at);
-    fmt::print("{}", check_text(check));
+    say(check_text(check));
     return check.is_sound() ? kDone : kRefused;
   }
-  fmt::print("{}", options.fsd ? size_distribution(run, time) : table(run, time));
+  say(options.fsd ? size_distribution(run, time) : table(run, time));
   return kDone;
 }
 
 }  // namespace
 
 int inspect(const InspectOptions& options) {
-  std::signal(SIGPIPE, SIG_IGN);  // `| head` is no failure worth a signal
+  std::signal(SIGPIPE, SIG_IGN);  // `| head` is no failure worth a signal, nor is a full disk
+  std::signal(SIGXFSZ, SIG_IGN);
   const auto run = io::read_run(options.run);
   if (!run) {
-    fmt::print(stderr, "polynya: {}\n", run.error());
+    tell("polynya: {}\n", run.error());
     return kInputOutput;
   }
   const int code = print(*run, options);

@@ -78,6 +78,29 @@ CutOutcome cut_by_polygons_exactly(const Shape& shape, const std::vector<Polygon
   return cut_by_polygons_generally(exact_polygon_of(shape), tools);
 }
 
+// Cuts a valid shape by valid tools: by the first path that covers the case.
+CutOutcome cut_by_valid(const Shape& shape, const std::vector<Polygon>& tools) {
+  if (!shape.exact && tools.size() == 1 && tools.front().holes.empty()) {
+    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tools.front().outer, true}); }))
+      return *std::move(outcome);
+  }
+  return cut_by_polygons_exactly(shape, tools);
+}
+
+// A tool's rings that are nowhere near the shape cut nothing of it, and without them the local path may do.
+std::vector<Polygon> near_tools(const Shape& shape, const std::vector<Polygon>& tools) {
+  const Box box = bounding_box(shape.polygon.outer);
+  std::vector<Polygon> near;
+  for (const Polygon& tool : tools) {
+    if (!overlaps(bounding_box(tool.outer), box)) continue;
+    near.push_back({tool.outer, {}});
+    for (const Ring& hole : tool.holes) {
+      if (overlaps(bounding_box(hole), box)) near.back().holes.push_back(hole);
+    }
+  }
+  return near;
+}
+
 std::optional<DefectAt> find_shape_defect(const Shape& shape) {
   if (shape.known_valid || shape.exact) return {};
   return find_defect(shape.polygon);
@@ -102,22 +125,23 @@ std::string_view name_of(CutFailure reason) {
 }
 
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
+  if (!tool_in_body.holes.empty()) return cut_by_polygons(shape, {tool_in_body});
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
   if (const auto found = find_tool_defect(tool_in_body)) return refuse(CutFailure::kInvalidTool, *found);
-  if (!shape.exact && tool_in_body.holes.empty()) {
-    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tool_in_body.outer, true}); }))
-      return *std::move(outcome);
-  }
-  return cut_by_polygons_exactly(shape, {tool_in_body});
+  return cut_by_valid(shape, {tool_in_body});
 }
 
 CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body) {
-  if (tools_in_body.size() == 1) return cut_by_polygon(shape, tools_in_body.front());
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
   for (const Polygon& tool : tools_in_body) {
     if (const auto found = find_tool_defect(tool)) return refuse(CutFailure::kInvalidTool, *found);
   }
-  return cut_by_polygons_exactly(shape, tools_in_body);
+  if (shape.exact) return cut_by_valid(shape, tools_in_body);
+  const std::vector<Polygon> near = near_tools(shape, tools_in_body);
+  if (near.empty()) {
+    return tl::unexpected(CutError{CutFailure::kMisses, "the polygon does not meet the shape's interior"});
+  }
+  return cut_by_valid(shape, near);
 }
 
 CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body) {

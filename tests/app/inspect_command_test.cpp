@@ -121,6 +121,19 @@ TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
   EXPECT_NE(outcome.out.find("Overlap is part of the contact model"), std::string::npos);
 }
 
+/// As into `| head` or onto a full disk.
+TEST_F(InspectCommand, WhatCannotBeWrittenIsNoCrash) {
+  const Start cramped{.folder = folder->path(), .largest_file = 20};
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{}, {"--floe", "3"}, {"--lineage", "3"}, {"--fsd"}, {"--at", "-1"}}) {
+    std::vector<std::string> all{"inspect", "run"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = polynya(all, cramped);
+    EXPECT_EQ(outcome.code, words.empty() || words.front() != "--at" ? 5 : 2);
+    EXPECT_LE(outcome.out.size(), 20U);
+  }
+}
+
 /// A ring with two vertices exchanged, or an area that is not its ring's: the check tells which floe.
 TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {
   for (const bool is_ring : {true, false}) {

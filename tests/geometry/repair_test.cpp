@@ -116,6 +116,23 @@ TEST(Overlap, TakesRingsThatCrossThemselvesByTheirWinding) {
   EXPECT_GT(shared_cells, 100);
 }
 
+// What of a tool is nowhere near the shape is left out before the cut, and changes nothing.
+TEST(CutByPolygons, FarPartsOfToolsChangeNothing) {
+  const Shape square{{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}};
+  const Ring coast{{5, -90}, {95, -90}, {95, 90}, {5.3, 90}};
+  const Ring lagoon{{60, 0}, {60, 9}, {69, 9}};
+  const Polygon island{{{-30, 0}, {-20, 0}, {-20, 9}}, {}};
+  const CutOutcome plain = cut_by_polygon(square, {coast, {}});
+  ASSERT_TRUE(plain.has_value());
+  EXPECT_TRUE(trials::are_equal(plain, cut_by_polygon(square, {coast, {lagoon}})));
+  EXPECT_TRUE(trials::are_equal(plain, cut_by_polygons(square, {island, {coast, {lagoon}}})));
+  EXPECT_EQ(cut_by_polygons(square, {island}).error().reason, CutFailure::kMisses);
+  EXPECT_EQ(cut_by_polygons(square, {}).error().reason, CutFailure::kMisses);
+  const Ring outside{{-9, 0}, {-9, 9}, {-8, 9}};
+  EXPECT_EQ(cut_by_polygon(square, {coast, {outside}}).error().reason, CutFailure::kInvalidTool)
+      << "still judged";
+}
+
 TEST(CutByPolygons, TakesWhatAnyToolCovers) {
   const Shape square{{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}};
   const Polygon with_hole{{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}}};
