@@ -13,7 +13,7 @@ function watchGestures(stage, view, actions) {
   const spread = ([a, b]) => ({ x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2, size: Math.hypot(a[0] - b[0], a[1] - b[1]) });
 
   stage.addEventListener("pointerdown", (event) => {
-    if (event.target.closest("button, a, .legend")) return;
+    if (event.target.closest("button")) return;
     stage.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, local(event));
     if (fingers.size === 1) moved = 0;
