@@ -5,7 +5,7 @@ const clickSlop = 5; // [px]
 function watchGestures(stage, view, actions) {
   const fingers = new Map(); // pointer id → [x, y]
   let moved = 0;
-  let lastTap = 0;
+  let lastTap = -Infinity;
   const local = (event) => {
     const box = stage.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -45,7 +45,7 @@ function watchGestures(stage, view, actions) {
     if (moved > clickSlop || fingers.size > 0) return;
     const at = local(event);
     const isDouble = event.timeStamp - lastTap < 300;
-    lastTap = isDouble ? 0 : event.timeStamp;
+    lastTap = isDouble ? -Infinity : event.timeStamp;
     if (isDouble) actions.zoom(...at, 2);
     else actions.click(...at);
   };
