@@ -2,7 +2,7 @@
 // survives greyscale and colour blindness; marks are in the Okabe–Ito palette.
 
 const ramps = {
-  generation: ["#ffffff", "#fbeec2", "#f5cf7a", "#e09a45", "#bf6a2d", "#8a3c1c"],
+  generation: ["#ffffff", "#fdf1c9", "#fbdd92", "#f2bd60", "#d98b3b", "#ad5f27"],
   speed: ["#ffffff", "#e9e4f2", "#d2c6e6", "#9c88c4", "#70539d", "#402468"],
   size: ["#0d4a35", "#2d7a55", "#58a173", "#b5dcbb", "#dcf0df", "#ffffff"],
 };

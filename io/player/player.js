@@ -126,7 +126,15 @@ function startPlayer() {
     select(id) {
       state.selected = id;
       state.marksDirty = true;
-      showCard(true);
+      cardShown = null;
+    },
+    /** Chooses a floe and goes to where it lives, if that is not now. */
+    visit(id) {
+      if (!places.isAlive(id, state.time)) {
+        actions.play(false);
+        actions.goTo(Math.max(range[0], floes.born[id]));
+      }
+      actions.select(id);
     },
     hover(px, py) {
       const found = floeAt(run, places, ...view.toWorld(px, py));
@@ -219,13 +227,13 @@ function startPlayer() {
     marks.resetTransform();
     marks.clearRect(0, 0, markCanvas.width, markCanvas.height);
     marks.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
-    const shown = state.selected >= 0 ? state.selected : state.hovered;
+    const shown = shownFloe();
     if (shown >= 0) drawLineage(marks, view, run, places, shown, state.time, colours);
-    if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== state.selected) outline(state.hovered);
+    if (state.layers.fractures) drawFractures(marks, view, run, state.time, colours);
+    if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== shown && places.isAlive(state.hovered, state.time)) outline(state.hovered);
     drawShips(marks, view, run, motions, state.layers, colours);
     const notice = state.layers.circles ? drawCircles(marks, view, run, places, motions, colours) : "";
     if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, arrowScale());
-    if (state.layers.fractures) drawFractures(marks, view, run, state.time, colours);
     if (state.event !== null) drawChosenEvent(marks, view, info.events[state.event], colours);
     drawScaleBar(marks, view, colours);
     byId("notice").textContent = hasFrames ? notice : "This run has no frames: the scene is shown as it starts.";
@@ -239,15 +247,18 @@ function startPlayer() {
     marks.stroke();
   }
 
+  const chosenFloe = () => (state.selected >= 0 ? state.selected : state.hovered);
+  const shownFloe = () => (chosenFloe() < 0 ? -1 : standIn(run, places, chosenFloe(), state.time));
+
   let cardShown = null;
-  function showCard(isForced) {
-    const id = state.hovered >= 0 && state.selected < 0 ? state.hovered : state.selected;
+  function showCard() {
+    const id = shownFloe();
     const key = `${id} ${state.time}`;
-    if (!isForced && key === cardShown) return;
+    if (key === cardShown) return;
     cardShown = key;
     const host = byId("floe-card");
     if (host.contains(document.activeElement) && state.isPlaying) return;
-    showFloeCard(host, run, places, motions, id, state.time, actions);
+    showFloeCard(host, run, places, motions, chosenFloe(), id, state.time, actions);
     const chip = byId("chip");
     chip.hidden = id < 0;
     if (id < 0) return;
@@ -259,6 +270,7 @@ function startPlayer() {
     const words = `${state.time.toFixed(1)} s`;
     byId("now").textContent = words;
     byId("living").textContent = String(places.count);
+    byId("living-word").textContent = places.count === 1 ? "floe" : "floes";
     plot.setTime(state.time);
     timeline.setTime(state.time, `${words}, ${places.count} floes`);
     const values = info.ships.map((ship, k) => {
@@ -292,7 +304,7 @@ function startPlayer() {
     }
     if (state.iceDirty || state.marksDirty) {
       drawAllMarks();
-      showCard(false);
+      showCard();
     }
     state.iceDirty = state.marksDirty = false;
     if (isDrawn) {

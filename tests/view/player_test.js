@@ -158,6 +158,21 @@ test("a floe's lineage is that of the files", async () => {
   await page.keyboard.press("Escape");
 });
 
+test("a floe that was chosen is followed through its fractures, to its largest piece", async () => {
+  const births = readNdjson(run, "floes.ndjson");
+  const plate = readNdjson(run, "events.ndjson")[0].floe;
+  const comesFrom = (id) => id === plate || (births[id].parent_id !== null && comesFrom(births[id].parent_id));
+  await act("goTo", 0);
+  await act("select", plate);
+  assert.equal(await page.locator("[data-fact=floe]").textContent(), String(plate));
+  for (const time of [200, 550]) {
+    await act("goTo", time);
+    const pieces = [...inspectAt(run, time).keys()].filter(comesFrom).sort((a, b) => births[b].area_m2 - births[a].area_m2);
+    assert.equal(await page.locator("[data-fact=floe]").textContent(), String(pieces[0]));
+  }
+  await page.keyboard.press("Escape");
+});
+
 test("floes are drawn where final.geojson has them", async () => {
   await act("goToEnd", true);
   const { features } = JSON.parse(fs.readFileSync(path.join(run, "final.geojson"), "utf8"));
