@@ -8,11 +8,16 @@ declare -A packages=(
   [build]="g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libgmp-dev libmpfr-dev
            nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev librsvg2-bin"
   [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3"
+  [view]="chromium nodejs npm"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"
 )
 
+# Programs that may have come from elsewhere than their package of Debian's.
+declare -A program=([chromium]=chromium [nodejs]=node [npm]=npm)
+
 is_installed() {
-  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ] ||
+    { [ -n "${program[$1]:-}" ] && command -v "${program[$1]}" >/dev/null; }
 }
 
 missing=()

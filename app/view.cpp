@@ -46,7 +46,8 @@ std::string too_large(double megabytes, const ViewOptions& options) {
       "with --from and --until, {}or allow more with --limit {:.0f}",
       megabytes, options.most_megabytes,
       static_cast<int>(std::ceil(options.every * megabytes / options.most_megabytes)) + 1,
-      options.no_circles ? "" : "leave out the contact circles with --no-circles, ", std::ceil(megabytes));
+      options.most_circles == 0 ? "" : "leave out the contact circles with --circles 0, ",
+      std::ceil(megabytes));
 }
 
 }  // namespace
@@ -58,14 +59,15 @@ int view(const ViewOptions& options) {
   wanted.frames.every = options.every;
   if (options.from) wanted.frames.from = *options.from;
   if (options.until) wanted.frames.until = *options.until;
-  if (options.no_circles) wanted.most_circles = 0;
+  wanted.most_circles = options.most_circles;
   wanted.channel = channel_of(options.run);
   const io::PlayerData data = player_data(*run, wanted);
   if (data.frames == 0 && !run->frames.empty())
     return fail(kUsage, fmt::format("no frame of the run is in that part; they go from {:g} to {:g} s",
                                     run->start_time(), run->end_time()));
-  if (!data.has_circles && !options.no_circles)
-    fmt::print(stderr, "note: more than {} contact circles; that layer is left out\n", wanted.most_circles);
+  if (!data.has_circles && options.most_circles > 0)
+    fmt::print(stderr, "note: more than {} contact circles; that layer is left out (--circles)\n",
+               options.most_circles);
   const std::string page = player_page(*run, data);
   const double megabytes = static_cast<double>(page.size()) / 1e6;
   if (megabytes > options.most_megabytes) return fail(kUsage, too_large(megabytes, options));

@@ -7,7 +7,7 @@
 
 # In the order they stand in the page.
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
-set(POLYNYA_PLAYER_SCRIPTS numbers.js run_data.js motion.js palette.js map_view.js draw_ice.js draw_marks.js plot.js timeline.js
+set(POLYNYA_PLAYER_SCRIPTS numbers.js run_data.js motion.js palette.js map_view.js draw_ice.js still_ice.js draw_marks.js plot.js timeline.js
   floe_card.js gestures.js keyboard.js page.js player.js)
 
 function(polynya_player_page folder output)

@@ -15,6 +15,7 @@ function makePlaces(run, motions) {
     sin: new Float64Array(floes.count),
     vx: new Float64Array(floes.count),
     vy: new Float64Array(floes.count),
+    spin: new Float64Array(floes.count),
   };
   places.place = (id) => {
     const m = motions.floe(id);
@@ -24,6 +25,7 @@ function makePlaces(run, motions) {
     places.sin[id] = Math.sin(m[2]);
     places.vx[id] = m[3];
     places.vy[id] = m[4];
+    places.spin[id] = m[5];
   };
   places.isAlive = (id, time) => floes.born[id] <= time && time < floes.died[id];
   places.setTime = (time) => {
@@ -80,20 +82,20 @@ function classOfFloe(id, colourBy, edges, floes, places) {
   return classOf(Math.hypot(places.vx[id], places.vy[id]), edges);
 }
 
-function drawIce(context, view, run, places, colouring, colourBy, colours) {
+/** Draws the floes of these ids that show on the screen. */
+function drawFloes(context, view, run, places, ids, colouring, colourBy, colours) {
   const { floes } = run;
   const buckets = colouring.colours.map(() => []);
-  for (let n = 0; n < places.count; ++n) {
-    const id = places.living[n];
+  for (const id of ids) {
     if (view.shows(places.x[id], places.y[id], floes.reach[id]))
       buckets[classOfFloe(id, colourBy, colouring.edges, floes, places)].push(id);
   }
   context.strokeStyle = colours["ice-edge"];
   context.lineWidth = Math.min(1.1, Math.max(0.35, 0.4 * view.scale));
   context.lineJoin = "round";
-  buckets.forEach((ids, k) => {
+  buckets.forEach((bucket, k) => {
     context.fillStyle = colouring.colours[k];
-    drawChunks(context, ids, (id) => traceFloe(context, view, floes, places, id));
+    drawChunks(context, bucket, (id) => traceFloe(context, view, floes, places, id));
   });
 }
 
@@ -115,10 +117,13 @@ function drawChunks(context, ids, trace, strokes = true) {
 }
 
 /** The scene's floes where they were at the start, so that open water shows what it was. */
-function drawStartIce(context, view, run, start, colours) {
+function drawStartIce(context, view, run, start, places, time, colours) {
   context.fillStyle = colours["start-ice"];
   const { floes } = run;
-  const seen = start.ids.filter((id) => view.shows(start.x[id], start.y[id], floes.reach[id]));
+  const isCovered = (id) => places.isAlive(id, time) &&
+    Math.abs(places.x[id] - start.x[id]) + Math.abs(places.y[id] - start.y[id]) +
+    Math.abs(places.sin[id] - start.sin[id]) * floes.reach[id] < 0.3 / view.scale;
+  const seen = start.ids.filter((id) => view.shows(start.x[id], start.y[id], floes.reach[id]) && !isCovered(id));
   drawChunks(context, seen, (id) => traceFloe(context, view, floes, start, id), false);
 }
 

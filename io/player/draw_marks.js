@@ -230,8 +230,8 @@ function drawAncestors(context, view, run, places, id, colours) {
   context.setLineDash([]);
 }
 
-function drawEventMark(context, x, y, kind, size) {
-  context.fillStyle = kindColours[kind];
+function drawEventMark(context, x, y, kind, size, colours) {
+  context.fillStyle = colours[kind];
   context.strokeStyle = "#ffffff";
   context.lineWidth = 1;
   context.beginPath();
@@ -249,10 +249,10 @@ function drawEventMark(context, x, y, kind, size) {
   context.stroke();
 }
 
-function drawFractures(context, view, run, time) {
+function drawFractures(context, view, run, time, colours) {
   for (const event of run.info.events) {
     if (event.t_s > time) break;
-    drawEventMark(context, ...view.toScreen(...event.point_m), event.kind, event.kind === "split" ? 6 : 3);
+    drawEventMark(context, ...view.toScreen(...event.point_m), event.kind, event.kind === "split" ? 6 : 3, colours);
   }
 }
 
@@ -263,7 +263,7 @@ function drawChosenEvent(context, view, event, colours) {
   context.beginPath();
   context.arc(x, y, 13, 0, 2 * Math.PI);
   context.stroke();
-  drawEventMark(context, x, y, event.kind, 5);
+  drawEventMark(context, x, y, event.kind, 5, colours);
 }
 
 function drawScaleBar(context, view, colours) {

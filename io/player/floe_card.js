@@ -39,6 +39,23 @@ function lineageOf(floes, id) {
   return ids;
 }
 
+/** A floe's stand-in at a time: itself while it lives; before, what it was part of; later, its largest piece. */
+function standIn(run, places, id, time) {
+  const { floes } = run;
+  for (let at = id; at >= 0; at = floes.parent[at]) {
+    if (places.isAlive(at, time)) return at;
+    if (floes.born[at] <= time) break;
+  }
+  let best = id;
+  const queue = [id];
+  while (queue.length > 0) {
+    const at = queue.pop();
+    if (places.isAlive(at, time) && (best === id || floes.area[at] > floes.area[best])) best = at;
+    queue.push(...(floes.children.get(at) ?? []));
+  }
+  return best;
+}
+
 /** What `polynya inspect` prints of a floe, in its digits. */
 function floeFacts(run, places, motions, id) {
   const { floes } = run;
@@ -55,7 +72,8 @@ function floeFacts(run, places, motions, id) {
   };
 }
 
-function showFloeCard(host, run, places, motions, id, time, actions) {
+/** `chosen` is the floe that was clicked, `id` its stand-in now. */
+function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
   if (id < 0) {
     host.replaceChildren(make("p", { class: "hint" }, "Point at a floe, or tap it. A click keeps it."));
     return;
@@ -65,6 +83,10 @@ function showFloeCard(host, run, places, motions, id, time, actions) {
   const list = make("dl");
   for (const [name, [words, value]] of Object.entries(facts))
     list.append(make("dt", {}, name), make("dd", { "data-fact": name, "data-value": String(value) }, words));
+  if (chosen !== id) {
+    const words = run.floes.born[chosen] > time ? `what floe ${chosen} was part of` : `the largest piece of floe ${chosen} now`;
+    list.append(make("dt", {}, "this is"), make("dd", {}, words));
+  }
   host.replaceChildren(list, make("h3", {}, "Fracture lineage"), lineageList(run, id, actions));
 }
 
@@ -81,7 +103,7 @@ function lineageList(run, id, actions) {
   shown.forEach((floe, k) => {
     if (k === 1 && skipped > 0) list.append(make("li", { class: "hint" }, `\u2026 ${skipped} more`));
     const item = make("li", floe === id ? { class: "self" } : {});
-    item.append(button(`floe ${floe}`, () => actions.select(floe)));
+    item.append(button(`floe ${floe}`, () => actions.visit(floe)));
     if (breaks.has(floe)) {
       const event = info.events[breaks.get(floe)];
       item.append(" ", button(`${kindWords[event.kind]} ${event.t_s.toFixed(1)} s`, () => actions.goToEvent(breaks.get(floe))));
@@ -91,7 +113,7 @@ function lineageList(run, id, actions) {
   const children = floes.children.get(id) ?? [];
   if (children.length > 0) {
     const item = make("li", {}, "became ");
-    for (const child of children) item.append(button(String(child), () => actions.select(child)), " ");
+    for (const child of children) item.append(button(String(child), () => actions.visit(child)), " ");
     list.append(item);
   }
   return list;

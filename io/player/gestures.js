@@ -5,7 +5,7 @@ const clickSlop = 5; // [px]
 function watchGestures(stage, view, actions) {
   const fingers = new Map(); // pointer id → [x, y]
   let moved = 0;
-  let lastTap = 0;
+  let lastTap = -Infinity;
   const local = (event) => {
     const box = stage.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -13,7 +13,7 @@ function watchGestures(stage, view, actions) {
   const spread = ([a, b]) => ({ x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2, size: Math.hypot(a[0] - b[0], a[1] - b[1]) });
 
   stage.addEventListener("pointerdown", (event) => {
-    if (event.target.closest("button, a, .legend")) return;
+    if (event.target.closest("button")) return;
     stage.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, local(event));
     if (fingers.size === 1) moved = 0;
@@ -45,7 +45,7 @@ function watchGestures(stage, view, actions) {
     if (moved > clickSlop || fingers.size > 0) return;
     const at = local(event);
     const isDouble = event.timeStamp - lastTap < 300;
-    lastTap = isDouble ? 0 : event.timeStamp;
+    lastTap = isDouble ? -Infinity : event.timeStamp;
     if (isDouble) actions.zoom(...at, 2);
     else actions.click(...at);
   };

@@ -40,8 +40,8 @@ function makeMapView(stage, canvases) {
   return view;
 }
 
-/** What a run covers at its start, with the ships' tracks. */
-function extentOf(run, motions) {
+/** What a run covers at its start and at its end, with the ships' tracks. */
+function extentOf(run, motions, places, range) {
   const { floes, info, frames } = run;
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   const include = (x, y) => {
@@ -50,10 +50,15 @@ function extentOf(run, motions) {
     box.bottom = Math.min(box.bottom, y);
     box.top = Math.max(box.top, y);
   };
-  for (let i = 0; i < floes.count; ++i) {
-    if (floes.parent[i] >= 0) continue;
-    const [first, end] = pointsOf(floes, i);
-    for (let k = first; k < end; ++k) include(floes.points[2 * k] + floes.cx[i], floes.points[2 * k + 1] + floes.cy[i]);
+  for (const time of range) {
+    places.setTime(time);
+    for (const i of places.living.subarray(0, places.count)) {
+      const [first, end] = pointsOf(floes, i);
+      for (let k = first; k < end; ++k) {
+        const [px, py] = [floes.points[2 * k], floes.points[2 * k + 1]];
+        include(places.x[i] + places.cos[i] * px - places.sin[i] * py, places.y[i] + places.sin[i] * px + places.cos[i] * py);
+      }
+    }
   }
   info.ships.forEach((ship, index) => {
     const reach = Math.max(...ship.waterline_m.map(([x, y]) => Math.hypot(x, y)));

@@ -79,6 +79,13 @@ function makeMotions(run) {
     ship,
     shipInFrame,
     frame: () => frame,
+    /** Whether no frame from the present one to that one tells anything new of the floe. */
+    isSteady(id, endFrame) {
+      const by = teller[id];
+      if (by < 0) return true;
+      const slot = Math.max(recordsOf[by], lastAtMost(recordFrame, frame, recordsOf[by], recordsOf[by + 1]));
+      return slot + 1 >= recordsOf[by + 1] || recordFrame[slot + 1] > endFrame;
+    },
     /** Whether frames tell of the floe itself. */
     isTold: (id) => teller[id] === id,
   };

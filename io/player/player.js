@@ -12,6 +12,7 @@ function startPlayer() {
   const motions = makeMotions(run);
   const places = makePlaces(run, motions);
   const start = startPlaces(run, motions, range[0]);
+  const drawStillAndMoving = makeStillIce(run, places, motions);
   const colourings = makeColourings(run);
   const stage = byId("stage");
   const [iceCanvas, markCanvas] = [byId("ice"), byId("marks")];
@@ -25,8 +26,11 @@ function startPlayer() {
     iceDirty: true, marksDirty: true,
   };
   let colours = themeColours();
-  const box = extentOf(run, motions);
-  const plot = makePlot(run, byId("plot"), (time) => actions.goTo(time));
+  const box = extentOf(run, motions, places, range);
+  const plot = makePlot(run, byId("plot"), (time) => actions.goTo(time), (left, width) => {
+    timeline.place(left, width, colours);
+    state.iceDirty = true;
+  });
 
   const actions = {
     goTo(time) {
@@ -122,7 +126,15 @@ function startPlayer() {
     select(id) {
       state.selected = id;
       state.marksDirty = true;
-      showCard(true);
+      cardShown = null;
+    },
+    /** Chooses a floe and goes to where it lives, if that is not now. */
+    visit(id) {
+      if (!places.isAlive(id, state.time)) {
+        actions.play(false);
+        actions.goTo(Math.max(range[0], floes.born[id]));
+      }
+      actions.select(id);
     },
     hover(px, py) {
       const found = floeAt(run, places, ...view.toWorld(px, py));
@@ -161,7 +173,7 @@ function startPlayer() {
   function refreshTheme() {
     colours = themeColours();
     if (info.ships.length > 0) plot.build(colours, range);
-    timeline.place(plot.chart ? plot.left : 0, plot.chart ? plot.width : byId("track-row").clientWidth, colours);
+    else timeline.place(8, byId("track-row").clientWidth - 16, colours);
     showLegend();
     state.iceDirty = true;
   }
@@ -199,25 +211,29 @@ function startPlayer() {
   }
 
   function drawAllIce() {
-    ice.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
+    ice.resetTransform();
     ice.fillStyle = colours.water;
-    ice.fillRect(0, 0, view.width, view.height);
-    if (state.layers.startIce) drawStartIce(ice, view, run, start, colours);
+    ice.fillRect(0, 0, iceCanvas.width, iceCanvas.height);
+    ice.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
+    if (state.layers.startIce) drawStartIce(ice, view, run, start, places, state.time, colours);
     if (state.layers.channel && info.channel) drawChannel(ice, view, info.channel, colours);
     else if (state.layers.channel) drawSweptBand(ice, view, run, motions, colours);
-    drawIce(ice, view, run, places, colourings[state.colourBy], state.colourBy, colours);
+    const look = [view.x, view.y, view.scale, view.width, view.height, state.colourBy, colours.water].join();
+    drawStillAndMoving(ice, view, look, state.time, Math.max(5, state.rate), (context, ids) =>
+      drawFloes(context, view, run, places, ids, colourings[state.colourBy], state.colourBy, colours));
   }
 
   function drawAllMarks() {
+    marks.resetTransform();
+    marks.clearRect(0, 0, markCanvas.width, markCanvas.height);
     marks.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
-    marks.clearRect(0, 0, view.width, view.height);
-    const shown = state.selected >= 0 ? state.selected : state.hovered;
+    const shown = shownFloe();
     if (shown >= 0) drawLineage(marks, view, run, places, shown, state.time, colours);
-    if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== state.selected) outline(state.hovered);
+    if (state.layers.fractures) drawFractures(marks, view, run, state.time, colours);
+    if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== shown && places.isAlive(state.hovered, state.time)) outline(state.hovered);
     drawShips(marks, view, run, motions, state.layers, colours);
     const notice = state.layers.circles ? drawCircles(marks, view, run, places, motions, colours) : "";
     if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, arrowScale());
-    if (state.layers.fractures) drawFractures(marks, view, run, state.time);
     if (state.event !== null) drawChosenEvent(marks, view, info.events[state.event], colours);
     drawScaleBar(marks, view, colours);
     byId("notice").textContent = hasFrames ? notice : "This run has no frames: the scene is shown as it starts.";
@@ -231,15 +247,18 @@ function startPlayer() {
     marks.stroke();
   }
 
+  const chosenFloe = () => (state.selected >= 0 ? state.selected : state.hovered);
+  const shownFloe = () => (chosenFloe() < 0 ? -1 : standIn(run, places, chosenFloe(), state.time));
+
   let cardShown = null;
-  function showCard(isForced) {
-    const id = state.hovered >= 0 && state.selected < 0 ? state.hovered : state.selected;
+  function showCard() {
+    const id = shownFloe();
     const key = `${id} ${state.time}`;
-    if (!isForced && key === cardShown) return;
+    if (key === cardShown) return;
     cardShown = key;
     const host = byId("floe-card");
     if (host.contains(document.activeElement) && state.isPlaying) return;
-    showFloeCard(host, run, places, motions, id, state.time, actions);
+    showFloeCard(host, run, places, motions, chosenFloe(), id, state.time, actions);
     const chip = byId("chip");
     chip.hidden = id < 0;
     if (id < 0) return;
@@ -251,18 +270,18 @@ function startPlayer() {
     const words = `${state.time.toFixed(1)} s`;
     byId("now").textContent = words;
     byId("living").textContent = String(places.count);
+    byId("living-word").textContent = places.count === 1 ? "floe" : "floes";
     plot.setTime(state.time);
     timeline.setTime(state.time, `${words}, ${places.count} floes`);
     const values = info.ships.map((ship, k) => {
       const at = plot.valueAt(k, state.time);
-      const words = at ? minus(`${shortOf(at.value * plot.unit.factor)} ${plot.unit.name}`) : "\u2013";
+      const words = at ? plot.words(at.value) : "\u2013";
       const item = make("span", { "data-value": at ? String(at.value) : "", "data-time": at ? String(at.time) : "" }, info.ships.length > 1 ? `${ship.name} ${words}` : words);
-      item.style.color = info.ships.length > 1 ? shipColours[k % shipColours.length] : "";
+      item.style.color = info.ships.length > 1 ? shipColour(colours, k) : "";
       return item;
     });
     byId("load-now").replaceChildren(...values);
   }
-  const shortOf = (value) => (plot.unit.name ? value.toPrecision(4) : String(value));
 
   let last = 0;
   function frame(now) {
@@ -275,6 +294,8 @@ function startPlayer() {
       state.iceDirty = true;
     }
     last = now;
+    const isDrawn = state.iceDirty;
+    const before = performance.now();
     if (state.iceDirty) {
       places.setTime(state.time);
       if (state.follow >= 0) followShip();
@@ -283,9 +304,13 @@ function startPlayer() {
     }
     if (state.iceDirty || state.marksDirty) {
       drawAllMarks();
-      showCard(false);
+      showCard();
     }
     state.iceDirty = state.marksDirty = false;
+    if (isDrawn) {
+      ++player.drawn;
+      if (player.drawTimes.push(performance.now() - before) > 2000) player.drawTimes.length = 0;
+    }
     requestAnimationFrame(frame);
   }
   function followShip() {
@@ -293,6 +318,8 @@ function startPlayer() {
     if (pose) [view.x, view.y] = pose;
   }
 
+  // For tests and measurements; nothing here is needed to look at a run.
+  const player = { run, state, view, places, motions, plot, actions, drawn: 0, drawTimes: [] };
   const timeline = makeTimeline(run, byId("track"), range, actions);
   fillPage(run, range, state, plot, actions, refreshTheme);
   watchGestures(stage, view, actions);
@@ -303,7 +330,7 @@ function startPlayer() {
   actions.select(-1);
   showEventCard(byId("event-card"), run, null);
   requestAnimationFrame(frame);
-  return { run, state, view, places, motions, timeline, actions };
+  return player;
 }
 
 /** Half a minute for the whole run. */

@@ -12,8 +12,9 @@ const quantities = {
   force_contacts: { label: "Contacts at the hull", base: "" },
 };
 
-function makePlot(run, host, onTime) {
-  const plot = { quantity: "surge_N", chart: null, left: 0, width: 0 };
+/** `onPlaced` is told the left end and the width of the axis of times [px]. */
+function makePlot(run, host, onTime, onPlaced) {
+  const plot = { quantity: "surge_N", chart: null };
   const cursor = make("div", { class: "now-line" });
   const { forces, info } = run;
 
@@ -43,24 +44,31 @@ function makePlot(run, host, onTime) {
     const unit = unitOf(plot.quantity);
     plot.unit = unit;
     const height = host.clientHeight;
-    const padding = [6, 12, 0, 0];
+    const padding = [6, 24, 0, 0];
     plot.chart = new uPlot({
       width: host.clientWidth, height, padding,
       legend: { show: false },
       cursor: { show: false },
+      hooks: { ready: [(chart) => onPlaced(chart.over.offsetLeft, chart.over.offsetWidth)] },
       scales: { x: { time: false, range: () => range } },
       axes: [{ ...axis(colours), values: (_, splits) => splits.map((t) => `${t} s`) },
         { ...axis(colours, unit.name ? `[${unit.name}]` : ""), size: 46, values: (_, splits) => splits.map((v) => minus(String(Number(v.toPrecision(6))))) }],
-      series: [{}, ...info.ships.map((ship, k) => ({ label: ship.name, stroke: shipColours[k % shipColours.length], width: 1, points: { show: false } }))],
+      series: [{}, ...info.ships.map((ship, k) => ({ label: ship.name, stroke: shipColour(colours, k), width: 1, points: { show: false } }))],
     }, forces.some((rows) => rows.force_t_s.length) ? table(plot.quantity, unit.factor) : [[], ...forces.map(() => [])], host);
     plot.chart.over.append(cursor);
-    plot.left = plot.chart.over.offsetLeft;
-    plot.width = plot.chart.over.offsetWidth;
     dragTime(plot.chart.over, (px) => onTime(plot.chart.posToVal(px, "x")));
   };
 
   plot.setTime = (time) => {
-    if (plot.chart) cursor.style.transform = `translateX(${plot.chart.valToPos(time, "x")}px)`;
+    plot.time = time;
+    if (plot.chart?.over.offsetWidth) cursor.style.transform = `translateX(${plot.chart.valToPos(time, "x")}px)`;
+  };
+
+  /** A value in the unit that suits it. */
+  plot.words = (value) => {
+    const { base } = quantities[plot.quantity];
+    const unit = base.startsWith("N") ? loadUnit(Math.abs(value), base) : { factor: 1, name: base };
+    return minus(`${value === 0 ? "0" : Number.isInteger(value) ? value : (value * unit.factor).toPrecision(4)} ${unit.name}`.trim());
   };
 
   /** The row of forces.csv whose interval holds the time. */

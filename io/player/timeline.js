@@ -33,13 +33,13 @@ function makeTimeline(run, track, range, actions) {
     for (const event of events) {
       const x = pixelOf(event.t_s);
       if (event.kind === "split") continue;
-      context.fillStyle = kindColours[event.kind];
+      context.fillStyle = colours[event.kind];
       context.globalAlpha = 0.75;
       context.fillRect(x - 0.75, 13, 1.5, 9);
     }
     context.globalAlpha = 1;
     for (const event of events) {
-      if (event.kind === "split") drawEventMark(context, pixelOf(event.t_s), rows.split, "split", 4.5);
+      if (event.kind === "split") drawEventMark(context, pixelOf(event.t_s), rows.split, "split", 4.5, colours);
     }
   }
 

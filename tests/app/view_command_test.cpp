@@ -1,0 +1,260 @@
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "program.hpp"
+#include <gtest/gtest.h>
+
+#include "geometry/boundary.hpp"
+#include "io/json_parser.hpp"
+#include "io/motion_index.hpp"
+#include "io/run_reader.hpp"
+
+namespace polynya::tests {
+namespace {
+
+/// Base64 read by its definition, one character at a time.
+std::string from_base64(std::string_view text) {
+  static constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const std::size_t digit = kDigits.find(c);
+    if (digit == std::string_view::npos) break;
+    bits = bits << 6 | static_cast<unsigned>(digit);
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 0xffU);
+  }
+  return bytes;
+}
+
+/// What a page holds of its run, read from its text as a browser would.
+struct Page {
+  std::string text;
+  io::JsonValue info;
+  std::map<std::string, std::string> columns;
+
+  explicit Page(const std::filesystem::path& file) : text(read_file(file)) {
+    info = io::parse_json(script("run-info")).root;
+    const std::string bytes = from_base64(script("run-columns"));
+    for (const io::JsonValue& column : info.find("columns")->items()) {
+      static const std::map<std::string, std::size_t> kSizes{{"f64", 8}, {"f32", 4}, {"i32", 4}, {"u8", 1}};
+      const auto offset = static_cast<std::size_t>(column.find("offset")->number());
+      const auto count = static_cast<std::size_t>(column.find("count")->number());
+      const std::size_t size = count * kSizes.at(column.find("type")->text());
+      EXPECT_EQ(offset % 8, 0U);
+      EXPECT_LE(offset + size, bytes.size());
+      columns[column.find("name")->text()] = bytes.substr(offset, size);
+    }
+  }
+  std::string script(const std::string& id) const {
+    const std::size_t tag = text.find("id=\"" + id + "\"");
+    const std::size_t start = text.find('>', tag) + 1;
+    return text.substr(start, text.find("</script>", start) - start);
+  }
+  template <class Number>
+  std::vector<Number> column(const std::string& name) const {
+    const std::string& bytes = columns.at(name);
+    std::vector<Number> values(bytes.size() / sizeof(Number));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+};
+
+/// One real run for all: an icebreaker 30 s into a plate.
+class ViewCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    const Outcome outcome =
+        polynya({"run", scene_path("level-plate"), "--until", "30", "--out", "run"}, {folder->path()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    auto read = io::read_run(folder->path() / "run");
+    ASSERT_TRUE(read.has_value()) << read.error();
+    run = new io::Run(std::move(*read));
+  }
+  static void TearDownTestSuite() {
+    delete run;
+    delete folder;
+  }
+  static Outcome view(std::vector<std::string> words, const std::string& of = "run") {
+    words.insert(words.begin(), {"view", of});
+    return polynya(words, {folder->path()});
+  }
+  static Page page(std::vector<std::string> words = {}) {
+    words.insert(words.end(), {"--out", "page.html"});
+    const Outcome outcome = view(std::move(words));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return Page(folder->path() / "page.html");
+  }
+
+  static inline TemporaryFolder* folder = nullptr;
+  static inline io::Run* run = nullptr;
+};
+
+TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
+  const Page held = page();
+  EXPECT_EQ(held.columns.at("frames"), read_file(folder->path() / "run/frames.bin"));
+  const auto area = held.column<double>("area_m2"), mass = held.column<double>("mass_kg");
+  const auto born = held.column<double>("born_s"), died = held.column<double>("died_s");
+  const auto parent = held.column<std::int32_t>("parent");
+  ASSERT_EQ(area.size(), run->floes.size());
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    const simulation::Birth& birth = run->floes[i].birth;
+    EXPECT_EQ(area[i], birth.area);
+    EXPECT_EQ(mass[i], birth.mass);
+    EXPECT_EQ(born[i], birth.time);
+    EXPECT_EQ(died[i], run->floes[i].died);
+    EXPECT_EQ(parent[i], birth.parent);
+  }
+  const auto time = held.column<double>("force_t_s"), surge = held.column<double>("surge_N");
+  ASSERT_EQ(time.size(), run->samples.size());
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    EXPECT_EQ(time[i], run->samples[i].time);
+    EXPECT_EQ(surge[i], run->samples[i].surge_force);
+  }
+  EXPECT_EQ(held.info.find("events")->items().size(), run->events.size());
+}
+
+/// The area of the rings as drawn is the floe's, to single precision.
+TEST_F(ViewCommand, TheRingsDrawnHaveTheFloesAreas) {
+  const Page held = page();
+  const auto points = held.column<float>("points_m");
+  const auto rings_of = held.column<std::int32_t>("rings_of"), ends = held.column<std::int32_t>("ring_ends");
+  for (std::size_t floe = 0; floe < run->floes.size(); ++floe) {
+    double twice = 0;
+    for (int ring = rings_of[floe]; ring < rings_of[floe + 1]; ++ring) {
+      const int first = ring == 0 ? 0 : ends[static_cast<std::size_t>(ring - 1)];
+      const int end = ends[static_cast<std::size_t>(ring)];
+      for (int k = first, j = end - 1; k < end; j = k++) {
+        const auto at = [&](int index, int axis) {
+          return double{points[static_cast<std::size_t>(2 * index + axis)]};
+        };
+        twice += at(j, 0) * at(k, 1) - at(k, 0) * at(j, 1);
+      }
+    }
+    EXPECT_NEAR(twice / 2, run->floes[floe].birth.area, 1e-5 * run->floes[floe].birth.area + 1e-4);
+  }
+}
+
+/// As geometry samples them: as many for each floe, and each where it is, though pieces share them.
+TEST_F(ViewCommand, EveryFloeHasItsContactCircles) {
+  const Page held = page();
+  const auto circles = held.column<float>("circles_m");
+  const auto runs = held.column<std::int32_t>("circle_runs"),
+             runs_of = held.column<std::int32_t>("circle_runs_of");
+  ASSERT_EQ(runs_of.size(), run->floes.size() + 1 + run->scene.scene.ships.size());
+  std::size_t all = 0;
+  for (std::size_t floe = 0; floe < run->floes.size(); ++floe) {
+    const simulation::Birth& birth = run->floes[floe].birth;
+    const auto wanted = sample_contact_circles(geometry::edge_list(birth.polygon_in_body),
+                                               run->scene.scene.contact.circle_radius);
+    const geometry::Point origin = run->floe(run->lineage(birth.floe).front())->birth.centroid_in_body;
+    std::size_t next = 0;
+    for (int r = runs_of[floe]; r < runs_of[floe + 1]; ++r) {
+      for (int k = 0; k < runs[static_cast<std::size_t>(2 * r + 1)]; ++k, ++next) {
+        const auto circle = static_cast<std::size_t>(3 * (runs[static_cast<std::size_t>(2 * r)] + k));
+        ASSERT_LT(next, wanted.size());
+        EXPECT_NEAR(circles[circle], wanted[next].centre.x - origin.x, 1e-4);
+        EXPECT_NEAR(circles[circle + 1], wanted[next].centre.y - origin.y, 1e-4);
+        EXPECT_NEAR(circles[circle + 2], wanted[next].radius, 1e-6);
+      }
+    }
+    EXPECT_EQ(next, wanted.size()) << "floe " << floe;
+    all += next;
+  }
+  EXPECT_LT(circles.size() / 3, all) << "pieces of one floe share circles";
+}
+
+/// At every frame that stays, a thinned page tells of every floe what the run tells.
+TEST_F(ViewCommand, AThinnedPageTellsTheSameAtItsFrames) {
+  const Page held = page({"--every", "4", "--from", "5", "--until", "27"});
+  io::Run thin = *run;
+  auto frames = io::decode_frames(held.columns.at("frames"));
+  ASSERT_TRUE(frames.has_value()) << frames.error();
+  thin.frames = std::move(*frames);
+  std::vector<double> times;
+  for (const io::Frame& frame : thin.frames) times.push_back(frame.time);
+  ASSERT_EQ(times, (std::vector<double>{6, 14, 22, 26}));
+  const io::MotionIndex all(*run), some(thin);
+  int compared = 0;
+  for (const double time : times) {
+    for (const io::RunFloe& floe : run->floes) {
+      if (!run->is_alive(floe.birth.floe, time)) continue;
+      const auto a = all.floe_at(floe.birth.floe, time), b = some.floe_at(floe.birth.floe, time);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (!a) continue;
+      EXPECT_LT(length(a->position - b->position), 1e-9);
+      EXPECT_NEAR(a->angle, b->angle, 1e-12);
+      EXPECT_EQ(a->velocity, b->velocity);
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 4);
+}
+
+TEST_F(ViewCommand, ThePageNeedsNothingElse) {
+  const Page held = page();
+  for (const char* outside : {"src=", "@import", "url(http", "<link rel=\"stylesheet"})
+    EXPECT_EQ(held.text.find(outside), std::string::npos) << outside;
+  for (const char* mark : {"{{", "/*{{"}) EXPECT_EQ(held.text.find(mark), std::string::npos) << mark;
+  EXPECT_NE(held.text.find("github.com/leeoniya/uPlot"), std::string::npos);
+}
+
+TEST_F(ViewCommand, TheSameRunGivesTheSameBytes) {
+  EXPECT_EQ(page().text, page().text);
+}
+
+TEST_F(ViewCommand, WithoutOutItStandsInTheRunFolder) {
+  const Outcome outcome = view({});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(folder->path() / "run/view.html"));
+  EXPECT_EQ(outcome.out.find("run/view.html"), 0U);
+}
+
+TEST_F(ViewCommand, TooLargeAPageIsRefusedWithAdvice) {
+  const Outcome outcome = view({"--limit", "0.05", "--out", "large.html"});
+  EXPECT_EQ(outcome.code, 2);
+  for (const char* way : {"--every", "--from", "--circles 0", "--limit"})
+    EXPECT_NE(outcome.err.find(way), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder->path() / "large.html"));
+}
+
+TEST_F(ViewCommand, CirclesCanBeLeftOut) {
+  EXPECT_EQ(page({"--circles", "0"}).columns.count("circles_m"), 0U);
+  const Outcome outcome = view({"--circles", "10", "--out", "page.html"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("contact circles"), std::string::npos);
+}
+
+TEST_F(ViewCommand, WrongUsageIsTwoAndNoRunOrPlaceIsFive) {
+  EXPECT_EQ(polynya({"view"}, {folder->path()}).code, 2);
+  for (const auto& words : std::vector<std::vector<std::string>>{
+           {"--every", "0"}, {"--every", "x"}, {"--from", "1000"}, {"--from", "20", "--until", "10"}}) {
+    const Outcome outcome = view(words);
+    EXPECT_EQ(outcome.code, 2) << words[0] << words[1];
+    EXPECT_FALSE(outcome.err.empty());
+  }
+  EXPECT_EQ(view({}, "no-such-run").code, 5);
+  EXPECT_EQ(view({"--out", "no/such/folder/page.html"}).code, 5);
+}
+
+/// A channel that is no JSON is told and left out; one that is stands in the page.
+TEST_F(ViewCommand, AChannelIsTakenIn) {
+  const auto file = folder->path() / "run/channel.geojson";
+  write_file(file, "{\"type\": \"FeatureCollection\", \"features\": [], \"note\": \"</script>\"}");
+  EXPECT_EQ(page().info.find("channel")->find("note")->text(), "</script>");
+  write_file(file, "{\"type\":");
+  const Outcome outcome = view({"--out", "page.html"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("channel.geojson"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(Page(folder->path() / "page.html").info.find("channel")->is_null());
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace polynya::tests

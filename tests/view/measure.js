@@ -1,0 +1,41 @@
+// Measures the player: node tests/view/measure.js PAGE.html [seconds]     (playwright-core in NODE_PATH)
+// Prints how long the page took to open, and the time between frames and in drawing while it plays.
+"use strict";
+const path = require("node:path");
+const { startBrowser, openPage } = require("./browser.js");
+
+async function playFor(page, seconds) {
+  return page.evaluate(async (duration) => {
+    const { actions, state } = window.polynyaPlayer;
+    const between = [];
+    actions.play(true);
+    let last = performance.now();
+    const end = last + duration;
+    window.polynyaPlayer.drawTimes.length = 0;
+    while (last < end && state.isPlaying) {
+      await new Promise(requestAnimationFrame);
+      const now = performance.now();
+      between.push(now - last);
+      last = now;
+    }
+    actions.play(false);
+    return { between, draw: window.polynyaPlayer.drawTimes.slice() };
+  }, 1000 * seconds);
+}
+
+const at = (values, part) => [...values].sort((a, b) => a - b)[Math.floor(part * (values.length - 1))].toFixed(1);
+
+async function main() {
+  const browser = await startBrowser();
+  const page = await openPage(browser, path.resolve(process.argv[2]));
+  const seconds = Number(process.argv[3] ?? 5);
+  console.log(`opened and drawn after ${page.openedAfter} ms; ${await page.locator("#living").textContent()} floes`);
+  const show = (words, { between, draw }) =>
+    console.log(`${words}: ${(1000 * between.length / between.reduce((a, b) => a + b, 0)).toFixed(0)} frames/s, between frames ` +
+      `${at(between, 0.5)} ms (95 %: ${at(between, 0.95)}), of which script ${at(draw, 0.5)} ms (95 %: ${at(draw, 0.95)})`);
+  show("whole run, playing", await playFor(page, seconds));
+  await page.evaluate(() => { const { actions } = window.polynyaPlayer; actions.goToEnd(false); actions.setFollow(0); });
+  show("following the ship", await playFor(page, seconds));
+  await browser.close();
+}
+main();

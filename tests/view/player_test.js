@@ -1,0 +1,282 @@
+// The player in a real browser. Started by tests/view/run; POLYNYA_BINARY names the program under test.
+"use strict";
+const { test, before, after } = require("node:test");
+const assert = require("node:assert/strict");
+const fs = require("node:fs");
+const os = require("node:os");
+const path = require("node:path");
+const { startBrowser, openPage } = require("./browser.js");
+const { makeRun, makePage, readLines, readNdjson, inspectAt, polynya } = require("./runs.js");
+
+let folder, browser, run, file, page;
+
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
+  run = makeRun(folder, "sawamura2017-fig4b");
+  file = makePage(run);
+  browser = await startBrowser();
+  page = await openPage(browser, file);
+});
+after(async () => {
+  await browser?.close();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+const text = (id) => page.locator(`#${id}`).textContent();
+const timeShown = async () => parseFloat(await text("now"));
+/** Waits until what was asked for is drawn. */
+const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const act = async (name, ...words) => {
+  await page.evaluate(([action, list]) => window.polynyaPlayer.actions[action](...list), [name, words]);
+  await drawn();
+};
+const picture = () => page.locator("#stage").screenshot();
+const stageBox = () => page.locator("#stage").boundingBox();
+
+test("the paper's run opens from disk, small, alone and without errors", async (t) => {
+  const megabytes = fs.statSync(file).size / 1e6;
+  t.diagnostic(`${megabytes.toFixed(2)} MB, opened and drawn after ${page.openedAfter} ms`);
+  assert.ok(megabytes < 10);
+  assert.equal(await page.title(), "sawamura2017-fig4b – Polynya");
+  assert.deepEqual(page.requests.filter((url) => url !== `file://${file}` && url !== "data:,"), []);
+  assert.deepEqual(page.errors, []);
+});
+
+test("it plays and pauses", async () => {
+  const before = await picture();
+  await page.click("#play");
+  await page.waitForFunction(() => window.polynyaPlayer.state.time > 20);
+  await page.click("#play");
+  const stopped = await page.evaluate(() => window.polynyaPlayer.state.time);
+  assert.notDeepEqual(await picture(), before);
+  await page.waitForTimeout(100);
+  assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), stopped);
+  await page.keyboard.press("Space");
+  await page.waitForFunction((time) => window.polynyaPlayer.state.time > time, stopped);
+  await page.keyboard.press("Space");
+  assert.equal(await page.locator("#play").getAttribute("aria-label"), "Play");
+});
+
+test("it scrubs: on the timeline, on the plot, by keys", async () => {
+  for (const id of ["track", "plot .u-over"]) {
+    const box = await page.locator(`#${id}`).boundingBox();
+    const y = box.y + box.height - 3;
+    for (const part of [0.25, 0.8]) {
+      await page.mouse.move(box.x + 0.5 * box.width, y);
+      await page.mouse.down();
+      await page.mouse.move(box.x + part * box.width, y, { steps: 4 });
+      await page.mouse.up();
+      await drawn();
+      assert.ok(Math.abs((await timeShown()) - part * 550) < 550 / box.width, `${id}: ${await timeShown()} s`);
+    }
+  }
+  await act("goTo", 100.5);
+  await page.keyboard.press("ArrowRight");
+  await drawn();
+  assert.equal(await timeShown(), 102);
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("ArrowLeft");
+  await drawn();
+  assert.equal(await timeShown(), 98);
+  await page.keyboard.press("End");
+  await drawn();
+  assert.equal(await timeShown(), 550);
+  assert.equal(await page.locator("#track").getAttribute("aria-valuenow"), "550.0");
+});
+
+test("a click on an event's mark goes there", async () => {
+  const events = readNdjson(run, "events.ndjson");
+  for (const split of events.filter((event) => event.kind === "split")) {
+    const box = await page.locator("#track").boundingBox();
+    await page.mouse.click(box.x + (split.t_s / 550) * box.width, box.y + 6);
+    await drawn();
+    assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), split.t_s);
+    const card = await text("event-card");
+    assert.ok(card.includes(`floe${split.floe}`) && card.includes(split.children.join(", ")), card);
+  }
+  await act("goToEnd", false);
+  for (const event of events.slice(0, 3)) {
+    await page.keyboard.press("]");
+    assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), event.t_s);
+  }
+});
+
+/** Points the mouse at a floe's centroid; false where another floe or nothing is there, or it does not show. */
+async function pointAt(id) {
+  const at = await page.evaluate((floe) => {
+    const { view, places } = window.polynyaPlayer;
+    return view.toScreen(places.x[floe], places.y[floe]);
+  }, id);
+  const box = await stageBox();
+  const isShown = at[0] > 5 && at[1] > 5 && at[0] < box.width - 70 && at[1] < box.height - 50;
+  if (!isShown) return false;
+  await page.mouse.move(box.x + at[0], box.y + at[1]);
+  await drawn();
+  return (await page.evaluate(() => window.polynyaPlayer.state.hovered)) === id;
+}
+
+test("the floe under the pointer has the numbers that `polynya inspect` prints and the files hold", async (t) => {
+  const births = readNdjson(run, "floes.ndjson");
+  let picked = 0;
+  for (const time of [0, 231, 301.37, 550]) {
+    await act("fit");
+    await act("goTo", time);
+    const table = inspectAt(run, time);
+    assert.equal(Number(await text("living")), table.size);
+    for (const [id, row] of [...table].filter((_, k) => k % 7 === 0 || k > table.size - 8)) {
+      if (!(await pointAt(id))) continue;
+      const facts = Object.fromEntries(await page.locator("#floe-card dd").evaluateAll((all) =>
+        all.map((dd) => [dd.dataset.fact, { words: dd.textContent, value: dd.dataset.value }])));
+      assert.equal(facts.floe.words, String(id));
+      assert.equal(facts.parent.words, row.parent === "-" ? "none, of the scene" : row.parent);
+      assert.equal(facts.area.words, `${row.area} m²`);
+      assert.equal(Number(facts.area.value), births[id].area_m2);
+      assert.equal(Number(facts.mass.value), births[id].mass_kg);
+      assert.equal(parseFloat(facts.mass.words), Number(row.mass));
+      assert.equal(facts.speed.words, row.speed === "-" ? "– (lived between two frames)" : `${row.speed} m/s`);
+      ++picked;
+    }
+  }
+  t.diagnostic(`${picked} floes picked`);
+  assert.ok(picked > 60);
+});
+
+test("a floe's lineage is that of the files", async () => {
+  await act("goToEnd", true);
+  const births = readNdjson(run, "floes.ndjson");
+  const last = births.at(-1).floe_id;
+  const parents = [];
+  for (let at = last; at !== null; at = births[at].parent_id) parents.unshift(at);
+  assert.ok(await pointAt(last), `floe ${last} is not under the pointer`);
+  await page.mouse.down();
+  await page.mouse.up();
+  const shown = await page.locator(".lineage li > button:first-child").evaluateAll((all) => all.map((b) => b.textContent));
+  assert.deepEqual(shown.filter((words) => words.startsWith("floe")), [parents[0], ...parents.slice(-7)].map((id) => `floe ${id}`));
+  const events = readNdjson(run, "events.ndjson");
+  await page.locator(".lineage li > button:nth-child(2)").first().click();
+  assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), events.find((e) => e.floe === parents[0]).t_s);
+  await page.keyboard.press("Escape");
+});
+
+test("a floe that was chosen is followed through its fractures, to its largest piece", async () => {
+  const births = readNdjson(run, "floes.ndjson");
+  const plate = readNdjson(run, "events.ndjson")[0].floe;
+  const comesFrom = (id) => id === plate || (births[id].parent_id !== null && comesFrom(births[id].parent_id));
+  await act("goTo", 0);
+  await act("select", plate);
+  assert.equal(await page.locator("[data-fact=floe]").textContent(), String(plate));
+  for (const time of [200, 550]) {
+    await act("goTo", time);
+    const pieces = [...inspectAt(run, time).keys()].filter(comesFrom).sort((a, b) => births[b].area_m2 - births[a].area_m2);
+    assert.equal(await page.locator("[data-fact=floe]").textContent(), String(pieces[0]));
+  }
+  await page.keyboard.press("Escape");
+});
+
+test("floes are drawn where final.geojson has them", async () => {
+  await act("goToEnd", true);
+  const { features } = JSON.parse(fs.readFileSync(path.join(run, "final.geojson"), "utf8"));
+  const placed = await page.evaluate(() => {
+    const { places, run: { floes } } = window.polynyaPlayer;
+    const rings = {};
+    for (const id of places.living.subarray(0, places.count)) {
+      const first = floes.ringsOf[id] > 0 ? floes.ringEnds[floes.ringsOf[id] - 1] : 0;
+      rings[id] = [];
+      for (let k = first; k < floes.ringEnds[floes.ringsOf[id]]; ++k) {
+        const [px, py] = [floes.points[2 * k], floes.points[2 * k + 1]];
+        rings[id].push([places.x[id] + places.cos[id] * px - places.sin[id] * py, places.y[id] + places.sin[id] * px + places.cos[id] * py]);
+      }
+    }
+    return rings;
+  });
+  assert.equal(Object.keys(placed).length, features.length);
+  for (const { properties, geometry } of features) {
+    const ring = geometry.coordinates[0].slice(0, -1);
+    const mine = placed[properties.floe_id];
+    assert.equal(mine.length, ring.length);
+    // Frames are right to 1 mm and 1e-5 rad.
+    ring.forEach(([x, y], k) => assert.ok(Math.hypot(x - mine[k][0], y - mine[k][1]) < 1.5e-3 + 1e-5 * 150, `floe ${properties.floe_id}`));
+  }
+});
+
+test("the load shown is the row of forces.csv", async () => {
+  const [header, ...lines] = readLines(run, "forces.csv");
+  const names = header.split(",");
+  for (const quantity of ["surge_N", "sway_j_over_tau_c_N", "speed_m_per_s"]) {
+    await page.selectOption("#quantity", quantity);
+    for (const row of [0, 1845, 3917, lines.length - 1]) {
+      const fields = lines[row].split(",");
+      await act("goTo", Number(fields[0]) - 0.01);
+      const shown = await page.locator("#load-now span").evaluate((span) => ({ ...span.dataset }));
+      assert.equal(Number(shown.time), Number(fields[0]));
+      assert.equal(Number(shown.value), Number(fields[names.indexOf(quantity)]));
+    }
+  }
+  await page.selectOption("#quantity", "surge_N");
+});
+
+test("the plot's moment and the timeline's stand in one line with the time", async () => {
+  for (const time of [0, 137, 550]) {
+    await act("goTo", time);
+    const [line, thumb, over] = await Promise.all([".now-line", ".thumb", "#plot .u-over"].map((css) => page.locator(css).boundingBox()));
+    assert.ok(Math.abs(line.x + line.width / 2 - (over.x + (time / 550) * over.width)) < 1.5);
+    assert.ok(Math.abs(thumb.x + thumb.width / 2 - (line.x + line.width / 2)) < 1.5);
+  }
+});
+
+test("layers, colours, themes and the ship's company change the picture", async () => {
+  await act("goTo", 300);
+  await act("setFollow", 0);
+  const seen = new Set([(await picture()).toString("base64")]);
+  for (const key of ["2", "3", "c", "v", "h", "b", "t", "+"]) {
+    await page.keyboard.press(key);
+    await drawn();
+    const now = (await picture()).toString("base64");
+    assert.ok(!seen.has(now), `key ${key} changed nothing`);
+    seen.add(now);
+  }
+  for (const key of ["1", "c", "v", "h", "b", "t", "0"]) await page.keyboard.press(key);
+  await page.keyboard.press("?");
+  assert.ok(await page.locator("#help").isVisible());
+  await page.keyboard.press("Escape");
+  assert.ok(!(await page.locator("#help").isVisible()));
+});
+
+test("following keeps the ship in the middle", async () => {
+  await page.click("#follow");
+  for (const time of [50, 400]) {
+    await act("goTo", time);
+    const off = await page.evaluate(() => {
+      const { view, motions } = window.polynyaPlayer;
+      const [x, y] = view.toScreen(...motions.ship(0).subarray(0, 2));
+      return Math.hypot(x - view.width / 2, y - view.height / 2);
+    });
+    assert.ok(off < 1e-6);
+  }
+  await page.click("#fit");
+});
+
+test("wheel and drag keep what is under the pointer under it", async () => {
+  const box = await stageBox();
+  const [left, top] = [Math.round(box.x + 300), Math.round(box.y + 200)]; // pointers are at whole pixels
+  const under = (dx, dy) => page.evaluate((at) => window.polynyaPlayer.view.toWorld(...at), [left + dx - box.x, top + dy - box.y]);
+  const first = await under(0, 0);
+  const scale = await page.evaluate(() => window.polynyaPlayer.view.scale);
+  await page.mouse.move(left, top);
+  await page.mouse.wheel(0, -600);
+  await page.waitForFunction((before) => window.polynyaPlayer.view.scale > 2 * before, scale);
+  const zoomed = await under(0, 0);
+  assert.ok(Math.hypot(zoomed[0] - first[0], zoomed[1] - first[1]) < 1e-6);
+  await page.mouse.down();
+  await page.mouse.move(left + 80, top + 60, { steps: 5 });
+  await page.mouse.up();
+  const moved = await under(80, 60);
+  assert.ok(Math.hypot(moved[0] - first[0], moved[1] - first[1]) < 1e-6);
+  await page.click("#fit");
+});
+
+test("nothing went wrong on the way", () => assert.deepEqual(page.errors, []));
+
+test("an unknown run is refused", () => {
+  assert.throws(() => polynya("view", path.join(folder, "none")), { status: 5 });
+});

@@ -1,0 +1,53 @@
+// Runs for the tests of the player: made by the polynya under test, and read back from their files here.
+"use strict";
+const { execFileSync } = require("node:child_process");
+const fs = require("node:fs");
+const path = require("node:path");
+
+const polynya = process.env.POLYNYA_BINARY;
+const scenes = path.resolve(__dirname, "../../scenes");
+
+exports.polynya = (...words) => execFileSync(polynya, words, { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] });
+
+/** Runs a scene (a name of scenes/, or the scene itself) and writes its page. */
+exports.makeRun = (folder, scene, ...options) => {
+  const name = typeof scene === "string" ? scene : scene.name;
+  const run = path.join(folder, name.replace(/\W/g, "-"));
+  let file = path.join(scenes, `${name}.json`);
+  if (typeof scene !== "string") {
+    file = `${run}.json`;
+    fs.writeFileSync(file, JSON.stringify(scene));
+  }
+  exports.polynya("run", file, "--out", run, "--overwrite", "--progress", "none", ...options);
+  return run;
+};
+exports.makePage = (run, ...options) => {
+  exports.polynya("view", run, ...options);
+  return path.join(run, "view.html");
+};
+
+exports.readLines = (run, file) => fs.readFileSync(path.join(run, file), "utf8").trim().split("\n").filter(Boolean);
+exports.readNdjson = (run, file) => exports.readLines(run, file).map((line) => JSON.parse(line));
+
+/** The table of `polynya inspect RUN --at T`, by floe. */
+exports.inspectAt = (run, time) => {
+  const rows = exports.polynya("inspect", run, "--at", String(time)).trim().split("\n").slice(1);
+  return new Map(rows.map((row) => {
+    const [floe, parent, born, area, , , , mass, speed] = row.trim().split(/\s+/);
+    return [Number(floe), { parent, born, area, mass, speed }];
+  }));
+};
+
+/** A small scene: floes of 15 m, with the ships and other fields that are given. */
+exports.smallScene = (name, fields) => ({
+  name,
+  time: { step_s: 0.01, until_s: 10 },
+  floes: [{ lattice: { origin_m: [20, 0], columns: 3, rows: 3, pitch_m: 18, size_m: 15 }, velocity_m_per_s: [0.2, 0] }],
+  ...fields,
+});
+exports.ship = (name, y) => ({
+  name,
+  hull: { length_m: 40, beam_m: 8, entrance_angle_deg: 27, stem_angle_deg: 30 },
+  mass_kg: 1e6, moment_of_inertia_kg_m2: 1e8, position_m: [-20, y], heading_deg: 0,
+  propulsion: { constant_speed_m_per_s: 2 },
+});
