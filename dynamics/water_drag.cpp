@@ -8,12 +8,17 @@
 #include <boost/container/small_vector.hpp>
 
 #include "dynamics/chunks.hpp"
+#include "geometry/convex_hull.hpp"
 
 namespace polynya::dynamics {
 
 using geometry::Vector;
 
 DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid) {
+  constexpr std::size_t kFew = 64;  // corners that are not worth a hull
+  const bool is_hull_wanted = polygon.outer.size() > kFew;
+  const geometry::Ring hull = is_hull_wanted ? geometry::convex_hull(polygon.outer) : geometry::Ring{};
+  const geometry::Ring& outline = is_hull_wanted ? hull : polygon.outer;
   DragShape shape;
   for (int k = 0; k < DragShape::kDirections; ++k) {
     const Vector along = drag_direction(k);
@@ -23,7 +28,7 @@ DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point cent
     const double share = (2.0 / DragShape::kDirections) / squared_length(along) / std::numbers::pi;
     double low = 0;
     double high = 0;
-    for (const geometry::Point p : polygon.outer) {
+    for (const geometry::Point p : outline) {
       const double s = dot(p - centroid, across);
       low = std::min(low, s);
       high = std::max(high, s);

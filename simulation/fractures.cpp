@@ -55,7 +55,8 @@ void replace_by_pieces(World& world, const PendingFracture& pending, const geome
                                          child.water_from_body.position - world.bodies.position[parent]);
   retire_floe(world, pending.floe);
   for (const geometry::Piece& piece : cut.pieces) {
-    const double area = geometry::measure(piece.shape.polygon).area;
+    const geometry::Measures measures = geometry::measure(piece.shape.polygon);
+    const double area = measures.area;
     const bool is_cusp = is_bend && piece.part == geometry::Part::kInside;
     if (is_cusp && world.scene.fracture.cusp_fate == CuspFate::kSubmerge) {
       event.submerged_area += area;
@@ -67,7 +68,7 @@ void replace_by_pieces(World& world, const PendingFracture& pending, const geome
       continue;
     }
     child.shape = piece.shape;
-    const FloeId id = add_floe(world, child);
+    const FloeId id = add_floe(world, child, measures);
     wake(world, world.body_of(id));
     event.children.push_back(id);
     world.counts.floated_cusps += is_cusp ? 1 : 0;

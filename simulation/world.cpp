@@ -88,7 +88,8 @@ World::World(Scene scene_of_run, Shortcuts shortcuts_of_run)
   for (const FloeSpec& spec : scene.floes) {
     NewFloe floe;
     floe.shape.polygon = spec.polygon_in_world;
-    const Point centroid = geometry::measure(spec.polygon_in_world).centroid;
+    const geometry::Measures measures = geometry::measure(spec.polygon_in_world);
+    const Point centroid = measures.centroid;
     floe.angular_velocity = spec.angular_velocity;
     floe.velocity = spec.velocity;
     if (!current.is_still()) {  // at rest in a sheared current is to go and turn with it
@@ -96,7 +97,7 @@ World::World(Scene scene_of_run, Shortcuts shortcuts_of_run)
       floe.angular_velocity += current.angular_velocity();
     }
     floe.velocity -= cross(floe.angular_velocity, centroid - Point{});
-    const FloeId id = add_floe(*this, floe);
+    const FloeId id = add_floe(*this, floe, measures);
     ledger.initial_ice_area += floes[id].area;
   }
   counts.floes_initial = static_cast<std::int64_t>(floes.size());
@@ -110,8 +111,7 @@ World::World(Scene scene_of_run, Shortcuts shortcuts_of_run)
   }
 }
 
-FloeId add_floe(World& world, const NewFloe& floe) {
-  const geometry::Measures measures = geometry::measure(floe.shape.polygon);
+FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& measures) {
   const fracture::Ice& ice = world.scene.ice;
   const auto id = static_cast<FloeId>(world.floes.size());
   dynamics::NewBody body;

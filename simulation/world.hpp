@@ -12,6 +12,7 @@
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/crack_path.hpp"
+#include "geometry/measures.hpp"
 #include "simulation/journal.hpp"
 #include "simulation/scene.hpp"
 
@@ -111,9 +112,9 @@ struct NewFloe {
   double angular_velocity = 0;  ///< [rad/s]
 };
 
-/// Takes a floe into the world, at rest or moving as a part of a rigid body whose frame is the floe's; writes
+/// Takes a floe of these measures into the world, at rest or moving as a part of a rigid body whose frame is the floe's; writes
 /// its birth.
-FloeId add_floe(World& world, const NewFloe& floe);
+FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& measures);
 
 /// Takes a floe out of the world.
 void retire_floe(World& world, FloeId floe);

@@ -58,6 +58,24 @@ TEST(WaterDrag, AFreeFloeSlowsAsTheClosedForm) {
   }
 }
 
+TEST(WaterDrag, ManyCornersAreAsWideAsTheirHull) {
+  Random random(17);
+  for (int i = 0; i < 50; ++i) {
+    const geometry::Polygon star = random_star(random, 65 + random.below(200), 3, 8);
+    const DragShape shape = make_drag_shape(star, {});
+    for (int k = 0; k < DragShape::kDirections; ++k) {
+      const geometry::Vector across = perpendicular(drag_direction(k)) / length(drag_direction(k));
+      double low = 0;
+      double high = 0;
+      for (const geometry::Point p : star.outer) {
+        low = std::min(low, dot(p - geometry::Point{}, across));
+        high = std::max(high, dot(p - geometry::Point{}, across));
+      }
+      ASSERT_NEAR(shape.width[k], high - low, 1e-13);
+    }
+  }
+}
+
 TEST(WaterDrag, TheRotationalIntegralIsThatOfDiscAndSquare) {
   // K = mean over directions of ∫|s|³ ds: R⁴/2 for a disc; (a/2)⁴ (3/2 + 4/π) / 2 for a square of side a.
   EXPECT_NEAR(make_drag_shape(regular(512, 7), {}).rotational / (std::pow(7, 4) / 2), 1, 1e-3);
