@@ -1,11 +1,13 @@
 // How the cost of a step grows: with floes, awake floes, touching pairs and boundary vertices.
 //   polynya_bench_scaling [--quick] [--csv FILE] [--svg FILE]
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <thread>
 
 #include "bench/voyage_run.hpp"
 #include "io/chart.hpp"
@@ -68,11 +70,13 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
   std::vector<Sweep> sweeps{{"floes", "floes in the field", "same voyage, more floes", {}},
                             {"awake", "floes, all awake", "sheared, 80 % cover", {}},
                             {"contacts", "touching pairs", "2000 floes, 50 to 90 %", {}},
-                            {"vertices", "vertices of the plate", "one plate being broken", {}}};
+                            {"vertices", "vertices of the plate", "one plate being broken", {}},
+                            {"threads", "threads", "10 000 floes, all awake", {}}};
   const double part = is_quick ? 0.1 : 1;
-  const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until) {
+  const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until,
+                           int threads = 1) {
     const auto steps = std::lround(part * until / scene.time.step);
-    RunCost cost = run_polynya(scene, {1e9, steps});
+    RunCost cost = run_polynya(scene, {1e9, steps, threads});
     std::fprintf(stderr, "%s %g: %.1f us\n", sweep.name.c_str(), x, 1e6 * cost.mean_step());
     sweep.samples.push_back({x > 0 ? x : cost.mean_contacts, std::move(cost)});
   };
@@ -83,13 +87,18 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
     measure(sweeps[2], 0, sheared(2000, concentration), 100);
   for (const int corners : {30, 100, 300, 1000, 3000, 10000})
     measure(sweeps[3], corners, round_plate(corners), 100);
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  for (int threads = 1; threads <= cores; threads *= 2)
+    measure(sweeps[4], threads, sheared(10000, 0.8), 100, threads);
   return sweeps;
 }
 
 io::Chart chart_of(const std::vector<Sweep>& sweeps) {
   io::Chart chart;
   chart.title = "Cost of a step";
-  chart.caption = "Mean wall time of a step over a run, one thread. Commands: bench/performance.sh.";
+  chart.caption =
+      "Mean wall time of a step over a run, one thread but for the last panel. Commands: "
+      "bench/performance.sh.";
   for (const Sweep& sweep : sweeps) {
     io::Chart::Panel panel;
     panel.title = sweep.title;

@@ -83,7 +83,8 @@ RunCost run_peer(const char* name, const PeerScene& scene, const Limits& limits)
 
 RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
   RunCost cost;
-  cost.engine = "Polynya";
+  cost.engine = limits.threads == 1 ? "Polynya" : "Polynya, " + std::to_string(limits.threads) + " threads";
+  simulation.set_threads(limits.threads);
   cost.step = simulation.scene().time.step;
   simulation.journal().clear();
   run_steps(cost, limits, [&](bool counts_contacts) {

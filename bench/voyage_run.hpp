@@ -12,6 +12,7 @@ namespace polynya::bench {
 struct Limits {
   double wall = 1e9;  ///< of the steps [s]
   long steps = 0;     ///< at most
+  int threads = 1;    ///< of ours; the peers have one
 };
 
 /// What a run came to.
