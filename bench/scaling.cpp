@@ -38,11 +38,21 @@ std::vector<simulation::FloeSpec> field_floes(int count, double concentration) {
   return floes;
 }
 
-/// The voyage of field-10000 through a field of another size: the ship goes in the middle of its side.
-simulation::Scene voyage_through(int floes) {
+/// The voyage of field-10000 in a field of 2000 floes, with copies of the field beside it where nothing
+/// happens.
+simulation::Scene voyage_beside(int copies) {
   simulation::Scene scene = load("field-10000.json");
-  scene.floes = field_floes(floes, 0.53);
-  scene.ships.front().position_in_world.y = 0.5 * std::sqrt(floes * 225 * 1.0625 / 0.53);
+  scene.floes = field_floes(2000, 0.53);
+  const double side = std::sqrt(2000 * 225 * 1.0625 / 0.53);
+  scene.ships.front().position_in_world.y = 0.5 * side;
+  const std::size_t count = scene.floes.size();
+  for (int copy = 1; copy < copies; ++copy) {
+    for (std::size_t i = 0; i < count; ++i) {
+      simulation::FloeSpec floe = scene.floes[i];
+      for (geometry::Point& p : floe.polygon_in_world.outer) p.y += copy * (side + 20);
+      scene.floes.push_back(std::move(floe));
+    }
+  }
   return scene;
 }
 
@@ -77,11 +87,11 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
                            int threads = 1) {
     const auto steps = std::lround(part * until / scene.time.step);
     RunCost cost = run_polynya(scene, {1e9, steps, threads});
+    keep_quieter(cost, run_polynya(scene, {1e9, steps, threads}));
     std::fprintf(stderr, "%s %g: %.1f us\n", sweep.name.c_str(), x, 1e6 * cost.mean_step());
     sweep.samples.push_back({x > 0 ? x : cost.mean_contacts, std::move(cost)});
   };
-  for (const int floes : {1000, 3000, 10000, 30000, 100000})
-    measure(sweeps[0], floes, voyage_through(floes), 40);  // the smallest field is 40 s of way deep
+  for (const int copies : {1, 2, 5, 15, 50}) measure(sweeps[0], 2000 * copies, voyage_beside(copies), 200);
   for (const int floes : {100, 300, 1000, 3000, 10000}) measure(sweeps[1], floes, sheared(floes, 0.8), 100);
   for (const double concentration : {0.5, 0.6, 0.7, 0.8, 0.9})
     measure(sweeps[2], 0, sheared(2000, concentration), 100);

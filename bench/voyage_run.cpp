@@ -130,6 +130,12 @@ double RunCost::median_step() const {
   return sorted[sorted.size() / 2] / static_cast<double>(std::min(kBlock, steps));
 }
 
+void keep_quieter(RunCost& cost, const RunCost& again) {
+  for (std::size_t i = 0; i < std::min(cost.blocks.size(), again.blocks.size()); ++i)
+    cost.blocks[i] = std::min(cost.blocks[i], again.blocks[i]);
+  cost.load = std::min(cost.load, again.load);
+}
+
 simulation::Scene load(const std::string& file, const Edit& edit) {
   auto loaded = io::read_scene_file(std::string(POLYNYA_SOURCE_DIR) + "/scenes/" + file);
   if (!loaded) {

@@ -36,6 +36,9 @@ struct RunCost {
   double real_time_factor() const { return step * static_cast<double>(steps) / total(); }
 };
 
+/// Every engine takes the same steps each time, so a block's quietest run is what it costs undisturbed.
+void keep_quieter(RunCost& cost, const RunCost& again);
+
 /// A scene of scenes/, with what a case changes about it.
 using Edit = std::function<void(simulation::Scene&)>;
 simulation::Scene load(const std::string& file, const Edit& edit = {});

@@ -98,13 +98,6 @@ std::string times(double ratio) {
   return text;
 }
 
-/// Every engine takes the same steps each time, so a block's quietest run is what it costs undisturbed.
-void keep_quieter(RunCost& cost, const RunCost& again) {
-  for (std::size_t i = 0; i < std::min(cost.blocks.size(), again.blocks.size()); ++i)
-    cost.blocks[i] = std::min(cost.blocks[i], again.blocks[i]);
-  cost.load = std::min(cost.load, again.load);
-}
-
 /// Runs what is to be compared one after the other, and that so many times over.
 std::vector<RunCost> alternate(int repeats, const std::vector<std::function<RunCost()>>& runs) {
   std::vector<RunCost> costs;
