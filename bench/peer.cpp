@@ -63,7 +63,7 @@ PeerScene peer_scene(const simulation::Simulation& simulation) {
     PeerBody body = body_at(world, i, world.scene.floes[id].polygon_in_world.outer);
     body.drag = 0.5 * world.scene.water.drag_coefficient * world.scene.water.water.density *
                 world.scene.ice.thickness;
-    body.shape = world.bodies.drag[i].get();
+    body.shape = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape({body.outline, {}}, {}));
     scene.bodies.push_back(std::move(body));
   }
   return scene;

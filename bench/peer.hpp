@@ -22,7 +22,7 @@ struct PeerBody {
   bool is_held = false;                        ///< its velocity does not answer to impulses
   double thrust = 0;                           ///< along its x axis [N]
   double drag = 0;                             ///< ½ C_D ρ_w h [kg/m³]; 0: the water does not hold it back
-  const dynamics::DragShape* shape = nullptr;  ///< lives as long as the simulation it came from
+  std::shared_ptr<const dynamics::DragShape> shape;
 };
 
 struct PeerScene {

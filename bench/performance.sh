@@ -15,7 +15,7 @@ mkdir -p "$out"
 quick=()
 [ "${1:-}" != --quick ] || quick=(--quick)
 # Chipmunk says on stdout that Debian builds it with its checks on.
-"$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 40 --csv "$out/voyages.csv" 2>"$out/voyages.log" |
+"$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 20 --csv "$out/voyages.csv" 2>"$out/voyages.log" |
   grep --line-buffered "^|" | tee "$out/voyages.md"
 "$bin/polynya_bench_profile" "${quick[@]}" | tee "$out/profile.md"
 "$bin/polynya_bench_scaling" "${quick[@]}" --csv "$out/scaling.csv" --svg "$out/scaling.svg"

@@ -1,11 +1,13 @@
 // How the cost of a step grows: with floes, awake floes, touching pairs and boundary vertices.
 //   polynya_bench_scaling [--quick] [--csv FILE] [--svg FILE]
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <thread>
 
 #include "bench/voyage_run.hpp"
 #include "io/chart.hpp"
@@ -36,11 +38,21 @@ std::vector<simulation::FloeSpec> field_floes(int count, double concentration) {
   return floes;
 }
 
-/// The voyage of field-10000 through a field of another size: the ship goes in the middle of its side.
-simulation::Scene voyage_through(int floes) {
+/// The voyage of field-10000 in a field of 2000 floes, with copies of the field beside it where nothing
+/// happens.
+simulation::Scene voyage_beside(int copies) {
   simulation::Scene scene = load("field-10000.json");
-  scene.floes = field_floes(floes, 0.53);
-  scene.ships.front().position_in_world.y = 0.5 * std::sqrt(floes * 225 * 1.0625 / 0.53);
+  scene.floes = field_floes(2000, 0.53);
+  const double side = std::sqrt(2000 * 225 * 1.0625 / 0.53);
+  scene.ships.front().position_in_world.y = 0.5 * side;
+  const std::size_t count = scene.floes.size();
+  for (int copy = 1; copy < copies; ++copy) {
+    for (std::size_t i = 0; i < count; ++i) {
+      simulation::FloeSpec floe = scene.floes[i];
+      for (geometry::Point& p : floe.polygon_in_world.outer) p.y += copy * (side + 20);
+      scene.floes.push_back(std::move(floe));
+    }
+  }
   return scene;
 }
 
@@ -68,28 +80,35 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
   std::vector<Sweep> sweeps{{"floes", "floes in the field", "same voyage, more floes", {}},
                             {"awake", "floes, all awake", "sheared, 80 % cover", {}},
                             {"contacts", "touching pairs", "2000 floes, 50 to 90 %", {}},
-                            {"vertices", "vertices of the plate", "one plate being broken", {}}};
+                            {"vertices", "vertices of the plate", "one plate being broken", {}},
+                            {"threads", "threads", "10 000 floes, all awake", {}}};
   const double part = is_quick ? 0.1 : 1;
-  const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until) {
+  const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until,
+                           int threads = 1) {
     const auto steps = std::lround(part * until / scene.time.step);
-    RunCost cost = run_polynya(scene, {1e9, steps});
+    RunCost cost = run_polynya(scene, {1e9, steps, threads});
+    keep_quieter(cost, run_polynya(scene, {1e9, steps, threads}));
     std::fprintf(stderr, "%s %g: %.1f us\n", sweep.name.c_str(), x, 1e6 * cost.mean_step());
     sweep.samples.push_back({x > 0 ? x : cost.mean_contacts, std::move(cost)});
   };
-  for (const int floes : {1000, 3000, 10000, 30000, 100000})
-    measure(sweeps[0], floes, voyage_through(floes), 40);  // the smallest field is 40 s of way deep
+  for (const int copies : {1, 2, 5, 15, 50}) measure(sweeps[0], 2000 * copies, voyage_beside(copies), 200);
   for (const int floes : {100, 300, 1000, 3000, 10000}) measure(sweeps[1], floes, sheared(floes, 0.8), 100);
   for (const double concentration : {0.5, 0.6, 0.7, 0.8, 0.9})
     measure(sweeps[2], 0, sheared(2000, concentration), 100);
   for (const int corners : {30, 100, 300, 1000, 3000, 10000})
     measure(sweeps[3], corners, round_plate(corners), 100);
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  for (int threads = 1; threads <= cores; threads *= 2)
+    measure(sweeps[4], threads, sheared(10000, 0.8), 100, threads);
   return sweeps;
 }
 
 io::Chart chart_of(const std::vector<Sweep>& sweeps) {
   io::Chart chart;
   chart.title = "Cost of a step";
-  chart.caption = "Mean wall time of a step over a run, one thread. Commands: bench/performance.sh.";
+  chart.caption =
+      "Mean wall time of a step over a run, one thread but for the last panel. Commands: "
+      "bench/performance.sh.";
   for (const Sweep& sweep : sweeps) {
     io::Chart::Panel panel;
     panel.title = sweep.title;

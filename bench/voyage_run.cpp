@@ -83,7 +83,8 @@ RunCost run_peer(const char* name, const PeerScene& scene, const Limits& limits)
 
 RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
   RunCost cost;
-  cost.engine = "Polynya";
+  cost.engine = limits.threads == 1 ? "Polynya" : "Polynya, " + std::to_string(limits.threads) + " threads";
+  simulation.set_threads(limits.threads);
   cost.step = simulation.scene().time.step;
   simulation.journal().clear();
   run_steps(cost, limits, [&](bool counts_contacts) {
@@ -127,6 +128,12 @@ double RunCost::median_step() const {
                              blocks.begin() + static_cast<std::ptrdiff_t>(std::min(whole, blocks.size())));
   std::sort(sorted.begin(), sorted.end());
   return sorted[sorted.size() / 2] / static_cast<double>(std::min(kBlock, steps));
+}
+
+void keep_quieter(RunCost& cost, const RunCost& again) {
+  for (std::size_t i = 0; i < std::min(cost.blocks.size(), again.blocks.size()); ++i)
+    cost.blocks[i] = std::min(cost.blocks[i], again.blocks[i]);
+  cost.load = std::min(cost.load, again.load);
 }
 
 simulation::Scene load(const std::string& file, const Edit& edit) {

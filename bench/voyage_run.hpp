@@ -12,6 +12,7 @@ namespace polynya::bench {
 struct Limits {
   double wall = 1e9;  ///< of the steps [s]
   long steps = 0;     ///< at most
+  int threads = 1;    ///< of ours; the peers have one
 };
 
 /// What a run came to.
@@ -34,6 +35,9 @@ struct RunCost {
   double median_step() const;  ///< of the blocks' means [s]
   double real_time_factor() const { return step * static_cast<double>(steps) / total(); }
 };
+
+/// Every engine takes the same steps each time, so a block's quietest run is what it costs undisturbed.
+void keep_quieter(RunCost& cost, const RunCost& again);
 
 /// A scene of scenes/, with what a case changes about it.
 using Edit = std::function<void(simulation::Scene&)>;

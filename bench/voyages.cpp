@@ -28,7 +28,8 @@ struct Case {
   double until = 0;  ///< [s]
   bool has_peers = true;
   std::string compared_to;  ///< the case whose step time is the yardstick; empty: none
-  int repeats = 1;          ///< the quietest counts
+  int threads = 1;          ///< of ours
+  int repeats = 1;          ///< of all its engines; of each block of steps the quietest counts
 };
 
 /// As many floes again, far away from the voyage.
@@ -64,13 +65,14 @@ Edit round_plate(int corners) {
 
 std::vector<Case> cases(bool is_quick) {
   const double part = is_quick ? 0.1 : 1;
-  return {{"voyage", "sawamura2017-fig4b.json", {}, 550 * part, true, "", 3},
-          {"field-10000", "field-10000.json", {}, 500 * part, true, "", 3},
-          {"field-20000", "field-10000.json", double_the_field, 500 * part, false, "field-10000", 3},
-          {"field-100000", "field-100000.json", {}, 500 * part, true, "", 1},
-          {"cylinder-shear", "cylinder-shear.json", {}, 400 * part, true, "", 1},
-          {"plate-100", "level-plate.json", round_plate(100), 200 * part, false, "", 3},
-          {"plate-10000", "level-plate.json", round_plate(10000), 200 * part, false, "plate-100", 3}};
+  return {{"voyage", "sawamura2017-fig4b.json", {}, 550 * part, true, "", 1, 3},
+          {"field-10000", "field-10000.json", {}, 500 * part, true, "", 1, 3},
+          {"field-20000", "field-10000.json", double_the_field, 500 * part, false, "field-10000", 1, 3},
+          {"field-100000", "field-100000.json", {}, 500 * part, true, "", 1, 2},
+          {"cylinder-shear", "cylinder-shear.json", {}, 400 * part, true, "", 2, 2},
+          {"cylinder-shear-1", "cylinder-shear.json", {}, 400 * part, false, "cylinder-shear", 1, 2},
+          {"plate-100", "level-plate.json", round_plate(100), 200 * part, false, "", 1, 3},
+          {"plate-10000", "level-plate.json", round_plate(10000), 200 * part, false, "plate-100", 1, 3}};
 }
 
 void print_row(const Case& at, const RunCost& cost, std::size_t floes, const std::string& ratio,
@@ -96,47 +98,43 @@ std::string times(double ratio) {
   return text;
 }
 
-/// The run with the least time of so many.
-RunCost quietest(int repeats, const std::function<RunCost()>& run) {
-  RunCost best = run();
+/// Runs what is to be compared one after the other, and that so many times over.
+std::vector<RunCost> alternate(int repeats, const std::vector<std::function<RunCost()>>& runs) {
+  std::vector<RunCost> costs;
+  for (const auto& run : runs) costs.push_back(run());
   for (int i = 1; i < repeats; ++i) {
-    RunCost next = run();
-    if (next.mean_step() < best.mean_step()) best = std::move(next);
+    for (std::size_t k = 0; k < runs.size(); ++k) keep_quieter(costs[k], runs[k]());
   }
-  return best;
+  return costs;
 }
 
-/// The runs of two cases one after another, alternating, so that a noisy neighbour disturbs both.
 void run_case(const Case& at, const std::vector<Case>& all, const Options& options, std::FILE* csv) {
   const simulation::Scene scene = load(at.scene, at.edit);
   const auto steps = std::lround(at.until / scene.time.step);
-  const auto ours = [&](const Case& which) { return run_polynya(which.scene, which.edit, {1e9, steps}); };
+  const auto ours = [&](const Case& which) {
+    return [&which, steps] { return run_polynya(which.scene, which.edit, {1e9, steps, which.threads}); };
+  };
   const auto yardstick =
       std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
-  if (yardstick != all.end()) {
-    RunCost base = ours(*yardstick);
-    RunCost cost = ours(at);
-    for (int i = 1; i < at.repeats; ++i) {
-      base = std::min(base, ours(*yardstick), [](auto& p, auto& q) { return p.total() < q.total(); });
-      cost = std::min(cost, ours(at), [](auto& p, auto& q) { return p.total() < q.total(); });
-    }
-    print_row(at, cost, scene.floes.size(),
-              times(cost.mean_step() / base.mean_step()) + " x " + yardstick->name, csv);
-    return;
+  std::vector<std::function<RunCost()>> runs{ours(at)};
+  if (yardstick != all.end()) runs.push_back(ours(*yardstick));
+  const PeerScene bodies =
+      at.has_peers ? peer_scene(simulation::Simulation{simulation::Scene(scene)}) : PeerScene{};
+  const Limits limits{options.peer_seconds, steps};
+  if (at.has_peers) {
+    runs.emplace_back([&] { return run_box2d(bodies, limits); });
+    runs.emplace_back([&] { return run_chipmunk(bodies, limits); });
   }
-  const RunCost cost = quietest(at.repeats, [&] { return ours(at); });
-  print_row(at, cost, scene.floes.size(), "", csv);
+  const std::vector<RunCost> costs = alternate(at.repeats, runs);
+  const RunCost& own = costs.front();
+  const std::string ratio =
+      yardstick == all.end() ? "" : times(own.mean_step() / costs[1].mean_step()) + " x " + yardstick->name;
+  print_row(at, own, scene.floes.size(), ratio, csv);
   if (!at.has_peers) return;
-  const simulation::Simulation start{simulation::Scene(scene)};
-  const PeerScene bodies = peer_scene(start);
-  for (const auto& run_peer : {run_box2d, run_chipmunk}) {
-    const Limits limits{options.peer_seconds, steps};
-    RunCost peer = run_peer(bodies, limits);
-    if (peer.total() < 0.2 * options.peer_seconds)
-      peer = std::min(peer, run_peer(bodies, limits), [](auto& p, auto& q) { return p.total() < q.total(); });
-    // Over the same steps, where the peer was stopped early.
-    print_row(at, peer, scene.floes.size(),
-              times(peer.total() / cost.total_of_first(peer.steps)) + " x Polynya", csv);
+  for (std::size_t k = 1; k < costs.size(); ++k) {
+    // Over the same steps, where a peer was stopped early.
+    const double over = costs[k].total() / own.total_of_first(costs[k].steps);
+    print_row(at, costs[k], scene.floes.size(), times(over) + " x Polynya", csv);
   }
 }
 

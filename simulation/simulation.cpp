@@ -22,6 +22,9 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
+void Simulation::set_threads(int threads) {
+  world_->threads = threads;
+}
 void Simulation::step() {
   simulation::step(*world_);
 }

@@ -43,6 +43,9 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
+  /// To step with; results do not depend on it.
+  void set_threads(int threads);
+
   /// One time step. What it has to tell stands in journal() afterwards, added to what is there.
   void step();
 
