@@ -8,6 +8,7 @@
 #include "app/database_input.hpp"
 #include "app/exit_code.hpp"
 #include "app/stop_signal.hpp"
+#include "app/tell.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "io/output_file.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr std::size_t kMostWedgeAngles = 64;  ///< what the file's reader takes
 
 int fail(ExitCode code, const std::string& problem) {
-  fmt::print(stderr, "polynya: {}\n", problem);
+  tell("polynya: {}\n", problem);
   return code;
 }
 

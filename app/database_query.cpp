@@ -12,6 +12,7 @@
 #include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/exit_code.hpp"
+#include "app/tell.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/scaled_load.hpp"
 #include "fracture/bending/studies.hpp"
@@ -198,7 +199,7 @@ std::string with_ranges(const std::string& names, const BendingDatabase& databas
 
 int database_query(const DatabaseQueryOptions& options) {
   if (!options.load.wedge_angle_deg && !options.load.front_angle_deg && !options.load.back_angle_deg) {
-    fmt::print(stderr, "polynya: the wedge needs --wedge-angle, or --front-angle and --back-angle\n");
+    tell("polynya: the wedge needs --wedge-angle, or --front-angle and --back-angle\n");
     return kUsage;
   }
   const auto load = bending_load(options.load);
@@ -212,11 +213,11 @@ int database_query(const DatabaseQueryOptions& options) {
     print_for_people(options, **database, *load, answer);
   std::fflush(stdout);
   if (!can_bend(*load))
-    fmt::print(stderr, "note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
-               load->hull_angle * kDegree, load->ice.friction);
+    tell("note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
+         load->hull_angle * kDegree, load->ice.friction);
   else if (!answer.database.outside.empty())
-    fmt::print(stderr, "note: outside the database: {}; the answer is its nearest edge's\n",
-               with_ranges(answer.database.outside, **database));
+    tell("note: outside the database: {}; the answer is its nearest edge's\n",
+         with_ranges(answer.database.outside, **database));
   return kDone;
 }
 

@@ -14,6 +14,7 @@
 #include "app/database_plots.hpp"
 #include "app/exit_code.hpp"
 #include "app/stop_signal.hpp"
+#include "app/tell.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
 #include "io/output_file.hpp"
@@ -119,8 +120,8 @@ int database_show(const DatabaseShowOptions& options) {
   const auto load = bending_load(options.load);
   if (!load) return load.error();
   if (load->vertical_to_crushing <= 0) {
-    fmt::print(stderr, "polynya: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
-               load->hull_angle * kDegree, load->ice.friction);
+    tell("polynya: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
+         load->hull_angle * kDegree, load->ice.friction);
     return kUsage;
   }
   const auto database = load_database(options.file);
@@ -135,7 +136,7 @@ int database_show(const DatabaseShowOptions& options) {
   const std::string problem = write_pictures(database_charts(model, title, *load), options.svg_folder);
   if (problem.empty()) return kDone;
   std::fflush(stdout);
-  fmt::print(stderr, "polynya: {}\n", problem);
+  tell("polynya: {}\n", problem);
   return kInputOutput;
 }
 

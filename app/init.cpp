@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/tell.hpp"
 #include "io/output_file.hpp"
 #include "io/scene_schema.hpp"
 
@@ -21,7 +22,7 @@ int init(const InitOptions& options) {
   else
     problem = io::write_whole_file(options.file, io::commented_scene());
   if (!problem.empty()) {
-    fmt::print(stderr, "polynya: {}\n", problem);
+    tell("polynya: {}\n", problem);
     return kInputOutput;
   }
   fmt::print("{}: a commented scene; run it with\n  polynya run {}\n", options.file, options.file);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/tell.hpp"
 #include "io/source_text.hpp"
 
 namespace polynya::app {
@@ -14,15 +15,14 @@ tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
                                                    const io::SceneOverrides& overrides) {
   auto text = io::read_text_file(file, io::kLongestScene);
   if (!text) {
-    fmt::print(stderr, "polynya: {}: {}\n", file, text.error());
+    tell("polynya: {}: {}\n", file, text.error());
     return tl::unexpected(kInputOutput);
   }
   auto loaded = io::read_scene(std::move(*text), file, std::filesystem::path(file).parent_path(), overrides);
   if (loaded) return std::move(*loaded);
-  for (const io::Problem& problem : loaded.error()) fmt::print(stderr, "{}\n", to_string(problem));
+  for (const io::Problem& problem : loaded.error()) tell("{}\n", to_string(problem));
   const std::size_t count = loaded.error().size();
-  fmt::print(stderr, "polynya: {} problem{} in {}; nothing was written\n", count, count == 1 ? "" : "s",
-             file);
+  tell("polynya: {} problem{} in {}; nothing was written\n", count, count == 1 ? "" : "s", file);
   return tl::unexpected(kSceneInvalid);
 }
 

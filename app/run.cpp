@@ -9,6 +9,7 @@
 #include "app/exit_code.hpp"
 #include "app/load_scene.hpp"
 #include "app/stop_signal.hpp"
+#include "app/tell.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_writer.hpp"
 #include "simulation/simulation.hpp"
@@ -117,7 +118,7 @@ int run(const RunOptions& options) {
   watch_signals();
   auto writer = io::RunWriter::create(folder, options.overwrite, *loaded);
   if (!writer) {
-    fmt::print(stderr, "polynya: {}\n", writer.error());
+    tell("polynya: {}\n", writer.error());
     return kInputOutput;
   }
   Progress progress(options.progress, loaded->scene.time.until);
@@ -129,10 +130,10 @@ int run(const RunOptions& options) {
   if (const std::string failure = writer->finish(summary, simulation); !failure.empty())
     stop = {kInputOutput, failure};
   if (stop.code != kDone) {
-    fmt::print(stderr, "polynya: stopped at {:.6g} s: {}\n", summary.sim_time, stop.reason);
-    fmt::print(stderr, "polynya: {} holds the run up to there; it cannot be resumed\n", folder.string());
+    tell("polynya: stopped at {:.6g} s: {}\n", summary.sim_time, stop.reason);
+    tell("polynya: {} holds the run up to there; it cannot be resumed\n", folder.string());
   }
-  for (const std::string& warning : summary.warnings) fmt::print(stderr, "note: {}\n", warning);
+  for (const std::string& warning : summary.warnings) tell("note: {}\n", warning);
   if (stop.code != kInputOutput) print_result(summary, *writer);
   return stop.code;
 }

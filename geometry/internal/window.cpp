@@ -81,21 +81,22 @@ class Marker {
       return;
     }
     const auto first_near = window.near.size();
+    const auto wrap = [n](std::size_t i) { return i < n ? i : i - n; };
     for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t i = (start + k) % n;
+      const std::size_t i = wrap(start + k);
       if (near[i] != 0) {
-        const bool comes_after_chain = k > 0 && near[(i + n - 1) % n] == 0;
+        const bool comes_after_chain = k > 0 && near[wrap(i + n - 1)] == 0;
         window.near.push_back({ring, static_cast<int>(i)});
         window.chain_before.push_back(comes_after_chain ? static_cast<int>(window.chains.size()) - 1 : -1);
         window.chain_after.push_back(-1);
-      } else if (near[(i + n - 1) % n] != 0) {
+      } else if (near[wrap(i + n - 1)] != 0) {
         window.chain_after.back() = static_cast<int>(window.chains.size());
         window.chains.push_back({ring, static_cast<int>(i), 1});
       } else {
         ++window.chains.back().count;
       }
     }
-    if (near[(start + n - 1) % n] == 0)
+    if (near[wrap(start + n - 1)] == 0)
       window.chain_before[first_near] = static_cast<int>(window.chains.size()) - 1;
   }
 
