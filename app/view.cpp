@@ -11,6 +11,7 @@
 #include "io/json_writer.hpp"
 #include "io/output_file.hpp"
 #include "io/player_page.hpp"
+#include "io/run_folder.hpp"
 #include "io/source_text.hpp"
 
 namespace polynya::app {
@@ -71,7 +72,8 @@ int view(const ViewOptions& options) {
   const std::string page = player_page(*run, data);
   const double megabytes = static_cast<double>(page.size()) / 1e6;
   if (megabytes > options.most_megabytes) return fail(kUsage, too_large(megabytes, options));
-  const fs::path out = options.out.empty() ? fs::path(options.run) / "view.html" : fs::path(options.out);
+  const fs::path out =
+      options.out.empty() ? fs::path(options.run) / io::run_file::kView : fs::path(options.out);
   if (const std::string failure = io::write_whole_file(out, page); !failure.empty())
     return fail(kInputOutput, failure);
   fmt::print("{}  {:.1f} MB, {} frames, {} floes, {} events; open it in a browser\n", out.string(), megabytes,

@@ -11,7 +11,7 @@ set(POLYNYA_PLAYER_SCRIPTS numbers.js run_data.js motion.js palette.js map_view.
   floe_card.js gestures.js keyboard.js page.js player.js)
 
 function(polynya_player_page folder output)
-  set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} player.html vendor/uPlot.iife.min.js)
+  set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} player.html vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)
   list(TRANSFORM parts PREPEND ${folder}/)
   set(script ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
   add_custom_command(OUTPUT ${output} DEPENDS ${parts} ${script} VERBATIM
@@ -30,6 +30,8 @@ if(CMAKE_SCRIPT_MODE_FILE)
   join_files(page player.html)
   join_files(styles ${POLYNYA_PLAYER_STYLES})
   join_files(plot vendor/uPlot.iife.min.js)
+  join_files(licence vendor/uPlot-LICENSE)
+  string(PREPEND plot "/*! uPlot:\n${licence}*/\n")
   join_files(scripts ${POLYNYA_PLAYER_SCRIPTS})
   string(REPLACE "/*{{styles}}*/" "${styles}" page "${page}")
   string(REPLACE "/*{{plot}}*/" "${plot}" page "${page}")

@@ -65,7 +65,7 @@ void write_events(JsonWriter& json, const Run& run) {
 void write_ships(JsonWriter& json, const simulation::Scene& scene) {
   json.key("ships").open('[');
   for (const simulation::ShipSpec& ship : scene.ships) {
-    json.open('{').key("name").value(ship.name).key("mass_kg").value(ship.mass);
+    json.open('{').key("name").value(ship.name);
     json.key("waterline_m").value(ship.hull.waterline).close('}');
   }
   json.close(']');

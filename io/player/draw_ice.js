@@ -1,11 +1,28 @@
-// Places the floes alive at a time and draws them. Floes of one class go into paths of a few hundred points
+// Places the floes alive at a time and draws them. Floes of one class go into paths of some fifty points
 // each: far fewer calls than a path a floe, and far faster to fill than one path for all.
 
-const pointsInPath = 400;
+const pointsInPath = 50;
+const smallReach = 5; // [px]; floes that reach less far have no edge drawn
+
+/** Floe ids so that neighbours in the scene follow each other: a path of some of them then covers little of the screen. */
+function neighbourOrder(floes) {
+  const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
+  for (let i = 0; i < floes.count; ++i) {
+    box.left = Math.min(box.left, floes.cx[i]);
+    box.right = Math.max(box.right, floes.cx[i]);
+    box.bottom = Math.min(box.bottom, floes.cy[i]);
+    box.top = Math.max(box.top, floes.cy[i]);
+  }
+  const cell = Math.sqrt(((box.right - box.left) * (box.top - box.bottom)) / (floes.count / 16)) || 1;
+  const keys = Float64Array.from({ length: floes.count }, (_, i) =>
+    Math.floor((floes.cy[i] - box.bottom) / cell) * 1e6 + Math.floor((floes.cx[i] - box.left) / cell));
+  return Int32Array.from({ length: floes.count }, (_, i) => i).sort((a, b) => keys[a] - keys[b] || a - b);
+}
 
 /** The floes alive now and where they are. */
 function makePlaces(run, motions) {
   const { floes } = run;
+  const order = neighbourOrder(floes);
   const places = {
     living: new Int32Array(floes.count),
     count: 0,
@@ -31,7 +48,7 @@ function makePlaces(run, motions) {
   places.setTime = (time) => {
     motions.setTime(time);
     places.count = 0;
-    for (let i = 0; i < floes.count; ++i) {
+    for (const i of order) {
       if (!places.isAlive(i, time)) continue;
       places.place(i);
       places.living[places.count++] = i;
@@ -85,21 +102,24 @@ function classOfFloe(id, colourBy, edges, floes, places) {
 /** Draws the floes of these ids that show on the screen. */
 function drawFloes(context, view, run, places, ids, colouring, colourBy, colours) {
   const { floes } = run;
-  const buckets = colouring.colours.map(() => []);
+  const buckets = colouring.colours.map(() => ({ edged: [], small: [] }));
   for (const id of ids) {
-    if (view.shows(places.x[id], places.y[id], floes.reach[id]))
-      buckets[classOfFloe(id, colourBy, colouring.edges, floes, places)].push(id);
+    if (!view.shows(places.x[id], places.y[id], floes.reach[id])) continue;
+    const bucket = buckets[classOfFloe(id, colourBy, colouring.edges, floes, places)];
+    (floes.reach[id] * view.scale > smallReach ? bucket.edged : bucket.small).push(id);
   }
   context.strokeStyle = colours["ice-edge"];
   context.lineWidth = Math.min(1.1, Math.max(0.35, 0.4 * view.scale));
   context.lineJoin = "round";
   buckets.forEach((bucket, k) => {
     context.fillStyle = colouring.colours[k];
-    drawChunks(context, bucket, (id) => traceFloe(context, view, floes, places, id));
+    const trace = (id) => traceFloe(context, view, floes, places, id);
+    drawChunks(context, bucket.small, trace, false);
+    drawChunks(context, bucket.edged, trace);
   });
 }
 
-/** Fills and strokes what `trace` adds to the path for each id, a few hundred points at a time. */
+/** Fills and strokes what `trace` adds to the path for each id, a few floes at a time. */
 function drawChunks(context, ids, trace, strokes = true) {
   let traced = 0;
   const flush = () => {

@@ -169,10 +169,7 @@ function drawVelocities(context, view, run, places, motions, colours, perSpeed) 
     context.lineTo(sx + length * ux - tip * (ux - 0.5 * uy), sy + length * uy - tip * (uy + 0.5 * ux));
   };
   context.beginPath();
-  for (let n = 0; n < places.count; ++n) {
-    const id = places.living[n];
-    if (view.shows(places.x[id], places.y[id], floeMargin)) arrow(places.x[id], places.y[id], places.vx[id], places.vy[id]);
-  }
+  for (const id of largestPerCell(view, run.floes, places)) arrow(places.x[id], places.y[id], places.vx[id], places.vy[id]);
   context.stroke();
   context.strokeStyle = colours["hull-edge"];
   context.lineWidth = 2;
@@ -183,7 +180,22 @@ function drawVelocities(context, view, run, places, motions, colours, perSpeed) 
   });
   context.stroke();
 }
-const floeMargin = 20; // [m]
+
+const arrowCell = 24; // [px]
+
+/** Of the floes whose centres show in the same square of the screen the largest, so that arrows can be told apart. */
+function largestPerCell(view, floes, places) {
+  const cells = new Map();
+  const cell = arrowCell / view.scale; // fixed in the world, so that arrows do not flicker as the map moves
+  for (let n = 0; n < places.count; ++n) {
+    const id = places.living[n];
+    if (!view.shows(places.x[id], places.y[id], cell)) continue;
+    const key = Math.floor(places.x[id] / cell) * 1e6 + Math.floor(places.y[id] / cell);
+    const other = cells.get(key);
+    if (other === undefined || floes.area[id] > floes.area[other]) cells.set(key, id);
+  }
+  return cells.values();
+}
 
 /** The floe's family: pieces of the same floe of the scene tinted, its ancestors' outlines, itself outlined. */
 function drawLineage(context, view, run, places, id, time, colours) {

@@ -50,7 +50,7 @@ function watchKeys(actions) {
   };
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const inField = event.target.closest("select, input[type=text]");
+    const inField = event.target.closest("select") || (event.target.type === "radio" && event.key.startsWith("Arrow"));
     const onButton = event.target.closest("button, input, summary") && (event.key === " " || event.key === "Enter");
     const action = keys[event.key] ?? keys[event.key.toLowerCase()];
     if (!action || onButton || (inField && event.key !== "Escape")) return;

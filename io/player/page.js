@@ -13,7 +13,7 @@ function fillPage(run, range, state, plot, actions, refresh) {
   for (const event of info.events) ++counts[event.kind];
   const facts = {
     "floes in all": floes.count, bends: counts.bend, splits: counts.split, "rejected cuts": counts.rejected_cut,
-    ships: info.ships.map((ship) => ship.name).join(", ") || "none",
+    "ships, structures": info.ships.map((ship) => ship.name).join(", ") || "none",
     frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}`,
     seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
   };

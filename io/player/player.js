@@ -19,10 +19,11 @@ function startPlayer() {
   const view = makeMapView(stage, [iceCanvas, markCanvas]);
   const ice = iceCanvas.getContext("2d", { alpha: false });
   const marks = markCanvas.getContext("2d");
+  const sails = info.ships.some((_, ship) => hasFrames && hasMoved(motions, ship, frames.times.length - 1));
   const state = {
     time: range[0], isPlaying: false, rate: defaultRate(range[1] - range[0]), selected: -1, hovered: -1, event: null,
     follow: -1, colourBy: "generation", isFitted: true,
-    layers: { channel: true, startIce: true, track: true, circles: false, velocities: false, fractures: false },
+    layers: { channel: sails, startIce: sails, track: true, circles: false, velocities: false, fractures: false },
     iceDirty: true, marksDirty: true,
   };
   let colours = themeColours();
@@ -331,6 +332,12 @@ function startPlayer() {
   showEventCard(byId("event-card"), run, null);
   requestAnimationFrame(frame);
   return player;
+}
+
+/** Whether a ship went somewhere: a structure leaves no channel. */
+function hasMoved(motions, ship, lastFrame) {
+  const [a, b] = [motions.shipInFrame(ship, 0), motions.shipInFrame(ship, lastFrame)];
+  return Math.hypot(a[0] - b[0], a[1] - b[1]) > 1;
 }
 
 /** Half a minute for the whole run. */

@@ -1,9 +1,9 @@
 // The plot of loads against time, in step with the picture. Drawn by uPlot; the moment is a line laid over it.
 
 const quantities = {
-  surge_N: { label: "Surge force of ice on ship", base: "N" },
-  sway_N: { label: "Sway force of ice on ship", base: "N" },
-  yaw_Nm: { label: "Yaw moment of ice on ship", base: "N\u00b7m" },
+  surge_N: { label: "Surge force of the ice", base: "N" },
+  sway_N: { label: "Sway force of the ice", base: "N" },
+  yaw_Nm: { label: "Yaw moment of the ice", base: "N\u00b7m" },
   surge_j_over_tau_c_N: { label: "Peak surge j/\u03c4c", base: "N" },
   sway_j_over_tau_c_N: { label: "Peak sway j/\u03c4c", base: "N" },
   yaw_j_over_tau_c_Nm: { label: "Peak yaw j/\u03c4c", base: "N\u00b7m" },
