@@ -1,0 +1,42 @@
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/command_line.hpp"
+#include "app/run_commands.hpp"
+
+namespace polynya::app {
+
+Command add_channel(CLI::App& app) {
+  auto* command = app.add_subcommand("channel", "Measure the channel behind a ship");
+  command->footer(
+      "Examples:\n"
+      "  polynya channel runs/sawamura2017-fig4b                 also writes channel.csv and channel.geojson "
+      "there\n"
+      "  polynya channel runs/sawamura2017-fig4b --at 300 --out /tmp\n"
+      "  polynya channel runs/sawamura2017-fig4b --format json | jq .mean_width_m\n"
+      "\n"
+      "Exit codes: 0 done, 2 usage, 5 input/output.\n");
+  auto options = std::make_shared<ChannelOptions>();
+  command->add_option("run", options->run, "The run folder")->required()->type_name("RUN");
+  command->add_option("--at", options->at, "At that time instead of the end [s]")->type_name("S");
+  command->add_option("--ship", options->ship, "Which ship; the first one if not given")->type_name("NAME");
+  command->add_option("--spacing", options->spacing, "Length of a station [m]; the beam if not given")
+      ->type_name("M")
+      ->check(CLI::Range(0.1, 1e5));
+  command
+      ->add_option("--reach", options->reach,
+                   "How far from the track ice is looked for [m]; four beams if not given")
+      ->type_name("M")
+      ->check(CLI::Range(0.1, 1e5));
+  command->add_option("--format", options->format, "What stdout gets")
+      ->type_name("table|csv|json")
+      ->check(CLI::IsMember({"table", "csv", "json"}).description(""));
+  command
+      ->add_option("--out", options->out,
+                   "Folder for channel.csv and channel.geojson; the run's if not given")
+      ->type_name("DIR");
+  return [options] { return channel(*options); };
+}
+
+}  // namespace polynya::app
