@@ -19,4 +19,12 @@ struct ChannelOptions {
 };
 int channel(const ChannelOptions& options);
 
+struct FiguresOptions {
+  std::vector<std::string> runs;
+  std::string out;            ///< folder; empty: the first run's
+  std::vector<double> at;     ///< moments for the maps [s]; empty: chosen
+  std::string load = "peak";  ///< or "max", "mean"
+};
+int figures(const FiguresOptions& options);
+
 }  // namespace polynya::app

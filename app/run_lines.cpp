@@ -39,4 +39,30 @@ Command add_channel(CLI::App& app) {
   return [options] { return channel(*options); };
 }
 
+Command add_figures(CLI::App& app) {
+  auto* command = app.add_subcommand("figures", "Draw a run, or several side by side, for print");
+  command->footer(
+      "Examples:\n"
+      "  polynya figures runs/sawamura2017-fig4b                       figure-floes.svg, -loads, -motion, "
+      "...\n"
+      "  polynya figures runs/sawamura2017-fig4b --at 0,185,285,550\n"
+      "  polynya figures runs/6a runs/6b --out figures                 side by side, in one scale\n"
+      "\n"
+      "PNG files are made beside the SVG where rsvg-convert is installed.\n"
+      "Exit codes: 0 done, 2 usage, 5 input/output.\n");
+  auto options = std::make_shared<FiguresOptions>();
+  command->add_option("runs", options->runs, "The run folders")->required()->type_name("RUN");
+  command->add_option("--at", options->at, "Moments of the maps [s]; chosen if not given")
+      ->type_name("S,S,...")
+      ->delimiter(',');
+  command
+      ->add_option("--load", options->load,
+                   "Peak j/tau_c as in the paper, or true loads: max of a step, mean")
+      ->type_name("peak|max|mean")
+      ->check(CLI::IsMember({"peak", "max", "mean"}).description(""));
+  command->add_option("--out", options->out, "Folder for the figures; the first run's if not given")
+      ->type_name("DIR");
+  return [options] { return figures(*options); };
+}
+
 }  // namespace polynya::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -235,7 +236,15 @@ class ChannelMeasure {
   }
 
   Done find_open_water() {
-    const auto corridor = union_of(cells_);
+    std::vector<Polygon> cells;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const auto& stations = channel_.stations;
+      const auto here = stations.begin() + static_cast<std::ptrdiff_t>(i);
+      if (std::any_of(stations.begin(), here + 1, std::mem_fn(&ChannelStation::is_bounded)) &&
+          std::any_of(here, stations.end(), std::mem_fn(&ChannelStation::is_bounded)))
+        cells.push_back(cells_[i]);
+    }
+    const auto corridor = union_of(cells);
     if (!corridor) return tl::unexpected(corridor.error());
     const auto& waterline = run_.scene.scene.ships[ship_].hull.waterline;
     for (const Polygon& piece : *corridor) {

@@ -57,7 +57,7 @@ struct Channel {
   double swept_area = 0;                      ///< [m²]
   double swept_ice_at_start = 0;              ///< of it that was ice when the run began [m²]
   std::vector<ChannelFloe> floes;             ///< in the band, the largest first
-  std::vector<geometry::Polygon> open_water;  ///< of the cells, joined to the track by water [m]
+  std::vector<geometry::Polygon> open_water;  ///< joined to the track, from the first to the last bounded cell [m]
   double open_area = 0;                       ///< [m²]
 
   double swept_ice() const;  ///< [m²]

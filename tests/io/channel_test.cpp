@@ -90,6 +90,7 @@ TEST(Channel, WithoutIceInReachHasNoWidth) {
   made.add(box({-50, 14}, {200, 40}));
   const io::Channel channel = measured(made.run, io::ChannelOptions{0, {}, 0, 10});
   EXPECT_EQ(widths(channel).count, 0U);
+  EXPECT_TRUE(channel.open_water.empty());
   for (const io::ChannelStation& s : channel.stations) {
     EXPECT_FALSE(s.has_port_ice);
     EXPECT_EQ(s.width(), 20);
