@@ -27,4 +27,14 @@ struct FiguresOptions {
 };
 int figures(const FiguresOptions& options);
 
+struct ExportOptions {
+  std::string run;
+  std::string vtk;            ///< folder; empty: none
+  std::string geojson;        ///< folder; empty: none
+  std::optional<double> at;   ///< moment of the GeoJSON [s]; the end if not given
+  int every = 1;              ///< of VTK: each so many-th frame
+  bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
+};
+int export_run(const ExportOptions& options);
+
 }  // namespace polynya::app

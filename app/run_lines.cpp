@@ -65,4 +65,30 @@ Command add_figures(CLI::App& app) {
   return [options] { return figures(*options); };
 }
 
+Command add_export(CLI::App& app) {
+  auto* command = app.add_subcommand("export", "Write a run for ParaView or QGIS");
+  command->footer(
+      "Examples:\n"
+      "  polynya export runs/sawamura2017-fig4b --vtk paraview         open paraview/run.pvd in ParaView\n"
+      "  polynya export runs/at-sea --geojson qgis --at 300            longitude, latitude from the scene's "
+      "origin\n"
+      "\n"
+      "Exit codes: 0 done, 2 usage, 5 input/output.\n");
+  auto options = std::make_shared<ExportOptions>();
+  command->add_option("run", options->run, "The run folder")->required()->type_name("RUN");
+  command->add_option("--vtk", options->vtk, "Folder for run.pvd and its .vtp frames")->type_name("DIR");
+  command->add_option("--every", options->every, "Of VTK only each N-th frame, and the last")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  command
+      ->add_option(
+          "--geojson", options->geojson,
+          "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
+          "scene has an origin, metres where not")
+      ->type_name("DIR");
+  command->add_option("--at", options->at, "Moment of the GeoJSON [s]; the end if not given")->type_name("S");
+  command->add_flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
+  return [options] { return export_run(*options); };
+}
+
 }  // namespace polynya::app

@@ -17,7 +17,8 @@ using PlainFaceBase = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;  /
 using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, PlainFaceBase>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 void insert(Triangulation& triangulation, const Ring& ring, std::uint32_t first) {
   std::vector<Triangulation::Vertex_handle> vertices;

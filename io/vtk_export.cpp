@@ -37,11 +37,13 @@ class IceExport {
       first_point.push_back(static_cast<std::int64_t>(data.points.size()));
       add_rings(data, placed(floe.world_from_body, floe.birth->polygon_in_body));
     }
-    data.cell_data = {{"floe_id", {}, 1, true},    {"parent_id", {}, 1, true}, {"generation", {}, 1, true},
-                      {"born_s", {}, 1, false},    {"area_m2", {}, 1, false},  {"mass_kg", {}, 1, false},
-                      {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false}, {"is_outline", {}, 1, true}};
+    data.cell_data = {
+        {"floe_id", {}, 1, true},        {"parent_id", {}, 1, true},         {"generation", {}, 1, true},
+        {"born_s", {}, 1, false},        {"area_m2", {}, 1, false},          {"mass_kg", {}, 1, false},
+        {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false}, {"is_outline", {}, 1, true}};
     for (const PlacedFloe& floe : floes) {
-      for (std::size_t ring = 0; ring <= floe.birth->polygon_in_body.holes.size(); ++ring) add_row(data, floe, true);
+      for (std::size_t ring = 0; ring <= floe.birth->polygon_in_body.holes.size(); ++ring)
+        add_row(data, floe, true);
     }
     for (std::size_t i = 0; i < floes.size(); ++i) {
       for (const geometry::Triangle& triangle : triangles_of(*floes[i].birth)) {
@@ -80,9 +82,9 @@ class IceExport {
     const geometry::Vector velocity = floe.motion ? floe.motion->velocity : geometry::Vector{kNan, kNan};
     auto& columns = data.cell_data;
     std::size_t i = 0;
-    for (const double value : {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
-                               static_cast<double>(birth.generation), birth.time, birth.area, birth.mass,
-                               length(velocity)})
+    for (const double value :
+         {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
+          static_cast<double>(birth.generation), birth.time, birth.area, birth.mass, length(velocity)})
       columns[i++].values.push_back(value);
     add_vector(columns[i++], velocity);
     columns[i].values.push_back(is_outline ? 1 : 0);
@@ -120,15 +122,17 @@ VtkPolyData ships_at(const Run& run, const MotionIndex& motions, double time) {
 VtkPolyData loads_at(const Run& run, double after, double time) {
   VtkPolyData data;
   data.time = time;
-  data.cell_data = {{"kind", {}, 1, true},         {"ship", {}, 1, true},          {"floe_id", {}, 1, true},
-                    {"t_s", {}, 1, false},         {"force_N", {}, 3, false},      {"yaw_moment_Nm", {}, 1, false},
+  data.cell_data = {{"kind", {}, 1, true},           {"ship", {}, 1, true},
+                    {"floe_id", {}, 1, true},        {"t_s", {}, 1, false},
+                    {"force_N", {}, 3, false},       {"yaw_moment_Nm", {}, 1, false},
                     {"j_over_tau_c_N", {}, 3, false}};
   const auto add = [&](geometry::Point at, int kind, int ship, simulation::FloeId floe, double t,
                        geometry::Vector force, double moment, geometry::Vector peak) {
     data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
     data.points.push_back(at);
     std::size_t i = 0;
-    for (const double value : {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe), t})
+    for (const double value :
+         {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe), t})
       data.cell_data[i++].values.push_back(value);
     add_vector(data.cell_data[4], force);
     data.cell_data[5].values.push_back(moment);
@@ -150,9 +154,10 @@ VtkPolyData loads_at(const Run& run, double after, double time) {
         rotate(world_from_ship, {s->surge_peak, s->sway_peak}));
   }
   for (const simulation::Event& event : run.events) {
-    if (!(event.time > after && event.time <= time) || event.kind == simulation::EventKind::kRejectedCut) continue;
-    add(event.point_in_world, event.kind == simulation::EventKind::kBend ? 1 : 2, event.ship, event.floe, event.time,
-        {kNan, kNan}, kNan, event.criteria.collision_force * event.normal_in_world);
+    if (!(event.time > after && event.time <= time) || event.kind == simulation::EventKind::kRejectedCut)
+      continue;
+    add(event.point_in_world, event.kind == simulation::EventKind::kBend ? 1 : 2, event.ship, event.floe,
+        event.time, {kNan, kNan}, kNan, event.criteria.collision_force * event.normal_in_world);
   }
   return data;
 }
