@@ -8,6 +8,9 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/guide.hpp"
+#include "app/tell.hpp"
+#include "io/output_file.hpp"
 #include "io/version.hpp"
 
 namespace polynya::app {
@@ -24,6 +27,16 @@ void add_progress(CLI::App& command, ProgressKind& kind) {
 }
 
 namespace {
+
+int write_page(const std::string& file, const std::string& text) {
+  if (file.empty()) {
+    say(text);
+    return std::fflush(stdout) == 0 ? kDone : kInputOutput;
+  }
+  const std::string wrong = io::write_whole_file(file, text);
+  if (!wrong.empty()) tell("polynya: {}\n", wrong);
+  return wrong.empty() ? kDone : kInputOutput;
+}
 
 Command add_run(CLI::App& app) {
   auto* command = app.add_subcommand("run", "Run a scene and write its run folder");
@@ -82,6 +95,15 @@ Command add_init(CLI::App& app) {
   return [options] { return init(*options); };
 }
 
+/// `polynya man` and `polynya completion`, for the installation: not in the help.
+Command add_page(CLI::App& app, const char* name, const char* words, std::string (*page)(const CLI::App&)) {
+  auto* command = app.add_subcommand(name, words);
+  command->group("");
+  auto file = std::make_shared<std::string>();
+  command->add_option("file", *file, "Where to; stdout if not given")->type_name("FILE");
+  return [file, page, &app] { return write_page(*file, page(app)); };
+}
+
 constexpr auto kExamples =
     "Examples:\n"
     "  polynya run scenes/sawamura2017-fig4b.json     the paper's voyage, to runs/sawamura2017-fig4b\n"
@@ -89,6 +111,9 @@ constexpr auto kExamples =
     "  polynya validate my-scene.json                 everything that is wrong with a scene\n"
     "  polynya inspect runs/my-scene --check          the floes of a run, and whether they are right\n"
     "  polynya view runs/my-scene                     a page that plays the run in a browser\n"
+    "  polynya channel runs/my-scene                  how wide the channel behind the ship is\n"
+    "  polynya figures runs/my-scene                  pictures for print: ice, loads, motion, sizes\n"
+    "  polynya export runs/my-scene --vtk paraview    for ParaView; --geojson for QGIS\n"
     "  polynya cut floes.geojson --disc 10,5,3        cut floes outside any simulation\n"
     "\n"
     "Polynya simulates an icebreaker in pack ice: floes are pushed, plates break by bending and splitting.\n";
@@ -101,6 +126,7 @@ constexpr auto kCodes =
 
 int command_line(int count, char** words) {
   CLI::App app(kExamples, "polynya");
+  lead_with_examples(app);
   app.footer(kCodes);
   app.set_version_flag("--version", "polynya " + std::string(io::version()));
   app.require_subcommand(1);
@@ -112,6 +138,8 @@ int command_line(int count, char** words) {
   for (const auto& [name, add] : kCommands) {
     commands[name] = add(app);
   }
+  commands["man"] = add_page(app, "man", "Write the manual page", man_page);
+  commands["completion"] = add_page(app, "completion", "Write the completion for bash", bash_completion);
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {

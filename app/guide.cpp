@@ -1,0 +1,154 @@
+#include "app/guide.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "io/version.hpp"
+
+namespace polynya::app {
+namespace {
+
+/// A footer's examples, and what follows after an empty line.
+std::pair<std::string, std::string> examples_and_rest(const std::string& footer) {
+  if (!footer.starts_with("Examples:")) return {"", footer};
+  const std::size_t end = footer.find("\n\n");
+  return end == std::string::npos ? std::pair{footer, std::string()}
+                                  : std::pair{footer.substr(0, end + 1), footer.substr(end + 2)};
+}
+
+class ExamplesFirst : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    const auto [examples, rest] = examples_and_rest(app->get_footer());
+    std::string text = make_description(app);
+    if (!examples.empty()) text += "\n" + examples + "\n";
+    text += make_usage(app, std::move(name)) + make_positionals(app) + make_groups(app, mode) +
+            make_subcommands(app, mode);
+    return rest.empty() ? text : text + "\n" + rest;
+  }
+};
+
+/// The commands people are told of: those in a group.
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  std::vector<const CLI::App*> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!command->get_group().empty()) commands.push_back(command);
+  }
+  return commands;
+}
+
+std::string roff(const std::string& words) {
+  std::string text;
+  for (const char c : words) {
+    if ((c == '.' || c == '\'') && (text.empty() || text.back() == '\n')) text += "\\&";
+    if (c == '\\')
+      text += "\\e";
+    else if (c == '-')
+      text += "\\-";
+    else
+      text += c;
+  }
+  return text;
+}
+
+void append_options(std::string& text, const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    std::string names = option->get_positional() ? option->get_type_name() : "";
+    for (const std::string& name : option->get_snames()) names += (names.empty() ? "-" : ", -") + name;
+    for (const std::string& name : option->get_lnames()) names += (names.empty() ? "--" : ", --") + name;
+    if (!option->get_positional() && option->get_items_expected_max() > 0)
+      names += " " + option->get_type_name();
+    text += fmt::format(".TP\n.B {}\n{}\n", roff(names), roff(option->get_description()));
+  }
+}
+
+void append_command(std::string& text, const CLI::App& command, const std::string& path) {
+  text += fmt::format(".SS {}\n{}\n", roff(path), roff(command.get_description()));
+  const auto [examples, rest] = examples_and_rest(command.get_footer());
+  if (!examples.empty()) text += fmt::format(".PP\n.nf\n{}.fi\n", roff(examples));
+  append_options(text, command);
+  if (!rest.empty()) text += fmt::format(".PP\n{}", roff(rest));
+  for (const CLI::App* sub : commands_of(command)) append_command(text, *sub, path + " " + sub->get_name());
+}
+
+/// One line of the script's table for each command: its path, and what may follow it.
+void append_completions(std::string& words, std::string& choices, const CLI::App& command,
+                        const std::string& path) {
+  std::string known;
+  for (const CLI::App* sub : commands_of(command)) known += sub->get_name() + " ";
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      known += "--" + name + " ";
+      std::string type = option->get_type_name();
+      if (type.find('|') == std::string::npos) continue;
+      std::ranges::replace(type, '|', ' ');
+      choices += fmt::format("    \"{} --{}\") choices=\"{}\" ;;\n", path, name, type);
+    }
+  }
+  words += fmt::format("    \"{}\") words=\"{}\" ;;\n", path, known);
+  for (const CLI::App* sub : commands_of(command))
+    append_completions(words, choices, *sub, path + " " + sub->get_name());
+}
+
+void append_paths(std::string& paths, const CLI::App& command, const std::string& path) {
+  for (const CLI::App* sub : commands_of(command)) {
+    const std::string longer = path + " " + sub->get_name();
+    paths += fmt::format("{}\"{}\"", paths.empty() ? "" : "|", longer);
+    append_paths(paths, *sub, longer);
+  }
+}
+
+}  // namespace
+
+void lead_with_examples(CLI::App& app) {
+  app.formatter(std::make_shared<ExamplesFirst>());
+}
+
+std::string man_page(const CLI::App& app) {
+  std::string text = fmt::format(".TH POLYNYA 1 \"\" \"polynya {}\" \"User Commands\"\n", io::version());
+  text += ".SH NAME\npolynya \\- simulate an icebreaker in pack ice\n";
+  text += ".SH SYNOPSIS\n.B polynya\n.I command\n[\\fIoption\\fR ...]\n";
+  text += fmt::format(".SH DESCRIPTION\n.nf\n{}.fi\n.SH OPTIONS\n", roff(app.get_description()));
+  append_options(text, app);
+  text += ".SH COMMANDS\n";
+  for (const CLI::App* command : commands_of(app)) append_command(text, *command, command->get_name());
+  return text + fmt::format(".SH EXIT STATUS\n{}", roff(app.get_footer()));
+}
+
+std::string bash_completion(const CLI::App& app) {
+  std::string words, choices, paths;
+  append_completions(words, choices, app, "");
+  append_paths(paths, app, "");
+  return fmt::format(R"(# Completes polynya in bash. Made by `polynya completion`.
+_polynya() {{
+  local current=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}
+  local path="" words="" choices="" i
+  for ((i = 1; i < COMP_CWORD; i++)); do
+    case "$path ${{COMP_WORDS[i]}}" in
+    {}) path="$path ${{COMP_WORDS[i]}}" ;;
+    esac
+  done
+  case "$path $before" in
+{}  esac
+  case "$path" in
+{}  esac
+  if [ -n "$choices" ]; then
+    COMPREPLY=($(compgen -W "$choices" -- "$current"))
+  elif [[ $current == -* || -z "$path" ]]; then
+    COMPREPLY=($(compgen -W "$words" -- "$current"))
+  else
+    for i in $words; do [[ $i == -* ]] || choices="$choices $i"; done
+    COMPREPLY=($(compgen -W "$choices" -- "$current") $(compgen -f -- "$current"))
+  fi
+}}
+complete -o filenames -F _polynya polynya
+)",
+                     paths, choices, words);
+}
+
+}  // namespace polynya::app
