@@ -209,10 +209,8 @@ Chart size_figure(const std::vector<Run>& runs) {
   Chart chart{"Floe sizes", names(runs) + "; size is the root of the area", {}};
   chart.panel_height = 420;
   Chart::Panel counts{"Number of floes at least as large", {"size, m", true}, {"floes", true}, {}};
-  Chart::Panel shares{"Share of the ice in floes at least as large",
-                      {"size, m", true},
-                      {"share of the ice, %", false, std::pair{0.0, 96.0}},
-                      {}};
+  Chart::Panel shares{
+      "Share of the ice in floes at least as large", {"size, m", true}, {"share of the ice, %"}, {}};
   std::size_t number = 0;
   for (const Run& run : runs) {
     const int colour = colour_of_run(number++);
