@@ -8,35 +8,82 @@
 #include <boost/container/small_vector.hpp>
 
 #include "dynamics/chunks.hpp"
-#include "geometry/convex_hull.hpp"
 
 namespace polynya::dynamics {
 
 using geometry::Vector;
 
-DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid) {
-  constexpr std::size_t kFew = 64;  // corners that are not worth a hull
-  const bool is_hull_wanted = polygon.outer.size() > kFew;
-  const geometry::Ring hull = is_hull_wanted ? geometry::convex_hull(polygon.outer) : geometry::Ring{};
-  const geometry::Ring& outline = is_hull_wanted ? hull : polygon.outer;
-  DragShape shape;
-  for (int k = 0; k < DragShape::kDirections; ++k) {
+namespace {
+
+constexpr int kDirections = DragShape::kDirections;
+constexpr int kAround = 2 * kDirections;  // the directions of a whole turn; k + kDirections is opposite to k
+
+/// Where a direction is among those of a whole turn, from [0, kAround). The inverse of drag_direction.
+double place_around(Vector d) {
+  const double t = std::abs(d.y) / (std::abs(d.x) + std::abs(d.y));
+  const double half_turn = d.x >= 0 ? t : 2 - t;
+  return (d.y >= 0 ? half_turn : 4 - half_turn) * (0.25 * kAround);
+}
+
+struct UnitAcross {
+  Vector across;     // unit vector, perpendicular to drag_direction(k)
+  double share = 0;  // of the mean over directions
+};
+
+std::array<UnitAcross, kDirections> make_units() {
+  std::array<UnitAcross, kDirections> units;
+  for (int k = 0; k < kDirections; ++k) {
     const Vector along = drag_direction(k);
-    const Vector across = perpendicular(along) / length(along);
+    units[k].across = perpendicular(along) / length(along);
     // The known directions are not evenly spaced in angle: each stands for dθ = |d'| / |d|² of the diamond's
     // edge.
-    const double share = (2.0 / DragShape::kDirections) / squared_length(along) / std::numbers::pi;
-    double low = 0;
-    double high = 0;
-    for (const geometry::Point p : outline) {
-      const double s = dot(p - centroid, across);
-      low = std::min(low, s);
-      high = std::max(high, s);
-    }
-    shape.width[k] = high - low;
-    shape.rotational += (low * low * low * low + high * high * high * high) / 4 * share;
+    units[k].share = (2.0 / kDirections) / squared_length(along) / std::numbers::pi;
   }
-  shape.width[DragShape::kDirections] = shape.width[0];
+  return units;
+}
+
+/// How far a ring reaches from a centre within its hull, along the unit vectors across all directions of a
+/// whole turn [m]. A corner is farthest out only for directions between the normals of its two edges, so each
+/// is measured along those alone, and of many corners most along none.
+std::array<double, kAround> reaches(const geometry::Ring& ring, geometry::Point centre,
+                                    const std::array<UnitAcross, kDirections>& units) {
+  constexpr double kSlack = 1e-9;  // of the places, far more than rounding can be
+  std::array<double, kAround> reach{};
+  const std::size_t count = ring.size();
+  const auto normal_place = [&](std::size_t i) {  // along, that is: across is a quarter turn on
+    return place_around(-(ring[i + 1 < count ? i + 1 : 0] - ring[i]));
+  };
+  double before = normal_place(count - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double after = normal_place(i);
+    double turn = after - before;
+    if (turn < 0) turn += kAround;
+    if (turn <= 0.5 * kAround + kSlack || turn >= kAround - kSlack) {  // a corner that points outwards
+      const double end = turn >= kAround - kSlack ? before + kSlack : before + turn + kSlack;
+      for (int k = static_cast<int>(std::ceil(before - kSlack)); k <= end; ++k) {
+        const int at = (k + kAround) % kAround;
+        const Vector out = at < kDirections ? units[at].across : -units[at - kDirections].across;
+        reach[at] = std::max(reach[at], dot(ring[i] - centre, out));
+      }
+    }
+    before = after;
+  }
+  return reach;
+}
+
+}  // namespace
+
+DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid) {
+  static const std::array<UnitAcross, kDirections> units = make_units();
+  const std::array<double, kAround> reach = reaches(polygon.outer, centroid, units);
+  DragShape shape;
+  for (int k = 0; k < kDirections; ++k) {
+    const double high = reach[k];
+    const double low = reach[k + kDirections];
+    shape.width[k] = high + low;
+    shape.rotational += (low * low * low * low + high * high * high * high) / 4 * units[k].share;
+  }
+  shape.width[kDirections] = shape.width[0];
   return shape;
 }
 

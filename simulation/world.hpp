@@ -112,8 +112,8 @@ struct NewFloe {
   double angular_velocity = 0;  ///< [rad/s]
 };
 
-/// Takes a floe of these measures into the world, at rest or moving as a part of a rigid body whose frame is the floe's; writes
-/// its birth.
+/// Takes a floe of these measures into the world, at rest or moving as a part of a rigid body whose frame is
+/// the floe's; writes its birth.
 FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& measures);
 
 /// Takes a floe out of the world.
