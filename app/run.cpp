@@ -61,6 +61,13 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
   warn(counts.unconverged_steps, "steps used all sweeps of the impulse solver (contact.iterations)");
   warn(counts.database_out_of_range, "bending loads lay outside the database's range");
   warn(counts.kept_exact, "shapes had to stay in rationals; their rings in floes.ndjson are nearest doubles");
+  if (const simulation::Audit audit = simulation.audit(); !audit.is_closed()) {
+    warnings.push_back(fmt::format(
+        "THE AUDIT IS BROKEN: energy is off by {:.2e} J of {:.2e} J, momentum by {:.2e} N s of {:.2e} N s; "
+        "do not "
+        "trust this run, and please report it",
+        audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
+  }
   if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
     warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");
   return warnings;
@@ -76,6 +83,7 @@ io::RunSummary summarise(const Simulation& simulation, const io::RunWriter& writ
   summary.sim_time = simulation.time();
   summary.wall_time = wall_time;
   summary.ledger = simulation.area_ledger();
+  summary.audit = simulation.audit();
   summary.peaks = writer.peaks();
   summary.warnings = warnings_of(simulation, summary.counts);
   return summary;
@@ -94,6 +102,15 @@ void print_result(const io::RunSummary& summary, const io::RunWriter& writer) {
       "{:.1e} m2)\n",
       ledger.initial_ice_area, ledger.floe_area, ledger.submerged_area, ledger.brash_area, ledger.imbalance,
       ledger.rounding_defect);
+  const simulation::EnergyFlows& energy = summary.audit.sums.energy;
+  fmt::print(
+      "energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
+      "motion "
+      "(imbalance {:.1e} of it)\n",
+      (energy.thrust + energy.current + summary.audit.sums.initial_energy) / 1e3, energy.drag / 1e3,
+      energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
+      summary.audit.kinetic_energy / 1e3,
+      summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
   for (const io::ShipPeaks& peaks : summary.peaks) {
     fmt::print(
         "peak force  {}: surge {:.4g} kN at {:.6g} s, sway {:.4g} kN at {:.6g} s (the paper's j/tau_c)\n",

@@ -30,8 +30,8 @@ class PairFinder {
   /// Contact records are kept over the steps.
   void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1);
 
-  /// Contact stretches whose crossings did not pair up (see geometry::find_patches), over all steps.
-  std::int64_t unpaired_stretches() const;
+  /// Contact stretches whose crossings did not pair up (see geometry::find_patches), since the last call.
+  std::int64_t take_unpaired_stretches();
 
  private:
   struct Entry {              // one body's place in the grid

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <boost/container/small_vector.hpp>
 
@@ -104,48 +103,59 @@ double width_across(const DragShape& shape, Vector direction_in_body) {
 
 namespace {
 
-/// Brakes one body over the step; half_rate is ½ C_D ρ_w Δt. Returns the energy it lost, relative to the
-/// water [J].
-double brake(Bodies& bodies, BodyIndex i, const DragShape& shape, double half_rate,
-             const ShearCurrent& current) {
+/// Brakes one body over the step; half_rate is ½ C_D ρ_w Δt.
+void brake(Bodies& bodies, BodyIndex i, const DragShape& shape, double half_rate, const ShearCurrent& current,
+           WaterWork& work) {
   const bool is_still = current.is_still();
   const double rate = half_rate * bodies.thickness[i];
   const Vector flow = is_still ? Vector{} : current.velocity_at(bodies.position[i]);
   const Vector u = bodies.velocity[i] - flow;
   const double speed = length(u);
-  double lost = 0;
   if (speed > 0) {
     const double width = width_across(shape, rotate_back(bodies.rotation[i], u));
     const double shrink = 1 / (1 + rate * width * bodies.inverse_mass[i] * speed);
     bodies.velocity[i] = flow + shrink * u;
-    lost += 0.5 * bodies.mass[i] * speed * speed * (1 - shrink * shrink);
+    const double slowing = bodies.mass[i] * (1 - shrink);
+    const Vector impulse = -slowing * u;
+    work.lost += 0.5 * slowing * (1 + shrink) * speed * speed;
+    work.impulse += impulse;
+    work.impulses += slowing * speed;
+    if (!is_still) work.by_current += dot(impulse, flow);
   }
   const double turning = is_still ? 0 : current.angular_velocity();
   const double omega = bodies.angular_velocity[i] - turning;
   if (omega != 0) {
     const double shrink = 1 / (1 + rate * shape.rotational * bodies.inverse_moment[i] * std::abs(omega));
     bodies.angular_velocity[i] = turning + shrink * omega;
-    lost += 0.5 * bodies.moment[i] * omega * omega * (1 - shrink * shrink);
+    const double slowing = bodies.moment[i] * (1 - shrink) * omega;
+    work.lost += 0.5 * slowing * (1 + shrink) * omega;
+    work.by_current -= slowing * turning;
   }
-  return lost;
 }
 
 }  // namespace
 
-double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
-                        double dt, int threads) {
+WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
+                           double dt, int threads) {
   const double half_rate = 0.5 * water.drag_coefficient * water.density * dt;
-  boost::container::small_vector<double, 16> work(chunk_count(awake.size(), kBodiesPerChunk));
+  boost::container::small_vector<WaterWork, 16> works(chunk_count(awake.size(), kBodiesPerChunk));
   for_chunks(awake.size(), kBodiesPerChunk, threads,
              [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-               double lost = 0;
+               WaterWork work;
                for (std::size_t k = begin; k < end; ++k) {
                  const DragShape* shape = bodies.drag[awake[k]].get();
-                 if (shape != nullptr) lost += brake(bodies, awake[k], *shape, half_rate, water.current);
+                 if (shape != nullptr) brake(bodies, awake[k], *shape, half_rate, water.current, work);
                }
-               work[chunk] = lost;
+               works[chunk] = work;
              });
-  return std::accumulate(work.begin(), work.end(), 0.0);
+  WaterWork all;
+  for (const WaterWork& work : works) {
+    all.lost += work.lost;
+    all.by_current += work.by_current;
+    all.impulse += work.impulse;
+    all.impulses += work.impulses;
+  }
+  return all;
 }
 
 }  // namespace polynya::dynamics

@@ -44,6 +44,10 @@ const World& Simulation::world() const {
   return *world_;
 }
 
+Audit Simulation::audit() const {
+  return simulation::audit(*world_);
+}
+
 AreaLedger Simulation::area_ledger() const {
   AreaLedger ledger = world_->ledger;
   for (FloeId id = 0; id < static_cast<FloeId>(world_->floes.size()); ++id) {

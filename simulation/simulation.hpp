@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/pose.hpp"
+#include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
 #include "simulation/scene.hpp"
 
@@ -56,6 +57,7 @@ class Simulation {
   const Scene& scene() const;
   Journal& journal();
   AreaLedger area_ledger() const;
+  Audit audit() const;  ///< of energy and momentum
   Counts counts() const;
   std::vector<FloeState> floe_states() const;  ///< living floes in id order
   std::vector<ShipState> ship_states() const;

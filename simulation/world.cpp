@@ -109,6 +109,7 @@ World::World(Scene scene_of_run, Shortcuts shortcuts_of_run)
     const bool is_moving = spec.velocity != Vector{} || spec.angular_velocity != 0;
     if (is_moving || !is_current_still_at(body) || !shortcuts.sleeps) wake(*this, body);
   }
+  open_accounts(*this);
 }
 
 FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& measures) {

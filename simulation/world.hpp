@@ -13,6 +13,7 @@
 #include "fracture/decision.hpp"
 #include "geometry/crack_path.hpp"
 #include "geometry/measures.hpp"
+#include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
 #include "simulation/scene.hpp"
 
@@ -84,6 +85,7 @@ struct World {
   std::int64_t steps = 0;
   Journal journal;
   AreaLedger ledger;  ///< initial, submerged, brash, rounding; the rest is derived
+  AuditSums audit;
   Counts counts;
   std::optional<std::string> failure;
 
