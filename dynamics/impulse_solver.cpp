@@ -1,7 +1,6 @@
 #include "dynamics/impulse_solver.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <tuple>
 
@@ -220,11 +219,14 @@ void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
   }
 }
 
-bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) {
+/// Sweeps over an island until it has converged or the sweeps are used up. Returns the most that the last one
+/// changed a velocity by where it had not, 0 where it had [m/s].
+double ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) {
   constexpr int kPlainSweeps = 4;  // most islands need no more
   Momentum momentum;
+  double largest_change = 0;
   for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
-    double largest_change = 0;
+    largest_change = 0;
     const bool is_plain = sweep < kPlainSweeps;
     if (!is_plain) {
       for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
@@ -236,10 +238,10 @@ bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) 
     }
     for (std::uint32_t i = island.first; i < island.first + island.count; ++i)
       largest_change = std::max(largest_change, visit(rows_[i]));
-    if (largest_change <= settings.tolerance) return true;
+    if (largest_change <= settings.tolerance) return 0;
     if (!is_plain && sweep + 1 < settings.most_sweeps) go_on(island, momentum);
   }
-  return false;
+  return largest_change;
 }
 
 bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contacts, double restitution,
@@ -324,21 +326,24 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
                                   const SolverSettings& settings) {
   islands_.find(bodies, contacts);
   fill_rows(bodies, contacts, settings);
-  std::atomic<int> unconverged = 0;
+  left_over_.assign(islands_.islands().size(), 0);
   const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
   for_chunks(islands_.islands().size(), 4, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Island& island = islands_.islands()[k];
       start(island, contacts);
-      const bool is_converged = sweep(island, settings);
-      bool is_settled = true;
-      if (give_back(island, contacts, settings.restitution, is_converged))
-        is_settled = sweep(island, settings);
-      if (!is_converged || !is_settled) ++unconverged;
+      left_over_[k] = sweep(island, settings);
+      if (give_back(island, contacts, settings.restitution, left_over_[k] == 0))
+        left_over_[k] = std::max(left_over_[k], sweep(island, settings));
     }
   });
   write_back(bodies, contacts);
-  return {unconverged};
+  SolverResult result;
+  for (const double left_over : left_over_) {
+    result.unconverged += left_over > 0;
+    result.left_over = std::max(result.left_over, left_over);
+  }
+  return result;
 }
 
 }  // namespace polynya::dynamics

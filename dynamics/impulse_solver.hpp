@@ -15,7 +15,8 @@ struct SolverSettings {
 };
 
 struct SolverResult {
-  int unconverged = 0;  ///< islands that used all their sweeps
+  int unconverged = 0;   ///< islands that used all their sweeps
+  double left_over = 0;  ///< the most that the last sweep over one of these changed a velocity by [m/s]
   bool is_converged() const { return unconverged == 0; }
 };
 
@@ -81,15 +82,16 @@ class ImpulseSolver {
   double visit(Row& row);
   double isolated_impulse(const Row& row, const Speeds& speeds) const;
   void go_on(const Island& island, Momentum& momentum);
-  bool sweep(const Island& island, const SolverSettings& settings);
+  double sweep(const Island& island, const SolverSettings& settings);
   bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution, bool is_converged);
   void write_back(Bodies& bodies, std::vector<Contact>& contacts);
 
   ContactIslands islands_;
-  std::vector<Mover> movers_;   // by their places in the islands
-  std::vector<Row> rows_;       // in the islands' order
-  std::vector<Way> ways_;       // of the rows
-  std::vector<Speeds> before_;  // of the rows, before any impulse
+  std::vector<Mover> movers_;      // by their places in the islands
+  std::vector<Row> rows_;          // in the islands' order
+  std::vector<double> left_over_;  // of the islands
+  std::vector<Way> ways_;          // of the rows
+  std::vector<Speeds> before_;     // of the rows, before any impulse
 };
 
 }  // namespace polynya::dynamics

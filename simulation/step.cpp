@@ -86,6 +86,7 @@ void solve_impulses(World& world) {
   const dynamics::SolverResult result =
       world.solver.solve(world.bodies, world.contacts, world.solver_settings);
   if (!result.is_converged()) ++world.counts.unconverged_steps;
+  world.counts.largest_left_over = std::max(world.counts.largest_left_over, result.left_over);
   note_crushing(world);
   for (const dynamics::Contact& c : world.contacts) {
     if (c.total_normal_impulse() == 0) continue;
