@@ -70,13 +70,16 @@ void fields(Archive& archive, Is<RunProgress> auto& p) {
   archive(p.file_sizes, p.told, p.tracks, p.fractures, p.peaks);
 }
 
+std::string checkpoint_file_of(std::string_view payload) {
+  simulation::ByteWriter head;
+  head(kCheckpointVersion, crc_of(payload), std::uint64_t{payload.size()});
+  return std::string(kMark).append(head.take()).append(payload);
+}
+
 std::string checkpoint_bytes(const Checkpoint& checkpoint) {
   simulation::ByteWriter payload;
   fields(payload, checkpoint);
-  const std::string bytes = payload.take();
-  simulation::ByteWriter head;
-  head(kCheckpointVersion, crc_of(bytes), std::uint64_t{bytes.size()});
-  return std::string(kMark) + head.take() + bytes;
+  return checkpoint_file_of(payload.take());
 }
 
 tl::expected<Checkpoint, std::string> read_checkpoint(std::string_view bytes) {

@@ -31,6 +31,8 @@ struct Checkpoint {
 
 inline constexpr std::uint32_t kCheckpointVersion = 1;
 
+/// The file around a payload: mark, version, checksum, length.
+std::string checkpoint_file_of(std::string_view payload);
 std::string checkpoint_bytes(const Checkpoint& checkpoint);
 
 /// The error says why the bytes are no checkpoint, or a damaged one, or one of another version.

@@ -10,6 +10,7 @@
 #include "geometry/measures.hpp"
 #include "geometry/validity.hpp"
 #include "simulation/state_fields.hpp"
+#include "simulation/validate_world.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -18,7 +19,6 @@ constexpr double kFarthest = 1e9;  ///< from the origin that a body can have gon
 constexpr double kFastest = 1e3;   ///< beyond it a run ends as a numerical failure [m/s]
 constexpr double kOutside =
     1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
-constexpr double kLedgerTolerance = 1e-6;  ///< of the initial area
 
 BodyMotion motion_of(const dynamics::Bodies& bodies, BodyIndex i) {
   return {bodies.position[i],         bodies.angle[i],  bodies.rotation[i],  bodies.velocity[i],
@@ -87,8 +87,9 @@ class StateLoader {
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_pairs();
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
-    if (bytes_.is_well()) check_ledger();
-    world_.journal.clear();
+    if (bytes_.is_well()) {
+      if (auto wrong = validate_world(world_)) bytes_.fail(*std::move(wrong));
+    }
     return bytes_.failure();
   }
 
@@ -206,21 +207,6 @@ class StateLoader {
       pair.quiet_until = quiet_until[i];
     }
     if (bytes_.is_well()) world_.pairs.remember(bodies, pairs);
-  }
-
-  void check_ledger() {
-    double area = 0;
-    for (FloeId id = 0; id < static_cast<FloeId>(world_.floes.size()); ++id) {
-      Floe& floe = world_.floes[id];
-      if (!world_.is_alive(id)) continue;
-      area += floe.area;
-      bytes_.require(floe.area == geometry::measure(floe.shape.polygon).area,
-                     "an area that is not the shape's");
-    }
-    const AreaLedger& ledger = world_.ledger;
-    const double lost = area + ledger.submerged_area + ledger.brash_area - ledger.rounding_defect;
-    bytes_.require(std::abs(lost - ledger.initial_ice_area) <= kLedgerTolerance * ledger.initial_ice_area,
-                   "areas that do not add up");
   }
 
   World& world_;
