@@ -290,7 +290,7 @@ double ImpulseSolver::held_work(const Row& row, const Bodies& bodies, const Cont
   double work = 0;
   for (const auto& [mover, body, sign] : {std::tuple{row.a, c.a, 1.0}, std::tuple{row.b, c.b, -1.0}}) {
     if (movers_[mover].inverse_mass != 0) continue;
-    const auto along = [&](geometry::Point at, Vector impulse) {
+    const auto along = [&, body = body, sign = sign](geometry::Point at, Vector impulse) {
       return sign * dot(impulse, velocity_at(bodies, body, at - bodies.position[body]));
     };
     for (int end = 0; end < 2; ++end) work += along(c.ends[end], row.normal_impulse[end] * row.normal);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <tl/expected.hpp>
+
 #include "geometry/pose.hpp"
 #include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
@@ -13,6 +15,7 @@
 namespace polynya::simulation {
 
 struct World;
+struct ThreadLimit;
 
 /// Where one living floe is. Frames and pictures are made of these.
 struct FloeState {
@@ -44,7 +47,16 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// To step with; results do not depend on it.
+  /// Goes on from what state() told of a run of the same scene. The error says why those bytes are none.
+  static tl::expected<Simulation, std::string> resumed(Scene scene, std::string_view state);
+
+  /// All that decides how the run goes on, beside the scene. Taken between steps, the journal having been
+  /// taken.
+  std::string state() const;
+  /// A hash of it, the same wherever the same bits were computed (docs/reliability.md).
+  std::uint64_t state_hash() const;
+
+  /// Steps on so many threads from now on. Results do not depend on it.
   void set_threads(int threads);
 
   /// One time step. What it has to tell stands in journal() afterwards, added to what is there.
@@ -54,6 +66,7 @@ class Simulation {
   std::optional<std::string> numerical_failure() const;
 
   double time() const;  ///< [s]
+  std::int64_t steps() const;
   const Scene& scene() const;
   Journal& journal();
   AreaLedger area_ledger() const;
@@ -64,7 +77,9 @@ class Simulation {
   const World& world() const;
 
  private:
+  explicit Simulation(std::unique_ptr<World> world);
   std::unique_ptr<World> world_;
+  std::unique_ptr<ThreadLimit> thread_limit_;
 };
 
 }  // namespace polynya::simulation
