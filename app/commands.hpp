@@ -10,16 +10,32 @@ namespace polynya::app {
 
 /// The subcommands, one file each. Each returns an ExitCode. Data goes to stdout, messages to stderr.
 
+/// How a run is carried out, whether it starts or goes on.
+struct CarryOptions {
+  int threads = 1;
+  double checkpoint_every = 0;        ///< simulated time between checkpoints [s]; 0: by the clock alone
+  double checkpoint_every_wall = 60;  ///< and by the clock [s]; 0: never by it
+  bool check = false;  ///< every cross-index and sum of the world is derived anew after every step
+  ProgressKind progress = ProgressKind::kAuto;
+};
+
 struct RunOptions {
   std::string scene;
   std::string out;              ///< empty: runs/<scene name>
   std::optional<double> until;  ///< [s]
   std::optional<std::uint64_t> seed;
-  int threads = 1;
-  ProgressKind progress = ProgressKind::kAuto;
   bool overwrite = false;
+  CarryOptions carry;
 };
 int run(const RunOptions& options);
+
+struct ResumeOptions {
+  std::string folder;
+  std::string checkpoint;     ///< empty: the newest
+  bool from_failure = false;  ///< only repeats the step that a failure was dumped for
+  CarryOptions carry;
+};
+int resume(const ResumeOptions& options);
 
 struct ValidateOptions {
   std::string scene;

@@ -10,7 +10,7 @@ enum ExitCode {
   kNumericalFailure = 4,  ///< the numbers stopped being numbers; the folder holds the run up to there
   kRefused = 4,           ///< geometry was refused or found wrong; the rest was done
   kInputOutput = 5,       ///< a file could not be read or written
-  kStopped = 6,  ///< stopped on a signal; the folder is whole, but there is no checkpoint to resume from
+  kStopped = 75,          ///< stopped on a signal; the folder has a checkpoint to resume from
 };
 
 }  // namespace polynya::app

@@ -38,6 +38,26 @@ int write_page(const std::string& file, const std::string& text) {
   return wrong.empty() ? kDone : kInputOutput;
 }
 
+/// What starting a run and going on with one have in common.
+void add_carry(CLI::App& command, CarryOptions& options) {
+  command.add_option("--threads", options.threads, "Threads to step on; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option("--checkpoint-every", options.checkpoint_every,
+                  "Simulated time between checkpoints, beside those by the clock [s]")
+      ->type_name("S")
+      ->check(CLI::Range(1e-5, 1e7));
+  command
+      .add_option("--checkpoint-every-wall", options.checkpoint_every_wall,
+                  "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e7));
+  command.add_flag("--check", options.check,
+                   "Derive every cross-index and sum anew after every step; stop if one is off");
+  add_progress(command, options.progress);
+}
+
 Command add_run(CLI::App& app) {
   auto* command = app.add_subcommand("run", "Run a scene and write its run folder");
   command->footer(
@@ -54,14 +74,30 @@ Command add_run(CLI::App& app) {
   command->add_option("--seed", options->seed, "Seed instead of the scene's")
       ->type_name("N")
       ->check(CLI::Range(0.0, 9007199254740991.0));
-  command
-      ->add_option("--threads", options->threads,
-                   "Accepted for scripts; this version steps on one thread, and results never depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
-  add_progress(*command, options->progress);
+  add_carry(*command, options->carry);
   command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
   return [options] { return run(*options); };
+}
+
+Command add_resume(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("resume", "Go on with a run that was stopped, killed or ran out of disk");
+  command->footer(
+      "Examples:\n"
+      "  polynya resume runs/level-plate\n"
+      "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
+      "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
+  auto options = std::make_shared<ResumeOptions>();
+  command->add_option("folder", options->folder, "The run folder")->required()->type_name("RUN");
+  auto* checkpoint =
+      command->add_option("--checkpoint", options->checkpoint, "This one, instead of the newest");
+  checkpoint->type_name("FILE");
+  command
+      ->add_flag("--from-failure", options->from_failure,
+                 "Repeat the step for which failure.bin was dumped; nothing is written")
+      ->excludes(checkpoint);
+  add_carry(*command, options->carry);
+  return [options] { return resume(*options); };
 }
 
 Command add_validate(CLI::App& app) {
@@ -120,8 +156,8 @@ constexpr auto kExamples =
 
 constexpr auto kCodes =
     "Exit codes: 0 done, 2 usage, 3 scene invalid, 4 numerical failure or geometry refused, 5 input/output, "
-    "6 stopped on a "
-    "signal.\n"
+    "75 stopped on a "
+    "signal with a checkpoint (polynya resume).\n"
     "Data goes to stdout, messages to stderr.\n";
 
 int command_line(int count, char** words) {
@@ -132,9 +168,10 @@ int command_line(int count, char** words) {
   app.require_subcommand(1);
   std::map<std::string, Command> commands;
   constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {
-      {"run", add_run},           {"validate", add_validate}, {"schema", add_schema},   {"init", add_init},
-      {"database", add_database}, {"cut", add_cut},           {"inspect", add_inspect}, {"view", add_view},
-      {"channel", add_channel},   {"figures", add_figures},   {"export", add_export}};
+      {"run", add_run},         {"resume", add_resume},   {"validate", add_validate},
+      {"schema", add_schema},   {"init", add_init},       {"view", add_view},
+      {"channel", add_channel}, {"figures", add_figures}, {"export", add_export},
+      {"inspect", add_inspect}, {"cut", add_cut},         {"database", add_database}};
   for (const auto& [name, add] : kCommands) {
     commands[name] = add(app);
   }

@@ -47,6 +47,9 @@ struct Contact {
 
   // Found by the solver.
   double normal_impulse[2] = {0, 0};  ///< on b along the normal, at each end [N s]
+  double normal_work = 0;             ///< of the normal impulses on the two bodies together [J]
+  double slip_work = 0;               ///< of the slip impulse [J]
+  double held_work = 0;               ///< by one of the two that is held, on the other [J]
   double slip_impulse = 0;            ///< on b along perpendicular(normal), anywhere on the line [N s]
 
   geometry::Point middle() const { return midpoint(ends[0], ends[1]); }

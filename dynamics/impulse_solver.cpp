@@ -1,8 +1,8 @@
 #include "dynamics/impulse_solver.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <tuple>
 
 #include "dynamics/chunks.hpp"
 
@@ -69,15 +69,18 @@ void ImpulseSolver::fill_rows(const Bodies& bodies, std::vector<Contact>& contac
   }
   rows_.resize(contacts.size());
   ways_.resize(contacts.size());
+  before_.resize(contacts.size());
   for_chunks(rows_.size(), kContactsPerChunk, settings.threads,
              [&](std::size_t, std::size_t begin, std::size_t end) {
                for (std::size_t k = begin; k < end; ++k) {
                  const std::uint32_t i = islands_.order()[k];
                  rows_[k] = row_of(bodies, contacts[i], i);
+                 before_[k] = speeds_at(rows_[k]);
                  ContactRecord* record = contacts[i].record;
                  if (record == nullptr) continue;
-                 record->most_to_give = std::max(record->most_to_give, kFrictionSlack * settings.restitution *
-                                                                           isolated_impulse(rows_[k]));
+                 record->most_to_give =
+                     std::max(record->most_to_give,
+                              kFrictionSlack * settings.restitution * isolated_impulse(rows_[k], before_[k]));
                }
              });
 }
@@ -111,14 +114,22 @@ inline void ImpulseSolver::push(const Row& row, double impulse_0, double impulse
   }
 }
 
-/// What would bring both ends to rest, if no other body were there: the solution p of K p = approach, p ≥ 0
-/// [N s].
-double ImpulseSolver::isolated_impulse(const Row& row) const {
+ImpulseSolver::Speeds ImpulseSolver::speeds_at(const Row& row) const {
   const Mover& a = movers_[row.a];
   const Mover& b = movers_[row.b];
-  const double approach = dot(a.velocity - b.velocity, row.normal);
-  const double v0 = approach + a.angular_velocity * row.turn_a[0] - b.angular_velocity * row.turn_b[0];
-  const double v1 = approach + a.angular_velocity * row.turn_a[1] - b.angular_velocity * row.turn_b[1];
+  const Vector relative = b.velocity - a.velocity;
+  const double apart = dot(relative, row.normal);
+  return {{apart + b.angular_velocity * row.turn_b[0] - a.angular_velocity * row.turn_a[0],
+           apart + b.angular_velocity * row.turn_b[1] - a.angular_velocity * row.turn_a[1]},
+          dot(relative, perpendicular(row.normal)) + b.angular_velocity * row.slip_turn_b -
+              a.angular_velocity * row.slip_turn_a};
+}
+
+/// What would bring both ends to rest, if no other body were there: the solution p of K p = approach, p ≥ 0
+/// [N s].
+double ImpulseSolver::isolated_impulse(const Row& row, const Speeds& speeds) const {
+  const double v0 = -speeds.apart[0];
+  const double v1 = -speeds.apart[1];
   if (v0 <= 0 && v1 <= 0) return 0;
   if (row.stiffness != 0) {
     const double p0 = (row.softness[1] * v0 - row.coupling * v1) * row.stiffness;
@@ -208,11 +219,14 @@ void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
   }
 }
 
-bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) {
+/// Sweeps over an island until it has converged or the sweeps are used up. Returns the most that the last one
+/// changed a velocity by where it had not, 0 where it had [m/s].
+double ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) {
   constexpr int kPlainSweeps = 4;  // most islands need no more
   Momentum momentum;
+  double largest_change = 0;
   for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
-    double largest_change = 0;
+    largest_change = 0;
     const bool is_plain = sweep < kPlainSweeps;
     if (!is_plain) {
       for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
@@ -224,10 +238,10 @@ bool ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) 
     }
     for (std::uint32_t i = island.first; i < island.first + island.count; ++i)
       largest_change = std::max(largest_change, visit(rows_[i]));
-    if (largest_change <= settings.tolerance) return true;
+    if (largest_change <= settings.tolerance) return 0;
     if (!is_plain && sweep + 1 < settings.most_sweeps) go_on(island, momentum);
   }
-  return false;
+  return largest_change;
 }
 
 bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contacts, double restitution,
@@ -271,12 +285,35 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
   return gave;
 }
 
+/// What a held body does to the other one, through its own motion.
+double ImpulseSolver::held_work(const Row& row, const Bodies& bodies, const Contact& c) const {
+  double work = 0;
+  for (const auto& [mover, body, sign] : {std::tuple{row.a, c.a, 1.0}, std::tuple{row.b, c.b, -1.0}}) {
+    if (movers_[mover].inverse_mass != 0) continue;
+    const auto along = [&, body = body, sign = sign](geometry::Point at, Vector impulse) {
+      return sign * dot(impulse, velocity_at(bodies, body, at - bodies.position[body]));
+    };
+    for (int end = 0; end < 2; ++end) work += along(c.ends[end], row.normal_impulse[end] * row.normal);
+    work += along(c.middle(), row.slip_impulse * perpendicular(row.normal));
+  }
+  return work;
+}
+
 void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
     Contact& c = contacts[islands_.order()[i]];
-    c.normal_impulse[0] = rows_[i].normal_impulse[0];
-    c.normal_impulse[1] = rows_[i].normal_impulse[1];
-    c.slip_impulse = rows_[i].slip_impulse;
+    c.normal_impulse[0] = row.normal_impulse[0];
+    c.normal_impulse[1] = row.normal_impulse[1];
+    c.slip_impulse = row.slip_impulse;
+    // Impulses together change the kinetic energy by each one times the mean of the speeds before and after.
+    const Speeds& before = before_[i];
+    const Speeds after = speeds_at(row);
+    c.normal_work = 0.5 * (row.normal_impulse[0] * (before.apart[0] + after.apart[0]) +
+                           row.normal_impulse[1] * (before.apart[1] + after.apart[1]));
+    c.slip_work = 0.5 * row.slip_impulse * (before.slip + after.slip);
+    const bool is_held = movers_[row.a].inverse_mass == 0 || movers_[row.b].inverse_mass == 0;
+    c.held_work = is_held ? held_work(row, bodies, c) : 0;
   }
   for (std::size_t place = 0; place < movers_.size(); ++place) {
     const BodyIndex body = islands_.bodies_touched()[place];
@@ -289,21 +326,24 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
                                   const SolverSettings& settings) {
   islands_.find(bodies, contacts);
   fill_rows(bodies, contacts, settings);
-  std::atomic<int> unconverged = 0;
+  left_over_.assign(islands_.islands().size(), 0);
   const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
   for_chunks(islands_.islands().size(), 4, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Island& island = islands_.islands()[k];
       start(island, contacts);
-      const bool is_converged = sweep(island, settings);
-      bool is_settled = true;
-      if (give_back(island, contacts, settings.restitution, is_converged))
-        is_settled = sweep(island, settings);
-      if (!is_converged || !is_settled) ++unconverged;
+      left_over_[k] = sweep(island, settings);
+      if (give_back(island, contacts, settings.restitution, left_over_[k] == 0))
+        left_over_[k] = std::max(left_over_[k], sweep(island, settings));
     }
   });
   write_back(bodies, contacts);
-  return {unconverged};
+  SolverResult result;
+  for (const double left_over : left_over_) {
+    result.unconverged += left_over > 0;
+    result.left_over = std::max(result.left_over, left_over);
+  }
+  return result;
 }
 
 }  // namespace polynya::dynamics

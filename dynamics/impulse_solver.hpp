@@ -15,7 +15,8 @@ struct SolverSettings {
 };
 
 struct SolverResult {
-  int unconverged = 0;  ///< islands that used all their sweeps
+  int unconverged = 0;   ///< islands that used all their sweeps
+  double left_over = 0;  ///< the most that the last sweep over one of these changed a velocity by [m/s]
   bool is_converged() const { return unconverged == 0; }
 };
 
@@ -67,21 +68,30 @@ class ImpulseSolver {
     int steps = 0;
   };
 
+  struct Speeds {  // of b relative to a, at the ends of a contact line
+    double apart[2];
+    double slip;
+  };
+
+  Speeds speeds_at(const Row& row) const;
+  double held_work(const Row& row, const Bodies& bodies, const Contact& contact) const;
   Row row_of(const Bodies& bodies, const Contact& contact, std::uint32_t index) const;
   void fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
   void start(const Island& island, const std::vector<Contact>& contacts);
   void push(const Row& row, double impulse_0, double impulse_1, double slip_impulse);
   double visit(Row& row);
-  double isolated_impulse(const Row& row) const;
+  double isolated_impulse(const Row& row, const Speeds& speeds) const;
   void go_on(const Island& island, Momentum& momentum);
-  bool sweep(const Island& island, const SolverSettings& settings);
+  double sweep(const Island& island, const SolverSettings& settings);
   bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution, bool is_converged);
   void write_back(Bodies& bodies, std::vector<Contact>& contacts);
 
   ContactIslands islands_;
-  std::vector<Mover> movers_;  // by their places in the islands
-  std::vector<Row> rows_;      // in the islands' order
-  std::vector<Way> ways_;      // of the rows
+  std::vector<Mover> movers_;      // by their places in the islands
+  std::vector<Row> rows_;          // in the islands' order
+  std::vector<double> left_over_;  // of the islands
+  std::vector<Way> ways_;          // of the rows
+  std::vector<Speeds> before_;     // of the rows, before any impulse
 };
 
 }  // namespace polynya::dynamics

@@ -1,6 +1,7 @@
 #include "dynamics/pairs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "dynamics/chunks.hpp"
 
@@ -215,9 +216,9 @@ void PairFinder::find_contacts(const Bodies& bodies, double dt, std::vector<Cont
     contacts.insert(contacts.end(), shares_[k].contacts.begin(), shares_[k].contacts.end());
 }
 
-std::int64_t PairFinder::unpaired_stretches() const {
+std::int64_t PairFinder::take_unpaired_stretches() {
   std::int64_t unpaired = 0;
-  for (const Share& share : shares_) unpaired += share.scratch.unpaired;
+  for (Share& share : shares_) unpaired += std::exchange(share.scratch.unpaired, 0);
   return unpaired;
 }
 

@@ -7,6 +7,15 @@
 
 namespace polynya::dynamics {
 
+/// What a pair of bodies has to remember when a run is interrupted. a < b.
+struct PairMemory {
+  BodyIndex a = 0;
+  BodyIndex b = 0;
+  double quiet_until =
+      -1;  ///< the two are not looked at until they have travelled farther than this together [m]
+  std::vector<ContactRecord> records;
+};
+
 /// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the pieces of
 /// boundary that are near each other, one contact circle each, until the bodies have moved so far relative to
 /// each other that others might be. All bounds are conservative: what is culled cannot touch, so the contacts
@@ -30,8 +39,16 @@ class PairFinder {
   /// Contact records are kept over the steps.
   void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1);
 
-  /// Contact stretches whose crossings did not pair up (see geometry::find_patches), over all steps.
-  std::int64_t unpaired_stretches() const;
+  /// The pairs there are, by (a, b): with what is in the bodies, all that decides which contacts the next
+  /// steps find.
+  std::vector<PairMemory> memory() const;
+
+  /// Takes up such pairs, all bodies having been added again. What is not in the memory is a cache, and made
+  /// anew.
+  void remember(const Bodies& bodies, const std::vector<PairMemory>& memory);
+
+  /// Contact stretches whose crossings did not pair up (see geometry::find_patches), since the last call.
+  std::int64_t take_unpaired_stretches();
 
  private:
   struct Entry {              // one body's place in the grid

@@ -40,6 +40,14 @@ struct WaterDrag {
   ShearCurrent current;
 };
 
+/// What the water did to the bodies over a step.
+struct WaterWork {
+  double lost = 0;           ///< energy of the motion relative to the water around [J]
+  double by_current = 0;     ///< energy that a current gave them [J]
+  geometry::Vector impulse;  ///< on them all together [N s]
+  double impulses = 0;       ///< sum of the impulses' sizes [N s]
+};
+
 /// Lets the water brake every awake body over dt. Eq. (6) of [Sawamura2017]:
 ///   F = −½ C_D ρ_w A |u| u,   A = h × width across u,
 /// with u relative to the water at the centre of mass, and the same law for the rotation, ω relative to half
@@ -47,9 +55,9 @@ struct WaterDrag {
 /// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions. What a current's strain
 /// does to a body's rotation is left out: a long floe would not turn evenly. Deviation: the paper prints the
 /// floe's own velocity for u; a drifting floe would be braked by its own current. Solved exactly over the
-/// step for constant A, v⁺ = v / (1 + c |v| dt): no step is too long for it. Returns the energy lost, of the
-/// motion relative to the water [J].
-double apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
-                        double dt, int threads = 1);
+/// step for constant A, v⁺ = v / (1 + c |v| dt): no step is too long for it. Returns what that came
+/// to: the bodies' kinetic energy changes by by_current − lost.
+WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
+                           double dt, int threads = 1);
 
 }  // namespace polynya::dynamics

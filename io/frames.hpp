@@ -50,15 +50,20 @@ std::string frame_bytes(double time, std::span<const Motion> ships, std::span<co
 /// Makes frames' bytes; remembers what was told last of each floe.
 class FrameEncoder {
  public:
-  static std::string header();
-  /// One frame. All living floes are given; those that need it are written.
-  std::string encode(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
-
- private:
   struct Told {
     double time = -1;  ///< < 0: never told
     Motion motion;
   };
+  FrameEncoder() = default;
+  /// One that goes on where another was.
+  explicit FrameEncoder(std::vector<Told> told) : told_(std::move(told)) {}
+
+  static std::string header();
+  /// One frame. All living floes are given; those that need it are written.
+  std::string encode(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
+  const std::vector<Told>& told() const { return told_; }
+
+ private:
   std::vector<Told> told_;  ///< by floe id
 };
 

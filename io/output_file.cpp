@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace polynya::io {
@@ -30,6 +31,26 @@ tl::expected<OutputFile, std::string> OutputFile::create(const std::filesystem::
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) return tl::unexpected(fmt::format("{}: {}", path.string(), std::strerror(errno)));
   return OutputFile(descriptor, path.string());
+}
+
+tl::expected<OutputFile, std::string> OutputFile::go_on(const std::filesystem::path& path,
+                                                        std::uint64_t size) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  const auto fail = [&](const std::string& reason) {
+    if (descriptor >= 0) ::close(descriptor);
+    return tl::unexpected(fmt::format("{}: {}", path.string(), reason));
+  };
+  if (descriptor < 0) return fail(std::strerror(errno));
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) return fail(std::strerror(errno));
+  if (static_cast<std::uint64_t>(status.st_size) < size)
+    return fail(fmt::format("{} bytes; there were {}", status.st_size, size));
+  const auto end = static_cast<off_t>(size);
+  if (::ftruncate(descriptor, end) != 0 || ::lseek(descriptor, end, SEEK_SET) != end)
+    return fail(std::strerror(errno));
+  OutputFile file(descriptor, path.string());
+  file.size_ = size;
+  return file;
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
@@ -72,7 +93,28 @@ bool OutputFile::flush() {
   return failure_.empty();
 }
 
-std::string write_whole_file(const std::filesystem::path& path, std::string_view text) {
+bool OutputFile::sync() {
+  if (flush() && ::fsync(descriptor_) != 0) failure_ = fmt::format("{}: {}", name_, std::strerror(errno));
+  return failure_.empty();
+}
+
+namespace {
+
+/// Waits until a folder's names are on the disk. File systems that cannot are taken at their word.
+bool sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_synced = ::fsync(descriptor) == 0 || errno == EINVAL;
+  const int error = errno;
+  ::close(descriptor);
+  errno = error;
+  return is_synced;
+}
+
+}  // namespace
+
+std::string write_whole_file(const std::filesystem::path& path, std::string_view text,
+                             Durability durability) {
   std::filesystem::path temporary = path;
   temporary += ".part";
   const auto fail = [&](int error) {
@@ -81,11 +123,14 @@ std::string write_whole_file(const std::filesystem::path& path, std::string_view
   };
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) return fail(errno);
-  const bool is_whole = write_all(descriptor, text) == text.size();
+  const bool is_synced = durability == Durability::kSynced;
+  const bool is_whole =
+      write_all(descriptor, text) == text.size() && (!is_synced || ::fsync(descriptor) == 0);
   const int error = errno;
   const bool is_closed = ::close(descriptor) == 0;
   if (!is_whole) return fail(error);
   if (!is_closed || ::rename(temporary.c_str(), path.c_str()) != 0) return fail(errno);
+  if (is_synced && !sync_folder(path.parent_path())) return fail(errno);
   return "";
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ namespace polynya::io {
 class OutputFile {
  public:
   static tl::expected<OutputFile, std::string> create(const std::filesystem::path& path);
+  /// Goes on with a file that had that size [bytes] when it was last known to be whole: what is beyond is cut
+  /// off. A shorter file is refused and left as it is.
+  static tl::expected<OutputFile, std::string> go_on(const std::filesystem::path& path, std::uint64_t size);
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;
   ~OutputFile();
@@ -26,6 +30,9 @@ class OutputFile {
 
   /// Writes what is buffered. After a failure nothing more is written and the failure stays.
   bool flush();
+  /// Writes what is buffered and waits until it is on the disk.
+  bool sync();
+  std::uint64_t size() const { return size_; }  ///< on disk [bytes]
   /// Forgets what is buffered.
   void drop() {
     buffer_.clear();
@@ -40,12 +47,18 @@ class OutputFile {
   std::string name_;
   std::string buffer_;
   std::vector<std::size_t> record_ends_;  ///< in the buffer
-  std::size_t size_ = 0;                  ///< on disk [bytes]
+  std::uint64_t size_ = 0;                ///< on disk [bytes]
   std::string failure_;
 };
 
-/// Writes a small file at once: to a temporary name beside it, then renamed, so that a reader sees the old or
-/// the new one. Returns what went wrong; empty where all is well.
-std::string write_whole_file(const std::filesystem::path& path, std::string_view text);
+enum class Durability {
+  kRenamed,  ///< whole whatever happens to the program
+  kSynced,   ///< whole, and there, whatever happens to the machine
+};
+
+/// Writes a file at once: to a temporary name beside it, then renamed, so that a reader sees the old or the
+/// new one. Returns what went wrong; empty where all is well.
+std::string write_whole_file(const std::filesystem::path& path, std::string_view text,
+                             Durability durability = Durability::kRenamed);
 
 }  // namespace polynya::io

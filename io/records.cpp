@@ -3,6 +3,8 @@
 #include <initializer_list>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "io/json_writer.hpp"
 
 namespace polynya::io {
@@ -73,6 +75,15 @@ void append_forces_row(std::string& text, const simulation::ShipSample& s, std::
   text += ',';
   append_number(text, std::int64_t{s.contacts});
   text += '\n';
+}
+
+std::string_view states_header() {
+  return "t_s,steps,state_hash\n";
+}
+
+void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash) {
+  append_number(text, time);
+  text += fmt::format(",{},{:016x}\n", steps, hash);
 }
 
 void append_birth(std::string& text, const simulation::Birth& birth) {

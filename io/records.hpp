@@ -15,6 +15,10 @@ namespace polynya::io {
 std::string_view forces_header();
 void append_forces_row(std::string& text, const simulation::ShipSample& sample, std::string_view ship_name);
 
+/// states.csv: a hash of everything at each frame.
+std::string_view states_header();
+void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash);
+
 void append_birth(std::string& text, const simulation::Birth& birth);
 
 /// `parent` is the parent of the floe that broke.

@@ -1,6 +1,14 @@
 #include "io/run_folder.hpp"
 
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "io/checkpoint.hpp"
 
 namespace polynya::io {
 
@@ -25,6 +33,10 @@ std::string prepare_run_folder(const fs::path& folder, bool overwrite) {
   if (!is_run)
     return fmt::format("{}: it is not empty and not a run's folder; --overwrite replaces only runs",
                        folder.string());
+  if (const auto lock = RunLock::take(folder); !lock) return lock.error();
+  remove_checkpoints(folder);
+  fs::remove(folder / run_file::kFailure, error);
+  fs::remove_all(folder / run_file::kRejectedCuts, error);
   for (const auto name : run_file::kAll) {
     fs::remove(folder / name, error);
     if (error) return failed();
@@ -35,6 +47,21 @@ std::string prepare_run_folder(const fs::path& folder, bool overwrite) {
     if (error) return failed();
   }
   return "";
+}
+
+tl::expected<RunLock, std::string> RunLock::take(const fs::path& folder) {
+  const fs::path scene = folder / run_file::kScene;
+  const int descriptor = ::open(scene.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return tl::unexpected(fmt::format("{}: {}", scene.string(), std::strerror(errno)));
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(descriptor);
+    return tl::unexpected(fmt::format("{}: another polynya is at this run", folder.string()));
+  }
+  return RunLock(descriptor);  // file systems without locks go without
+}
+
+RunLock::~RunLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 }  // namespace polynya::io

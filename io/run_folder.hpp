@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include <tl/expected.hpp>
 
 namespace polynya::io {
 
@@ -15,6 +18,7 @@ inline constexpr std::string_view kForces = "forces.csv";
 inline constexpr std::string_view kEvents = "events.ndjson";
 inline constexpr std::string_view kFloes = "floes.ndjson";
 inline constexpr std::string_view kFrames = "frames.bin";
+inline constexpr std::string_view kStates = "states.csv";
 inline constexpr std::string_view kFinalGeojson = "final.geojson";
 inline constexpr std::string_view kFinalSvg = "final.svg";
 inline constexpr std::string_view kFinalPng = "final.png";
@@ -28,9 +32,28 @@ inline constexpr std::string_view kFigureMotion = "figure-motion.svg";
 inline constexpr std::string_view kFigureSizes = "figure-sizes.svg";
 inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
-inline constexpr std::array kAll{kScene,        kSummary,  kForces,   kEvents, kFloes,   kFrames,
+inline constexpr std::string_view kFailure = "failure.bin";
+inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
+inline constexpr std::array kAll{kScene,        kSummary,  kForces,   kEvents, kFloes,   kFrames,    kStates,
                                  kFinalGeojson, kFinalSvg, kFinalPng, kView,   kChannel, kChannelCsv};
 }  // namespace run_file
+
+/// Keeps others from writing a run's folder as long as it lives (an advisory lock on its scene.json).
+class RunLock {
+ public:
+  /// The error says who or what is in the way.
+  static tl::expected<RunLock, std::string> take(const std::filesystem::path& folder);
+  RunLock(RunLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  RunLock& operator=(RunLock&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~RunLock();
+
+ private:
+  explicit RunLock(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_ = -1;
+};
 
 /// Makes an empty run folder. A folder with anything in it is refused; if told to overwrite, a run's folder
 /// (one with scene.json and summary.json) loses the files a run writes, what other commands made of it in the

@@ -1,15 +1,21 @@
 #include "io/run_writer.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 
+#include "geometry/measures.hpp"
 #include "geometry/pose.hpp"
+#include "io/checkpoint.hpp"
 #include "io/records.hpp"
-#include "io/run_folder.hpp"
 
 namespace polynya::io {
 namespace {
 
-enum : std::size_t { kFloes, kEvents, kFrames, kForces, kFileCount };
+/// The files that grow, in the order they are flushed: what is named before what names it.
+constexpr std::array kGrowing{run_file::kFloes, run_file::kEvents, run_file::kFrames, run_file::kStates,
+                              run_file::kForces};
+enum : std::size_t { kFloes, kEvents, kFrames, kStates, kForces };
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
@@ -27,13 +33,23 @@ tl::expected<RunWriter, std::string> RunWriter::create(const std::filesystem::pa
   if (std::string problem = write_whole_file(folder / run_file::kScene, scene.resolved_text);
       !problem.empty())
     return tl::unexpected(problem);
+  return begin(folder, scene);
+}
+
+tl::expected<RunWriter, std::string> RunWriter::begin(const std::filesystem::path& folder,
+                                                      const LoadedScene& scene) {
+  auto lock = RunLock::take(folder);
+  if (!lock) return tl::unexpected(lock.error());
   std::vector<OutputFile> files;
-  for (const auto name : {run_file::kFloes, run_file::kEvents, run_file::kFrames, run_file::kForces}) {
+  for (const auto name : kGrowing) {
     auto file = OutputFile::create(folder / name);
     if (!file) return tl::unexpected(file.error());
     files.push_back(std::move(*file));
   }
-  RunWriter writer(folder, scene, std::move(files));
+  RunWriter writer(folder, scene, std::move(files), std::move(*lock));
+  writer.file(kForces).append(forces_header());
+  writer.file(kFrames).append(FrameEncoder::header());
+  writer.file(kStates).append(states_header());
   writer.flush();  // the headers
   if (std::string problem = writer.failure(); !problem.empty()) return tl::unexpected(problem);
   RunSummary first;
@@ -45,16 +61,60 @@ tl::expected<RunWriter, std::string> RunWriter::create(const std::filesystem::pa
   return writer;
 }
 
-RunWriter::RunWriter(std::filesystem::path folder, const LoadedScene& scene, std::vector<OutputFile> files)
+tl::expected<RunWriter, std::string> RunWriter::go_on(const std::filesystem::path& folder,
+                                                      const LoadedScene& scene, RunProgress progress,
+                                                      const simulation::Simulation& simulation) {
+  const std::size_t ships = scene.scene.ships.size();
+  if (progress.file_sizes.size() != kGrowing.size() || progress.tracks.size() != ships ||
+      progress.peaks.size() != ships)
+    return tl::unexpected(fmt::format("{}: the checkpoint is of another run", folder.string()));
+  auto lock = RunLock::take(folder);
+  if (!lock) return tl::unexpected(lock.error());
+  for (std::size_t i = 0; i < kGrowing.size(); ++i) {  // before any is cut back
+    std::error_code error;
+    const auto size = std::filesystem::file_size(folder / kGrowing[i], error);
+    if (error || size < progress.file_sizes[i])
+      return tl::unexpected(fmt::format(
+          "{}: {}", (folder / kGrowing[i]).string(),
+          error ? error.message()
+                : fmt::format("{} bytes; at the checkpoint there were {}", size, progress.file_sizes[i])));
+  }
+  std::vector<OutputFile> files;
+  for (std::size_t i = 0; i < kGrowing.size(); ++i) {
+    auto file = OutputFile::go_on(folder / kGrowing[i], progress.file_sizes[i]);
+    if (!file) return tl::unexpected(file.error());
+    files.push_back(std::move(*file));
+  }
+  RunWriter writer(folder, scene, std::move(files), std::move(*lock));
+  writer.frames_ = FrameEncoder(std::move(progress.told));
+  writer.tracks_ = std::move(progress.tracks);
+  writer.fractures_ = std::move(progress.fractures);
+  writer.peaks_ = std::move(progress.peaks);
+  for (const simulation::FloeState& floe : simulation.floe_states())
+    writer.know(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
+  return writer;
+}
+
+void RunWriter::know(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body) {
+  const auto id = static_cast<std::size_t>(floe);
+  if (id >= parents_.size()) {
+    parents_.resize(id + 1, simulation::kNoFloe);
+    centroids_in_body_.resize(id + 1);
+  }
+  parents_[id] = parent;
+  centroids_in_body_[id] = centroid_in_body;
+}
+
+RunWriter::RunWriter(std::filesystem::path folder, const LoadedScene& scene, std::vector<OutputFile> files,
+                     RunLock lock)
     : folder_(std::move(folder)),
       scene_(&scene),
       files_(std::move(files)),
       tracks_(scene.scene.ships.size()),
       peaks_(scene.scene.ships.size()),
+      lock_(std::move(lock)),
       last_flush_(std::chrono::steady_clock::now()) {
   for (std::size_t i = 0; i < peaks_.size(); ++i) peaks_[i].ship = scene.scene.ships[i].name;
-  file(kForces).append(forces_header());
-  file(kFrames).append(FrameEncoder::header());
 }
 
 std::string_view RunWriter::ship_name(int ship) const {
@@ -71,13 +131,7 @@ void RunWriter::record(simulation::Journal& journal) {
     file(which).append(line_);
   };
   for (const simulation::Birth& birth : journal.births) {
-    const auto id = static_cast<std::size_t>(birth.floe);
-    if (id >= parents_.size()) {
-      parents_.resize(id + 1, simulation::kNoFloe);
-      centroids_in_body_.resize(id + 1);
-    }
-    parents_[id] = birth.parent;
-    centroids_in_body_[id] = birth.centroid_in_body;
+    know(birth.floe, birth.parent, birth.centroid_in_body);
     append_line(kFloes, [&](std::string& line) { append_birth(line, birth); });
   }
   for (const simulation::Event& event : journal.events) {
@@ -105,6 +159,23 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
     floes.push_back({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
   }
   file(kFrames).append(frames_.encode(simulation.time(), ships, floes));
+  line_.clear();
+  append_state(line_, simulation.time(), simulation.counts().steps, simulation.state_hash());
+  file(kStates).append(line_);
+}
+
+RunProgress RunWriter::sync() {
+  flush();
+  RunProgress progress;
+  for (OutputFile& file : files_) {
+    if (!file.sync()) break;
+    progress.file_sizes.push_back(file.size());
+  }
+  progress.told = frames_.told();
+  progress.tracks = tracks_;
+  progress.fractures = fractures_;
+  progress.peaks = peaks_;
+  return progress;
 }
 
 void RunWriter::flush() {
@@ -164,11 +235,17 @@ std::string RunWriter::finish(const RunSummary& summary, const simulation::Simul
     if (problem.empty()) problem = wrong;
     return wrong.empty();
   };
-  // The summary first: where space is short it matters more than the picture, and it is rewritten in place.
-  write(run_file::kSummary, to_json_text(summary, *scene_));
-  write(run_file::kFinalGeojson, to_geojson(simulation.floe_states(), simulation.time()));
-  if (write(run_file::kFinalSvg, to_svg(picture(summary, simulation))))
-    has_png_ = convert_to_png(folder_ / run_file::kFinalSvg, folder_ / run_file::kFinalPng);
+  const auto write_pictures = [&] {
+    write(run_file::kFinalGeojson, to_geojson(simulation.floe_states(), simulation.time()));
+    if (write(run_file::kFinalSvg, to_svg(picture(summary, simulation))))
+      has_png_ = convert_to_png(folder_ / run_file::kFinalSvg, folder_ / run_file::kFinalPng);
+  };
+  // A summary that says "finished" comes last, when all is there. Of a run that stopped it comes first: where
+  // space is short it matters more than the picture.
+  if (summary.finished) write_pictures();
+  if (problem.empty() || !summary.finished) write(run_file::kSummary, to_json_text(summary, *scene_));
+  if (!summary.finished) write_pictures();
+  if (summary.finished && problem.empty()) remove_checkpoints(folder_);
   return problem;
 }
 

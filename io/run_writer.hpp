@@ -12,11 +12,21 @@
 #include "io/frames.hpp"
 #include "io/output_file.hpp"
 #include "io/picture.hpp"
+#include "io/run_folder.hpp"
 #include "io/scene_reader.hpp"
 #include "io/summary.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::io {
+
+/// What of a run's folder is written, and what the writer has to remember of it to go on.
+struct RunProgress {
+  std::vector<std::uint64_t> file_sizes;             ///< of the files that grow, on disk [bytes]
+  std::vector<FrameEncoder::Told> told;              ///< by floe id
+  std::vector<std::vector<geometry::Point>> tracks;  ///< by ship, one point a frame [m]
+  std::vector<Picture::Fracture> fractures;
+  std::vector<ShipPeaks> peaks;
+};
 
 /// Writes a run's folder while it runs (docs/run-folder.md). What is on disk is whole lines and whole frames
 /// at all times, and summary.json says from the start that the run is not finished: a killed run leaves a
@@ -28,6 +38,15 @@ class RunWriter {
   static tl::expected<RunWriter, std::string> create(const std::filesystem::path& folder, bool overwrite,
                                                      const LoadedScene& scene);
 
+  /// The same for a folder that has its scene.json already: everything else of the run begins anew.
+  static tl::expected<RunWriter, std::string> begin(const std::filesystem::path& folder,
+                                                    const LoadedScene& scene);
+
+  /// Goes on with the folder of a run that was interrupted: what its files have beyond `progress` is cut off.
+  static tl::expected<RunWriter, std::string> go_on(const std::filesystem::path& folder,
+                                                    const LoadedScene& scene, RunProgress progress,
+                                                    const simulation::Simulation& simulation);
+
   /// Takes down what the journal tells and clears it.
   void record(simulation::Journal& journal);
 
@@ -36,6 +55,10 @@ class RunWriter {
 
   /// Writes what is buffered if a second has passed or much has gathered. Cheap to call after every step.
   void flush_if_due();
+
+  /// Brings everything to the disk, for a checkpoint, and tells where the folder stands. Where failure() says
+  /// that it could not, the folder stands nowhere.
+  RunProgress sync();
 
   /// What went wrong with a file; empty where all is well.
   std::string failure() const;
@@ -51,7 +74,10 @@ class RunWriter {
   bool has_png() const { return has_png_; }
 
  private:
-  RunWriter(std::filesystem::path folder, const LoadedScene& scene, std::vector<OutputFile> files);
+  RunWriter(std::filesystem::path folder, const LoadedScene& scene, std::vector<OutputFile> files,
+            RunLock lock);
+  /// What events and frames will say of a floe.
+  void know(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
   OutputFile& file(std::size_t which) { return files_[which]; }
   void flush();
   std::string_view ship_name(int ship) const;
@@ -66,6 +92,7 @@ class RunWriter {
   std::vector<std::vector<geometry::Point>> tracks_;  ///< by ship, one point a frame [m]
   std::vector<Picture::Fracture> fractures_;
   std::vector<ShipPeaks> peaks_;
+  RunLock lock_;
   std::string line_;
   std::chrono::steady_clock::time_point last_flush_;
   bool has_png_ = false;

@@ -30,6 +30,32 @@ void append(JsonWriter& json, const simulation::AreaLedger& ledger) {
   json.close('}');
 }
 
+void append(JsonWriter& json, const simulation::Audit& audit) {
+  const simulation::EnergyFlows& e = audit.sums.energy;
+  json.key("energy").open('{');
+  json.key("initial_J").value(audit.sums.initial_energy).key("kinetic_J").value(audit.kinetic_energy);
+  json.key("thrust_J").value(e.thrust).key("current_J").value(e.current).key("drag_J").value(e.drag);
+  json.key("friction_J").value(e.friction).key("restitution_J").value(e.restitution);
+  json.key("crushing_J").value(e.crushing).key("bending_J").value(e.bending);
+  json.key("splitting_J").value(e.splitting).key("rest_J").value(e.rest);
+  json.key("imbalance_J").value(audit.energy_imbalance).key("turnover_J").value(audit.turnover);
+  json.close('}');
+  const auto vector = [&](const char* key, geometry::Vector v) {
+    json.key(key).open('[').value(v.x).value(v.y).close(']');
+  };
+  const simulation::MomentumFlows& m = audit.sums.momentum;
+  json.key("momentum").open('{');
+  vector("initial_Ns", audit.sums.initial_momentum);
+  vector("final_Ns", audit.total_momentum);
+  vector("thrust_Ns", m.thrust);
+  vector("held_Ns", m.held);
+  vector("water_Ns", m.water);
+  vector("removed_Ns", m.removed);
+  vector("imbalance_Ns", audit.momentum_imbalance);
+  json.key("turnover_Ns").value(audit.momentum_turnover).close('}');
+  json.key("audit_closed").value(audit.is_closed());
+}
+
 void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("counts").open('{');
   json.key("floes_initial").value(counts.floes_initial).key("floes_final").value(counts.floes_final);
@@ -38,6 +64,8 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
   json.key("kept_exact").value(counts.kept_exact).key("unconverged_steps").value(counts.unconverged_steps);
+  json.key("largest_left_over_m_per_s").value(counts.largest_left_over);
+  json.key("unpaired_stretches").value(counts.unpaired_stretches);
   json.key("peak_contacts").value(counts.peak_contacts).key("peak_awake").value(counts.peak_awake);
   json.close('}');
 }
@@ -72,6 +100,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   for (const ShipPeaks& peaks : summary.peaks) append(json, peaks);
   json.close(']');
   append(json, summary.ledger);
+  append(json, summary.audit);
   append(json, summary.counts);
   json.key("warnings").open('[');
   for (const std::string& warning : summary.warnings) json.value(std::string_view(warning));

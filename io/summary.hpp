@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/scene_reader.hpp"
+#include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
 
 namespace polynya::io {
@@ -35,6 +36,7 @@ struct RunSummary {
   double sim_time = 0;   ///< [s]
   double wall_time = 0;  ///< [s]
   simulation::AreaLedger ledger;
+  simulation::Audit audit;
   simulation::Counts counts;
   std::vector<ShipPeaks> peaks;
   std::vector<std::string> warnings;

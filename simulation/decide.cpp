@@ -106,7 +106,7 @@ double least_splitting_force(const World& world) {
 void measure_crack(const World& world, const Contact& c, PendingFracture& pending) {
   const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
   pending.crack_in_body =
-      geometry::crack_path(world.bodies.boundary[c.b]->edges, point_in_body(water_from_floe, c.middle()),
+      geometry::crack_path(*world.bodies.boundary[c.b], point_in_body(water_from_floe, c.middle()),
                            rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
   const double length = pending.crack_in_body.length_in_ice;
   // At the corner that an earlier crack left, the next one would run along its face and pare it strip by

@@ -40,6 +40,19 @@ void reject(World& world, const PendingFracture& pending, const geometry::CutErr
   pending.record->was_refused = true;
 }
 
+/// Enters the motion of ice that leaves the floe list with its parent's motion.
+void note_removed(World& world, double& sink, const NewFloe& moving, const geometry::Measures& measures) {
+  const double mass_per_area = world.scene.ice.density * world.scene.ice.thickness;
+  const geometry::Vector arm =
+      point_in_world(moving.water_from_body, measures.centroid) - moving.water_from_body.position;
+  const geometry::Vector velocity = moving.velocity + cross(moving.angular_velocity, arm);
+  const geometry::Vector carried = mass_per_area * measures.area * velocity;
+  sink += 0.5 * (dot(carried, velocity) +
+                 mass_per_area * measures.second_moment * moving.angular_velocity * moving.angular_velocity);
+  world.audit.momentum.removed += carried;
+  world.audit.impulses += length(carried);
+}
+
 /// Pieces become bodies that move on as the parts of the parent they were: v + ω × r, the same ω.
 void replace_by_pieces(World& world, const PendingFracture& pending, const geometry::CutResult& cut) {
   const bool is_bend = pending.failure == fracture::Failure::kBend;
@@ -54,17 +67,20 @@ void replace_by_pieces(World& world, const PendingFracture& pending, const geome
   child.velocity = dynamics::velocity_at(world.bodies, parent,
                                          child.water_from_body.position - world.bodies.position[parent]);
   retire_floe(world, pending.floe);
+  double& sink = is_bend ? world.audit.energy.bending : world.audit.energy.splitting;
   for (const geometry::Piece& piece : cut.pieces) {
     const geometry::Measures measures = geometry::measure(piece.shape.polygon);
     const double area = measures.area;
     const bool is_cusp = is_bend && piece.part == geometry::Part::kInside;
     if (is_cusp && world.scene.fracture.cusp_fate == CuspFate::kSubmerge) {
       event.submerged_area += area;
+      note_removed(world, sink, child, measures);
       continue;
     }
     if (area < world.scene.fracture.smallest_floe_area) {
       event.brash_area += area;
       ++world.counts.brash_pieces;
+      note_removed(world, sink, child, measures);
       continue;
     }
     child.shape = piece.shape;

@@ -103,7 +103,9 @@ struct Counts {
   std::int64_t brash_pieces = 0;
   std::int64_t kept_exact = 0;  ///< shapes that had to stay in rationals
   std::int64_t database_out_of_range = 0;
-  std::int64_t unconverged_steps = 0;  ///< steps in which the impulse solver used all its sweeps
+  std::int64_t unconverged_steps = 0;   ///< steps in which the impulse solver used all its sweeps
+  double largest_left_over = 0;         ///< of a velocity, what the last sweep of such a step changed [m/s]
+  std::int64_t unpaired_stretches = 0;  ///< overlaps without a contact for a step: crossings not in pairs
   std::int64_t steps = 0;
   std::int64_t peak_contacts = 0;
   std::int64_t peak_awake = 0;

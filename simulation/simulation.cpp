@@ -1,6 +1,14 @@
 #include "simulation/simulation.hpp"
 
+#include <cstdio>
+#include <cstdlib>
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "simulation/state.hpp"
 #include "simulation/step.hpp"
+#include "simulation/validate_world.hpp"
 
 namespace polynya::simulation {
 
@@ -16,23 +24,72 @@ std::string_view name_of(EventKind kind) {
   return "unknown";
 }
 
+/// So many threads, also where there are fewer cores.
+struct ThreadLimit {
+  explicit ThreadLimit(int threads)
+      : most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+        arena(threads) {}
+  tbb::global_control most;
+  tbb::task_arena arena;
+};
+
 Simulation::Simulation(Scene scene, Shortcuts shortcuts)
     : world_(std::make_unique<World>(std::move(scene), shortcuts)) {}
+Simulation::Simulation(std::unique_ptr<World> world) : world_(std::move(world)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
+tl::expected<Simulation, std::string> Simulation::resumed(Scene scene, std::string_view state) {
+  auto world = std::make_unique<World>(std::move(scene), Shortcuts{}, Population::kNone);
+  if (std::string reason = load_state(*world, state); !reason.empty())
+    return tl::unexpected(std::move(reason));
+  return Simulation(std::move(world));
+}
+std::string Simulation::state() const {
+  return save_state(*world_);
+}
+std::uint64_t Simulation::state_hash() const {
+  return simulation::state_hash(*world_);
+}
+
 void Simulation::set_threads(int threads) {
   world_->threads = threads;
+  thread_limit_ = threads > 1 ? std::make_unique<ThreadLimit>(threads) : nullptr;
 }
+
+namespace {
+
+/// Derives the world anew, in builds with assertions: always, but of large worlds, where it costs many times a
+/// step, now and then.
+void look_at([[maybe_unused]] const World& world) {
+#ifndef NDEBUG
+  if (world.failure || (world.floes.size() > 300 && world.steps % 256 != 0)) return;
+  const auto wrong = validate_world(world);
+  if (!wrong) return;
+  std::fprintf(stderr, "step %lld: %s\n", static_cast<long long>(world.steps), wrong->c_str());
+  std::abort();
+#endif
+}
+
+}  // namespace
+
 void Simulation::step() {
-  simulation::step(*world_);
+  if (thread_limit_ == nullptr) {
+    simulation::step(*world_);
+  } else {
+    thread_limit_->arena.execute([&] { simulation::step(*world_); });
+  }
+  look_at(*world_);
 }
 std::optional<std::string> Simulation::numerical_failure() const {
   return world_->failure;
 }
 double Simulation::time() const {
   return world_->time();
+}
+std::int64_t Simulation::steps() const {
+  return world_->steps;
 }
 const Scene& Simulation::scene() const {
   return world_->scene;
@@ -42,6 +99,10 @@ Journal& Simulation::journal() {
 }
 const World& Simulation::world() const {
   return *world_;
+}
+
+Audit Simulation::audit() const {
+  return simulation::audit(*world_);
 }
 
 AreaLedger Simulation::area_ledger() const {

@@ -5,13 +5,17 @@
 #include <string>
 #include <vector>
 
+#include <tl/expected.hpp>
+
 #include "geometry/pose.hpp"
+#include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
 #include "simulation/scene.hpp"
 
 namespace polynya::simulation {
 
 struct World;
+struct ThreadLimit;
 
 /// Where one living floe is. Frames and pictures are made of these.
 struct FloeState {
@@ -43,7 +47,16 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// To step with; results do not depend on it.
+  /// Goes on from what state() told of a run of the same scene. The error says why those bytes are none.
+  static tl::expected<Simulation, std::string> resumed(Scene scene, std::string_view state);
+
+  /// All that decides how the run goes on, beside the scene. Taken between steps, the journal having been
+  /// taken.
+  std::string state() const;
+  /// A hash of it, the same wherever the same bits were computed (docs/reliability.md).
+  std::uint64_t state_hash() const;
+
+  /// Steps on so many threads from now on. Results do not depend on it.
   void set_threads(int threads);
 
   /// One time step. What it has to tell stands in journal() afterwards, added to what is there.
@@ -53,16 +66,20 @@ class Simulation {
   std::optional<std::string> numerical_failure() const;
 
   double time() const;  ///< [s]
+  std::int64_t steps() const;
   const Scene& scene() const;
   Journal& journal();
   AreaLedger area_ledger() const;
+  Audit audit() const;  ///< of energy and momentum
   Counts counts() const;
   std::vector<FloeState> floe_states() const;  ///< living floes in id order
   std::vector<ShipState> ship_states() const;
   const World& world() const;
 
  private:
+  explicit Simulation(std::unique_ptr<World> world);
   std::unique_ptr<World> world_;
+  std::unique_ptr<ThreadLimit> thread_limit_;
 };
 
 }  // namespace polynya::simulation

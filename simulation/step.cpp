@@ -15,11 +15,52 @@ Vector heading_of(const World& world, BodyIndex ship) {
   return {r.cosine, r.sine};
 }
 
-/// Marks what crushed, once the solver has told which contacts needed all that crushing ice could carry.
+/// Enters what a held body did to another through their contact.
+void note_held(World& world, const dynamics::Contact& c) {
+  const Vector on_b = c.total_normal_impulse() * c.normal + c.slip_impulse * perpendicular(c.normal);
+  const Vector on_free = world.bodies.inverse_mass[c.a] == 0 ? on_b : -on_b;
+  world.audit.energy.thrust += c.held_work;
+  world.audit.momentum.held += on_free;
+  world.audit.impulses += length(on_free);
+}
+
+void note_water(World& world, const dynamics::WaterWork& work) {
+  world.audit.energy.drag += work.lost;
+  world.audit.energy.current += work.by_current;
+  world.audit.momentum.water += work.impulse;
+  world.audit.impulses += work.impulses;
+}
+
+void push_ship(World& world, BodyIndex ship, double thrust) {
+  dynamics::Bodies& bodies = world.bodies;
+  const Vector impulse = world.scene.time.step * thrust * heading_of(world, ship);
+  const Vector change = bodies.inverse_mass[ship] * impulse;
+  world.audit.energy.thrust += dot(impulse, bodies.velocity[ship] + 0.5 * change);
+  world.audit.momentum.thrust += impulse;
+  world.audit.impulses += length(impulse);
+  bodies.velocity[ship] += change;
+}
+
+/// Enters what is left to a floe that is put to rest.
+void note_rest(World& world, BodyIndex i) {
+  const dynamics::Bodies& bodies = world.bodies;
+  const Vector left = bodies.mass[i] * bodies.velocity[i];
+  const double omega = bodies.angular_velocity[i];
+  world.audit.energy.rest += 0.5 * (dot(left, bodies.velocity[i]) + bodies.moment[i] * omega * omega);
+  world.audit.momentum.removed += left;
+  world.audit.impulses += length(left);
+}
+
+/// Marks what crushed, once the solver has told which contacts needed all that crushing ice could carry, and
+/// enters what all contacts did into the accounts.
 void note_crushing(World& world) {
+  EnergyFlows& energy = world.audit.energy;
   for (dynamics::Contact& c : world.contacts) {
-    const bool is_crushing = c.approach_speed > 0 && c.total_normal_impulse() >= c.impulse_limit * (1 - 1e-9);
-    if (!is_crushing) continue;
+    const bool is_at_limit = c.total_normal_impulse() >= c.impulse_limit * (1 - 1e-9);
+    (is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
+    energy.friction -= c.slip_work;
+    if (world.bodies.inverse_mass[c.a] == 0 || world.bodies.inverse_mass[c.b] == 0) note_held(world, c);
+    if (!is_at_limit || c.approach_speed <= 0) continue;
     c.record->crushed_depth = c.depth;
     if (!c.record->has_crushed) ++world.counts.crush_contacts;
     c.record->has_crushed = true;
@@ -34,6 +75,7 @@ void find_pairs(World& world) {
 
 void find_contacts(World& world) {
   world.pairs.find_contacts(world.bodies, world.scene.time.step, world.contacts, world.threads);
+  world.counts.unpaired_stretches += world.pairs.take_unpaired_stretches();
   world.counts.peak_contacts =
       std::max(world.counts.peak_contacts, static_cast<std::int64_t>(world.contacts.size()));
 }
@@ -44,6 +86,7 @@ void solve_impulses(World& world) {
   const dynamics::SolverResult result =
       world.solver.solve(world.bodies, world.contacts, world.solver_settings);
   if (!result.is_converged()) ++world.counts.unconverged_steps;
+  world.counts.largest_left_over = std::max(world.counts.largest_left_over, result.left_over);
   note_crushing(world);
   for (const dynamics::Contact& c : world.contacts) {
     if (c.total_normal_impulse() == 0) continue;
@@ -55,12 +98,12 @@ void solve_impulses(World& world) {
 void apply_forces(World& world) {
   const double dt = world.scene.time.step;
   const WaterSettings& water = world.scene.water;
-  apply_water_drag(world.bodies, world.awake, {water.drag_coefficient, water.water.density, world.current},
-                   dt, world.threads);
+  note_water(world, apply_water_drag(world.bodies, world.awake,
+                                     {water.drag_coefficient, water.water.density, world.current}, dt,
+                                     world.threads));
   for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
     if (const auto* thrust = std::get_if<ConstantThrust>(&world.scene.ships[ship].propulsion)) {
-      world.bodies.velocity[ship] +=
-          dt * thrust->thrust * world.bodies.inverse_mass[ship] * heading_of(world, ship);
+      push_ship(world, ship, thrust->thrust);
     }
   }
 }
@@ -88,6 +131,7 @@ void put_to_rest(World& world) {
     if (world.is_ship(i) || world.touched_at_step[i] == world.steps) return false;
     if (world.bodies.rim_speed[i] >= kRestSpeed) return false;
     if (!world.is_current_still_at(i)) return false;  // for a moment only
+    note_rest(world, i);
     world.bodies.velocity[i] = {};
     world.bodies.angular_velocity[i] = 0;
     world.bodies.is_awake[i] = 0;

@@ -42,6 +42,20 @@ double grid_cell(const Scene& scene) {
 }
 
 void add_ship(World& world, const ShipSpec& ship) {
+  const BodyIndex index = add_body(world.bodies, new_body_of(world, ship));
+  world.pairs.add(world.bodies, index);
+}
+
+dynamics::ShearCurrent current_of(const ShearSettings& shear) {
+  return {{std::cos(shear.direction), std::sin(shear.direction)}, shear.rate, shear.origin};
+}
+
+/// The scene's ships and floes.
+void populate(World& world);
+
+}  // namespace
+
+dynamics::NewBody new_body_of(const World& world, const ShipSpec& ship) {
   dynamics::NewBody body;
   body.position = ship.position_in_world;
   body.angle = ship.heading;
@@ -59,17 +73,22 @@ void add_ship(World& world, const ShipSpec& ship) {
   body.mass = ship.mass;
   body.moment = ship.moment_of_inertia;
   body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline({ship.hull.waterline, {}}));
-  const BodyIndex index = add_body(world.bodies, body);
-  world.pairs.add(world.bodies, index);
+  return body;
 }
 
-dynamics::ShearCurrent current_of(const ShearSettings& shear) {
-  return {{std::cos(shear.direction), std::sin(shear.direction)}, shear.rate, shear.origin};
+dynamics::NewBody new_body_of(const World& world, const geometry::Polygon& polygon_in_body,
+                              const geometry::Measures& measures) {
+  const fracture::Ice& ice = world.scene.ice;
+  dynamics::NewBody body;
+  body.mass = ice.density * ice.thickness * measures.area;
+  body.moment = ice.density * ice.thickness * measures.second_moment;
+  body.centroid = measures.centroid;
+  body.thickness = ice.thickness;
+  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline(polygon_in_body));
+  return body;
 }
 
-}  // namespace
-
-World::World(Scene scene_of_run, Shortcuts shortcuts_of_run)
+World::World(Scene scene_of_run, Shortcuts shortcuts_of_run, Population population)
     : scene(std::move(scene_of_run)),
       shortcuts(shortcuts_of_run),
       bending(make_bending_model(scene.fracture.bending)),
@@ -84,7 +103,15 @@ World::World(Scene scene_of_run, Shortcuts shortcuts_of_run)
   separation_settings.time = scene.contact.separation_time;
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
   current = current_of(scene.water.shear);
-  for (const ShipSpec& ship : scene.ships) add_ship(*this, ship);
+  if (population == Population::kScene) populate(*this);
+}
+
+namespace {
+
+void populate(World& world) {
+  const Scene& scene = world.scene;
+  const dynamics::ShearCurrent& current = world.current;
+  for (const ShipSpec& ship : scene.ships) add_ship(world, ship);
   for (const FloeSpec& spec : scene.floes) {
     NewFloe floe;
     floe.shape.polygon = spec.polygon_in_world;
@@ -97,40 +124,37 @@ World::World(Scene scene_of_run, Shortcuts shortcuts_of_run)
       floe.angular_velocity += current.angular_velocity();
     }
     floe.velocity -= cross(floe.angular_velocity, centroid - Point{});
-    const FloeId id = add_floe(*this, floe, measures);
-    ledger.initial_ice_area += floes[id].area;
+    const FloeId id = add_floe(world, floe, measures);
+    world.ledger.initial_ice_area += world.floes[id].area;
   }
-  counts.floes_initial = static_cast<std::int64_t>(floes.size());
+  world.counts.floes_initial = static_cast<std::int64_t>(world.floes.size());
   // Only now: a body that wakes looks for its neighbours once, so they all have to be there.
-  for (BodyIndex ship = 0; ship < ship_count(); ++ship) wake(*this, ship);
+  for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) wake(world, ship);
   for (std::size_t i = 0; i < scene.floes.size(); ++i) {
     const FloeSpec& spec = scene.floes[i];
-    const BodyIndex body = body_of(static_cast<FloeId>(i));
+    const BodyIndex body = world.body_of(static_cast<FloeId>(i));
     const bool is_moving = spec.velocity != Vector{} || spec.angular_velocity != 0;
-    if (is_moving || !is_current_still_at(body) || !shortcuts.sleeps) wake(*this, body);
+    if (is_moving || !world.is_current_still_at(body) || !world.shortcuts.sleeps) wake(world, body);
   }
+  open_accounts(world);
 }
 
+}  // namespace
+
 FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& measures) {
-  const fracture::Ice& ice = world.scene.ice;
   const auto id = static_cast<FloeId>(world.floes.size());
-  dynamics::NewBody body;
-  body.mass = ice.density * ice.thickness * measures.area;
-  body.moment = ice.density * ice.thickness * measures.second_moment;
-  body.centroid = measures.centroid;
-  body.position = point_in_world(floe.water_from_body, measures.centroid);
+  dynamics::NewBody body = new_body_of(world, floe.shape.polygon, measures);
+  body.position = point_in_world(floe.water_from_body, body.centroid);
   body.angle = floe.angle;
   // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
   body.angular_velocity = floe.angular_velocity;
-  body.thickness = ice.thickness;
-  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline(floe.shape.polygon));
   world.floes.push_back({floe.parent, world.time(), floe.generation, measures.area, floe.shape});
   const BodyIndex index = add_body(world.bodies, body);
   assert(world.floe_of(index) == id);
   world.pairs.add(world.bodies, index);
   world.journal.births.push_back({id, floe.parent, world.time(), floe.generation, measures.area, body.mass,
-                                  measures.centroid, floe.shape.polygon, floe.shape.exact == nullptr});
+                                  body.centroid, floe.shape.polygon, floe.shape.exact == nullptr});
   return id;
 }
 
@@ -154,13 +178,16 @@ void retire_floe(World& world, FloeId floe) {
   world.journal.deaths.push_back(floe);
 }
 
+void give_drag(World& world, BodyIndex body) {
+  if (world.is_ship(body) || world.bodies.drag[body] != nullptr) return;
+  world.bodies.drag[body] = std::make_shared<dynamics::DragShape>(
+      dynamics::make_drag_shape(world.floes[world.floe_of(body)].shape.polygon, world.bodies.centroid[body]));
+}
+
 void wake(World& world, BodyIndex body) {
   if (world.bodies.is_awake[body]) return;
   world.bodies.is_awake[body] = 1;
-  if (!world.is_ship(body) && world.bodies.drag[body] == nullptr) {  // water holds back what moves
-    world.bodies.drag[body] = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(
-        world.floes[world.floe_of(body)].shape.polygon, world.bodies.centroid[body]));
-  }
+  give_drag(world, body);  // water holds back what moves
   world.awake.insert(std::lower_bound(world.awake.begin(), world.awake.end(), body), body);
   world.pairs.wake(world.bodies, body);
 }

@@ -13,6 +13,7 @@
 #include "fracture/decision.hpp"
 #include "geometry/crack_path.hpp"
 #include "geometry/measures.hpp"
+#include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
 #include "simulation/scene.hpp"
 
@@ -55,9 +56,16 @@ struct PendingFracture {
   dynamics::ContactRecord* record = nullptr;  ///< of the contact that broke it, valid during the step
 };
 
+/// What a new world has in it.
+enum class Population {
+  kScene,  ///< the scene's ships and floes
+  kNone,   ///< nothing: a saved state is to be loaded (state.hpp)
+};
+
 /// Everything a run is made of. The stages of step.hpp work on it.
 struct World {
-  explicit World(Scene scene_of_run, Shortcuts shortcuts_of_run = {});
+  explicit World(Scene scene_of_run, Shortcuts shortcuts_of_run = {},
+                 Population population = Population::kScene);
 
   Scene scene;
   int threads = 1;  ///< to step with; results do not depend on it
@@ -84,6 +92,7 @@ struct World {
   std::int64_t steps = 0;
   Journal journal;
   AreaLedger ledger;  ///< initial, submerged, brash, rounding; the rest is derived
+  AuditSums audit;
   Counts counts;
   std::optional<std::string> failure;
 
@@ -112,9 +121,18 @@ struct NewFloe {
   double angular_velocity = 0;  ///< [rad/s]
 };
 
-/// Takes a floe of these measures into the world, at rest or moving as a part of a rigid body whose frame is the floe's; writes
-/// its birth.
+/// Takes a floe of these measures into the world, at rest or moving as a part of a rigid body whose frame is
+/// the floe's; writes its birth.
 FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& measures);
+
+/// The body of a ship where the scene has it, and that of a floe of such a shape and its measures, wherever
+/// it is.
+dynamics::NewBody new_body_of(const World& world, const ShipSpec& ship);
+dynamics::NewBody new_body_of(const World& world, const geometry::Polygon& polygon_in_body,
+                              const geometry::Measures& measures);
+
+/// The water is to hold a floe back from now on.
+void give_drag(World& world, BodyIndex body);
 
 /// Takes a floe out of the world.
 void retire_floe(World& world, FloeId floe);

@@ -129,7 +129,15 @@ class Faces {
       graph_.next[at(in)] = forward;
       graph_.next[at(out ^ 1)] = forward + 1;
     }
-    return true;
+    return is_permutation();
+  }
+
+  // Is every half-edge the next of just one? All walks below come back to their start because of it. A shape
+  // that was said to be valid and is not may link one loose end twice.
+  bool is_permutation() const {
+    std::vector<char> follows(graph_.next.size(), 0);
+    for (const int next : graph_.next) follows[at(next)] = 1;
+    return std::all_of(follows.begin(), follows.end(), [](char is_next) { return is_next != 0; });
   }
 
   bool runs_along(std::size_t s, int h) const {

@@ -95,7 +95,7 @@ TEST(RunCommand, ASignalLeavesAWholeFolder) {
     ASSERT_TRUE(has_rows(child, folder / "run/forces.csv")) << wait_for(child, start).err;
     kill(child, signal);
     const Outcome outcome = wait_for(child, start);
-    EXPECT_EQ(outcome.code, 6) << outcome.err;
+    EXPECT_EQ(outcome.code, 75) << outcome.err;
     EXPECT_NE(outcome.err.find(signal == SIGINT ? "SIGINT" : "SIGTERM"), std::string::npos);
     const auto run = io::read_run(folder / "run");
     ASSERT_TRUE(run.has_value()) << run.error();

@@ -36,7 +36,7 @@ geometry::Polygon regular(int corners, double radius) {
 TEST(WaterDrag, AFloeThatMovesWithTheWaterFeelsNothing) {
   // Velocities are relative to the water, so a drifting floe has none: nothing changes, to the last bit.
   Bodies bodies = one_floe(rectangle(10, 6), 0.7);
-  EXPECT_EQ(apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 100), 0);
+  EXPECT_EQ(apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 100).lost, 0);
   EXPECT_EQ(bodies.velocity[0], Vector{});
   EXPECT_EQ(bodies.angular_velocity[0], 0);
 }
@@ -58,10 +58,10 @@ TEST(WaterDrag, AFreeFloeSlowsAsTheClosedForm) {
   }
 }
 
-TEST(WaterDrag, ManyCornersAreAsWideAsTheirHull) {
+TEST(WaterDrag, AShapeIsAsWideAsItsFarthestCornersInAllDirections) {
   Random random(17);
-  for (int i = 0; i < 50; ++i) {
-    const geometry::Polygon star = random_star(random, 65 + random.below(200), 3, 8);
+  for (int i = 0; i < 200; ++i) {
+    const geometry::Polygon star = random_star(random, 3 + random.below(200), 3, 8);
     const DragShape shape = make_drag_shape(star, {});
     for (int k = 0; k < DragShape::kDirections; ++k) {
       const geometry::Vector across = perpendicular(drag_direction(k)) / length(drag_direction(k));
@@ -104,7 +104,7 @@ TEST(WaterDrag, ActsAgainstTheVelocityAndTakesTheEnergyItReports) {
     const Vector v = bodies.velocity[0];
     const double before = kinetic_energy(bodies);
     const double work = apply_water_drag(bodies, {0}, {random.between(0, 2), kWater, {}},
-                                         std::pow(10.0, random.between(-4, 4)));
+                                         std::pow(10.0, random.between(-4, 4))).lost;
     const double after = kinetic_energy(bodies);
     ASSERT_LE(after, before);
     ASSERT_NEAR((before - after) / before, work / before, 1e-12);

@@ -100,19 +100,19 @@ TEST(WedgeAngles, OfAFloeSmallerThanTheLengthAreFinite) {
 }
 
 TEST(CrackPath, AcrossARectangleIsItsLength) {
-  const EdgeList edges = edge_list(rectangle(110, 200));
-  const CrackPath path = crack_path(edges, {-55, 20}, {1, 0}, 1e-3);
+  const Boundary boundary = make_outline(rectangle(110, 200));
+  const CrackPath path = crack_path(boundary, {-55, 20}, {1, 0}, 1e-3);
   EXPECT_NEAR(path.length_in_ice, 110, 1e-12);
   EXPECT_NEAR(distance(path.start, {-55 - 1e-3, 20}), 0, 1e-12);
   EXPECT_NEAR(distance(path.end, {55 + 1e-3, 20}), 0, 1e-12);
   const double slant = 0.3;
-  const CrackPath slanted = crack_path(edges, {-55, 20}, {std::cos(slant), std::sin(slant)}, 1e-3);
+  const CrackPath slanted = crack_path(boundary, {-55, 20}, {std::cos(slant), std::sin(slant)}, 1e-3);
   EXPECT_NEAR(slanted.length_in_ice, 110 / std::cos(slant), 1e-10);
 }
 
 TEST(CrackPath, FromInsideBeginsBehindThePointAndCountsOnlyWhatIsAhead) {
-  const EdgeList edges = edge_list(rectangle(110, 200));
-  const CrackPath path = crack_path(edges, {-54, 20}, {1, 0}, 1e-3);
+  const Boundary boundary = make_outline(rectangle(110, 200));
+  const CrackPath path = crack_path(boundary, {-54, 20}, {1, 0}, 1e-3);
   EXPECT_NEAR(path.length_in_ice, 109, 1e-12);
   EXPECT_NEAR(distance(path.start, {-55 - 1e-3, 20}), 0, 1e-12);
 }
@@ -120,20 +120,25 @@ TEST(CrackPath, FromInsideBeginsBehindThePointAndCountsOnlyWhatIsAhead) {
 TEST(CrackPath, CountsIceOnly) {
   Polygon plate = rectangle(100, 100);
   plate.holes = {{{-10, -10}, {-10, 10}, {10, 10}, {10, -10}}};
-  EXPECT_NEAR(crack_path(edge_list(plate), {-50, 0}, {1, 0}, 1e-3).length_in_ice, 80, 1e-12);
-  EXPECT_NEAR(crack_path(edge_list(plate), {-50, 20}, {1, 0}, 1e-3).length_in_ice, 100, 1e-12);
+  EXPECT_NEAR(crack_path(make_outline(plate), {-50, 0}, {1, 0}, 1e-3).length_in_ice, 80, 1e-12);
+  EXPECT_NEAR(crack_path(make_outline(plate), {-50, 20}, {1, 0}, 1e-3).length_in_ice, 100, 1e-12);
 }
 
 TEST(CrackPath, CutAlongItAFloeSeparatesWithoutLossOfArea) {
   Random random(8);
   for (int i = 0; i < 300; ++i) {
     const Polygon floe = random_star(random, 10, 4, 12);
-    const EdgeList edges = edge_list(floe);
+    const Boundary boundary = make_boundary(floe, {random.between(0.3, 3)});
+    const EdgeList& edges = boundary.edges;
     const auto edge = static_cast<std::uint32_t>(random.below(10));
     const Point from = edges.from(edge) + random.between(0.2, 0.8) * (edges.to(edge) - edges.from(edge));
     // The origin sees every edge of a star, so this leads into the ice.
     const Vector direction = (Point{} - from) / length(Point{} - from);
-    const CrackPath path = crack_path(edges, from, direction, 1e-3);
+    const CrackPath path = crack_path(boundary, from, direction, 1e-3);
+    const CrackPath over_all_edges = crack_path(make_outline(floe), from, direction, 1e-3);
+    EXPECT_EQ(path.start, over_all_edges.start);
+    EXPECT_EQ(path.end, over_all_edges.end);
+    EXPECT_EQ(path.length_in_ice, over_all_edges.length_in_ice);
     const CutOutcome outcome = cut_along({floe}, {path.start, path.end});
     ASSERT_TRUE(outcome) << i << ": " << outcome.error().detail;
     EXPECT_GE(outcome->pieces.size(), 2u);

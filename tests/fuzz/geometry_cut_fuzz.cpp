@@ -54,9 +54,19 @@ void cut_in_window_and_check(Dice& dice, Shape shape) {
   std::abort();
 }
 
+// A shape that is said to be valid and is not: any answer will do, but there must be one.
+void cut_past_the_checks(Dice& dice, Shape shape) {
+  shape.known_valid = true;
+  const trials::ManyKnives knives = trials::roll_knives(dice, shape.polygon);
+  static_cast<void>(knives.is_crack ? cut_along(shape, knives.crack) : cut_by_polygons(shape, knives.polygons));
+}
+
 void tell_story(Dice dice) {
   Shape shape{trials::roll_floe(dice)};
-  if (find_defect(shape.polygon)) return;
+  if (const auto found = find_defect(shape.polygon)) {
+    if (found->defect != Defect::kNotFinite && shape.polygon.outer.size() > 2) cut_past_the_checks(dice, shape);
+    return;
+  }
   if (dice.below(4) == 0) return cut_in_window_and_check(dice, shape);
   for (int cut = 0; cut < 3 && !dice.is_empty(); ++cut) {
     const CutOutcome outcome = cut_and_check(shape, trials::roll_knife(dice, shape.polygon));

@@ -8,6 +8,7 @@
 
 #include "geometry/internal/general_cut.hpp"
 #include "geometry/internal/local_cut.hpp"
+#include "geometry/internal/window_cut.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/repair.hpp"
@@ -225,6 +226,9 @@ TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
     static_cast<void>(
         cut_by_polygon(Shape{{shape, {}}, nullptr, true}, {disc_polygon({2, 2}, 1.5, 0.1), {}}));
     static_cast<void>(cut_along(Shape{{shape, {}}, nullptr, true}, {{-1, 2}, {7, 3}}));
+    static_cast<void>(cut_by_polygons_in_window(
+        Shape{{shape, {}}}, {{disc_polygon({2, 2}, 1.5, 0.1), {}}, {disc_polygon({4, 2}, 0.7, 0.1), {}}}));
+    static_cast<void>(cut_along_in_window(Shape{{shape, {kSquare}}}, {{-1, 2}, {3, 3}, {2, 1}, {2.5, 7}}));
   }
   SUCCEED();
 }

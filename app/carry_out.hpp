@@ -1,0 +1,27 @@
+#pragma once
+
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "io/checkpoint.hpp"
+#include "io/run_writer.hpp"
+#include "io/scene_reader.hpp"
+#include "simulation/simulation.hpp"
+
+namespace polynya::app {
+
+/// A run somewhere between its start and its end.
+struct RunInHand {
+  const io::LoadedScene& scene;
+  simulation::Simulation simulation;
+  io::RunWriter writer;
+  double wall_time = 0;  ///< that it has taken before [s]
+};
+
+/// Takes a run to its end, or to what stops it; tells how it went. Returns an ExitCode.
+int carry_out(RunInHand run, const CarryOptions& options);
+
+/// Where a run stands between two steps, its journal having been written.
+io::Checkpoint checkpoint_of(const simulation::Simulation& simulation, const io::LoadedScene& scene,
+                             io::RunProgress progress, double wall_time);
+
+}  // namespace polynya::app

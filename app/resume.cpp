@@ -1,0 +1,121 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/carry_out.hpp"
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "app/load_scene.hpp"
+#include "app/stop_signal.hpp"
+#include "app/tell.hpp"
+#include "io/checkpoint.hpp"
+#include "io/json_parser.hpp"
+#include "io/run_folder.hpp"
+#include "io/source_text.hpp"
+#include "simulation/validate_world.hpp"
+
+namespace polynya::app {
+namespace {
+
+namespace fs = std::filesystem;
+using simulation::Simulation;
+
+int refuse(const std::string& reason) {
+  tell("polynya: {}\n", reason);
+  return kInputOutput;
+}
+
+bool is_finished(const fs::path& folder) {
+  const auto text = io::read_text_file(folder / io::run_file::kSummary, std::size_t{64} << 20);
+  if (!text) return false;
+  const io::JsonDocument summary = io::parse_json(*text);
+  const io::JsonValue* finished = summary.faults.empty() ? summary.root.find("finished") : nullptr;
+  return finished != nullptr && finished->kind() == io::JsonValue::Kind::kBoolean && finished->boolean();
+}
+
+/// The simulation of a checkpoint, checked against the hash it was saved with.
+tl::expected<Simulation, std::string> simulation_of(const io::LoadedScene& scene,
+                                                    const io::Checkpoint& checkpoint) {
+  auto simulation = Simulation::resumed(scene.scene, checkpoint.state);
+  if (!simulation) return tl::unexpected("damaged: " + simulation.error());
+  if (simulation->steps() != checkpoint.steps || simulation->state_hash() != checkpoint.state_hash)
+    return tl::unexpected(std::string("damaged: its state is not the one that was saved"));
+  return simulation;
+}
+
+tl::expected<RunInHand, std::string> run_at(const fs::path& path, const io::LoadedScene& scene,
+                                            const fs::path& folder) {
+  auto checkpoint = io::read_checkpoint_file(path, scene.hash);
+  if (!checkpoint) return tl::unexpected(checkpoint.error());
+  auto simulation = simulation_of(scene, *checkpoint);
+  if (!simulation) return tl::unexpected(fmt::format("{}: {}", path.string(), simulation.error()));
+  auto writer = io::RunWriter::go_on(folder, scene, std::move(checkpoint->progress), *simulation);
+  if (!writer) return tl::unexpected(writer.error());
+  return RunInHand{scene, std::move(*simulation), std::move(*writer), checkpoint->wall_time};
+}
+
+/// Names the checkpoints that are left, where one was refused.
+void offer_others(const fs::path& folder, const fs::path& refused) {
+  for (const fs::path& other : io::checkpoints_in(folder)) {
+    if (other.filename() == refused.filename()) continue;
+    tell("polynya: there is another: polynya resume {} --checkpoint {}\n", folder.string(), other.string());
+  }
+  tell("polynya: or from the start: polynya run {} --out {} --overwrite\n",
+       (folder / io::run_file::kScene).string(), folder.string());
+}
+
+/// The one step after a dump, and whether it fails as it did.
+int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
+  const fs::path path = folder / io::run_file::kFailure;
+  const auto dump = io::read_checkpoint_file(path, scene.hash);
+  if (!dump) return refuse(dump.error());
+  auto simulation = simulation_of(scene, *dump);
+  if (!simulation) return refuse(fmt::format("{}: {}", path.string(), simulation.error()));
+  fmt::print("state       step {}, t = {:.9g} s, hash {:016x}\n", simulation->steps(), simulation->time(),
+             simulation->state_hash());
+  fmt::print("then        {}\n", dump->failure);
+  simulation->step();
+  std::string now = "nothing went wrong";
+  if (const auto failure = simulation->numerical_failure()) {
+    now = "numerical failure: " + *failure;
+  } else if (const auto wrong = validate_world(simulation->world())) {
+    now = "the world contradicts itself: " + *wrong;
+  }
+  fmt::print("now         {}\n", now);
+  fmt::print("{}\n", now == dump->failure ? "reproduced" : "not reproduced");
+  return now == dump->failure ? kNumericalFailure : kDone;
+}
+
+}  // namespace
+
+int resume(const ResumeOptions& options) {
+  const fs::path folder = options.folder;
+  if (!fs::is_regular_file(folder / io::run_file::kScene))
+    return refuse(fmt::format("{}: no run to resume: there is no {}", folder.string(), io::run_file::kScene));
+  const auto scene = load_scene((folder / io::run_file::kScene).string());
+  if (!scene) return scene.error();
+  if (options.from_failure) return repeat_failure(*scene, folder);
+  if (is_finished(folder)) {
+    tell("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
+    return kDone;
+  }
+  watch_signals();
+  const std::vector<fs::path> checkpoints = io::checkpoints_in(folder);
+  if (checkpoints.empty() && options.checkpoint.empty()) {
+    tell("polynya: {}: no checkpoint was written yet; from the start\n", folder.string());
+    auto writer = io::RunWriter::begin(folder, *scene);
+    if (!writer) return refuse(writer.error());
+    return carry_out({*scene, Simulation(scene->scene), std::move(*writer)}, options.carry);
+  }
+  const fs::path chosen = options.checkpoint.empty() ? checkpoints.front() : fs::path(options.checkpoint);
+  auto run = run_at(chosen, *scene, folder);
+  if (!run) {
+    refuse(run.error());
+    offer_others(folder, chosen);
+    return kInputOutput;
+  }
+  tell("polynya: from {} at {:.6g} s\n", chosen.filename().string(), run->simulation.time());
+  return carry_out(std::move(*run), options.carry);
+}
+
+}  // namespace polynya::app

@@ -1,0 +1,158 @@
+#include "io/checkpoint.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <boost/crc.hpp>
+#include <fmt/format.h>
+
+#include "io/source_text.hpp"
+#include "simulation/archive.hpp"
+#include "simulation/state_fields.hpp"
+
+namespace polynya::io {
+
+using simulation::Is;
+
+namespace {
+
+constexpr std::string_view kMark = "PLYNYCKP";
+constexpr std::size_t kHeadSize = 24;
+constexpr std::string_view kPrefix = "checkpoint-";
+constexpr std::string_view kSuffix = ".bin";
+constexpr std::size_t kKept = 2;
+
+std::uint32_t crc_of(std::string_view bytes) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
+
+/// The number of steps in a checkpoint's name; negative where it is none.
+std::int64_t steps_of(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return -1;
+  const std::string digits = name.substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size());
+  if (digits.size() != 12 || digits.find_first_not_of("0123456789") != std::string::npos) return -1;
+  return std::stoll(digits);
+}
+
+template <class Archive>
+void fields(Archive& archive, Is<Checkpoint> auto& c) {
+  archive(c.program_version, c.scene_hash, c.steps, c.wall_time, c.progress, c.state, c.state_hash,
+          c.failure);
+}
+
+}  // namespace
+
+template <class Archive>
+void fields(Archive& archive, Is<Peak> auto& p) {
+  archive(p.value, p.time);
+}
+template <class Archive>
+void fields(Archive& archive, Is<ShipPeaks> auto& p) {
+  archive(p.ship, p.surge, p.sway, p.yaw, p.surge_peak, p.sway_peak, p.yaw_peak, p.speed);
+}
+template <class Archive>
+void fields(Archive& archive, Is<Motion> auto& m) {
+  archive(m.position, m.angle, m.velocity, m.angular_velocity);
+}
+template <class Archive>
+void fields(Archive& archive, Is<FrameEncoder::Told> auto& t) {
+  archive(t.time, t.motion);
+}
+template <class Archive>
+void fields(Archive& archive, Is<Picture::Fracture> auto& f) {
+  archive(f.point_in_world, f.kind);
+}
+template <class Archive>
+void fields(Archive& archive, Is<RunProgress> auto& p) {
+  archive(p.file_sizes, p.told, p.tracks, p.fractures, p.peaks);
+}
+
+std::string checkpoint_file_of(std::string_view payload) {
+  simulation::ByteWriter head;
+  head(kCheckpointVersion, crc_of(payload), std::uint64_t{payload.size()});
+  return std::string(kMark).append(head.take()).append(payload);
+}
+
+std::string checkpoint_bytes(const Checkpoint& checkpoint) {
+  simulation::ByteWriter payload;
+  fields(payload, checkpoint);
+  return checkpoint_file_of(payload.take());
+}
+
+tl::expected<Checkpoint, std::string> read_checkpoint(std::string_view bytes) {
+  const auto fail = [](std::string reason) { return tl::unexpected(std::move(reason)); };
+  if (bytes.size() < kHeadSize || !bytes.starts_with(kMark)) return fail("not a checkpoint");
+  simulation::ByteReader head(bytes.substr(kMark.size()));
+  std::uint32_t version = 0;
+  std::uint32_t crc = 0;
+  std::uint64_t length = 0;
+  head(version, crc, length);
+  if (version != kCheckpointVersion)
+    return fail(
+        fmt::format("a checkpoint of version {}; this program reads {}", version, kCheckpointVersion));
+  const std::string_view payload = bytes.substr(kHeadSize);
+  if (payload.size() != length) return fail(fmt::format("damaged: {} bytes of {}", payload.size(), length));
+  if (crc_of(payload) != crc) return fail("damaged: its checksum does not match");
+  Checkpoint checkpoint;
+  simulation::ByteReader reader(payload);
+  fields(reader, checkpoint);
+  reader.require(reader.is_at_end(), "more bytes than it should have");
+  const auto is_known = [](const Picture::Fracture& fracture) {
+    return fracture.kind == simulation::EventKind::kBend || fracture.kind == simulation::EventKind::kSplit;
+  };
+  reader.require(std::ranges::all_of(checkpoint.progress.fractures, is_known), "a fracture of no kind");
+  reader.require(checkpoint.steps >= 0, "a number of steps that cannot be");
+  if (!reader.is_well()) return fail("damaged: " + reader.failure());
+  return checkpoint;
+}
+
+std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> found;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (steps_of(entry.path()) >= 0) found.push_back(entry.path());
+  }
+  std::ranges::sort(found, [](const auto& p, const auto& q) { return steps_of(p) > steps_of(q); });
+  return found;
+}
+
+std::string write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
+  const auto path = folder / fmt::format("{}{:012}{}", kPrefix, checkpoint.steps, kSuffix);
+  if (std::string failure = write_whole_file(path, checkpoint_bytes(checkpoint), Durability::kSynced);
+      !failure.empty())
+    return failure;
+  const std::vector<std::filesystem::path> kept = checkpoints_in(folder);
+  std::error_code ignored;  // one too many does no harm
+  for (std::size_t i = kKept; i < kept.size(); ++i) std::filesystem::remove(kept[i], ignored);
+  return "";
+}
+
+tl::expected<Checkpoint, std::string> read_checkpoint_file(const std::filesystem::path& path,
+                                                           std::string_view scene_hash) {
+  auto text = read_text_file(path, std::numeric_limits<std::size_t>::max());
+  const auto fail = [&](const std::string& reason) {
+    return tl::unexpected(fmt::format("{}: {}", path.string(), reason));
+  };
+  if (!text) return fail(text.error());
+  auto checkpoint = read_checkpoint(*text);
+  if (!checkpoint) return fail(checkpoint.error());
+  if (checkpoint->scene_hash != scene_hash)
+    return fail(fmt::format("of another run: its scene's hash is {}, that of this folder's scene.json {}",
+                            checkpoint->scene_hash, scene_hash));
+  return checkpoint;
+}
+
+void remove_checkpoints(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> gone = checkpoints_in(folder);
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(kPrefix) && name.ends_with(".bin.part")) gone.push_back(entry.path());
+  }
+  for (const auto& path : gone) std::filesystem::remove(path, ignored);
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace polynya::simulation {
+
+static_assert(std::endian::native == std::endian::little, "states are kept as the machine holds numbers");
+
+/// T, const or not: what a field list is written for.
+template <class T, class Value>
+concept Is = std::same_as<std::remove_const_t<T>, Value>;
+
+/// A plain number: its bits are its bytes.
+template <class T>
+concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+// A type is kept by its field list, fields(archive, value), which names each of its members once: adding a
+// member to a state is adding it to its list. The archives below take any number of values at a time.
+
+/// Appends values to bytes: numbers as the machine holds them, texts and lists behind their length.
+class ByteWriter {
+ public:
+  template <class... Values>
+  void operator()(const Values&... values) {
+    (put(values), ...);
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  template <Number T>
+  void put(const T& value) {
+    std::array<char, sizeof value> raw;
+    std::memcpy(raw.data(), &value, sizeof value);
+    bytes_.append(raw.data(), raw.size());
+  }
+  void put(const std::string& text) {
+    put(std::uint64_t{text.size()});
+    bytes_ += text;
+  }
+  template <class T>
+  void put(const std::vector<T>& list) {
+    put(std::uint64_t{list.size()});
+    for (const T& value : list) put(value);
+  }
+  template <class T>
+  void put(const T& value) {
+    fields(*this, value);
+  }
+  std::string bytes_;
+};
+
+/// Reads what ByteWriter wrote. Whatever the bytes are, it reads no farther than they go and makes no list
+/// longer than they could hold; the first thing that is wrong is kept, and everything after it reads as
+/// nothing.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+  template <class... Values>
+  void operator()(Values&... values) {
+    (get(values), ...);
+  }
+  /// Notes what is wrong, unless something was before.
+  void fail(std::string reason) {
+    if (failure_.empty()) failure_ = std::move(reason);
+    bytes_ = {};
+  }
+  void require(bool holds, const char* reason) {
+    if (!holds) fail(reason);
+  }
+  bool is_well() const { return failure_.empty(); }
+  bool is_at_end() const { return bytes_.empty(); }
+  std::size_t left() const { return bytes_.size(); }  ///< [bytes]
+  const std::string& failure() const { return failure_; }
+
+ private:
+  template <Number T>
+  void get(T& value) {
+    value = T{};
+    if constexpr (std::same_as<T, bool>) {
+      std::uint8_t raw = 0;
+      get(raw);
+      require(raw <= 1, "a truth value that is neither");
+      value = raw == 1;
+    } else {
+      if (bytes_.size() < sizeof value) return fail("it ends too early");
+      std::memcpy(&value, bytes_.data(), sizeof value);
+      bytes_.remove_prefix(sizeof value);
+      if constexpr (std::floating_point<T>) {
+        if (!std::isfinite(value)) {
+          value = 0;
+          fail("a number that is not finite");
+        }
+      }
+    }
+  }
+  std::uint64_t get_length() {
+    std::uint64_t length = 0;
+    get(length);
+    if (length > bytes_.size()) {
+      fail("a list longer than the whole");
+      return 0;
+    }
+    return length;
+  }
+  void get(std::string& text) {
+    const auto length = static_cast<std::size_t>(get_length());
+    text.assign(bytes_.substr(0, length));
+    bytes_.remove_prefix(length);
+  }
+  template <class T>
+  void get(std::vector<T>& list) {
+    list.clear();
+    const std::uint64_t length = get_length();
+    for (std::uint64_t i = 0; i < length && is_well(); ++i) get(list.emplace_back());
+  }
+  template <class T>
+  void get(T& value) {
+    fields(*this, value);
+  }
+  std::string_view bytes_;
+  std::string failure_;
+};
+
+/// A hash of values: FNV-1a over 64-bit words [Fowler1991], one for each number, folded once more after each.
+class HashWriter {
+ public:
+  template <class... Values>
+  void operator()(const Values&... values) {
+    (put(values), ...);
+  }
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  template <Number T>
+  void put(const T& value) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &value, sizeof value);
+    hash_ = (hash_ ^ word) * 1099511628211U;
+    hash_ ^= hash_ >> 32;
+  }
+  void put(const std::string& text) {
+    put(std::uint64_t{text.size()});
+    for (const char c : text) put(c);
+  }
+  template <class T>
+  void put(const std::vector<T>& list) {
+    put(std::uint64_t{list.size()});
+    for (const T& value : list) put(value);
+  }
+  template <class T>
+  void put(const T& value) {
+    fields(*this, value);
+  }
+  std::uint64_t hash_ = 14695981039346656037U;
+};
+
+}  // namespace polynya::simulation

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "program.hpp"
+
+#include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
+
+namespace polynya::tests {
+
+/// A ship under thrust in a random field and into a plate: bends, splits, floating cusps, brash, sleeping and
+/// waking floes, in a third of a second. About 130 floes.
+inline std::string crash_scene(const std::string& until) {
+  return R"({"name": "crash", "time": {"step_s": 0.02, "until_s": )" + until + R"(},
+    "record": {"frames_interval_s": 1}, "fracture": {"cusp_fate": "float", "smallest_floe_m2": 2},
+    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},
+      "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 100], "speed_m_per_s": 3,
+      "propulsion": {"thrust_N": 2e6}}],
+    "floes": [{"field": {"corner_m": [0, 0], "extent_m": [220, 200], "floe_size_m": 15, "size_spread": 0.25,
+      "concentration": 0.7}}, {"rectangle": {"corner_m": [222, 40], "size_m": [60, 120]}}]})";
+}
+
+/// The files whose bytes an interruption must not change, and one that it may only bring forth again.
+inline constexpr std::array kComparedFiles{
+    io::run_file::kScene,  io::run_file::kForces, io::run_file::kEvents,      io::run_file::kFloes,
+    io::run_file::kFrames, io::run_file::kStates, io::run_file::kFinalGeojson};
+
+/// The first file in which two run folders differ; empty where none does.
+inline std::string first_difference(const std::filesystem::path& a, const std::filesystem::path& b) {
+  for (const auto name : kComparedFiles) {
+    const bool are_there = std::filesystem::exists(a / name) && std::filesystem::exists(b / name);
+    if (!are_there || read_file(a / name) != read_file(b / name)) return std::string(name);
+  }
+  return "";
+}
+
+inline bool has_ended(pid_t child) {
+  siginfo_t ended{};
+  return waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         ended.si_pid == child;
+}
+
+/// Kills a run, or waits until it has ended by itself. Returns whether it was killed.
+inline bool kill_after(pid_t child, const Start& start, std::chrono::microseconds delay) {
+  std::this_thread::sleep_for(delay);
+  kill(child, SIGKILL);
+  return wait_for(child, start).code == -SIGKILL;
+}
+
+/// Starts polynya and kills it when the run folder has so many checkpoints. False where it ended before.
+inline bool kill_at_checkpoints(const std::vector<std::string>& words, const Start& start,
+                                const std::filesystem::path& run, std::size_t count) {
+  const pid_t child = start_polynya(words, start);
+  while (!has_ended(child) && io::checkpoints_in(run).size() < count)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return kill_after(child, start, {});
+}
+
+}  // namespace polynya::tests
