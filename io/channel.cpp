@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "geometry/convex_hull.hpp"
 #include "geometry/cut.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/repair.hpp"
@@ -182,7 +181,7 @@ class ChannelMeasure {
     for (std::size_t i = 0; i < count; ++i) {
       const auto cell = [&](double half) {
         return Polygon{
-            geometry::convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
+            convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
                                    joints[i + 1].point + half * across[i + 1],
                                    joints[i + 1].point - half * across[i + 1]}),
             {}};

@@ -22,7 +22,10 @@ std::vector<Sink> sinks_of(const std::vector<Run>& runs) {
     const JsonValue* energy = runs[i].summary.find("energy");
     if (!energy || !energy->is(JsonValue::Kind::kObject)) continue;
     for (const JsonMember& member : energy->members()) {
-      if (!member.key.ends_with("_J") || !member.value.is(JsonValue::Kind::kNumber)) continue;
+      // The turnover is a scale for the imbalance, and no sink.
+      if (!member.key.ends_with("_J") || member.key == "turnover_J" ||
+          !member.value.is(JsonValue::Kind::kNumber))
+        continue;
       std::string name = member.key.substr(0, member.key.size() - 2);
       std::ranges::replace(name, '_', ' ');
       auto found = std::ranges::find(sinks, name, &Sink::name);

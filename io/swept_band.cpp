@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/convex_hull.hpp"
 #include "geometry/cut.hpp"
 #include "io/moment.hpp"
 
@@ -29,6 +28,25 @@ Polygon carried_by_water(const simulation::WaterSettings& water, Polygon polygon
   carry(polygon.outer);
   std::ranges::for_each(polygon.holes, carry);
   return polygon;
+}
+
+Ring convex_hull(std::vector<Point> points) {
+  std::ranges::sort(points, [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  Ring hull;
+  const auto add_chain = [&](auto begin, auto end) {
+    const std::size_t base = hull.size();
+    for (auto p = begin; p != end; ++p) {
+      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(*p);
+    }
+    hull.pop_back();  // the other chain begins with it
+  };
+  add_chain(points.begin(), points.end());
+  add_chain(points.rbegin(), points.rend());
+  return hull;
 }
 
 tl::expected<std::vector<Polygon>, std::string> union_of(const std::vector<Polygon>& polygons) {
@@ -95,12 +113,12 @@ std::vector<Polygon> swept_pieces(const Run& run, const MotionIndex& motions, st
   const std::vector<double> ends = straight_pieces(run, motions, ship, time, tolerance);
   std::vector<Polygon> pieces;
   Ring before = hull_at(run, motions, ship, ends.front(), time);
-  if (ends.size() == 1) pieces.push_back({geometry::convex_hull(before), {}});
+  if (ends.size() == 1) pieces.push_back({convex_hull(before), {}});
   for (std::size_t i = 1; i < ends.size(); ++i) {
     Ring now = hull_at(run, motions, ship, ends[i], time);
     std::vector<Point> both = before;
     both.insert(both.end(), now.begin(), now.end());
-    pieces.push_back({geometry::convex_hull(both), {}});
+    pieces.push_back({convex_hull(both), {}});
     before = std::move(now);
   }
   return pieces;

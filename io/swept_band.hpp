@@ -17,6 +17,9 @@ geometry::Point carried_by_water(const simulation::WaterSettings& water, geometr
 geometry::Polygon carried_by_water(const simulation::WaterSettings& water, geometry::Polygon polygon,
                                    double from, double to);
 
+/// The convex hull of points, counter-clockwise, without points on its edges.
+geometry::Ring convex_hull(std::vector<geometry::Point> points);
+
 /// The union of valid polygons, which may touch and overlap, exact but for one rounding of its vertices.
 tl::expected<std::vector<geometry::Polygon>, std::string> union_of(
     const std::vector<geometry::Polygon>& polygons);

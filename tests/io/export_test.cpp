@@ -134,7 +134,7 @@ TEST(VtkFile, HoldsPointsCellsAndColumnsAsItsHeaderSays) {
   EXPECT_EQ(value_at(text, "Points", 7), -3.5);
   EXPECT_EQ(value_at(text, "mass_kg", 1), 8.25);
   EXPECT_EQ(value_at(text, "velocity_m_per_s", 4), 4);
-  EXPECT_EQ(to_pvd({{{0.5, 1, "a&b.vtp"}}}).find("a&b"), std::string::npos);
+  EXPECT_EQ(io::to_pvd(io::VtkTimeline{{{0.5, 1, "a&b.vtp"}}}).find("a&b"), std::string::npos);
 }
 
 }  // namespace

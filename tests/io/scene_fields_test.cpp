@@ -24,6 +24,7 @@ const std::string kFirst = R"({
   "floes": [{"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}}, {"rectangle": {"corner_m": [100, 0], "size_m": 10}}]
 })";
 const std::string kSecond = R"({
+  "origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30},
   "ships": [{"hull": {"waterline_m": [[10, 0], [0, 4], [-10, 4], [-10, -4], [0, -4]], "angles_from_vertical_deg": [60, 38, 0, 0, 38]},
              "mass_kg": 1e6, "moment_of_inertia_kg_m2": 5e8, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5}}],
   "structures": [{"radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}],
