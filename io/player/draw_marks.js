@@ -72,7 +72,10 @@ function drawChannel(context, view, channel, colours) {
     if (lines.length > 0) context.stroke();
   };
   const features = channel.type === "FeatureCollection" ? channel.features : [channel];
-  for (const feature of features) draw(feature.type === "Feature" ? feature.geometry : feature);
+  for (const feature of features) {
+    if (feature.type === "Feature" && feature.properties && feature.properties.part === "station") continue;
+    draw(feature.type === "Feature" ? feature.geometry : feature);
+  }
 }
 
 function drawShips(context, view, run, motions, layers, colours) {

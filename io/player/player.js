@@ -195,7 +195,7 @@ function startPlayer() {
     const rows = colouring.words.map((words, k) => legendRow(colouring.colours[k], words));
     if (state.colourBy === "size") rows.reverse();
     if (state.layers.startIce) rows.push(legendRow(colours["start-ice"], "ice at the start"));
-    if (state.layers.channel) rows.push(legendRow(colours.swept, info.channel ? "channel" : "swept by the hull"));
+    if (state.layers.channel) rows.push(legendRow(colours.swept, info.channel ? (info.channel.t_s === undefined ? "channel" : `channel at ${info.channel.t_s} s`) : "swept by the hull"));
     if (state.layers.velocities) rows.push(arrowRow());
     byId("legend").replaceChildren(make("b", {}, colouring.title), ...rows);
   }
