@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Polynya needs from Debian's packages, and nothing else. Asks nothing.
-# Usage: ./setup.sh [group...]   groups: build (default), test, bench, view
+# Usage: ./setup.sh [group...]   groups: build (default), test, bench, view, export
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -9,6 +9,7 @@ declare -A packages=(
            nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev librsvg2-bin"
   [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3"
   [view]="chromium nodejs npm"
+  [export]="python3-vtk9 python3-pandas gdal-bin"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"
 )
 

@@ -23,6 +23,11 @@ Command add_inspect(CLI::App& app);
 /// `polynya view`.
 Command add_view(CLI::App& app);
 
+/// `polynya channel`, `figures` and `export`.
+Command add_channel(CLI::App& app);
+Command add_figures(CLI::App& app);
+Command add_export(CLI::App& app);
+
 /// --progress, as every long command has it.
 void add_progress(CLI::App& command, ProgressKind& kind);
 

@@ -142,9 +142,9 @@ int command_line(int count, char** words) {
   app.require_subcommand(1);
   std::map<std::string, Command> commands;
   constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {
-      {"run", add_run},       {"resume", add_resume},   {"validate", add_validate},
-      {"schema", add_schema}, {"init", add_init},       {"database", add_database},
-      {"cut", add_cut},       {"inspect", add_inspect}, {"view", add_view}};
+      {"run", add_run},   {"resume", add_resume},     {"validate", add_validate}, {"schema", add_schema},
+      {"init", add_init}, {"database", add_database}, {"cut", add_cut},           {"inspect", add_inspect},
+      {"view", add_view}, {"channel", add_channel},   {"figures", add_figures},   {"export", add_export}};
   for (const auto& [name, add] : kCommands) {
     commands[name] = add(app);
   }

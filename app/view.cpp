@@ -27,7 +27,7 @@ int fail(ExitCode code, const std::string& words) {
 
 /// The channel that `polynya channel` left in the run folder; empty where there is none.
 std::string channel_of(const fs::path& folder) {
-  const fs::path file = folder / "channel.geojson";
+  const fs::path file = folder / io::run_file::kChannel;
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return "";
   auto text = io::read_text_file(file, kLongestChannel);

@@ -8,86 +8,37 @@
 
 #include <fmt/format.h>
 
-#include "io/xml_text.hpp"
+#include "io/axis_scale.hpp"
+#include "io/svg_text.hpp"
 
 namespace polynya::io {
 namespace {
 
-constexpr double kWidth = 1600;       ///< [px]
-constexpr double kHeader = 112;       ///< [px]
-constexpr double kPanelHeight = 560;  ///< of the axes' frame [px]
-constexpr double kLeft = 92;          ///< of a frame, for the y axis' numbers and label [px]
-constexpr double kRight = 24;         ///< [px]
-constexpr double kBelow = 80;         ///< of a frame, for the x axis' numbers and label [px]
-constexpr double kLegendLine = 30;    ///< [px]
+constexpr double kWidth = 1600;     ///< [px]
+constexpr double kHeader = 112;     ///< [px]
+constexpr double kHeadOfRow = 32;   ///< for the titles of further rows of panels [px]
+constexpr double kLeft = 92;        ///< of a frame, for the y axis' numbers and label [px]
+constexpr double kRight = 24;       ///< [px]
+constexpr double kBelow = 80;       ///< of a frame, for the x axis' numbers and label [px]
+constexpr double kLegendLine = 30;  ///< [px]
+constexpr std::size_t kLegendColumns = 3;
+constexpr auto kMajorMark = "#000000";
+constexpr auto kMinorMark = "#555555";
 
-/// An axis with its range, its ticks, and where on the paper a value lies.
-struct Scale {
-  bool is_log = false;
-  double low = 0;
-  double high = 1;
-  std::vector<double> ticks;
-
-  bool takes(double value) const { return std::isfinite(value) && (!is_log || value > 0); }
-  /// 0 at the low end, 1 at the high end.
-  double share(double value) const {
-    return is_log ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
-  }
-};
-
-std::vector<double> log_ticks(double low, double high) {
-  const double decades = std::log10(high / low);
-  const std::vector<double> mantissas = decades > 3     ? std::vector{1.0}
-                                        : decades > 0.9 ? std::vector{1.0, 2.0, 5.0}
-                                                        : std::vector{1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0};
-  std::vector<double> ticks;
-  for (int power = static_cast<int>(std::floor(std::log10(low))); power <= std::log10(high); ++power) {
-    for (const double mantissa : mantissas) {
-      const double tick = mantissa * std::pow(10.0, power);
-      if (tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9)) ticks.push_back(tick);
-    }
-  }
-  return ticks;
-}
-
-/// The least of 1, 2, 5 × 10ⁿ that makes at most eight steps of the range.
-double linear_step(double range) {
-  const double decade = std::pow(10, std::floor(std::log10(range / 8)));
-  for (const double mantissa : {1.0, 2.0, 5.0}) {
-    if (range / (mantissa * decade) <= 8) return mantissa * decade;
-  }
-  return 10 * decade;
-}
-
-Scale scale_of(const Chart::Panel& panel, const Chart::Axis& axis, double Chart::Point::*coordinate,
-               bool is_tight) {
-  Scale scale;
-  scale.is_log = axis.is_log;
+AxisScale scale_of(const Chart::Panel& panel, const Chart::Axis& axis, double Chart::Point::*coordinate,
+                   AxisFit fit) {
+  if (axis.range) return axis_scale(axis.range->first, axis.range->second, axis.is_log, fit);
+  const AxisScale any{.is_log = axis.is_log, .ticks = {}};
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Chart::Curve& curve : panel.curves) {
     for (const Chart::Point& point : curve.points) {
-      if (!scale.takes(point.*coordinate)) continue;
+      if (!any.takes(point.*coordinate)) continue;
       low = std::min(low, point.*coordinate);
       high = std::max(high, point.*coordinate);
     }
   }
   if (!(low <= high)) low = high = 1;
-  if (axis.is_log) {
-    const double room = is_tight ? 1 : std::pow(high / low, 0.06) * 1.02;
-    scale.low = low / room;
-    scale.high = std::max(high * room, scale.low * 1.1);
-    scale.ticks = log_ticks(scale.low, scale.high);
-    return scale;
-  }
-  if (!is_tight && low > 0) low = 0;
-  if (high <= low) high = low + std::max(1.0, std::abs(low));
-  const double step = linear_step(high - low);
-  scale.low = is_tight ? low : std::floor(low / step) * step;
-  scale.high = is_tight ? high : std::ceil(high / step + 0.2) * step;
-  for (auto i = std::llround(std::ceil(scale.low / step - 1e-9));
-       static_cast<double>(i) * step <= scale.high * (1 + 1e-9); ++i)
-    scale.ticks.push_back(static_cast<double>(i) * step);
-  return scale;
+  return axis_scale(low, high, axis.is_log, fit);
 }
 
 const char* dash_array(Chart::Dash dash) {
@@ -100,115 +51,181 @@ const char* colour_of(const Chart::Curve& curve) {
 
 class SvgChart {
  public:
-  explicit SvgChart(const Chart& chart) : chart_(chart) {}
+  explicit SvgChart(const Chart& chart)
+      : chart_(chart),
+        columns_(chart.columns > 0 ? chart.columns : std::max<std::size_t>(1, chart.panels.size())),
+        row_height_(chart.panel_height + kBelow),
+        legend_(legend_entries()),
+        svg_(kWidth, page_height()) {}
 
   std::string draw() {
-    const double height = kHeader + kPanelHeight + kBelow + legend_height() + 16;
-    add("<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
-        "{1:.0f}' font-family='DejaVu Sans, Helvetica, Arial, sans-serif'>\n"
-        "<rect width='100%' height='100%' fill='#ffffff'/>\n",
-        kWidth, height);
-    add("<text x='{:.0f}' y='34' font-size='24' font-weight='bold'>{}</text>\n", kRight,
-        escaped(chart_.title));
-    add("<text x='{:.0f}' y='60' font-size='16' fill='#333333'>{}</text>\n", kRight, escaped(chart_.caption));
-    const double pitch =
-        (kWidth - kRight) / static_cast<double>(std::max<std::size_t>(1, chart_.panels.size()));
+    svg_.title(kRight, chart_.title, chart_.caption);
+    const double pitch = (kWidth - kRight) / static_cast<double>(columns_);
     for (std::size_t i = 0; i < chart_.panels.size(); ++i) {
-      left_ = pitch * static_cast<double>(i) + kLeft;
+      left_ = pitch * static_cast<double>(i % columns_) + kLeft;
       width_ = pitch - kLeft - 12;
+      top_ = kHeader + (row_height_ + kHeadOfRow) * static_cast<double>(i / columns_);
       draw_panel(chart_.panels[i], i);
     }
     draw_legend();
-    add("</svg>\n");
-    return std::move(svg_);
+    return svg_.finish();
   }
 
  private:
-  template <class... Values>
-  void add(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(svg_), format, std::forward<Values>(values)...);
+  double page_height() const {
+    return kHeader + rows() * row_height_ + (rows() - 1) * kHeadOfRow + legend_height() + 16;
   }
-
+  double rows() const {
+    return static_cast<double>((std::max<std::size_t>(1, chart_.panels.size()) + columns_ - 1) / columns_);
+  }
   double px(double x) const { return left_ + width_ * x_scale_.share(x); }
-  double py(double y) const { return kHeader + kPanelHeight * (1 - y_scale_.share(y)); }
+  double py(double y) const { return top_ + chart_.panel_height * (1 - y_scale_.share(y)); }
 
   void draw_panel(const Chart::Panel& panel, std::size_t number) {
-    x_scale_ = scale_of(panel, panel.x, &Chart::Point::x, true);
-    y_scale_ = scale_of(panel, panel.y, &Chart::Point::y, false);
+    x_scale_ = scale_of(panel, panel.x, &Chart::Point::x, AxisFit::kTight);
+    y_scale_ = scale_of(panel, panel.y, &Chart::Point::y, AxisFit::kRoomy);
     draw_axes(panel);
-    add("<clipPath id='panel{}'><rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}'/></clipPath>\n"
+    svg_.add(
+        "<clipPath id='panel{}'><rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}'/></clipPath>\n"
         "<g clip-path='url(#panel{})' fill='none' stroke-linejoin='round'>\n",
-        number, left_, kHeader, width_, kPanelHeight, number);
+        number, left_, top_, width_, chart_.panel_height, number);
+    for (const Chart::Mark& mark : panel.marks) draw_mark(mark);
     for (const Chart::Curve& curve : panel.curves) draw_curve(curve);
-    add("</g>\n<rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}' fill='none' stroke='#000000'/>\n",
-        left_, kHeader, width_, kPanelHeight);
+    svg_.add(
+        "</g>\n<rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}' fill='none' stroke='#000000'/>\n",
+        left_, top_, width_, chart_.panel_height);
   }
 
   void draw_axes(const Chart::Panel& panel) {
-    const double bottom = kHeader + kPanelHeight;
-    add("<text x='{:.2f}' y='{:.2f}' font-size='18' font-weight='bold'>{}</text>\n<g font-size='16'>\n",
-        left_, kHeader - 10, escaped(panel.title));
+    const double bottom = top_ + chart_.panel_height;
+    svg_.add("<text x='{:.2f}' y='{:.2f}' font-size='18' font-weight='bold'>{}</text>\n<g font-size='16'>\n",
+             left_, top_ - 10, escaped(panel.title));
     for (const double tick : x_scale_.ticks)
-      add("<path d='M{0:.2f} {1:.2f}V{2:.2f}' stroke='#dddddd'/><text x='{0:.2f}' y='{3:.2f}' "
+      svg_.add(
+          "<path d='M{0:.2f} {1:.2f}V{2:.2f}' stroke='#dddddd'/><text x='{0:.2f}' y='{3:.2f}' "
           "text-anchor='middle'>{4:.6g}</text>\n",
-          px(tick), kHeader, bottom, bottom + 24, tick);
+          px(tick), top_, bottom, bottom + 24, tick);
     for (const double tick : y_scale_.ticks)
-      add("<path d='M{0:.2f} {1:.2f}h{2:.2f}' stroke='#dddddd'/><text x='{3:.2f}' y='{4:.2f}' "
+      svg_.add(
+          "<path d='M{0:.2f} {1:.2f}h{2:.2f}' stroke='#dddddd'/><text x='{3:.2f}' y='{4:.2f}' "
           "text-anchor='end'>{5:.6g}</text>\n",
           left_, py(tick), width_, left_ - 8, py(tick) + 5.5, tick);
-    add("<text x='{:.2f}' y='{:.2f}' text-anchor='middle'>{}</text>\n", left_ + 0.5 * width_, bottom + 54,
-        escaped(panel.x.label));
-    add("<text transform='translate({:.2f} {:.2f}) rotate(-90)' text-anchor='middle'>{}</text>\n</g>\n",
-        left_ - 62, kHeader + 0.5 * kPanelHeight, escaped(panel.y.label));
+    svg_.add("<text x='{:.2f}' y='{:.2f}' text-anchor='middle'>{}</text>\n", left_ + 0.5 * width_,
+             bottom + 54, escaped(panel.x.label));
+    svg_.add("<text transform='translate({:.2f} {:.2f}) rotate(-90)' text-anchor='middle'>{}</text>\n</g>\n",
+             left_ - 62, top_ + 0.5 * chart_.panel_height, escaped(panel.y.label));
   }
 
-  /// Runs of points that are alike faint or not; a run begins at the last point of the one before it.
-  void draw_curve(const Chart::Curve& curve) {
+  void draw_mark(const Chart::Mark& mark) {
+    const double x = px(mark.x);
+    if (mark.is_major) {
+      svg_.add("<path d='M{:.2f} {:.2f}V{:.2f}' stroke='#999999' stroke-width='1' stroke-dasharray='8 4'/>\n",
+               x, top_ + 16, top_ + chart_.panel_height);
+      svg_.add("<path d='M{:.2f} {:.2f}l-7 -14h14Z' fill='{}'/>\n", x, top_ + 16, kMajorMark);
+    } else {
+      svg_.add("<path d='M{:.2f} {:.2f}v10' stroke='{}' stroke-opacity='0.6'/>\n", x, top_ + 18, kMinorMark);
+    }
+  }
+
+  std::vector<Chart::Point> shown(const Chart::Curve& curve) const {
     std::vector<Chart::Point> points;
     std::ranges::copy_if(curve.points, std::back_inserter(points),
                          [&](const Chart::Point& p) { return x_scale_.takes(p.x) && y_scale_.takes(p.y); });
+    return points;
+  }
+
+  void draw_curve(const Chart::Curve& curve) {
+    const std::vector<Chart::Point> points = shown(curve);
+    if (curve.form == Chart::Form::kLine) return draw_line(curve, points);
+    if (points.empty()) return;
+    const double width = curve.form == Chart::Form::kStems ? 1.2 : 3;
+    svg_.add("<path d='");
+    if (curve.form == Chart::Form::kStems) {
+      for (const Chart::Point& p : points) svg_.add("M{:.2f} {:.2f}V{:.2f}", px(p.x), py(0), py(p.y));
+    } else {
+      svg_.add("M{:.2f} {:.2f}", px(points.front().x), py(points.front().y));
+      for (const Chart::Point& p : points) svg_.add("V{:.2f}H{:.2f}", py(p.y), px(p.x));
+    }
+    svg_.add("' stroke='{}' stroke-width='{}' stroke-dasharray='{}'/>\n", colour_of(curve), width,
+             dash_array(curve.dash));
+  }
+
+  /// Runs of points that are alike faint or not; a run begins at the last point of the one before it.
+  void draw_line(const Chart::Curve& curve, const std::vector<Chart::Point>& points) {
     for (std::size_t i = 0; i + 1 < points.size();) {
       const bool is_faint = points[i].is_faint || points[i + 1].is_faint;
-      add("<path d='M{:.2f} {:.2f}", px(points[i].x), py(points[i].y));
+      svg_.add("<path d='M{:.2f} {:.2f}", px(points[i].x), py(points[i].y));
       for (; i + 1 < points.size() && (points[i].is_faint || points[i + 1].is_faint) == is_faint; ++i)
-        add("L{:.2f} {:.2f}", px(points[i + 1].x), py(points[i + 1].y));
-      add("' stroke='{}' stroke-width='3' stroke-dasharray='{}' stroke-opacity='{}'/>\n", colour_of(curve),
-          dash_array(curve.dash), is_faint ? "0.3" : "1");
+        svg_.add("L{:.2f} {:.2f}", px(points[i + 1].x), py(points[i + 1].y));
+      svg_.add("' stroke='{}' stroke-width='3' stroke-dasharray='{}' stroke-opacity='{}'/>\n",
+               colour_of(curve), dash_array(curve.dash), is_faint ? "0.3" : "1");
     }
   }
 
-  std::size_t legend_columns() const { return 3; }
+  /// The curves of all panels, each name once.
+  std::vector<const Chart::Curve*> legend_entries() const {
+    std::vector<const Chart::Curve*> entries;
+    for (const Chart::Panel& panel : chart_.panels) {
+      for (const Chart::Curve& curve : panel.curves) {
+        const auto is_it = [&](const Chart::Curve* other) { return other->name == curve.name; };
+        if (!curve.name.empty() && std::ranges::none_of(entries, is_it)) entries.push_back(&curve);
+      }
+    }
+    return entries;
+  }
+  std::size_t mark_entries() const {
+    return (chart_.minor_mark.empty() ? 0U : 1U) + (chart_.major_mark.empty() ? 0U : 1U);
+  }
   double legend_height() const {
-    if (chart_.panels.empty()) return 0;
-    const std::size_t lines = (chart_.panels.front().curves.size() + legend_columns() - 1) / legend_columns();
-    return kLegendLine * static_cast<double>(lines);
+    const std::size_t count = legend_.size() + mark_entries();
+    return kLegendLine * static_cast<double>((count + kLegendColumns - 1) / kLegendColumns);
   }
 
   void draw_legend() {
-    if (chart_.panels.empty()) return;
-    const double top = kHeader + kPanelHeight + kBelow + 16;
-    const double pitch = (kWidth - kLeft) / static_cast<double>(legend_columns());
-    const auto& curves = chart_.panels.front().curves;
-    add("<g font-size='16'>\n");
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      const double x = kLeft + pitch * static_cast<double>(i % legend_columns());
-      const std::size_t line = i / legend_columns();
-      const double y = top + kLegendLine * static_cast<double>(line);
-      add("<path d='M{:.2f} {:.2f}h48' stroke='{}' stroke-width='3' stroke-dasharray='{}'/>", x, y - 5.5,
-          colour_of(curves[i]), dash_array(curves[i].dash));
-      add("<text x='{:.2f}' y='{:.2f}'>{}</text>\n", x + 58, y, escaped(curves[i].name));
+    const double top = page_height() - legend_height();
+    std::size_t place = 0;
+    const auto next = [&] {
+      const double pitch = (kWidth - kLeft) / static_cast<double>(kLegendColumns);
+      const double x = kLeft + pitch * static_cast<double>(place % kLegendColumns);
+      const double y = top + kLegendLine * static_cast<double>(place / kLegendColumns);
+      ++place;
+      return std::pair{x, y};
+    };
+    for (const Chart::Curve* curve : legend_) {
+      const auto [x, y] = next();
+      svg_.add("<path d='M{:.2f} {:.2f}h48' stroke='{}' stroke-width='3' stroke-dasharray='{}'/>", x, y - 5.5,
+               colour_of(*curve), dash_array(curve->dash));
+      svg_.words(x + 58, y, 16, curve->name);
     }
-    add("</g>\n");
+    if (!chart_.minor_mark.empty()) {
+      const auto [x, y] = next();
+      svg_.add("<path d='M{:.2f} {:.2f}v10m8 -10v10m5 -10v10' stroke='{}'/>", x + 18, y - 11, kMinorMark);
+      svg_.words(x + 58, y, 16, chart_.minor_mark);
+    }
+    if (!chart_.major_mark.empty()) {
+      const auto [x, y] = next();
+      svg_.add("<path d='M{:.2f} {:.2f}l-7 -14h14Z' fill='{}'/>", x + 24, y, kMajorMark);
+      svg_.words(x + 58, y, 16, chart_.major_mark);
+    }
   }
 
   const Chart& chart_;
-  Scale x_scale_, y_scale_;
+  std::size_t columns_;
+  double row_height_;  ///< [px]
+  std::vector<const Chart::Curve*> legend_;
+  SvgText svg_;
+  AxisScale x_scale_, y_scale_;
   double left_ = 0;   ///< of the panel's frame [px]
   double width_ = 0;  ///< of the panel's frame [px]
-  std::string svg_;
+  double top_ = 0;    ///< of the panel's frame [px]
 };
 
 }  // namespace
+
+int colour_of_run(std::size_t run) {
+  constexpr int kOrder[] = {4, 1, 6, 0, 3};
+  return kOrder[run % std::size(kOrder)];
+}
 
 std::string to_svg(const Chart& chart) {
   return SvgChart(chart).draw();

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include "io/xml_text.hpp"
+#include "io/svg_text.hpp"
 
 extern char** environ;
 
@@ -24,11 +23,13 @@ constexpr double kWidth = 1600;    ///< [px]
 constexpr double kHeader = 60;     ///< [px]
 constexpr double kFooter = 96;     ///< [px]
 constexpr double kMargin = 24;     ///< [px]
+constexpr double kHead = 32;       ///< above each map of several [px]
 constexpr double kTallest = 1500;  ///< of the map [px]
 
 // Light ice on mid water on paper: apart in greyscale. Marks in the Okabe–Ito palette.
 constexpr auto kWater = "#8fb8d0";
 constexpr auto kIceAtStart = "#a9cadd";
+constexpr auto kChannel = "#5e93b5";
 constexpr auto kIce = "#ffffff";
 constexpr auto kBrokenIce = "#fbeec2";
 constexpr auto kIceEdge = "#3d5261";
@@ -37,166 +38,236 @@ constexpr auto kTrack = "#d55e00";
 constexpr auto kBend = "#0072b2";
 constexpr auto kSplit = "#d55e00";
 
+/// All that a picture shows.
+std::optional<Box> extent_of(const Picture& picture) {
+  std::optional<Box> all;
+  const auto include = [&](Point p) {
+    if (!all) all = Box{p, p};
+    all->low = {std::min(all->low.x, p.x), std::min(all->low.y, p.y)};
+    all->high = {std::max(all->high.x, p.x), std::max(all->high.y, p.y)};
+  };
+  for (const auto& polygon : picture.ice_at_start) std::ranges::for_each(polygon.outer, include);
+  for (const auto& ship : picture.ships) std::ranges::for_each(ship.waterline_in_world, include);
+  for (const auto& floe : picture.floes) std::ranges::for_each(floe.polygon_in_world.outer, include);
+  for (const auto& ship : picture.ships) std::ranges::for_each(ship.track, include);
+  return all;
+}
+
+Box extent_of(const PictureSheet& sheet) {
+  std::vector<Point> corners;
+  for (const Picture& picture : sheet.pictures) {
+    if (const auto box = extent_of(picture)) corners.insert(corners.end(), {box->low, box->high});
+  }
+  const Box all = corners.empty() ? Box{{0, 0}, {100, 100}} : geometry::bounding_box(corners);
+  const geometry::Vector size = all.high - all.low;
+  return grown(all, std::max(1.0, 0.02 * std::max(size.x, size.y)));
+}
+
+/// A map's place on the paper.
+struct MapFrame {
+  Box extent;        ///< [m]
+  double scale = 1;  ///< [px/m]
+  double left = 0;   ///< [px]
+  double top = 0;    ///< [px]
+
+  double x(Point p) const { return left + scale * (p.x - extent.low.x); }
+  double y(Point p) const { return top + scale * (extent.high.y - p.y); }
+  double width() const { return scale * (extent.high.x - extent.low.x); }
+  double height() const { return scale * (extent.high.y - extent.low.y); }
+};
+
+/// The mark of a fracture; `size` of the one on a map that has the page to itself is 1.
+void draw_mark(SvgText& svg, simulation::EventKind kind, double x, double y, double size) {
+  if (kind == simulation::EventKind::kSplit)
+    svg.add(
+        "<path d='M{0:.2f} {1:.2f}l{2:.2f} {3:.2f}h{4:.2f}Z' fill='{5}' stroke='#ffffff' "
+        "stroke-width='1.5'/>\n",
+        x, y - 9 * size, 8 * size, 14 * size, -16 * size, kSplit);
+  else
+    svg.add("<circle cx='{:.2f}' cy='{:.2f}' r='{:.2f}' fill='{}' stroke='#ffffff' stroke-width='0.5'/>\n", x,
+            y, 2.8 * size, kBend, size < 0.8 ? "0" : "0.5");
+}
+
 class SvgMap {
  public:
-  explicit SvgMap(const Picture& picture) : picture_(picture) {
-    find_extent();
-    const geometry::Vector size = extent_.high - extent_.low;
-    scale_ = std::min((kWidth - 2 * kMargin) / size.x, kTallest / size.y);
-    map_width_ = scale_ * size.x;
-    map_height_ = scale_ * size.y;
-    left_ = 0.5 * (kWidth - map_width_);
-  }
+  SvgMap(SvgText& svg, const Picture& picture, const MapFrame& frame, std::size_t number)
+      : svg_(svg), picture_(picture), frame_(frame), number_(number) {}
 
-  std::string draw() {
-    add("<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
-        "{1:.0f}' "
-        "font-family='DejaVu Sans, Helvetica, Arial, sans-serif'>\n",
-        kWidth, kHeader + map_height_ + kFooter);
-    add("<rect width='100%' height='100%' fill='#ffffff'/>\n");
-    add("<text x='{:.0f}' y='30' font-size='24' font-weight='bold'>{}</text>\n", left_,
-        escaped(picture_.title));
-    add("<text x='{:.0f}' y='52' font-size='16' fill='#333333'>{}</text>\n", left_,
-        escaped(picture_.caption));
-    add("<clipPath id='map'><rect x='{0:.2f}' y='{1:.2f}' width='{2:.2f}' height='{3:.2f}'/></clipPath>\n"
+  void draw() {
+    svg_.add(
+        "<clipPath id='map{5}'><rect x='{0:.2f}' y='{1:.2f}' width='{2:.2f}' height='{3:.2f}'/></clipPath>\n"
         "<rect x='{0:.2f}' y='{1:.2f}' width='{2:.2f}' height='{3:.2f}' fill='{4}'/>\n<g "
-        "clip-path='url(#map)'>\n",
-        left_, kHeader, map_width_, map_height_, kWater);
+        "clip-path='url(#map{5})'>\n",
+        frame_.left, frame_.top, frame_.width(), frame_.height(), kWater, number_);
+    draw_water();
     draw_ice();
     draw_fractures(simulation::EventKind::kBend);
     draw_ships();
     draw_fractures(simulation::EventKind::kSplit);
-    add("</g>\n");
-    draw_legend();
-    add("</svg>\n");
-    return std::move(svg_);
+    svg_.add("</g>\n");
   }
 
  private:
-  template <class... Values>
-  void add(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(svg_), format, std::forward<Values>(values)...);
-  }
-
-  double x(Point p) const { return left_ + scale_ * (p.x - extent_.low.x); }
-  double y(Point p) const { return kHeader + scale_ * (extent_.high.y - p.y); }
-
-  void find_extent() {
-    std::optional<Box> all;
-    const auto include = [&](Point p) {
-      if (!all) all = Box{p, p};
-      all->low = {std::min(all->low.x, p.x), std::min(all->low.y, p.y)};
-      all->high = {std::max(all->high.x, p.x), std::max(all->high.y, p.y)};
-    };
-    for (const auto& polygon : picture_.ice_at_start) std::ranges::for_each(polygon.outer, include);
-    for (const auto& ship : picture_.ships) std::ranges::for_each(ship.waterline_in_world, include);
-    for (const auto& floe : picture_.floes) std::ranges::for_each(floe.polygon_in_world.outer, include);
-    for (const auto& ship : picture_.ships) std::ranges::for_each(ship.track, include);
-    if (!all) all = Box{{0, 0}, {100, 100}};
-    const geometry::Vector size = all->high - all->low;
-    extent_ = grown(*all, std::max(1.0, 0.02 * std::max(size.x, size.y)));
-  }
-
   void path(const geometry::Polygon& polygon) {
-    add("<path d='");
+    svg_.add("<path d='");
     ring(polygon.outer);
     for (const auto& hole : polygon.holes) ring(hole);
-    add("'/>\n");
+    svg_.add("'/>\n");
   }
   void ring(const geometry::Ring& points) {
     char command = 'M';
     for (const Point p : points) {
-      add("{}{:.2f} {:.2f}", command, x(p), y(p));
+      svg_.add("{}{:.2f} {:.2f}", command, frame_.x(p), frame_.y(p));
       command = 'L';
     }
-    add("Z");
+    svg_.add("Z");
+  }
+
+  void draw_water() {
+    svg_.add("<g fill='{}'>\n", kIceAtStart);
+    for (const auto& polygon : picture_.ice_at_start) path(polygon);
+    svg_.add("</g>\n<g fill='{}' fill-rule='evenodd'>\n", kChannel);
+    for (const auto& polygon : picture_.channel) path(polygon);
+    svg_.add("</g>\n");
   }
 
   void draw_ice() {
-    add("<g fill='{}'>\n", kIceAtStart);
-    for (const auto& polygon : picture_.ice_at_start) path(polygon);
-    add("</g>\n");
-    const double line = std::clamp(0.4 * scale_, 0.4, 1.2);
+    const double line = std::clamp(0.4 * frame_.scale, 0.4, 1.2);
     for (const bool is_broken : {false, true}) {
-      add("<g fill='{}' fill-rule='evenodd' stroke='{}' stroke-width='{:.2f}' stroke-linejoin='round'>\n",
+      svg_.add(
+          "<g fill='{}' fill-rule='evenodd' stroke='{}' stroke-width='{:.2f}' stroke-linejoin='round'>\n",
           is_broken ? kBrokenIce : kIce, kIceEdge, line);
       for (const auto& floe : picture_.floes) {
         if ((floe.generation > 0) == is_broken) path(floe.polygon_in_world);
       }
-      add("</g>\n");
+      svg_.add("</g>\n");
     }
   }
 
   void draw_ships() {
     for (const auto& ship : picture_.ships) {
-      add("<polyline fill='none' stroke='{}' stroke-width='2.5' stroke-dasharray='10 5' points='", kTrack);
-      for (const Point p : ship.track) add("{:.2f},{:.2f} ", x(p), y(p));
-      add("'/>\n<g fill='{}' fill-opacity='0.88' stroke='#ffffff' stroke-width='1.5'>\n", kShip);
+      svg_.add("<polyline fill='none' stroke='{}' stroke-width='2.5' stroke-dasharray='10 5' points='",
+               kTrack);
+      for (const Point p : ship.track) svg_.add("{:.2f},{:.2f} ", frame_.x(p), frame_.y(p));
+      svg_.add("'/>\n<g fill='{}' fill-opacity='0.88' stroke='#ffffff' stroke-width='1.5'>\n", kShip);
       path({ship.waterline_in_world, {}});
-      add("</g>\n");
-    }
-  }
-
-  void mark(simulation::EventKind kind, double at_x, double at_y) {
-    if (kind == simulation::EventKind::kSplit) {
-      add("<path d='M{0:.2f} {1:.2f}l8 14h-16Z' fill='{2}' stroke='#ffffff' stroke-width='1.5'/>\n", at_x,
-          at_y - 9, kSplit);
-    } else {
-      add("<circle cx='{:.2f}' cy='{:.2f}' r='{}' fill='{}' stroke='#ffffff' stroke-width='0.5'/>\n", at_x,
-          at_y, picture_.fractures.size() > 400 ? "1.8" : "2.8", kBend);
+      svg_.add("</g>\n");
     }
   }
 
   void draw_fractures(simulation::EventKind kind) {
+    const double share = std::clamp(frame_.width() / kWidth, 0.5, 1.0);
+    const bool is_crowded = kind == simulation::EventKind::kBend && picture_.fractures.size() > 400;
     for (const auto& fracture : picture_.fractures) {
-      if (fracture.kind == kind) mark(kind, x(fracture.point_in_world), y(fracture.point_in_world));
+      if (fracture.kind == kind)
+        draw_mark(svg_, kind, frame_.x(fracture.point_in_world), frame_.y(fracture.point_in_world),
+                  share * (is_crowded ? 0.65 : 1));
     }
   }
 
-  void swatch(double at, double line, const char* colour, const char* edge, const char* words) {
-    add("<rect x='{:.0f}' y='{:.0f}' width='26' height='16' fill='{}' stroke='{}'/>\n", at, line - 13, colour,
-        edge);
-    add("<text x='{:.0f}' y='{:.0f}' font-size='16'>{}</text>\n", at + 34, line, words);
+  SvgText& svg_;
+  const Picture& picture_;
+  const MapFrame& frame_;
+  std::size_t number_;
+};
+
+class SvgSheet {
+ public:
+  explicit SvgSheet(const PictureSheet& sheet)
+      : sheet_(sheet), columns_(std::max<std::size_t>(1, std::min(sheet.columns, sheet.pictures.size()))) {
+    const Box extent = extent_of(sheet);
+    const geometry::Vector size = extent.high - extent.low;
+    const auto across = static_cast<double>(columns_);
+    const double scale =
+        std::min((kWidth - (across + 1) * kMargin) / across / size.x, kTallest / across / size.y);
+    has_heads_ = std::ranges::any_of(sheet.pictures, [](const Picture& p) { return !p.title.empty(); });
+    frame_ = {extent, scale, 0, 0};
+    left_ = 0.5 * (kWidth - across * frame_.width() - (across - 1) * kMargin);
   }
 
-  void draw_legend() {
-    const double first = kHeader + map_height_ + 34;
-    const double second = first + 34;
-    // The longest of 1, 2, 5 × 10ⁿ metres that fits into a sixth of the map.
-    const double room = map_width_ / scale_ / 6;
+  std::string draw() {
+    const std::size_t rows = (sheet_.pictures.size() + columns_ - 1) / columns_;
+    const double pitch = frame_.height() + (has_heads_ ? kHead : 0) + (rows > 1 ? 8 : 0);
+    const double below = kHeader + pitch * static_cast<double>(rows);
+    SvgText svg(kWidth, below + kFooter);
+    svg.title(left_, sheet_.title, sheet_.caption);
+    for (std::size_t i = 0; i < sheet_.pictures.size(); ++i) {
+      const Picture& picture = sheet_.pictures[i];
+      frame_.left = left_ + static_cast<double>(i % columns_) * (frame_.width() + kMargin);
+      frame_.top = kHeader + static_cast<double>(i / columns_) * pitch + (has_heads_ ? kHead : 0);
+      if (has_heads_) {
+        svg.add(
+            "<text x='{:.0f}' y='{:.0f}' font-size='17'><tspan font-weight='bold'>{}</tspan>  {}</text>\n",
+            frame_.left, frame_.top - 9, escaped(picture.title), escaped(picture.caption));
+      }
+      SvgMap(svg, picture, frame_, i).draw();
+    }
+    draw_legend(svg, below + 34);
+    return svg.finish();
+  }
+
+ private:
+  template <class Has>
+  bool any(Has has) const {
+    return std::ranges::any_of(sheet_.pictures, has);
+  }
+
+  void draw_scale_bar(SvgText& svg, double line) const {
+    // The longest of 1, 2, 5 × 10ⁿ metres that fits into a sixth of the page.
+    const double room = (kWidth - 2 * kMargin) / frame_.scale / 6;
     const double decade = std::pow(10, std::floor(std::log10(room)));
     const double length = decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
-    add("<path d='M{0:.1f} {1:.1f}v8h{2:.1f}v-8' fill='none' stroke='#000000' stroke-width='2'/>\n", left_,
-        first - 8, length * scale_);
-    add("<text x='{:.1f}' y='{:.1f}' font-size='16'>{:g} m</text>\n", left_, second - 6, length);
-    const double left = left_ + std::max(300.0, length * scale_ + 40);
-    swatch(left, first, kIce, kIceEdge, "floe as in the scene");
-    swatch(left + 260, first, kBrokenIce, kIceEdge, "piece of a broken floe");
-    swatch(left + 540, first, kIceAtStart, kIceAtStart, "ice at the start, open now");
-    swatch(left + 830, first, kWater, kWater, "water");
-    swatch(left, second, kShip, kShip, "ship");
-    add("<path d='M{:.0f} {:.0f}h26' stroke='{}' stroke-width='2.5' stroke-dasharray='10 5'/>\n", left + 260,
-        second - 5, kTrack);
-    add("<text x='{:.0f}' y='{:.0f}' font-size='16'>its track</text>\n", left + 294, second);
-    mark(simulation::EventKind::kBend, left + 553, second - 5);
-    add("<text x='{:.0f}' y='{:.0f}' font-size='16'>cusp broken by bending</text>\n", left + 574, second);
-    mark(simulation::EventKind::kSplit, left + 843, second - 7);
-    add("<text x='{:.0f}' y='{:.0f}' font-size='16'>floe split</text>\n", left + 864, second);
+    svg.add("<path d='M{0:.1f} {1:.1f}v8h{2:.1f}v-8' fill='none' stroke='#000000' stroke-width='2'/>\n",
+            kMargin, line - 8, length * frame_.scale);
+    svg.words(kMargin, line + 28, 16, fmt::format("{:g} m", length));
   }
 
-  const Picture& picture_;
-  Box extent_;
-  double scale_ = 1;  ///< [px/m]
-  double map_width_ = 0;
-  double map_height_ = 0;
-  double left_ = 0;
-  std::string svg_;
+  static void swatch(SvgText& svg, double at, double line, const char* colour, const char* edge,
+                     const char* words) {
+    svg.add("<rect x='{:.0f}' y='{:.0f}' width='26' height='16' fill='{}' stroke='{}'/>\n", at, line - 13,
+            colour, edge);
+    svg.words(at + 34, line, 16, words);
+  }
+
+  void draw_legend(SvgText& svg, double first) const {
+    const double second = first + 34;
+    const double left = kMargin + 300;
+    draw_scale_bar(svg, first);
+    swatch(svg, left, first, kIce, kIceEdge, "floe as in the scene");
+    swatch(svg, left + 260, first, kBrokenIce, kIceEdge, "piece of a broken floe");
+    swatch(svg, left + 540, first, kIceAtStart, kIceAtStart, "ice at the start, open now");
+    swatch(svg, left + 830, first, kWater, kWater, "water");
+    if (any([](const Picture& p) { return !p.channel.empty(); }))
+      swatch(svg, left + 960, first, kChannel, kChannel, "channel: open water");
+    swatch(svg, left, second, kShip, kShip, "ship");
+    svg.add("<path d='M{:.0f} {:.0f}h26' stroke='{}' stroke-width='2.5' stroke-dasharray='10 5'/>\n",
+            left + 260, second - 5, kTrack);
+    svg.words(left + 294, second, 16, "its track");
+    draw_mark(svg, simulation::EventKind::kBend, left + 553, second - 5, 1);
+    svg.words(left + 574, second, 16, "cusp broken by bending");
+    draw_mark(svg, simulation::EventKind::kSplit, left + 843, second - 7, 1);
+    svg.words(left + 864, second, 16, "floe split");
+    if (any([](const Picture& p) { return !p.channel.empty(); }))
+      svg.words(left + 994, second, 16, "joined to the track");
+  }
+
+  const PictureSheet& sheet_;
+  std::size_t columns_;
+  bool has_heads_ = false;
+  MapFrame frame_;   ///< of the map being drawn
+  double left_ = 0;  ///< of the first column [px]
 };
 
 }  // namespace
 
 std::string to_svg(const Picture& picture) {
-  return SvgMap(picture).draw();
+  PictureSheet sheet{picture.title, picture.caption, {picture}, 1};
+  sheet.pictures.front().title.clear();
+  return to_svg(sheet);
+}
+
+std::string to_svg(const PictureSheet& sheet) {
+  return SvgSheet(sheet).draw();
 }
 
 bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png) {

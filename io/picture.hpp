@@ -29,11 +29,21 @@ struct Picture {
   std::vector<Floe> floes;
   std::vector<Ship> ships;
   std::vector<Fracture> fractures;
+  std::vector<geometry::Polygon> channel;  ///< open water along the track, drawn darker [m]
+};
+
+/// Several moments, or several runs, on one page and in one scale.
+struct PictureSheet {
+  std::string title;
+  std::string caption;
+  std::vector<Picture> pictures;  ///< their titles and captions stand above each
+  std::size_t columns = 1;
 };
 
 /// The picture as SVG, 1600 px wide, with scale bar and legend. Its colours stay apart in greyscale and for
 /// colour-blind eyes.
 std::string to_svg(const Picture& picture);
+std::string to_svg(const PictureSheet& sheet);
 
 /// Makes a PNG of an SVG file where rsvg-convert is installed. False where it is not or fails.
 bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png);

@@ -41,6 +41,11 @@ std::string prepare_run_folder(const fs::path& folder, bool overwrite) {
     fs::remove(folder / name, error);
     if (error) return failed();
   }
+  for (const auto name : run_file::kFigures) {
+    for (const fs::path& file : {folder / name, (folder / name).replace_extension(".png")})
+      fs::remove(file, error);
+    if (error) return failed();
+  }
   return "";
 }
 

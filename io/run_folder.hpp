@@ -22,11 +22,20 @@ inline constexpr std::string_view kStates = "states.csv";
 inline constexpr std::string_view kFinalGeojson = "final.geojson";
 inline constexpr std::string_view kFinalSvg = "final.svg";
 inline constexpr std::string_view kFinalPng = "final.png";
-inline constexpr std::string_view kView = "view.html";  ///< `polynya view` writes it, not the run
 inline constexpr std::string_view kFailure = "failure.bin";
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
-inline constexpr std::array kAll{kScene,  kSummary,      kForces,   kEvents,   kFloes, kFrames,
-                                 kStates, kFinalGeojson, kFinalSvg, kFinalPng, kView};
+inline constexpr std::string_view kView = "view.html";              ///< `polynya view` writes it, not the run
+inline constexpr std::string_view kChannel = "channel.geojson";     ///< `polynya channel` writes these two
+inline constexpr std::string_view kChannelCsv = "channel.csv";
+// `polynya figures` writes these, and a PNG beside each where there is a converter.
+inline constexpr std::string_view kFigureFloes = "figure-floes.svg";
+inline constexpr std::string_view kFigureLoads = "figure-loads.svg";
+inline constexpr std::string_view kFigureMotion = "figure-motion.svg";
+inline constexpr std::string_view kFigureSizes = "figure-sizes.svg";
+inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
+inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
+inline constexpr std::array kAll{kScene,        kSummary,  kForces,   kEvents, kFloes,   kFrames,    kStates,
+                                 kFinalGeojson, kFinalSvg, kFinalPng, kView,   kChannel, kChannelCsv};
 }  // namespace run_file
 
 /// Keeps others from writing a run's folder as long as it lives (an advisory lock on its scene.json).
@@ -47,8 +56,8 @@ class RunLock {
 };
 
 /// Makes an empty run folder. A folder with anything in it is refused; if told to overwrite, a run's folder
-/// (one with scene.json and summary.json) loses the files a run writes and the page of it, and nothing else.
-/// Returns what went wrong; empty where all is well.
+/// (one with scene.json and summary.json) loses the files a run writes, what other commands made of it in the
+/// folder, and nothing else. Returns what went wrong; empty where all is well.
 std::string prepare_run_folder(const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace polynya::io

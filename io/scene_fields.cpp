@@ -52,6 +52,20 @@ geometry::Ring ring_of(const Value& v) {
   return ring;
 }
 
+simulation::GeographicOrigin& origin(Draft& d) {
+  if (!d.scene.origin) d.scene.origin.emplace();
+  return *d.scene.origin;
+}
+
+const Object kOrigin{
+    {{"latitude_deg", Kind::kNumber, "°", from(-90, 90), "", "of the scene's origin, WGS 84, north positive",
+      [](Draft& d, const Value& v) { origin(d).latitude = radians(v); }},
+     {"longitude_deg", Kind::kNumber, "°", from(-180, 180), "", "east positive",
+      [](Draft& d, const Value& v) { origin(d).longitude = radians(v); }},
+     {"heading_deg", Kind::kNumber, "°", from(-360, 360), "90",
+      "of the scene's x axis from true north, clockwise; 90: x is east, y north",
+      [](Draft& d, const Value& v) { origin(d).heading = radians(v); }}}};
+
 const Object kTime{{{"step_s", Kind::kNumber, "s", from(1e-5, 1), "0.005", "time step Δt",
                      [](Draft& d, const Value& v) { d.scene.time.step = v.number(); }},
                     {"until_s", Kind::kNumber, "s", above(0, 1e7), "550", "simulated time to run to",
@@ -523,6 +537,16 @@ const Object kScene{
       [](Draft& d, const Value& v) { d.description = v.text(); }},
      {"seed", Kind::kInteger, "", from(0, 9007199254740991), "1", "of whatever is random: the floe fields",
       [](Draft& d, const Value& v) { d.scene.seed = static_cast<std::uint64_t>(v.number()); }},
+     {"origin",
+      Kind::kObject,
+      "",
+      {},
+      kLeftOut,
+      "where the scene lies on the Earth, for `polynya export --geojson`; nothing else depends on it",
+      nullptr,
+      {},
+      "",
+      &kOrigin},
      {"time", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &kTime},
      {"water", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &kWater},
      {"ice", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &kIce},

@@ -37,12 +37,15 @@ struct Range {
 
 struct Object;
 
+inline constexpr std::string_view kLeftOut = "null";  ///< as a field's default: see there
+
 struct Field {
   std::string_view key;
   FieldKind kind = FieldKind::kNumber;
   std::string_view unit;          ///< as shown to people; empty for none
   Range range;                    ///< of the number, of each component, or of a list's length
-  std::string_view default_json;  ///< empty: must be given (or does not apply, see alternative)
+  std::string_view default_json;  ///< empty: must be given (or does not apply, see alternative); "null": may
+                                  ///< be left out, and is then not there
   std::string_view meaning;
   void (*set)(SceneDraft&, const JsonValue&) = nullptr;
   std::vector<std::string_view> choices = {};

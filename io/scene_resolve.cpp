@@ -46,6 +46,7 @@ class Resolver {
     JsonValue resolved{JsonValue::Object{}, value.offset};
     for (const Field& field : table.fields) {
       if (!field.alternative.empty() && field.alternative != alternative) continue;
+      if (field.default_json == kLeftOut && !value.find(field.key)) continue;
       auto member = one_field(field, value, path);
       if (!member)
         is_whole = false;
@@ -116,7 +117,8 @@ class Resolver {
       return std::nullopt;
     }
     std::optional<JsonValue> resolved = checked(field, *given, path);
-    if (!resolved && !field.default_json.empty()) return default_of(field, given->offset, path);
+    if (!resolved && !field.default_json.empty() && field.default_json != kLeftOut)
+      return default_of(field, given->offset, path);
     return resolved;
   }
 

@@ -133,9 +133,10 @@ void append_table(std::string& text, const Object& object, const std::string& pa
                         fmt::join(object.alternatives, ", "));
   text += "| key | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const Field& field : object.fields) {
-    const std::string default_text = !field.default_json.empty() ? fmt::format("`{}`", field.default_json)
-                                     : field.alternative.empty() ? "must be given"
-                                                                 : "—";
+    const std::string default_text = field.default_json == kLeftOut ? "left out"
+                                     : !field.default_json.empty()  ? fmt::format("`{}`", field.default_json)
+                                     : field.alternative.empty()    ? "must be given"
+                                                                    : "—";
     const std::string mark = field.alternative.empty() ? "" : fmt::format("*{}*: ", field.alternative);
     text += fmt::format("| `{}` | {} | {} | {}{} |\n", field.key, describe_allowed(field), default_text, mark,
                         field.meaning);
@@ -174,7 +175,7 @@ constexpr auto kExampleFloes = R"(  "floes": [
 void append_settings(std::string& text, const Object& object, int depth) {
   const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
   for (const Field& field : object.fields) {
-    if (field.kind == Kind::kList) continue;
+    if (field.kind == Kind::kList || field.default_json == kLeftOut) continue;
     const bool is_last = &field == &object.fields.back();
     if (field.kind == Kind::kObject) {
       text += fmt::format("{}\"{}\": {{\n", indent, field.key);

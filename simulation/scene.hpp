@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -106,8 +107,16 @@ struct RecordSettings {
   double frames_interval = 2.0;  ///< between frames [s]
 };
 
+/// Where the scene's plane lies on the Earth. Nothing in the simulation depends on it.
+struct GeographicOrigin {
+  double latitude = 0;   ///< of the scene's origin, WGS 84 [rad]
+  double longitude = 0;  ///< [rad]
+  double heading = 0;    ///< of the scene's x axis, from true north, clockwise [rad]
+};
+
 struct Scene {
   std::string name;
+  std::optional<GeographicOrigin> origin;
   std::uint64_t seed = 1;
   StepSettings time;
   WaterSettings water;

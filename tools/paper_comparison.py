@@ -2,9 +2,10 @@
 """Runs the five scenes of the paper and writes the measured tables into docs/paper-comparison.md.
 
     ./quickstart                      (or build the release preset)
-    python3 tools/paper_comparison.py
+    python3 tools/paper_comparison.py             everything
+    python3 tools/paper_comparison.py --channel   only the widths of the channels
 
-Everything between the page's two markers is replaced; the text around them is written by hand.
+Everything between the page's pairs of markers is replaced; the text around them is written by hand.
 """
 import csv
 import json
@@ -27,12 +28,14 @@ def run(scene: pathlib.Path, folder: pathlib.Path) -> dict:
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     with open(folder / "forces.csv") as file:
         rows = [{k: (float(v) if k != "ship" else v) for k, v in row.items()} for row in csv.DictReader(file)]
+    measured, stations = channel(folder)
     return {
+        "channel": measured,
+        "stations": stations,
         "summary": json.loads((folder / "summary.json").read_text()),
         "scene": json.loads((folder / "scene.json").read_text()),
         "events": [json.loads(line) for line in (folder / "events.ndjson").read_text().splitlines()],
         "forces": rows,
-        "final": json.loads((folder / "final.geojson").read_text()),
     }
 
 
@@ -46,34 +49,23 @@ def variant(name: str, lateral_m: float, folder: pathlib.Path) -> pathlib.Path:
     return path
 
 
-def channel_widths(result: dict, end_m: float) -> list:
-    """Open width across the track at stations in the small floes, at the end of the run [m].
+def channel(folder: pathlib.Path) -> tuple:
+    """What `polynya channel` measures: its object, and its stations with ice on both sides."""
+    told = subprocess.run([POLYNYA, "channel", folder, "--format", "json"], check=True, capture_output=True).stdout
+    with open(folder / "channel.csv") as file:
+        stations = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+    return json.loads(told), [s for s in stations if s["has_port_ice"] and s["has_starboard_ice"]]
 
-    A station is where the ship's centre passed, carried on with the drift of the ice; the width is along y to the
-    nearest ice on either side."""
+
+def widths_in(result: dict, low_m: float, high_m: float) -> list:
+    """Widths of the stations whose ice, carried back with the drift, was between two x at the start [m]."""
     drift = result["scene"]["water"]["drift_m_per_s"]
     end_s = result["forces"][-1]["t_s"]
-    rings = []
-    for feature in result["final"]["features"]:
-        if feature["geometry"]["type"] == "Polygon" and "floe_id" in feature["properties"]:
-            rings.append(feature["geometry"]["coordinates"][0])
-    widths = []
-    for row in result["forces"][::50]:
-        since = end_s - row["t_s"]
-        if not 30 < row["x_m"] < end_m - 30:
-            continue
-        x, y = row["x_m"] + drift[0] * since, row["y_m"] + drift[1] * since
-        above, below = float("inf"), float("inf")
-        for ring in rings:
-            for (x0, y0), (x1, y1) in zip(ring, ring[1:]):
-                if (x0 > x) == (x1 > x):
-                    continue
-                offset = y0 + (x - x0) / (x1 - x0) * (y1 - y0) - y
-                above = min(above, offset) if offset >= 0 else above
-                below = min(below, -offset) if offset < 0 else below
-        if above + below < float("inf"):
-            widths.append(above + below)
-    return widths
+    return [s["width_m"] for s in result["stations"] if low_m < s["x_m"] - drift[0] * end_s < high_m]
+
+
+def of_widths(widths: list) -> str:
+    return f"{statistics.mean(widths):.1f} ({min(widths):.1f}–{max(widths):.1f})" if widths else "–"
 
 
 def speed_at(result: dict, time_s: float) -> float:
@@ -98,7 +90,7 @@ def main_table(results: dict) -> str:
         removal = [magnitude(r) for r in result["forces"] if 0 < r["t_s"] < first - 5]
         breaking = [magnitude(r) for r in result["forces"] if r["t_s"] >= first]
         splits = [e["t_s"] for e in fractures if e["kind"] == "split"]
-        widths = channel_widths(result, SMALL_FLOES_END_M[name])
+        widths = widths_in(result, 30, SMALL_FLOES_END_M[name] - 30)
         last = result["forces"][-1]
         rows.append([
             name, f"{first:.0f}", sum(e["kind"] == "bend" for e in fractures), len(splits),
@@ -108,6 +100,21 @@ def main_table(results: dict) -> str:
     return table(["scene", "breaking starts, s", "bends", "splits", "splits at, s", "peak j/τ_c removing, MN",
                   "peak j/τ_c breaking, MN", "channel in the small floes, m", "speed at the plates, m/s",
                   "heading at 550 s, °", "ship at x, m"], rows)
+
+
+def channel_table(results: dict) -> str:
+    rows = []
+    for name, side in (("fig6a", 10), ("fig4b", 15), ("fig4c", 15), ("fig6b", 20)):
+        result = results[name]
+        end = SMALL_FLOES_END_M[name]
+        small, plates = widths_in(result, 0, end), widths_in(result, end, end + 221)
+        c = result["channel"]
+        before = c["swept_ice_at_start_m2"] / c["swept_area_m2"]
+        left = c["swept_ice_m2"] / c["swept_area_m2"]
+        rows.append([name, side, of_widths(small), f"{statistics.mean(small) / c['beam_m']:.2f}" if small else "–",
+                     of_widths(plates), f"{100 * before:.0f} → {100 * left:.1f}", f"{c['largest_floe_m']:.0f}"])
+    return table(["scene", "small floes, m", "width in the small floes, m: mean (least–most)", "mean / beam",
+                  "width between the plates, m", "ice in the swept band, %", "largest floe reaching into it, m"], rows)
 
 
 def split_table(results: dict) -> str:
@@ -145,6 +152,14 @@ def course_table(folder: pathlib.Path) -> str:
     return table(["scene", "ship starts at y, m", "bends", "splits", "ship at x, m (550 s)", "heading, °"], rows)
 
 
+def write_between(name: str, text: str) -> None:
+    page = PAGE.read_text()
+    begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
+    head, rest = page.split(begin)
+    PAGE.write_text(head + begin + "\n\n" + text + "\n\n" + end + rest.split(end)[1])
+    print(text)
+
+
 def main() -> int:
     if not POLYNYA.exists():
         print(f"{POLYNYA} is not there: ./quickstart builds it", file=sys.stderr)
@@ -152,13 +167,12 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         results = {name: run(ROOT / f"scenes/sawamura2017-{name}.json", folder / name) for name in SCENES}
-        measured = "\n\n".join(["### The five scenes", main_table(results), "### Both sides of the splitting criterion",
-                                split_table(results), "### What the course does", course_table(folder)])
-    page = PAGE.read_text()
-    begin, end = "<!-- measured: begin -->", "<!-- measured: end -->"
-    head, rest = page.split(begin)
-    PAGE.write_text(head + begin + "\n\n" + measured + "\n\n" + end + rest.split(end)[1])
-    print(measured)
+        write_between("channel", channel_table(results))
+        if "--channel" in sys.argv[1:]:
+            return 0
+        write_between("measured", "\n\n".join([
+            "### The five scenes", main_table(results), "### Both sides of the splitting criterion",
+            split_table(results), "### What the course does", course_table(folder)]))
     return 0
 
 

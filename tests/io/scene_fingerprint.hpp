@@ -17,6 +17,8 @@ inline std::string text_of(const geometry::Ring& ring) {
 /// Everything a scene holds, as text: two scenes are the same where their fingerprints are.
 inline std::string fingerprint(const simulation::Scene& s) {
   std::string text = fmt::format("{} {} {} {}\n", s.name, s.seed, s.time.step, s.time.until);
+  if (s.origin)
+    text += fmt::format("origin {} {} {}\n", s.origin->latitude, s.origin->longitude, s.origin->heading);
   text += fmt::format("water {} {} {} {} {} {} {} {}\n", s.water.water.density, s.water.drag_coefficient,
                       s.water.drift.x, s.water.drift.y, s.water.shear.rate, s.water.shear.direction,
                       s.water.shear.origin.x, s.water.shear.origin.y);

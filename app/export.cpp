@@ -1,0 +1,71 @@
+#include <filesystem>
+
+#include "app/exit_code.hpp"
+#include "app/run_commands.hpp"
+#include "app/tell.hpp"
+#include "io/geojson_export.hpp"
+#include "io/output_file.hpp"
+#include "io/vtk_export.hpp"
+
+namespace polynya::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+int fail(ExitCode code, const std::string& words) {
+  tell("polynya: {}\n", words);
+  return code;
+}
+
+/// Makes a folder; what went wrong, or empty.
+std::string make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  return error ? fmt::format("{}: {}", folder.string(), error.message()) : "";
+}
+
+int write_vtk(const io::Run& run, const ExportOptions& options) {
+  if (const std::string wrong = make_folder(options.vtk); !wrong.empty()) return fail(kInputOutput, wrong);
+  io::FrameSelection selection;
+  selection.every = options.every;
+  const auto frames = export_vtk(run, selection, options.vtk);
+  if (!frames) return fail(kInputOutput, frames.error());
+  say(fmt::format("{}  {} frames; open it in ParaView\n", (fs::path(options.vtk) / "run.pvd").string(),
+                  *frames));
+  return kDone;
+}
+
+int write_geojson(const io::Run& run, const ExportOptions& options) {
+  const double time = options.at.value_or(run.end_time());
+  if (!(time >= run.start_time() && time <= run.end_time()))
+    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run.start_time(),
+                                    run.end_time()));
+  if (const std::string wrong = make_folder(options.geojson); !wrong.empty())
+    return fail(kInputOutput, wrong);
+  auto origin = run.scene.scene.origin;
+  if (options.is_in_metres) origin.reset();
+  if (!origin && !options.is_in_metres)
+    tell("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
+  for (const auto& [name, text] : io::geojson_layers(run, time, origin)) {
+    const fs::path file = fs::path(options.geojson) / name;
+    if (const std::string wrong = io::write_whole_file(file, text); !wrong.empty())
+      return fail(kInputOutput, wrong);
+    say(file.string() + "\n");
+  }
+  return kDone;
+}
+
+}  // namespace
+
+int export_run(const ExportOptions& options) {
+  if (options.vtk.empty() && options.geojson.empty())
+    return fail(kUsage, "export what? --vtk DIR for ParaView, --geojson DIR for QGIS");
+  const auto run = io::read_run(options.run);
+  if (!run) return fail(kInputOutput, run.error());
+  int code = kDone;
+  if (!options.vtk.empty()) code = write_vtk(*run, options);
+  if (code == kDone && !options.geojson.empty()) code = write_geojson(*run, options);
+  return std::fflush(stdout) == 0 ? code : kInputOutput;
+}
+
+}  // namespace polynya::app

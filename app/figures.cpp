@@ -1,0 +1,73 @@
+#include "io/figures.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "app/exit_code.hpp"
+#include "app/run_commands.hpp"
+#include "app/tell.hpp"
+#include "io/output_file.hpp"
+#include "io/run_folder.hpp"
+
+namespace polynya::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One run: a third, two thirds and the end of it, and its start. Several: their ends.
+std::vector<double> chosen_times(const std::vector<io::Run>& runs, const std::vector<double>& wanted) {
+  if (!wanted.empty()) return wanted;
+  const double end = runs.front().end_time();
+  if (runs.size() > 1) return {std::numeric_limits<double>::infinity()};
+  return {runs.front().start_time(), std::round(end / 3), std::round(end * 2 / 3), end};
+}
+
+}  // namespace
+
+int figures(const FiguresOptions& options) {
+  std::vector<io::Run> runs;
+  for (const std::string& folder : options.runs) {
+    auto run = io::read_run(folder);
+    if (!run || run->frames.empty()) {
+      tell("polynya: {}\n", run ? folder + ": it has no frames" : run.error());
+      return kInputOutput;
+    }
+    runs.push_back(std::move(*run));
+  }
+  for (const double time : options.at) {
+    if (time >= runs.front().start_time() && time <= runs.front().end_time()) continue;
+    tell("polynya: --at {:g}: the run goes from {:g} to {:g} s\n", time, runs.front().start_time(),
+         runs.front().end_time());
+    return kUsage;
+  }
+  const auto kind = options.load == "peak"  ? io::LoadKind::kPeak
+                    : options.load == "max" ? io::LoadKind::kMax
+                                            : io::LoadKind::kMean;
+  const fs::path folder = options.out.empty() ? options.runs.front() : options.out;
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  const std::vector<double> times = chosen_times(runs, options.at);
+  const std::pair<std::string_view, std::string> pages[] = {
+      {io::run_file::kFigureFloes, to_svg(map_figure(runs, times))},
+      {io::run_file::kFigureLoads, to_svg(load_figure(runs, kind))},
+      {io::run_file::kFigureMotion, to_svg(motion_figure(runs))},
+      {io::run_file::kFigureSizes, to_svg(size_figure(runs))},
+      {io::run_file::kFigureEnergy, energy_figure(runs)}};
+  for (const auto& [name, page] : pages) {
+    if (page.empty()) {
+      tell("note: no summary.json tells of energy; {} is left out\n", name);
+      continue;
+    }
+    const fs::path svg = folder / name;
+    if (const std::string wrong = io::write_whole_file(svg, page); !wrong.empty()) {
+      tell("polynya: {}\n", wrong);
+      return kInputOutput;
+    }
+    const fs::path png = fs::path(svg).replace_extension(".png");
+    say(svg.string() + (io::convert_to_png(svg, png) ? "\n" + png.string() + "\n" : "\n"));
+  }
+  return std::fflush(stdout) == 0 ? kDone : kInputOutput;
+}
+
+}  // namespace polynya::app

@@ -1,0 +1,233 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "io/figures.hpp"
+
+namespace polynya::io {
+namespace {
+
+using simulation::ShipSample;
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+struct Load {
+  const char* name;
+  const char* unit;
+  std::array<double ShipSample::*, 3> of_kind;  ///< by LoadKind
+};
+constexpr std::array kLoads{
+    Load{"surge", "N", {&ShipSample::surge_peak, &ShipSample::surge_max, &ShipSample::surge_force}},
+    Load{"sway", "N", {&ShipSample::sway_peak, &ShipSample::sway_max, &ShipSample::sway_force}},
+    Load{"yaw", "N m", {&ShipSample::yaw_peak, &ShipSample::yaw_max, &ShipSample::yaw_moment}}};
+
+/// 10³ⁿ with its prefix such that values up to `most` read well.
+struct Prefix {
+  double factor = 1;
+  const char* name = "";
+};
+Prefix prefix_for(double most) {
+  return most >= 1e9   ? Prefix{1e9, "G"}
+         : most >= 1e6 ? Prefix{1e6, "M"}
+         : most >= 1e3 ? Prefix{1e3, "k"}
+                       : Prefix{};
+}
+
+/// Of each short stretch of time the largest and the least value: no peak is lost, and paper shows no more.
+std::vector<Chart::Point> peaks(const Run& run, double ShipSample::*value, double unit) {
+  constexpr double kStretches = 900;
+  const double stretch = std::max(1e-9, run.end_time() - run.start_time()) / kStretches;
+  std::vector<Chart::Point> points;
+  double until = -std::numeric_limits<double>::infinity();
+  Chart::Point high, low;
+  const auto put = [&] {
+    if (high.y > 0) points.push_back(high);
+    if (low.y < 0) points.push_back(low);
+    high = low = {};
+  };
+  for (const ShipSample& sample : run.samples) {
+    if (sample.ship != 0 || !std::isfinite(sample.*value)) continue;
+    if (sample.time >= until) {
+      put();
+      until = sample.time + stretch;
+    }
+    const double v = sample.*value / unit;
+    if (v > high.y) high = {sample.time, v};
+    if (v < low.y) low = {sample.time, v};
+  }
+  put();
+  return points;
+}
+
+std::vector<Chart::Mark> marks_of(const Run& run) {
+  std::vector<Chart::Mark> marks;
+  for (const simulation::Event& event : run.events) {
+    if (event.kind == simulation::EventKind::kRejectedCut || event.ship != 0) continue;
+    marks.push_back({event.time, event.kind == simulation::EventKind::kSplit});
+  }
+  std::ranges::stable_sort(marks, {}, &Chart::Mark::is_major);
+  return marks;
+}
+
+std::pair<double, double> common_range(const std::vector<Run>& runs, double ShipSample::*value) {
+  double low = 0, high = 0;
+  for (const Run& run : runs) {
+    for (const ShipSample& sample : run.samples) {
+      if (sample.ship != 0 || !std::isfinite(sample.*value)) continue;
+      low = std::min(low, sample.*value);
+      high = std::max(high, sample.*value);
+    }
+  }
+  return {low, high};
+}
+
+std::string names(const std::vector<Run>& runs) {
+  std::string text;
+  for (const Run& run : runs) text += (text.empty() ? "" : ", ") + run.scene.scene.name;
+  return text;
+}
+
+/// Where the direction of motion is not told by noise, near the heading (both count whole turns).
+double course(const ShipSample& s) {
+  if (length(s.velocity_in_world) < 0.02) return std::numeric_limits<double>::quiet_NaN();
+  const double angle = std::atan2(s.velocity_in_world.y, s.velocity_in_world.x);
+  return angle + 2 * std::numbers::pi * std::round((s.heading - angle) / (2 * std::numbers::pi));
+}
+
+template <class Value>
+std::vector<Chart::Point> thinned(const Run& run, Value value) {
+  const std::size_t step = std::max<std::size_t>(1, run.samples.size() / 1500);
+  std::vector<Chart::Point> points;
+  std::size_t i = 0;
+  for (const ShipSample& sample : run.samples) {
+    if (sample.ship == 0 && i++ % step == 0) points.push_back({sample.time, value(sample)});
+  }
+  return points;
+}
+
+/// Number of floes, and share of the ice, in floes of at least a size.
+struct SizeCurves {
+  std::vector<Chart::Point> counts, shares;
+};
+SizeCurves sizes_at(const Run& run, double time) {
+  std::vector<double> areas;
+  double all = 0;
+  for (const RunFloe& floe : run.floes) {
+    if (!run.is_alive(floe.birth.floe, time)) continue;
+    areas.push_back(floe.birth.area);
+    all += floe.birth.area;
+  }
+  std::ranges::sort(areas, std::ranges::greater{});
+  SizeCurves curves;
+  double sum = 0;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    sum += areas[i];
+    curves.counts.push_back({std::sqrt(areas[i]), static_cast<double>(i + 1)});
+    curves.shares.push_back({std::sqrt(areas[i]), 100 * sum / all});
+  }
+  for (auto* points : {&curves.counts, &curves.shares}) std::ranges::reverse(*points);
+  return curves;
+}
+
+/// The x of a panel's curves with some room to either side.
+std::pair<double, double> widened(const Chart::Panel& panel) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const Chart::Curve& curve : panel.curves) {
+    for (const Chart::Point& point : curve.points) {
+      low = std::min(low, point.x);
+      high = std::max(high, point.x);
+    }
+  }
+  return low <= high ? std::pair{0.8 * low, 1.25 * high} : std::pair{1.0, 10.0};
+}
+
+}  // namespace
+
+Chart load_figure(const std::vector<Run>& runs, LoadKind kind) {
+  static constexpr std::array kWords{"the paper's peak load j/τ_c", "true load, the largest of single steps",
+                                     "true load, mean of each recorded interval"};
+  const auto which = static_cast<std::size_t>(kind);
+  Chart chart{"Ice load on the ship",
+              fmt::format("{}; in the ship's frame: surge forward, sway to port, yaw "
+                          "counter-clockwise",
+                          kWords[which]),
+              {}};
+  chart.columns = runs.size();
+  chart.panel_height = 250;
+  chart.minor_mark = "cusp broken by bending";
+  chart.major_mark = "floe split";
+  int colour = 0;
+  for (const Load& load : kLoads) {
+    const auto value = load.of_kind[which];
+    const auto [low, high] = common_range(runs, value);
+    const Prefix prefix = prefix_for(std::max(-low, high));
+    for (const Run& run : runs) {
+      Chart::Panel panel{
+          fmt::format("{}: {}", run.scene.scene.name, load.name),
+          {"time, s", false, std::pair{run.start_time(), run.end_time()}},
+          {fmt::format("{}, {}{}", load.name, prefix.name, load.unit), false,
+           std::pair{low / prefix.factor, high / prefix.factor}},
+          {{"", colour, Chart::Dash::kSolid, peaks(run, value, prefix.factor), Chart::Form::kStems}},
+          marks_of(run)};
+      chart.panels.push_back(std::move(panel));
+    }
+    ++colour;
+  }
+  return chart;
+}
+
+Chart motion_figure(const std::vector<Run>& runs) {
+  Chart chart{"Speed and course", names(runs), {}};
+  chart.panel_height = 420;
+  Chart::Panel speed{"Speed over ground", {"time, s"}, {"speed, m/s"}, {}};
+  Chart::Panel heading{"Heading, and course over ground", {"time, s"}, {"angle from the x axis, °"}, {}};
+  std::size_t number = 0;
+  for (const Run& run : runs) {
+    const int colour = colour_of_run(number++);
+    const std::string& name = run.scene.scene.name;
+    speed.curves.push_back({runs.size() > 1 ? name : "speed, heading", colour, Chart::Dash::kSolid,
+                            thinned(run, [](const ShipSample& s) { return length(s.velocity_in_world); })});
+    heading.curves.push_back({runs.size() > 1 ? name : "speed, heading", colour, Chart::Dash::kSolid,
+                              thinned(run, [](const ShipSample& s) { return kDegrees * s.heading; })});
+    heading.curves.push_back({runs.size() > 1 ? name + ", course" : "course over ground", colour,
+                              Chart::Dash::kDotted,
+                              thinned(run, [](const ShipSample& s) { return kDegrees * course(s); })});
+    if (runs.size() == 1) speed.marks = heading.marks = marks_of(run);
+  }
+  if (runs.size() == 1) {
+    chart.minor_mark = "cusp broken by bending";
+    chart.major_mark = "floe split";
+  }
+  chart.panels = {std::move(speed), std::move(heading)};
+  return chart;
+}
+
+Chart size_figure(const std::vector<Run>& runs) {
+  Chart chart{"Floe sizes", names(runs) + "; size is the root of the area", {}};
+  chart.panel_height = 420;
+  Chart::Panel counts{"Number of floes at least as large", {"size, m", true}, {"floes", true}, {}};
+  Chart::Panel shares{"Share of the ice in floes at least as large",
+                      {"size, m", true},
+                      {"share of the ice, %", false, std::pair{0.0, 96.0}},
+                      {}};
+  std::size_t number = 0;
+  for (const Run& run : runs) {
+    const int colour = colour_of_run(number++);
+    for (const bool is_end : {false, true}) {
+      const SizeCurves curves = sizes_at(run, is_end ? run.end_time() : run.start_time());
+      const std::string name =
+          fmt::format("{} at {:g} s", run.scene.scene.name, is_end ? run.end_time() : run.start_time());
+      const auto dash = is_end ? Chart::Dash::kSolid : Chart::Dash::kDashed;
+      counts.curves.push_back({name, colour, dash, curves.counts, Chart::Form::kSteps});
+      shares.curves.push_back({name, colour, dash, curves.shares, Chart::Form::kSteps});
+    }
+  }
+  counts.x.range = shares.x.range = widened(counts);
+  chart.panels = {std::move(counts), std::move(shares)};
+  return chart;
+}
+
+}  // namespace polynya::io
