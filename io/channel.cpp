@@ -180,11 +180,10 @@ class ChannelMeasure {
     }
     for (std::size_t i = 0; i < count; ++i) {
       const auto cell = [&](double half) {
-        return Polygon{
-            convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
-                                   joints[i + 1].point + half * across[i + 1],
-                                   joints[i + 1].point - half * across[i + 1]}),
-            {}};
+        return Polygon{convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
+                                    joints[i + 1].point + half * across[i + 1],
+                                    joints[i + 1].point - half * across[i + 1]}),
+                       {}};
       };
       if (auto done = add_station(joints[i], joints[i + 1], cell(channel_.reach), cell(0.5 * channel_.beam));
           !done)
