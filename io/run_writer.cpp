@@ -8,6 +8,7 @@
 #include "geometry/pose.hpp"
 #include "io/checkpoint.hpp"
 #include "io/records.hpp"
+#include "io/rejected_cut.hpp"
 
 namespace polynya::io {
 namespace {
@@ -145,6 +146,9 @@ void RunWriter::record(simulation::Journal& journal) {
     append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, ship_name(sample.ship)); });
     peaks_[static_cast<std::size_t>(sample.ship)].see(sample);
   }
+  for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
+    if (std::string wrong = write_rejected_cut(folder_, cut); !wrong.empty()) failure_ = std::move(wrong);
+  }
   journal.clear();
 }
 
@@ -194,6 +198,7 @@ void RunWriter::flush_if_due() {
 }
 
 std::string RunWriter::failure() const {
+  if (!failure_.empty()) return failure_;
   for (const OutputFile& file : files_) {
     if (!file.failure().empty()) return file.failure();
   }
