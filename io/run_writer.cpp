@@ -18,6 +18,8 @@ constexpr std::array kGrowing{run_file::kFloes, run_file::kEvents, run_file::kFr
                               run_file::kForces};
 enum : std::size_t { kFloes, kEvents, kFrames, kStates, kForces };
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
+constexpr std::size_t kLargestConverted = std::size_t{20}
+                                          << 20;  ///< an SVG that a converter is given [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
@@ -242,7 +244,8 @@ std::string RunWriter::finish(const RunSummary& summary, const simulation::Simul
   };
   const auto write_pictures = [&] {
     write(run_file::kFinalGeojson, to_geojson(simulation.floe_states(), simulation.time()));
-    if (write(run_file::kFinalSvg, to_svg(picture(summary, simulation))))
+    const std::string svg = to_svg(picture(summary, simulation));
+    if (write(run_file::kFinalSvg, svg) && svg.size() <= kLargestConverted)
       has_png_ = convert_to_png(folder_ / run_file::kFinalSvg, folder_ / run_file::kFinalPng);
   };
   // A summary that says "finished" comes last, when all is there. Of a run that stopped it comes first: where
