@@ -12,7 +12,7 @@
 #include "app/tell.hpp"
 #include "io/run_folder.hpp"
 #include "io/version.hpp"
-#include "simulation/validate_world.hpp"
+#include "simulation/world.hpp"
 
 namespace polynya::app {
 namespace {
@@ -66,9 +66,8 @@ class Carrier {
   io::RunWriter& writer() { return run_.writer; }
 
   std::optional<std::string> failure_of_step() {
+    if (options_.check) return failure_after_step(simulation());
     if (auto failure = simulation().numerical_failure()) return "numerical failure: " + *failure;
-    if (!options_.check) return {};
-    if (auto wrong = validate_world(simulation().world())) return "the world contradicts itself: " + *wrong;
     return {};
   }
 
@@ -186,20 +185,25 @@ void print_result(const io::RunSummary& summary, const io::RunWriter& writer) {
   std::fflush(stdout);
 }
 
+void tell_dump(const RunInHand& run) {
+  const std::string folder = run.writer.folder().string();
+  const std::string wrong = dump_failure(run);
+  if (wrong.empty()) {
+    tell(
+        "polynya: the state before the step that failed is in failure.bin: polynya resume {} "
+        "--from-failure\n",
+        folder);
+  } else {
+    tell("polynya: the failure could not be dumped: {}\n", wrong);
+  }
+}
+
 /// What the reader of stderr is to do about it.
 void tell_stop(const RunInHand& run, const Stop& stop, double sim_time) {
   const std::string folder = run.writer.folder().string();
   tell("polynya: stopped at {:.6g} s: {}\n", sim_time, stop.reason);
   if (stop.code == kNumericalFailure) {
-    const std::string dumped = dump_failure(run, stop.reason);
-    if (dumped.empty()) {
-      fmt::print(
-          stderr,
-          "polynya: {} holds the run up to there, and the step before it: polynya resume {} --from-failure\n",
-          folder, folder);
-    } else {
-      tell("polynya: {} holds the run up to there; the failure could not be dumped: {}\n", folder, dumped);
-    }
+    tell("polynya: {} holds the run up to there\n", folder);
   } else if (stop.code == kInputOutput) {
     tell("polynya: once that is put right, go on with: polynya resume {}\n", folder);
   } else {
@@ -233,6 +237,7 @@ int carry_out(RunInHand run, const CarryOptions& options) {
   if (const std::string failure = run.writer.finish(summary, run.simulation); !failure.empty())
     stop = {kInputOutput, failure};
   if (stop.code != kDone) tell_stop(run, stop, summary.sim_time);
+  if (stop.code == kNumericalFailure || !summary.audit.is_closed()) tell_dump(run);
   for (const std::string& warning : summary.warnings) tell("note: {}\n", warning);
   if (stop.code != kInputOutput) print_result(summary, run.writer);
   return stop.code;

@@ -1,37 +1,52 @@
 #include "app/failure_dump.hpp"
 
-#include <fmt/format.h>
-
 #include "io/output_file.hpp"
 #include "io/run_folder.hpp"
+#include "simulation/validate_world.hpp"
 
 namespace polynya::app {
 namespace {
 
 using simulation::Simulation;
 
-/// The run at its newest checkpoint that can be read, or at its start.
+/// The run at its newest checkpoint that can be read and is sound, or at its start.
 Simulation at_last_checkpoint(const RunInHand& run) {
   for (const auto& path : io::checkpoints_in(run.writer.folder())) {
     const auto checkpoint = io::read_checkpoint_file(path, run.scene.hash);
     if (!checkpoint || checkpoint->steps >= run.simulation.steps()) continue;
-    if (auto there = Simulation::resumed(run.scene.scene, checkpoint->state)) return std::move(*there);
+    auto there = Simulation::resumed(run.scene.scene, checkpoint->state);
+    if (there && !failure_after_step(*there)) return std::move(*there);
   }
   return Simulation(run.scene.scene);
 }
 
+void step(Simulation& simulation) {
+  simulation.step();
+  simulation.journal().clear();
+}
+
 }  // namespace
 
-std::string dump_failure(const RunInHand& run, const std::string& reason) {
+std::optional<std::string> failure_after_step(const Simulation& simulation) {
+  if (auto failure = simulation.numerical_failure()) return "numerical failure: " + *failure;
+  if (!simulation.audit().is_closed()) return "the accounts of energy or momentum do not close";
+  if (auto wrong = validate_world(simulation.world())) return "the world contradicts itself: " + *wrong;
+  return {};
+}
+
+std::string dump_failure(const RunInHand& run) {
+  Simulation ahead = at_last_checkpoint(run);
   Simulation before = at_last_checkpoint(run);
-  while (before.steps() + 1 < run.simulation.steps() && !before.numerical_failure()) {
-    before.step();
-    before.journal().clear();
+  std::optional<std::string> failure;
+  while (!failure && ahead.steps() < run.simulation.steps()) {
+    step(ahead);
+    failure = failure_after_step(ahead);
   }
-  if (before.numerical_failure()) return "it did not come again at the same step";
+  if (!failure) return "it did not come again";
+  while (before.steps() + 1 < ahead.steps()) step(before);
   before.journal().clear();
   io::Checkpoint dump = checkpoint_of(before, run.scene, {}, 0);
-  dump.failure = reason;
+  dump.failure = *failure;
   return write_whole_file(run.writer.folder() / io::run_file::kFailure, checkpoint_bytes(dump),
                           io::Durability::kSynced);
 }

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/carry_out.hpp"
 
 namespace polynya::app {
 
-/// Writes the state before the step that failed into the run folder, with what went wrong in that step. It is
-/// found by going over the way from the newest checkpoint once more, which costs nothing where nothing fails.
-/// Returns what went wrong with that; empty where all is well.
-std::string dump_failure(const RunInHand& run, const std::string& reason);
+/// What is wrong with a run after a step: numbers that are none, accounts that do not close, a world that
+/// contradicts itself. Nothing where all is well.
+std::optional<std::string> failure_after_step(const simulation::Simulation& simulation);
+
+/// Writes the state before the first step after which something is wrong into the run folder, with what it
+/// is. It is found by going over the way from the newest sound checkpoint once more, which costs nothing
+/// where nothing fails. Returns what went wrong with that; empty where all is well.
+std::string dump_failure(const RunInHand& run);
 
 }  // namespace polynya::app

@@ -5,6 +5,7 @@
 #include "app/carry_out.hpp"
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/failure_dump.hpp"
 #include "app/load_scene.hpp"
 #include "app/stop_signal.hpp"
 #include "app/tell.hpp"
@@ -12,7 +13,6 @@
 #include "io/json_parser.hpp"
 #include "io/run_folder.hpp"
 #include "io/source_text.hpp"
-#include "simulation/validate_world.hpp"
 
 namespace polynya::app {
 namespace {
@@ -75,12 +75,7 @@ int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
              simulation->state_hash());
   fmt::print("then        {}\n", dump->failure);
   simulation->step();
-  std::string now = "nothing went wrong";
-  if (const auto failure = simulation->numerical_failure()) {
-    now = "numerical failure: " + *failure;
-  } else if (const auto wrong = validate_world(simulation->world())) {
-    now = "the world contradicts itself: " + *wrong;
-  }
+  const std::string now = failure_after_step(*simulation).value_or("nothing went wrong");
   fmt::print("now         {}\n", now);
   fmt::print("{}\n", now == dump->failure ? "reproduced" : "not reproduced");
   return now == dump->failure ? kNumericalFailure : kDone;

@@ -20,6 +20,13 @@ class PairGrid {
   /// times.
   template <typename Visit>
   void for_each_near(const geometry::Box& box, Visit visit) const {
+    for (const BodyIndex other : wide_) visit(other);
+    if (is_wide(box)) {
+      for (const auto& cell : cells_) {
+        for (const BodyIndex other : cell.second) visit(other);
+      }
+      return;
+    }
     for_cells(box, [&](std::int64_t key) {
       const auto cell = cells_.find(key);
       if (cell == cells_.end()) return;
@@ -38,7 +45,14 @@ class PairGrid {
     }
   }
 
+  /// One that spans more cells than this is kept apart, near everybody: cells are for the many.
+  static constexpr double kMostCells = 65536;
+  bool is_wide(const geometry::Box& box) const {
+    return ((box.high.x - box.low.x) / cell_ + 1) * ((box.high.y - box.low.y) / cell_ + 1) > kMostCells;
+  }
+
   double cell_;  ///< [m]
+  std::vector<BodyIndex> wide_;
   std::unordered_map<std::int64_t, std::vector<BodyIndex>> cells_;
 };
 

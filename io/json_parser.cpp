@@ -92,6 +92,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
       reason = reason.substr(dash + 3);
     else if (const auto bracket = reason.find("] "); bracket != std::string::npos)
       reason = reason.substr(bracket + 2);
+    if (reason.find("overflow") != std::string::npos)
+      reason = "a number of at most 1.79e308";
+    else if (reason.starts_with("invalid literal"))
+      reason = "an object, a list, text in quotes, a number, true, false or null";
     // What it could not use begins where no more than blanks and punctuation follow the last event, or is
     // punctuation.
     const std::size_t offset =

@@ -8,6 +8,7 @@
 #include "geometry/pose.hpp"
 #include "io/checkpoint.hpp"
 #include "io/records.hpp"
+#include "io/rejected_cut.hpp"
 
 namespace polynya::io {
 namespace {
@@ -17,6 +18,8 @@ constexpr std::array kGrowing{run_file::kFloes, run_file::kEvents, run_file::kFr
                               run_file::kForces};
 enum : std::size_t { kFloes, kEvents, kFrames, kStates, kForces };
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
+constexpr std::size_t kLargestConverted = std::size_t{20}
+                                          << 20;  ///< an SVG that a converter is given [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
@@ -145,6 +148,9 @@ void RunWriter::record(simulation::Journal& journal) {
     append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, ship_name(sample.ship)); });
     peaks_[static_cast<std::size_t>(sample.ship)].see(sample);
   }
+  for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
+    if (std::string wrong = write_rejected_cut(folder_, cut); !wrong.empty()) failure_ = std::move(wrong);
+  }
   journal.clear();
 }
 
@@ -194,6 +200,7 @@ void RunWriter::flush_if_due() {
 }
 
 std::string RunWriter::failure() const {
+  if (!failure_.empty()) return failure_;
   for (const OutputFile& file : files_) {
     if (!file.failure().empty()) return file.failure();
   }
@@ -237,7 +244,8 @@ std::string RunWriter::finish(const RunSummary& summary, const simulation::Simul
   };
   const auto write_pictures = [&] {
     write(run_file::kFinalGeojson, to_geojson(simulation.floe_states(), simulation.time()));
-    if (write(run_file::kFinalSvg, to_svg(picture(summary, simulation))))
+    const std::string svg = to_svg(picture(summary, simulation));
+    if (write(run_file::kFinalSvg, svg) && svg.size() <= kLargestConverted)
       has_png_ = convert_to_png(folder_ / run_file::kFinalSvg, folder_ / run_file::kFinalPng);
   };
   // A summary that says "finished" comes last, when all is there. Of a run that stopped it comes first: where

@@ -94,6 +94,7 @@ class RunWriter {
   std::vector<ShipPeaks> peaks_;
   RunLock lock_;
   std::string line_;
+  std::string failure_;  ///< of what is written at once
   std::chrono::steady_clock::time_point last_flush_;
   bool has_png_ = false;
 };

@@ -8,13 +8,15 @@
 namespace polynya::simulation {
 namespace {
 
+geometry::Ring cusp_of(const World& world, const PendingFracture& pending) {
+  return geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius,
+                                world.scene.fracture.cusp_sagitta);
+}
+
 geometry::CutOutcome cut(const World& world, const PendingFracture& pending) {
   const geometry::Shape& shape = world.floes[pending.floe].shape;
-  if (pending.failure == fracture::Failure::kBend) {
-    const geometry::Ring disc = geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius,
-                                                       world.scene.fracture.cusp_sagitta);
-    return geometry::cut_by_polygon(shape, {disc, {}});
-  }
+  if (pending.failure == fracture::Failure::kBend)
+    return geometry::cut_by_polygon(shape, {cusp_of(world, pending), {}});
   return geometry::cut_along(shape, {pending.crack_in_body.start, pending.crack_in_body.end});
 }
 
@@ -35,8 +37,21 @@ Event event_of(const World& world, const PendingFracture& pending, EventKind kin
 void reject(World& world, const PendingFracture& pending, const geometry::CutError& error) {
   Event event = event_of(world, pending, EventKind::kRejectedCut);
   event.reason = std::string(name_of(error.reason)) + ": " + error.detail;
-  world.journal.events.push_back(std::move(event));
   ++world.counts.rejected_cuts;
+  const geometry::Shape& shape = world.floes[pending.floe].shape;
+  RejectedCut rejected{world.counts.rejected_cuts,
+                       world.time(),
+                       pending.floe,
+                       event.reason,
+                       shape.polygon,
+                       shape.exact == nullptr,
+                       {},
+                       {}};
+  if (pending.failure == fracture::Failure::kBend) rejected.cusp_in_body = cusp_of(world, pending);
+  rejected.crack_in_body[0] = pending.crack_in_body.start;
+  rejected.crack_in_body[1] = pending.crack_in_body.end;
+  world.journal.rejected_cuts.push_back(std::move(rejected));
+  world.journal.events.push_back(std::move(event));
   pending.record->was_refused = true;
 }
 

@@ -47,6 +47,18 @@ struct Birth {
   bool is_exact = true;               ///< false where the doubles only approximate a shape kept in rationals
 };
 
+/// What a cut that geometry refused was asked to do. Written as an input of `polynya cut`.
+struct RejectedCut {
+  std::int64_t number = 0;  ///< of the run's rejected cuts, from 1
+  double time = 0;          ///< [s]
+  FloeId floe = kNoFloe;
+  std::string reason;
+  geometry::Polygon polygon_in_body;  ///< of the floe
+  bool is_exact = true;               ///< false where the doubles only approximate a shape kept in rationals
+  geometry::Ring cusp_in_body;        ///< of a bend; empty of a split [m]
+  geometry::Point crack_in_body[2];   ///< of a split: its ends [m]
+};
+
 /// One recorded moment of one ship. Forces are in the ship's frame, by ice on the ship.
 struct ShipSample {
   double time = 0;  ///< end of the interval [s]
@@ -74,8 +86,10 @@ struct Journal {
   std::vector<Birth> births;
   std::vector<FloeId> deaths;  ///< floes that broke or left the list
   std::vector<ShipSample> samples;
+  std::vector<RejectedCut> rejected_cuts;
   void clear() {
     events.clear();
+    rejected_cuts.clear();
     births.clear();
     deaths.clear();
     samples.clear();

@@ -77,6 +77,12 @@ class StateLoader {
 
   std::string load() {
     sums_of(bytes_, world_);
+    const Counts& c = world_.counts;
+    for (const std::int64_t count :
+         {c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
+          c.brash_pieces, c.kept_exact, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
+          c.peak_contacts, c.peak_awake})
+      bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
     bytes_.require(world_.loads.size() == world_.scene.ships.size(), "loads of other ships");
     bytes_.require(world_.steps >= 0 && world_.steps <= kMostSteps, "a number of steps that cannot be");
     std::uint64_t floes = 0;
@@ -95,6 +101,7 @@ class StateLoader {
 
  private:
   static constexpr std::int64_t kMostSteps = 1'000'000'000;
+  static constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
 
   BodyMotion load_motion(double radius) {
     BodyMotion motion;

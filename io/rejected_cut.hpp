@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "simulation/journal.hpp"
+
+namespace polynya::io {
+
+/// Of a run, only so many are written; events.ndjson has all.
+inline constexpr std::int64_t kMostRejectedCuts = 100;
+
+/// Writes a cut that geometry refused into a run folder as `polynya cut` reads it (docs/cut.md):
+///   polynya cut rejected-cuts/000001.geojson --ops rejected-cuts/000001-ops.json
+/// Returns what went wrong; empty where all is well.
+std::string write_rejected_cut(const std::filesystem::path& run_folder, const simulation::RejectedCut& cut);
+
+}  // namespace polynya::io

@@ -1,0 +1,66 @@
+// Every cut that geometry refuses is written as an input of polynya cut, which refuses it for the same
+// reason.
+
+#include "io/rejected_cut.hpp"
+
+#include "program.hpp"
+#include <gtest/gtest.h>
+
+#include "simulation/step.hpp"
+#include "tests/simulation/scenes.hpp"
+
+namespace polynya::tests {
+namespace {
+
+using namespace simulation;
+
+/// A fracture as no contact would ask for it: its cusp misses the floe, or its crack ends inside.
+PendingFracture misplaced(fracture::Failure failure, dynamics::ContactRecord& record) {
+  PendingFracture pending;
+  pending.failure = failure;
+  pending.first_touch_in_body = {50, 5};
+  pending.cusp_radius = 3;
+  pending.crack_in_body.start = {-1, 5};
+  pending.crack_in_body.end = {1.0 / 3, 5};
+  pending.record = &record;
+  return pending;
+}
+
+TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
+  const TemporaryFolder folder;
+  Scene scene;
+  scene.floes = {scenes::floe(scenes::rectangle(0, 0, 10, 10))};
+  World world(scene);
+  world.journal.clear();
+  dynamics::ContactRecord record;
+  world.fractures = {misplaced(fracture::Failure::kBend, record),
+                     misplaced(fracture::Failure::kSplit, record)};
+  apply_fractures(world);
+  ASSERT_EQ(world.journal.rejected_cuts.size(), 2U);
+  for (const RejectedCut& cut : world.journal.rejected_cuts) {
+    ASSERT_EQ(io::write_rejected_cut(folder.path(), cut), "");
+    const std::string name = "rejected-cuts/00000" + std::to_string(cut.number);
+    const Outcome again =
+        polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, {folder.path()});
+    SCOPED_TRACE(cut.reason);
+    SCOPED_TRACE(again.err + again.out);
+    EXPECT_EQ(world.counts.rejected_cuts, 2);
+    if (cut.number == 1) {
+      EXPECT_NE(cut.reason.find("misses"), std::string::npos);
+      EXPECT_NE(again.err.find("1 floe -> 1 piece"), std::string::npos)
+          << "polynya cut takes a miss for no cut";
+    } else {
+      EXPECT_NE(again.out.find("\"dangling_length\""), std::string::npos);
+      EXPECT_NE(again.out.find(R"({"line":[[-1,5],[0.3333333333333333,5]]})"), std::string::npos)
+          << "to the last bit";
+      EXPECT_NE(again.err.find("separates nothing"), std::string::npos);
+    }
+  }
+  RejectedCut one_too_many = world.journal.rejected_cuts[0];
+  one_too_many.number = io::kMostRejectedCuts + 1;
+  EXPECT_EQ(io::write_rejected_cut(folder.path(), one_too_many), "");
+  EXPECT_FALSE(std::filesystem::exists(folder / "rejected-cuts/000101.geojson"));
+}
+
+}  // namespace
+}  // namespace polynya::tests

@@ -1,0 +1,82 @@
+// The state at the end of a short run of every scene, by its hash. After a change that is meant to change
+// results:
+//   tests/golden/renew
+// and the commit tells why. The hashes are those of any build and any number of threads
+// (docs/reliability.md).
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "io/scene_reader.hpp"
+#include "simulation/simulation.hpp"
+
+namespace polynya::tests {
+namespace {
+
+const std::filesystem::path kSource = POLYNYA_SOURCE_DIR;
+const std::filesystem::path kGoldens = kSource / "tests/golden/goldens.txt";
+
+/// "scene until_s hash fractures", a line each.
+struct Golden {
+  double until = 0;  ///< [s]
+  std::string hash;
+  std::int64_t fractures = 0;
+};
+
+std::map<std::string, Golden> read_goldens() {
+  std::map<std::string, Golden> goldens;
+  std::ifstream file(kGoldens);
+  std::string scene;
+  Golden golden;
+  while (file >> scene >> golden.until >> golden.hash >> golden.fractures) goldens[scene] = golden;
+  return goldens;
+}
+
+Golden run(const std::filesystem::path& scene, double until) {
+  auto loaded = io::read_scene_file(scene);
+  EXPECT_TRUE(loaded.has_value()) << scene;
+  simulation::Simulation simulation(std::move(loaded->scene));
+  if (const char* threads = std::getenv("POLYNYA_GOLDEN_THREADS")) simulation.set_threads(std::atoi(threads));
+  while (simulation.time() < until - 1e-9 && !simulation.numerical_failure()) {
+    simulation.step();
+    simulation.journal().clear();
+  }
+  EXPECT_FALSE(simulation.numerical_failure().has_value());
+  std::ostringstream hash;
+  hash << std::hex << std::setfill('0') << std::setw(16) << simulation.state_hash();
+  return {until, hash.str(), simulation.counts().bends + simulation.counts().splits};
+}
+
+TEST(Golden, EverySceneEndsInItsState) {
+  const auto goldens = read_goldens();
+  const bool renews = std::getenv("POLYNYA_RENEW_GOLDENS") != nullptr;
+  std::ostringstream renewed;
+  std::size_t scenes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kSource / "scenes")) {
+    if (entry.path().extension() != ".json") continue;
+    ++scenes;
+    const std::string name = entry.path().stem().string();
+    const auto golden = goldens.find(name);
+    if (golden == goldens.end()) {
+      ADD_FAILURE() << name << " has no golden: add \"" << name << " <until_s> - 0\" to " << kGoldens
+                    << " and run tests/golden/renew";
+      continue;
+    }
+    const Golden now = run(entry.path(), golden->second.until);
+    std::cout << name << ' ' << now.until << ' ' << now.hash << ' ' << now.fractures << std::endl;
+    if (renews) continue;
+    EXPECT_EQ(now.hash, golden->second.hash) << name;
+    EXPECT_EQ(now.fractures, golden->second.fractures) << name;
+  }
+  EXPECT_EQ(scenes, goldens.size()) << "a golden without its scene";
+}
+
+}  // namespace
+}  // namespace polynya::tests
