@@ -5,7 +5,7 @@
 
 #include "geometry/internal/cut_pieces.hpp"
 #include "geometry/internal/edge_tree.hpp"
-#include "geometry/internal/settle.hpp"
+#include "geometry/internal/planned_pieces.hpp"
 #include "geometry/internal/subdivision_check.hpp"
 
 namespace polynya::geometry {
@@ -29,17 +29,11 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
   return sum;
 }
 
-struct Balance {
-  Rational defect = 0;  // twice Σ exact pieces − shape; every split edge by itself must give zero
-  bool is_exact = true;
-  Rational rounding = 0;  // twice the area that rounding the nodes changed
-};
-
 // Σ pieces − shape, in shoelace terms: every chain of the shape stands in the pieces once, every chord once
 // in each direction, where its terms cancel; untouched rings are carried over. What is left is each split
 // edge against the sub-edges it became, and that is summed here in rationals: before rounding it must be
-// zero.
-Balance balance_split_edges(const LocalCut& cut) {
+// zero for every edge by itself. None where it is not.
+std::optional<Balance> balance_split_edges(const LocalCut& cut) {
   Balance balance;
   for (std::size_t begin = 0; begin < cut.nodes.size();) {
     const Place& place = cut.nodes[begin].on_shape;
@@ -58,9 +52,7 @@ Balance balance_split_edges(const LocalCut& cut) {
     const exact::Point b = exact::exactly(cut.rings.point(place.ring, place.edge + 1));
     exactly.push_back(b);
     rounded.push_back(b);
-    const Rational defect = twice_area_between(a, exactly);
-    balance.defect += defect;
-    balance.is_exact = balance.is_exact && defect == 0;
+    if (twice_area_between(a, exactly) != 0) return {};
     balance.rounding += twice_area_between(a, rounded);
   }
   return balance;
@@ -143,41 +135,9 @@ Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
 CutResult whole_shape_inside(const Polygon& shape) {
   CutResult result;
   result.pieces.push_back({Shape{shape, nullptr, true}, Part::kInside});
-  for (int r = 0; r < Rings(shape).count(); ++r) result.ledger.area_before += ring_area(Rings(shape)[r]).area;
-  result.ledger.area_inside = result.ledger.area_before;
+  result.ledger.area_before = result.ledger.area_inside = sum_of_ring_areas(shape);
   result.ledger.exact_balance = true;
   result.ledger.exact_defect = "0";  // the one piece is the shape itself
-  return result;
-}
-
-CutOutcome settle_exactly(const LocalCut& cut, const Polygon& shape, const std::vector<PiecePlan>& plans) {
-  std::vector<exact::ExactPiece> pieces;
-  pieces.reserve(plans.size());
-  for (const PiecePlan& plan : plans) pieces.push_back({write_exactly(cut, plan), plan.part});
-  return exact::settle(exact::area(shape), std::move(pieces));
-}
-
-CutResult assemble(const LocalCut& cut, std::vector<PiecePlan> plans, const Balance& balance) {
-  CutResult result;
-  CutLedger& ledger = result.ledger;
-  for (int r = 0; r < cut.rings.count(); ++r) ledger.area_before += ring_area(cut.rings[r]).area;
-  ledger.exact_balance = true;
-  ledger.exact_defect = balance.defect.get_str();
-  ledger.rounding_defect = exact::nearest_double(balance.rounding / 2);
-  for (PiecePlan& plan : plans) {
-    Piece piece;
-    piece.part = plan.part;
-    piece.shape.known_valid = true;
-    double area = 0;
-    for (PieceRing& ring : plan.rings) {
-      area += ring.area.area;
-      Polygon& polygon = piece.shape.polygon;
-      (polygon.outer.empty() ? polygon.outer : polygon.holes.emplace_back()) = std::move(ring.points);
-    }
-    (plan.part == Part::kOutside ? ledger.area_outside : ledger.area_inside) += area;
-    result.pieces.push_back(std::move(piece));
-  }
-  exact::sort_pieces(result.pieces);
   return result;
 }
 
@@ -228,11 +188,11 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   }
   std::optional<std::vector<PiecePlan>> plans = plan_pieces(cut);
   if (!plans || !uses_all_once(cut, *plans)) return {};
-  const Balance balance = balance_split_edges(cut);
-  if (!balance.is_exact) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
+  const std::optional<Balance> balance = balance_split_edges(cut);
+  if (!balance) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
   CutOutcome outcome = is_cleanly_rounded(cut, *plans, tool_box, near_tool)
-                           ? assemble(cut, std::move(*plans), balance)
-                           : settle_exactly(cut, shape, *plans);
+                           ? take_as_planned(std::move(*plans), sum_of_ring_areas(shape), *balance)
+                           : settle_exactly(cut, *plans, exact::area(shape));
   if (outcome && !tool.is_closed) outcome->ledger.dangling_length = dangling_length(cut, shape);
   return outcome;
 }

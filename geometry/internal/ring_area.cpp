@@ -41,4 +41,10 @@ RingArea ring_area(const Ring& ring) {
           4 * edges * (reach_x + reach_y) * step};
 }
 
+double sum_of_ring_areas(const Polygon& polygon) {
+  double sum = ring_area(polygon.outer).area;
+  for (const Ring& hole : polygon.holes) sum += ring_area(hole).area;
+  return sum;
+}
+
 }  // namespace polynya::geometry

@@ -15,4 +15,7 @@ struct RingArea {
 /// One pass over the vertices.
 RingArea ring_area(const Ring& ring);
 
+/// Of the outer ring and its holes together, signed each [m²].
+double sum_of_ring_areas(const Polygon& polygon);
+
 }  // namespace polynya::geometry

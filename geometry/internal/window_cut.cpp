@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "geometry/internal/settle.hpp"
+#include "geometry/internal/planned_pieces.hpp"
 #include "geometry/internal/subdivision_check.hpp"
 #include "geometry/internal/window_pieces.hpp"
 
@@ -21,11 +21,6 @@ std::size_t at(int i) {
 tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
   return tl::unexpected(CutError{reason, std::move(detail)});
 }
-
-struct Balance {
-  Rational defect = 0;    // twice Σ exact pieces − shape
-  Rational rounding = 0;  // twice Σ pieces of nearest doubles − exact pieces
-};
 
 // Far chains and far rings stand in the pieces once each, as they stand in the shape: what is left to sum is
 // what was arranged.
@@ -129,44 +124,17 @@ bool is_cleanly_rounded(const WindowCut& cut, const std::vector<WindowPiece>& pi
   return true;
 }
 
-CutOutcome settle_exactly(const WindowCut& cut, const std::vector<WindowPiece>& plans) {
-  std::vector<exact::ExactPiece> pieces;
-  pieces.reserve(plans.size());
-  for (const WindowPiece& plan : plans) pieces.push_back({write_exactly(cut, plan), plan.part});
-  return exact::settle(exact::area(cut.shape.exactly()), std::move(pieces));
-}
-
-CutResult assemble(const WindowCut& cut, std::vector<WindowPiece> plans, const Balance& balance) {
-  CutResult result;
-  CutLedger& ledger = result.ledger;
-  for (WindowPiece& plan : plans) {
-    Piece piece;
-    piece.part = plan.part;
-    piece.shape.known_valid = true;
-    double area = 0;
-    for (WindowPieceRing& ring : plan.rings) {
-      area += ring.area.area;
-      Polygon& polygon = piece.shape.polygon;
-      (polygon.outer.empty() ? polygon.outer : polygon.holes.emplace_back()) = std::move(ring.points);
-    }
-    (plan.part == Part::kOutside ? ledger.area_outside : ledger.area_inside) += area;
-    result.pieces.push_back(std::move(piece));
-  }
+/// Of the shape, whose rationals may differ from their nearest doubles.
+double area_before(const WindowCut& cut) {
   const Rings rings = cut.shape.rings();
-  for (int r = 0; r < rings.count(); ++r) ledger.area_before += ring_area(rings[r]).area;
-  Rational kept = 0;  // twice what a shape's kept rationals differ by from their nearest doubles
+  Rational kept = 0;  // twice what they differ by
   for (const EdgeId e : cut.window.near) {
     if (cut.shape.has_double_ends(e)) continue;
     kept += shoelace_term(cut.shape.point(e.ring, e.index), cut.shape.point(e.ring, e.index + 1)) -
             shoelace_term(exact::exactly(rings.point(e.ring, e.index)),
                           exact::exactly(rings.point(e.ring, e.index + 1)));
   }
-  ledger.area_before += exact::nearest_double(kept / 2);
-  ledger.exact_balance = true;
-  ledger.exact_defect = balance.defect.get_str();
-  ledger.rounding_defect = exact::nearest_double(balance.rounding / 2);
-  exact::sort_pieces(result.pieces);
-  return result;
+  return sum_of_ring_areas(cut.shape.nearest()) + exact::nearest_double(kept / 2);
 }
 
 void round_vertices(WindowCut& cut) {
@@ -188,8 +156,8 @@ std::optional<CutOutcome> settle_in_window(WindowCut& cut, const exact::Classifi
   }
   const Balance balance = balance_window(cut, *plans);
   if (balance.defect != 0) return {};
-  if (!is_cleanly_rounded(cut, *plans)) return settle_exactly(cut, *plans);
-  return assemble(cut, std::move(*plans), balance);
+  if (!is_cleanly_rounded(cut, *plans)) return settle_exactly(cut, *plans, exact::area(cut.shape.exactly()));
+  return take_as_planned(std::move(*plans), area_before(cut), balance);
 }
 
 bool has_inside(const WindowCut& cut, const exact::Classifier& classify) {
