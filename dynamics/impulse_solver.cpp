@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "dynamics/chunks.hpp"
 
 namespace polynya::dynamics {
 namespace {
-
-using geometry::Vector;
 
 /// Friction while sliding can raise the impulse that ends an approach above the frictionless one; seldom to
 /// twice it.
@@ -22,43 +19,7 @@ constexpr double kTrustUnconverged = 0.5;
 /// Contacts that one thread takes at a time: fewer are not worth another thread.
 constexpr std::size_t kContactsPerChunk = 256;
 
-/// Two ends whose impulses move the contact line almost alike are solved one after the other.
-constexpr double kAlike = 1e-9;
-
 }  // namespace
-
-ImpulseSolver::Row ImpulseSolver::row_of(const Bodies& bodies, const Contact& c, std::uint32_t index) const {
-  Row row;
-  row.a = islands_.place_of_a(index);
-  row.b = islands_.place_of_b(index);
-  row.normal = c.normal;
-  const Mover& a = movers_[row.a];
-  const Mover& b = movers_[row.b];
-  const double inverse_masses = a.inverse_mass + b.inverse_mass;
-  for (int end = 0; end < 2; ++end) {
-    row.turn_a[end] = cross(c.ends[end] - bodies.position[c.a], c.normal);
-    row.turn_b[end] = cross(c.ends[end] - bodies.position[c.b], c.normal);
-    row.softness[end] = inverse_masses + row.turn_a[end] * row.turn_a[end] * a.inverse_moment +
-                        row.turn_b[end] * row.turn_b[end] * b.inverse_moment;
-    row.least[end] = 0;
-    row.normal_impulse[end] = 0;
-  }
-  const Vector tangent = perpendicular(c.normal);
-  row.slip_turn_a = cross(c.ends[0] - bodies.position[c.a], tangent);
-  row.slip_turn_b = cross(c.ends[0] - bodies.position[c.b], tangent);
-  row.coupling = inverse_masses + row.turn_a[0] * row.turn_a[1] * a.inverse_moment +
-                 row.turn_b[0] * row.turn_b[1] * b.inverse_moment;
-  const double both = row.softness[0] * row.softness[1];
-  const double determinant = both - row.coupling * row.coupling;
-  row.stiffness = determinant > kAlike * both ? 1 / determinant : 0;
-  row.slip_softness = inverse_masses + row.slip_turn_a * row.slip_turn_a * a.inverse_moment +
-                      row.slip_turn_b * row.slip_turn_b * b.inverse_moment;
-  row.slip_mass = 1 / row.slip_softness;
-  row.limit = 0.5 * c.impulse_limit;
-  row.friction = c.friction;
-  row.slip_impulse = 0;
-  return row;
-}
 
 void ImpulseSolver::fill_rows(const Bodies& bodies, std::vector<Contact>& contacts,
                               const SolverSettings& settings) {
@@ -70,19 +31,19 @@ void ImpulseSolver::fill_rows(const Bodies& bodies, std::vector<Contact>& contac
   rows_.resize(contacts.size());
   ways_.resize(contacts.size());
   before_.resize(contacts.size());
-  for_chunks(rows_.size(), kContactsPerChunk, settings.threads,
-             [&](std::size_t, std::size_t begin, std::size_t end) {
-               for (std::size_t k = begin; k < end; ++k) {
-                 const std::uint32_t i = islands_.order()[k];
-                 rows_[k] = row_of(bodies, contacts[i], i);
-                 before_[k] = speeds_at(rows_[k]);
-                 ContactRecord* record = contacts[i].record;
-                 if (record == nullptr) continue;
-                 record->most_to_give =
-                     std::max(record->most_to_give,
-                              kFrictionSlack * settings.restitution * isolated_impulse(rows_[k], before_[k]));
-               }
-             });
+  for_chunks(
+      rows_.size(), kContactsPerChunk, settings.threads,
+      [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          const std::uint32_t i = islands_.order()[k];
+          rows_[k] = make_row(bodies, contacts[i], islands_.place_of_a(i), islands_.place_of_b(i), movers_);
+          before_[k] = speeds_at(rows_[k], movers_);
+          ContactRecord* record = contacts[i].record;
+          if (record == nullptr) continue;
+          record->most_to_give = std::max(record->most_to_give, kFrictionSlack * settings.restitution *
+                                                                    isolated_impulse(rows_[k], before_[k]));
+        }
+      });
 }
 
 /// Starts an island from the impulses that its last steps foretell.
@@ -90,98 +51,11 @@ void ImpulseSolver::start(const Island& island, const std::vector<Contact>& cont
   for (std::uint32_t k = island.first; k < island.first + island.count; ++k) {
     const ContactRecord* record = contacts[islands_.order()[k]].record;
     if (record == nullptr || (record->start_impulse[0] == 0 && record->start_impulse[1] == 0)) continue;
-    Row& row = rows_[k];
+    ContactRow& row = rows_[k];
     for (int end = 0; end < 2; ++end)
       row.normal_impulse[end] = std::min(record->start_impulse[end], row.limit);
-    push(row, row.normal_impulse[0], row.normal_impulse[1], 0);
+    push(row, row.normal_impulse[0], row.normal_impulse[1], 0, movers_);
   }
-}
-
-/// Changes the velocities by impulses on b, and their opposites on a.
-inline void ImpulseSolver::push(const Row& row, double impulse_0, double impulse_1, double slip_impulse) {
-  Mover& a = movers_[row.a];
-  Mover& b = movers_[row.b];
-  const Vector impulse = (impulse_0 + impulse_1) * row.normal + slip_impulse * perpendicular(row.normal);
-  if (a.inverse_mass != 0) {  // a held body belongs to several islands: nobody may write it
-    a.velocity -= a.inverse_mass * impulse;
-    a.angular_velocity -= a.inverse_moment * (impulse_0 * row.turn_a[0] + impulse_1 * row.turn_a[1] +
-                                              slip_impulse * row.slip_turn_a);
-  }
-  if (b.inverse_mass != 0) {
-    b.velocity += b.inverse_mass * impulse;
-    b.angular_velocity += b.inverse_moment * (impulse_0 * row.turn_b[0] + impulse_1 * row.turn_b[1] +
-                                              slip_impulse * row.slip_turn_b);
-  }
-}
-
-ImpulseSolver::Speeds ImpulseSolver::speeds_at(const Row& row) const {
-  const Mover& a = movers_[row.a];
-  const Mover& b = movers_[row.b];
-  const Vector relative = b.velocity - a.velocity;
-  const double apart = dot(relative, row.normal);
-  return {{apart + b.angular_velocity * row.turn_b[0] - a.angular_velocity * row.turn_a[0],
-           apart + b.angular_velocity * row.turn_b[1] - a.angular_velocity * row.turn_a[1]},
-          dot(relative, perpendicular(row.normal)) + b.angular_velocity * row.slip_turn_b -
-              a.angular_velocity * row.slip_turn_a};
-}
-
-/// What would bring both ends to rest, if no other body were there: the solution p of K p = approach, p ≥ 0
-/// [N s].
-double ImpulseSolver::isolated_impulse(const Row& row, const Speeds& speeds) const {
-  const double v0 = -speeds.apart[0];
-  const double v1 = -speeds.apart[1];
-  if (v0 <= 0 && v1 <= 0) return 0;
-  if (row.stiffness != 0) {
-    const double p0 = (row.softness[1] * v0 - row.coupling * v1) * row.stiffness;
-    const double p1 = (row.softness[0] * v1 - row.coupling * v0) * row.stiffness;
-    if (p0 >= 0 && p1 >= 0) return p0 + p1;
-  }
-  return std::max({0.0, v0 / row.softness[0], v1 / row.softness[1]});
-}
-
-/// Brings both ends of a contact line to rest within their bounds, then its slip within the Coulomb cone.
-/// Returns by how much that changed a velocity at the contact [m/s].
-inline double ImpulseSolver::visit(Row& row) {
-  const Mover& a = movers_[row.a];
-  const Mover& b = movers_[row.b];
-  const Vector relative = b.velocity - a.velocity;
-  const double apart = dot(relative, row.normal);
-  const double apart_0 = apart + b.angular_velocity * row.turn_b[0] - a.angular_velocity * row.turn_a[0];
-  const double apart_1 = apart + b.angular_velocity * row.turn_b[1] - a.angular_velocity * row.turn_a[1];
-  const double before_0 = row.normal_impulse[0];
-  const double before_1 = row.normal_impulse[1];
-  if (before_0 == 0 && before_1 == 0 && row.least[0] == 0 && row.least[1] == 0 && row.slip_impulse == 0 &&
-      apart_0 >= 0 && apart_1 >= 0) {
-    return 0;
-  }
-  double p0 = before_0 - (row.softness[1] * apart_0 - row.coupling * apart_1) * row.stiffness;
-  double p1 = before_1 - (row.softness[0] * apart_1 - row.coupling * apart_0) * row.stiffness;
-  const bool is_within = p0 >= row.least[0] && p1 >= row.least[1] && p0 <= row.limit && p1 <= row.limit;
-  const bool is_beyond = (p0 > row.limit && p1 > row.limit) || (p0 < row.least[0] && p1 < row.least[1]);
-  if (row.stiffness == 0 || !(is_within || is_beyond)) {  // the one end at its bound decides the other
-    p0 = std::clamp(before_0 - apart_0 / row.softness[0], row.least[0], row.limit);
-    p1 = before_1 - (apart_1 + row.coupling * (p0 - before_0)) / row.softness[1];
-  }
-  p0 = std::clamp(p0, row.least[0], row.limit);
-  p1 = std::clamp(p1, row.least[1], row.limit);
-  const double change_0 = p0 - before_0;
-  const double change_1 = p1 - before_1;
-  row.normal_impulse[0] = p0;
-  row.normal_impulse[1] = p1;
-
-  const double turn_a =
-      a.angular_velocity - a.inverse_moment * (change_0 * row.turn_a[0] + change_1 * row.turn_a[1]);
-  const double turn_b =
-      b.angular_velocity + b.inverse_moment * (change_0 * row.turn_b[0] + change_1 * row.turn_b[1]);
-  const double slip =
-      dot(relative, perpendicular(row.normal)) + turn_b * row.slip_turn_b - turn_a * row.slip_turn_a;
-  const double most = row.friction * (p0 + p1);
-  const double slip_before = row.slip_impulse;
-  row.slip_impulse = std::clamp(slip_before - slip * row.slip_mass, -most, most);
-  const double slip_change = row.slip_impulse - slip_before;
-  push(row, change_0, change_1, slip_change);
-  return std::max({std::abs(change_0) * row.softness[0], std::abs(change_1) * row.softness[1],
-                   std::abs(slip_change) * row.slip_softness});
 }
 
 /// Moves all impulses of an island on along the way they are taking, as far as the sweeps' shrinking steps
@@ -190,7 +64,7 @@ inline double ImpulseSolver::visit(Row& row) {
 void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
   double now = 0;
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-    const Row& row = rows_[i];
+    const ContactRow& row = rows_[i];
     const Way& way = ways_[i];
     const double change[3] = {row.normal_impulse[0] - way.before[0], row.normal_impulse[1] - way.before[1],
                               row.slip_impulse - way.before[2]};
@@ -201,7 +75,7 @@ void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
   const double share = is_start || now > momentum.last * (1 + 1e-6) ? 0 : std::min(1.0, now / momentum.last);
   momentum.last = now;
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-    Row& row = rows_[i];
+    ContactRow& row = rows_[i];
     Way& way = ways_[i];
     const double p[3] = {row.normal_impulse[0], row.normal_impulse[1], row.slip_impulse};
     double on[3];
@@ -215,7 +89,7 @@ void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
     row.normal_impulse[1] = std::clamp(on[1], row.least[1], row.limit);
     const double most = row.friction * (row.normal_impulse[0] + row.normal_impulse[1]);
     row.slip_impulse = std::clamp(on[2], -most, most);
-    push(row, row.normal_impulse[0] - p[0], row.normal_impulse[1] - p[1], row.slip_impulse - p[2]);
+    push(row, row.normal_impulse[0] - p[0], row.normal_impulse[1] - p[1], row.slip_impulse - p[2], movers_);
   }
 }
 
@@ -223,6 +97,8 @@ void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
 /// changed a velocity by where it had not, 0 where it had [m/s].
 double ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) {
   constexpr int kPlainSweeps = 4;  // most islands need no more
+  const std::span<ContactRow> rows(rows_.data() + island.first, island.count);
+  const std::span<Mover> movers(movers_);
   Momentum momentum;
   double largest_change = 0;
   for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
@@ -230,14 +106,13 @@ double ImpulseSolver::sweep(const Island& island, const SolverSettings& settings
     const bool is_plain = sweep < kPlainSweeps;
     if (!is_plain) {
       for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-        const Row& row = rows_[i];
+        const ContactRow& row = rows_[i];
         ways_[i].before[0] = row.normal_impulse[0];
         ways_[i].before[1] = row.normal_impulse[1];
         ways_[i].before[2] = row.slip_impulse;
       }
     }
-    for (std::uint32_t i = island.first; i < island.first + island.count; ++i)
-      largest_change = std::max(largest_change, visit(rows_[i]));
+    for (ContactRow& row : rows) largest_change = std::max(largest_change, visit(row, movers));
     if (largest_change <= settings.tolerance) return 0;
     if (!is_plain && sweep + 1 < settings.most_sweeps) go_on(island, momentum);
   }
@@ -248,7 +123,7 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
                               bool is_converged) {
   bool gave = false;
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-    Row& row = rows_[i];
+    ContactRow& row = rows_[i];
     ContactRecord* record = contacts[islands_.order()[i]].record;
     const double compression = row.normal_impulse[0] + row.normal_impulse[1];
     double owed = restitution * compression;
@@ -276,7 +151,7 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
       row.normal_impulse[end] = row.least[end];
       gave = gave || given[end] > 0;
     }
-    push(row, given[0], given[1], 0);
+    push(row, given[0], given[1], 0, movers_);
     if (record != nullptr) {
       record->owed_impulse = still_owed;
       record->given_impulse += owed - still_owed;
@@ -285,35 +160,21 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
   return gave;
 }
 
-/// What a held body does to the other one, through its own motion.
-double ImpulseSolver::held_work(const Row& row, const Bodies& bodies, const Contact& c) const {
-  double work = 0;
-  for (const auto& [mover, body, sign] : {std::tuple{row.a, c.a, 1.0}, std::tuple{row.b, c.b, -1.0}}) {
-    if (movers_[mover].inverse_mass != 0) continue;
-    const auto along = [&, body = body, sign = sign](geometry::Point at, Vector impulse) {
-      return sign * dot(impulse, velocity_at(bodies, body, at - bodies.position[body]));
-    };
-    for (int end = 0; end < 2; ++end) work += along(c.ends[end], row.normal_impulse[end] * row.normal);
-    work += along(c.middle(), row.slip_impulse * perpendicular(row.normal));
-  }
-  return work;
-}
-
 void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Row& row = rows_[i];
+    const ContactRow& row = rows_[i];
     Contact& c = contacts[islands_.order()[i]];
     c.normal_impulse[0] = row.normal_impulse[0];
     c.normal_impulse[1] = row.normal_impulse[1];
     c.slip_impulse = row.slip_impulse;
     // Impulses together change the kinetic energy by each one times the mean of the speeds before and after.
-    const Speeds& before = before_[i];
-    const Speeds after = speeds_at(row);
+    const RowSpeeds& before = before_[i];
+    const RowSpeeds after = speeds_at(row, movers_);
     c.normal_work = 0.5 * (row.normal_impulse[0] * (before.apart[0] + after.apart[0]) +
                            row.normal_impulse[1] * (before.apart[1] + after.apart[1]));
     c.slip_work = 0.5 * row.slip_impulse * (before.slip + after.slip);
     const bool is_held = movers_[row.a].inverse_mass == 0 || movers_[row.b].inverse_mass == 0;
-    c.held_work = is_held ? held_work(row, bodies, c) : 0;
+    c.held_work = is_held ? held_work(row, movers_, bodies, c) : 0;
   }
   for (std::size_t place = 0; place < movers_.size(); ++place) {
     const BodyIndex body = islands_.bodies_touched()[place];

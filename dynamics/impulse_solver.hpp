@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "dynamics/contact.hpp"
 #include "dynamics/contact_islands.hpp"
+#include "dynamics/contact_row.hpp"
 
 namespace polynya::dynamics {
 
@@ -37,28 +37,6 @@ class ImpulseSolver {
   SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
 
  private:
-  struct Mover {  // a body's velocity while it is being solved for
-    geometry::Vector velocity;
-    double angular_velocity;
-    double inverse_mass;
-    double inverse_moment;
-  };
-  struct Row {          // one contact line; directions as seen by its two bodies, [0] and [1] its ends
-    std::int32_t a, b;  // movers
-    geometry::Vector normal;
-    double turn_a[2], turn_b[2];      // arm × normal [m]
-    double slip_turn_a, slip_turn_b;  // arm × perpendicular(normal), the same at both ends [m]
-    double softness[2];               // velocity per impulse, at each end by its own [1/kg]
-    double coupling;                  // at one end by the other's [1/kg]
-    double stiffness;                 // 1 / determinant of the two; 0 where they do not differ [kg²]
-    double slip_softness, slip_mass;  // velocity along the line per impulse [1/kg], and its inverse
-    double least[2];                  // of the normal impulse: what restitution gave [N s]
-    double limit;                     // of the normal impulse at each end [N s]
-    double friction;
-    double normal_impulse[2];
-    double slip_impulse;
-  };
-
   struct Way {  // of a row's impulses through the sweeps
     double before[3];
     double along[3];
@@ -68,19 +46,8 @@ class ImpulseSolver {
     int steps = 0;
   };
 
-  struct Speeds {  // of b relative to a, at the ends of a contact line
-    double apart[2];
-    double slip;
-  };
-
-  Speeds speeds_at(const Row& row) const;
-  double held_work(const Row& row, const Bodies& bodies, const Contact& contact) const;
-  Row row_of(const Bodies& bodies, const Contact& contact, std::uint32_t index) const;
   void fill_rows(const Bodies& bodies, std::vector<Contact>& contacts, const SolverSettings& settings);
   void start(const Island& island, const std::vector<Contact>& contacts);
-  void push(const Row& row, double impulse_0, double impulse_1, double slip_impulse);
-  double visit(Row& row);
-  double isolated_impulse(const Row& row, const Speeds& speeds) const;
   void go_on(const Island& island, Momentum& momentum);
   double sweep(const Island& island, const SolverSettings& settings);
   bool give_back(const Island& island, std::vector<Contact>& contacts, double restitution, bool is_converged);
@@ -88,10 +55,10 @@ class ImpulseSolver {
 
   ContactIslands islands_;
   std::vector<Mover> movers_;      // by their places in the islands
-  std::vector<Row> rows_;          // in the islands' order
+  std::vector<ContactRow> rows_;   // in the islands' order
   std::vector<double> left_over_;  // of the islands
   std::vector<Way> ways_;          // of the rows
-  std::vector<Speeds> before_;     // of the rows, before any impulse
+  std::vector<RowSpeeds> before_;  // of the rows, before any impulse
 };
 
 }  // namespace polynya::dynamics
