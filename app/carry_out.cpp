@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -185,9 +186,8 @@ void print_result(const io::RunSummary& summary, const io::RunWriter& writer) {
   std::fflush(stdout);
 }
 
-void tell_dump(const RunInHand& run) {
-  const std::string folder = run.writer.folder().string();
-  const std::string wrong = dump_failure(run);
+/// What dump_failure() said.
+void tell_dump(const std::string& folder, const std::string& wrong) {
   if (wrong.empty()) {
     tell(
         "polynya: the state before the step that failed is in failure.bin: polynya resume {} "
@@ -234,10 +234,13 @@ int carry_out(RunInHand run, const CarryOptions& options) {
       summarise(run.simulation, run.writer, stop, run.wall_time + progress.wall_time());
   progress.finish(summary.sim_time,
                   summary.counts.bends + summary.counts.splits + summary.counts.rejected_cuts);
+  // Before the run is finished: that takes away the checkpoints from which the failure is sought.
+  std::optional<std::string> dumped;
+  if (stop.code == kNumericalFailure || !summary.audit.is_closed()) dumped = dump_failure(run);
   if (const std::string failure = run.writer.finish(summary, run.simulation); !failure.empty())
     stop = {kInputOutput, failure};
   if (stop.code != kDone) tell_stop(run, stop, summary.sim_time);
-  if (stop.code == kNumericalFailure || !summary.audit.is_closed()) tell_dump(run);
+  if (dumped) tell_dump(run.writer.folder().string(), *dumped);
   for (const std::string& warning : summary.warnings) tell("note: {}\n", warning);
   if (stop.code != kInputOutput) print_result(summary, run.writer);
   return stop.code;

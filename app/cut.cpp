@@ -121,13 +121,14 @@ void tell_floes(const std::string& name, const io::CutReport& report) {
 
 void tell_totals(const io::CutReport& report) {
   const io::CutTotals totals = io::totals_of(report);
+  const auto floes = std::ranges::count_if(
+      report.floes, [](const io::CutFloe& floe) { return !floe.rejected || !floe.pieces.empty(); });
   tell(
       "polynya: {} floe{} -> {} piece{}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect "
       "{}, rounding "
       "{:.2e} m2)\n",
-      totals.floes - totals.rejected, totals.floes - totals.rejected == 1 ? "" : "s", totals.pieces,
-      totals.pieces == 1 ? "" : "s", totals.area, totals.area_of_pieces, totals.removed, totals.exact_defect,
-      totals.rounding_defect);
+      floes, floes == 1 ? "" : "s", totals.pieces, totals.pieces == 1 ? "" : "s", totals.area,
+      totals.area_of_pieces, totals.removed, totals.exact_defect, totals.rounding_defect);
   if (totals.kept_exact > 0) {
     tell(
         "polynya: {} piece{} would not round validly; written as the nearest doubles (\"is_exact\": false)\n",

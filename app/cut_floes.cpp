@@ -157,15 +157,15 @@ class FloeCutter {
   }
 
   void put_uncut(const io::CutOp& op, std::size_t number, Piece piece, const geometry::CutError& error) {
-    const bool is_whole_by_rights = error.reason == geometry::CutFailure::kMisses ||
-                                    error.reason == geometry::CutFailure::kDoesNotSeparate;
-    if (!is_whole_by_rights) {
+    const bool is_left_whole = error.reason == geometry::CutFailure::kMisses ||
+                               error.reason == geometry::CutFailure::kDoesNotSeparate;
+    if (is_left_whole) note_dangling(op, error.dangling_length, piece, {piece});
+    if (!is_left_whole || op.must_cut) {
       const std::string detail = fmt::format("cut {}: {}", number, error.detail);
       floe_.rejected = io::Rejection{std::string(name_of(error.reason)), detail, {}};
       pieces_.push_back(std::move(piece));
       return;
     }
-    note_dangling(op, error.dangling_length, piece, {piece});
     if (is_area(op)) piece.part = Part::kOutside;
     put(op, std::move(piece));
   }

@@ -24,8 +24,8 @@ class ContactIslands {
   const std::vector<std::uint32_t>& order() const { return order_; }  ///< contacts, island by island
   /// The bodies that touch, each once, and where contact i's two are among them.
   const std::vector<BodyIndex>& bodies_touched() const { return touched_; }
-  std::int32_t place_of_a(std::uint32_t contact) const { return places_[2 * contact]; }
-  std::int32_t place_of_b(std::uint32_t contact) const { return places_[2 * contact + 1]; }
+  std::int32_t place_of_a(std::size_t contact) const { return places_[2 * contact]; }
+  std::int32_t place_of_b(std::size_t contact) const { return places_[2 * contact + 1]; }
 
  private:
   std::int32_t place_of(BodyIndex body);

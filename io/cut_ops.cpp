@@ -76,10 +76,6 @@ ToolOutcome<LineTool> read_line(const JsonValue& value) {
   return line_tool(std::move(path));
 }
 
-ToolOutcome<CutOp> with(ToolOutcome<CutOp> op, Keep keep) {
-  if (op) op->keep = keep;
-  return op;
-}
 template <class Tool>
 ToolOutcome<CutOp> as_op(ToolOutcome<Tool> tool) {
   if (!tool) return tl::unexpected(std::move(tool.error()));
@@ -116,12 +112,16 @@ ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) 
   if (!value.is(JsonKind::kObject)) return malformed(kForm);
   const JsonMember* tool = nullptr;
   Keep keep = defaults.keep;
+  bool must_cut = false;
   double sagitta = defaults.sagitta;
   for (const JsonMember& member : value.members()) {
     if (member.key == "keep") {
       const auto read = read_keep(member.value);
       if (!read) return tl::unexpected(read.error());
       keep = *read;
+    } else if (member.key == "must_cut") {
+      if (!member.value.is(JsonKind::kBoolean)) return malformed("must_cut: expected true or false");
+      must_cut = member.value.boolean();
     } else if (member.key == "sagitta_m") {
       if (!member.value.is(JsonKind::kNumber) || !(member.value.number() > 0))
         return malformed("sagitta_m: expected a number > 0");
@@ -132,14 +132,19 @@ ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) 
       tool = &member;
     } else {
       const std::string meant =
-          nearest(member.key, {"disc", "crack", "line", "polygon", "keep", "sagitta_m"});
+          nearest(member.key, {"disc", "crack", "line", "polygon", "keep", "must_cut", "sagitta_m"});
       return malformed(fmt::format("unknown key \"{}\"{}", member.key.substr(0, 40),
                                    meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)));
     }
   }
   if (!tool) return malformed(kForm);
-  auto op = with(read_tool(tool->key, tool->value, sagitta), keep);
-  if (!op) op.error().words = fmt::format("{}: {}", tool->key, op.error().words);
+  auto op = read_tool(tool->key, tool->value, sagitta);
+  if (op) {
+    op->keep = keep;
+    op->must_cut = must_cut;
+  } else {
+    op.error().words = fmt::format("{}: {}", tool->key, op.error().words);
+  }
   return op;
 }
 

@@ -39,6 +39,7 @@ struct LineTool {
 struct CutOp {
   std::variant<DiscTool, PolygonTool, CrackTool, LineTool> tool;
   Keep keep = Keep::kOutside;
+  bool must_cut = false;  ///< refuses a floe of which it leaves a piece whole, else that is no fault
 };
 
 /// What all cuts have in common unless they say otherwise.
@@ -69,7 +70,7 @@ ToolOutcome<PolygonTool> polygon_tool(std::string text);
 
 /// A JSON list of cuts (docs/cut.md):
 ///   [{"disc": [x, y, r], "sagitta_m": s}, {"crack": [x, y, angle_deg]}, {"line": [x0, y0, x1, y1]},
-///    {"polygon": GeoJSON}], each with an optional "keep".
+///    {"polygon": GeoJSON}], each with an optional "keep" and "must_cut".
 ToolOutcome<std::vector<CutOp>> read_cut_ops(std::string text, const CutDefaults& defaults);
 
 }  // namespace polynya::io

@@ -57,6 +57,7 @@ void write_op(JsonWriter& json, const CutOp& op) {
   std::visit([&](const auto& tool) { write_tool(json, tool); }, op.tool);
   if (std::holds_alternative<DiscTool>(op.tool) || std::holds_alternative<PolygonTool>(op.tool))
     json.key("keep").value(name_of(op.keep));
+  if (op.must_cut) json.key("must_cut").value(true);
   json.close('}');
 }
 

@@ -45,7 +45,7 @@ std::string ops_text(const simulation::RejectedCut& cut) {
     append_geometry(json, {cut.cusp_in_body, {}});
     json.key("keep").value("both");
   }
-  json.close('}').close(']');
+  json.key("must_cut").value(true).close('}').close(']');
   return text + "\n";
 }
 

@@ -39,9 +39,9 @@ constexpr double kEdgeTolerance = 1e-9;
 }  // namespace
 
 bool is_grid_axis(const std::vector<double>& values) {
-  if (values.size() < 2 || !(values.front() > 0) || !std::isfinite(values.back())) return false;
+  if (values.size() < 2 || !(values.front() >= 1e-12) || !(values.back() <= 1e12)) return false;
   for (std::size_t i = 1; i < values.size(); ++i)
-    if (!(values[i - 1] < values[i])) return false;
+    if (!(values[i] > values[i - 1] * (1 + kEdgeTolerance))) return false;
   return true;
 }
 

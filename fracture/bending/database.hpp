@@ -40,7 +40,8 @@ struct DatabaseGrid {
   friend bool operator==(const DatabaseGrid&, const DatabaseGrid&) = default;
 };
 
-/// What one list of a grid must be: two values at least, finite, positive, strictly ascending.
+/// What one list of a grid must be: two values at least, from 1e-12 to 1e12, ascending by more than a
+/// billionth each, so that their logarithms differ too.
 bool is_grid_axis(const std::vector<double>& values);
 
 /// The grid of the database that ships with Polynya.

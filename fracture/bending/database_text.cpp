@@ -210,7 +210,7 @@ DatabaseGrid read_grid(Reader& reader) {
   for (const auto& [name, member] : kGrids) {
     const std::vector<double> values = reader.numbers(reader.item(name), kMostGridValues);
     if (!is_grid_axis(values))
-      reader.fail("the values of " + std::string(name) + " must be positive and ascend");
+      reader.fail("the values of " + std::string(name) + " must lie from 1e-12 to 1e12 and ascend");
     grid.*member = values;
   }
   if (!reader.has_failed() && grid.opening_angles_deg.back() > 180)

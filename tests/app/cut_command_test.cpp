@@ -232,6 +232,31 @@ TEST_F(CutCommand, OpsApplyInOrderToAllPieces) {
   EXPECT_EQ(total(second, "pieces"), 1) << "the lower half is missed by the disc, so nothing of it is inside";
 }
 
+/// A cut that must cut is refused where it leaves a floe, or one of its pieces, as it was; the others are
+/// cut.
+TEST_F(CutCommand, ACutThatMustCutRefusesWhatItLeavesWhole) {
+  write("floes.geojson", collection({feature(kSquare), feature(kFarSquare)}));
+  const std::string disc = R"({"disc": [0, 0, 1], "keep": "both")";
+  write("may.json", "[" + disc + "}]");
+  write("must.json", "[" + disc + R"(, "must_cut": true}])");
+  write("must-each.json", "[" + disc + R"(}, {"crack": [5, 5, 0], "must_cut": true}])");
+  EXPECT_EQ(cut({"--ops", "may.json"}).code, 0);
+  const Outcome outcome = cut({"--ops", "must.json"});
+  EXPECT_EQ(outcome.code, 4);
+  const io::JsonValue ledger = json(outcome.out);
+  expect_balanced(ledger);
+  EXPECT_EQ(total(ledger, "pieces"), 3);
+  EXPECT_EQ(total(ledger, "rejected"), 1);
+  EXPECT_TRUE(floe(ledger, 0).find("rejected")->is_null());
+  EXPECT_EQ(floe(ledger, 1).find("rejected")->find("reason")->text(), "misses");
+  EXPECT_NE(outcome.err.find("feature 1, polygon 0: misses: cut 0: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("2 floes -> 3 pieces"), std::string::npos) << outcome.err;
+  const io::JsonValue each = json(cut({"--ops", "must-each.json"}).out);
+  expect_balanced(each);
+  EXPECT_EQ(floe(each, 0).find("rejected")->find("reason")->text(), "misses") << "the piece in the disc";
+  EXPECT_EQ(floe(each, 0).find("pieces")->number(), 3);
+}
+
 TEST_F(CutCommand, EveryDefectIsRefusedByNameAndTheGoodAreCut) {
   struct Bad {
     const char* rings;

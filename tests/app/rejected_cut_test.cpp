@@ -6,6 +6,7 @@
 #include "program.hpp"
 #include <gtest/gtest.h>
 
+#include "io/json_parser.hpp"
 #include "simulation/step.hpp"
 #include "tests/simulation/scenes.hpp"
 
@@ -45,13 +46,19 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
     SCOPED_TRACE(cut.reason);
     SCOPED_TRACE(again.err + again.out);
     EXPECT_EQ(world.counts.rejected_cuts, 2);
-    if (cut.number == 1) {
-      EXPECT_NE(cut.reason.find("misses"), std::string::npos);
-      EXPECT_NE(again.err.find("1 floe -> 1 piece"), std::string::npos)
-          << "polynya cut takes a miss for no cut";
-    } else {
+    EXPECT_EQ(again.code, 4);
+    const std::string kind = cut.reason.substr(0, cut.reason.find(':'));
+    EXPECT_EQ(kind, cut.number == 1 ? "misses" : "does-not-separate");
+    EXPECT_NE(again.err.find("feature 0, polygon 0: " + kind + ": "), std::string::npos);
+    EXPECT_NE(again.err.find("1 floe -> 1 piece"), std::string::npos);
+    EXPECT_NE(again.err.find("1 refused; nothing was cut"), std::string::npos);
+    const auto ledger = io::parse_json(again.out);
+    ASSERT_TRUE(ledger.faults.empty());
+    EXPECT_EQ(ledger.root.find("floes")->items()[0].find("rejected")->find("reason")->text(), kind);
+    if (cut.number == 2) {
       EXPECT_NE(again.out.find("\"dangling_length\""), std::string::npos);
-      EXPECT_NE(again.out.find(R"({"line":[[-1,5],[0.3333333333333333,5]]})"), std::string::npos)
+      EXPECT_NE(again.out.find(R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})"),
+                std::string::npos)
           << "to the last bit";
       EXPECT_NE(again.err.find("separates nothing"), std::string::npos);
     }

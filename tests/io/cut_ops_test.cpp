@@ -15,7 +15,7 @@ TEST(CutOps, AListIsReadInOrder) {
     {"disc": [1, 2, 3]}, // comments are allowed
     {"disc": [1, 2, 3], "sagitta_m": 0.5, "keep": "both"},
     {"crack": [0, 1, 30]},
-    {"line": [0, 1, 2, 3]},
+    {"line": [0, 1, 2, 3], "must_cut": true},
     {"line": [[0, 1], [2, 3], [4, 0]]},
     {"polygon": {"type": "MultiPolygon", "coordinates": [[[[0,0],[0,4],[4,4],[4,0]], [[1,1],[1,2],[2,1]]], [[[9,0],[10,0],[9,1]]]]},
      "keep": "inside"},
@@ -27,6 +27,8 @@ TEST(CutOps, AListIsReadInOrder) {
   EXPECT_EQ(std::get<DiscTool>((*ops)[1].tool).sagitta, 0.5);
   EXPECT_EQ((*ops)[1].keep, Keep::kBoth);
   EXPECT_EQ((*ops)[2].keep, Keep::kOutside);
+  EXPECT_FALSE((*ops)[2].must_cut);
+  EXPECT_TRUE((*ops)[3].must_cut);
   EXPECT_EQ(std::get<CrackTool>((*ops)[2].tool).angle_deg, 30);
   EXPECT_EQ(std::get<LineTool>((*ops)[3].tool).path, (std::vector<geometry::Point>{{0, 1}, {2, 3}}));
   EXPECT_EQ(std::get<LineTool>((*ops)[4].tool).path.size(), 3U);
@@ -55,6 +57,7 @@ TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {
       {"[{\"disc\": [1,2,3], \"crack\": [1,2,3]}]", "\"disc\" and \"crack\" in one"},
       {"[{\"disc\": [1,2,3], \"keep\": \"all\"}]", "keep: expected"},
       {"[{\"disc\": [1,2,3], \"sagitta_m\": 0}]", "sagitta_m: expected"},
+      {"[{\"disc\": [1,2,3], \"must_cut\": 1}]", "must_cut: expected"},
       {"[{\"keep\": \"both\"}]", "expected an object with one of"},
       {"[{\"line\": [1,2,1,2]}]", "the line's ends are one point"},
       {"[{\"line\": [1,2,3]}]", "[0]: line: expected"},

@@ -345,6 +345,8 @@ TEST(DatabaseText, RefusesWithTheLineAndTheReason) {
         Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 0.03"), 14, "ascend"},
         Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 0.03  0.08"), 14, "not a number"},
         Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 0.03 inf"), 14, "ascend"},
+        Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 0.03 0.03000000000000001"), 14, "ascend"},
+        Row{replaced(text, "mass_ratio 0.03 0.08", "mass_ratio 1e-13 0.08"), 14, "from 1e-12 to 1e12"},
         Row{replaced(text, "entries 24", "entries 25"), 18, "not 25"},
         Row{replaced(text, "entries 24", "entries 999999999"), 18, "more than"},
         Row{text.substr(0, text.find("entries 24") + 11), 19, "ends in the middle"},
