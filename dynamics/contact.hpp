@@ -54,6 +54,16 @@ struct Contact {
 
   geometry::Point middle() const { return midpoint(ends[0], ends[1]); }
   double total_normal_impulse() const { return normal_impulse[0] + normal_impulse[1]; }
+  geometry::Vector impulse_on_b() const {
+    return total_normal_impulse() * normal + slip_impulse * perpendicular(normal);
+  }  ///< [N s]
+  /// The point of the contact line through which that impulse turns the bodies as its two ends do [m].
+  geometry::Point centre_of_pressure() const {
+    const double total = total_normal_impulse();
+    return total > 0 ? ends[0] + (normal_impulse[1] / total) * (ends[1] - ends[0]) : middle();
+  }
+  /// Did it press with all that crushing ice carries?
+  bool is_at_limit() const { return total_normal_impulse() >= impulse_limit * (1 - 1e-9); }
 };
 
 }  // namespace polynya::dynamics

@@ -65,7 +65,7 @@ class SvgChart {
       left_ = pitch * static_cast<double>(i % columns_) + kLeft;
       width_ = pitch - kLeft - 12;
       top_ = kHeader + (row_height_ + kHeadOfRow) * static_cast<double>(i / columns_);
-      draw_panel(chart_.panels[i], i);
+      if (!chart_.panels[i].title.empty()) draw_panel(chart_.panels[i], i);
     }
     draw_legend();
     return svg_.finish();

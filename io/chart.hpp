@@ -45,7 +45,7 @@ struct Chart {
   };
   std::string title;
   std::string caption;
-  std::vector<Panel> panels;
+  std::vector<Panel> panels;    ///< one without a title leaves its place blank
   std::size_t columns = 0;      ///< panels beside each other; 0: all
   double panel_height = 560;    ///< of a frame [px]
   std::string minor_mark = {};  ///< what marks mean, for the legend
@@ -54,11 +54,11 @@ struct Chart {
 
 /// Dark to light, apart for colour-blind eyes [Okabe2008]: blue, vermilion, green, purple, black, grey,
 /// sky blue.
-inline constexpr const char* kCurveColours[] = {"#0072b2", "#d55e00", "#009e73",
-                                                "#aa4499", "#000000", "#777777", "#56b4e9"};
+inline constexpr const char* kCurveColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499",
+                                                "#000000", "#777777", "#56b4e9"};
 
-/// The colour of the n-th of several runs: black, vermilion, sky blue, blue, purple; the first three are apart
-/// in greyscale too.
+/// The colour of the n-th of several runs: black, vermilion, sky blue, blue, purple; the first three are
+/// apart in greyscale too.
 int colour_of_run(std::size_t run);
 
 /// The chart as SVG, 1600 px wide, the legend below has each name once. A linear axis of positive

@@ -36,8 +36,30 @@ Prefix prefix_for(double most) {
                        : Prefix{};
 }
 
+/// A ship or structure of one of the runs.
+struct Subject {
+  const Run* run = nullptr;
+  int ship = 0;
+};
+std::vector<Subject> subjects_of(const std::vector<Run>& runs) {
+  std::vector<Subject> subjects;
+  for (const Run& run : runs) {
+    for (int ship = 0; ship < static_cast<int>(run.scene.scene.ships.size()); ++ship)
+      subjects.push_back({&run, ship});
+  }
+  return subjects;
+}
+
+/// The run's name, and the ship's where the run has several.
+std::string name_of(const Subject& subject) {
+  const simulation::Scene& scene = subject.run->scene.scene;
+  if (scene.ships.size() == 1) return scene.name;
+  return scene.name + ", " + scene.ships[static_cast<std::size_t>(subject.ship)].name;
+}
+
 /// Of each short stretch of time the largest and the least value: no peak is lost, and paper shows no more.
-std::vector<Chart::Point> peaks(const Run& run, double ShipSample::*value, double unit) {
+std::vector<Chart::Point> peaks(const Subject& subject, double ShipSample::*value, double unit) {
+  const Run& run = *subject.run;
   constexpr double kStretches = 900;
   const double stretch = std::max(1e-9, run.end_time() - run.start_time()) / kStretches;
   std::vector<Chart::Point> points;
@@ -49,7 +71,7 @@ std::vector<Chart::Point> peaks(const Run& run, double ShipSample::*value, doubl
     high = low = {};
   };
   for (const ShipSample& sample : run.samples) {
-    if (sample.ship != 0 || !std::isfinite(sample.*value)) continue;
+    if (sample.ship != subject.ship || !std::isfinite(sample.*value)) continue;
     if (sample.time >= until) {
       put();
       until = sample.time + stretch;
@@ -62,10 +84,10 @@ std::vector<Chart::Point> peaks(const Run& run, double ShipSample::*value, doubl
   return points;
 }
 
-std::vector<Chart::Mark> marks_of(const Run& run) {
+std::vector<Chart::Mark> marks_of(const Subject& subject) {
   std::vector<Chart::Mark> marks;
-  for (const simulation::Event& event : run.events) {
-    if (event.kind == simulation::EventKind::kRejectedCut || event.ship != 0) continue;
+  for (const simulation::Event& event : subject.run->events) {
+    if (event.kind == simulation::EventKind::kRejectedCut || event.ship != subject.ship) continue;
     marks.push_back({event.time, event.kind == simulation::EventKind::kSplit});
   }
   std::ranges::stable_sort(marks, {}, &Chart::Mark::is_major);
@@ -76,7 +98,7 @@ std::pair<double, double> common_range(const std::vector<Run>& runs, double Ship
   double low = 0, high = 0;
   for (const Run& run : runs) {
     for (const ShipSample& sample : run.samples) {
-      if (sample.ship != 0 || !std::isfinite(sample.*value)) continue;
+      if (!std::isfinite(sample.*value)) continue;
       low = std::min(low, sample.*value);
       high = std::max(high, sample.*value);
     }
@@ -98,12 +120,14 @@ double course(const ShipSample& s) {
 }
 
 template <class Value>
-std::vector<Chart::Point> thinned(const Run& run, Value value) {
-  const std::size_t step = std::max<std::size_t>(1, run.samples.size() / 1500);
+std::vector<Chart::Point> thinned(const Subject& subject, Value value) {
+  const Run& run = *subject.run;
+  const std::size_t rows = run.samples.size() / run.scene.scene.ships.size();
+  const std::size_t step = std::max<std::size_t>(1, rows / 1500);
   std::vector<Chart::Point> points;
   std::size_t i = 0;
   for (const ShipSample& sample : run.samples) {
-    if (sample.ship == 0 && i++ % step == 0) points.push_back({sample.time, value(sample)});
+    if (sample.ship == subject.ship && i++ % step == 0) points.push_back({sample.time, value(sample)});
   }
   return points;
 }
@@ -132,6 +156,13 @@ SizeCurves sizes_at(const Run& run, double time) {
   return curves;
 }
 
+/// Panels beside each other, so that none is too narrow to read and the rows are nearly full.
+std::size_t columns_for(std::size_t subjects) {
+  constexpr std::size_t kMost = 3;
+  const std::size_t rows = (subjects + kMost - 1) / kMost;
+  return rows == 0 ? 1 : (subjects + rows - 1) / rows;
+}
+
 /// The x of a panel's curves with some room to either side.
 std::pair<double, double> widened(const Chart::Panel& panel) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
@@ -150,31 +181,37 @@ Chart load_figure(const std::vector<Run>& runs, LoadKind kind) {
   static constexpr std::array kWords{"the paper's peak load j/τ_c", "true load, the largest of single steps",
                                      "true load, mean of each recorded interval"};
   const auto which = static_cast<std::size_t>(kind);
-  Chart chart{"Ice load on the ship",
+  const std::vector<Subject> subjects = subjects_of(runs);
+  Chart chart{subjects.size() > runs.size() ? "Ice loads on ships and structures" : "Ice load on the ship",
               fmt::format("{}; in the ship's frame: surge forward, sway to port, yaw "
                           "counter-clockwise",
                           kWords[which]),
               {}};
-  chart.columns = runs.size();
+  chart.columns = columns_for(subjects.size());
   chart.panel_height = 250;
   chart.minor_mark = "cusp broken by bending";
   chart.major_mark = "floe split";
-  int colour = 0;
-  for (const Load& load : kLoads) {
-    const auto value = load.of_kind[which];
-    const auto [low, high] = common_range(runs, value);
-    const Prefix prefix = prefix_for(std::max(-low, high));
-    for (const Run& run : runs) {
-      Chart::Panel panel{
-          fmt::format("{}: {}", run.scene.scene.name, load.name),
-          {"time, s", false, std::pair{run.start_time(), run.end_time()}},
-          {fmt::format("{}, {}{}", load.name, prefix.name, load.unit), false,
-           std::pair{low / prefix.factor, high / prefix.factor}},
-          {{"", colour, Chart::Dash::kSolid, peaks(run, value, prefix.factor), Chart::Form::kStems}},
-          marks_of(run)};
-      chart.panels.push_back(std::move(panel));
+  for (std::size_t first = 0; first < subjects.size(); first += chart.columns) {
+    for (int number = 0; number < static_cast<int>(kLoads.size()); ++number) {
+      const Load& load = kLoads[static_cast<std::size_t>(number)];
+      const auto value = load.of_kind[which];
+      const auto [low, high] = common_range(runs, value);
+      const Prefix prefix = prefix_for(std::max(-low, high));
+      for (std::size_t i = first; i < first + chart.columns; ++i) {
+        if (i >= subjects.size()) {
+          chart.panels.emplace_back();
+          continue;
+        }
+        const Run& run = *subjects[i].run;
+        chart.panels.push_back({fmt::format("{}: {}", name_of(subjects[i]), load.name),
+                                {"time, s", false, std::pair{run.start_time(), run.end_time()}},
+                                {fmt::format("{}, {}{}", load.name, prefix.name, load.unit), false,
+                                 std::pair{low / prefix.factor, high / prefix.factor}},
+                                {{"", number, Chart::Dash::kSolid, peaks(subjects[i], value, prefix.factor),
+                                  Chart::Form::kStems}},
+                                marks_of(subjects[i])});
+      }
     }
-    ++colour;
   }
   return chart;
 }
@@ -184,20 +221,24 @@ Chart motion_figure(const std::vector<Run>& runs) {
   chart.panel_height = 420;
   Chart::Panel speed{"Speed over ground", {"time, s"}, {"speed, m/s"}, {}};
   Chart::Panel heading{"Heading, and course over ground", {"time, s"}, {"angle from the x axis, °"}, {}};
+  const std::vector<Subject> subjects = subjects_of(runs);
+  const bool is_alone = subjects.size() == 1;
   std::size_t number = 0;
-  for (const Run& run : runs) {
+  for (const Subject& subject : subjects) {
     const int colour = colour_of_run(number++);
-    const std::string& name = run.scene.scene.name;
-    speed.curves.push_back({runs.size() > 1 ? name : "speed, heading", colour, Chart::Dash::kSolid,
-                            thinned(run, [](const ShipSample& s) { return length(s.velocity_in_world); })});
-    heading.curves.push_back({runs.size() > 1 ? name : "speed, heading", colour, Chart::Dash::kSolid,
-                              thinned(run, [](const ShipSample& s) { return kDegrees * s.heading; })});
-    heading.curves.push_back({runs.size() > 1 ? name + ", course" : "course over ground", colour,
-                              Chart::Dash::kDotted,
-                              thinned(run, [](const ShipSample& s) { return kDegrees * course(s); })});
-    if (runs.size() == 1) speed.marks = heading.marks = marks_of(run);
+    const std::string name = name_of(subject);
+    const auto add = [&](Chart::Panel& panel, const std::string& words, Chart::Dash dash, auto value) {
+      panel.curves.push_back({words, colour, dash, thinned(subject, value)});
+    };
+    add(speed, is_alone ? "speed, heading" : name, Chart::Dash::kSolid,
+        [](const ShipSample& s) { return length(s.velocity_in_world); });
+    add(heading, is_alone ? "speed, heading" : name, Chart::Dash::kSolid,
+        [](const ShipSample& s) { return kDegrees * s.heading; });
+    add(heading, is_alone ? "course over ground" : name + ", course", Chart::Dash::kDotted,
+        [](const ShipSample& s) { return kDegrees * course(s); });
   }
-  if (runs.size() == 1) {
+  if (is_alone) {
+    speed.marks = heading.marks = marks_of(subjects.front());
     chart.minor_mark = "cusp broken by bending";
     chart.major_mark = "floe split";
   }

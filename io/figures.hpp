@@ -21,11 +21,11 @@ enum class LoadKind {
 /// Floes, hulls, tracks and channel of each run at each time [s].
 PictureSheet map_figure(const std::vector<Run>& runs, const std::vector<double>& times);
 
-/// Surge, sway and yaw load of each run's first ship against time, with its fractures marked; one scale a
-/// row.
+/// Surge, sway and yaw load of each run's ships and structures against time, with the fractures of each
+/// marked; one scale a load.
 Chart load_figure(const std::vector<Run>& runs, LoadKind kind);
 
-/// Speed, and heading and course over ground, of each run's first ship.
+/// Speed, and heading and course over ground, of each run's ships and structures.
 Chart motion_figure(const std::vector<Run>& runs);
 
 /// How many floes, and how much ice, is in floes of at least a size, at the start and at the end.

@@ -77,6 +77,27 @@ void append_forces_row(std::string& text, const simulation::ShipSample& s, std::
   text += '\n';
 }
 
+std::string_view contacts_header() {
+  return "t_s,ship,floe_id,by_ship,by_floe_id,x_m,y_m,fx_N,fy_N,depth_m,is_crushing\n";
+}
+
+void append_contact(std::string& text, double time, const simulation::ContactState& contact,
+                    std::string_view on_ship, std::string_view by_ship) {
+  append_number(text, time);
+  for (const auto& [ship, floe] : {std::pair{on_ship, contact.on.floe}, {by_ship, contact.by.floe}}) {
+    text += ',';
+    text += ship;
+    text += ',';
+    if (floe != simulation::kNoFloe) append_number(text, floe);
+  }
+  for (const double value : {contact.point_in_world.x, contact.point_in_world.y, contact.force.x,
+                             contact.force.y, contact.depth}) {
+    text += ',';
+    append_number(text, value);
+  }
+  text += contact.is_crushing ? ",1\n" : ",0\n";
+}
+
 std::string_view states_header() {
   return "t_s,steps,state_hash\n";
 }

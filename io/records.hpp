@@ -15,6 +15,11 @@ namespace polynya::io {
 std::string_view forces_header();
 void append_forces_row(std::string& text, const simulation::ShipSample& sample, std::string_view ship_name);
 
+/// contacts.csv: who touched whom at a frame.
+std::string_view contacts_header();
+void append_contact(std::string& text, double time, const simulation::ContactState& contact,
+                    std::string_view on_ship, std::string_view by_ship);
+
 /// states.csv: a hash of everything at each frame.
 std::string_view states_header();
 void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash);

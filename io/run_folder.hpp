@@ -19,6 +19,7 @@ inline constexpr std::string_view kEvents = "events.ndjson";
 inline constexpr std::string_view kFloes = "floes.ndjson";
 inline constexpr std::string_view kFrames = "frames.bin";
 inline constexpr std::string_view kStates = "states.csv";
+inline constexpr std::string_view kContacts = "contacts.csv";
 inline constexpr std::string_view kFinalGeojson = "final.geojson";
 inline constexpr std::string_view kFinalSvg = "final.svg";
 inline constexpr std::string_view kFinalPng = "final.png";
@@ -34,8 +35,9 @@ inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
 inline constexpr std::string_view kFailure = "failure.bin";
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
-inline constexpr std::array kAll{kScene,        kSummary,  kForces,   kEvents, kFloes,   kFrames,    kStates,
-                                 kFinalGeojson, kFinalSvg, kFinalPng, kView,   kChannel, kChannelCsv};
+inline constexpr std::array kAll{kScene,    kSummary, kForces,   kEvents,       kFloes,
+                                 kFrames,   kStates,  kContacts, kFinalGeojson, kFinalSvg,
+                                 kFinalPng, kView,    kChannel,  kChannelCsv};
 }  // namespace run_file
 
 /// Keeps others from writing a run's folder as long as it lives (an advisory lock on its scene.json).

@@ -152,9 +152,14 @@ simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene
   return event;
 }
 
-double csv_number(std::string_view& line) {
+std::string_view csv_field(std::string_view& line) {
   const std::string_view field = line.substr(0, line.find(','));
   line.remove_prefix(std::min(line.size(), field.size() + 1));
+  return field;
+}
+
+double csv_number(std::string_view& line) {
+  const std::string_view field = csv_field(line);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (field == "null") return std::numeric_limits<double>::quiet_NaN();
@@ -166,9 +171,7 @@ double csv_number(std::string_view& line) {
 simulation::ShipSample sample_of(std::string_view line, const simulation::Scene& scene) {
   simulation::ShipSample s;
   s.time = csv_number(line);
-  const std::string_view ship = line.substr(0, line.find(','));
-  s.ship = ship_index(scene, ship);
-  line.remove_prefix(std::min(line.size(), ship.size() + 1));
+  s.ship = ship_index(scene, csv_field(line));
   for (double* value :
        {&s.surge_force, &s.sway_force, &s.yaw_moment, &s.surge_max, &s.sway_max, &s.yaw_max, &s.surge_peak,
         &s.sway_peak, &s.yaw_peak, &s.position_in_world.x, &s.position_in_world.y, &s.heading}) {
@@ -181,6 +184,39 @@ simulation::ShipSample sample_of(std::string_view line, const simulation::Scene&
   s.yaw_rate *= kRadians;
   s.contacts = static_cast<int>(csv_number(line));
   return s;
+}
+
+simulation::ContactState::Body body_of(std::string_view& line, const Run& run) {
+  const std::string_view ship = csv_field(line);
+  std::string_view floe = csv_field(line);
+  simulation::ContactState::Body body{ship_index(run.scene.scene, ship), simulation::kNoFloe};
+  if (ship.empty()) body.floe = static_cast<FloeId>(csv_number(floe));
+  if (body.ship < 0 && !run.floe(body.floe)) throw Damage("a contact of what there is not");
+  return body;
+}
+
+RunContact contact_of(std::string_view line, const Run& run) {
+  RunContact contact;
+  contact.time = csv_number(line);
+  simulation::ContactState& state = contact.state;
+  state.on = body_of(line, run);
+  state.by = body_of(line, run);
+  for (double* value :
+       {&state.point_in_world.x, &state.point_in_world.y, &state.force.x, &state.force.y, &state.depth})
+    *value = csv_number(line);
+  state.is_crushing = csv_number(line) != 0;
+  return contact;
+}
+
+/// Uses each row of a table whose first line is to be the header.
+template <class Use>
+void for_rows(const std::filesystem::path& folder, std::string_view name, std::string_view header, Use use) {
+  for_lines(folder, name, [&](std::string_view line, int number) {
+    if (number > 1)
+      use(line);
+    else if (header.substr(0, line.size()) != line)
+      throw Damage("columns of another version");
+  });
 }
 
 void read_floes(Run& run) {
@@ -219,6 +255,11 @@ std::vector<FloeId> Run::lineage(FloeId id) const {
   return ids;
 }
 
+std::span<const RunContact> Run::contacts_at(double time) const {
+  const auto [first, last] = std::ranges::equal_range(contacts, time, {}, &RunContact::time);
+  return {first, last};
+}
+
 tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
   try {
     Run run;
@@ -229,12 +270,11 @@ tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
     run.summary = json_of(text_of(folder, run_file::kSummary));
     read_floes(run);
     read_events(run);
-    for_lines(folder, run_file::kForces, [&](std::string_view line, int line_number) {
-      if (line_number > 1)
-        run.samples.push_back(sample_of(line, run.scene.scene));
-      else if (forces_header().substr(0, line.size()) != line)
-        throw Damage("columns of another version");
-    });
+    for_rows(folder, run_file::kForces, forces_header(),
+             [&](std::string_view line) { run.samples.push_back(sample_of(line, run.scene.scene)); });
+    if (std::filesystem::exists(folder / run_file::kContacts))
+      for_rows(folder, run_file::kContacts, contacts_header(),
+               [&](std::string_view line) { run.contacts.push_back(contact_of(line, run)); });
     auto frames = decode_frames(text_of(folder, run_file::kFrames));
     if (!frames)
       return tl::unexpected(fmt::format("{}: {}", (folder / run_file::kFrames).string(), frames.error()));

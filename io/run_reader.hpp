@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct RunFloe {
   std::optional<std::size_t> death_event;                 ///< index of the event that broke it
 };
 
+/// A line of contacts.csv.
+struct RunContact {
+  double time = 0;  ///< [s]
+  simulation::ContactState state;
+};
+
 /// A run folder read back (docs/run-folder.md): what every tool that looks at runs starts from.
 struct Run {
   std::filesystem::path folder;
@@ -32,6 +39,7 @@ struct Run {
   std::vector<simulation::Event> events;
   std::vector<simulation::ShipSample> samples;
   std::vector<Frame> frames;
+  std::vector<RunContact> contacts;  ///< as time goes; none in runs of versions that did not record them
 
   double start_time() const { return frames.empty() ? 0 : frames.front().time; }
   double end_time() const { return frames.empty() ? 0 : frames.back().time; }
@@ -42,6 +50,8 @@ struct Run {
   bool is_alive(simulation::FloeId id, double time) const {
     return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died;
   }
+  /// Those recorded at the moment of a frame.
+  std::span<const RunContact> contacts_at(double time) const;
   /// The floes that broke to make this one, oldest first, itself last.
   std::vector<simulation::FloeId> lineage(simulation::FloeId id) const;
 };

@@ -14,9 +14,9 @@ namespace polynya::io {
 namespace {
 
 /// The files that grow, in the order they are flushed: what is named before what names it.
-constexpr std::array kGrowing{run_file::kFloes, run_file::kEvents, run_file::kFrames, run_file::kStates,
-                              run_file::kForces};
-enum : std::size_t { kFloes, kEvents, kFrames, kStates, kForces };
+constexpr std::array kGrowing{run_file::kFloes,    run_file::kEvents, run_file::kFrames,
+                              run_file::kContacts, run_file::kStates, run_file::kForces};
+enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kStates, kForces };
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr std::size_t kLargestConverted = std::size_t{20}
                                           << 20;  ///< an SVG that a converter is given [bytes]
@@ -52,6 +52,7 @@ tl::expected<RunWriter, std::string> RunWriter::begin(const std::filesystem::pat
   RunWriter writer(folder, scene, std::move(files), std::move(*lock));
   writer.file(kForces).append(forces_header());
   writer.file(kFrames).append(FrameEncoder::header());
+  writer.file(kContacts).append(contacts_header());
   writer.file(kStates).append(states_header());
   writer.flush();  // the headers
   if (std::string problem = writer.failure(); !problem.empty()) return tl::unexpected(problem);
@@ -165,6 +166,10 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
     floes.push_back({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
   }
   file(kFrames).append(frames_.encode(simulation.time(), ships, floes));
+  line_.clear();  // a moment's contacts are one record: no file holds a part of them
+  for (const simulation::ContactState& contact : simulation.contact_states())
+    append_contact(line_, simulation.time(), contact, ship_name(contact.on.ship), ship_name(contact.by.ship));
+  if (!line_.empty()) file(kContacts).append(line_);
   line_.clear();
   append_state(line_, simulation.time(), simulation.counts().steps, simulation.state_hash());
   file(kStates).append(line_);

@@ -17,6 +17,7 @@ using simulation::ConstantSpeed;
 using simulation::ConstantThrust;
 using simulation::ContactNormal;
 using simulation::CuspFate;
+using simulation::RecordedContacts;
 using Draft = SceneDraft;
 using Value = JsonValue;
 using Kind = FieldKind;
@@ -220,7 +221,21 @@ const Object kRecord{
     {{"forces_interval_s", Kind::kNumber, "s", above(0, 1e6), "0.1", "between rows of forces.csv",
       [](Draft& d, const Value& v) { d.scene.record.forces_interval = v.number(); }},
      {"frames_interval_s", Kind::kNumber, "s", above(0, 1e6), "2", "between frames of frames.bin",
-      [](Draft& d, const Value& v) { d.scene.record.frames_interval = v.number(); }}}};
+      [](Draft& d, const Value& v) { d.scene.record.frames_interval = v.number(); }},
+     {"contacts",
+      Kind::kChoice,
+      "",
+      {},
+      "\"ships\"",
+      "which contacts contacts.csv tells at every frame: those with ships and structures, those between "
+      "floes "
+      "too, none",
+      [](Draft& d, const Value& v) {
+        d.scene.record.contacts = v.text() == "ships" ? RecordedContacts::kShips
+                                  : v.text() == "all" ? RecordedContacts::kAll
+                                                      : RecordedContacts::kNone;
+      },
+      {"ships", "all", "none"}}}};
 
 const Object kHull{
     {{"length_m",

@@ -162,6 +162,29 @@ VtkPolyData loads_at(const Run& run, double after, double time) {
   return data;
 }
 
+/// The contacts recorded at a frame, a vertex each. Their columns are of points: glyphs stand on points.
+VtkPolyData contacts_at(const Run& run, double time) {
+  VtkPolyData data;
+  data.time = time;
+  data.point_data = {{"ship", {}, 1, true},       {"floe_id", {}, 1, true},  {"by_ship", {}, 1, true},
+                     {"by_floe_id", {}, 1, true}, {"force_N", {}, 3, false}, {"depth_m", {}, 1, false},
+                     {"is_crushing", {}, 1, true}};
+  auto& columns = data.point_data;
+  for (const RunContact& contact : run.contacts_at(time)) {
+    const simulation::ContactState& state = contact.state;
+    data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
+    data.points.push_back(state.point_in_world);
+    columns[0].values.push_back(state.on.ship);
+    columns[1].values.push_back(static_cast<double>(state.on.floe));
+    columns[2].values.push_back(state.by.ship);
+    columns[3].values.push_back(static_cast<double>(state.by.floe));
+    add_vector(columns[4], state.force);
+    columns[5].values.push_back(state.depth);
+    columns[6].values.push_back(state.is_crushing ? 1 : 0);
+  }
+  return data;
+}
+
 }  // namespace
 
 tl::expected<std::size_t, std::string> export_vtk(const Run& run, const FrameSelection& selection,
@@ -174,7 +197,8 @@ tl::expected<std::size_t, std::string> export_vtk(const Run& run, const FrameSel
   for (const Frame& frame : thinned_frames(run, selection)) {
     const std::pair<const char*, VtkPolyData> parts[] = {{"ice", ice.at(frame.time)},
                                                          {"ships", ships_at(run, motions, frame.time)},
-                                                         {"loads", loads_at(run, before, frame.time)}};
+                                                         {"loads", loads_at(run, before, frame.time)},
+                                                         {"contacts", contacts_at(run, frame.time)}};
     int part = 0;
     for (const auto& [name, data] : parts) {
       const std::string file = fmt::format("{}-{:05}.vtp", name, number);

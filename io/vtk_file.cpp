@@ -52,6 +52,12 @@ std::string column_element(const VtkPolyData::Column& column) {
   return data_array(column.name, values, column.components);
 }
 
+std::string columns_element(const char* element, const std::vector<VtkPolyData::Column>& columns) {
+  std::string text = fmt::format("<{}>\n", element);
+  for (const VtkPolyData::Column& column : columns) text += column_element(column);
+  return text + fmt::format("</{}>\n", element);
+}
+
 std::string number(double value) {
   std::string text;
   append_number(text, value);
@@ -77,9 +83,8 @@ std::string to_vtp(const VtkPolyData& data) {
   text += "<Points>\n" + data_array("Points", coordinates, 3) + "</Points>\n";
   text += cells_element("Verts", data.vertices) + cells_element("Lines", data.lines) +
           cells_element("Polys", data.polygons);
-  text += "<CellData>\n";
-  for (const VtkPolyData::Column& column : data.cell_data) text += column_element(column);
-  return text + "</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+  text += columns_element("PointData", data.point_data) + columns_element("CellData", data.cell_data);
+  return text + "</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 std::string to_pvd(const VtkTimeline& timeline) {

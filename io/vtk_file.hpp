@@ -21,8 +21,9 @@ struct VtkPolyData {
     int components = 1;  ///< 1, or 3 for vectors
     bool is_integer = false;
   };
-  std::vector<Column> cell_data;  ///< a row a cell
-  double time = 0;                ///< [s], as field data TimeValue
+  std::vector<Column> cell_data;   ///< a row a cell
+  std::vector<Column> point_data;  ///< a row a point
+  double time = 0;                 ///< [s], as field data TimeValue
 };
 
 std::string to_vtp(const VtkPolyData& data);

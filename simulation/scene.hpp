@@ -102,9 +102,17 @@ struct FloeSpec {
   double angular_velocity = 0;  ///< relative to the water's own turning there, at the start [rad/s]
 };
 
+/// Which contacts are recorded at each frame.
+enum class RecordedContacts {
+  kNone,
+  kShips,  ///< those with a ship or a structure
+  kAll,    ///< those between floes too
+};
+
 struct RecordSettings {
   double forces_interval = 0.1;  ///< between rows of forces.csv [s]
   double frames_interval = 2.0;  ///< between frames [s]
+  RecordedContacts contacts = RecordedContacts::kShips;
 };
 
 /// Where the scene's plane lies on the Earth. Nothing in the simulation depends on it.

@@ -12,6 +12,8 @@
 
 namespace polynya::simulation {
 
+using geometry::Vector;
+
 std::string_view name_of(EventKind kind) {
   switch (kind) {
     case EventKind::kBend:
@@ -60,8 +62,8 @@ void Simulation::set_threads(int threads) {
 
 namespace {
 
-/// Derives the world anew, in builds with assertions: always, but of large worlds, where it costs many times a
-/// step, now and then.
+/// Derives the world anew, in builds with assertions: always, but of large worlds, where it costs many times
+/// a step, now and then.
 void look_at([[maybe_unused]] const World& world) {
 #ifndef NDEBUG
   if (world.failure || (world.floes.size() > 300 && world.steps % 256 != 0)) return;
@@ -70,6 +72,18 @@ void look_at([[maybe_unused]] const World& world) {
   std::fprintf(stderr, "step %lld: %s\n", static_cast<long long>(world.steps), wrong->c_str());
   std::abort();
 #endif
+}
+
+bool is_recorded(const World& world, const dynamics::Contact& contact) {
+  switch (world.scene.record.contacts) {
+    case RecordedContacts::kNone:
+      return false;
+    case RecordedContacts::kShips:
+      return world.is_ship(contact.a);  // ships come first, so a contact's first body is one if any is
+    case RecordedContacts::kAll:
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -143,6 +157,27 @@ std::vector<FloeState> Simulation::floe_states() const {
     state.mass = world.bodies.mass[body];
     state.polygon_in_body = &world.floes[id].shape.polygon;
     states.push_back(state);
+  }
+  return states;
+}
+
+std::vector<ContactState> Simulation::contact_states() const {
+  const World& world = *world_;
+  const double dt = world.scene.time.step;
+  const Vector drift_then = static_cast<double>(world.steps - 1) * dt * world.scene.water.drift;
+  const auto body_of = [&](BodyIndex body) {
+    return world.is_ship(body) ? ContactState::Body{body, kNoFloe}
+                               : ContactState::Body{-1, world.floe_of(body)};
+  };
+  std::vector<ContactState> states;
+  for (const dynamics::Contact& c : world.contacts) {
+    if (!is_recorded(world, c)) continue;
+    states.push_back({.on = body_of(c.a),
+                      .by = body_of(c.b),
+                      .point_in_world = c.centre_of_pressure() + drift_then,
+                      .force = -1 / dt * c.impulse_on_b(),
+                      .depth = c.depth,
+                      .is_crushing = c.total_normal_impulse() > 0 && c.is_at_limit()});
   }
   return states;
 }

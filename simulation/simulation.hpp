@@ -39,6 +39,21 @@ struct ShipState {
   double angular_velocity = 0;  ///< [rad/s]
 };
 
+/// Two bodies that touched in the last step.
+struct ContactState {
+  struct Body {  ///< a ship or a floe
+    int ship = -1;
+    FloeId floe = kNoFloe;
+    friend bool operator==(Body, Body) = default;
+  };
+  Body on;
+  Body by;
+  geometry::Point point_in_world;  ///< that the force acts at, where it was when the step began [m]
+  geometry::Vector force;          ///< by `by` on `on`, over ground, mean of the step: impulse / time [N]
+  double depth = 0;                ///< of the overlap along the normal [m]
+  bool is_crushing = false;        ///< it pressed with all that crushing ice carries
+};
+
 /// A run in progress: the scene's world, stepped.
 class Simulation {
  public:
@@ -74,6 +89,9 @@ class Simulation {
   Counts counts() const;
   std::vector<FloeState> floe_states() const;  ///< living floes in id order
   std::vector<ShipState> ship_states() const;
+  /// Those contacts of the last step that the scene wants recorded, ships' first, in the order of their
+  /// bodies. None before the first step and right after a resume.
+  std::vector<ContactState> contact_states() const;
   const World& world() const;
 
  private:

@@ -17,8 +17,7 @@ Vector heading_of(const World& world, BodyIndex ship) {
 
 /// Enters what a held body did to another through their contact.
 void note_held(World& world, const dynamics::Contact& c) {
-  const Vector on_b = c.total_normal_impulse() * c.normal + c.slip_impulse * perpendicular(c.normal);
-  const Vector on_free = world.bodies.inverse_mass[c.a] == 0 ? on_b : -on_b;
+  const Vector on_free = world.bodies.inverse_mass[c.a] == 0 ? c.impulse_on_b() : -c.impulse_on_b();
   world.audit.energy.thrust += c.held_work;
   world.audit.momentum.held += on_free;
   world.audit.impulses += length(on_free);
@@ -56,7 +55,7 @@ void note_rest(World& world, BodyIndex i) {
 void note_crushing(World& world) {
   EnergyFlows& energy = world.audit.energy;
   for (dynamics::Contact& c : world.contacts) {
-    const bool is_at_limit = c.total_normal_impulse() >= c.impulse_limit * (1 - 1e-9);
+    const bool is_at_limit = c.is_at_limit();
     (is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
     energy.friction -= c.slip_work;
     if (world.bodies.inverse_mass[c.a] == 0 || world.bodies.inverse_mass[c.b] == 0) note_held(world, c);

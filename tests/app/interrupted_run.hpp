@@ -16,7 +16,7 @@ namespace polynya::tests {
 /// waking floes, in a third of a second. About 130 floes.
 inline std::string crash_scene(const std::string& until) {
   return R"({"name": "crash", "time": {"step_s": 0.02, "until_s": )" + until + R"(},
-    "record": {"frames_interval_s": 1}, "fracture": {"cusp_fate": "float", "smallest_floe_m2": 2},
+    "record": {"frames_interval_s": 1, "contacts": "all"}, "fracture": {"cusp_fate": "float", "smallest_floe_m2": 2},
     "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},
       "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 100], "speed_m_per_s": 3,
       "propulsion": {"thrust_N": 2e6}}],
@@ -26,8 +26,8 @@ inline std::string crash_scene(const std::string& until) {
 
 /// The files whose bytes an interruption must not change, and one that it may only bring forth again.
 inline constexpr std::array kComparedFiles{
-    io::run_file::kScene,  io::run_file::kForces, io::run_file::kEvents,      io::run_file::kFloes,
-    io::run_file::kFrames, io::run_file::kStates, io::run_file::kFinalGeojson};
+    io::run_file::kScene,  io::run_file::kForces,   io::run_file::kEvents, io::run_file::kFloes,
+    io::run_file::kFrames, io::run_file::kContacts, io::run_file::kStates, io::run_file::kFinalGeojson};
 
 /// The first file in which two run folders differ; empty where none does.
 inline std::string first_difference(const std::filesystem::path& a, const std::filesystem::path& b) {

@@ -46,8 +46,8 @@ TEST_F(Resume, GivesTheBytesOfTheRunNobodyInterrupted) {
 
 TEST_F(Resume, WhatRunsPastTheCheckpointIsCutBack) {
   interrupt();
-  for (const auto name :
-       {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes, io::run_file::kFrames})
+  for (const auto name : {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes,
+                          io::run_file::kFrames, io::run_file::kContacts})
     write_file(folder_ / "run" / name, read_file(folder_ / "run" / name) + "half a li");
   EXPECT_EQ(resume({"--checkpoint", checkpoints_[1].string()}).code, 0);
   EXPECT_EQ(difference(), "");

@@ -63,8 +63,8 @@ TEST(RunCommand, TheSameSceneGivesTheSameBytesRunAfterRun) {
   ASSERT_EQ(
       polynya(run_for("20", {"--out", "b", "--threads", "2", "--progress", "json"}), {folder.path()}).code,
       0);
-  for (const auto name :
-       {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes, io::run_file::kFrames}) {
+  for (const auto name : {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes,
+                          io::run_file::kFrames, io::run_file::kContacts}) {
     const std::string a = read_file(folder.path() / "a" / name);
     EXPECT_FALSE(a.empty());
     EXPECT_TRUE(a == read_file(folder.path() / "b" / name)) << name;

@@ -3,6 +3,7 @@
 
     /usr/bin/python3 check_vtk.py RUN VTK_FOLDER      exit 77 where VTK's Python module is missing
 """
+import csv
 import json
 import math
 import pathlib
@@ -28,6 +29,44 @@ for line in (run / "events.ndjson").read_text().splitlines():
         died[event["floe"]] = event["t_s"]
 
 
+def rows_by_time(name):
+    rows = {}
+    with open(run / name) as file:
+        for row in csv.DictReader(file):
+            rows.setdefault(float(row["t_s"]), []).append(row)
+    return rows
+
+
+forces, contacts = rows_by_time("forces.csv"), rows_by_time("contacts.csv")
+ships = [ship["name"] for ship in json.loads((run / "scene.json").read_text())["ships"]]
+
+
+def check_contacts(time, data):
+    """Every contact of contacts.csv is there with its numbers; a ship's forces sum to its row of forces.csv."""
+    columns, wanted = data.GetPointData(), contacts.get(time, [])
+    assert data.GetNumberOfPoints() == data.GetNumberOfVerts() == len(wanted), time
+    force = columns.GetArray("force_N")
+    assert force.GetNumberOfComponents() == 3
+    number = lambda name, i: columns.GetArray(name).GetValue(i)
+    for i, row in enumerate(wanted):
+        assert data.GetPoint(i) == (float(row["x_m"]), float(row["y_m"]), 0)
+        assert force.GetTuple(i) == (float(row["fx_N"]), float(row["fy_N"]), 0)
+        assert number("depth_m", i) == float(row["depth_m"]) > 0
+        assert number("is_crushing", i) == int(row["is_crushing"])
+        assert ships[int(number("ship", i))] == row["ship"] and number("floe_id", i) == -1
+        assert number("by_floe_id", i) == int(row["by_floe_id"]) and number("by_ship", i) == -1
+    for row in forces.get(time, []):
+        of_ship = [i for i in range(len(wanted)) if ships[int(number("ship", i))] == row["ship"]]
+        assert len(of_ship) == int(row["contacts"]), (time, len(of_ship), row["contacts"])
+        x, y = (sum(force.GetTuple(i)[axis] for i in of_ship) for axis in (0, 1))
+        heading = math.radians(float(row["heading_deg"]))
+        surge, sway = x * math.cos(heading) + y * math.sin(heading), y * math.cos(heading) - x * math.sin(heading)
+        size = 1 + sum(math.hypot(*force.GetTuple(i)) for i in of_ship)
+        assert abs(surge - float(row["surge_N"])) < 1e-9 * size, (time, surge, row["surge_N"])
+        assert abs(sway - float(row["sway_N"])) < 1e-9 * size, (time, sway, row["sway_N"])
+    return len(wanted)
+
+
 def read(name):
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(str(folder / name))
@@ -38,8 +77,8 @@ def read(name):
 
 entries = [e.attrib for e in ElementTree.parse(folder / "run.pvd").iter("DataSet")]
 times = sorted({float(e["timestep"]) for e in entries})
-assert len(entries) == 3 * len(times) and times, "three files a frame"
-worst, vertices = 0.0, 0
+assert len(entries) == 4 * len(times) and times, "four files a frame"
+worst, vertices, touching = 0.0, 0, 0
 for entry in entries:
     time, data = float(entry["timestep"]), read(entry["file"])
     cells = data.GetCellData()
@@ -48,6 +87,8 @@ for entry in entries:
     if entry["file"].startswith("loads"):
         vertices += data.GetNumberOfVerts()
         assert cells.GetArray("force_N").GetNumberOfComponents() == 3
+    if entry["file"].startswith("contacts"):
+        touching += check_contacts(time, data)
     if not entry["file"].startswith("ice"):
         continue
     alive = {i for i, f in floes.items() if f["born_s"] <= time < died.get(i, math.inf)}
@@ -66,5 +107,6 @@ for entry in entries:
     for floe, total in sums.items():
         worst = max(worst, abs(total - floes[floe]["area_m2"]) / floes[floe]["area_m2"])
 assert worst < 1e-6, worst
-assert vertices > 0
-print(f"{len(times)} frames read back with VTK; areas of triangles equal the floes' to {worst:.1e}; {vertices} loads and fractures")
+assert vertices > 0 and touching > 10 and touching == sum(map(len, contacts.values()))
+print(f"{len(times)} frames read back with VTK; areas of triangles equal the floes' to {worst:.1e}; "
+      f"{vertices} loads and fractures; {touching} contacts, whose forces sum to the ship's loads")

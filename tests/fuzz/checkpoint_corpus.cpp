@@ -27,7 +27,7 @@ int main(int count, char** words) {
     checkpoint.program_version = "seed";
     checkpoint.scene_hash = "0123456789abcdef";
     checkpoint.steps = until;
-    checkpoint.progress.file_sizes = {1, 2, 3, 4, 5};
+    checkpoint.progress.file_sizes = {1, 2, 3, 4, 5, 6};
     checkpoint.progress.told = {{0, {}}, {}};
     checkpoint.progress.tracks = {{{1, 2}, {3, 4}}};
     checkpoint.progress.fractures = {{{1, 2}, polynya::simulation::EventKind::kSplit}};

@@ -19,7 +19,7 @@ using tests::TemporaryFolder;
 // A ship that breaks a plate and pushes a floe, in drifting water: every file has something to say.
 const std::string kScene = R"({
   "name": "small", "time": {"step_s": 0.01, "until_s": 8}, "water": {"drift_m_per_s": [0.02, -0.01]},
-  "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5},
+  "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5, "contacts": "all"},
   "ships": [{"name": "a ship", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 3e6,
              "moment_of_inertia_kg_m2": 5e8, "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 2}}],
   "floes": [{"rectangle": {"corner_m": [0, -20], "size_m": [60, 40]}}, {"rectangle": {"corner_m": [70, 0], "size_m": 5}, "angular_velocity_deg_per_s": 1},
@@ -32,6 +32,7 @@ struct Recorded {
   std::vector<simulation::ShipSample> samples;
   std::vector<std::pair<double, std::vector<simulation::FloeState>>> frames;
   std::vector<std::pair<double, std::vector<geometry::Point>>> centroids;
+  std::vector<RunContact> contacts;
 };
 
 LoadedScene load() {
@@ -56,6 +57,8 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
   const auto frame = [&] {
     writer->frame(simulation);
     recorded.frames.emplace_back(simulation.time(), simulation.floe_states());
+    for (const auto& state : simulation.contact_states())
+      recorded.contacts.push_back({simulation.time(), state});
     auto& points = recorded.centroids.emplace_back(simulation.time(), std::vector<geometry::Point>{}).second;
     for (const auto& state : recorded.frames.back().second) {
       points.push_back(
@@ -122,6 +125,33 @@ TEST(Run, ReadsBackWhatWasWritten) {
   }
 }
 
+TEST(Run, ReadsBackTheContactsOfItsFrames) {
+  const TemporaryFolder folder;
+  const Recorded recorded = write_run(load(), folder / "run");
+  const auto run = read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  EXPECT_GT(recorded.contacts.size(), 10U);
+  ASSERT_EQ(run->contacts.size(), recorded.contacts.size());
+  for (std::size_t i = 0; i < run->contacts.size(); ++i) {
+    const simulation::ContactState& a = run->contacts[i].state;
+    const simulation::ContactState& b = recorded.contacts[i].state;
+    EXPECT_EQ(run->contacts[i].time, recorded.contacts[i].time);
+    EXPECT_EQ(a.on, b.on);
+    EXPECT_EQ(a.by, b.by);
+    EXPECT_EQ(a.point_in_world, b.point_in_world);
+    EXPECT_EQ(a.force, b.force);
+    EXPECT_EQ(a.depth, b.depth);
+    EXPECT_EQ(a.is_crushing, b.is_crushing);
+  }
+  std::size_t told = 0;
+  for (const Frame& frame : run->frames) told += run->contacts_at(frame.time).size();
+  EXPECT_EQ(told, run->contacts.size()) << "each belongs to a frame";
+  std::filesystem::remove(folder.path() / "run" / run_file::kContacts);
+  const auto of_an_older_version = read_run(folder / "run");
+  ASSERT_TRUE(of_an_older_version.has_value()) << of_an_older_version.error();
+  EXPECT_TRUE(of_an_older_version->contacts.empty());
+}
+
 /// Who lives is told by births and events; where, by frames.
 TEST(Run, TellsWhoLivesWhereAtEveryFrame) {
   const TemporaryFolder folder;
@@ -156,8 +186,9 @@ TEST(Run, TheSameSceneGivesTheSameBytes) {
   const LoadedScene scene = load();
   write_run(scene, folder / "a");
   write_run(scene, folder / "b");
-  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames,
-                          run_file::kFinalGeojson, run_file::kFinalSvg, run_file::kScene}) {
+  for (const auto name :
+       {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames, run_file::kContacts,
+        run_file::kFinalGeojson, run_file::kFinalSvg, run_file::kScene}) {
     EXPECT_EQ(read_file(folder.path() / "a" / name), read_file(folder.path() / "b" / name)) << name;
   }
 }
@@ -165,8 +196,8 @@ TEST(Run, TheSameSceneGivesTheSameBytes) {
 TEST(Run, ALineCutShortIsLeftOut) {
   const TemporaryFolder folder;
   const LoadedScene scene = load();
-  write_run(scene, folder / "run");
-  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFrames}) {
+  const Recorded recorded = write_run(scene, folder / "run");
+  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFrames, run_file::kContacts}) {
     const auto path = folder.path() / "run" / name;
     std::filesystem::resize_file(path, std::filesystem::file_size(path) - 5);
   }
@@ -174,6 +205,7 @@ TEST(Run, ALineCutShortIsLeftOut) {
   ASSERT_TRUE(run.has_value()) << run.error();
   EXPECT_EQ(run->samples.size(), 79U);
   EXPECT_EQ(run->frames.size(), 16U);
+  EXPECT_EQ(run->contacts.size(), recorded.contacts.size() - 1);
 }
 
 TEST(Run, DamageIsToldWithItsLine) {

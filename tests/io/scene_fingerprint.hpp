@@ -34,7 +34,8 @@ inline std::string fingerprint(const simulation::Scene& s) {
                       static_cast<int>(s.fracture.bending), static_cast<int>(s.fracture.splitting),
                       s.fracture.splitting_shape_factor, static_cast<int>(s.fracture.cusp_fate),
                       s.fracture.cusp_sagitta, s.fracture.smallest_floe_area);
-  text += fmt::format("record {} {}\n", s.record.forces_interval, s.record.frames_interval);
+  text += fmt::format("record {} {} {}\n", s.record.forces_interval, s.record.frames_interval,
+                      static_cast<int>(s.record.contacts));
   for (const auto& ship : s.ships) {
     text += fmt::format("ship {} {} {} {} {} {} {} {} ", ship.name, ship.mass, ship.moment_of_inertia,
                         ship.position_in_world.x, ship.position_in_world.y, ship.heading, ship.speed,
