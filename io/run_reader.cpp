@@ -256,7 +256,8 @@ std::vector<FloeId> Run::lineage(FloeId id) const {
 }
 
 std::span<const RunContact> Run::contacts_at(double time) const {
-  const auto [first, last] = std::ranges::equal_range(contacts, time, {}, &RunContact::time);
+  const auto first = std::ranges::lower_bound(contacts, time, {}, &RunContact::time);
+  const auto last = std::ranges::upper_bound(contacts, time, {}, &RunContact::time);
   return {first, last};
 }
 
