@@ -26,25 +26,24 @@ concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 // A type is kept by its field list, fields(archive, value), which names each of its members once: adding a
 // member to a state is adding it to its list. The archives below take any number of values at a time.
 
-/// Appends values to bytes: numbers as the machine holds them, texts and lists behind their length.
-class ByteWriter {
+/// Takes values apart into numbers and characters for a Sink: texts and lists behind their length.
+template <class Sink>
+class Dismantler {
  public:
   template <class... Values>
   void operator()(const Values&... values) {
     (put(values), ...);
   }
-  std::string take() { return std::move(bytes_); }
 
  private:
+  Sink& sink() { return static_cast<Sink&>(*this); }
   template <Number T>
   void put(const T& value) {
-    std::array<char, sizeof value> raw;
-    std::memcpy(raw.data(), &value, sizeof value);
-    bytes_.append(raw.data(), raw.size());
+    sink().put_number(value);
   }
   void put(const std::string& text) {
     put(std::uint64_t{text.size()});
-    bytes_ += text;
+    sink().put_characters(text);
   }
   template <class T>
   void put(const std::vector<T>& list) {
@@ -53,8 +52,24 @@ class ByteWriter {
   }
   template <class T>
   void put(const T& value) {
-    fields(*this, value);
+    fields(sink(), value);
   }
+};
+
+/// Appends values to bytes: numbers as the machine holds them.
+class ByteWriter : public Dismantler<ByteWriter> {
+ public:
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  friend Dismantler<ByteWriter>;
+  template <Number T>
+  void put_number(const T& value) {
+    std::array<char, sizeof value> raw;
+    std::memcpy(raw.data(), &value, sizeof value);
+    bytes_.append(raw.data(), raw.size());
+  }
+  void put_characters(const std::string& text) { bytes_ += text; }
   std::string bytes_;
 };
 
@@ -132,34 +147,21 @@ class ByteReader {
 };
 
 /// A hash of values: FNV-1a over 64-bit words [Fowler1991], one for each number, folded once more after each.
-class HashWriter {
+class HashWriter : public Dismantler<HashWriter> {
  public:
-  template <class... Values>
-  void operator()(const Values&... values) {
-    (put(values), ...);
-  }
   std::uint64_t hash() const { return hash_; }
 
  private:
+  friend Dismantler<HashWriter>;
   template <Number T>
-  void put(const T& value) {
+  void put_number(const T& value) {
     std::uint64_t word = 0;
     std::memcpy(&word, &value, sizeof value);
     hash_ = (hash_ ^ word) * 1099511628211U;
     hash_ ^= hash_ >> 32;
   }
-  void put(const std::string& text) {
-    put(std::uint64_t{text.size()});
-    for (const char c : text) put(c);
-  }
-  template <class T>
-  void put(const std::vector<T>& list) {
-    put(std::uint64_t{list.size()});
-    for (const T& value : list) put(value);
-  }
-  template <class T>
-  void put(const T& value) {
-    fields(*this, value);
+  void put_characters(const std::string& text) {
+    for (const char c : text) put_number(c);
   }
   std::uint64_t hash_ = 14695981039346656037U;
 };
