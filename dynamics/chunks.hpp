@@ -5,6 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "dynamics/fork_join.hpp"
+
 namespace polynya::dynamics {
 
 inline std::size_t chunk_count(std::size_t count, std::size_t chunk) {
@@ -21,7 +23,14 @@ void for_chunks(std::size_t count, std::size_t chunk, int threads, Work work) {
   if (threads <= 1 || chunks <= 1) {
     for (std::size_t k = 0; k < chunks; ++k) run(k);
   } else {
-    tbb::parallel_for(std::size_t{0}, chunks, run, tbb::simple_partitioner());
+    const auto run_in_order = [&](std::size_t k) {
+      fork_join::begin_chunk();
+      run(k);
+      fork_join::end_chunk();
+    };
+    fork_join::fork();
+    tbb::parallel_for(std::size_t{0}, chunks, run_in_order, tbb::simple_partitioner());
+    fork_join::join();
   }
 }
 

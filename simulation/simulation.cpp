@@ -62,11 +62,10 @@ void Simulation::set_threads(int threads) {
 
 namespace {
 
-/// Derives the world anew, in builds with assertions: always, but of large worlds, where it costs many times
-/// a step, now and then.
+/// Derives the world anew, in builds with assertions.
 void look_at([[maybe_unused]] const World& world) {
 #ifndef NDEBUG
-  if (world.failure || (world.floes.size() > 300 && world.steps % 256 != 0)) return;
+  if (world.failure) return;
   const auto wrong = validate_world(world);
   if (!wrong) return;
   std::fprintf(stderr, "step %lld: %s\n", static_cast<long long>(world.steps), wrong->c_str());
