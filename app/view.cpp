@@ -7,47 +7,26 @@
 #include <fmt/format.h>
 
 #include "app/exit_code.hpp"
-#include "io/json_parser.hpp"
-#include "io/json_writer.hpp"
 #include "io/output_file.hpp"
 #include "io/player_page.hpp"
 #include "io/run_folder.hpp"
-#include "io/source_text.hpp"
 
 namespace polynya::app {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t kLongestChannel = std::size_t{256} << 20;  ///< [bytes]
 
 int fail(ExitCode code, const std::string& words) {
   fmt::print(stderr, "polynya: {}\n", words);
   return code;
 }
 
-/// The channel that `polynya channel` left in the run folder; empty where there is none.
-std::string channel_of(const fs::path& folder) {
-  const fs::path file = folder / io::run_file::kChannel;
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return "";
-  auto text = io::read_text_file(file, kLongestChannel);
-  if (text) {
-    const io::JsonDocument document = io::parse_json(*text);
-    if (document.faults.empty()) return io::to_json_text(document.root);
-  }
-  fmt::print(stderr, "note: {}: {}; the swept band is shown instead\n", file.string(),
-             text ? "not JSON" : text.error());
-  return "";
-}
-
 std::string too_large(double megabytes, const ViewOptions& options) {
   return fmt::format(
       "the page would have {:.0f} MB, the limit is {:g}: take fewer frames with --every {}, a part of the "
-      "run "
-      "with --from and --until, {}or allow more with --limit {:.0f}",
+      "run with --from and --until, or allow more with --limit {:.0f}",
       megabytes, options.most_megabytes,
       static_cast<int>(std::ceil(options.every * megabytes / options.most_megabytes)) + 1,
-      options.most_circles == 0 ? "" : "leave out the contact circles with --circles 0, ",
       std::ceil(megabytes));
 }
 
@@ -56,19 +35,14 @@ std::string too_large(double megabytes, const ViewOptions& options) {
 int view(const ViewOptions& options) {
   const auto run = io::read_run(options.run);
   if (!run) return fail(kInputOutput, run.error());
-  io::PlayerOptions wanted;
-  wanted.frames.every = options.every;
-  if (options.from) wanted.frames.from = *options.from;
-  if (options.until) wanted.frames.until = *options.until;
-  wanted.most_circles = options.most_circles;
-  wanted.channel = channel_of(options.run);
+  io::FrameSelection wanted;
+  wanted.every = options.every;
+  if (options.from) wanted.from = *options.from;
+  if (options.until) wanted.until = *options.until;
   const io::PlayerData data = player_data(*run, wanted);
   if (data.frames == 0 && !run->frames.empty())
     return fail(kUsage, fmt::format("no frame of the run is in that part; they go from {:g} to {:g} s",
                                     run->start_time(), run->end_time()));
-  if (!data.has_circles && options.most_circles > 0)
-    fmt::print(stderr, "note: more than {} contact circles; that layer is left out (--circles)\n",
-               options.most_circles);
   const std::string page = player_page(*run, data);
   const double megabytes = static_cast<double>(page.size()) / 1e6;
   if (megabytes > options.most_megabytes) return fail(kUsage, too_large(megabytes, options));

@@ -28,12 +28,6 @@ Command add_view(CLI::App& app) {
   command->add_option("--limit", options->most_megabytes, "The largest page to write [MB]; 100 if not given")
       ->type_name("MB")
       ->check(CLI::Range(0.001, 2000.0));
-  command
-      ->add_option("--circles", options->most_circles,
-                   "The most contact circles to hold, 500000 if not given; where there are more, that layer "
-                   "is left out")
-      ->type_name("N")
-      ->check(CLI::Range(0, 100000000));
   return [options] { return view(*options); };
 }
 

@@ -7,8 +7,8 @@
 
 # In the order they stand in the page.
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
-set(POLYNYA_PLAYER_SCRIPTS numbers.js run_data.js motion.js palette.js map_view.js draw_ice.js still_ice.js draw_marks.js plot.js timeline.js
-  floe_card.js gestures.js keyboard.js page.js player.js)
+set(POLYNYA_PLAYER_SCRIPTS numbers.js run_data.js motion.js palette.js map_view.js floe_raster.js draw_ice.js still_ice.js floe_card.js channel.js
+  contact_forces.js contact_circles.js draw_marks.js plot.js timeline.js gestures.js keyboard.js page.js player.js)
 
 function(polynya_player_page folder output)
   set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} player.html vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)

@@ -106,6 +106,11 @@ std::pair<double, double> common_range(const std::vector<Run>& runs, double Ship
   return {low, high};
 }
 
+/// The range with room above it, so that the marks stand clear of the curves.
+std::pair<double, double> with_room_for_marks(std::pair<double, double> range) {
+  return {range.first, range.second + 0.15 * (range.second - range.first)};
+}
+
 std::string names(const std::vector<Run>& runs) {
   std::string text;
   for (const Run& run : runs) text += (text.empty() ? "" : ", ") + run.scene.scene.name;
@@ -195,7 +200,7 @@ Chart load_figure(const std::vector<Run>& runs, LoadKind kind) {
     for (int number = 0; number < static_cast<int>(kLoads.size()); ++number) {
       const Load& load = kLoads[static_cast<std::size_t>(number)];
       const auto value = load.of_kind[which];
-      const auto [low, high] = common_range(runs, value);
+      const auto [low, high] = with_room_for_marks(common_range(runs, value));
       const Prefix prefix = prefix_for(std::max(-low, high));
       for (std::size_t i = first; i < first + chart.columns; ++i) {
         if (i >= subjects.size()) {

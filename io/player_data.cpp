@@ -6,13 +6,38 @@
 namespace polynya::io {
 namespace {
 
-void add_frames(PlayerData& data, const Run& run, const FrameSelection& selection) {
+void add_frames(ColumnWriter& columns, const std::vector<Frame>& frames) {
   std::string bytes = FrameEncoder::header();
-  for (const Frame& frame : thinned_frames(run, selection)) {
-    bytes += frame_bytes(frame.time, frame.ships, frame.floes);
-    ++data.frames;
+  for (const Frame& frame : frames) bytes += frame_bytes(frame.time, frame.ships, frame.floes);
+  columns.add("frames", bytes);
+}
+
+void add_contacts(ColumnWriter& columns, const Run& run, const std::vector<Frame>& frames) {
+  std::vector<double> time, x, y, force_x, force_y;
+  std::vector<std::int32_t> ship, floe, by_floe, is_crushing;
+  for (const Frame& frame : frames) {
+    for (const RunContact& contact : run.contacts_at(frame.time)) {
+      const simulation::ContactState& state = contact.state;
+      time.push_back(contact.time);
+      ship.push_back(state.on.ship);
+      floe.push_back(static_cast<std::int32_t>(state.on.floe));
+      by_floe.push_back(static_cast<std::int32_t>(state.by.floe));
+      x.push_back(state.point_in_world.x);
+      y.push_back(state.point_in_world.y);
+      force_x.push_back(state.force.x);
+      force_y.push_back(state.force.y);
+      is_crushing.push_back(state.is_crushing);
+    }
   }
-  data.columns.add("frames", bytes);
+  columns.add("contact_t_s", time);
+  columns.add("contact_ship", ship);
+  columns.add("contact_floe", floe);
+  columns.add("contact_by_floe", by_floe);
+  columns.add("contact_x_m", x);
+  columns.add("contact_y_m", y);
+  columns.add("contact_fx_N", force_x);
+  columns.add("contact_fy_N", force_y);
+  columns.add("contact_is_crushing", is_crushing);
 }
 
 void add_forces(ColumnWriter& columns, const Run& run, const FrameSelection& selection) {
@@ -71,6 +96,12 @@ void write_ships(JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
+void write_water(JsonWriter& json, const simulation::WaterSettings& water) {
+  json.key("water").open('{').key("drift_m_per_s").value(geometry::Point{water.drift.x, water.drift.y});
+  json.key("shear_per_s").value(water.shear.rate).key("shear_direction_rad").value(water.shear.direction);
+  json.key("shear_origin_m").value(water.shear.origin).close('}');
+}
+
 void write_summary(JsonWriter& json, const Run& run) {
   const JsonValue* finished = run.summary.find("finished");
   json.key("finished").value(finished && finished->is(JsonValue::Kind::kBoolean) && finished->boolean());
@@ -78,7 +109,7 @@ void write_summary(JsonWriter& json, const Run& run) {
     json.key("stopped_by").value(by->text());
 }
 
-std::string info_of(const Run& run, const PlayerData& data, const PlayerOptions& options) {
+std::string info_of(const Run& run, const PlayerData& data) {
   std::string text;
   JsonWriter json(text);
   const simulation::Scene& scene = run.scene.scene;
@@ -87,15 +118,11 @@ std::string info_of(const Run& run, const PlayerData& data, const PlayerOptions&
   json.key("seed").value(static_cast<std::int64_t>(scene.seed)).key("until_s").value(scene.time.until);
   json.key("frames").value(static_cast<std::int64_t>(data.frames));
   json.key("frames_of_run").value(static_cast<std::int64_t>(run.frames.size()));
-  json.key("circle_radius_m").value(scene.contact.circle_radius).key("has_circles").value(data.has_circles);
+  json.key("circle_radius_m").value(scene.contact.circle_radius);
   write_summary(json, run);
   write_ships(json, scene);
   write_events(json, run);
-  json.key("channel");
-  if (options.channel.empty())
-    json.null();
-  else
-    json.json(options.channel);
+  write_water(json, scene.water);
   json.key("columns").open('[');
   for (const ColumnWriter::Column& column : data.columns.table()) {
     json.open('{').key("name").value(column.name).key("type").value(column.type);
@@ -108,13 +135,15 @@ std::string info_of(const Run& run, const PlayerData& data, const PlayerOptions&
 
 }  // namespace
 
-PlayerData player_data(const Run& run, const PlayerOptions& options) {
+PlayerData player_data(const Run& run, const FrameSelection& selection) {
   PlayerData data;
   add_floes(data.columns, run);
-  add_frames(data, run, options.frames);
-  add_forces(data.columns, run, options.frames);
-  data.has_circles = options.most_circles > 0 && add_contact_circles(data.columns, run, options.most_circles);
-  data.info = info_of(run, data, options);
+  const std::vector<Frame> frames = thinned_frames(run, selection);
+  data.frames = frames.size();
+  add_frames(data.columns, frames);
+  add_forces(data.columns, run, selection);
+  add_contacts(data.columns, run, frames);
+  data.info = info_of(run, data);
   return data;
 }
 

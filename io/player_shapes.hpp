@@ -36,10 +36,4 @@ class ColumnWriter {
 /// single-precision points from its centroid (for drawing; right to 1e-7 of the floe's size).
 void add_floes(ColumnWriter& columns, const Run& run);
 
-/// The contact circles of every floe and hull with the scene's radius, x, y from the centroid of the oldest
-/// ancestor (0 for a hull) and radius. Pieces of one floe share the circles that are theirs both: each floe
-/// has runs of circles (`circle_runs`: first, count; `circle_runs_of`: where the floe's runs begin; hulls
-/// after the floes). Returns false, adding nothing, where there are more circles than `most`.
-bool add_contact_circles(ColumnWriter& columns, const Run& run, std::size_t most);
-
 }  // namespace polynya::io

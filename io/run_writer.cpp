@@ -216,7 +216,7 @@ Picture RunWriter::picture(const RunSummary& summary, const simulation::Simulati
   Picture picture;
   picture.title = fmt::format("{} at {:.6g} s", scene_->scene.name, summary.sim_time);
   picture.caption =
-      fmt::format("{} cusps broken by bending, {} splits, {} floes of {} at the start", summary.counts.bends,
+      fmt::format("{} cusps broken by bending, {} splits, {} floes, {} at the start", summary.counts.bends,
                   summary.counts.splits, summary.counts.floes_final, summary.counts.floes_initial);
   for (const auto& floe : scene_->scene.floes) picture.ice_at_start.push_back(floe.polygon_in_world);
   const auto moved = [](const geometry::Pose& pose, geometry::Ring ring) {

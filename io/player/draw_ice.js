@@ -3,6 +3,8 @@
 
 const pointsInPath = 50;
 const smallReach = 5; // [px]; floes that reach less far have no edge drawn
+const rimParts = [0, 0.1, 0.2, 0.3, 0.4, 0.5]; // of the edge's colour at the edge of small floes, for every so many px of reach
+const manySmall = 1000; // floes; so many are drawn pixel by pixel
 
 /** Floe ids so that neighbours in the scene follow each other: a path of some of them then covers little of the screen. */
 function neighbourOrder(floes) {
@@ -99,14 +101,28 @@ function classOfFloe(id, colourBy, edges, floes, places) {
   return classOf(Math.hypot(places.vx[id], places.vy[id]), edges);
 }
 
-/** Draws the floes of these ids that show on the screen. */
-function drawFloes(context, view, run, places, ids, colouring, colourBy, colours) {
+/** Draws the floes of these ids that show on the screen: small ones pixel by pixel, the others as paths. */
+function drawFloes(context, view, run, places, raster, ids, colouring, colourBy, colours) {
   const { floes } = run;
-  const buckets = colouring.colours.map(() => ({ edged: [], small: [] }));
+  const buckets = colouring.colours.map(() => ({ large: [], small: [] }));
+  let small = 0;
   for (const id of ids) {
     if (!view.shows(places.x[id], places.y[id], floes.reach[id])) continue;
     const bucket = buckets[classOfFloe(id, colourBy, colouring.edges, floes, places)];
-    (floes.reach[id] * view.scale > smallReach ? bucket.edged : bucket.small).push(id);
+    const isSmall = floes.reach[id] * view.scale * view.ratio < rasterReach;
+    (isSmall ? bucket.small : bucket.large).push(id);
+    small += isSmall;
+  }
+  const isRastered = small > manySmall;
+  if (isRastered) {
+    raster.begin(context.canvas.width, context.canvas.height);
+    buckets.forEach((bucket, k) => {
+      const fill = pixelOf(colouring.colours[k]);
+      const rims = rimParts.map((part) => pixelOf(colouring.colours[k], colours["ice-edge"], part));
+      const rimOf = (id) => rims[Math.min(rims.length - 1, Math.floor((floes.reach[id] * view.scale) / smallReach))];
+      for (const id of bucket.small) raster.add(floes, places, view, id, fill, rimOf(id));
+    });
+    raster.put(context, view);
   }
   context.strokeStyle = colours["ice-edge"];
   context.lineWidth = Math.min(1.1, Math.max(0.35, 0.4 * view.scale));
@@ -114,8 +130,12 @@ function drawFloes(context, view, run, places, ids, colouring, colourBy, colours
   buckets.forEach((bucket, k) => {
     context.fillStyle = colouring.colours[k];
     const trace = (id) => traceFloe(context, view, floes, places, id);
-    drawChunks(context, bucket.small, trace, false);
-    drawChunks(context, bucket.edged, trace);
+    const hasEdge = (id) => floes.reach[id] * view.scale > smallReach;
+    if (!isRastered) {
+      drawChunks(context, bucket.small.filter((id) => !hasEdge(id)), trace, false);
+      drawChunks(context, bucket.small.filter(hasEdge), trace);
+    }
+    drawChunks(context, bucket.large, trace);
   });
 }
 

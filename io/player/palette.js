@@ -52,7 +52,7 @@ function makeColourings(run) {
 /** The theme's colours, from the style sheet. */
 function themeColours() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["water", "start-ice", "swept", "ice-edge", "hull", "hull-edge", "track", "ink", "panel", "muted",
+  const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "track", "ink", "panel", "muted",
     "accent", "highlight", "line", "family",
     "bend", "split", "rejected_cut", "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));

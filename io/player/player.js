@@ -11,7 +11,10 @@ function startPlayer() {
   const range = hasFrames ? [frames.times[0], frames.times[frames.times.length - 1]] : [0, 0];
   const motions = makeMotions(run);
   const places = makePlaces(run, motions);
+  run.carry = makeCarrier(info.water);
   const start = startPlaces(run, motions, range[0]);
+  const raster = makeFloeRaster();
+  const circlesOf = makeCircleSampler(run);
   const drawStillAndMoving = makeStillIce(run, places, motions);
   const colourings = makeColourings(run);
   const stage = byId("stage");
@@ -19,11 +22,11 @@ function startPlayer() {
   const view = makeMapView(stage, [iceCanvas, markCanvas]);
   const ice = iceCanvas.getContext("2d", { alpha: false });
   const marks = markCanvas.getContext("2d");
-  const sails = info.ships.some((_, ship) => hasFrames && hasMoved(motions, ship, frames.times.length - 1));
+  const isUnderWay = (carry) => hasFrames && info.ships.some((_, ship) => hasGone(run, motions, ship, carry));
   const state = {
     time: range[0], isPlaying: false, rate: defaultRate(range[1] - range[0]), selected: -1, hovered: -1, event: null,
     follow: -1, colourBy: "generation", isFitted: true,
-    layers: { channel: sails, startIce: sails, track: true, circles: false, velocities: false, fractures: false },
+    layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, circles: false, velocities: false, forces: false, fractures: false },
     iceDirty: true, marksDirty: true,
   };
   let colours = themeColours();
@@ -185,6 +188,8 @@ function startPlayer() {
     refreshTheme();
   }
 
+  const forceScale = 40 / (typicalForce(run) || 1); // [px/N]
+  const channelWidth = make("output", { id: "channel-width" });
   const arrowScale = () => {
     const { edges } = colourings.speed;
     return 40 / (edges[edges.length - 1] || 1);
@@ -195,20 +200,30 @@ function startPlayer() {
     const rows = colouring.words.map((words, k) => legendRow(colouring.colours[k], words));
     if (state.colourBy === "size") rows.reverse();
     if (state.layers.startIce) rows.push(legendRow(colours["start-ice"], "ice at the start"));
-    if (state.layers.channel) rows.push(legendRow(colours.swept, info.channel ? (info.channel.t_s === undefined ? "channel" : `channel at ${info.channel.t_s} s`) : "swept by the hull"));
-    if (state.layers.velocities) rows.push(arrowRow());
+    if (state.layers.channel) rows.push(legendRow(colours.swept, "swept by the hull"), legendRow(colours.channel, "open from ice to ice ", channelWidth));
+    if (state.layers.velocities) rows.push(velocityRow());
+    if (state.layers.forces) rows.push(...forceRows());
     byId("legend").replaceChildren(make("b", {}, colouring.title), ...rows);
   }
-  function legendRow(colour, words) {
+  function legendRow(colour, ...words) {
     const swatch = make("i");
     swatch.style.background = colour;
-    return make("span", {}, swatch, words);
+    return make("span", {}, swatch, ...words);
   }
-  function arrowRow() {
-    const speed = roundBelow(60 / arrowScale());
+  function arrowRow(pixels, words) {
     const arrow = make("i", { class: "arrow" });
-    arrow.style.width = `${speed * arrowScale()}px`;
-    return make("span", {}, arrow, `${Number(speed.toPrecision(2))} m/s`);
+    arrow.style.width = `${pixels}px`;
+    return make("span", {}, arrow, words);
+  }
+  function velocityRow() {
+    const speed = roundBelow(60 / arrowScale());
+    return arrowRow(speed * arrowScale(), `${Number(speed.toPrecision(2))} m/s`);
+  }
+  function forceRows() {
+    const force = roundBelow(60 / forceScale);
+    const unit = loadUnit(force, "N");
+    return [arrowRow(force * forceScale, `${shortNumber(force * unit.factor)} ${unit.name}`),
+      legendRow(colours.split, "crushing"), legendRow(colours.bend, "not crushing")];
   }
 
   function drawAllIce() {
@@ -217,11 +232,20 @@ function startPlayer() {
     ice.fillRect(0, 0, iceCanvas.width, iceCanvas.height);
     ice.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     if (state.layers.startIce) drawStartIce(ice, view, run, start, places, state.time, colours);
-    if (state.layers.channel && info.channel) drawChannel(ice, view, info.channel, colours);
-    else if (state.layers.channel) drawSweptBand(ice, view, run, motions, colours);
+    if (state.layers.channel && hasFrames) drawChannels();
     const look = [view.x, view.y, view.scale, view.width, view.height, state.colourBy, colours.water].join();
     drawStillAndMoving(ice, view, look, state.time, Math.max(5, state.rate), (context, ids) =>
-      drawFloes(context, view, run, places, ids, colourings[state.colourBy], state.colourBy, colours));
+      drawFloes(context, view, run, places, raster, ids, colourings[state.colourBy], state.colourBy, colours));
+  }
+
+  function drawChannels() {
+    drawSweptBand(ice, view, run, motions, state.time, colours);
+    const words = info.ships.map((ship, index) => {
+      const stations = stationsOf(run, places, motions, index, state.time);
+      drawStations(ice, view, stations, colours);
+      return widthWords(stations);
+    }).filter(Boolean);
+    channelWidth.textContent = words.length > 0 ? words.join("; ") : "";
   }
 
   function drawAllMarks() {
@@ -232,12 +256,14 @@ function startPlayer() {
     if (shown >= 0) drawLineage(marks, view, run, places, shown, state.time, colours);
     if (state.layers.fractures) drawFractures(marks, view, run, state.time, colours);
     if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== shown && places.isAlive(state.hovered, state.time)) outline(state.hovered);
-    drawShips(marks, view, run, motions, state.layers, colours);
-    const notice = state.layers.circles ? drawCircles(marks, view, run, places, motions, colours) : "";
+    drawShips(marks, view, run, motions, state.time, state.layers, colours);
+    const notices = [];
+    if (state.layers.circles) notices.push(drawCircles(marks, view, run, circlesOf, places, motions, colours));
+    if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours, forceScale));
     if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, arrowScale());
     if (state.event !== null) drawChosenEvent(marks, view, info.events[state.event], colours);
     drawScaleBar(marks, view, colours);
-    byId("notice").textContent = hasFrames ? notice : "This run has no frames: the scene is shown as it starts.";
+    byId("notice").textContent = hasFrames ? notices.filter(Boolean).join(" ") : "This run has no frames: the scene is shown as it starts.";
     byId("notice").hidden = byId("notice").textContent === "";
   }
   function outline(id) {
@@ -320,7 +346,12 @@ function startPlayer() {
   }
 
   // For tests and measurements; nothing here is needed to look at a run.
-  const player = { run, state, view, places, motions, plot, actions, drawn: 0, drawTimes: [] };
+  const player = {
+    run, state, view, places, motions, plot, actions, drawn: 0, drawTimes: [],
+    stations: (ship) => stationsOf(run, places, motions, ship, state.time),
+    circlesOf,
+    contacts: () => contactsOfFrame(run, motions.frame()),
+  };
   const timeline = makeTimeline(run, byId("track"), range, actions);
   fillPage(run, range, state, plot, actions, refreshTheme);
   watchGestures(stage, view, actions);
@@ -332,12 +363,6 @@ function startPlayer() {
   showEventCard(byId("event-card"), run, null);
   requestAnimationFrame(frame);
   return player;
-}
-
-/** Whether a ship went somewhere: a structure leaves no channel. */
-function hasMoved(motions, ship, lastFrame) {
-  const [a, b] = [motions.shipInFrame(ship, 0), motions.shipInFrame(ship, lastFrame)];
-  return Math.hypot(a[0] - b[0], a[1] - b[1]) > 1;
 }
 
 /** Half a minute for the whole run. */

@@ -5,8 +5,6 @@
 #include "program.hpp"
 #include <gtest/gtest.h>
 
-#include "geometry/boundary.hpp"
-#include "geometry/contact_circles.hpp"
 #include "io/json_parser.hpp"
 #include "io/motion_index.hpp"
 #include "io/run_reader.hpp"
@@ -119,6 +117,15 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
     EXPECT_EQ(surge[i], run->samples[i].surge_force);
   }
   EXPECT_EQ(held.info.find("events")->items().size(), run->events.size());
+  const auto force = held.column<double>("contact_fx_N"), at = held.column<double>("contact_t_s");
+  const auto by = held.column<std::int32_t>("contact_by_floe");
+  EXPECT_GT(run->contacts.size(), 0U);
+  ASSERT_EQ(force.size(), run->contacts.size());
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    EXPECT_EQ(at[i], run->contacts[i].time);
+    EXPECT_EQ(force[i], run->contacts[i].state.force.x);
+    EXPECT_EQ(by[i], run->contacts[i].state.by.floe);
+  }
 }
 
 /// The area of the rings as drawn is the floe's, to single precision.
@@ -140,36 +147,6 @@ TEST_F(ViewCommand, TheRingsDrawnHaveTheFloesAreas) {
     }
     EXPECT_NEAR(twice / 2, run->floes[floe].birth.area, 1e-5 * run->floes[floe].birth.area + 1e-4);
   }
-}
-
-/// As geometry samples them: as many for each floe, and each where it is, though pieces share them.
-TEST_F(ViewCommand, EveryFloeHasItsContactCircles) {
-  const Page held = page();
-  const auto circles = held.column<float>("circles_m");
-  const auto runs = held.column<std::int32_t>("circle_runs"),
-             runs_of = held.column<std::int32_t>("circle_runs_of");
-  ASSERT_EQ(runs_of.size(), run->floes.size() + 1 + run->scene.scene.ships.size());
-  std::size_t all = 0;
-  for (std::size_t floe = 0; floe < run->floes.size(); ++floe) {
-    const simulation::Birth& birth = run->floes[floe].birth;
-    const geometry::EdgeList edges = geometry::edge_list(birth.polygon_in_body);
-    const double radius = run->scene.scene.contact.circle_radius;
-    const auto wanted = sample_contact_circles(edges, boundary_pieces(edges, radius), radius);
-    const geometry::Point origin = run->floe(run->lineage(birth.floe).front())->birth.centroid_in_body;
-    std::size_t next = 0;
-    for (int r = runs_of[floe]; r < runs_of[floe + 1]; ++r) {
-      for (int k = 0; k < runs[static_cast<std::size_t>(2 * r + 1)]; ++k, ++next) {
-        const auto circle = static_cast<std::size_t>(3 * (runs[static_cast<std::size_t>(2 * r)] + k));
-        ASSERT_LT(next, wanted.size());
-        EXPECT_NEAR(circles[circle], wanted[next].centre.x - origin.x, 1e-4);
-        EXPECT_NEAR(circles[circle + 1], wanted[next].centre.y - origin.y, 1e-4);
-        EXPECT_NEAR(circles[circle + 2], wanted[next].radius, 1e-6);
-      }
-    }
-    EXPECT_EQ(next, wanted.size()) << "floe " << floe;
-    all += next;
-  }
-  EXPECT_LT(circles.size() / 3, all) << "pieces of one floe share circles";
 }
 
 /// At every frame that stays, a thinned page tells of every floe what the run tells.
@@ -221,16 +198,9 @@ TEST_F(ViewCommand, WithoutOutItStandsInTheRunFolder) {
 TEST_F(ViewCommand, TooLargeAPageIsRefusedWithAdvice) {
   const Outcome outcome = view({"--limit", "0.05", "--out", "large.html"});
   EXPECT_EQ(outcome.code, 2);
-  for (const char* way : {"--every", "--from", "--circles 0", "--limit"})
+  for (const char* way : {"--every", "--from", "--limit"})
     EXPECT_NE(outcome.err.find(way), std::string::npos) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder->path() / "large.html"));
-}
-
-TEST_F(ViewCommand, CirclesCanBeLeftOut) {
-  EXPECT_EQ(page({"--circles", "0"}).columns.count("circles_m"), 0U);
-  const Outcome outcome = view({"--circles", "10", "--out", "page.html"});
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_NE(outcome.err.find("contact circles"), std::string::npos);
 }
 
 TEST_F(ViewCommand, WrongUsageIsTwoAndNoRunOrPlaceIsFive) {
@@ -243,19 +213,6 @@ TEST_F(ViewCommand, WrongUsageIsTwoAndNoRunOrPlaceIsFive) {
   }
   EXPECT_EQ(view({}, "no-such-run").code, 5);
   EXPECT_EQ(view({"--out", "no/such/folder/page.html"}).code, 5);
-}
-
-/// A channel that is no JSON is told and left out; one that is stands in the page.
-TEST_F(ViewCommand, AChannelIsTakenIn) {
-  const auto file = folder->path() / "run/channel.geojson";
-  write_file(file, "{\"type\": \"FeatureCollection\", \"features\": [], \"note\": \"</script>\"}");
-  EXPECT_EQ(page().info.find("channel")->find("note")->text(), "</script>");
-  write_file(file, "{\"type\":");
-  const Outcome outcome = view({"--out", "page.html"});
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_NE(outcome.err.find("channel.geojson"), std::string::npos) << outcome.err;
-  EXPECT_TRUE(Page(folder->path() / "page.html").info.find("channel")->is_null());
-  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
 const { startBrowser, openPage } = require("./browser.js");
-const { makeRun, makePage, smallScene, ship } = require("./runs.js");
+const { makeRun, makePage, polynya, smallScene, ship } = require("./runs.js");
 
 let folder, browser;
 before(async () => {
@@ -81,27 +81,71 @@ test("a run that was killed says how far it came; one without frames shows its s
   });
 });
 
-test("a channel in the run folder is shown instead of the swept band", async () => {
-  const run = makeRun(folder, smallScene("channelled", { ships: [ship("a", 0)] }));
-  const colourAt = (page) => page.evaluate(() => {
-    const { view } = window.polynyaPlayer;
-    const [x, y] = view.toScreen(25, -25);
-    return [...document.getElementById("ice").getContext("2d").getImageData(x * view.ratio, y * view.ratio, 1, 1).data];
-  });
-  const square = [[[-100, -30], [100, -30], [100, -20], [-100, -20], [-100, -30]]];
-  const feature = { type: "Feature", properties: {}, geometry: { type: "Polygon", coordinates: square } };
-  let water;
+/** The rows of a CSV file's text as objects. */
+const rowsOf = (text) => {
+  const [header, ...lines] = text.trim().split("\n").map((line) => line.split(","));
+  return lines.map((fields) => Object.fromEntries(header.map((name, k) => [name, fields[k]])));
+};
+
+test("the channel is that of `polynya channel` at every moment, carried with drifting and shearing water", async (t) => {
+  const water = { drift_m_per_s: [0.05, 0.1], shear: { rate_per_s: 1e-4, direction_deg: 20, origin_m: [0, 40] } };
+  const floes = [{ field: { corner_m: [0, -60], extent_m: [260, 120], floe_size_m: 9, concentration: 0.6 } }];
+  const run = makeRun(folder, smallScene("channelled", { water, floes, time: { step_s: 0.02, until_s: 120 }, ships: [ship("a", 0)],
+    fracture: { cusp_fate: "float" } }));
+  let compared = 0;
+  let bounded = 0;
   await withPage(makePage(run), {}, async (page) => {
-    await page.evaluate(() => window.polynyaPlayer.actions.zoomCentre(0.5));
-    await page.waitForTimeout(100);
-    water = await colourAt(page);
+    for (const time of [31, 80, 120]) {
+      const wanted = rowsOf(polynya("channel", run, "--at", String(time), "--out", folder, "--format", "csv"));
+      await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
+      await page.waitForTimeout(100);
+      const measured = await page.evaluate(() => window.polynyaPlayer.stations(0));
+      assert.equal(measured.length, wanted.length);
+      assert.ok(wanted.length > 3);
+      let off = 0;
+      wanted.forEach((row, k) => {
+        assert.ok(Math.abs(Number(row.along_m) - measured[k].along) < 0.05);
+        const sides = [["port", row.has_port_ice], ["starboard", row.has_starboard_ice]];
+        const isNear = ([side, hasIce]) => (hasIce === "1") === (measured[k][side] !== null) &&
+          (hasIce === "0" || Math.abs(Number(row[`${side}_m`]) - measured[k][side]) < 0.1);
+        if (!sides.every(isNear)) ++off;
+        ++compared;
+        bounded += sides.every(([, hasIce]) => hasIce === "1");
+      });
+      // A corner of ice at the very edge of a cell may fall into the next one: tracks agree to 5 cm.
+      assert.ok(off <= 0.1 * wanted.length, `${off} of ${wanted.length} stations differ at ${time} s`);
+      const swept = JSON.parse(fs.readFileSync(path.join(folder, "channel.geojson"), "utf8")).features.find((f) => f.properties.part === "swept band");
+      const [x, y] = swept.geometry.coordinates[0][0].reduce(([sx, sy], [px, py], k, all) => [sx + px / all.length, sy + py / all.length], [0, 0]);
+      const colours = await page.evaluate(([px, py]) => {
+        const { view } = window.polynyaPlayer;
+        const context = document.getElementById("ice").getContext("2d");
+        const at = (wx, wy) => {
+          const [sx, sy] = view.toScreen(wx, wy);
+          return [...context.getImageData(sx * view.ratio, sy * view.ratio, 1, 1).data].join();
+        };
+        return [at(px, py), at(px, py + 1e4)];
+      }, [x, y]);
+      assert.notEqual(colours[0], colours[1], "the band's middle is not plain water");
+    }
+    assert.match(await page.locator("#channel-width").textContent(), /m wide, .* beams/);
   });
-  fs.writeFileSync(path.join(run, "channel.geojson"), JSON.stringify({ type: "FeatureCollection", features: [feature] }));
-  await withPage(makePage(run), {}, async (page) => {
-    await page.evaluate(() => window.polynyaPlayer.actions.zoomCentre(0.5));
-    await page.waitForTimeout(100);
-    assert.notDeepEqual(await colourAt(page), water);
-    assert.ok((await page.locator("#legend").textContent()).includes("channel"));
+  t.diagnostic(`${compared} stations, ${bounded} with ice on both sides`);
+  assert.ok(bounded > 20);
+});
+
+test("there is no channel ahead of the ship", async () => {
+  const file = makePage(makeRun(folder, smallScene("ahead", { floes: [], ships: [ship("a", 0)] })));
+  await withPage(file, {}, async (page) => {
+    const colourAt = (time, x) => page.evaluate(async ([at, px]) => {
+      const { view, actions } = window.polynyaPlayer;
+      actions.goTo(at);
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      const [sx, sy] = view.toScreen(px, 0);
+      return [...document.getElementById("ice").getContext("2d").getImageData(sx * view.ratio, sy * view.ratio, 1, 1).data].join();
+    }, [time, x]);
+    // The stem is 20 m before the centre, which goes from -20 m to 0 in 10 s.
+    assert.equal(await colourAt(0, 10), await colourAt(5, 15), "still ahead of it both times");
+    assert.notEqual(await colourAt(5, 15), await colourAt(10, -10), "behind it");
   });
 });
 
@@ -141,4 +185,71 @@ test("on a phone: nothing is cut off, a tap picks, two fingers zoom", async () =
     const factor = (await page.evaluate(() => window.polynyaPlayer.view.scale)) / scale;
     assert.ok(Math.abs(factor - 2) < 0.05, `zoomed by ${factor}`);
   });
+});
+
+test("contact circles touch their floe from inside, one for each piece of its boundary", async () => {
+  const round = Array.from({ length: 60 }, (_, k) => [50 + 6 * Math.cos((k * Math.PI) / 30), 6 * Math.sin((k * Math.PI) / 30)]);
+  const holed = { polygon: { outer_m: [[70, 10], [90, 10], [90, 30], [70, 30]], holes_m: [[[74, 14], [74, 18], [78, 18]]] } };
+  const run = makeRun(folder, smallScene("circled", { floes: [holed, { rectangle: { corner_m: [20, 0], size_m: [15, 3] } },
+    { polygon: { outer_m: round } }], ships: [ship("a", 0)] }));
+  await withPage(makePage(run), {}, async (page) => {
+    const all = await page.evaluate(() => {
+      const { run: { floes }, circlesOf } = window.polynyaPlayer;
+      return Array.from({ length: floes.count }, (_, id) => {
+        const rings = [];
+        let first = floes.ringsOf[id] > 0 ? floes.ringEnds[floes.ringsOf[id] - 1] : 0;
+        for (let ring = floes.ringsOf[id]; ring < floes.ringsOf[id + 1]; ++ring) {
+          rings.push([]);
+          for (; first < floes.ringEnds[ring]; ++first) rings.at(-1).push([floes.points[2 * first], floes.points[2 * first + 1]]);
+        }
+        return { rings, circles: Array.from(circlesOf(id)) };
+      });
+    });
+    assert.equal(all.length, 3);
+    // Of the square with a hole 20 a side, 4 + 4 + 6 of the hole; of the bar 15 and 3 a side; of the round one, whose sides
+    // are 0.63 m, one a side.
+    assert.deepEqual(all.map(({ circles }) => circles.length / 3), [80 + 14, 36, 60]);
+    let narrower = 0;
+    for (const { rings, circles } of all) {
+      const edges = rings.flatMap((ring) => ring.map((p, k) => [p, ring[(k + 1) % ring.length]]));
+      for (let k = 0; k < circles.length; k += 3) {
+        const [x, y, radius] = circles.slice(k, k + 3);
+        const nearest = Math.min(...edges.map(([[ax, ay], [bx, by]]) => {
+          const part = Math.min(1, Math.max(0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)));
+          return Math.hypot(x - ax - part * (bx - ax), y - ay - part * (by - ay));
+        }));
+        assert.ok(Math.abs(nearest - radius) < 1e-6, `it touches and stays inside: ${nearest}, ${radius}`);
+        const isInside = edges.reduce((odd, [[ax, ay], [bx, by]]) =>
+          (ay > y) !== (by > y) && x < ax + ((y - ay) / (by - ay)) * (bx - ax) ? !odd : odd, false);
+        assert.ok(isInside && radius <= 1 + 1e-12);
+        if (radius < 0.999) ++narrower;
+      }
+    }
+    assert.ok(narrower >= 8 + 6, "in corners circles are smaller");
+  });
+});
+
+test("many small floes are drawn pixel by pixel as they are as paths", async () => {
+  const field = { field: { corner_m: [0, 0], extent_m: 900, floe_size_m: 15, concentration: 0.7 } };
+  const run = makeRun(folder, smallScene("many", { floes: [field, { polygon: { outer_m: [[-300, 0], [-60, 0], [-60, 400], [-300, 400]] } }],
+    time: { step_s: 0.05, until_s: 4 }, water: { drift_m_per_s: [0.3, 0] }, ships: [] }));
+  const file = makePage(run);
+  const shares = [];
+  for (const many of ["1000", "1e9"]) {
+    fs.writeFileSync(file, fs.readFileSync(file, "utf8").replace(/const manySmall = \S+;/, `const manySmall = ${many};`));
+    await withPage(file, {}, async (page) => {
+      shares.push(await page.evaluate(() => {
+        const canvas = document.getElementById("ice");
+        const { data, width, height } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        const cells = new Float64Array(16 * 16); // how light squares of the screen are
+        for (let y = 0; y < height; ++y)
+          for (let x = 0; x < width; ++x)
+            cells[Math.floor((16 * y) / height) * 16 + Math.floor((16 * x) / width)] += (data[4 * (y * width + x)] * 256) / (255 * width * height);
+        return Array.from(cells);
+      }));
+    });
+  }
+  const [pixels, paths] = shares;
+  assert.ok(Math.max(...paths) - Math.min(...paths) > 0.3, "there is ice and water");
+  paths.forEach((light, k) => assert.ok(Math.abs(light - pixels[k]) < 0.04, `${light} ${pixels[k]}`));
 });

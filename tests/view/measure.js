@@ -1,11 +1,27 @@
 // Measures the player: node tests/view/measure.js PAGE.html [seconds]     (playwright-core in NODE_PATH)
-// Prints how long the page took to open, and the time between frames and in drawing while it plays.
+// Prints how long the page took to open, the time between frames and in drawing while it plays, and the processor time of all the
+// browser's processes for a frame, which other work on the machine changes little (Linux).
 "use strict";
+const fs = require("node:fs");
 const path = require("node:path");
 const { startBrowser, openPage } = require("./browser.js");
 
+/** Processor time of this process' descendants [ms]. */
+function processorTime() {
+  const processes = new Map();
+  for (const id of fs.readdirSync("/proc").filter((name) => /^\d+$/.test(name))) {
+    try {
+      const fields = fs.readFileSync(`/proc/${id}/stat`, "utf8").replace(/.*\) /, "").split(" ");
+      processes.set(id, { parent: fields[1], ticks: Number(fields[11]) + Number(fields[12]) });
+    } catch { /* it has ended */ }
+  }
+  const isBelow = (id) => processes.has(id) && (processes.get(id).parent === String(process.pid) || isBelow(processes.get(id).parent));
+  return [...processes.keys()].filter(isBelow).reduce((sum, id) => sum + 10 * processes.get(id).ticks, 0);
+}
+
 async function playFor(page, seconds) {
-  return page.evaluate(async (duration) => {
+  const before = processorTime();
+  const played = await page.evaluate(async (duration) => {
     const { actions, state } = window.polynyaPlayer;
     const between = [];
     actions.play(true);
@@ -21,6 +37,7 @@ async function playFor(page, seconds) {
     actions.play(false);
     return { between, draw: window.polynyaPlayer.drawTimes.slice() };
   }, 1000 * seconds);
+  return { ...played, processor: (processorTime() - before) / played.between.length };
 }
 
 const at = (values, part) => [...values].sort((a, b) => a - b)[Math.floor(part * (values.length - 1))].toFixed(1);
@@ -30,9 +47,11 @@ async function main() {
   const page = await openPage(browser, path.resolve(process.argv[2]));
   const seconds = Number(process.argv[3] ?? 5);
   console.log(`opened and drawn after ${page.openedAfter} ms; ${await page.locator("#living").textContent()} floes`);
-  const show = (words, { between, draw }) =>
+  const show = (words, { between, draw, processor }) =>
     console.log(`${words}: ${(1000 * between.length / between.reduce((a, b) => a + b, 0)).toFixed(0)} frames/s, between frames ` +
-      `${at(between, 0.5)} ms (95 %: ${at(between, 0.95)}), of which script ${at(draw, 0.5)} ms (95 %: ${at(draw, 0.95)})`);
+      `${at(between, 0.5)} ms (95 %: ${at(between, 0.95)}), of which script ${at(draw, 0.5)} ms (95 %: ${at(draw, 0.95)}); processor ${processor.toFixed(1)} ms a frame`);
+  await playFor(page, 2); // the browser compiles what runs often
+  await page.evaluate(() => window.polynyaPlayer.actions.goToEnd(false));
   show("whole run, playing", await playFor(page, seconds));
   await page.evaluate(() => { const { actions } = window.polynyaPlayer; actions.goToEnd(false); actions.setFollow(0); });
   show("following the ship", await playFor(page, seconds));

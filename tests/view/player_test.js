@@ -215,6 +215,43 @@ test("the load shown is the row of forces.csv", async () => {
   await page.selectOption("#quantity", "surge_N");
 });
 
+test("the contact forces shown are those of contacts.csv, at the hull, and go with the ship", async (t) => {
+  await page.selectOption("#quantity", "surge_N");
+  const [header, ...lines] = readLines(run, "contacts.csv");
+  const names = header.split(",");
+  const rows = lines.map((line) => Object.fromEntries(line.split(",").map((field, k) => [names[k], field])));
+  await act("setFollow", 0);
+  await act("toggleLayer", "track", false);
+  await act("toggleLayer", "forces", true);
+  let shown = 0;
+  for (const time of [20, ...new Set(rows.map((row) => Number(row.t_s)).filter((_, k) => k % 40 === 0)), 550]) {
+    const wanted = rows.filter((row) => Number(row.t_s) === time);
+    await act("goTo", time);
+    const arrows = await page.evaluate(() => {
+      const canvas = document.getElementById("marks");
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      const is = (k, [r, g, b]) => data[k] === r && data[k + 1] === g && data[k + 2] === b && data[k + 3] === 255;
+      let pixels = 0;
+      for (let k = 0; k < data.length; k += 4) if (is(k, [0xd5, 0x5e, 0]) || is(k, [0, 0x72, 0xb2])) ++pixels;
+      return pixels;
+    });
+    if (wanted.some((row) => Math.hypot(row.fx_N, row.fy_N) > 1e5)) assert.ok(arrows > 20, `${time} s: ${arrows} pixels`);
+    if (wanted.length === 0) assert.equal(arrows, 0, `${time} s`);
+    const held = await page.evaluate(() => window.polynyaPlayer.contacts());
+    assert.deepEqual(held.map(({ x, y, fx, fy, byFloe, isCrushing }) => [x, y, fx, fy, byFloe, isCrushing]),
+      wanted.map((row) => [row.x_m, row.y_m, row.fx_N, row.fy_N, row.by_floe_id, row.is_crushing].map(Number)));
+    shown += wanted.length;
+  }
+  t.diagnostic(`${shown} contacts`);
+  assert.ok(shown > 5);
+  const unit = await page.locator("#legend").textContent();
+  assert.match(unit, /[kM]N.*crushing/);
+  await act("toggleLayer", "forces", false);
+  await act("toggleLayer", "track", true);
+  await act("setFollow", -1);
+  await act("fit");
+});
+
 test("the plot's moment and the timeline's stand in one line with the time", async () => {
   for (const time of [0, 137, 550]) {
     await act("goTo", time);
@@ -228,14 +265,14 @@ test("layers, colours, themes and the ship's company change the picture", async 
   await act("goTo", 300);
   await act("setFollow", 0);
   const seen = new Set([(await picture()).toString("base64")]);
-  for (const key of ["2", "3", "c", "v", "h", "b", "t", "+"]) {
+  for (const key of ["2", "3", "c", "v", "h", "p", "b", "t", "+"]) {
     await page.keyboard.press(key);
     await drawn();
     const now = (await picture()).toString("base64");
     assert.ok(!seen.has(now), `key ${key} changed nothing`);
     seen.add(now);
   }
-  for (const key of ["1", "c", "v", "h", "b", "t", "0"]) await page.keyboard.press(key);
+  for (const key of ["1", "c", "v", "h", "p", "b", "t", "0"]) await page.keyboard.press(key);
   await page.keyboard.press("?");
   assert.ok(await page.locator("#help").isVisible());
   await page.keyboard.press("Escape");
