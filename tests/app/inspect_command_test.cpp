@@ -1,4 +1,4 @@
-#include "program.hpp"
+#include "plate_run.hpp"
 #include <gtest/gtest.h>
 
 #include "geometry/repair.hpp"
@@ -10,26 +10,10 @@
 namespace polynya::tests {
 namespace {
 
-/// One real run for all: an icebreaker 30 s into a plate.
-class InspectCommand : public testing::Test {
+class InspectCommand : public PlateRun {
  protected:
-  static void SetUpTestSuite() {
-    folder = new TemporaryFolder;
-    const Outcome outcome =
-        polynya({"run", scene_path("level-plate"), "--until", "30", "--out", "run"}, {folder->path()});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    auto read = io::read_run(folder->path() / "run");
-    ASSERT_TRUE(read.has_value()) << read.error();
-    run = new io::Run(std::move(*read));
-    ASSERT_GT(run->events.size(), 5U);
-  }
-  static void TearDownTestSuite() {
-    delete run;
-    delete folder;
-  }
-  static Outcome inspect(std::vector<std::string> words, const std::string& of = "run") {
-    words.insert(words.begin(), {"inspect", of});
-    return polynya(words, {folder->path()});
+  static Outcome inspect(const std::vector<std::string>& words, const std::string& of = "run") {
+    return on_run("inspect", words, of);
   }
   static std::vector<std::string> lines(const std::string& text) {
     std::vector<std::string> all;
@@ -42,9 +26,6 @@ class InspectCommand : public testing::Test {
     for (const io::RunFloe& floe : run->floes) count += run->is_alive(floe.birth.floe, time) ? 1 : 0;
     return count;
   }
-
-  static inline TemporaryFolder* folder = nullptr;
-  static inline io::Run* run = nullptr;
 };
 
 TEST_F(InspectCommand, TheTableHasALineForEachLivingFloe) {

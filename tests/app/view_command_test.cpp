@@ -2,7 +2,7 @@
 #include <cstring>
 #include <map>
 
-#include "program.hpp"
+#include "plate_run.hpp"
 #include <gtest/gtest.h>
 
 #include "io/json_parser.hpp"
@@ -64,25 +64,10 @@ struct Page {
   }
 };
 
-/// One real run for all: an icebreaker 30 s into a plate.
-class ViewCommand : public testing::Test {
+class ViewCommand : public PlateRun {
  protected:
-  static void SetUpTestSuite() {
-    folder = new TemporaryFolder;
-    const Outcome outcome =
-        polynya({"run", scene_path("level-plate"), "--until", "30", "--out", "run"}, {folder->path()});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    auto read = io::read_run(folder->path() / "run");
-    ASSERT_TRUE(read.has_value()) << read.error();
-    run = new io::Run(std::move(*read));
-  }
-  static void TearDownTestSuite() {
-    delete run;
-    delete folder;
-  }
-  static Outcome view(std::vector<std::string> words, const std::string& of = "run") {
-    words.insert(words.begin(), {"view", of});
-    return polynya(words, {folder->path()});
+  static Outcome view(const std::vector<std::string>& words, const std::string& of = "run") {
+    return on_run("view", words, of);
   }
   static Page page(std::vector<std::string> words = {}) {
     words.insert(words.end(), {"--out", "page.html"});
@@ -90,9 +75,6 @@ class ViewCommand : public testing::Test {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return Page(folder->path() / "page.html");
   }
-
-  static inline TemporaryFolder* folder = nullptr;
-  static inline io::Run* run = nullptr;
 };
 
 TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "io/run_reader.hpp"
+#include "program.hpp"
+
+namespace polynya::tests {
+
+/// One real run for all tests of a command: an icebreaker 30 s into a plate.
+class PlateRun : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    const Outcome outcome =
+        polynya({"run", scene_path("level-plate"), "--until", "30", "--out", "run"}, {folder->path()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    auto read = io::read_run(folder->path() / "run");
+    ASSERT_TRUE(read.has_value()) << read.error();
+    run = new io::Run(std::move(*read));
+    ASSERT_GT(run->events.size(), 5U);
+  }
+  static void TearDownTestSuite() {
+    delete run;
+    delete folder;
+  }
+  /// The command with the run's folder, or another of that folder's, and more words.
+  static Outcome on_run(const std::string& command, std::vector<std::string> words,
+                        const std::string& of = "run") {
+    words.insert(words.begin(), {command, of});
+    return polynya(words, {folder->path()});
+  }
+
+  static inline TemporaryFolder* folder = nullptr;
+  static inline io::Run* run = nullptr;
+};
+
+}  // namespace polynya::tests
