@@ -1,5 +1,6 @@
 # Installs a build into a prefix of its own, then configures, builds and runs the consumer against nothing but that.
-#   cmake -DBUILD=<polynya's build folder> -DWORK=<scratch folder> -DGENERATOR=<generator> -P run.cmake
+#   cmake -DBUILD=<polynya's build folder> -DWORK=<scratch folder> -DGENERATOR=<generator>
+#         [-DFLAGS=<compiler flags>] -P run.cmake
 foreach(needed BUILD WORK GENERATOR)
   if(NOT ${needed})
     message(FATAL_ERROR "run.cmake needs -D${needed}=")
@@ -18,7 +19,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK}/prefix
-    -DCMAKE_BUILD_TYPE=Debug)
+    -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer ${WORK}/prefix/share/polynya/scenes/two-floes.json)
 message(STATUS "${output}")
