@@ -257,7 +257,8 @@ std::vector<FloeId> Run::lineage(FloeId id) const {
 
 std::span<const RunContact> Run::contacts_at(double time) const {
   const auto first = std::ranges::lower_bound(contacts, time, {}, &RunContact::time);
-  return {first, std::ranges::upper_bound(contacts, time, {}, &RunContact::time)};
+  const auto last = std::ranges::upper_bound(contacts, time, {}, &RunContact::time);
+  return {first, last};
 }
 
 tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
