@@ -38,6 +38,7 @@ inline pid_t start_polynya(const std::vector<std::string>& words, const Start& s
   std::vector<std::string> copies{POLYNYA_BINARY};
   copies.insert(copies.end(), words.begin(), words.end());
   std::vector<char*> arguments;
+  arguments.reserve(copies.size() + 1);
   for (std::string& word : copies) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execv(arguments[0], arguments.data());
