@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ struct Start {
 inline pid_t start_polynya(const std::vector<std::string>& words, const Start& start) {
   const pid_t child = fork();
   if (child != 0) return child;
+  // A shell's background job, nohup's too, passes on that it ignores these; the tests send them.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   std::filesystem::current_path(start.folder);
   if (!freopen("stdout.txt", "w", stdout) || !freopen("stderr.txt", "w", stderr)) _exit(126);
   if (!freopen(start.input.empty() ? "/dev/null" : start.input.c_str(), "r", stdin)) _exit(126);
