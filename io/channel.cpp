@@ -4,14 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "geometry/cut.hpp"
 #include "geometry/measures.hpp"
-#include "geometry/repair.hpp"
-#include "geometry/validity.hpp"
 #include "io/moment.hpp"
+#include "io/placed_ice.hpp"
 #include "io/swept_band.hpp"
 
 namespace polynya::io {
@@ -23,58 +22,6 @@ using geometry::Polygon;
 using geometry::Vector;
 
 constexpr double kTrackTolerance = 0.05;  ///< [m]
-
-/// A valid polygon of ice now, with its box.
-struct Ice {
-  const simulation::Birth* birth = nullptr;  ///< null: of the scene
-  Polygon polygon;
-  Box box;
-};
-
-/// A placed shape is rounded and may not be valid any more: it is then what its rings wind around.
-void add_ice(std::vector<Ice>& ice, const simulation::Birth* birth, Polygon polygon) {
-  if (!find_defect(polygon)) {
-    const Box box = bounding_box(polygon.outer);
-    ice.push_back({birth, std::move(polygon), box});
-    return;
-  }
-  std::vector<geometry::Ring> rings{polygon.outer};
-  rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
-  const auto repaired = geometry::repair(rings, geometry::FillRule::kNonZero);
-  if (!repaired) return;
-  for (const geometry::Shape& shape : repaired->shapes)
-    ice.push_back({birth, shape.polygon, bounding_box(shape.polygon.outer)});
-}
-
-std::vector<Polygon> near(const std::vector<Ice>& ice, const Box& box) {
-  std::vector<Polygon> found;
-  for (const Ice& floe : ice) {
-    if (overlaps(floe.box, box)) found.push_back(floe.polygon);
-  }
-  return found;
-}
-
-struct Parted {
-  std::vector<Polygon> inside;
-  std::vector<Polygon> outside;
-  double inside_area = 0;  ///< [m²]
-};
-
-/// What of a polygon the others cover and what not, exactly but for one rounding of vertices.
-tl::expected<Parted, std::string> part(const Polygon& polygon, const std::vector<Polygon>& by) {
-  if (by.empty()) return Parted{{}, {polygon}, 0};
-  auto cut = geometry::cut_by_polygons({polygon, nullptr}, by);
-  if (!cut && cut.error().reason == geometry::CutFailure::kMisses) return Parted{{}, {polygon}, 0};
-  if (!cut)
-    return tl::unexpected(
-        fmt::format("a cut was refused: {}: {}", name_of(cut.error().reason), cut.error().detail));
-  Parted parted;
-  parted.inside_area = cut->ledger.area_inside;
-  for (geometry::Piece& piece : cut->pieces)
-    (piece.part == geometry::Part::kInside ? parted.inside : parted.outside)
-        .push_back(std::move(piece.shape.polygon));
-  return parted;
-}
 
 /// The track's corners with the way to them and when they were passed.
 struct Waypoint {
@@ -105,13 +52,12 @@ class ChannelMeasure {
     channel_.spacing = options.spacing > 0 ? options.spacing : channel_.beam;
     channel_.reach = options.reach > 0 ? options.reach : 4 * channel_.beam;
     behind_ = -box.low.x;
-    for (const PlacedFloe& floe : floes_at(run, motions_, time))
-      add_ice(ice_, floe.birth, placed(floe.world_from_body, floe.birth->polygon_in_body));
   }
 
   tl::expected<Channel, std::string> measure() {
     find_track();
-    return find_band()
+    return find_ice()
+        .and_then([&] { return find_band(); })
         .and_then([&] { return find_stations(); })
         .and_then([&] { return find_open_water(); })
         .map([&] { return std::move(channel_); });
@@ -134,12 +80,22 @@ class ChannelMeasure {
     }
   }
 
+  Done find_ice() {
+    for (const PlacedFloe& floe : floes_at(run_, motions_, time_)) {
+      Polygon polygon = placed(floe.world_from_body, floe.birth->polygon_in_body);
+      if (auto done = add_ice(ice_, floe.birth, std::move(polygon)); !done) return done;
+    }
+    return {};
+  }
+
   Done find_band() {
     auto band = union_of(swept_pieces(run_, motions_, ship_, time_, kTrackTolerance));
     if (!band) return tl::unexpected(band.error());
     channel_.swept = std::move(*band);
-    std::vector<Ice> ice_at_start;
-    for (const auto& floe : run_.scene.scene.floes) add_ice(ice_at_start, nullptr, floe.polygon_in_world);
+    std::vector<PlacedIce> ice_at_start;
+    for (const auto& floe : run_.scene.scene.floes) {
+      if (auto done = add_ice(ice_at_start, nullptr, floe.polygon_in_world); !done) return done;
+    }
     for (const Polygon& piece : channel_.swept) {
       channel_.swept_area += measure_of(piece);
       const Polygon then = carried_by_water(run_.scene.scene.water, piece, time_, run_.start_time());
@@ -151,7 +107,7 @@ class ChannelMeasure {
   }
 
   Done find_floes_in_band() {
-    for (const Ice& floe : ice_) {
+    for (const PlacedIce& floe : ice_) {
       const auto parted = part(floe.polygon, channel_.swept);
       if (!parted) return tl::unexpected(parted.error());
       if (parted->inside_area <= 0) continue;
@@ -264,8 +220,9 @@ class ChannelMeasure {
   bool has_track(const Polygon& water) const {
     const Box box = bounding_box(water.outer);
     const double step = channel_.spacing / 16;
-    for (double along = 0.5 * step; along < track_.back().along; along += step) {
-      const Point p = at_way(track_, along).point;
+    const auto points = static_cast<std::size_t>(std::ceil(track_.back().along / step - 0.5));
+    for (std::size_t i = 0; i < points; ++i) {
+      const Point p = at_way(track_, (static_cast<double>(i) + 0.5) * step).point;
       if (overlaps(box, {p, p}) && contains(water, p)) return true;
     }
     return false;
@@ -276,7 +233,7 @@ class ChannelMeasure {
   std::size_t ship_;
   double time_;        ///< [s]
   double behind_ = 0;  ///< from the ship's centre to its stern [m]
-  std::vector<Ice> ice_;
+  std::vector<PlacedIce> ice_;
   std::vector<Waypoint> track_;
   std::vector<Polygon> cells_;  ///< of the stations
   Channel channel_;
