@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "io/axis_scale.hpp"
+#include "io/rows_of.hpp"
 #include "io/svg_text.hpp"
 
 namespace polynya::io {
@@ -64,7 +65,7 @@ class SvgChart {
     for (std::size_t i = 0; i < chart_.panels.size(); ++i) {
       left_ = pitch * static_cast<double>(i % columns_) + kLeft;
       width_ = pitch - kLeft - 12;
-      top_ = kHeader + (row_height_ + kHeadOfRow) * static_cast<double>(i / columns_);
+      top_ = kHeader + (row_height_ + kHeadOfRow) * static_cast<double>(row_of(i, columns_));
       if (!chart_.panels[i].title.empty()) draw_panel(chart_.panels[i], i);
     }
     draw_legend();
@@ -76,7 +77,7 @@ class SvgChart {
     return kHeader + rows() * row_height_ + (rows() - 1) * kHeadOfRow + legend_height() + 16;
   }
   double rows() const {
-    return static_cast<double>((std::max<std::size_t>(1, chart_.panels.size()) + columns_ - 1) / columns_);
+    return static_cast<double>(rows_of(std::max<std::size_t>(1, chart_.panels.size()), columns_));
   }
   double px(double x) const { return left_ + width_ * x_scale_.share(x); }
   double py(double y) const { return top_ + chart_.panel_height * (1 - y_scale_.share(y)); }
@@ -177,8 +178,7 @@ class SvgChart {
     return (chart_.minor_mark.empty() ? 0U : 1U) + (chart_.major_mark.empty() ? 0U : 1U);
   }
   double legend_height() const {
-    const std::size_t count = legend_.size() + mark_entries();
-    return kLegendLine * static_cast<double>((count + kLegendColumns - 1) / kLegendColumns);
+    return kLegendLine * static_cast<double>(rows_of(legend_.size() + mark_entries(), kLegendColumns));
   }
 
   void draw_legend() {
@@ -187,7 +187,7 @@ class SvgChart {
     const auto next = [&] {
       const double pitch = (kWidth - kLeft) / static_cast<double>(kLegendColumns);
       const double x = kLeft + pitch * static_cast<double>(place % kLegendColumns);
-      const double y = top + kLegendLine * static_cast<double>(place / kLegendColumns);
+      const double y = top + kLegendLine * static_cast<double>(row_of(place, kLegendColumns));
       ++place;
       return std::pair{x, y};
     };

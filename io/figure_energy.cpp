@@ -5,6 +5,7 @@
 
 #include "io/axis_scale.hpp"
 #include "io/figures.hpp"
+#include "io/rows_of.hpp"
 #include "io/svg_text.hpp"
 
 namespace polynya::io {
@@ -45,6 +46,7 @@ constexpr double kNames = 300;     ///< room for the names [px]
 constexpr double kNumbers = 150;   ///< room for the numbers [px]
 constexpr double kBarHeight = 20;  ///< [px]
 constexpr double kGap = 18;        ///< between sinks [px]
+constexpr std::size_t kLegendColumns = 3;
 
 }  // namespace
 
@@ -60,7 +62,7 @@ std::string energy_figure(const std::vector<Run>& runs) {
   }
   const double pitch = kBarHeight * static_cast<double>(runs.size()) + kGap;
   const double bottom = kHeader + pitch * static_cast<double>(sinks.size());
-  SvgText svg(kWidth, bottom + 90 + 30 * static_cast<double>((runs.size() + 2) / 3));
+  SvgText svg(kWidth, bottom + 90 + 30 * static_cast<double>(rows_of(runs.size(), kLegendColumns)));
   svg.title(24, "Energy by sink", "work over the whole run; signs as in summary.json");
   const AxisScale axis = axis_scale(low / 1e6, high / 1e6, false, AxisFit::kRoomy);
   const auto x = [&](double megajoules) {
@@ -86,8 +88,8 @@ std::string energy_figure(const std::vector<Run>& runs) {
   }
   svg.add("<path d='M{0:.2f} {1:.2f}V{2:.2f}' stroke='#000000'/>\n", x(0), kHeader, bottom);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const double left = kNames + 430 * static_cast<double>(i % 3);
-    const double y = bottom + 84 + 30 * static_cast<double>(i / 3);
+    const double left = kNames + 430 * static_cast<double>(i % kLegendColumns);
+    const double y = bottom + 84 + 30 * static_cast<double>(row_of(i, kLegendColumns));
     svg.add("<rect x='{:.2f}' y='{:.2f}' width='26' height='16' fill='{}'/>\n", left, y - 13,
             kCurveColours[colour_of_run(i)]);
     svg.words(left + 34, y, 16, runs[i].scene.scene.name);

@@ -46,7 +46,7 @@ void append_text(std::string& text, std::string_view value) {
 
 void JsonWriter::break_line() {
   text_ += '\n';
-  text_.append(static_cast<std::size_t>(2 * depth_), ' ');
+  text_.append(2 * depth_, ' ');
 }
 
 void JsonWriter::separate() {

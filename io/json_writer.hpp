@@ -50,7 +50,7 @@ class JsonWriter {
   void break_line();
   std::string& text_;
   Layout layout_;
-  int depth_ = 0;
+  std::size_t depth_ = 0;
   bool is_first_ = true;
   bool follows_key_ = false;
   bool starts_line_ = false;

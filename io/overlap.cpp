@@ -51,7 +51,7 @@ class Grid {
       all_.high = {std::max(all_.high.x, box.high.x), std::max(all_.high.y, box.high.y)};
     }
     const Vector extent = all_.high - all_.low;
-    const double count = static_cast<double>(boxes.size());
+    const auto count = static_cast<double>(boxes.size());
     cell_ = std::max({std::sqrt(extent.x * extent.y / count), extent.x / count, extent.y / count, 1e-3});
     columns_ = 1 + static_cast<std::size_t>(extent.x / cell_);
     rows_ = 1 + static_cast<std::size_t>(extent.y / cell_);
@@ -91,6 +91,7 @@ std::vector<Overlap> find_overlaps(const std::vector<Polygon>& polygons, std::si
   std::vector<Overlap> found;
   if (polygons.empty()) return found;
   std::vector<Box> boxes;
+  boxes.reserve(polygons.size());
   for (const Polygon& polygon : polygons) boxes.push_back(geometry::bounding_box(polygon.outer));
   const Grid grid(boxes);
   for (std::size_t cell = 0; cell < grid.cells().size() && found.size() < most; ++cell) {

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include "io/rows_of.hpp"
 #include "io/svg_text.hpp"
-
-extern char** environ;
 
 namespace polynya::io {
 namespace {
@@ -186,7 +186,7 @@ class SvgSheet {
   }
 
   std::string draw() {
-    const std::size_t rows = (sheet_.pictures.size() + columns_ - 1) / columns_;
+    const std::size_t rows = rows_of(sheet_.pictures.size(), columns_);
     const double pitch = frame_.height() + (has_heads_ ? kHead : 0) + (rows > 1 ? 8 : 0);
     const double below = kHeader + pitch * static_cast<double>(rows);
     SvgText svg(kWidth, below + kFooter);
@@ -194,7 +194,7 @@ class SvgSheet {
     for (std::size_t i = 0; i < sheet_.pictures.size(); ++i) {
       const Picture& picture = sheet_.pictures[i];
       frame_.left = left_ + static_cast<double>(i % columns_) * (frame_.width() + kMargin);
-      frame_.top = kHeader + static_cast<double>(i / columns_) * pitch + (has_heads_ ? kHead : 0);
+      frame_.top = kHeader + static_cast<double>(row_of(i, columns_)) * pitch + (has_heads_ ? kHead : 0);
       if (has_heads_) {
         svg.add(
             "<text x='{:.0f}' y='{:.0f}' font-size='17'><tspan font-weight='bold'>{}</tspan>  {}</text>\n",

@@ -222,8 +222,8 @@ std::string commented_scene() {
   const auto replace = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
   };
-  replace("\"name\": \"scene\"", "\"name\": \"my-scene\"");
-  replace("\"until_s\": 550", "\"until_s\": 120");
+  replace(R"("name": "scene")", R"("name": "my-scene")");
+  replace(R"("until_s": 550)", R"("until_s": 120)");
   return text;
 }
 

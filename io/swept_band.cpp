@@ -97,6 +97,7 @@ std::vector<double> straight_pieces(const Run& run, const MotionIndex& motions, 
   constexpr std::size_t kLongest = 256;  ///< frames in a piece, which keeps the search near linear
   const std::vector<double> times = frame_times_until(run, time);
   std::vector<Ring> hulls;
+  hulls.reserve(times.size());
   for (const double t : times) hulls.push_back(hull_at(run, motions, ship, t, time));
   std::vector<double> ends{times.front()};
   for (std::size_t from = 0; from + 1 < times.size();) {

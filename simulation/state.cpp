@@ -226,6 +226,7 @@ class StateLoader {
 std::string save_state(const World& world) {
   const std::vector<dynamics::PairMemory> pairs = world.pairs.memory();
   std::vector<double> quiet_until;
+  quiet_until.reserve(pairs.size());
   for (const dynamics::PairMemory& pair : pairs) quiet_until.push_back(pair.quiet_until);
   ByteWriter archive;
   write(archive, world, pairs);
