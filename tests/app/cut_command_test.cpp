@@ -279,8 +279,8 @@ TEST_F(CutCommand, EveryDefectIsRefusedByNameAndTheGoodAreCut) {
       {"[[0,0],[8,0],[8,8],[0,8]],[[0,4],[4,2],[8,4],[4,6]]", "disconnected"}};
   std::vector<std::string> features{feature(kSquare)};
   for (const Bad& bad : all) features.push_back(feature(bad.rings));
-  features.push_back(R"({"type":"Feature","properties":{},"geometry":null})");
-  features.push_back(R"({"type":"LineString","coordinates":[[0,0],[1,1]]})");
+  features.emplace_back(R"({"type":"Feature","properties":{},"geometry":null})");
+  features.emplace_back(R"({"type":"LineString","coordinates":[[0,0],[1,1]]})");
   features.push_back(polygon_json("[[0,0],[1,0],5]"));
   features.push_back(feature(kFarSquare));
   write("floes.geojson", collection(features));

@@ -308,7 +308,7 @@ TEST(DatabaseCommand, UsageErrorsAreTwo) {
 
 TEST(DatabaseCommand, RefusesFilesThatAreNoDatabase) {
   const TemporaryFolder folder;
-  const std::string sound = small_database();
+  const std::string& sound = small_database();
   std::string digit = sound;
   digit[sound.size() / 2] = digit[sound.size() / 2] == '1' ? '2' : '1';
   std::string later = sound;

@@ -71,7 +71,7 @@ class ViewCommand : public PlateRun {
   }
   static Page page(std::vector<std::string> words = {}) {
     words.insert(words.end(), {"--out", "page.html"});
-    const Outcome outcome = view(std::move(words));
+    const Outcome outcome = view(words);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return Page(folder->path() / "page.html");
   }
@@ -121,8 +121,8 @@ TEST_F(ViewCommand, TheRingsDrawnHaveTheFloesAreas) {
       const int first = ring == 0 ? 0 : ends[static_cast<std::size_t>(ring - 1)];
       const int end = ends[static_cast<std::size_t>(ring)];
       for (int k = first, j = end - 1; k < end; j = k++) {
-        const auto at = [&](int index, int axis) {
-          return double{points[static_cast<std::size_t>(2 * index + axis)]};
+        const auto at = [&](int index, std::size_t axis) {
+          return double{points[2 * static_cast<std::size_t>(index) + axis]};
         };
         twice += at(j, 0) * at(k, 1) - at(k, 0) * at(j, 1);
       }

@@ -159,7 +159,7 @@ TEST_F(RandomContacts, WithFrictionMomentumIsKeptTheConeHoldsAndNoEnergyIsGained
         t.bodies.mass[0] * length(t.bodies.velocity[0]) + t.bodies.mass[1] * length(t.bodies.velocity[1]);
     solver.solve(t.bodies, t.contacts, settings);
     const Contact& c = t.contacts[0];
-    for (int end = 0; end < 2; ++end) EXPECT_GE(c.normal_impulse[end], 0);
+    for (const double impulse : c.normal_impulse) EXPECT_GE(impulse, 0);
     worst_cone = std::max(worst_cone, std::abs(c.slip_impulse) - c.friction * c.total_normal_impulse());
     worst_momentum = std::max(worst_momentum, length(momentum(t.bodies) - p) / scale);
     worst_turn = std::max(worst_turn, std::abs(angular_momentum(t.bodies) - turn) / (60 * scale));
@@ -312,6 +312,7 @@ TEST(ContactsTogether, ARowOfTouchingFloesKeepsItsMomentumAndGainsNoEnergy) {
 TEST(ContactsTogether, APlasticRowMovesOnAsOne) {
   Bodies bodies = cradle(6, 2);
   std::vector<Contact> contacts;
+  contacts.reserve(5);
   for (BodyIndex i = 0; i < 5; ++i) contacts.push_back(contact_at(i, i + 1, {10.0 * i + 5, 0}, {1, 0}, 10));
   SolverSettings settings;
   settings.restitution = 0;

@@ -63,8 +63,10 @@ struct Pack {
   Random random{kSeed};
 
   Pack(const ContactRule& rule, int columns) : finder(rule, 15) {
-    for (int i = 0; i < columns * columns; ++i)
-      add({14.0 * (i % columns), 14.0 * (i / columns)}, i % 3 != 0, columns);
+    for (int row = 0, i = 0; row < columns; ++row) {
+      for (int column = 0; column < columns; ++column, ++i)
+        add({14.0 * column, 14.0 * row}, i % 3 != 0, columns);
+    }
     for (int i = 0; i < columns * columns; ++i) {
       if (i % 3 != 0) wake(i);
     }
@@ -115,6 +117,7 @@ void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
     pack.finder.update(pack.bodies, pack.awake);
     pack.finder.find_contacts(pack.bodies, kStep, contacts);
     std::vector<Found> found;
+    found.reserve(contacts.size());
     for (const Contact& c : contacts) found.push_back({c.a, c.b, c.width, c.depth, c.area});
     ASSERT_TRUE(std::is_sorted(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
       return std::pair(p.a, p.b) < std::pair(q.a, q.b);

@@ -256,11 +256,8 @@ ManyKnives roll_knives(Dice& dice, const Polygon& floe) {
       polygon.holes.push_back(std::move(hole));
     }
     polygon = normalised(polygon);
-    if (!find_defect(polygon)) {
-      knives.polygons.push_back(std::move(polygon));
-    } else if (polygon.holes.clear(); !find_defect(polygon)) {
-      knives.polygons.push_back(std::move(polygon));
-    }
+    if (find_defect(polygon)) polygon.holes.clear();
+    if (!find_defect(polygon)) knives.polygons.push_back(std::move(polygon));
   }
   return knives;
 }

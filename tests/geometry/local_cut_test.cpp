@@ -25,7 +25,7 @@ struct Tally {
 
 // Cuts by both paths, compares, and returns the public function's result.
 CutOutcome compare_disc(const Shape& shape, const Ring& disc, Tally& tally) {
-  const CutOutcome result = cut_by_polygon(shape, {disc, {}});
+  CutOutcome result = cut_by_polygon(shape, {disc, {}});
   EXPECT_TRUE(is_sound(shape, result)) << trials::to_code(shape.polygon) << "\n" << trials::to_code(disc);
   if (shape.exact) return result;
   const auto local = cut_locally(shape.polygon, {disc, true});
@@ -40,7 +40,7 @@ CutOutcome compare_disc(const Shape& shape, const Ring& disc, Tally& tally) {
 }
 
 CutOutcome compare_crack(const Shape& shape, const Ring& crack, Tally& tally) {
-  const CutOutcome result = cut_along(shape, crack);
+  CutOutcome result = cut_along(shape, crack);
   EXPECT_TRUE(is_sound(shape, result)) << trials::to_code(shape.polygon) << "\n" << trials::to_code(crack);
   if (shape.exact) return result;
   const auto local = cut_locally(shape.polygon, {crack, false});

@@ -58,14 +58,18 @@ class NoisyField {
  private:
   using Key = std::pair<int, int>;  // a grid edge: its lower left end, and 0 along x or 1 along y
 
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * n_ + x); }
+  static std::size_t in_row_major(int row, int column, int columns) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+  std::size_t at(int x, int y) const { return in_row_major(y, x, n_); }
 
   void add_octave(int step, std::mt19937& random) {
     const int m = n_ / step + 2;
-    std::vector<double> knots(static_cast<std::size_t>(m * m));
+    std::vector<double> knots(in_row_major(m, 0, m));
     std::uniform_real_distribution<double> height(-1, 1);
     for (double& knot : knots) knot = height(random);
-    const auto knot = [&](int i, int j) { return knots[static_cast<std::size_t>(j * m + i)]; };
+    const auto knot = [&](int i, int j) { return knots[in_row_major(j, i, m)]; };
     const double weight = std::pow(static_cast<double>(step) / n_, 0.3);
     for (int y = 0; y < n_; ++y) {
       for (int x = 0; x < n_; ++x) {

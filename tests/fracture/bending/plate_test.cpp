@@ -203,7 +203,7 @@ TEST(Plate, BuoyancyBalancesTheLoad) {
   for (const double patch : {0.001, 0.05, 0.7}) {
     const StaticPlate plate = rest(kPi / 3, patch, {});
     Eigen::VectorXd heave = Eigen::VectorXd::Zero(plate.mesh.unknowns());
-    for (int node = 0; node <= plate.mesh.elements(); ++node) heave[2 * node] = 1;
+    for (int node = 0; node <= plate.mesh.elements(); ++node) heave[2 * Eigen::Index{node}] = 1;
     EXPECT_NEAR(heave.dot(plate.matrices.area * plate.shape), 1, 1e-7) << patch;
     EXPECT_NEAR(heave.dot(plate.matrices.bending * plate.shape), 0, 1e-7) << patch;
   }
