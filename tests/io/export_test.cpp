@@ -14,7 +14,6 @@
 namespace polynya::tests {
 namespace {
 
-using geometry::Point;
 using geometry::Polygon;
 using geometry::Ring;
 using simulation::GeographicOrigin;

@@ -14,7 +14,7 @@ Run run_of_three(const std::string& name) {
   const std::string hull = R"("hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27}, "mass_kg": 1e6,
     "moment_of_inertia_kg_m2": 1e8, "propulsion": {"constant_speed_m_per_s": 1})";
   auto scene =
-      read_scene("{\"name\": \"" + name + R"(", "ships": [{"name": "north", "position_m": [0, 50], )" + hull +
+      read_scene(R"({"name": ")" + name + R"(", "ships": [{"name": "north", "position_m": [0, 50], )" + hull +
                      R"(}, {"name": "south", )" + hull +
                      R"(}], "structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}],
     "floes": [{"rectangle": {"corner_m": [200, 0], "size_m": 10}}]})",

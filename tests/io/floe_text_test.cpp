@@ -166,7 +166,7 @@ TEST(FloeText, WhatCannotBeReadIsToldWithItsPlace) {
                                     {" \n ", "1:1: "},
                                     {"(1 2)", "1:1: neither"},
                                     {"{\"type\": \"Polygon\",\n \"coordinates\": [[[0 0]]]}", "2:22: "},
-                                    {"{\"type\": \"Polygon\"", "1:19: "}}) {
+                                    {R"({"type": "Polygon")", "1:19: "}}) {
     const auto floes = read_floe_text(text);
     ASSERT_FALSE(floes.has_value()) << text;
     EXPECT_EQ(floes.error().find(place), 0U) << floes.error();

@@ -32,7 +32,7 @@ TEST(JsonParser, FindsEveryValueBehindCommentsBlanksAndUnicode) {
   ASSERT_TRUE(document.faults.empty()) << document.faults.front().found;
   const JsonValue& root = document.root;
   expect_text_at(text, root, "{\t");
-  expect_text_at(text, *root.find("name"), "\"f\\\"lo");
+  expect_text_at(text, *root.find("name"), R"("f\"lo)");
   EXPECT_EQ(root.find("name")->text(), "f\"lo\u00e9 é");
   const auto& numbers = root.find("numbers")->items();
   ASSERT_EQ(numbers.size(), 5U);
@@ -41,7 +41,7 @@ TEST(JsonParser, FindsEveryValueBehindCommentsBlanksAndUnicode) {
   expect_text_at(text, numbers[2], "3//");
   expect_text_at(text, numbers[3], "true ");
   expect_text_at(text, numbers[4], "null]");
-  expect_text_at(text, *root.find("é")->find("inner"), "\"\\\\\"");
+  expect_text_at(text, *root.find("é")->find("inner"), R"("\\")");
   EXPECT_EQ(text[root.members()[2].key_offset], '"');
   EXPECT_EQ(place(text, root.find("é")->find("inner")->offset).line, 5);
 }
@@ -80,8 +80,8 @@ TEST(JsonParser, TellsSyntaxErrorsWhereTheyAre) {
     std::size_t offset;
   };
   for (const Case& c :
-       {Case{"{\"a\": 1 \"b\": 2}", 8}, Case{"{\"a\": }", 6}, Case{"{\"a\": NaN}", 6}, Case{"[1, 2", 5},
-        Case{"", 0}, Case{"{\"a\": 1e400}", 6}, Case{"{} x", 3}, Case{"[1,]", 3}, Case{"[1,,2]", 3},
+       {Case{R"({"a": 1 "b": 2})", 8}, Case{R"({"a": })", 6}, Case{R"({"a": NaN})", 6}, Case{"[1, 2", 5},
+        Case{"", 0}, Case{R"({"a": 1e400})", 6}, Case{"{} x", 3}, Case{"[1,]", 3}, Case{"[1,,2]", 3},
         Case{"[1 /*]*/ 2]", 9}, Case{"[\"a", 1}, Case{"// only this", 12}}) {
     const JsonDocument document = parse_json(c.text);
     ASSERT_EQ(document.faults.size(), 1U) << c.text;
@@ -95,7 +95,7 @@ TEST(JsonParser, TellsSyntaxErrorsWhereTheyAre) {
 TEST(JsonWriter, NumbersReadBackToTheSameDouble) {
   std::mt19937_64 random(20170611);
   for (int i = 0; i < 100'000; ++i) {
-    const double value = std::bit_cast<double>(random());
+    const auto value = std::bit_cast<double>(random());
     if (!std::isfinite(value)) continue;
     std::string text;
     append_number(text, value);
