@@ -101,6 +101,7 @@ std::string times(double ratio) {
 /// Runs what is to be compared one after the other, and that so many times over.
 std::vector<RunCost> alternate(int repeats, const std::vector<std::function<RunCost()>>& runs) {
   std::vector<RunCost> costs;
+  costs.reserve(runs.size());
   for (const auto& run : runs) costs.push_back(run());
   for (int i = 1; i < repeats; ++i) {
     for (std::size_t k = 0; k < runs.size(); ++k) keep_quieter(costs[k], runs[k]());
@@ -117,7 +118,7 @@ void run_case(const Case& at, const std::vector<Case>& all, const Options& optio
   const auto yardstick =
       std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
   std::vector<std::function<RunCost()>> runs{ours(at)};
-  if (yardstick != all.end()) runs.push_back(ours(*yardstick));
+  if (yardstick != all.end()) runs.emplace_back(ours(*yardstick));
   const PeerScene bodies =
       at.has_peers ? peer_scene(simulation::Simulation{simulation::Scene(scene)}) : PeerScene{};
   const Limits limits{options.peer_seconds, steps};

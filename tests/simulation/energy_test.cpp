@@ -74,7 +74,7 @@ TEST(EnergyAudit, NoticesWhatNobodyEntered) {
   Simulation simulation(busy_scene(ConstantThrust{2e5}));
   run(simulation, 5);
   ASSERT_TRUE(simulation.audit().is_closed());
-  World& world = const_cast<World&>(simulation.world());
+  auto& world = const_cast<World&>(simulation.world());
   world.bodies.velocity[0].y += 0.01;  // a ship pushed aside by nothing
   EXPECT_FALSE(simulation.audit().is_closed());
 }
