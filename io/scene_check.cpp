@@ -8,6 +8,7 @@
 #include "geometry/pose.hpp"
 #include "geometry/validity.hpp"
 #include "io/overlap.hpp"
+#include "simulation/floe_size.hpp"
 
 namespace polynya::io {
 namespace {
@@ -123,6 +124,16 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
                       .allowed = "simple rings with an area, holes inside and apart"});
         continue;
       }
+    }
+    const geometry::Measures measures = geometry::measure(polygon);
+    if (!simulation::can_be_floe(measures)) {
+      problems.add(origin.source, origin.offset,
+                   {.path = path_of(draft, i),
+                    .found = fmt::format("a floe of {:.3g} m², second moment {:.3g} m⁴", measures.area,
+                                         measures.second_moment),
+                    .allowed = fmt::format("at least {:g} m², and a second moment above 0",
+                                           simulation::kLeastFloeArea)});
+      continue;
     }
     outlines.push_back(polygon);
     named.push_back({path_of(draft, i), &origin, false});

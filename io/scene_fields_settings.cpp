@@ -1,4 +1,5 @@
 #include "io/scene_field_parts.hpp"
+#include "simulation/floe_size.hpp"
 
 namespace polynya::io {
 namespace {
@@ -173,7 +174,7 @@ const Object kFracture{
      {"cusp_sagitta_m", Kind::kNumber, "m", from(1e-4, 1), "0.02",
       "a cusp's polygon stays this close to its circle",
       [](Draft& d, const Value& v) { d.scene.fracture.cusp_sagitta = v.number(); }},
-     {"smallest_floe_m2", Kind::kNumber, "m²", from(1e-6, 1e6), "0.1",
+     {"smallest_floe_m2", Kind::kNumber, "m²", from(simulation::kLeastFloeArea, 1e6), "0.1",
       "smaller pieces leave the floe list and are counted as brash",
       [](Draft& d, const Value& v) { d.scene.fracture.smallest_floe_area = v.number(); }}}};
 

@@ -3,6 +3,7 @@
 
 #include "geometry/cut.hpp"
 #include "geometry/measures.hpp"
+#include "simulation/floe_size.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {
@@ -92,7 +93,7 @@ void replace_by_pieces(World& world, const PendingFracture& pending, const geome
       note_removed(world, sink, child, measures);
       continue;
     }
-    if (area < world.scene.fracture.smallest_floe_area) {
+    if (area < world.scene.fracture.smallest_floe_area || !can_be_floe(measures)) {
       event.brash_area += area;
       ++world.counts.brash_pieces;
       note_removed(world, sink, child, measures);

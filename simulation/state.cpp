@@ -9,6 +9,7 @@
 #include "geometry/exact_text.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/validity.hpp"
+#include "simulation/floe_size.hpp"
 #include "simulation/state_fields.hpp"
 #include "simulation/validate_world.hpp"
 
@@ -190,7 +191,7 @@ class StateLoader {
     } else {
       shape.exact = *std::move(rationals);
     }
-    bytes_.require(geometry::measure(shape.polygon).area > 0, "a floe of no area");
+    bytes_.require(can_be_floe(geometry::measure(shape.polygon)), "a floe too small to be one");
     return shape;
   }
 

@@ -105,6 +105,8 @@ TEST(Scene, WhatNoFieldAloneCanTell) {
           {"{\"floes\": 3}", "floes", "3"},
           {R"({"floes": [{"velocity_m_per_s": [0, 0]}]})", "floes[0]", "none of them"},
           {R"({"floes": [{"polygon": {"outer_m": [[0, 0], [1, 1], [2, 2]]}}]})", "floes[0]", "zero-area"},
+          {R"({"floes": [{"polygon": {"outer_m": [[0, 0], [1e-4, 0], [0, 1e-4]]}}]})", "floes[0]",
+           "a floe of 5e-09 m²"},
           {R"({"ice": {"thickness_m": 0}, "floes": []})", "ice.thickness_m", "0"},
           {R"({"ice": {"thickness_m": 1e308}, "floes": []})", "ice.thickness_m", "1e+308"}}) {
     const auto problems = problems_of(c.text);

@@ -1,15 +1,17 @@
 // Each of these once went wrong. They state what must hold, not what the code gave.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
+#include <gtest/gtest.h>
+
+#include "simulation/floe_size.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation::scenes {
 namespace {
 
-/// A floe that starts in motion was woken before the floes behind it in the scene were there, and ran into them.
+/// A floe that starts in motion was woken before the floes behind it in the scene were there, and ran into
+/// them.
 TEST(Regression, AMovingFloeMeetsFloesThatTheSceneListsLater) {
   for (const bool is_mover_first : {true, false}) {
     Scene scene;
@@ -45,6 +47,18 @@ TEST(Regression, APinchedFloeIsNotThrownOff) {
     EXPECT_LT(fastest, 1 + std::max(1.001 * restitution, 0.02)) << restitution;
     EXPECT_LT(spin, 1e-12) << "a symmetric pinch turns";
   }
+}
+
+/// A damaged checkpoint held a floe whose second moment rounding had taken, and a scene could: no mass, no
+/// inertia.
+TEST(Regression, IceWithoutMassOrInertiaIsNoFloe) {
+  const auto could_be = [](double size) {
+    return can_be_floe(geometry::measure({{{0, 0}, {size, 0}, {0, size}}, {}}));
+  };
+  EXPECT_TRUE(could_be(2e-3));
+  EXPECT_FALSE(could_be(1e-3));
+  EXPECT_FALSE(could_be(1e-120));
+  EXPECT_FALSE(can_be_floe({.area = 1, .second_moment = -1e-20}));
 }
 
 /// With a weak criterion the halves of a floe split again every step along the crack they had just left.

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "geometry/measures.hpp"
+
+namespace polynya::simulation {
+
+/// The least area of a floe [m²]: smaller ice of a scene is refused, of a fracture it is brash.
+inline constexpr double kLeastFloeArea = 1e-6;
+
+/// Can ice of these measures be a rigid body? Not where its area is too small, or where its second moment is
+/// lost in rounding, as of a sliver kilometres long.
+inline bool can_be_floe(const geometry::Measures& measures) {
+  return measures.area >= kLeastFloeArea && measures.second_moment > 0;
+}
+
+}  // namespace polynya::simulation
