@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,12 @@ std::string path_of(const SceneDraft& draft, std::size_t floe) {
   return origin.member < 0 ? group : fmt::format("{} (its floe {})", group, origin.member);
 }
 
+/// By the ship's thrust alone [m/s].
+double speed_gained_in_a_step(const simulation::Scene& scene, const simulation::ShipSpec& ship) {
+  const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
+  return constant ? std::abs(constant->thrust) / ship.mass * scene.time.step : 0;
+}
+
 void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
   const auto& scene = draft.scene;
   const auto tell = [&](const std::string& path, std::string found, std::string allowed) {
@@ -53,7 +60,8 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, Pr
     tell("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
          fmt::format("at most {:g} steps", kMostSteps));
   double fastest = geometry::length(scene.water.drift);
-  for (const auto& ship : scene.ships) fastest = std::max(fastest, std::abs(ship.speed));
+  for (const auto& ship : scene.ships)
+    fastest = std::max(fastest, std::abs(ship.speed) + speed_gained_in_a_step(scene, ship));
   const simulation::ShearSettings& shear = scene.water.shear;
   const geometry::Rotation course = geometry::Rotation::by(shear.direction);
   for (const auto& floe : scene.floes) {

@@ -90,6 +90,8 @@ TEST(Scene, WhatNoFieldAloneCanTell) {
            "ice.density_kg_per_m3", "sinks"},
           {R"({"time": {"step_s": 0.9}, "water": {"drift_m_per_s": [1, 1]}, "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 1}}]})",
            "time.step_s", "1.27 m in one step"},
+          {R"({"time": {"step_s": 0.9}, "ships": [{"mass_kg": 1e3, "moment_of_inertia_kg_m2": 1e4, "propulsion": {"thrust_N": 2e3}, "hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27}}]})",
+           "time.step_s", "1.62 m in one step at 1.8 m/s"},
           {R"({"time": {"step_s": 1e-5, "until_s": 1e6}, "ships": [)" + ship + "]}", "time.until_s",
            "1e+11 steps"},
           {R"({"time": {"until_s": 0.001}, "ships": [)" + ship + "]}", "time.until_s", "less than one step"},
