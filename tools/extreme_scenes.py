@@ -4,7 +4,7 @@
 What `polynya validate` lets through must run: a scene may be refused (exit code 3), and must else run its steps with
 every account closed and every check passed (0). Anything else is kept and told.
 
-Usage: tools/extreme_scenes.py [TRIALS [SEED [POLYNYA]]]      100, 1, build/dev/app/polynya; scenes kept in runs/extreme
+Usage: tools/extreme_scenes.py [TRIALS [SEED [POLYNYA]]]      100, 1, build/dev/app/polynya; what failed is kept in runs/extreme
 """
 
 import collections
@@ -31,7 +31,7 @@ BASE = {
               {"field": {"corner_m": [100, -60], "extent_m": [100, 100], "floe_size_m": 12, "concentration": 0.7}}],
 }
 KEPT = {"$schema", "name", "description", "origin", "record", "file", "until_s", "keep_clear_m", "corner_m", "origin_m",
-        "position_m", "waterline_m", "outer_m", "holes_m", "outline_m"}
+        "position_m", "waterline_m", "outer_m", "holes_m", "outline_m", "extent_m"}
 
 
 def numbers(schema, path=()):
@@ -102,11 +102,12 @@ def main():
     ended = collections.Counter()
     for trial in range(trials):
         scene = copy.deepcopy(BASE)
-        if dice.random() < 0.5:
-            scene["ships"][0]["propulsion"] = {"thrust_N": 10 ** dice.uniform(-3, 9)}
         for path, kind in dice.sample(choices, dice.randint(1, 4)):
             if fits(scene, path, kind):
                 put(scene, path, drawn(dice, kind))
+        if dice.random() < 0.5:  # at most 10 m/s², lest it run away from any accuracy
+            ship = scene["ships"][0]
+            ship["propulsion"] = {"thrust_N": ship["mass_kg"] * 10 ** dice.uniform(-6, 1)}
         scene["time"]["until_s"] = STEPS * scene["time"]["step_s"]
         file = folder / f"{trial}.json"
         file.write_text(json.dumps(scene))
