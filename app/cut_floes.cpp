@@ -35,12 +35,6 @@ std::vector<std::int64_t> ids_of(const std::vector<io::FloeEntry>& entries) {
   return ids;
 }
 
-std::vector<geometry::Ring> rings_of(const Polygon& polygon) {
-  std::vector<geometry::Ring> rings{polygon.outer};
-  rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
-  return rings;
-}
-
 /// cos and sin, exact at whole quarter turns and equal between them.
 geometry::Vector direction_of(double angle_deg) {
   constexpr double kDiagonal = 1 / std::numbers::sqrt2;

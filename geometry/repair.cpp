@@ -61,6 +61,12 @@ tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule
   return tl::unexpected(CutError{CutFailure::kMisses, "the rings enclose nothing"});
 }
 
+std::vector<Ring> rings_of(const Polygon& polygon) {
+  std::vector<Ring> rings{polygon.outer};
+  rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+  return rings;
+}
+
 Ring without_repeats(const Ring& ring) {
   Ring kept = ring;
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());

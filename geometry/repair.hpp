@@ -25,6 +25,9 @@ struct Repaired {
 /// coordinate is not finite (kInvalidShape) or where nothing is enclosed (kMisses).
 tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule);
 
+/// All rings of a polygon, the outer one first.
+std::vector<Ring> rings_of(const Polygon& polygon);
+
 /// The ring without points equal to the one before, a closing point included.
 Ring without_repeats(const Ring& ring);
 

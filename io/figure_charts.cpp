@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/figures.hpp"
+#include "io/rows_of.hpp"
 
 namespace polynya::io {
 namespace {
@@ -164,8 +165,7 @@ SizeCurves sizes_at(const Run& run, double time) {
 /// Panels beside each other, so that none is too narrow to read and the rows are nearly full.
 std::size_t columns_for(std::size_t subjects) {
   constexpr std::size_t kMost = 3;
-  const std::size_t rows = (subjects + kMost - 1) / kMost;
-  return rows == 0 ? 1 : (subjects + rows - 1) / rows;
+  return subjects == 0 ? 1 : rows_of(subjects, rows_of(subjects, kMost));
 }
 
 /// The x of a panel's curves with some room to either side.

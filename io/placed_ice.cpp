@@ -19,9 +19,7 @@ tl::expected<void, std::string> add_ice(std::vector<PlacedIce>& ice, const simul
     ice.push_back({birth, std::move(polygon_in_world), box});
     return {};
   }
-  std::vector<geometry::Ring> rings{polygon_in_world.outer};
-  rings.insert(rings.end(), polygon_in_world.holes.begin(), polygon_in_world.holes.end());
-  const auto repaired = geometry::repair(rings, geometry::FillRule::kNonZero);
+  const auto repaired = geometry::repair(rings_of(polygon_in_world), geometry::FillRule::kNonZero);
   if (!repaired && repaired.error().reason == geometry::CutFailure::kMisses) return {};
   if (!repaired)
     return tl::unexpected(fmt::format("a placed floe is not a polygon: {}: {}",
