@@ -312,7 +312,6 @@ TEST(ContactsTogether, ARowOfTouchingFloesKeepsItsMomentumAndGainsNoEnergy) {
 TEST(ContactsTogether, APlasticRowMovesOnAsOne) {
   Bodies bodies = cradle(6, 2);
   std::vector<Contact> contacts;
-  contacts.reserve(5);
   for (BodyIndex i = 0; i < 5; ++i) contacts.push_back(contact_at(i, i + 1, {10.0 * i + 5, 0}, {1, 0}, 10));
   SolverSettings settings;
   settings.restitution = 0;

@@ -117,7 +117,6 @@ void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
     pack.finder.update(pack.bodies, pack.awake);
     pack.finder.find_contacts(pack.bodies, kStep, contacts);
     std::vector<Found> found;
-    found.reserve(contacts.size());
     for (const Contact& c : contacts) found.push_back({c.a, c.b, c.width, c.depth, c.area});
     ASSERT_TRUE(std::is_sorted(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
       return std::pair(p.a, p.b) < std::pair(q.a, q.b);

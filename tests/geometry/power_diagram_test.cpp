@@ -15,7 +15,6 @@ constexpr std::uint64_t kSeed = 91;
 
 std::vector<Site> random_sites(Random& random, int count, double weight) {
   std::vector<Site> sites;
-  sites.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     sites.push_back({{random.between(-3, 7), random.between(100, 104)}, random.between(-weight, weight)});
   return sites;
