@@ -157,8 +157,8 @@ constexpr auto kExampleShips = R"(  "ships": [
       "moment_of_inertia_kg_m2": 5e9,
       "position_m": [-61, 0],  // of amidships: the stem is 1 m from the ice
       "heading_deg": 0,
-      "speed_m_per_s": 2,
-      "propulsion": {"thrust_N": 5e5}  // or {"constant_speed_m_per_s": 2}
+      // Only ice acts on the ship: under {"thrust_N": 5e5} nothing else would brake it in open water.
+      "propulsion": {"constant_speed_m_per_s": 1.5}
     }
   ],
 )";

@@ -146,7 +146,7 @@ class ByteReader {
   std::string failure_;
 };
 
-/// A hash of values: FNV-1a over 64-bit words [Fowler1991], one for each number, folded once more after each.
+/// A hash of values: FNV-1a over 64-bit words [Fowler2019], one for each number, folded once more after each.
 class HashWriter : public Dismantler<HashWriter> {
  public:
   std::uint64_t hash() const { return hash_; }

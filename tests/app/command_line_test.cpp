@@ -3,6 +3,7 @@
 
 #include "io/json_parser.hpp"
 #include "io/scene_reader.hpp"
+#include "simulation/simulation.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -83,6 +84,23 @@ TEST(CommandLine, InitWritesASceneThatIsValid) {
   EXPECT_EQ(polynya({"init", "new.json"}, {folder.path()}).code, 5);
   EXPECT_EQ(read_file(folder / "new.json"), kept);
   EXPECT_EQ(polynya({"init"}, {folder.path()}).out, kept);
+}
+
+/// Nothing but ice acts on a ship, so the first scene a user runs must not accelerate through open water.
+TEST(CommandLine, TheShipOfInitsSceneDoesNotRunAway) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(polynya({"init", "new.json"}, {folder.path()}).code, 0);
+  const auto scene = io::read_scene_file(folder / "new.json");
+  ASSERT_TRUE(scene.has_value());
+  simulation::Simulation simulation(scene->scene);
+  double fastest = 0;
+  while (simulation.time() < scene->scene.time.until) {
+    simulation.step();
+    simulation.journal().clear();
+    fastest = std::max(fastest, length(simulation.ship_states().front().velocity));
+  }
+  EXPECT_GT(simulation.counts().bends, 0);
+  EXPECT_LE(fastest, 2.0);
 }
 
 TEST(CommandLine, SchemaAndResolvedSceneAreJson) {

@@ -1,0 +1,87 @@
+"""Fails where a page names what does not exist: links, pictures, scenes, run folders that no command makes, references.
+
+    python3 tests/docs/check_docs.py SOURCE POLYNYA
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+SCENE = re.compile(r"\bscenes/[\w.-]+\.json")
+RUN = re.compile(r"\bruns/([\w.-]*\w)")
+KEY = re.compile(r"\[([A-Z][A-Za-z]+\d{4}[a-z]?)\]")
+VALIDATED = re.compile(r"^\$ polynya validate (scenes/\S+)\n((?:.+\n)+?)(?:```|\$)", re.MULTILINE)
+
+
+def scene_name(path):
+    text = re.sub(r"(?m)(^|\s)//.*$", "", path.read_text())
+    return json.loads(text)["name"]
+
+
+def runs_made(root, text):
+    """Names below runs/ that a command in this text writes."""
+    made = set(re.findall(r"--out runs/([\w.-]*\w)", text))
+    for scene in re.findall(r"polynya run (scenes/[\w.-]+\.json)(?! --out)", text):
+        if (root / scene).exists():
+            made.add(scene_name(root / scene))
+    return made
+
+
+def problems_of_page(root, page, text, keys):
+    runs = runs_made(root, text) | runs_made(root, (root / "quickstart").read_text())
+    for target in LINK.findall(text):
+        path = target.split("#")[0]
+        if path and "://" not in target and not (page.parent / path).exists():
+            yield f"link to {target}, which does not exist"
+    for scene in SCENE.findall(text):
+        if not (root / scene).exists():
+            yield f"{scene} does not exist"
+    for run in RUN.findall(text):
+        if run not in runs:
+            yield f"runs/{run}: neither ./quickstart nor a command on this page makes it"
+    for key in KEY.findall(text):
+        if key not in keys:
+            yield f"[{key}] is not in docs/references.md"
+
+
+def is_shown(printed, shown):
+    """An ellipsis on the page stands for anything."""
+    return re.fullmatch(re.escape(shown.strip()).replace("…", ".*"), printed.strip()) is not None
+
+
+def problems_of_output(root, polynya, text):
+    """What `polynya validate` prints of a shipped scene is on the page as it is printed today."""
+    for scene, shown in VALIDATED.findall(text):
+        run = subprocess.run([polynya, "validate", scene], cwd=root, capture_output=True, text=True, check=False)
+        if not is_shown(run.stdout, shown):
+            yield f"`polynya validate {scene}` prints\n{run.stdout}and not\n{shown}"
+
+
+def sources(root):
+    for folder in ("geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "bench", "scenes"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in {".cpp", ".hpp", ".js", ".json"} and "vendor" not in path.parts:
+                yield path
+
+
+def main(root, polynya):
+    pages = {path: path.read_text() for path in [root / "README.md", *sorted((root / "docs").glob("*.md"))]}
+    keys = set(re.findall(r"^\| (\w+) \|", (root / "docs/references.md").read_text(), re.MULTILINE))
+    found = []
+    for page, text in pages.items():
+        for problem in problems_of_page(root, page, text, keys):
+            found.append(f"{page.relative_to(root)}: {problem}")
+        for problem in problems_of_output(root, polynya, text):
+            found.append(f"{page.relative_to(root)}: {problem}")
+    for path in sources(root):
+        for key in KEY.findall(path.read_text()):
+            if key not in keys:
+                found.append(f"{path.relative_to(root)}: [{key}] is not in docs/references.md")
+    print("\n".join(found) or f"{len(pages)} pages, every link, scene, run and reference resolves")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]))
