@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "app/failure_dump.hpp"
 #include "app/stop_signal.hpp"
-#include "app/tell.hpp"
 #include "io/run_folder.hpp"
 #include "io/version.hpp"
 #include "simulation/world.hpp"
@@ -155,18 +155,18 @@ io::RunSummary summarise(const Simulation& simulation, const io::RunWriter& writ
 void print_result(const io::RunSummary& summary, const io::RunWriter& writer) {
   const auto& counts = summary.counts;
   const auto& ledger = summary.ledger;
-  fmt::print("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time\n", summary.sim_time, summary.wall_time,
-             summary.real_time_factor());
-  fmt::print("fractures   {} cusps broken by bending, {} splits, {} rejected cuts\n", counts.bends,
-             counts.splits, counts.rejected_cuts);
-  fmt::print("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
-  fmt::print(
+  print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time\n", summary.sim_time, summary.wall_time,
+            summary.real_time_factor());
+  print_out("fractures   {} cusps broken by bending, {} splits, {} rejected cuts\n", counts.bends,
+            counts.splits, counts.rejected_cuts);
+  print_out("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
+  print_out(
       "ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding "
       "{:.1e} m2)\n",
       ledger.initial_ice_area, ledger.floe_area, ledger.submerged_area, ledger.brash_area, ledger.imbalance,
       ledger.rounding_defect);
   const simulation::EnergyFlows& energy = summary.audit.sums.energy;
-  fmt::print(
+  print_out(
       "energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
       "motion (imbalance {:.1e} of it)\n",
       (energy.thrust + energy.current + summary.audit.sums.initial_energy) / 1e3, energy.drag / 1e3,
@@ -174,40 +174,39 @@ void print_result(const io::RunSummary& summary, const io::RunWriter& writer) {
       summary.audit.kinetic_energy / 1e3,
       summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
   for (const io::ShipPeaks& peaks : summary.peaks) {
-    fmt::print(
+    print_out(
         "peak force  {}: surge {:.4g} kN at {:.6g} s, sway {:.4g} kN at {:.6g} s (the paper's j/tau_c)\n",
         peaks.ship, peaks.surge_peak.value / 1e3, peaks.surge_peak.time, peaks.sway_peak.value / 1e3,
         peaks.sway_peak.time);
   }
-  fmt::print("run folder  {}\n", writer.folder().string());
+  print_out("run folder  {}\n", writer.folder().string());
   const auto picture =
       writer.folder() / (writer.has_png() ? io::run_file::kFinalPng : io::run_file::kFinalSvg);
-  fmt::print("picture     {}\n", picture.string());
-  std::fflush(stdout);
+  print_out("picture     {}\n", picture.string());
 }
 
 /// What dump_failure() said.
-void tell_dump(const std::string& folder, const std::string& wrong) {
+void report_dump(const std::string& folder, const std::string& wrong) {
   if (wrong.empty()) {
-    tell(
+    print_err(
         "polynya: the state before the step that failed is in failure.bin: polynya resume {} "
         "--from-failure\n",
         folder);
   } else {
-    tell("polynya: the failure could not be dumped: {}\n", wrong);
+    print_err("polynya: the failure could not be dumped: {}\n", wrong);
   }
 }
 
 /// What the reader of stderr is to do about it.
-void tell_stop(const RunInHand& run, const Stop& stop, double sim_time) {
+void report_stop(const RunInHand& run, const Stop& stop, double sim_time) {
   const std::string folder = run.writer.folder().string();
-  tell("polynya: stopped at {:.6g} s: {}\n", sim_time, stop.reason);
+  print_err("polynya: stopped at {:.6g} s: {}\n", sim_time, stop.reason);
   if (stop.code == kNumericalFailure) {
-    tell("polynya: {} holds the run up to there\n", folder);
+    print_err("polynya: {} holds the run up to there\n", folder);
   } else if (stop.code == kInputOutput) {
-    tell("polynya: once that is put right, go on with: polynya resume {}\n", folder);
+    print_err("polynya: once that is put right, go on with: polynya resume {}\n", folder);
   } else {
-    tell("polynya: go on with: polynya resume {}\n", folder);
+    print_err("polynya: go on with: polynya resume {}\n", folder);
   }
 }
 
@@ -239,9 +238,9 @@ int carry_out(RunInHand run, const CarryOptions& options) {
   if (stop.code == kNumericalFailure || !summary.audit.is_closed()) dumped = dump_failure(run);
   if (const std::string failure = run.writer.finish(summary, run.simulation); !failure.empty())
     stop = {kInputOutput, failure};
-  if (stop.code != kDone) tell_stop(run, stop, summary.sim_time);
-  if (dumped) tell_dump(run.writer.folder().string(), *dumped);
-  for (const std::string& warning : summary.warnings) tell("note: {}\n", warning);
+  if (stop.code != kDone) report_stop(run, stop, summary.sim_time);
+  if (dumped) report_dump(run.writer.folder().string(), *dumped);
+  for (const std::string& warning : summary.warnings) print_err("note: {}\n", warning);
   if (stop.code != kInputOutput) print_result(summary, run.writer);
   return stop.code;
 }

@@ -1,28 +1,26 @@
 #include "io/channel.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 
+#include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/run_commands.hpp"
-#include "app/tell.hpp"
+#include "app/write_output.hpp"
 #include "io/channel_text.hpp"
-#include "io/output_file.hpp"
 #include "io/run_folder.hpp"
 
 namespace polynya::app {
 namespace {
 
 int fail(ExitCode code, const std::string& words) {
-  tell("polynya: {}\n", words);
+  print_err("polynya: {}\n", words);
   return code;
 }
 
 }  // namespace
 
 int channel(const ChannelOptions& options) {
-  std::signal(SIGPIPE, SIG_IGN);
   const auto run = io::read_run(options.run);
   if (!run) return fail(kInputOutput, run.error());
   io::ChannelOptions wanted{
@@ -35,18 +33,17 @@ int channel(const ChannelOptions& options) {
   }
   const auto channel = io::measure_channel(*run, wanted);
   if (!channel) return fail(kUsage, channel.error());
-  const std::filesystem::path folder = options.out.empty() ? options.run : options.out;
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  if (!options.out.empty()) std::filesystem::create_directories(options.out, error);
   for (const auto& [name, text] : {std::pair{io::run_file::kChannelCsv, to_csv(*channel)},
                                    std::pair{io::run_file::kChannel, to_geojson(*channel)}}) {
-    if (const std::string wrong = io::write_whole_file(folder / name, text); !wrong.empty())
+    if (const std::string wrong = write_product(options.out, options.run, name, text); !wrong.empty())
       return fail(kInputOutput, wrong);
   }
-  say(options.format == "json"  ? to_json_text(*channel)
-      : options.format == "csv" ? to_csv(*channel)
-                                : to_table(*channel));
-  return std::fflush(stdout) == 0 && !std::ferror(stdout) ? kDone : kInputOutput;
+  write_out(options.format == "json"  ? to_json_text(*channel)
+            : options.format == "csv" ? to_csv(*channel)
+                                      : to_table(*channel));
+  return kDone;
 }
 
 }  // namespace polynya::app

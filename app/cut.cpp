@@ -1,16 +1,16 @@
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "app/cut_floes.hpp"
 #include "app/exit_code.hpp"
 #include "app/geometry_commands.hpp"
 #include "app/read_input.hpp"
-#include "app/tell.hpp"
+#include "app/write_output.hpp"
 #include "io/cut_ops.hpp"
 #include "io/cut_report.hpp"
 
@@ -18,7 +18,7 @@ namespace polynya::app {
 namespace {
 
 constexpr std::size_t kLongestOps = std::size_t{64} << 20;  ///< [bytes]
-constexpr std::size_t kMostTold = 100;                      ///< messages; the ledger has all
+constexpr std::size_t kMostReported = 100;                  ///< messages; the ledger has all
 constexpr std::size_t kMostVertices = 4;                    ///< in a message; likewise
 
 /// Ends the command; the message has been made.
@@ -88,11 +88,11 @@ io::FloeFormat output_format(const std::string& file, io::FloeFormat of_input) {
 }
 
 /// Told as "floes.geojson:3: feature 1: …"; past the hundredth only counted.
-void tell_floes(const std::string& name, const io::CutReport& report) {
+void report_floes(const std::string& name, const io::CutReport& report) {
   std::size_t told = 0;
-  const auto tell_of = [&](const io::CutFloe& floe, const std::string& words) {
-    if (++told > kMostTold) return;
-    tell("{}:{}: feature {}, polygon {}: {}\n", name, floe.line, floe.feature, floe.member, words);
+  const auto report_of = [&](const io::CutFloe& floe, const std::string& words) {
+    if (++told > kMostReported) return;
+    print_err("{}:{}: feature {}, polygon {}: {}\n", name, floe.line, floe.feature, floe.member, words);
   };
   for (const io::CutFloe& floe : report.floes) {
     if (floe.rejected) {
@@ -103,40 +103,40 @@ void tell_floes(const std::string& name, const io::CutReport& report) {
         words += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", vertices[i].x, vertices[i].y);
       if (vertices.size() > kMostVertices)
         words += fmt::format(" and {} more", vertices.size() - kMostVertices);
-      tell_of(floe, words);
+      report_of(floe, words);
     }
     if (floe.repair) {
-      tell_of(floe,
-              fmt::format("{}, repaired ({}): {} polygon{}, {:+} m2 to the {} m2 drawn", floe.repair->defect,
-                          floe.repair->rule, floe.repair->shapes, floe.repair->shapes == 1 ? "" : "s",
-                          floe.repair->area_changed, floe.repair->area_drawn));
+      report_of(floe, fmt::format("{}, repaired ({}): {} polygon{}, {:+} m2 to the {} m2 drawn",
+                                  floe.repair->defect, floe.repair->rule, floe.repair->shapes,
+                                  floe.repair->shapes == 1 ? "" : "s", floe.repair->area_changed,
+                                  floe.repair->area_drawn));
     }
     for (const io::Dangling& one : floe.dangling) {
-      tell_of(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m", one.from.x,
-                                one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
+      report_of(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m",
+                                  one.from.x, one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
     }
   }
-  if (told > kMostTold) tell("polynya: {} more; the ledger has all\n", told - kMostTold);
+  if (told > kMostReported) print_err("polynya: {} more; the ledger has all\n", told - kMostReported);
 }
 
-void tell_totals(const io::CutReport& report) {
+void report_totals(const io::CutReport& report) {
   const io::CutTotals totals = io::totals_of(report);
   const auto floes = std::ranges::count_if(
       report.floes, [](const io::CutFloe& floe) { return !floe.rejected || !floe.pieces.empty(); });
-  tell(
+  print_err(
       "polynya: {} floe{} -> {} piece{}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect "
       "{}, rounding "
       "{:.2e} m2)\n",
       floes, floes == 1 ? "" : "s", totals.pieces, totals.pieces == 1 ? "" : "s", totals.area,
       totals.area_of_pieces, totals.removed, totals.exact_defect, totals.rounding_defect);
   if (totals.kept_exact > 0) {
-    tell(
+    print_err(
         "polynya: {} piece{} would not round validly; written as the nearest doubles (\"is_exact\": false)\n",
         totals.kept_exact, totals.kept_exact == 1 ? "" : "s");
   }
   if (totals.rejected > 0) {
-    tell("polynya: {} refused; {}\n", totals.rejected,
-         totals.rejected == totals.floes ? "nothing was cut" : "the others were cut");
+    print_err("polynya: {} refused; {}\n", totals.rejected,
+              totals.rejected == totals.floes ? "nothing was cut" : "the others were cut");
   }
 }
 
@@ -150,7 +150,7 @@ std::string write_results(const CutOptions& options, const io::CutReport& report
     std::string failure = write_output(out, to_floe_text(report, output_format(out, of_input)));
     if (!failure.empty()) return failure;
   } else {
-    tell("polynya: the ledger is on stdout; name --out FILE for the pieces, or --ledger FILE\n");
+    print_err("polynya: the ledger is on stdout; name --out FILE for the pieces, or --ledger FILE\n");
   }
   return ledger.empty() ? "" : write_output(ledger, to_ledger_json(report));
 }
@@ -167,23 +167,21 @@ Outcome<bool> cut_all(const CutOptions& options) {
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));
   if (!floes) return fail(kInputOutput, fmt::format("{}:{}", name, floes.error()));
-  if (floes->has_more_coordinates) tell("note: third coordinates are passed over\n");
+  if (floes->has_more_coordinates) print_err("note: third coordinates are passed over\n");
   const io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
-  tell_floes(name, report);
+  report_floes(name, report);
   if (const std::string failure = write_results(options, report, floes->format); !failure.empty())
     return fail(kInputOutput, failure);
-  tell_totals(report);
+  report_totals(report);
   return io::totals_of(report).rejected == 0;
 }
 
 }  // namespace
 
 int cut(const CutOptions& options) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error where it happens, and so is a full disk
-  std::signal(SIGXFSZ, SIG_IGN);
   const auto all_cut = cut_all(options);
   if (all_cut) return *all_cut ? kDone : kRefused;
-  tell("polynya: {}\n", all_cut.error().words);
+  print_err("polynya: {}\n", all_cut.error().words);
   return all_cut.error().code;
 }
 

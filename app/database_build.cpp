@@ -1,14 +1,13 @@
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/exit_code.hpp"
 #include "app/stop_signal.hpp"
-#include "app/tell.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "io/output_file.hpp"
 
@@ -18,7 +17,7 @@ namespace {
 constexpr std::size_t kMostWedgeAngles = 64;  ///< what the file's reader takes
 
 int fail(ExitCode code, const std::string& problem) {
-  tell("polynya: {}\n", problem);
+  print_err("polynya: {}\n", problem);
   return code;
 }
 
@@ -61,24 +60,24 @@ int database_build(const DatabaseBuildOptions& options) {
   ProgressOutput output(options.progress);
   const auto built =
       fracture::build_database(settings, grid, threads, [&](std::size_t done, std::size_t total) {
-        if (output.is_due()) output.tell(report(done, total, output.wall_time()));
+        if (output.is_due()) output.show(report(done, total, output.wall_time()));
       });
   if (!built) return fail(kNumericalFailure, built.error().message + "; nothing was written");
   const double wall = output.wall_time();
   output.finish(report(wedges, wedges, wall));
 
   const std::string text = fracture::write_database(*built);
-  watch_signals();  // from here on a write that fails is an error, and a signal waits for it
+  watch_signals();  // a signal waits for the write
   std::string problem = obstacle(options.out, options.overwrite);
-  if (problem.empty()) problem = io::write_whole_file(options.out, text);
+  if (problem.empty()) problem = io::write_named_file(options.out, text);
   if (!problem.empty()) return fail(kInputOutput, problem);
-  fmt::print("database    {}, {} bytes\n", options.out, text.size());
-  fmt::print("solved      {} wedges, {} pushes, fluid {}, in {:.3g} s on {} thread{}\n", wedges,
-             built->entries().size(), fracture::fluid_name(options.fluid), wall, threads,
-             threads == 1 ? "" : "s");
-  fmt::print("hash        fnv1a64 {}\n", fracture::database_hash(*built));
+  print_out("database    {}, {} bytes\n", options.out, text.size());
+  print_out("solved      {} wedges, {} pushes, fluid {}, in {:.3g} s on {} thread{}\n", wedges,
+            built->entries().size(), fracture::fluid_name(options.fluid), wall, threads,
+            threads == 1 ? "" : "s");
+  print_out("hash        fnv1a64 {}\n", fracture::database_hash(*built));
   if (text == fracture::default_database_text())
-    fmt::print("            byte for byte the database that ships with Polynya\n");
+    print_out("            byte for byte the database that ships with Polynya\n");
   return kDone;
 }
 

@@ -1,14 +1,13 @@
 #include "app/database_input.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <numbers>
 #include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "app/tell.hpp"
+#include "app/console.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/crushing.hpp"
 #include "io/source_text.hpp"
@@ -23,7 +22,7 @@ constexpr double kRadian = std::numbers::pi / 180;
 constexpr double kNarrowestWedge = 0.1;  ///< as --wedge-angle allows [deg]
 
 tl::unexpected<ExitCode> usage(const std::string& problem) {
-  tell("polynya: {}\n", problem);
+  print_err("polynya: {}\n", problem);
   return tl::unexpected(kUsage);
 }
 
@@ -34,13 +33,13 @@ tl::expected<DatabasePointer, ExitCode> load_database(const std::string& file) {
   if (file.empty()) return DatabasePointer(DatabasePointer(), &fracture::default_database());
   const auto text = io::read_text_file(file, fracture::kLargestFile);
   if (!text) {
-    tell("polynya: {}: {}\n", file, text.error());
+    print_err("polynya: {}: {}\n", file, text.error());
     return tl::unexpected(kInputOutput);
   }
   auto database = fracture::parse_database(*text);
   if (database) return std::make_shared<const fracture::BendingDatabase>(*std::move(database));
-  tell("polynya: {}:{}: {}\n", file, database.error().line, database.error().message);
-  tell("polynya: {} is not an icebreaking database that this version reads\n", file);
+  print_err("polynya: {}:{}: {}\n", file, database.error().line, database.error().message);
+  print_err("polynya: {} is not an icebreaking database that this version reads\n", file);
   return tl::unexpected(kInputOutput);
 }
 

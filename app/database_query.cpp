@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/exit_code.hpp"
-#include "app/tell.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/scaled_load.hpp"
 #include "fracture/bending/studies.hpp"
@@ -127,7 +127,7 @@ void print_json(const DatabaseQueryOptions& options, const BendingDatabase& data
   json.key("fluid").value(fracture::fluid_name(database.settings().fluid));
   json.key("hash").value("fnv1a64 " + fracture::database_hash(database)).close('}');
   json.close('}');
-  fmt::print("{}\n", text);
+  print_out("{}\n", text);
 }
 
 // ---- for people
@@ -143,7 +143,7 @@ std::string metres(double length) {
 void print_row(const char* what, const std::string& database, const std::string& nevel = "",
                const std::string& kashtelyan = "") {
   const std::string line = fmt::format("{:<22}{:<20}{:<20}{}", what, database, nevel, kashtelyan);
-  fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
 }
 
 void print_table(const SlicePoint& answer) {
@@ -165,17 +165,17 @@ void print_table(const SlicePoint& answer) {
 void print_for_people(const DatabaseQueryOptions& options, const BendingDatabase& database,
                       const BendingLoad& load, const SlicePoint& answer) {
   const fracture::ScaledLoad scaled = fracture::scaled(load);
-  fmt::print("load      {}\n", describe(load));
-  fmt::print("groups    2a {:g} deg, m {:.4g}, softness {:.4g}, Fr {:.4g}; l {:.4g} m\n",
-             scaled.groups.opening_angle * kDegree, scaled.groups.mass_ratio, scaled.groups.softness,
-             scaled.groups.froude, scaled.length_scale);
-  fmt::print("database  {}: fluid {}, hash {}\n", database_title(options.file),
-             fracture::fluid_name(database.settings().fluid), fracture::database_hash(database));
-  fmt::print("\n");
+  print_out("load      {}\n", describe(load));
+  print_out("groups    2a {:g} deg, m {:.4g}, softness {:.4g}, Fr {:.4g}; l {:.4g} m\n",
+            scaled.groups.opening_angle * kDegree, scaled.groups.mass_ratio, scaled.groups.softness,
+            scaled.groups.froude, scaled.length_scale);
+  print_out("database  {}: fluid {}, hash {}\n", database_title(options.file),
+            fracture::fluid_name(database.settings().fluid), fracture::database_hash(database));
+  print_out("\n");
   if (can_bend(load))
     print_table(answer);
   else
-    fmt::print("The ice only crushes: friction outweighs what presses it down.\n");
+    print_out("The ice only crushes: friction outweighs what presses it down.\n");
 }
 
 /// The groups by those names with their range in the table: "softness (3e-05 to 0.1)".
@@ -199,7 +199,7 @@ std::string with_ranges(const std::string& names, const BendingDatabase& databas
 
 int database_query(const DatabaseQueryOptions& options) {
   if (!options.load.wedge_angle_deg && !options.load.front_angle_deg && !options.load.back_angle_deg) {
-    tell("polynya: the wedge needs --wedge-angle, or --front-angle and --back-angle\n");
+    print_err("polynya: the wedge needs --wedge-angle, or --front-angle and --back-angle\n");
     return kUsage;
   }
   const auto load = bending_load(options.load);
@@ -211,13 +211,12 @@ int database_query(const DatabaseQueryOptions& options) {
     print_json(options, **database, *load, answer);
   else
     print_for_people(options, **database, *load, answer);
-  std::fflush(stdout);
   if (!can_bend(*load))
-    tell("note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
-         load->hull_angle * kDegree, load->ice.friction);
+    print_err("note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
+              load->hull_angle * kDegree, load->ice.friction);
   else if (!answer.database.outside.empty())
-    tell("note: outside the database: {}; the answer is its nearest edge's\n",
-         with_ranges(answer.database.outside, **database));
+    print_err("note: outside the database: {}; the answer is its nearest edge's\n",
+              with_ranges(answer.database.outside, **database));
   return kDone;
 }
 

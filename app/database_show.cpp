@@ -9,12 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/database_plots.hpp"
 #include "app/exit_code.hpp"
-#include "app/stop_signal.hpp"
-#include "app/tell.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
 #include "io/output_file.hpp"
@@ -34,27 +33,26 @@ void print_parameters(const BendingDatabase& database, const std::string& file) 
   const fracture::SolverSettings& settings = database.settings();
   const std::string hash = fracture::database_hash(database);
   const bool is_shipped = !file.empty() && hash == fracture::database_hash(fracture::default_database());
-  fmt::print("database        {}{}\n", database_title(file),
-             is_shipped ? ", the one that ships with Polynya" : "");
-  fmt::print("format          polynya-bending-database 1\n");
-  fmt::print("hash            fnv1a64 {}\n", hash);
-  fmt::print("fluid           {}\n", fracture::fluid_name(settings.fluid));
-  fmt::print("Poisson ratio   {:g}\n", settings.poisson_ratio);
+  print_out("database        {}{}\n", database_title(file),
+            is_shipped ? ", the one that ships with Polynya" : "");
+  print_out("format          polynya-bending-database 1\n");
+  print_out("hash            fnv1a64 {}\n", hash);
+  print_out("fluid           {}\n", fracture::fluid_name(settings.fluid));
+  print_out("Poisson ratio   {:g}\n", settings.poisson_ratio);
   if (settings.fluid == fracture::FluidModel::kLocalMass)
-    fmt::print("added mass      {:g} rho_w l\n", settings.local_mass);
-  fmt::print("plate           {} elements from {:g} l to {:g} l, {} angular terms\n",
-             settings.radial_elements, settings.inner_radius, settings.outer_radius, settings.angular_terms);
-  fmt::print("water           {} x {} panels on the half wedge", settings.panel_rings,
-             settings.panel_columns);
+    print_out("added mass      {:g} rho_w l\n", settings.local_mass);
+  print_out("plate           {} elements from {:g} l to {:g} l, {} angular terms\n", settings.radial_elements,
+            settings.inner_radius, settings.outer_radius, settings.angular_terms);
+  print_out("water           {} x {} panels on the half wedge", settings.panel_rings, settings.panel_columns);
   if (settings.fluid == fracture::FluidModel::kFreeSurface)
-    fmt::print(", x {} on the open water", settings.free_surface_columns);
-  fmt::print("\nmarch           {} steps to failure\n", settings.steps_to_failure);
+    print_out(", x {} on the open water", settings.free_surface_columns);
+  print_out("\nmarch           {} steps to failure\n", settings.steps_to_failure);
 }
 
 void print_axis(const char* name, const std::vector<double>& values) {
   std::string line = fmt::format("{:<16}{:>2}:", name, values.size());
   for (const double value : values) line += fmt::format(" {:g}", value);
-  fmt::print("{}\n", line);
+  print_out("{}\n", line);
 }
 
 void print_grids(const BendingDatabase& database) {
@@ -63,7 +61,7 @@ void print_grids(const BendingDatabase& database) {
   print_axis("m", grid.mass_ratios);
   print_axis("softness", grid.softnesses);
   print_axis("Fr", grid.froude_numbers);
-  fmt::print("entries         {}: V/(sigma_f h2), R/l, crack ratio\n", database.entries().size());
+  print_out("entries         {}: V/(sigma_f h2), R/l, crack ratio\n", database.entries().size());
 }
 
 /// A star where the table had to be left.
@@ -73,24 +71,24 @@ std::string_view star(bool is_in_range) {
 
 void print_slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis, const char* abscissa,
                  std::span<const double> values) {
-  fmt::print("\n| {} | V kN | R m | t s | crack first | Nevel V kN | R m | Kashtelyan V kN | R m |\n",
-             abscissa);
-  fmt::print("|---|---|---|---|---|---|---|---|---|\n");
+  print_out("\n| {} | V kN | R m | t s | crack first | Nevel V kN | R m | Kashtelyan V kN | R m |\n",
+            abscissa);
+  print_out("|---|---|---|---|---|---|---|---|---|\n");
   const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
   for (const SlicePoint& point : slice(model, load, axis, values)) {
     const auto& [x, forecast, nevel, kashtelyan] = point;
-    fmt::print("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n",
-               x * scale, forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
-               forecast.capacity.cusp_radius, forecast.time,
-               forecast.capacity.radial_crack_first ? "yes" : "no", nevel.vertical_force / 1e3,
-               star(nevel.is_in_range), nevel.cusp_radius, kashtelyan.vertical_force / 1e3,
-               star(kashtelyan.is_in_range), kashtelyan.cusp_radius);
+    print_out("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n",
+              x * scale, forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
+              forecast.capacity.cusp_radius, forecast.time,
+              forecast.capacity.radial_crack_first ? "yes" : "no", nevel.vertical_force / 1e3,
+              star(nevel.is_in_range), nevel.cusp_radius, kashtelyan.vertical_force / 1e3,
+              star(kashtelyan.is_in_range), kashtelyan.cusp_radius);
   }
 }
 
 void print_slices(const FsiDatabaseModel& model, const BendingLoad& load) {
-  fmt::print("\nSlices through {}; * outside of the table, or of the published form's range\n",
-             describe(load));
+  print_out("\nSlices through {}; * outside of the table, or of the published form's range\n",
+            describe(load));
   constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4, 8};
   constexpr double kThicknesses[] = {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3};
   std::vector<double> angles{20, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165};
@@ -105,11 +103,10 @@ std::string write_pictures(const std::vector<NamedChart>& charts, const std::fil
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return folder.string() + ": " + error.message();
-  watch_signals();  // a write past a limit is an error, not a signal
   for (const auto& [file, chart] : charts) {
-    if (std::string problem = io::write_whole_file(folder / file, io::to_svg(chart)); !problem.empty())
+    if (std::string problem = io::write_named_file(folder / file, io::to_svg(chart)); !problem.empty())
       return problem;
-    fmt::print("{}picture         {}\n", &file == &charts.front().file ? "\n" : "", (folder / file).string());
+    print_out("{}picture         {}\n", &file == &charts.front().file ? "\n" : "", (folder / file).string());
   }
   return "";
 }
@@ -120,8 +117,8 @@ int database_show(const DatabaseShowOptions& options) {
   const auto load = bending_load(options.load);
   if (!load) return load.error();
   if (load->vertical_to_crushing <= 0) {
-    tell("polynya: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
-         load->hull_angle * kDegree, load->ice.friction);
+    print_err("polynya: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
+              load->hull_angle * kDegree, load->ice.friction);
     return kUsage;
   }
   const auto database = load_database(options.file);
@@ -135,8 +132,7 @@ int database_show(const DatabaseShowOptions& options) {
                                         fracture::fluid_name((*database)->settings().fluid));
   const std::string problem = write_pictures(database_charts(model, title, *load), options.svg_folder);
   if (problem.empty()) return kDone;
-  std::fflush(stdout);
-  tell("polynya: {}\n", problem);
+  print_err("polynya: {}\n", problem);
   return kInputOutput;
 }
 

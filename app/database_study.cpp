@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/exit_code.hpp"
@@ -32,14 +32,14 @@ std::string time(const BendingForecast& forecast) {
 }
 
 void study_fluid(const BendingLoad& load, const fracture::SolverSettings& settings) {
-  fmt::print("V kN, R m: {}\n\n", describe(load));
-  fmt::print("| v_n m/s | winkler | local-mass | potential | free-surface |\n|---|---|---|---|---|\n");
+  print_out("V kN, R m: {}\n\n", describe(load));
+  print_out("| v_n m/s | winkler | local-mass | potential | free-surface |\n|---|---|---|---|---|\n");
   for (const fracture::FluidStudyRow& row : fluid_study(load, kSpeeds, settings)) {
     std::string line = fmt::format("| {:g} |", row.speed);
     for (const auto& forecast : row.by_fluid)
       line += forecast ? fmt::format(" {}, {:.3f} |", force(*forecast), forecast->capacity.cusp_radius)
                        : " does not break |";
-    fmt::print("{}\n", line);
+    print_out("{}\n", line);
   }
 }
 
@@ -50,10 +50,10 @@ std::string forecast_cells(const std::optional<BendingForecast>& forecast) {
 }
 
 void study_couple(const BendingLoad& load, const fracture::SolverSettings& settings) {
-  fmt::print("{}\n\n", describe(load));
-  fmt::print("| v_n m/s | V kN | R m | t s | coupled: V kN | R m | t s |\n|---|---|---|---|---|---|---|\n");
+  print_out("{}\n\n", describe(load));
+  print_out("| v_n m/s | V kN | R m | t s | coupled: V kN | R m | t s |\n|---|---|---|---|---|---|---|\n");
   for (const fracture::FeedbackStudyRow& row : feedback_study(load, kSpeeds, settings))
-    fmt::print("| {:g} |{}{}\n", row.speed, forecast_cells(row.ignored), forecast_cells(row.coupled));
+    print_out("| {:g} |{}{}\n", row.speed, forecast_cells(row.ignored), forecast_cells(row.coupled));
 }
 
 /// Below which this share of the values lies.
@@ -70,18 +70,18 @@ void print_errors(const char* name, const std::vector<AccuracyRow>& rows, double
   for (const AccuracyRow& row : rows) sizes.push_back(100 * std::abs(row.*error));
   const AccuracyRow& worst =
       *std::ranges::max_element(rows, {}, [error](const AccuracyRow& row) { return std::abs(row.*error); });
-  fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} deg, {:.4f}, {:.3g}, {:.3g} |\n", name,
-             quantile(sizes, 0.5), quantile(sizes, 0.9), quantile(sizes, 0.99), quantile(sizes, 1),
-             worst.groups.opening_angle * (180 / std::numbers::pi), worst.groups.mass_ratio,
-             worst.groups.softness, worst.groups.froude);
+  print_out("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} deg, {:.4f}, {:.3g}, {:.3g} |\n", name,
+            quantile(sizes, 0.5), quantile(sizes, 0.9), quantile(sizes, 0.99), quantile(sizes, 1),
+            worst.groups.opening_angle * (180 / std::numbers::pi), worst.groups.mass_ratio,
+            worst.groups.softness, worst.groups.froude);
 }
 
 void study_accuracy(const BendingDatabase& database, const DatabaseStudyOptions& options) {
   const fracture::AccuracyStudy study =
       accuracy_study(database, options.points, options.seed, thread_count(options.threads));
-  fmt::print("Table against solution at {} random points of the whole box, seed {}; errors in %\n\n",
-             options.points, options.seed);
-  fmt::print(
+  print_out("Table against solution at {} random points of the whole box, seed {}; errors in %\n\n",
+            options.points, options.seed);
+  print_out(
       "| | median | 90 of 100 | 99 of 100 | worst | worst at 2a, m, softness, Fr "
       "|\n|---|---|---|---|---|---|\n");
   print_errors("force", study.rows, &AccuracyRow::force_error);

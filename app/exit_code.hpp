@@ -9,8 +9,9 @@ enum ExitCode {
   kSceneInvalid = 3,      ///< the scene is wrong; nothing was written
   kNumericalFailure = 4,  ///< the numbers stopped being numbers; the folder holds the run up to there
   kRefused = 4,           ///< geometry was refused or found wrong; the rest was done
-  kInputOutput = 5,       ///< a file could not be read or written
+  kInputOutput = 5,       ///< a file, stdout or stderr could not be read or written
   kStopped = 75,          ///< stopped on a signal; the folder has a checkpoint to resume from
+  kClosedPipe = 141,      ///< the reader of stdout or stderr went away, as a shell reports SIGPIPE
 };
 
 }  // namespace polynya::app

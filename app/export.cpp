@@ -1,8 +1,8 @@
 #include <filesystem>
 
+#include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/run_commands.hpp"
-#include "app/tell.hpp"
 #include "io/geojson_export.hpp"
 #include "io/output_file.hpp"
 #include "io/vtk_export.hpp"
@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 int fail(ExitCode code, const std::string& words) {
-  tell("polynya: {}\n", words);
+  print_err("polynya: {}\n", words);
   return code;
 }
 
@@ -30,8 +30,7 @@ int write_vtk(const io::Run& run, const ExportOptions& options) {
   selection.every = options.every;
   const auto frames = export_vtk(run, selection, options.vtk);
   if (!frames) return fail(kInputOutput, frames.error());
-  say(fmt::format("{}  {} frames; open it in ParaView\n", (fs::path(options.vtk) / "run.pvd").string(),
-                  *frames));
+  print_out("{}  {} frames; open it in ParaView\n", (fs::path(options.vtk) / "run.pvd").string(), *frames);
   return kDone;
 }
 
@@ -45,12 +44,12 @@ int write_geojson(const io::Run& run, const ExportOptions& options) {
   auto origin = run.scene.scene.origin;
   if (options.is_in_metres) origin.reset();
   if (!origin && !options.is_in_metres)
-    tell("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
+    print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
   for (const auto& [name, text] : io::geojson_layers(run, time, origin)) {
     const fs::path file = fs::path(options.geojson) / name;
-    if (const std::string wrong = io::write_whole_file(file, text); !wrong.empty())
+    if (const std::string wrong = io::write_named_file(file, text); !wrong.empty())
       return fail(kInputOutput, wrong);
-    say(file.string() + "\n");
+    write_out(file.string() + "\n");
   }
   return kDone;
 }
@@ -65,7 +64,7 @@ int export_run(const ExportOptions& options) {
   int code = kDone;
   if (!options.vtk.empty()) code = write_vtk(*run, options);
   if (code == kDone && !options.geojson.empty()) code = write_geojson(*run, options);
-  return std::fflush(stdout) == 0 ? code : kInputOutput;
+  return code;
 }
 
 }  // namespace polynya::app

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <limits>
 
+#include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/run_commands.hpp"
-#include "app/tell.hpp"
-#include "io/output_file.hpp"
+#include "app/write_output.hpp"
 #include "io/run_folder.hpp"
 
 namespace polynya::app {
@@ -30,15 +30,15 @@ int figures(const FiguresOptions& options) {
   for (const std::string& folder : options.runs) {
     auto run = io::read_run(folder);
     if (!run || run->frames.empty()) {
-      tell("polynya: {}\n", run ? folder + ": it has no frames" : run.error());
+      print_err("polynya: {}\n", run ? folder + ": it has no frames" : run.error());
       return kInputOutput;
     }
     runs.push_back(std::move(*run));
   }
   for (const double time : options.at) {
     if (time >= runs.front().start_time() && time <= runs.front().end_time()) continue;
-    tell("polynya: --at {:g}: the run goes from {:g} to {:g} s\n", time, runs.front().start_time(),
-         runs.front().end_time());
+    print_err("polynya: --at {:g}: the run goes from {:g} to {:g} s\n", time, runs.front().start_time(),
+              runs.front().end_time());
     return kUsage;
   }
   const auto kind = options.load == "peak"  ? io::LoadKind::kPeak
@@ -56,18 +56,19 @@ int figures(const FiguresOptions& options) {
       {io::run_file::kFigureEnergy, energy_figure(runs)}};
   for (const auto& [name, page] : pages) {
     if (page.empty()) {
-      tell("note: no summary.json tells of energy; {} is left out\n", name);
+      print_err("note: there is no energy in summary.json; {} is left out\n", name);
       continue;
     }
     const fs::path svg = folder / name;
-    if (const std::string wrong = io::write_whole_file(svg, page); !wrong.empty()) {
-      tell("polynya: {}\n", wrong);
+    if (const std::string wrong = write_product(options.out, options.runs.front(), name, page);
+        !wrong.empty()) {
+      print_err("polynya: {}\n", wrong);
       return kInputOutput;
     }
     const fs::path png = fs::path(svg).replace_extension(".png");
-    say(svg.string() + (io::convert_to_png(svg, png) ? "\n" + png.string() + "\n" : "\n"));
+    write_out(svg.string() + (io::convert_to_png(svg, png) ? "\n" + png.string() + "\n" : "\n"));
   }
-  return std::fflush(stdout) == 0 ? kDone : kInputOutput;
+  return kDone;
 }
 
 }  // namespace polynya::app

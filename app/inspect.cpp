@@ -1,13 +1,12 @@
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/geometry_commands.hpp"
 #include "app/inspect_views.hpp"
-#include "app/tell.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/validity.hpp"
 #include "io/motion_index.hpp"
@@ -18,7 +17,7 @@ namespace {
 using simulation::FloeId;
 
 int usage_error(const std::string& words) {
-  tell("polynya: {}\n", words);
+  print_err("polynya: {}\n", words);
   return kUsage;
 }
 
@@ -69,7 +68,7 @@ int print_floe(const io::Run& run, const InspectOptions& options) {
     view.polygon = polygon_in_world(floe->birth, *motion);
     view.time_in_world = options.at;
   }
-  say(to_text(view, options.format));
+  write_out(to_text(view, options.format));
   return kDone;
 }
 
@@ -82,31 +81,27 @@ int print(const io::Run& run, const InspectOptions& options) {
   if (options.floe) return print_floe(run, options);
   if (options.lineage) {
     if (!run.floe(*options.lineage)) return usage_error(unknown_floe(run, *options.lineage));
-    say(lineage_tree(run, *options.lineage));
+    write_out(lineage_tree(run, *options.lineage));
     return kDone;
   }
   if (options.check) {
     const io::RunCheck check = io::check_run(run, options.at);
-    say(check_text(check));
+    write_out(check_text(check));
     return check.is_sound() ? kDone : kRefused;
   }
-  say(options.fsd ? size_distribution(run, time) : table(run, time));
+  write_out(options.fsd ? size_distribution(run, time) : table(run, time));
   return kDone;
 }
 
 }  // namespace
 
 int inspect(const InspectOptions& options) {
-  std::signal(SIGPIPE, SIG_IGN);  // `| head` is no failure worth a signal, nor is a full disk
-  std::signal(SIGXFSZ, SIG_IGN);
   const auto run = io::read_run(options.run);
   if (!run) {
-    tell("polynya: {}\n", run.error());
+    print_err("polynya: {}\n", run.error());
     return kInputOutput;
   }
-  const int code = print(*run, options);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout)) return kInputOutput;
-  return code;
+  return print(*run, options);
 }
 
 }  // namespace polynya::app

@@ -1,16 +1,20 @@
 #include <map>
 #include <memory>
+#include <new>
+#include <sstream>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/guide.hpp"
-#include "app/tell.hpp"
-#include "io/output_file.hpp"
+#include "app/write_output.hpp"
 #include "io/version.hpp"
 
 namespace polynya::app {
@@ -29,12 +33,8 @@ void add_progress(CLI::App& command, ProgressKind& kind) {
 namespace {
 
 int write_page(const std::string& file, const std::string& text) {
-  if (file.empty()) {
-    say(text);
-    return std::fflush(stdout) == 0 ? kDone : kInputOutput;
-  }
-  const std::string wrong = io::write_whole_file(file, text);
-  if (!wrong.empty()) tell("polynya: {}\n", wrong);
+  const std::string wrong = write_output(file.empty() ? "-" : file, text);
+  if (!wrong.empty()) print_err("polynya: {}\n", wrong);
   return wrong.empty() ? kDone : kInputOutput;
 }
 
@@ -157,8 +157,10 @@ constexpr auto kExamples =
 constexpr auto kCodes =
     "Exit codes: 0 done, 2 usage, 3 scene invalid, 4 numerical failure or geometry refused, 5 input/output, "
     "75 stopped on a "
-    "signal with a checkpoint (polynya resume).\n"
+    "signal with a checkpoint (polynya resume), 141 the reader of stdout or stderr closed the pipe.\n"
     "Data goes to stdout, messages to stderr.\n";
+
+constexpr std::string_view kOutOfMemory = "polynya: out of memory\n";
 
 int command_line(int count, char** words) {
   CLI::App app(kExamples, "polynya");
@@ -180,14 +182,34 @@ int command_line(int count, char** words) {
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kUsage;
+    std::ostringstream out, err;
+    const int code = app.exit(error, out, err);
+    write_out(out.str());
+    write_err(err.str());
+    return code == 0 ? kDone : kUsage;
   }
   return commands.at(app.get_subcommands().front()->get_name())();
+}
+
+/// What the standard library throws, as an exit code.
+int guarded_command_line(int count, char** words) {
+  try {
+    return command_line(count, words);
+  } catch (const std::bad_alloc&) {
+    write_err(kOutOfMemory);
+  } catch (const std::length_error&) {
+    write_err(kOutOfMemory);
+  } catch (const std::system_error& error) {
+    print_err("polynya: {}\n", error.what());
+    return kInputOutput;
+  }
+  return kNumericalFailure;
 }
 
 }  // namespace
 }  // namespace polynya::app
 
 int main(int count, char** words) {
-  return polynya::app::command_line(count, words);
+  polynya::app::open_streams();
+  return polynya::app::close_streams(polynya::app::guarded_command_line(count, words));
 }

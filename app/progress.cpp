@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -10,6 +9,8 @@
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "app/console.hpp"
 
 namespace polynya::app {
 namespace {
@@ -58,7 +59,7 @@ bool ProgressOutput::is_due() {
   return true;
 }
 
-void ProgressOutput::tell(const ProgressReport& report) const {
+void ProgressOutput::show(const ProgressReport& report) const {
   std::string line;
   if (kind_ == ProgressKind::kJson) {
     line = report.json + "\n";
@@ -69,13 +70,12 @@ void ProgressOutput::tell(const ProgressReport& report) const {
     line =
         fmt::format("\r{}{}\x1b[K", room >= 8 ? bar(report.part, std::min(room, 40)) : "", report.beside_bar);
   }
-  std::fputs(line.c_str(), stderr);
-  std::fflush(stderr);
+  show_progress(line);
 }
 
 void ProgressOutput::finish(const ProgressReport& report) const {
-  if (kind_ == ProgressKind::kBar || kind_ == ProgressKind::kJson) tell(report);
-  if (kind_ == ProgressKind::kBar) std::fputs("\n", stderr);
+  if (kind_ == ProgressKind::kBar || kind_ == ProgressKind::kJson) show(report);
+  if (kind_ == ProgressKind::kBar) show_progress("\n");
 }
 
 std::string clock_time(double seconds) {

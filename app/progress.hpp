@@ -28,7 +28,7 @@ class ProgressOutput {
 
   /// Whether it is time for a report; cheap to call often: it looks at the clock and mostly says no.
   bool is_due();
-  void tell(const ProgressReport& report) const;
+  void show(const ProgressReport& report) const;
   /// The last report: completes a bar, or is one object more.
   void finish(const ProgressReport& report) const;
 
@@ -50,7 +50,7 @@ class Progress {
 
   /// Cheap to call often.
   void show(double sim_time, long long fractures) {
-    if (output_.is_due()) output_.tell(report(sim_time, fractures));
+    if (output_.is_due()) output_.show(report(sim_time, fractures));
   }
   /// Clears or completes what is shown.
   void finish(double sim_time, long long fractures) { output_.finish(report(sim_time, fractures)); }

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "io/output_file.hpp"
 #include "io/source_text.hpp"
 
 namespace polynya::app {
@@ -24,10 +23,6 @@ tl::expected<std::string, std::string> read_all(std::FILE* stream, std::size_t l
   return text;
 }
 
-bool write_to(std::FILE* stream, const std::string& text) {
-  return std::fwrite(text.data(), 1, text.size(), stream) == text.size() && std::fflush(stream) == 0;
-}
-
 }  // namespace
 
 tl::expected<std::string, std::string> read_input(const std::string& file, std::size_t longest) {
@@ -40,22 +35,6 @@ tl::expected<std::string, std::string> read_input(const std::string& file, std::
   auto text = read_all(stream, longest);
   std::fclose(stream);
   return text;
-}
-
-std::string write_output(const std::string& file, const std::string& text) {
-  if (file == "-") return write_to(stdout, text) ? "" : fmt::format("stdout: {}", std::strerror(errno));
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) return io::write_whole_file(file, text);
-  // A pipe or a device is written to; only a regular file is replaced, and behind a link, that one.
-  if (std::filesystem::is_regular_file(status))
-    return io::write_whole_file(std::filesystem::canonical(file, error), text);
-  std::FILE* const stream = std::fopen(file.c_str(), "w");
-  if (!stream) return fmt::format("{}: {}", file, std::strerror(errno));
-  const int reason = write_to(stream, text) ? 0 : errno;
-  const bool is_closed = std::fclose(stream) == 0;
-  if (reason == 0 && is_closed) return "";
-  return fmt::format("{}: {}", file, std::strerror(reason != 0 ? reason : errno));
 }
 
 }  // namespace polynya::app

@@ -4,11 +4,11 @@
 
 #include "app/carry_out.hpp"
 #include "app/commands.hpp"
+#include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/failure_dump.hpp"
 #include "app/load_scene.hpp"
 #include "app/stop_signal.hpp"
-#include "app/tell.hpp"
 #include "io/checkpoint.hpp"
 #include "io/json_parser.hpp"
 #include "io/run_folder.hpp"
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using simulation::Simulation;
 
 int refuse(const std::string& reason) {
-  tell("polynya: {}\n", reason);
+  print_err("polynya: {}\n", reason);
   return kInputOutput;
 }
 
@@ -58,10 +58,11 @@ tl::expected<RunInHand, std::string> run_at(const fs::path& path, const io::Load
 void offer_others(const fs::path& folder, const fs::path& refused) {
   for (const fs::path& other : io::checkpoints_in(folder)) {
     if (other.filename() == refused.filename()) continue;
-    tell("polynya: there is another: polynya resume {} --checkpoint {}\n", folder.string(), other.string());
+    print_err("polynya: there is another: polynya resume {} --checkpoint {}\n", folder.string(),
+              other.string());
   }
-  tell("polynya: or from the start: polynya run {} --out {} --overwrite\n",
-       (folder / io::run_file::kScene).string(), folder.string());
+  print_err("polynya: or from the start: polynya run {} --out {} --overwrite\n",
+            (folder / io::run_file::kScene).string(), folder.string());
 }
 
 /// The one step after a dump, and whether it fails as it did.
@@ -71,13 +72,13 @@ int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
   if (!dump) return refuse(dump.error());
   auto simulation = simulation_of(scene, *dump);
   if (!simulation) return refuse(fmt::format("{}: {}", path.string(), simulation.error()));
-  fmt::print("state       step {}, t = {:.9g} s, hash {:016x}\n", simulation->steps(), simulation->time(),
-             simulation->state_hash());
-  fmt::print("then        {}\n", dump->failure);
+  print_out("state       step {}, t = {:.9g} s, hash {:016x}\n", simulation->steps(), simulation->time(),
+            simulation->state_hash());
+  print_out("then        {}\n", dump->failure);
   simulation->step();
   const std::string now = failure_after_step(*simulation).value_or("nothing went wrong");
-  fmt::print("now         {}\n", now);
-  fmt::print("{}\n", now == dump->failure ? "reproduced" : "not reproduced");
+  print_out("now         {}\n", now);
+  print_out("{}\n", now == dump->failure ? "reproduced" : "not reproduced");
   return now == dump->failure ? kNumericalFailure : kDone;
 }
 
@@ -91,13 +92,13 @@ int resume(const ResumeOptions& options) {
   if (!scene) return scene.error();
   if (options.from_failure) return repeat_failure(*scene, folder);
   if (is_finished(folder)) {
-    tell("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
+    print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
     return kDone;
   }
   watch_signals();
   const std::vector<fs::path> checkpoints = io::checkpoints_in(folder);
   if (checkpoints.empty() && options.checkpoint.empty()) {
-    tell("polynya: {}: no checkpoint was written yet; from the start\n", folder.string());
+    print_err("polynya: {}: no checkpoint was written yet; from the start\n", folder.string());
     auto writer = io::RunWriter::begin(folder, *scene);
     if (!writer) return refuse(writer.error());
     return carry_out({*scene, Simulation(scene->scene), std::move(*writer)}, options.carry);
@@ -109,7 +110,7 @@ int resume(const ResumeOptions& options) {
     offer_others(folder, chosen);
     return kInputOutput;
   }
-  tell("polynya: from {} at {:.6g} s\n", chosen.filename().string(), run->simulation.time());
+  print_err("polynya: from {} at {:.6g} s\n", chosen.filename().string(), run->simulation.time());
   return carry_out(std::move(*run), options.carry);
 }
 

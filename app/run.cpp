@@ -4,9 +4,9 @@
 
 #include "app/carry_out.hpp"
 #include "app/commands.hpp"
+#include "app/console.hpp"
 #include "app/load_scene.hpp"
 #include "app/stop_signal.hpp"
-#include "app/tell.hpp"
 #include "io/run_writer.hpp"
 #include "simulation/simulation.hpp"
 
@@ -21,7 +21,7 @@ int run(const RunOptions& options) {
   watch_signals();
   auto writer = io::RunWriter::create(folder, options.overwrite, *loaded);
   if (!writer) {
-    tell("polynya: {}\n", writer.error());
+    print_err("polynya: {}\n", writer.error());
     return kInputOutput;
   }
   return carry_out({*loaded, simulation::Simulation(loaded->scene), std::move(*writer)}, options.carry);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/load_scene.hpp"
 
@@ -12,7 +13,7 @@ int validate(const ValidateOptions& options) {
   const auto loaded = load_scene(options.scene);
   if (!loaded) return loaded.error();
   if (options.resolved) {
-    fmt::print("{}", loaded->resolved_text);
+    write_out(loaded->resolved_text);
     return kDone;
   }
   const simulation::Scene& scene = loaded->scene;
@@ -23,15 +24,15 @@ int validate(const ValidateOptions& options) {
   const auto counted = [](std::size_t count, std::string_view noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
   };
-  fmt::print("{}: valid; \"{}\" with {}{} and {}, {:g} s in steps of {:g} s, hash {}\n", options.scene,
-             scene.name, counted(scene.ships.size() - structures, "ship"),
-             structures > 0 ? ", " + counted(structures, "structure") : "",
-             counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step, loaded->hash);
+  print_out("{}: valid; \"{}\" with {}{} and {}, {:g} s in steps of {:g} s, hash {}\n", options.scene,
+            scene.name, counted(scene.ships.size() - structures, "ship"),
+            structures > 0 ? ", " + counted(structures, "structure") : "",
+            counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step, loaded->hash);
   for (const io::FieldReport& field : loaded->fields) {
     const simulation::FloeFieldOutcome& outcome = field.outcome;
-    fmt::print("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
-               field.group, outcome.count, outcome.mean_size, 100 * outcome.size_spread,
-               100 * outcome.concentration(), outcome.region_area, outcome.left_out);
+    print_out("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
+              field.group, outcome.count, outcome.mean_size, 100 * outcome.size_spread,
+              100 * outcome.concentration(), outcome.region_area, outcome.left_out);
   }
   return kDone;
 }

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "app/exit_code.hpp"
+#include "app/write_output.hpp"
 #include "io/output_file.hpp"
 #include "io/player_page.hpp"
 #include "io/run_folder.hpp"
@@ -17,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 int fail(ExitCode code, const std::string& words) {
-  fmt::print(stderr, "polynya: {}\n", words);
+  print_err("polynya: {}\n", words);
   return code;
 }
 
@@ -46,13 +48,16 @@ int view(const ViewOptions& options) {
   const std::string page = player_page(*run, data);
   const double megabytes = static_cast<double>(page.size()) / 1e6;
   if (megabytes > options.most_megabytes) return fail(kUsage, too_large(megabytes, options));
-  const fs::path out =
-      options.out.empty() ? fs::path(options.run) / io::run_file::kView : fs::path(options.out);
-  if (const std::string failure = io::write_whole_file(out, page); !failure.empty())
-    return fail(kInputOutput, failure);
-  fmt::print("{}  {:.1f} MB, {} frames, {} floes, {} events; open it in a browser\n", out.string(), megabytes,
-             data.frames, run->floes.size(), run->events.size());
-  return std::fflush(stdout) == 0 ? kDone : kInputOutput;
+  const fs::path in_run = fs::path(options.run) / io::run_file::kView;
+  const std::string failure =
+      options.out.empty() ? io::write_whole_file(in_run, page) : write_output(options.out, page);
+  if (!failure.empty()) return fail(kInputOutput, failure);
+  const bool is_on_stdout = !options.out.empty() && is_stdout(options.out);
+  (is_on_stdout ? write_err : write_out)(
+      fmt::format("{}  {:.1f} MB, {} frames, {} floes, {} events; open it in a browser\n",
+                  options.out.empty() ? in_run.string() : options.out, megabytes, data.frames,
+                  run->floes.size(), run->events.size()));
+  return kDone;
 }
 
 }  // namespace polynya::app

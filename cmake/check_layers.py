@@ -1,4 +1,5 @@
-"""Fails on an include that goes up, sideways, or takes a package into a room it may not enter."""
+"""Fails on an include that goes up, sideways, or takes a package into a room it may not enter; and on what belongs
+into one file only."""
 import pathlib
 import re
 import sys
@@ -11,11 +12,21 @@ PACKAGE_ROOMS = {
     r"<Eigen/": {"fracture", "dynamics"},
     r"<CLI/": {"app"},
 }
+# What is written in one file only, and why.
+ONE_FILE = {
+    r"\bfmt::print\b|\bstd::(cout|cerr|clog)\b|\b(printf|fprintf|puts|fputs|putchar)\s*\(":
+        ({"app/console.cpp", "simulation/simulation.cpp"}, "text goes out through app/console.hpp, which reports what could not be written"),
+}
+COMMENT = re.compile(r"//.*")
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 
 
 def problems_in(path: pathlib.Path, room: str):
     for number, line in enumerate(path.read_text().splitlines(), 1):
+        for pattern, (files, reason) in ONE_FILE.items():
+            found = re.search(pattern, COMMENT.sub("", line))
+            if found and not any(str(path).endswith(file) for file in files):
+                yield f"{path}:{number}: {found.group(0)}: {reason}"
         match = INCLUDE.match(line)
         if not match:
             continue

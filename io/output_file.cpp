@@ -111,10 +111,45 @@ bool sync_folder(const std::filesystem::path& folder) {
   return is_synced;
 }
 
+/// Why `path` must not be replaced; empty where it may be.
+std::string obstacle(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISLNK(status.st_mode)) return "";
+  return fmt::format("{}: {}; it stays as it is", path.string(),
+                     S_ISDIR(status.st_mode) ? "a folder" : "not a regular file");
+}
+
+/// Where a chain of links ends, whether or not there is a file. No chain is longer than the kernel follows.
+std::filesystem::path end_of_links(std::filesystem::path path) {
+  std::error_code error;
+  while (std::filesystem::is_symlink(path, error))
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  return path;
+}
+
+std::string write_through(const std::filesystem::path& path, std::string_view text) {
+  const auto failure = [&] { return fmt::format("{}: {}", path.string(), std::strerror(errno)); };
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) return failure();
+  std::string problem = write_all(descriptor, text) == text.size() ? "" : failure();
+  if (::close(descriptor) != 0 && problem.empty()) problem = failure();
+  return problem;
+}
+
 }  // namespace
+
+std::string write_named_file(const std::filesystem::path& path, std::string_view text) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (error == std::errc::too_many_symbolic_link_levels)
+    return fmt::format("{}: {}", path.string(), error.message());
+  const bool is_replaced = !exists(status) || is_regular_file(status) || is_directory(status);
+  return is_replaced ? write_whole_file(end_of_links(path), text) : write_through(path, text);
+}
 
 std::string write_whole_file(const std::filesystem::path& path, std::string_view text,
                              Durability durability) {
+  if (std::string problem = obstacle(path); !problem.empty()) return problem;
   std::filesystem::path temporary = path;
   temporary += ".part";
   const auto fail = [&](int error) {

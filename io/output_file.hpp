@@ -56,9 +56,14 @@ enum class Durability {
   kSynced,   ///< whole, and there, whatever happens to the machine
 };
 
-/// Writes a file at once: to a temporary name beside it, then renamed, so that a reader sees the old or the
-/// new one. Returns what went wrong; empty where all is well.
+/// Writes a file of a run folder at once: to a temporary name beside it, then renamed, so that a reader sees
+/// the old or the new one. A link of that name is replaced, not followed: run folders come from elsewhere
+/// too. A pipe, a device or a folder is refused and stays. Returns what went wrong; empty where all is well.
 std::string write_whole_file(const std::filesystem::path& path, std::string_view text,
                              Durability durability = Durability::kRenamed);
+
+/// Writes to a name that a user gave. A regular file is replaced at once, and behind a link its target; a
+/// pipe or a device is written to. Returns what went wrong; empty where all is well.
+std::string write_named_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace polynya::io

@@ -271,7 +271,13 @@ std::string to_svg(const PictureSheet& sheet) {
 }
 
 bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png) {
-  std::array<std::string, 4> words{"rsvg-convert", "--output", png.string(), svg.string()};
+  std::error_code error_of_file;
+  const auto there = std::filesystem::symlink_status(png, error_of_file);
+  if (exists(there) && !is_regular_file(there) && !is_symlink(there)) return false;
+  std::filesystem::path part = png;  // what is at `png`, or is linked there, is never opened
+  part += ".part";
+  std::filesystem::remove(part, error_of_file);
+  std::array<std::string, 4> words{"rsvg-convert", "--output", part.string(), svg.string()};
   std::array<char*, 5> arguments{words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -281,12 +287,12 @@ bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::pat
   const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   int status = 1;
-  if (error != 0 || waitpid(child, &status, 0) != child || status != 0) {
-    std::error_code ignored;
-    std::filesystem::remove(png, ignored);
-    return false;
-  }
-  return true;
+  bool is_made = error == 0 && waitpid(child, &status, 0) == child && status == 0;
+  if (is_made) std::filesystem::rename(part, png, error_of_file);
+  is_made = is_made && !error_of_file;
+  if (!is_made) std::filesystem::remove(part, error_of_file);
+  if (!is_made) std::filesystem::remove(png, error_of_file);  // of an earlier picture
+  return is_made;
 }
 
 }  // namespace polynya::io

@@ -202,14 +202,14 @@ tl::expected<std::size_t, std::string> export_vtk(const Run& run, const FrameSel
     int part = 0;
     for (const auto& [name, data] : parts) {
       const std::string file = fmt::format("{}-{:05}.vtp", name, number);
-      if (std::string wrong = write_whole_file(folder / file, to_vtp(data)); !wrong.empty())
+      if (std::string wrong = write_named_file(folder / file, to_vtp(data)); !wrong.empty())
         return tl::unexpected(std::move(wrong));
       timeline.entries.push_back({frame.time, part++, file});
     }
     before = frame.time;
     ++number;
   }
-  if (std::string wrong = write_whole_file(folder / "run.pvd", to_pvd(timeline)); !wrong.empty())
+  if (std::string wrong = write_named_file(folder / "run.pvd", to_pvd(timeline)); !wrong.empty())
     return tl::unexpected(std::move(wrong));
   return number;
 }

@@ -2,10 +2,12 @@
 
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "../io/temporary_folder.hpp"
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +25,21 @@ struct Start {
   std::filesystem::path folder;         ///< its working folder, where its output is kept too
   rlim_t largest_file = RLIM_INFINITY;  ///< [bytes]
   std::filesystem::path input = {};     ///< its stdin; none if empty
+  /// Replaces a descriptor at the last moment; the others go to files, or come from /dev/null.
+  std::function<void()> arrange_streams = [] {};
 };
+
+/// With stdout or stderr a pipe that nobody reads.
+inline void close_pipe_behind(int descriptor) {
+  int ends[2];
+  if (pipe(ends) != 0 || close(ends[0]) != 0 || dup2(ends[1], descriptor) < 0) _exit(126);
+}
+
+/// With stdout or stderr on a full disk.
+inline void fill_disk_of(int descriptor) {
+  const int full = open("/dev/full", O_WRONLY);
+  if (full < 0 || dup2(full, descriptor) < 0) _exit(126);
+}
 
 /// Starts the built polynya; its stdout and stderr go to files in the folder.
 inline pid_t start_polynya(const std::vector<std::string>& words, const Start& start) {
@@ -38,6 +54,7 @@ inline pid_t start_polynya(const std::vector<std::string>& words, const Start& s
     const rlimit limit{start.largest_file, start.largest_file};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  start.arrange_streams();
   std::vector<std::string> copies{POLYNYA_BINARY};
   copies.insert(copies.end(), words.begin(), words.end());
   std::vector<char*> arguments;

@@ -3,6 +3,7 @@
 #include "temporary_folder.hpp"
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include "io/output_file.hpp"
@@ -43,6 +44,40 @@ TEST(OutputFile, EndsWithAWholeRecordWhereTheDiskIsFull) {
 TEST(OutputFile, TellsAFileItCannotMake) {
   EXPECT_FALSE(OutputFile::create("/no/such/folder/file").has_value());
   EXPECT_NE(write_whole_file("/no/such/folder/file", "x"), "");
+}
+
+TEST(OutputFile, ReplacesALinkOfARunFolderAndFollowsOneThatAUserNamed) {
+  const TemporaryFolder folder;
+  write_file(folder / "target", "old");
+  std::filesystem::create_symlink("target", folder / "link");
+  EXPECT_EQ(write_named_file(folder / "link", "named"), "");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(read_file(folder / "target"), "named");
+  EXPECT_EQ(write_whole_file(folder / "link", "whole"), "");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(read_file(folder / "link"), "whole");
+  EXPECT_EQ(read_file(folder / "target"), "named");
+}
+
+TEST(OutputFile, FollowsLinksToAFileThatIsNotThereYet) {
+  const TemporaryFolder folder;
+  write_file(folder / "elsewhere/other", "");
+  std::filesystem::create_symlink("elsewhere/second", folder / "first");
+  std::filesystem::create_symlink("target", folder / "elsewhere/second");
+  EXPECT_EQ(write_named_file(folder / "first", "text"), "");
+  EXPECT_EQ(read_file(folder / "elsewhere/target"), "text");
+  std::filesystem::create_symlink("circle", folder / "circle");
+  EXPECT_NE(write_named_file(folder / "circle", "text"), "");
+}
+
+TEST(OutputFile, ReplacesNoPipeNoDeviceAndNoFolder) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_NE(write_whole_file(folder / "pipe", "x").find("not a regular file"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_NE(write_whole_file(folder.path(), "x").find("a folder"), std::string::npos);
+  EXPECT_NE(write_named_file("/dev/full", "x").find("No space left"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
 TEST(RunFolder, RefusesWhatIsNotEmpty) {

@@ -1,0 +1,44 @@
+#include "app/write_output.hpp"
+
+#include <filesystem>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "app/console.hpp"
+#include "io/output_file.hpp"
+
+namespace polynya::app {
+namespace {
+
+bool is_open_as(const std::string& file, int descriptor) {
+  struct stat named {
+  }, opened{};
+  return ::stat(file.c_str(), &named) == 0 && ::fstat(descriptor, &opened) == 0 &&
+         named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+}
+
+}  // namespace
+
+bool is_stdout(const std::string& file) {
+  return file == "-" || is_open_as(file, STDOUT_FILENO);
+}
+
+std::string write_output(const std::string& file, const std::string& text) {
+  // Replacing the file that a stream goes to would lose what else is written there.
+  if (is_stdout(file))
+    write_out(text);
+  else if (is_open_as(file, STDERR_FILENO))
+    write_err(text);
+  else
+    return io::write_named_file(file, text);
+  return "";
+}
+
+std::string write_product(const std::string& out, const std::string& run, std::string_view name,
+                          const std::string& text) {
+  if (out.empty()) return io::write_whole_file(std::filesystem::path(run) / name, text);
+  return write_output((std::filesystem::path(out) / name).string(), text);
+}
+
+}  // namespace polynya::app

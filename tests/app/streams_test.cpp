@@ -1,0 +1,170 @@
+#include "interrupted_run.hpp"
+#include "program.hpp"
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+namespace polynya::tests {
+namespace {
+
+/// A ship that breaks cusps from a plate, in a moment.
+constexpr auto kScene =
+    R"({"name": "tiny", "time": {"step_s": 0.01, "until_s": 1}, "record": {"frames_interval_s": 0.5},
+        "ships": [{"hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30}, "mass_kg": 3e6,
+          "moment_of_inertia_kg_m2": 8e8, "position_m": [-31, 0], "propulsion": {"constant_speed_m_per_s": 2}}],
+        "floes": [{"rectangle": {"corner_m": [0.5, -40], "size_m": [120, 80]}}]})";
+
+class Streams : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    write_file(folder->path() / "tiny.json", kScene);
+    write_file(folder->path() / "floes.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10))\n");
+    ASSERT_EQ(in_folder({"run", "tiny.json", "--out", "good"}).code, 0);
+    ASSERT_GT(read_file(folder->path() / "good/events.ndjson").size(), 0U);
+  }
+  static void TearDownTestSuite() { delete folder; }
+  static Outcome in_folder(
+      const std::vector<std::string>& words, std::function<void()> arrange = [] {}) {
+    return polynya(words, {.folder = folder->path(), .arrange_streams = std::move(arrange)});
+  }
+  static inline TemporaryFolder* folder = nullptr;
+};
+
+/// Every command that prints to stdout, as a user calls it.
+const std::vector<std::vector<std::string>> kPrinting{
+    {"--help"},
+    {"--version"},
+    {"run", "--help"},
+    {"run", "tiny.json", "--out", "replaced", "--overwrite", "--progress", "none"},
+    {"validate", "tiny.json"},
+    {"validate", "tiny.json", "--resolved"},
+    {"schema"},
+    {"schema", "--markdown"},
+    {"init"},
+    {"man"},
+    {"completion"},
+    {"inspect", "good"},
+    {"inspect", "good", "--check"},
+    {"inspect", "good", "--fsd"},
+    {"inspect", "good", "--floe", "0"},
+    {"inspect", "good", "--lineage", "1"},
+    {"view", "good"},
+    {"channel", "good"},
+    {"figures", "good"},
+    {"export", "good", "--vtk", "vtk"},
+    {"export", "good", "--geojson", "layers"},
+    {"cut", "floes.wkt", "--crack", "5,5,30"},
+    {"cut", "floes.wkt", "--crack", "5,5,30", "--out", "-", "--ledger", "ledger.json"},
+    {"database", "show"},
+    {"database", "query", "--thickness", "1", "--speed", "1", "--wedge-angle", "90", "--hull-angle", "60"}};
+
+TEST_F(Streams, TextThatAFullDiskRefusesNeverEndsInZero) {
+  for (const auto& words : kPrinting) {
+    const Outcome outcome = in_folder(words, [] { fill_disk_of(1); });
+    EXPECT_EQ(outcome.code, 5) << words.front();
+    EXPECT_NE(outcome.err.find("polynya: stdout: No space left on device"), std::string::npos)
+        << words.front() << ": " << outcome.err;
+  }
+}
+
+/// As with `polynya inspect RUN | head -1`.
+TEST_F(Streams, AClosedPipeIsQuietAndEndsAsShellsReportIt) {
+  for (const auto& words : kPrinting) {
+    const Outcome read = in_folder(words);
+    EXPECT_EQ(read.code, 0) << words.front();
+    EXPECT_NE(read.out, "") << words.front();
+    const Outcome outcome = in_folder(words, [] { close_pipe_behind(1); });
+    EXPECT_EQ(outcome.code, 141) << words.front();
+    EXPECT_EQ(outcome.err, read.err) << words.front();
+  }
+}
+
+TEST_F(Streams, AClosedStdoutIsReported) {
+  const Outcome outcome = in_folder({"schema"}, [] { close(1); });
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_NE(outcome.err.find("polynya: stdout: it is closed"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Streams, MessagesThatCannotBeWrittenNeverEndInZero) {
+  const std::vector<std::string> noisy{"cut", "floes.wkt", "--crack", "5,5,30"};
+  ASSERT_NE(in_folder(noisy).err, "");
+  EXPECT_EQ(in_folder(noisy, [] { fill_disk_of(2); }).code, 5);
+  EXPECT_EQ(in_folder(noisy, [] { close(2); }).code, 5);
+  EXPECT_EQ(in_folder(noisy, [] { close_pipe_behind(2); }).code, 141);
+  EXPECT_EQ(in_folder({"validate", "tiny.json"}, [] { fill_disk_of(2); }).code, 0);  // it has no message
+}
+
+/// The files of the run would take the descriptors of closed streams, and reports and progress would go
+/// there.
+TEST_F(Streams, WhateverStreamIsClosedARunsFilesHoldTheRun) {
+  for (int closed = 1; closed < 8; ++closed) {
+    const auto close_some = [closed] {
+      for (int descriptor = 0; descriptor < 3; ++descriptor) {
+        if ((closed >> descriptor & 1) != 0) close(descriptor);
+      }
+    };
+    const std::string name = "closed-" + std::to_string(closed);
+    const Outcome outcome = in_folder({"run", "tiny.json", "--out", name, "--progress", "json"}, close_some);
+    EXPECT_EQ(outcome.code, (closed & 2) != 0 ? 5 : 0) << closed;
+    EXPECT_EQ(first_difference(folder->path() / "good", folder->path() / name), "") << closed;
+  }
+}
+
+TEST_F(Streams, AClosedStdinIsAnErrorWhereItIsRead) {
+  const Outcome outcome = in_folder({"cut", "-", "--crack", "5,5,30"}, [] { close(0); });
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_NE(outcome.err.find("stdin: "), std::string::npos) << outcome.err;
+}
+
+TEST_F(Streams, APageGoesIntoAPipeADeviceOrALinksTarget) {
+  ASSERT_EQ(in_folder({"view", "good", "--out", "page.html"}).code, 0);
+  const std::string page = read_file(folder->path() / "page.html");
+  ASSERT_EQ(mkfifo((folder->path() / "fifo").c_str(), 0600), 0);
+  const pid_t reader = fork();
+  if (reader == 0) {
+    write_file(folder->path() / "read.html", read_file(folder->path() / "fifo"));
+    _exit(0);
+  }
+  EXPECT_EQ(in_folder({"view", "good", "--out", "fifo"}).code, 0);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder->path() / "fifo"));
+  std::filesystem::remove(folder->path() / "fifo");
+  waitpid(reader, nullptr, 0);
+  EXPECT_TRUE(read_file(folder->path() / "read.html") == page);
+
+  write_file(folder->path() / "elsewhere/target.html", "old");
+  for (const char* target : {"elsewhere/target.html", "elsewhere/new.html"}) {
+    const auto link = folder->path() / "link.html";
+    std::filesystem::remove(link);
+    std::filesystem::create_symlink(target, link);
+    EXPECT_EQ(in_folder({"view", "good", "--out", "link.html"}).code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_TRUE(read_file(folder->path() / target) == page) << target;
+  }
+}
+
+/// The line about the page goes to stderr then; a page that is a file would lose it.
+TEST_F(Streams, APageOnStdoutIsThePageAlone) {
+  ASSERT_EQ(in_folder({"view", "good", "--out", "page.html"}).code, 0);
+  const Outcome outcome = in_folder({"view", "good", "--out", "/dev/stdout"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(outcome.out == read_file(folder->path() / "page.html"));
+  EXPECT_NE(outcome.err.find("open it in a browser"), std::string::npos);
+}
+
+/// A run folder may come from elsewhere: what is linked there is not written to.
+TEST_F(Streams, ProductsInARunFolderReplaceALink) {
+  const auto mine = folder->path() / "mine.txt";
+  std::filesystem::copy(folder->path() / "good", folder->path() / "foreign");
+  for (const auto& [command, product] :
+       {std::pair{"view", "view.html"}, {"channel", "channel.csv"}, {"figures", "figure-floes.png"}}) {
+    write_file(mine, "mine");
+    const auto file = folder->path() / "foreign" / product;
+    std::filesystem::remove(file);
+    std::filesystem::create_symlink(mine, file);
+    EXPECT_EQ(in_folder({command, "foreign"}).code, 0);
+    EXPECT_EQ(read_file(mine), "mine") << command;
+  }
+}
+
+}  // namespace
+}  // namespace polynya::tests
