@@ -111,7 +111,9 @@ class GeojsonReader {
 std::vector<GeojsonPolygon> read_geojson(std::size_t source, ProblemCollector& problems) {
   const JsonDocument document = parse_json(problems.source(source).text);
   for (const JsonFault& fault : document.faults) {
-    problems.add(source, fault.offset, {.path = fault.path, .found = fault.found, .allowed = fault.allowed});
+    problems.add(
+        source, fault.offset,
+        {.path = fault.path, .found = fault.found, .allowed = fault.allowed, .sentence = fault.sentence});
   }
   if (!document.faults.empty()) return {};
   GeojsonReader reader(source, problems);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "io/json_fault.hpp"
+
 namespace polynya::io {
 namespace {
 
@@ -19,6 +21,7 @@ class PlaceFinder {
   std::uint32_t start_of_token() {
     while (end_ < text_.size()) {
       if (std::string_view(" \t\r\n,:").find(text_[end_]) != std::string_view::npos) {
+        if (text_[end_] == ',') commas_.push_back(end_);
         ++end_;
       } else if (text_.substr(end_, 2) == "//") {
         end_ = std::min(text_.find_first_of("\r\n", end_), text_.size());
@@ -30,18 +33,29 @@ class PlaceFinder {
     }
     return static_cast<std::uint32_t>(end_);
   }
-  void pass(std::size_t length) { end_ += length; }
-  void pass_number() { end_ = std::min(text_.find_first_not_of("+-.0123456789eE", end_), text_.size()); }
+  void pass(std::size_t length) { begin_gap(end_ + length); }
+  void pass_number() { begin_gap(std::min(text_.find_first_not_of("+-.0123456789eE", end_), text_.size())); }
   void pass_text() {
     for (++end_; end_ < text_.size() && text_[end_] != '"'; ++end_) {
       if (text_[end_] == '\\') ++end_;
     }
-    ++end_;
+    begin_gap(end_ + 1);
   }
+  /// Just behind the last token.
+  std::size_t gap() const { return gap_; }
+  /// Where commas stand between the last token and what start_of_token() found.
+  const std::vector<std::size_t>& commas() const { return commas_; }
 
  private:
+  void begin_gap(std::size_t at) {
+    end_ = gap_ = at;
+    commas_.clear();
+  }
+
   std::string_view text_;
-  std::size_t end_ = 0;  // just behind the last token
+  std::size_t end_ = 0;  // as far as the text has been followed
+  std::size_t gap_ = 0;
+  std::vector<std::size_t> commas_;
 };
 
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
@@ -74,6 +88,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& key) override {
     const std::uint32_t offset = places_.start_of_token();
     places_.pass_text();
+    follows_value_ = false;
     open_.back()->members().push_back({std::move(key), offset, {}});
     return true;
   }
@@ -85,34 +100,21 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::json::exception& error) override {
-    std::string reason = error.what();
-    if (const auto at = reason.rfind("; expected "); at != std::string::npos)
-      reason = reason.substr(at + 2);
-    else if (const auto dash = reason.find(" - "); dash != std::string::npos)
-      reason = reason.substr(dash + 3);
-    else if (const auto bracket = reason.find("] "); bracket != std::string::npos)
-      reason = reason.substr(bracket + 2);
-    if (reason.find("overflow") != std::string::npos)
-      reason = "a number of at most 1.79e308";
-    else if (reason.starts_with("invalid literal"))
-      reason = "an object, a list, text in quotes, a number, true, false or null";
-    // What it could not use begins where no more than blanks and punctuation follow the last event, or is
-    // punctuation.
-    const std::size_t offset =
-        std::min<std::size_t>(places_.start_of_token(), position > 0 ? position - 1 : 0);
-    document_.faults.push_back({static_cast<std::uint32_t>(offset), "", show_at(offset), std::move(reason)});
+    const std::size_t gap = places_.gap();
+    const std::size_t token = places_.start_of_token();
+    ParserStop stop{.text = text_,
+                    .reason = error.what(),
+                    .token = token,
+                    .last_read = position > 0 ? position - 1 : 0,
+                    .gap = gap,
+                    .commas = places_.commas(),
+                    .follows_value = follows_value_};
+    if (!open_.empty()) stop.open = {open_.back()->offset, open_.back()->is(JsonValue::Kind::kArray)};
+    document_.faults.push_back(fault_of(stop));
     return false;
   }
 
  private:
-  /// The word or sign at an offset, for a message.
-  std::string show_at(std::size_t offset) const {
-    if (offset >= text_.size()) return "the end of the text";
-    std::size_t end = text_.find_first_of(" \t\r\n,:[]{}\"", offset + 1);
-    if (text_[offset] == '"') end = std::min(text_.find_first_of("\"\n", offset + 1), text_.size() - 1) + 1;
-    return fmt::format("'{}'", text_.substr(offset, std::min<std::size_t>(end - offset, 40)));
-  }
-
   template <class Value>
   JsonValue& place(Value&& value) {
     JsonValue* slot = &document_.root;
@@ -123,6 +125,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     }
     slot->data = std::forward<Value>(value);
     slot->offset = places_.start_of_token();
+    follows_value_ = true;
     return *slot;
   }
   bool any_number(double value) {
@@ -134,6 +137,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool open(Container container) {
     JsonValue& slot = place(std::move(container));
     places_.pass(1);
+    follows_value_ = false;
     if (open_.size() >= kDeepestNesting) {
       document_.faults.push_back(
           {slot.offset, "", "deeper nesting", fmt::format("at most {} levels", kDeepestNesting)});
@@ -145,6 +149,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool close() {
     places_.start_of_token();
     places_.pass(1);
+    follows_value_ = true;
     open_.pop_back();
     return true;
   }
@@ -170,6 +175,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   std::string_view text_;
   JsonDocument& document_;
   std::vector<JsonValue*> open_;
+  bool follows_value_ = false;  // the last token completed a value
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ struct JsonFault {
   std::string path;          ///< of the member, for a key that stands twice; else empty
   std::string found;
   std::string allowed;
+  std::string sentence = {};  ///< a plain sentence in place of found and allowed, or empty
 };
 
 struct JsonDocument {

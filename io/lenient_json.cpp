@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "io/json_fault.hpp"
 #include "io/json_parser.hpp"
 #include "io/source_text.hpp"
 
@@ -57,8 +58,7 @@ tl::expected<JsonValue, std::string> parse_lenient_json(std::string text) {
   if (document.faults.empty()) return std::move(document.root);
   const JsonFault& fault = document.faults.front();
   const LineAndColumn place = line_and_column(text, fault.offset);
-  return tl::unexpected(
-      fmt::format("{}:{}: found {}, allowed: {}", place.line, place.column, fault.found, fault.allowed));
+  return tl::unexpected(fmt::format("{}:{}: {}", place.line, place.column, message_of(fault)));
 }
 
 }  // namespace polynya::io

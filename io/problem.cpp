@@ -32,14 +32,19 @@ std::string_view without_unit(std::string_view key) {
 
 }  // namespace
 
+std::string message_of(const Problem& problem) {
+  if (!problem.sentence.empty()) return problem.sentence;
+  std::string text = "found " + problem.found;
+  if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
+  if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);
+  return text;
+}
+
 std::string to_string(const Problem& problem) {
   std::string text = problem.line > 0 ? fmt::format("{}:{}:{}: ", problem.file, problem.line, problem.column)
                                       : fmt::format("{}: ", problem.file);
   if (!problem.path.empty()) text += problem.path + ": ";
-  text += "found " + problem.found;
-  if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
-  if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);
-  return text;
+  return text + message_of(problem);
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates) {

@@ -16,7 +16,11 @@ struct Problem {
   std::string found = {};
   std::string allowed = {};
   std::string suggestion = {};  ///< nearest known key or choice; empty where none is near
+  std::string sentence = {};    ///< in place of found and allowed where those do not fit; else empty
 };
+
+/// "found 0, allowed: a number > 0, ≤ 20 [m]"
+std::string message_of(const Problem& problem);
 
 /// "scene.json:12:5: ice.thickness_m: found 0, allowed: a number > 0, ≤ 20 [m]"
 std::string to_string(const Problem& problem);

@@ -67,7 +67,9 @@ class SceneReading {
     JsonDocument document = parse_json(problems_.source(0).text);
     bool is_cut_short = false;
     for (const JsonFault& fault : document.faults) {
-      problems_.add(0, fault.offset, {.path = fault.path, .found = fault.found, .allowed = fault.allowed});
+      problems_.add(
+          0, fault.offset,
+          {.path = fault.path, .found = fault.found, .allowed = fault.allowed, .sentence = fault.sentence});
       is_cut_short = is_cut_short || fault.path.empty();
     }
     if (is_cut_short) return tl::unexpected(problems_.take());

@@ -61,7 +61,7 @@ TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {
       {R"([{"keep": "both"}])", "expected an object with one of"},
       {R"([{"line": [1,2,1,2]}])", "the line's ends are one point"},
       {R"([{"line": [1,2,3]}])", "[0]: line: expected"},
-      {R"([{"disc": [1,2,3]},])", "1:20: "},
+      {R"([{"disc": [1,2,3]},])", "1:19: a comma too many"},
       {R"([{"disc": [1e300,0,1]}])", "not-finite", Kind::kInvalidPolygon},
       {R"json([{"polygon": "POLYGON((0 0,2 2,2 0,0 2))"}])json", "self-crossing at (1, 1)",
        Kind::kInvalidPolygon},

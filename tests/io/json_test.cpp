@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/json_fault.hpp"
 #include "io/json_parser.hpp"
 #include "io/json_writer.hpp"
 #include "io/problem.hpp"
@@ -81,7 +82,7 @@ TEST(JsonParser, TellsSyntaxErrorsWhereTheyAre) {
   };
   for (const Case& c :
        {Case{R"({"a": 1 "b": 2})", 8}, Case{R"({"a": })", 6}, Case{R"({"a": NaN})", 6}, Case{"[1, 2", 5},
-        Case{"", 0}, Case{R"({"a": 1e400})", 6}, Case{"{} x", 3}, Case{"[1,]", 3}, Case{"[1,,2]", 3},
+        Case{"", 0}, Case{R"({"a": 1e400})", 6}, Case{"{} x", 3}, Case{"[1,]", 2}, Case{"[1,,2]", 3},
         Case{"[1 /*]*/ 2]", 9}, Case{"[\"a", 1}, Case{"// only this", 12}}) {
     const JsonDocument document = parse_json(c.text);
     ASSERT_EQ(document.faults.size(), 1U) << c.text;
@@ -90,6 +91,39 @@ TEST(JsonParser, TellsSyntaxErrorsWhereTheyAre) {
   }
   EXPECT_EQ(parse_json(std::string("{}\0{}", 5)).faults.size(), 1U);
   EXPECT_EQ(parse_json("\"\xff\"").faults.size(), 1U);
+}
+
+TEST(JsonParser, FaultsAreToldInPlainWords) {
+  struct Case {
+    std::string text, message;
+  };
+  for (const Case& c :
+       {Case{R"({"a": 1 "b": 2})", "a comma is missing before \"b\""},
+        {"{\n  \"a\": {\"c\": 1} // note\n  \"b\": 2\n}",
+         "a comma is missing before \"b\", at the end of line 2"},
+        {"[[1, 2]\n [3, 4]]", "a comma is missing before '[', at the end of line 1"},
+        {"[1 -2]", "a comma is missing before '-2'"},
+        {"[1, 2,\n]", "a comma too many: only ']' follows it"},
+        {R"({"a": 1, /* }] */ })", "a comma too many: only '}' follows it"},
+        {"[1,,2]", "a comma too many: nothing stands before it"},
+        {"[,1]", "a comma too many: nothing stands before it"},
+        {"{\n\"a\": [1,\n2", "the text ends, but the list that begins on line 2 is not closed with ']'"},
+        {R"({"a": 1; "b": 2})", "found ';', allowed: a comma, or '}'"},
+        {R"({name: 1})", "found 'name', allowed: a key in double quotes"},
+        {R"({"a" = 1})", "found '=', allowed: a colon between a key and its value"},
+        {R"({"a": , "b": 1})",
+         "found ',', allowed: an object, a list, text in double quotes, a number, true, false or null"},
+        {"{} x", "found 'x', allowed: nothing behind the outermost value"},
+        {"",
+         "found the end of the text, allowed: an object, a list, text in double quotes, a number, true, "
+         "false or null"},
+        {"{\"a\": \"b\n\"}",
+         "found \"b, allowed: text that ends with a double quote on the same line (\\n and \\t stand "
+         "for breaks and tabs)"}}) {
+    const JsonDocument document = parse_json(c.text);
+    ASSERT_EQ(document.faults.size(), 1U) << c.text;
+    EXPECT_EQ(message_of(document.faults.front()), c.message) << c.text;
+  }
 }
 
 TEST(JsonWriter, NumbersReadBackToTheSameDouble) {
