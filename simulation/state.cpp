@@ -84,6 +84,7 @@ class StateLoader {
           c.brash_pieces, c.kept_exact, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
           c.peak_contacts, c.peak_awake})
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
+    bytes_.require(c.largest_left_over >= 0, "a negative velocity left over");
     bytes_.require(world_.loads.size() == world_.scene.ships.size(), "loads of other ships");
     bytes_.require(world_.steps >= 0 && world_.steps <= kMostSteps, "a number of steps that cannot be");
     std::uint64_t floes = 0;

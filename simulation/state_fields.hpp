@@ -66,8 +66,8 @@ void fields(Archive& archive, Is<AreaLedger> auto& l) {
 template <class Archive>
 void fields(Archive& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
-          c.brash_pieces, c.kept_exact, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
-          c.peak_contacts, c.peak_awake);
+          c.brash_pieces, c.kept_exact, c.database_out_of_range, c.unconverged_steps, c.largest_left_over,
+          c.unpaired_stretches, c.peak_contacts, c.peak_awake);
 }
 template <class Archive>
 void fields(Archive& archive, Is<EnergyFlows> auto& e) {

@@ -29,13 +29,26 @@ inline constexpr std::array kComparedFiles{
     io::run_file::kScene,  io::run_file::kForces,   io::run_file::kEvents, io::run_file::kFloes,
     io::run_file::kFrames, io::run_file::kContacts, io::run_file::kStates, io::run_file::kFinalGeojson};
 
+/// A summary.json without the lines that tell how long the run took by the clock.
+inline std::string without_wall_time(const std::string& summary) {
+  std::istringstream lines(summary);
+  std::string kept;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("wall_time_s") == std::string::npos && line.find("real_time_factor") == std::string::npos)
+      kept += line + '\n';
+  return kept;
+}
+
 /// The first file in which two run folders differ; empty where none does.
 inline std::string first_difference(const std::filesystem::path& a, const std::filesystem::path& b) {
   for (const auto name : kComparedFiles) {
     const bool are_there = std::filesystem::exists(a / name) && std::filesystem::exists(b / name);
     if (!are_there || read_file(a / name) != read_file(b / name)) return std::string(name);
   }
-  return "";
+  const auto summary = [](const auto& run) {
+    return without_wall_time(read_file(run / io::run_file::kSummary));
+  };
+  return summary(a) == summary(b) ? "" : std::string(io::run_file::kSummary);
 }
 
 inline bool has_ended(pid_t child) {
