@@ -74,8 +74,12 @@ Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
   return *std::move(ops);
 }
 
-io::FloeFormat output_format(const std::string& file, io::FloeFormat of_input) {
-  const std::string extension = std::filesystem::path(file).extension().string();
+/// The format that the extension of --out names; none where it has no extension.
+Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  if (extension.empty()) return std::nullopt;
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; });
   for (const auto& [ending, format] : {std::pair{".geojson", io::FloeFormat::kGeojson},
                                        {".json", io::FloeFormat::kGeojson},
                                        {".ndjson", io::FloeFormat::kNdjson},
@@ -84,7 +88,10 @@ io::FloeFormat output_format(const std::string& file, io::FloeFormat of_input) {
                                        {".wkt", io::FloeFormat::kWkt}}) {
     if (extension == ending) return format;
   }
-  return of_input;
+  return fail(kUsage,
+              fmt::format("--out {}: no format has the extension {}; GeoJSON: .geojson, .json; NDJSON: "
+                          ".ndjson, .jsonl, .geojsonl; WKT: .wkt (others: ogr2ogr converts GeoJSON)",
+                          file, extension));
 }
 
 /// Told as "floes.geojson:3: feature 1: …"; past the hundredth only counted.
@@ -141,13 +148,13 @@ void report_totals(const io::CutReport& report) {
 }
 
 /// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
-std::string write_results(const CutOptions& options, const io::CutReport& report, io::FloeFormat of_input) {
+std::string write_results(const CutOptions& options, const io::CutReport& report, io::FloeFormat format) {
   std::string ledger = options.ledger;
   std::string out = options.out;
   if (ledger.empty() && out != "-") ledger = "-";
   if (out.empty() && !ledger.empty() && ledger != "-") out = "-";
   if (!out.empty()) {
-    std::string failure = write_output(out, to_floe_text(report, output_format(out, of_input)));
+    std::string failure = write_output(out, to_floe_text(report, format));
     if (!failure.empty()) return failure;
   } else {
     print_err("polynya: the ledger is on stdout; name --out FILE for the pieces, or --ledger FILE\n");
@@ -155,11 +162,26 @@ std::string write_results(const CutOptions& options, const io::CutReport& report
   return ledger.empty() ? "" : write_output(ledger, to_ledger_json(report));
 }
 
+/// What of the text is not in the pieces.
+void report_losses(const std::string& name, const io::FloeText& floes, io::FloeFormat format) {
+  const auto note = [&name](const char* words) { print_err("note: {}: {}\n", name, words); };
+  if (floes.entries.empty()) note("no floes in it");
+  if (floes.has_more_coordinates) note("third coordinates are passed over");
+  if (floes.has_srid) note("SRID is passed over");
+  if (floes.has_other_crs) note("its crs members differ; the pieces get the first");
+  if (format != io::FloeFormat::kWkt) return;
+  if (!floes.crs.empty()) note("WKT has no room for its crs");
+  if (std::ranges::any_of(floes.entries, [](const io::FloeEntry& one) { return one.properties != nullptr; }))
+    note("WKT has no room for properties");
+}
+
 Outcome<bool> cut_all(const CutOptions& options) {
   if (!options.out.empty() && options.out == options.ledger)
     return fail(kUsage, "--out and --ledger are one and the same");
   if (options.floes == "-" && (options.polygon == "-" || options.ops == "-"))
     return fail(kUsage, "stdin can be read once");
+  const auto wanted_format = output_format(options.out);
+  if (!wanted_format) return tl::unexpected(wanted_format.error());
   auto ops = read_ops(options);
   if (!ops) return tl::unexpected(ops.error());
   const std::string name = options.floes == "-" ? "stdin" : options.floes;
@@ -167,10 +189,12 @@ Outcome<bool> cut_all(const CutOptions& options) {
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));
   if (!floes) return fail(kInputOutput, fmt::format("{}:{}", name, floes.error()));
-  if (floes->has_more_coordinates) print_err("note: third coordinates are passed over\n");
-  const io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
+  const io::FloeFormat format = wanted_format->value_or(floes->format);
+  report_losses(name, *floes, format);
+  io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
+  report.crs = floes->crs;
   report_floes(name, report);
-  if (const std::string failure = write_results(options, report, floes->format); !failure.empty())
+  if (const std::string failure = write_results(options, report, format); !failure.empty())
     return fail(kInputOutput, failure);
   report_totals(report);
   return io::totals_of(report).rejected == 0;

@@ -208,7 +208,7 @@ class FloeCutter {
 
 io::CutReport cut_floes(const std::vector<io::FloeEntry>& entries, std::vector<io::CutOp> ops,
                         std::optional<geometry::FillRule> repair_rule) {
-  io::CutReport report{std::move(ops), {}};
+  io::CutReport report{std::move(ops), {}, {}};
   const std::vector<std::int64_t> ids = ids_of(entries);
   std::int64_t next_id = ids.empty() ? 0 : 1 + *std::ranges::max_element(ids);
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -218,6 +218,7 @@ io::CutReport cut_floes(const std::vector<io::FloeEntry>& entries, std::vector<i
     floe.feature = entry.feature;
     floe.member = entry.member;
     floe.line = entry.line;
+    floe.properties = entry.properties;
     if (!entry.refusal.empty()) {
       floe.rejected = {{entry.refusal, entry.detail, {}}};
       continue;

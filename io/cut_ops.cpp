@@ -204,7 +204,7 @@ ToolOutcome<PolygonTool> polygon_tool(std::string text) {
 }
 
 ToolOutcome<std::vector<CutOp>> read_cut_ops(std::string text, const CutDefaults& defaults) {
-  const auto value = parse_lenient_json(std::move(text));
+  const auto value = parse_lenient_json(text);
   if (!value) return malformed(value.error());
   if (!value->is(JsonKind::kArray)) return malformed("expected a list of cuts");
   std::vector<CutOp> ops;

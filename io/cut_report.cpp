@@ -14,11 +14,18 @@ geometry::Ring closed(geometry::Ring ring) {
   return ring;
 }
 
-void write_feature(JsonWriter& json, const CutFloe& floe, const CutPiece& piece) {
-  json.open('{').key("type").value("Feature").key("properties").open('{');
+void write_crs(JsonWriter& json, const std::string& crs) {
+  if (!crs.empty()) json.key("crs").json(crs);
+}
+
+void write_feature(JsonWriter& json, const std::string& crs, const CutFloe& floe, const CutPiece& piece) {
+  json.open('{').key("type").value("Feature");
+  write_crs(json, crs);
+  json.key("properties").open('{');
   json.key("floe_id").value(piece.floe_id).key("parent_id").value(floe.floe_id);
-  json.key("area").value(piece.area).key("area_m2").value(piece.area).key("part").value(name_of(piece.part));
+  json.key("area_m2").value(piece.area).key("part").value(name_of(piece.part));
   if (!piece.is_exact) json.key("is_exact").value(false);
+  if (floe.properties) json.json(*floe.properties);
   json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
   json.value(closed(piece.polygon.outer));
   for (const geometry::Ring& hole : piece.polygon.holes) json.value(closed(hole));
@@ -34,7 +41,7 @@ void write_numbers(JsonWriter& json, std::initializer_list<double> numbers) {
 void write_tool(JsonWriter& json, const DiscTool& disc) {
   json.key("disc");
   write_numbers(json, {disc.centre.x, disc.centre.y, disc.radius});
-  json.key("sagitta").value(disc.sagitta).key("vertices").value(std::ssize(disc.polygon.outer));
+  json.key("sagitta_m").value(disc.sagitta).key("vertices").value(std::ssize(disc.polygon.outer));
 }
 void write_tool(JsonWriter& json, const PolygonTool& tool) {
   std::size_t vertices = 0;
@@ -62,10 +69,10 @@ void write_op(JsonWriter& json, const CutOp& op) {
 }
 
 void write_dangling(JsonWriter& json, const CutFloe& floe) {
-  json.key("dangling_length").value(floe.dangling_length).key("dangling").open('[');
+  json.key("dangling_length_m").value(floe.dangling_length).key("dangling").open('[');
   for (const Dangling& one : floe.dangling) {
-    json.open('{').key("from").value(one.from).key("to").value(one.to);
-    json.key("length").value(distance(one.from, one.to)).close('}');
+    json.open('{').key("from_m").value(one.from).key("to_m").value(one.to);
+    json.key("length_m").value(distance(one.from, one.to)).close('}');
   }
   json.close(']');
 }
@@ -86,18 +93,18 @@ void write_floe(JsonWriter& json, const CutFloe& floe) {
   json.key("feature").value(static_cast<std::int64_t>(floe.feature));
   json.key("polygon").value(static_cast<std::int64_t>(floe.member));
   json.key("line").value(static_cast<std::int64_t>(floe.line));
-  json.key("area").value(floe.area).key("pieces").value(std::ssize(floe.pieces));
-  json.key("area_of_pieces").value(floe.area_of_pieces).key("removed").value(floe.removed);
-  json.key("exact_defect").value(std::string_view(floe.exact_defect));
-  json.key("rounding_defect").value(floe.rounding_defect);
-  json.key("slivers").value(floe.slivers).key("area_slivers").value(floe.area_slivers);
+  json.key("area_m2").value(floe.area).key("pieces").value(std::ssize(floe.pieces));
+  json.key("area_of_pieces_m2").value(floe.area_of_pieces).key("removed_m2").value(floe.removed);
+  json.key("exact_defect_m2").value(std::string_view(floe.exact_defect));
+  json.key("rounding_defect_m2").value(floe.rounding_defect);
+  json.key("slivers").value(floe.slivers).key("area_slivers_m2").value(floe.area_slivers);
   write_dangling(json, floe);
   if (floe.repair) {
     json.key("repair").open('{').key("rule").value(floe.repair->rule);
     json.key("defect").value(std::string_view(floe.repair->defect));
-    json.key("area_drawn")
+    json.key("area_drawn_m2")
         .value(floe.repair->area_drawn)
-        .key("area_changed")
+        .key("area_changed_m2")
         .value(floe.repair->area_changed);
     json.key("shapes").value(static_cast<std::int64_t>(floe.repair->shapes)).close('}');
   }
@@ -105,7 +112,7 @@ void write_floe(JsonWriter& json, const CutFloe& floe) {
   json.key("parts").open('[');
   for (const CutPiece& piece : floe.pieces) {
     json.open('{').key("floe_id").value(piece.floe_id).key("part").value(name_of(piece.part));
-    json.key("area").value(piece.area);
+    json.key("area_m2").value(piece.area);
     if (!piece.is_exact) json.key("is_exact").value(false);
     json.close('}');
   }
@@ -172,17 +179,17 @@ std::string to_ledger_json(const CutReport& report) {
   json.start_line();
   json.key("totals").open('{');
   count("floes", totals.floes);
-  json.key("area").value(totals.area);
+  json.key("area_m2").value(totals.area);
   count("pieces", totals.pieces);
-  json.key("area_of_pieces").value(totals.area_of_pieces).key("removed").value(totals.removed);
-  json.key("exact_defect").value(std::string_view(totals.exact_defect));
-  json.key("rounding_defect").value(totals.rounding_defect);
+  json.key("area_of_pieces_m2").value(totals.area_of_pieces).key("removed_m2").value(totals.removed);
+  json.key("exact_defect_m2").value(std::string_view(totals.exact_defect));
+  json.key("rounding_defect_m2").value(totals.rounding_defect);
   count("slivers", totals.slivers);
-  json.key("area_slivers").value(totals.area_slivers);
+  json.key("area_slivers_m2").value(totals.area_slivers);
   count("kept_exact", totals.kept_exact);
   count("dangling", totals.dangling);
   count("repaired", totals.repaired);
-  json.key("area_changed_by_repair").value(totals.area_repaired);
+  json.key("area_changed_by_repair_m2").value(totals.area_repaired);
   count("rejected", totals.rejected);
   json.close('}').close('}');
   text += '\n';
@@ -193,11 +200,13 @@ std::string to_floe_text(const CutReport& report, FloeFormat format) {
   std::string text;
   if (format == FloeFormat::kGeojson) {
     JsonWriter json(text);
-    json.open('{').key("type").value("FeatureCollection").key("features").open('[');
+    json.open('{').key("type").value("FeatureCollection");
+    write_crs(json, report.crs);
+    json.key("features").open('[');
     for (const CutFloe& floe : report.floes) {
       for (const CutPiece& piece : floe.pieces) {
         json.start_line();
-        write_feature(json, floe, piece);
+        write_feature(json, "", floe, piece);
       }
     }
     json.close(']').close('}');
@@ -208,7 +217,7 @@ std::string to_floe_text(const CutReport& report, FloeFormat format) {
     for (const CutPiece& piece : floe.pieces) {
       if (format == FloeFormat::kNdjson) {
         JsonWriter json(text);
-        write_feature(json, floe, piece);
+        write_feature(json, report.crs, floe, piece);
       } else {
         append_wkt(text, piece.polygon);
       }

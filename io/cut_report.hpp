@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -59,11 +60,13 @@ struct CutFloe {
   std::vector<Dangling> dangling;  ///< where
   std::optional<Rejection> rejected;
   std::optional<RepairNote> repair;
+  std::shared_ptr<const std::string> properties;  ///< for its pieces, as in FloeEntry
 };
 
 struct CutReport {
   std::vector<CutOp> ops;
   std::vector<CutFloe> floes;  ///< in the order of the text
+  std::string crs;             ///< of the text, JSON, for the pieces; or empty
 };
 
 std::string_view name_of(geometry::Part part);
@@ -80,8 +83,9 @@ CutTotals totals_of(const CutReport& report);
 /// The ledger as JSON: {"tools": […], "floes": […], "totals": {…}} (docs/cut.md).
 std::string to_ledger_json(const CutReport& report);
 
-/// All pieces, in the order of their floes. GeoJSON is one FeatureCollection, NDJSON a Feature a line, WKT a
-/// POLYGON a line (which cannot carry properties: the ledger lists them in the same order).
+/// All pieces, in the order of their floes, with their parents' properties and the crs. GeoJSON is one
+/// FeatureCollection, NDJSON a Feature a line, WKT a POLYGON a line (which can carry neither properties, the
+/// ledger lists them in the same order, nor a crs).
 std::string to_floe_text(const CutReport& report, FloeFormat format);
 
 }  // namespace polynya::io

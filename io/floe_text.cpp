@@ -1,27 +1,16 @@
 #include "io/floe_text.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "io/geojson_entries.hpp"
 #include "io/lenient_json.hpp"
+#include "io/text_kind.hpp"
 #include "io/wkt.hpp"
 
 namespace polynya::io {
 namespace {
-
-using JsonKind = JsonValue::Kind;
-
-constexpr std::string_view kBlanks = " \t\r\n";
-
-/// Ends the reading of one feature.
-struct Refusal : std::runtime_error {
-  Refusal(std::string_view why, const std::string& detail) : std::runtime_error(detail), reason(why) {}
-  std::string_view reason;
-};
 
 /// Where lines start, so that many places in a long text are told quickly.
 class LineIndex {
@@ -38,190 +27,30 @@ class LineIndex {
   std::vector<std::size_t> ends_;
 };
 
-class GeojsonEntries {
- public:
-  explicit GeojsonEntries(FloeText& floes) : floes_(floes) {}
-
-  /// Everything in a GeoJSON value, as one feature after the other from `feature` on; lines are left as
-  /// offsets.
-  void read(const JsonValue& value, std::size_t feature) {
-    const JsonValue* type = value.find("type");
-    if (type && type->is(JsonKind::kText) && type->text() == "FeatureCollection") {
-      const JsonValue* features = value.find("features");
-      if (!features || !features->is(JsonKind::kArray))
-        return refuse(value, feature, "malformed", "a FeatureCollection without features");
-      for (const JsonValue& item : features->items()) read_feature(item, feature++);
-    } else {
-      read_feature(value, feature);
-    }
-  }
-
- private:
-  void refuse(const JsonValue& value, std::size_t feature, std::string_view reason,
-              const std::string& detail) {
-    FloeEntry entry;
-    entry.feature = feature;
-    entry.member = member_;
-    entry.line = value.offset;
-    entry.floe_id = floe_id_;
-    entry.refusal = reason;
-    entry.detail = detail;
-    floes_.entries.push_back(std::move(entry));
-  }
-
-  void read_feature(const JsonValue& value, std::size_t feature) {
-    feature_ = feature;
-    member_ = 0;
-    floe_id_ = {};
-    const JsonValue* geometry = &value;
-    if (const JsonValue* type = value.find("type");
-        type && type->is(JsonKind::kText) && type->text() == "Feature") {
-      geometry = value.find("geometry");
-      if (const JsonValue* properties = value.find("properties")) floe_id_ = id_in(*properties);
-      if (!geometry || geometry->is_null())
-        return refuse(value, feature, "no-geometry", "a feature without geometry");
-    }
-    attempt(*geometry, [&] {
-      if (geometry->find("ring_m") && !geometry->find("type"))
-        read_birth(*geometry);
-      else
-        read_geometry(*geometry);
-    });
-  }
-
-  /// What is refused inside is told here, and what stands beside it is read on.
-  template <class Read>
-  void attempt(const JsonValue& value, Read read) {
-    try {
-      read();
-    } catch (const Refusal& refusal) {
-      refuse(value, feature_, refusal.reason, refusal.what());
-      ++member_;
-    }
-  }
-
-  static std::optional<std::int64_t> id_in(const JsonValue& properties) {
-    const JsonValue* id = properties.find("floe_id");
-    if (!id || !id->is(JsonKind::kNumber)) return {};
-    const double number = id->number();
-    if (!(number >= 0 && number < 9e15 && number == std::floor(number))) return {};
-    return static_cast<std::int64_t>(number);
-  }
-
-  /// A line of a run's floes.ndjson.
-  void read_birth(const JsonValue& birth) {
-    floe_id_ = id_in(birth);
-    geometry::Polygon polygon{ring_of(*birth.find("ring_m")), {}};
-    if (const JsonValue* holes = birth.find("holes_m")) {
-      for (const JsonValue& hole : list(*holes, "a list of holes")) polygon.holes.push_back(ring_of(hole));
-    }
-    add(birth, std::move(polygon));
-  }
-
-  void read_geometry(const JsonValue& value) {
-    const JsonValue* type = value.find("type");
-    if (!type || !type->is(JsonKind::kText))
-      throw Refusal("malformed", "an object with a GeoJSON type is expected");
-    if (type->text() == "GeometryCollection") {
-      const JsonValue* geometries = value.find("geometries");
-      if (!geometries) throw Refusal("malformed", "a GeometryCollection without geometries");
-      for (const JsonValue& item : list(*geometries, "a list of geometries"))
-        attempt(item, [&] { read_geometry(item); });
-      return;
-    }
-    if (type->text() != "Polygon" && type->text() != "MultiPolygon") {
-      throw Refusal("not-a-polygon",
-                    fmt::format("found {}, expected Polygon, MultiPolygon or GeometryCollection",
-                                type->text().substr(0, 40)));
-    }
-    const JsonValue* coordinates = value.find("coordinates");
-    if (!coordinates) throw Refusal("malformed", "no coordinates");
-    if (type->text() == "Polygon") return add(value, polygon_of(*coordinates));
-    for (const JsonValue& item : list(*coordinates, "a list of polygons"))
-      attempt(item, [&] { add(item, polygon_of(item)); });
-  }
-
-  void add(const JsonValue& value, geometry::Polygon polygon) {
-    FloeEntry entry;
-    entry.polygon = std::move(polygon);
-    entry.feature = feature_;
-    entry.member = member_++;
-    entry.line = value.offset;
-    entry.floe_id = floe_id_;
-    floes_.entries.push_back(std::move(entry));
-  }
-
-  static const JsonValue::Array& list(const JsonValue& value, const char* expected) {
-    if (!value.is(JsonKind::kArray))
-      throw Refusal("malformed", fmt::format("found {}, expected {}", name_of(value.kind()), expected));
-    return value.items();
-  }
-
-  geometry::Polygon polygon_of(const JsonValue& value) {
-    geometry::Polygon polygon;
-    bool is_first = true;
-    for (const JsonValue& item : list(value, "a list of rings")) {
-      (is_first ? polygon.outer : polygon.holes.emplace_back()) = ring_of(item);
-      is_first = false;
-    }
-    return polygon;
-  }
-
-  geometry::Ring ring_of(const JsonValue& value) {
-    const JsonValue::Array& items = list(value, "a ring, a list of [x, y]");
-    geometry::Ring ring;
-    ring.reserve(items.size());
-    for (const JsonValue& item : items) {
-      const JsonValue::Array& numbers = list(item, "[x, y]");
-      if (numbers.size() < 2 || numbers.size() > 4)
-        throw Refusal("malformed", fmt::format("found {} numbers, expected [x, y]", numbers.size()));
-      if (numbers.size() > 2) floes_.has_more_coordinates = true;
-      ring.push_back({coordinate(numbers[0]), coordinate(numbers[1])});
-    }
-    return ring;
-  }
-
-  static double coordinate(const JsonValue& value) {
-    if (value.is(JsonKind::kNumber)) return value.number();
-    // null and (after parse_lenient_json) empty texts stand for what JSON cannot write.
-    if (value.is_null() || (value.is(JsonKind::kText) && value.text().empty()))
-      return std::numeric_limits<double>::quiet_NaN();
-    throw Refusal("malformed", fmt::format("found {}, expected a coordinate", name_of(value.kind())));
-  }
-
-  FloeText& floes_;
-  std::size_t feature_ = 0;
-  std::size_t member_ = 0;
-  std::optional<std::int64_t> floe_id_;
-};
-
-std::string_view trimmed(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
-}
-
-/// Calls use(line, offset) for each line that is not blank until it returns false.
+/// Calls use(line, offset) for each line that is neither blank nor a comment.
 template <class Use>
 void for_lines(std::string_view text, Use use) {
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     const std::string_view line = text.substr(start, end - start);
-    if (!trimmed(line).empty() && !use(line, start)) return;
+    if (const auto words = trimmed(line); !words.empty() && !is_comment(words)) use(line, start);
     start = end + 1;
   }
 }
 
-/// One object ends where the first line ends, and another starts on the next one.
-bool is_ndjson(std::string_view text) {
-  int count = 0;
-  bool fits = true;
-  for_lines(text, [&](std::string_view line, std::size_t) {
-    line = trimmed(line);
-    fits = fits && line.front() == '{' && (count > 0 || line.back() == '}');
-    return fits && ++count < 2;
-  });
-  return fits && count == 2;
+/// Blanks for comments that begin a line with '#', which JSON's parser does not know.
+void blank_hash_comments(std::string& text) {
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const std::size_t first = text.find_first_not_of(kBlanks, start);
+    if (first < end && text[first] == '#') std::fill(&text[first], &text[end], ' ');
+    start = end + 1;
+  }
+}
+
+/// Without the line of a place in a text of one line.
+std::string without_line(const std::string& words) {
+  return words.starts_with("1:") ? "column " + words.substr(2) : words;
 }
 
 FloeText read_ndjson(const std::string& text) {
@@ -230,17 +59,16 @@ FloeText read_ndjson(const std::string& text) {
   std::size_t feature = 0;
   for_lines(text, [&](std::string_view line, std::size_t offset) {
     const std::size_t before = floes.entries.size();
-    if (auto value = parse_lenient_json(std::string(line))) {
-      GeojsonEntries(floes).read(*value, feature);
+    if (const auto value = parse_lenient_json(std::string(line))) {
+      read_geojson_entries(*value, line, feature, floes);
     } else {
       FloeEntry& entry = floes.entries.emplace_back();
       entry.feature = feature;
       entry.refusal = "syntax";
-      entry.detail = value.error();
+      entry.detail = without_line(value.error());
     }
     for (std::size_t i = before; i < floes.entries.size(); ++i) floes.entries[i].line = offset;
     feature = floes.entries.size() > before ? floes.entries.back().feature + 1 : feature + 1;
-    return true;
   });
   return floes;
 }
@@ -252,6 +80,7 @@ FloeText read_wkt_floes(std::string_view text) {
   for (std::size_t i = 0; i < geometries.size(); ++i) {
     WktGeometry& geometry = geometries[i];
     floes.has_more_coordinates = floes.has_more_coordinates || geometry.has_more_coordinates;
+    floes.has_srid = floes.has_srid || geometry.has_srid;
     const auto add = [&]() -> FloeEntry& {
       FloeEntry& entry = floes.entries.emplace_back();
       entry.feature = i;
@@ -273,11 +102,47 @@ FloeText read_wkt_floes(std::string_view text) {
   return floes;
 }
 
+std::string unknown_text(std::string_view first_line) {
+  constexpr std::size_t kMost = 30;  // bytes of it in the message
+  std::string begin(first_line.substr(0, kMost));
+  std::ranges::replace_if(
+      begin, [](char c) { return static_cast<unsigned char>(c) < 0x20 || (c & 0x80) != 0; }, '?');
+  return fmt::format(
+      "neither GeoJSON, nor NDJSON (a GeoJSON object a line), nor WKT: it begins with '{}'{}; other formats: "
+      "ogr2ogr -f GeoJSON floes.geojson FILE",
+      begin, first_line.size() > kMost ? " …" : "");
+}
+
+/// Decides by the lines what the text is, and reads it.
+tl::expected<FloeText, std::string> read_kind(std::string& text) {
+  const LinesSeen seen = lines_seen(text);
+  FloeText floes;
+  floes.format = FloeFormat::kWkt;
+  if (seen.lines == 0) return floes;
+  if (seen.are_all_objects()) return read_ndjson(text);
+  std::string wrong;
+  if (!seen.is_wkt_first) {
+    blank_hash_comments(text);
+    if (const auto value = parse_lenient_json(text)) {
+      floes.format = FloeFormat::kGeojson;
+      read_geojson_entries(*value, text, 0, floes);
+      return floes;
+    } else {
+      wrong = value.error();
+    }
+  }
+  if (seen.are_mostly_objects()) return read_ndjson(text);
+  if (std::string_view("{[/").find(seen.first_line.front()) != std::string_view::npos)
+    return tl::unexpected(wrong + " (read as GeoJSON)");
+  if (seen.wkt > 0) return read_wkt_floes(text);
+  return tl::unexpected("1:1: " + unknown_text(seen.first_line));
+}
+
 }  // namespace
 
 FloeText read_floe_json(const JsonValue& geojson) {
   FloeText floes;
-  GeojsonEntries(floes).read(geojson, 0);
+  read_geojson_entries(geojson, "", 0, floes);
   return floes;
 }
 
@@ -287,23 +152,10 @@ tl::expected<FloeText, std::string> read_floe_text(std::string text) {
         fmt::format("1:1: {} bytes, more than the {} allowed", text.size(), kLongestFloeText));
   if (text.starts_with("\xEF\xBB\xBF")) text.replace(0, 3, "   ");
   std::ranges::replace(text, '\x1E', ' ');  // GeoJSON text sequences [RFC8142] start each record with one
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string::npos) return tl::unexpected(std::string("1:1: there is nothing in it"));
   const LineIndex lines(text);
-  FloeText floes;
-  const char c = text[first];
-  if (c == '{' && is_ndjson(text)) {
-    floes = read_ndjson(text);
-  } else if (c == '{' || c == '[' || c == '/') {
-    auto value = parse_lenient_json(std::move(text));
-    if (!value) return tl::unexpected(value.error());
-    floes = read_floe_json(*value);
-  } else if ((c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '#') {
-    floes = read_wkt_floes(text);
-  } else {
-    return tl::unexpected(std::string("1:1: neither GeoJSON, NDJSON nor WKT"));
-  }
-  for (FloeEntry& entry : floes.entries) entry.line = lines.line_of(entry.line);
+  auto floes = read_kind(text);
+  if (!floes) return floes;
+  for (FloeEntry& entry : floes->entries) entry.line = lines.line_of(entry.line);
   return floes;
 }
 

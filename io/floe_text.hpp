@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,21 +25,26 @@ struct FloeEntry {
   std::size_t feature = 0;    ///< which feature, line or WKT geometry of the text, from 0
   std::size_t member = 0;     ///< which polygon of it, from 0
   std::size_t line = 1;       ///< in the text, from 1
-  std::optional<std::int64_t> floe_id;  ///< its property of that name
-  std::string refusal;                  ///< "not-a-polygon", "no-geometry", "malformed", "syntax", or empty
-  std::string detail;                   ///< for people
+  std::optional<std::int64_t> floe_id;            ///< its property of that name
+  std::shared_ptr<const std::string> properties;  ///< the feature's others, as members of JSON; null if none
+  std::string refusal;  ///< "not-a-polygon", "no-geometry", "malformed", "syntax", or empty
+  std::string detail;   ///< for people
 };
 
 struct FloeText {
   FloeFormat format = FloeFormat::kGeojson;
   std::vector<FloeEntry> entries;     ///< in the order of the text
   bool has_more_coordinates = false;  ///< Z or M values were passed over
+  bool has_srid = false;              ///< "SRID=…;" was passed over
+  std::string crs;             ///< GeoJSON's member of that name (of 2008; RFC 7946 has none), JSON; or empty
+  bool has_other_crs = false;  ///< several differ; `crs` is the first
 };
 
 /// Reads the polygons of a text: GeoJSON (Polygon, MultiPolygon, Feature, FeatureCollection,
-/// GeometryCollection), NDJSON (one of these a line; also a run's floes.ndjson) or WKT, told apart by the
-/// content. What is no polygon is an entry with its refusal; validity is not looked at. The error is for a
-/// text that cannot be read at all: "line:column: words".
+/// GeometryCollection), NDJSON (one of these a line; also a run's floes.ndjson) or WKT, distinguished by the
+/// content. A text without content has no polygons. What is no polygon, a bad line of NDJSON or WKT among
+/// them, is an entry with its refusal; validity is not checked. The error is for a text that cannot be read
+/// at all: "line:column: words".
 tl::expected<FloeText, std::string> read_floe_text(std::string text);
 
 /// The polygons of one GeoJSON value, likewise.

@@ -86,6 +86,7 @@ class WktReader {
   void read_geometry(WktGeometry& geometry, int depth) {
     std::string type = take_word();
     if (type == "SRID") {
+      geometry.has_srid = true;
       at_ = std::min(text_.find_first_of(";\n", at_), text_.size());
       expect(';');
       type = take_word();

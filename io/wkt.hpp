@@ -13,6 +13,7 @@ struct WktGeometry {
   std::vector<geometry::Polygon> polygons;  ///< rings as drawn; a coordinate may be NaN or infinite
   std::size_t offset = 0;                   ///< of its first byte
   bool has_more_coordinates = false;        ///< Z or M, passed over
+  bool has_srid = false;                    ///< "SRID=…;", passed over
   std::string refusal;                      ///< "not-a-polygon", "syntax" or empty
   std::string detail;                       ///< for people
 };

@@ -69,9 +69,9 @@ class CutCommand : public testing::Test {
   static void expect_balanced(const io::JsonValue& ledger) {
     const auto balance = [](const io::JsonValue& one) {
       const auto number = [&](const char* key) { return one.find(key)->number(); };
-      EXPECT_NEAR(number("area_of_pieces") + number("removed") - number("rounding_defect"), number("area"),
-                  1e-12 * (1 + number("area")));
-      EXPECT_EQ(one.find("exact_defect")->text(), "0");
+      EXPECT_NEAR(number("area_of_pieces_m2") + number("removed_m2") - number("rounding_defect_m2"),
+                  number("area_m2"), 1e-12 * (1 + number("area_m2")));
+      EXPECT_EQ(one.find("exact_defect_m2")->text(), "0");
     };
     balance(*ledger.find("totals"));
     double pieces = 0;
@@ -93,9 +93,9 @@ TEST_F(CutCommand, ADiscLeavesTheOutsideAndAccountsForTheRest) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const io::JsonValue ledger = json(outcome.out);
   expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "area"), 200);
+  EXPECT_EQ(total(ledger, "area_m2"), 200);
   // A quarter of the inscribed regular 36-gon.
-  EXPECT_NEAR(total(ledger, "removed"), 0.5 * 36 * 25 * std::sin(M_PI / 18) / 4, 1e-12);
+  EXPECT_NEAR(total(ledger, "removed_m2"), 0.5 * 36 * 25 * std::sin(M_PI / 18) / 4, 1e-12);
   EXPECT_EQ(ledger.find("tools")->items()[0].find("vertices")->number(), 36);
   const io::JsonValue pieces = json(read("pieces.geojson"));
   ASSERT_EQ(pieces.find("features")->items().size(), 2U);
@@ -104,10 +104,10 @@ TEST_F(CutCommand, ADiscLeavesTheOutsideAndAccountsForTheRest) {
     EXPECT_EQ(properties.find("floe_id")->number(), 2.0 + static_cast<double>(i));
     EXPECT_EQ(properties.find("parent_id")->number(), static_cast<double>(i));
     EXPECT_EQ(properties.find("part")->text(), "outside");
-    EXPECT_EQ(properties.find("area")->number(), floe(ledger, i).find("area_of_pieces")->number());
+    EXPECT_EQ(properties.find("area_m2")->number(), floe(ledger, i).find("area_of_pieces_m2")->number());
   }
-  EXPECT_EQ(floe(ledger, 1).find("removed")->number(), 0) << "the disc misses it: it stays whole";
-  EXPECT_EQ(area_of(floes_of(read("pieces.geojson"))), total(ledger, "area_of_pieces"));
+  EXPECT_EQ(floe(ledger, 1).find("removed_m2")->number(), 0) << "the disc misses it: it stays whole";
+  EXPECT_EQ(area_of(floes_of(read("pieces.geojson"))), total(ledger, "area_of_pieces_m2"));
 }
 
 TEST_F(CutCommand, KeepSaysWhichSideStays) {
@@ -119,7 +119,7 @@ TEST_F(CutCommand, KeepSaysWhichSideStays) {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const io::JsonValue ledger = json(outcome.out);
     expect_balanced(ledger);
-    area_kept[i] = total(ledger, "area_of_pieces");
+    area_kept[i] = total(ledger, "area_of_pieces_m2");
     const io::JsonValue pieces = json(read("pieces.geojson"));
     for (const io::JsonValue& one : pieces.find("features")->items()) {
       const std::string part = one.find("properties")->find("part")->text();
@@ -143,7 +143,7 @@ TEST_F(CutCommand, AToolOfSeveralPolygonsWithHolesIsTakenTogether) {
   double inside = 0;
   double outside = 0;
   for (const io::JsonValue& part : floe(ledger, 0).find("parts")->items())
-    (part.find("part")->text() == "inside" ? inside : outside) += part.find("area")->number();
+    (part.find("part")->text() == "inside" ? inside : outside) += part.find("area_m2")->number();
   EXPECT_EQ(inside, 15);
   EXPECT_EQ(outside, 85);
   EXPECT_EQ(total(ledger, "pieces"), 3);
@@ -158,9 +158,9 @@ TEST_F(CutCommand, ACrackGoesThroughEveryFloeAndKeepsEverything) {
   const io::JsonValue ledger = json(outcome.out);
   expect_balanced(ledger);
   EXPECT_EQ(total(ledger, "pieces"), 5);
-  EXPECT_EQ(total(ledger, "removed"), 0);
+  EXPECT_EQ(total(ledger, "removed_m2"), 0);
   for (const io::JsonValue& part : floe(ledger, 0).find("parts")->items())
-    EXPECT_EQ(part.find("area")->number(), 50);
+    EXPECT_EQ(part.find("area_m2")->number(), 50);
 }
 
 /// Along axes and diagonals a crack through vertices goes through them to the last bit, from any point on it.
@@ -196,9 +196,9 @@ TEST_F(CutCommand, ALineSeparatesWhereItCrossesAndSaysWhereItDangles) {
   EXPECT_EQ(total(ledger, "dangling"), 1);
   EXPECT_EQ(floe(ledger, 0).find("dangling")->items().size(), 0U);
   const io::JsonValue& dangling = floe(ledger, 1).find("dangling")->items().at(0);
-  EXPECT_EQ(dangling.find("from")->items()[0].number(), 100);
-  EXPECT_EQ(dangling.find("to")->items()[0].number(), 103);
-  EXPECT_EQ(floe(ledger, 1).find("dangling_length")->number(), 3);
+  EXPECT_EQ(dangling.find("from_m")->items()[0].number(), 100);
+  EXPECT_EQ(dangling.find("to_m")->items()[0].number(), 103);
+  EXPECT_EQ(floe(ledger, 1).find("dangling_length_m")->number(), 3);
   EXPECT_NE(outcome.err.find("separates nothing from (100, 5) to (103, 5)"), std::string::npos)
       << outcome.err;
 }
@@ -211,7 +211,7 @@ TEST_F(CutCommand, ALineCanSeparateAndDangleInOneFloe) {
   const io::JsonValue ledger = json(outcome.out);
   expect_balanced(ledger);
   EXPECT_EQ(total(ledger, "pieces"), 2);
-  EXPECT_EQ(floe(ledger, 0).find("dangling_length")->number(), 2);
+  EXPECT_EQ(floe(ledger, 0).find("dangling_length_m")->number(), 2);
   EXPECT_EQ(floe(ledger, 0).find("dangling")->items().size(), 1U);
 }
 
@@ -225,7 +225,7 @@ TEST_F(CutCommand, OpsApplyInOrderToAllPieces) {
   const io::JsonValue ledger = json(outcome.out);
   expect_balanced(ledger);
   EXPECT_EQ(total(ledger, "pieces"), 8);
-  EXPECT_NEAR(total(ledger, "removed"), 0.5 * 36 * std::sin(M_PI / 18) / 4, 1e-12);
+  EXPECT_NEAR(total(ledger, "removed_m2"), 0.5 * 36 * std::sin(M_PI / 18) / 4, 1e-12);
   write("inside.json", R"([{"crack": [5, 5, 0]}, {"disc": [5, 10, 2], "keep": "inside"}])");
   const io::JsonValue second = json(cut({"--ops", "inside.json"}).out);
   expect_balanced(second);
@@ -288,7 +288,7 @@ TEST_F(CutCommand, EveryDefectIsRefusedByNameAndTheGoodAreCut) {
   EXPECT_EQ(outcome.code, 4);
   const io::JsonValue ledger = json(outcome.out);
   expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "area"), 200);
+  EXPECT_EQ(total(ledger, "area_m2"), 200);
   EXPECT_EQ(total(ledger, "pieces"), 4);
   EXPECT_EQ(total(ledger, "rejected"), static_cast<double>(all.size() + 3));
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -321,7 +321,7 @@ TEST_F(CutCommand, WhatOgcAllowsIsCut) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const io::JsonValue ledger = json(outcome.out);
   expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "area"), 100 + 100 + 84 + 92);
+  EXPECT_EQ(total(ledger, "area_m2"), 100 + 100 + 84 + 92);
   EXPECT_NEAR(area_of(floes_of(read("pieces.wkt"))), 376, 1e-11);
 }
 
@@ -339,12 +339,12 @@ TEST_F(CutCommand, RepairIsOnRequestAndSaysWhatItChanged) {
     expect_balanced(ledger);
     EXPECT_EQ(total(ledger, "repaired"), 2);
     const io::JsonValue& repair = *floe(ledger, 0).find("repair");
-    EXPECT_EQ(repair.find("area_drawn")->number(), 0);
-    EXPECT_EQ(repair.find("area_changed")->number(), 8);
+    EXPECT_EQ(repair.find("area_drawn_m2")->number(), 0);
+    EXPECT_EQ(repair.find("area_changed_m2")->number(), 8);
     EXPECT_EQ(repair.find("shapes")->number(), 2);
-    EXPECT_EQ(floe(ledger, 0).find("area")->number(), 8);
+    EXPECT_EQ(floe(ledger, 0).find("area_m2")->number(), 8);
     EXPECT_EQ(floe(ledger, 2).find("repair"), nullptr);
-    star_area[i] = floe(ledger, 1).find("area")->number();
+    star_area[i] = floe(ledger, 1).find("area_m2")->number();
     EXPECT_NE(outcome.err.find("repaired"), std::string::npos);
   }
   EXPECT_LT(star_area[0], star_area[1]) << "even-odd leaves the middle open";
@@ -420,7 +420,7 @@ TEST_F(CutCommand, PiecesAreFloesAgain) {
   const Outcome again = cut({"--disc", "5,5,4", "--out", "second.geojson"}, "first.geojson");
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(floe(json(again.out), 0).find("floe_id")->number(), 13);
-  EXPECT_EQ(total(json(again.out), "area"), total(json(read("l.json")), "area_of_pieces"));
+  EXPECT_EQ(total(json(again.out), "area_m2"), total(json(read("l.json")), "area_of_pieces_m2"));
 }
 
 TEST_F(CutCommand, WrongUsageIsTwo) {

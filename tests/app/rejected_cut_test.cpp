@@ -56,7 +56,7 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
     ASSERT_TRUE(ledger.faults.empty());
     EXPECT_EQ(ledger.root.find("floes")->items()[0].find("rejected")->find("reason")->text(), kind);
     if (cut.number == 2) {
-      EXPECT_NE(again.out.find("\"dangling_length\""), std::string::npos);
+      EXPECT_NE(again.out.find("\"dangling_length_m\""), std::string::npos);
       EXPECT_NE(again.out.find(R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})"),
                 std::string::npos)
           << "to the last bit";

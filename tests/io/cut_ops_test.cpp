@@ -117,17 +117,17 @@ TEST(CutReport, TheLedgerHasItsKeysAndAddsUp) {
   const JsonValue& floes = *ledger.root.find("floes");
   ASSERT_EQ(floes.items().size(), 3U);
   for (const JsonValue& floe : floes.items()) {
-    for (const char* key : {"floe_id", "feature", "area", "pieces", "area_of_pieces", "removed",
-                            "exact_defect", "rounding_defect", "rejected", "dangling"})
+    for (const char* key : {"floe_id", "feature", "area_m2", "pieces", "area_of_pieces_m2", "removed_m2",
+                            "exact_defect_m2", "rounding_defect_m2", "rejected", "dangling"})
       EXPECT_NE(floe.find(key), nullptr) << key;
   }
   EXPECT_TRUE(floes.items()[0].find("rejected")->is_null());
   EXPECT_EQ(floes.items()[2].find("rejected")->find("reason")->text(), "not-finite");
   const JsonValue& totals = *ledger.root.find("totals");
-  EXPECT_EQ(totals.find("area")->number(), 30);
+  EXPECT_EQ(totals.find("area_m2")->number(), 30);
   EXPECT_EQ(totals.find("pieces")->number(), 2);
-  EXPECT_EQ(totals.find("area_of_pieces")->number() + totals.find("removed")->number(), 30);
-  EXPECT_EQ(totals.find("exact_defect")->text(), "0");
+  EXPECT_EQ(totals.find("area_of_pieces_m2")->number() + totals.find("removed_m2")->number(), 30);
+  EXPECT_EQ(totals.find("exact_defect_m2")->text(), "0");
   EXPECT_EQ(totals.find("kept_exact")->number(), 1);
   EXPECT_EQ(totals.find("rejected")->number(), 1);
 }

@@ -137,6 +137,88 @@ TEST(FloeText, ABadLineLeavesTheOthers) {
   EXPECT_EQ(wkt.entries[3].line, 4U);
 }
 
+/// One rule for lines of NDJSON: a bad one is refused by its number wherever it stands, the others are read.
+TEST(FloeText, ABadLineOfNdjsonIsRefusedWhereverItStands) {
+  const std::string square = R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]]]})";
+  for (const auto& [bad, reason] : {std::pair{"garbage", "syntax"},
+                                    {"null", "malformed"},
+                                    {"[]", "malformed"},
+                                    {"42", "malformed"},
+                                    {"\"text\"", "malformed"},
+                                    {"{\"type\": oops}", "syntax"},
+                                    {"{\"type\": \"Polygon\", \"coordinates\": [[[0,0],[4,", "syntax"},
+                                    {"{\"type\": \"Poly", "syntax"},
+                                    {"POLYGON ((0 0, 1 0, 0 1))", "syntax"}}) {
+    for (std::size_t at = 0; at < 4; ++at) {
+      std::string text;
+      for (std::size_t i = 0; i < 4; ++i) text += (i == at ? std::string(bad) : square) + "\n";
+      const FloeText floes = read(text);
+      EXPECT_EQ(floes.format, FloeFormat::kNdjson) << text;
+      ASSERT_EQ(floes.entries.size(), 4U) << text;
+      for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(floes.entries[i].refusal, i == at ? reason : "") << text;
+        EXPECT_EQ(floes.entries[i].line, i + 1) << text;
+        EXPECT_EQ(floes.entries[i].feature, i) << text;
+      }
+    }
+  }
+}
+
+TEST(FloeText, CommentsAndBlankLinesOfNdjsonArePassedOver) {
+  const std::string square = R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]]]})";
+  const FloeText floes = read("# from survey 7\n\n" + square + "\n// the second\n  # and\n" + square + "\n");
+  EXPECT_EQ(floes.format, FloeFormat::kNdjson);
+  ASSERT_EQ(floes.entries.size(), 2U);
+  EXPECT_EQ(floes.entries[0].line, 3U);
+  EXPECT_EQ(floes.entries[1].line, 6U);
+  EXPECT_EQ(read("# one\n" + square).entries.size(), 1U);
+}
+
+/// A GeoJSON text with a fault stays one, though a line of it is an object of its own.
+TEST(FloeText, AFaultOfGeojsonIsNotTakenForNdjson) {
+  const std::string square = R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]]]})";
+  const std::string begin = "{\"type\":\"GeometryCollection\",\"geometries\":[\n";
+  for (const std::string& text :
+       {begin + square + ",\n" + square + "\n" + square + "\n]}\n", begin + square,
+        begin + square + ",\n" + square + ",\n]}\n", begin + square + ",\n" + square + "\n]\n"}) {
+    const auto floes = read_floe_text(text);
+    ASSERT_FALSE(floes.has_value()) << text;
+    EXPECT_NE(floes.error().find("(read as GeoJSON)"), std::string::npos) << floes.error();
+  }
+}
+
+TEST(FloeText, ATextWithoutContentHasNoFloes) {
+  for (const char* text : {"", " \n\t\r\n", "# removed\n", "\xEF\xBB\xBF"})
+    EXPECT_TRUE(read(text).entries.empty()) << text;
+  CutReport nothing;
+  nothing.floes.emplace_back();
+  for (const FloeFormat format : {FloeFormat::kGeojson, FloeFormat::kNdjson, FloeFormat::kWkt})
+    EXPECT_TRUE(read(to_floe_text(nothing, format)).entries.empty());
+}
+
+/// A feature's properties are kept as they are written, without blanks and comments; so is the crs.
+TEST(FloeText, PropertiesAndCrsAreKeptAsWritten) {
+  const std::string square = R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]]]})";
+  const FloeText floes = read(R"({"type": "FeatureCollection",
+    "crs": {"type": "name", "properties": {"name": "EPSG:3413"}}, "features": [
+    {"type": "Feature", "properties": {"floe_id": 7, "name": "a  \"b\" // c", "thick_m": 0.70, // a note
+      "id": 12345678901234567890, "mean": NaN, "huge": 1e999, "list": [1, /* two */ {"x": -Infinity}],
+      "area_m2": 3, "part": "inside", "parent_id": 1, "is_exact": false}, "geometry": )" +
+                              square + R"(},
+    {"type": "Feature", "properties": null, "geometry": )" +
+                              square + "}]}");
+  ASSERT_EQ(floes.entries.size(), 2U);
+  EXPECT_EQ(floes.crs, R"({"type":"name","properties":{"name":"EPSG:3413"}})");
+  ASSERT_NE(floes.entries[0].properties, nullptr);
+  EXPECT_EQ(*floes.entries[0].properties,
+            R"("name":"a  \"b\" // c","thick_m":0.70,"id":12345678901234567890,"mean":null,"huge":null,)"
+            R"("list":[1,{"x":null}])");
+  EXPECT_EQ(floes.entries[1].properties, nullptr);
+  EXPECT_TRUE(read("SRID=3413;"
+                   "POLYGON ((0 0, 1 0, 0 1))")
+                  .has_srid);
+}
+
 TEST(FloeText, NumbersThatAreNoneBecomeNan) {
   const FloeText floes = read(R"({"note": "NaN 1e999 // \"", "type": "MultiPolygon", "coordinates": [
     [[[NaN,0],[4,-Infinity],[1e999,null]]], [[[0,0],[1e-999,0],[4,4]]]]})");
@@ -162,9 +244,10 @@ TEST(FloeText, ARunsFloesAreNdjson) {
 }
 
 TEST(FloeText, WhatCannotBeReadIsToldWithItsPlace) {
-  for (const auto& [text, place] : {std::pair{"", "1:1: "},
-                                    {" \n ", "1:1: "},
-                                    {"(1 2)", "1:1: neither"},
+  for (const auto& [text, place] : {std::pair{"(1 2)", "1:1: neither"},
+                                    {"garbage", "1:1: neither GeoJSON, nor NDJSON"},
+                                    {"<kml>\n</kml>", "1:1: neither"},
+                                    {"garbage\nmore of it\n", "1:1: neither"},
                                     {"{\"type\": \"Polygon\",\n \"coordinates\": [[[0 0]]]}", "2:22: "},
                                     {R"({"type": "Polygon")", "1:19: "}}) {
     const auto floes = read_floe_text(text);

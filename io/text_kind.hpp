@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string_view>
+
+namespace polynya::io {
+
+inline constexpr std::string_view kBlanks = " \t\r\n";
+
+/// A line without the blanks around it.
+std::string_view trimmed(std::string_view line);
+
+/// Whether a trimmed line is a comment: '#' or '//' to its end.
+bool is_comment(std::string_view line);
+
+/// What the lines of a text of floes look like. Blank lines and comments do not count.
+struct LinesSeen {
+  std::size_t lines = 0;
+  std::size_t objects = 0;    ///< from '{' to its own '}': a line of NDJSON, sound or not
+  std::size_t continued = 0;  ///< end or begin amid a value: lines of one JSON text
+  std::size_t wkt = 0;        ///< begin with a WKT geometry
+  std::string_view first_line;
+  bool is_wkt_first = false;
+
+  bool are_all_objects() const { return objects == lines && lines > 1; }
+  bool are_mostly_objects() const { return objects > continued && lines > 1; }
+};
+LinesSeen lines_seen(std::string_view text);
+
+}  // namespace polynya::io
