@@ -13,6 +13,8 @@
 #include "app/write_output.hpp"
 #include "io/cut_ops.hpp"
 #include "io/cut_report.hpp"
+#include "io/degrees.hpp"
+#include "io/json_parser.hpp"
 
 namespace polynya::app {
 namespace {
@@ -162,6 +164,26 @@ std::string write_results(const CutOptions& options, const io::CutReport& report
   return ledger.empty() ? "" : write_output(ledger, to_ledger_json(report));
 }
 
+io::CoordinateEvidence evidence_of(const io::FloeText& floes) {
+  io::CoordinateEvidence evidence;
+  for (const io::FloeEntry& entry : floes.entries) evidence.add(entry.polygon);
+  return evidence;
+}
+
+/// A file whose crs is in degrees has no areas in m².
+Outcome<bool> check_units(const std::string& name, const io::FloeText& floes) {
+  const std::string crs = floes.crs.empty() ? "" : io::geographic_crs(io::parse_json(floes.crs).root);
+  if (!crs.empty()) {
+    return fail(kRefused, fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}", name,
+                                      crs, io::how_to_project(evidence_of(floes).box, name)));
+  }
+  if (floes.crs.empty() && floes.format != io::FloeFormat::kWkt && evidence_of(floes).look_polar()) {
+    print_err("note: {}: these look like longitude and latitude; areas and lengths are then in degrees: {}\n",
+              name, io::how_to_project(evidence_of(floes).box, name));
+  }
+  return true;
+}
+
 /// What of the text is not in the pieces.
 void report_losses(const std::string& name, const io::FloeText& floes, io::FloeFormat format) {
   const auto note = [&name](const char* words) { print_err("note: {}: {}\n", name, words); };
@@ -189,6 +211,7 @@ Outcome<bool> cut_all(const CutOptions& options) {
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));
   if (!floes) return fail(kInputOutput, fmt::format("{}:{}", name, floes.error()));
+  if (const auto units = check_units(name, *floes); !units) return units;
   const io::FloeFormat format = wanted_format->value_or(floes->format);
   report_losses(name, *floes, format);
   io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);

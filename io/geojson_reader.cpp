@@ -1,10 +1,12 @@
 #include "io/geojson_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "io/degrees.hpp"
 #include "io/floe_group.hpp"
 #include "io/json_parser.hpp"
 #include "io/scene_resolve.hpp"
@@ -41,9 +43,51 @@ class GeojsonReader {
          "Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection");
   }
 
-  std::vector<GeojsonPolygon> polygons;
+  /// What is wrong with the coordinates as a whole.
+  void judge(const JsonValue& root) {
+    const JsonValue* crs = root.find("crs");
+    const std::string& name = problems_.source(source_).name;
+    const std::string geographic = crs ? geographic_crs(*crs) : "";
+    if (!geographic.empty()) {
+      report(*crs, "crs",
+             fmt::format("longitude and latitude ({}): Polynya needs metres and does not project yet: {}",
+                         geographic, how_to_project(evidence_.box, name)));
+    } else if (large_count_ > 0) {
+      const std::size_t others = large_count_ - 1;
+      const std::string more =
+          others > 0 ? fmt::format(", and as far in {} more ring{}", others, others == 1 ? "" : "s") : "";
+      problems_.add(
+          source_, large_offset_,
+          {.path = large_path_,
+           .found = large_ + more,
+           .allowed = fmt::format("coordinates from {} to {} [m]: move the origin to the floes; ogr2ogr "
+                                  "-t_srs \"+proj=aeqd +lat_0=LATITUDE +lon_0=LONGITUDE\" does",
+                                  -kLargestCoordinate, kLargestCoordinate)});
+    } else if (!crs && evidence_.look_like_degrees() && !has_own_areas()) {
+      report(root, "",
+             fmt::format(
+                 "these look like longitude and latitude, which GeoJSON without a crs member has [RFC 7946]: "
+                 "all within ±180, ±90, and as metres {:.4g} m² of ice in all; Polynya needs metres and does "
+                 "not project yet: {}; a crs member that names a projected system keeps them as metres",
+                 evidence_.area, how_to_project(evidence_.box, name)));
+    } else {
+      return;
+    }
+    floes.polygons.clear();
+  }
+
+  GeojsonFloes floes;
 
  private:
+  void report(const JsonValue& value, const std::string& path, std::string sentence) {
+    problems_.add(source_, value.offset, {.path = path, .sentence = std::move(sentence)});
+  }
+
+  /// Whether the features' area_m2 are those of their coordinates: then these are metres, however small.
+  bool has_own_areas() const {
+    return own_area_ > 0 && std::abs(own_area_ - evidence_.area) <= 1e-3 * evidence_.area;
+  }
+
   void tell(const JsonValue& value, const std::string& path, std::string found, std::string allowed) {
     problems_.add(source_, value.offset,
                   {.path = path, .found = std::move(found), .allowed = std::move(allowed)});
@@ -60,6 +104,9 @@ class GeojsonReader {
 
   void read_feature(const JsonValue& value, const std::string& path) {
     const JsonValue* geometry = value.find("geometry");
+    const JsonValue* properties = value.find("properties");
+    const JsonValue* area = properties ? properties->find("area_m2") : nullptr;
+    if (area && area->is(JsonKind::kNumber)) own_area_ += area->number();
     if (!geometry || geometry->is_null())
       return tell(value, path, "a feature without geometry", "a Polygon or MultiPolygon");
     read(*geometry, path + ".geometry");
@@ -74,7 +121,8 @@ class GeojsonReader {
       if (!ring) return;
       (&item == &value.items().front() ? polygon.outer : polygon.holes.emplace_back()) = std::move(*ring);
     }
-    polygons.push_back({in_house_notation(std::move(polygon)), value.offset});
+    evidence_.add(polygon);
+    floes.polygons.push_back({in_house_notation(std::move(polygon)), value.offset});
   }
 
   std::optional<geometry::Ring> read_ring(const JsonValue& value, const std::string& path) {
@@ -84,31 +132,62 @@ class GeojsonReader {
     }
     geometry::Ring ring;
     for (const JsonValue& item : value.items()) {
-      if (!is_position(item)) {
-        tell(item, path, show(item),
-             fmt::format("[x, y], each ≥ {} and ≤ {} [m]", -kLargestCoordinate, kLargestCoordinate));
+      const auto point = read_position(item, path);
+      if (!point) return std::nullopt;
+      if (std::max(std::abs(point->x), std::abs(point->y)) > kLargestCoordinate) {
+        note_large(item, *point, path);
         return std::nullopt;
       }
-      ring.push_back({item.items()[0].number(), item.items()[1].number()});
+      ring.push_back(*point);
     }
     return ring;
   }
 
-  static bool is_position(const JsonValue& value) {
-    if (!value.is(JsonKind::kArray) || value.items().size() < 2 || value.items().size() > 3) return false;
-    for (const JsonValue& item : value.items()) {
-      if (!item.is(JsonKind::kNumber) || !(std::abs(item.number()) <= kLargestCoordinate)) return false;
+  std::optional<geometry::Point> read_position(const JsonValue& value, const std::string& path) {
+    if (!value.is(JsonKind::kArray) || value.items().size() < 2 || value.items().size() > 3) {
+      tell(value, path, show(value), "[x, y]");
+      return std::nullopt;
     }
-    return true;
+    for (const JsonValue& item : value.items()) {
+      if (item.is(JsonKind::kNumber)) continue;
+      tell(item, path, show(item), "a coordinate [m]");
+      return std::nullopt;
+    }
+    return geometry::Point{value.items()[0].number(), value.items()[1].number()};
+  }
+
+  void note_large(const JsonValue& value, geometry::Point point, const std::string& path) {
+    if (large_count_++ > 0) return;
+    large_offset_ = value.offset;
+    large_path_ = path;
+    large_ = fmt::format("[{}, {}]", point.x, point.y);
   }
 
   std::size_t source_;
   ProblemCollector& problems_;
+  CoordinateEvidence evidence_;
+  double own_area_ = 0;  ///< Σ of the features' area_m2 [m²]
+  std::size_t large_count_ = 0;
+  std::uint32_t large_offset_ = 0;  ///< of the first too large position, its path and itself
+  std::string large_path_, large_;
 };
+
+/// A run writes its time beside the floes, and when each was born.
+std::optional<double> run_time_of(const JsonValue& root) {
+  const JsonValue* time = root.find("t_s");
+  const JsonValue* features = root.find("features");
+  if (!time || !time->is(JsonKind::kNumber) || !features || !features->is(JsonKind::kArray))
+    return std::nullopt;
+  for (const JsonValue& feature : features->items()) {
+    const JsonValue* properties = feature.find("properties");
+    if (!properties || !properties->find("floe_id") || !properties->find("born_s")) return std::nullopt;
+  }
+  return time->number();
+}
 
 }  // namespace
 
-std::vector<GeojsonPolygon> read_geojson(std::size_t source, ProblemCollector& problems) {
+GeojsonFloes read_geojson(std::size_t source, ProblemCollector& problems) {
   const JsonDocument document = parse_json(problems.source(source).text);
   for (const JsonFault& fault : document.faults) {
     problems.add(
@@ -118,7 +197,9 @@ std::vector<GeojsonPolygon> read_geojson(std::size_t source, ProblemCollector& p
   if (!document.faults.empty()) return {};
   GeojsonReader reader(source, problems);
   reader.read(document.root, "");
-  return std::move(reader.polygons);
+  reader.judge(document.root);
+  reader.floes.run_time = run_time_of(document.root);
+  return std::move(reader.floes);
 }
 
 }  // namespace polynya::io

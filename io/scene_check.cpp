@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <variant>
 
 #include <fmt/format.h>
@@ -148,10 +149,48 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
   }
 }
 
-void check_overlaps(const std::vector<Named>& named, const std::vector<Polygon>& outlines,
-                    ProblemCollector& problems) {
+/// Overlaps in which floes of a run take part, with each other or with other bodies.
+struct RunOverlaps {
+  std::size_t count = 0;
+  std::size_t among_them = 0;
+  double largest = 0;  ///< [m²]
+};
+
+/// One problem for all overlaps of a run's floes, which are in contact, and so overlap by the ice they
+/// crushed.
+void report_run_overlaps(std::size_t source, double time, const RunOverlaps& overlaps,
+                         ProblemCollector& problems) {
+  problems.add(
+      source, 0,
+      {.sentence = fmt::format(
+           "these are the floes of a run at {:g} s, of which {}{} pairs overlap, by at most {:.3g} m²: ice "
+           "in "
+           "contact overlaps by what it crushed; starting a scene from a run comes in a later version; "
+           "polynya resume RUN continues one that was stopped",
+           time, overlaps.count >= kMostOverlaps ? "at least " : "", overlaps.count, overlaps.largest)});
+}
+
+void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
+                    const std::vector<Polygon>& outlines, ProblemCollector& problems) {
   const auto overlaps = find_overlaps(outlines, kMostOverlaps);
+  std::map<std::size_t, RunOverlaps> of_runs;
+  const auto run_of = [&](const Overlap& overlap) -> RunOverlaps* {
+    const std::size_t source = named[overlap.second].origin->source;  // floes come behind ships
+    return draft.run_times.contains(source) ? &of_runs[source] : nullptr;
+  };
   for (const Overlap& overlap : overlaps) {
+    RunOverlaps* run = run_of(overlap);
+    if (!run) continue;
+    const bool is_among_them = named[overlap.first].origin->source == named[overlap.second].origin->source;
+    run->among_them += is_among_them ? 1 : 0;
+    run->largest = std::fmax(run->largest, overlap.area);
+    ++run->count;
+  }
+  for (const auto& [source, run] : of_runs) {
+    if (run.among_them > 0) report_run_overlaps(source, draft.run_times.at(source), run, problems);
+  }
+  for (const Overlap& overlap : overlaps) {
+    if (const RunOverlaps* run = run_of(overlap); run && run->among_them > 0) continue;
     const Named& first = named[overlap.first];
     const Named& second = named[overlap.second];
     const std::string area = std::isnan(overlap.area) ? "" : fmt::format(", {:.6g} m² shared", overlap.area);
@@ -161,7 +200,7 @@ void check_overlaps(const std::vector<Named>& named, const std::vector<Polygon>&
                   .allowed = first.is_ship && !second.is_ship ? "floes outside the waterline"
                                                               : "bodies that at most touch"});
   }
-  if (overlaps.size() == kMostOverlaps)
+  if (overlaps.size() == kMostOverlaps && of_runs.empty())
     problems.add(0, 0,
                  {.path = "floes", .found = fmt::format("{} overlaps, and perhaps more", kMostOverlaps)});
 }
@@ -190,7 +229,7 @@ void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemColl
   std::vector<Polygon> outlines;
   check_ships(draft, problems, named, outlines);
   check_floes(draft, problems, named, outlines);
-  check_overlaps(named, outlines, problems);
+  check_overlaps(draft, named, outlines, problems);
 }
 
 }  // namespace polynya::io

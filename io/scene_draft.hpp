@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct SceneDraft {
   FloeGroup group;
   std::vector<Origin> ship_origins;
   std::vector<Origin> floe_origins;
+  std::map<std::size_t, double> run_times;  ///< of sources that hold the floes of a run, at that time [s]
 
   simulation::ShipSpec& ship() { return scene.ships.back(); }
 };

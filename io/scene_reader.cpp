@@ -260,7 +260,8 @@ class SceneReading {
       return tell(file.offset, path, show(file) + ": " + text.error(),
                   fmt::format("a file of at most {} bytes", kLongestFloesFile));
     const std::size_t source = problems_.add_source({found->string(), std::move(*text)});
-    const auto polygons = read_geojson(source, problems_);
+    const auto [polygons, run_time] = read_geojson(source, problems_);
+    if (run_time) draft_.run_times[source] = *run_time;
     if (!has_room_for(polygons.size(), item, path)) return;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
       add_floe(

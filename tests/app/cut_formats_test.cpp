@@ -85,6 +85,23 @@ TEST_F(CutFormats, WhatAFormatCannotKeepIsReported) {
   EXPECT_NE(cut("floes.ndjson", {"--disc", "0,0,1"}).err.find("crs members differ"), std::string::npos);
 }
 
+TEST_F(CutFormats, LongitudeAndLatitudeAreNoMetres) {
+  const std::string lonlat =
+      R"({"type":"Polygon","coordinates":[[[15.6,78.2],[15.61,78.2],[15.61,78.21],[15.6,78.2]]]})";
+  write_file(
+      folder / "crs.geojson",
+      R"({"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)" + lonlat.substr(1));
+  const Outcome refused = cut("crs.geojson", {"--disc", "15.6,78.2,0.01", "--out", "pieces.geojson"});
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_NE(refused.err.find("longitude and latitude (urn:ogc:def:crs:OGC:1.3:CRS84)"), std::string::npos)
+      << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "pieces.geojson"));
+  write_file(folder / "bare.geojson", lonlat);
+  const Outcome noted = cut("bare.geojson", {"--disc", "15.6,78.2,0.01"});
+  EXPECT_EQ(noted.code, 0);
+  EXPECT_NE(noted.err.find("look like longitude and latitude"), std::string::npos) << noted.err;
+}
+
 TEST_F(CutFormats, AnExtensionOfNoFormatIsRefusedBeforeAnythingIsDone) {
   write_file(folder / "floes.geojson", feature(""));
   for (const char* name : {"pieces.shp", "pieces.gpkg", "pieces.txt", "pieces.geojson.bak"}) {
