@@ -42,7 +42,8 @@ void add_contacts(ColumnWriter& columns, const Run& run, const std::vector<Frame
 
 void add_forces(ColumnWriter& columns, const Run& run, const FrameSelection& selection) {
   std::vector<std::int32_t> ship, contacts;
-  std::vector<double> time, surge, sway, yaw, surge_peak, sway_peak, yaw_peak, speed, thrust;
+  std::vector<double> time, surge, sway, yaw, surge_max, sway_max, yaw_max, surge_peak, sway_peak, yaw_peak,
+      speed, thrust;
   for (const simulation::ShipSample& s : run.samples) {
     if (!selection.has(s.time)) continue;
     ship.push_back(s.ship);
@@ -51,6 +52,9 @@ void add_forces(ColumnWriter& columns, const Run& run, const FrameSelection& sel
     surge.push_back(s.surge_force);
     sway.push_back(s.sway_force);
     yaw.push_back(s.yaw_moment);
+    surge_max.push_back(s.surge_max);
+    sway_max.push_back(s.sway_max);
+    yaw_max.push_back(s.yaw_max);
     surge_peak.push_back(s.surge_peak);
     sway_peak.push_back(s.sway_peak);
     yaw_peak.push_back(s.yaw_peak);
@@ -63,6 +67,9 @@ void add_forces(ColumnWriter& columns, const Run& run, const FrameSelection& sel
   columns.add("surge_N", surge);
   columns.add("sway_N", sway);
   columns.add("yaw_Nm", yaw);
+  columns.add("surge_max_N", surge_max);
+  columns.add("sway_max_N", sway_max);
+  columns.add("yaw_max_Nm", yaw_max);
   columns.add("surge_j_over_tau_c_N", surge_peak);
   columns.add("sway_j_over_tau_c_N", sway_peak);
   columns.add("yaw_j_over_tau_c_Nm", yaw_peak);
@@ -91,7 +98,8 @@ void write_ships(JsonWriter& json, const simulation::Scene& scene) {
   json.key("ships").open('[');
   for (const simulation::ShipSpec& ship : scene.ships) {
     json.open('{').key("name").value(ship.name);
-    json.key("waterline_m").value(ship.hull.waterline).close('}');
+    json.key("waterline_m").value(ship.hull.waterline);
+    json.key("is_fixed").value(std::holds_alternative<simulation::FixedInPlace>(ship.propulsion)).close('}');
   }
   json.close(']');
 }
@@ -109,6 +117,11 @@ void write_summary(JsonWriter& json, const Run& run) {
     json.key("stopped_by").value(by->text());
 }
 
+/// Whether the paper's j/τ_c decides splits: only there the page shows it unasked.
+bool splits_by_j_over_tau_c(const simulation::Scene& scene) {
+  return scene.fracture.splitting == fracture::SplittingModel::kMichel;
+}
+
 std::string info_of(const Run& run, const PlayerData& data) {
   std::string text;
   JsonWriter json(text);
@@ -119,6 +132,8 @@ std::string info_of(const Run& run, const PlayerData& data) {
   json.key("frames").value(static_cast<std::int64_t>(data.frames));
   json.key("frames_of_run").value(static_cast<std::int64_t>(run.frames.size()));
   json.key("circle_radius_m").value(scene.contact.circle_radius);
+  json.key("forces_interval_s").value(scene.record.forces_interval);
+  json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene));
   write_summary(json, run);
   write_ships(json, scene);
   write_events(json, run);

@@ -95,20 +95,14 @@ function classOf(value, edges) {
   return k;
 }
 
-function classOfFloe(id, colourBy, edges, floes, places) {
-  if (colourBy === "generation") return classOf(floes.generation[id], edges);
-  if (colourBy === "size") return classOf(Math.sqrt(floes.area[id]), edges);
-  return classOf(Math.hypot(places.vx[id], places.vy[id]), edges);
-}
-
 /** Draws the floes of these ids that show on the screen: small ones pixel by pixel, the others as paths. */
-function drawFloes(context, view, run, places, raster, ids, colouring, colourBy, colours) {
+function drawFloes(context, view, run, places, raster, ids, colouring, colours) {
   const { floes } = run;
   const buckets = colouring.colours.map(() => ({ large: [], small: [] }));
   let small = 0;
   for (const id of ids) {
     if (!view.shows(places.x[id], places.y[id], floes.reach[id])) continue;
-    const bucket = buckets[classOfFloe(id, colourBy, colouring.edges, floes, places)];
+    const bucket = buckets[classOf(colouring.value(id), colouring.edges)];
     const isSmall = floes.reach[id] * view.scale * view.ratio < rasterReach;
     (isSmall ? bucket.small : bucket.large).push(id);
     small += isSmall;

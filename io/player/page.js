@@ -1,9 +1,12 @@
 // The page's words and controls.
 
-function fillPage(run, range, state, plot, actions, refresh) {
+function fillPage({ run, range, state, plot, actions }) {
   const { info, frames, floes } = run;
   byId("scene").textContent = info.scene;
-  byId("description").textContent = info.description;
+  for (const id of ["description", "description-whole"]) {
+    byId(id).textContent = info.description;
+    byId(id).classList.toggle("empty", info.description === "");
+  }
   byId("end").textContent = `${range[1].toFixed(range[1] % 1 ? 1 : 0)} s`;
   if (!info.finished) {
     byId("badge").hidden = false;
@@ -13,7 +16,7 @@ function fillPage(run, range, state, plot, actions, refresh) {
   for (const event of info.events) ++counts[event.kind];
   const facts = {
     "floes in all": floes.count, bends: counts.bend, splits: counts.split, "rejected cuts": counts.rejected_cut,
-    "ships, structures": info.ships.map((ship) => ship.name).join(", ") || "none",
+    ships: info.ships.map((ship) => ship.name).join(", ") || "none",
     frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}`,
     seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
   };
@@ -35,7 +38,7 @@ function fillPage(run, range, state, plot, actions, refresh) {
   byId("theme").addEventListener("click", actions.toggleTheme);
   byId("help-button").addEventListener("click", actions.toggleHelp);
   byId("help-close").addEventListener("click", actions.toggleHelp);
-  for (const what of ["generation", "speed", "size"]) byId(`by-${what}`).addEventListener("change", () => actions.colourBy(what));
+  for (const what of ["breakage", "generation", "speed", "size"]) byId(`by-${what}`).addEventListener("change", () => actions.colourBy(what));
   for (const name of Object.keys(state.layers)) {
     byId(`layer-${name}`).checked = state.layers[name];
     byId(`layer-${name}`).addEventListener("change", (event) => actions.toggleLayer(name, event.target.checked));
@@ -43,10 +46,9 @@ function fillPage(run, range, state, plot, actions, refresh) {
   byId("track").setAttribute("aria-valuemin", String(range[0]));
   byId("track").setAttribute("aria-valuemax", String(range[1]));
   if (info.ships.length === 0) return document.body.classList.add("no-ships");
-  byId("quantity").replaceChildren(...Object.entries(quantities).map(([name, { label }]) => make("option", { value: name }, label)));
-  byId("quantity").addEventListener("change", (event) => {
-    plot.quantity = event.target.value;
-    refresh();
-  });
+  byId("quantity").replaceChildren(...Object.entries(plot.quantities).map(([name, { label }]) => make("option", { value: name }, label)));
+  byId("quantity").addEventListener("change", (event) => actions.plotQuantity(event.target.value));
+  byId("full-scale").addEventListener("click", actions.toggleFullScale);
+  byId("whole-run").addEventListener("click", () => actions.zoomPlot());
   return undefined;
 }

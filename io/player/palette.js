@@ -2,6 +2,7 @@
 // survives greyscale and colour blindness; marks are in the Okabe–Ito palette.
 
 const ramps = {
+  breakage: ["#ffffff", "#f6e3a8", "#dd9a45", "#8f4a1c"],
   generation: ["#ffffff", "#fdf1c9", "#fbdd92", "#f2bd60", "#d98b3b", "#ad5f27"],
   speed: ["#ffffff", "#e9e4f2", "#d2c6e6", "#9c88c4", "#70539d", "#402468"],
   size: ["#0d4a35", "#2d7a55", "#58a173", "#b5dcbb", "#dcf0df", "#ffffff"],
@@ -23,37 +24,38 @@ function countWords(from, below) {
   return below === from + 1 ? String(from) : `${from} \u2013 ${below - 1}`;
 }
 
-/** How floes are coloured: class edges, colours, words for the legend. */
-function makeColourings(run) {
+/** How floes are coloured: a floe's value, class edges, colours, words for the legend. */
+function makeColourings(run, places) {
   const { floes, frames } = run;
   let fastest = 0;
   for (const at of frames.recordAt)
     fastest = Math.max(fastest, Math.hypot(frames.doubles[at + 3], frames.doubles[at + 4]));
   let largest = 0;
   for (let i = 0; i < floes.count; ++i) largest = Math.max(largest, floes.area[i]);
-  const classes = (edges, unit) => {
-    const words = [`below ${edges[0]}`];
-    edges.forEach((edge, k) => words.push(k + 1 < edges.length ? `${edge} \u2013 ${edges[k + 1]}` : `${edge} and more`));
-    return words.map((word) => `${word}${unit}`);
-  };
+  const classes = (edges) => [`below ${edges[0]}`,
+    ...edges.map((edge, k) => (k + 1 < edges.length ? `${edge} \u2013 ${edges[k + 1]}` : `${edge} and more`))];
   let oldest = 1;
   for (let i = 0; i < floes.count; ++i) oldest = Math.max(oldest, floes.generation[i]);
   const generations = oldest > 20 ? [1, ...roundEdges(oldest).slice(1)] : [1, 2, 3, 5, 10];
   const sizes = roundEdges(Math.sqrt(largest) || 1);
   const speeds = roundEdges(fastest || 1);
+  const breakageOf = breakagesOf(run);
   return {
-    generation: { title: "Fractures since the scene", edges: generations, colours: ramps.generation,
+    breakage: { title: "Ice", edges: [1, 2, 3], colours: ramps.breakage, value: (id) => breakageOf[id], isUsed: (k) => breakageOf.includes(k),
+      words: ["whole", "cut: what is left of a floe", "split off", "broken off by bending"] },
+    generation: { title: "Fractures since the scene", edges: generations, colours: ramps.generation, value: (id) => floes.generation[id],
       words: ["none", ...generations.map((edge, k) => countWords(edge, generations[k + 1]))] },
-    speed: { title: "Speed [m/s]", edges: speeds, colours: ramps.speed, words: classes(speeds, "") },
-    size: { title: "Size \u221aarea [m]", edges: sizes, colours: ramps.size, words: classes(sizes, "") },
+    speed: { title: "Speed [m/s]", edges: speeds, colours: ramps.speed, value: (id) => Math.hypot(places.vx[id], places.vy[id]),
+      words: classes(speeds) },
+    size: { title: "Size \u221aarea [m]", edges: sizes, colours: ramps.size, value: (id) => Math.sqrt(floes.area[id]), words: classes(sizes) },
   };
 }
 
 /** The theme's colours, from the style sheet. */
 function themeColours() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "track", "ink", "panel", "muted",
+  const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "deck", "deck-house", "track", "ink", "panel", "muted",
     "accent", "highlight", "line", "family",
-    "bend", "split", "rejected_cut", "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
+    "bend", "split", "rejected_cut", "paper-load", "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }

@@ -5,10 +5,11 @@ const nearMark = 5; // [px]
 function makeTimeline(run, track, range, actions) {
   const canvas = track.querySelector("canvas");
   const thumb = track.querySelector(".thumb");
+  const part = track.querySelector(".part");
   const tip = byId("timeline-tip");
   const { events } = run.info;
   const rows = { split: 7, bend: 18, rejected_cut: 18 }; // [px]
-  const timeline = { left: 0, width: 1 };
+  const timeline = { left: 0, width: 1, part: range };
 
   timeline.place = (left, width, colours) => {
     timeline.left = left;
@@ -16,6 +17,14 @@ function makeTimeline(run, track, range, actions) {
     track.style.marginLeft = `${left}px`;
     track.style.width = `${width}px`;
     draw(colours);
+    timeline.setPart(timeline.part);
+  };
+  /** The part of the run that the plot shows, marked where it is not the whole. */
+  timeline.setPart = (span) => {
+    timeline.part = span;
+    part.hidden = span === range;
+    part.style.left = `${pixelOf(span[0])}px`;
+    part.style.width = `${pixelOf(span[1]) - pixelOf(span[0])}px`;
   };
   const pixelOf = (time) => ((time - range[0]) / (range[1] - range[0] || 1)) * timeline.width;
   const timeOf = (px) => range[0] + (Math.min(1, Math.max(0, px / timeline.width))) * (range[1] - range[0]);

@@ -46,7 +46,7 @@ test("no floes: the ship sails", async () => {
 test("several ships: a curve and a number each, followed in turn", async () => {
   const file = makePage(makeRun(folder, smallScene("two-ships", { ships: [ship("north", 60), ship("south", 10)] })));
   await withPage(file, {}, async (page) => {
-    assert.equal(await page.locator("#load-now span").count(), 2);
+    assert.equal(await page.locator("#load-now [data-column=surge_N]").count(), 2);
     for (const wanted of [0, 1, -1]) {
       await page.keyboard.press("f");
       assert.equal(await page.evaluate(() => window.polynyaPlayer.state.follow), wanted);

@@ -1,0 +1,162 @@
+// What can be done with the player: by its controls, keys and pointers, and by tests.
+
+const rates = [0.5, 1, 2, 5, 10, 20, 50, 100];
+
+function makeActions(player) {
+  const { run, state, view, places, range, plot } = player;
+  const { info, frames, floes } = run;
+
+  const actions = {
+    goTo(time) {
+      state.time = Math.min(range[1], Math.max(range[0], time));
+      state.iceDirty = true;
+    },
+    goToEnd: (isEnd) => actions.goTo(isEnd ? range[1] : range[0]),
+    play(isPlaying) {
+      if (isPlaying && state.time >= range[1]) state.time = range[0];
+      state.isPlaying = isPlaying && range[1] > range[0];
+      byId("play").setAttribute("aria-pressed", String(state.isPlaying));
+      byId("play").setAttribute("aria-label", state.isPlaying ? "Pause" : "Play");
+      state.iceDirty = true;
+    },
+    togglePlay: () => actions.play(!state.isPlaying),
+    stepFrames(count) {
+      const at = lastAtMost(frames.times, state.time + 1e-9);
+      const next = count < 0 && state.time - frames.times[at] > 1e-9 ? at + 1 + count : at + count;
+      actions.goTo(frames.times[Math.min(frames.times.length - 1, Math.max(0, next))] ?? 0);
+    },
+    goToEvent(index) {
+      const event = info.events[index];
+      if (!event) return;
+      state.event = index;
+      actions.play(false);
+      actions.goTo(event.t_s);
+      const [x, y] = view.toScreen(...event.point_m);
+      if (x < 20 || y < 20 || x > view.width - 20 || y > view.height - 20) {
+        [view.x, view.y] = event.point_m;
+        state.isFitted = false;
+      }
+      showEventCard(byId("event-card"), run, event);
+    },
+    stepEvent(step) {
+      const { events } = info;
+      let index = state.event;
+      if (index === null || Math.abs(events[index].t_s - state.time) > 1e-6) {
+        const after = events.findIndex((event) => event.t_s > state.time);
+        index = step > 0 ? (after < 0 ? events.length : after) : (after < 0 ? events.length : after) - 1;
+      } else index += step;
+      actions.goToEvent(Math.min(events.length - 1, Math.max(0, index)));
+    },
+    setRate(rate) {
+      state.rate = rate;
+      byId("rate").value = String(rate);
+    },
+    changeRate(step) {
+      const at = rates.indexOf(state.rate) + step;
+      actions.setRate(rates[Math.min(rates.length - 1, Math.max(0, at))]);
+    },
+    pan(dx, dy) {
+      view.panBy(dx, dy);
+      if (state.follow >= 0) actions.setFollow(-1);
+      state.isFitted = false;
+      state.iceDirty = true;
+    },
+    zoom(px, py, factor) {
+      view.zoomAt(px, py, factor);
+      state.isFitted = false;
+      state.iceDirty = true;
+    },
+    zoomCentre: (factor) => actions.zoom(view.width / 2, view.height / 2, factor),
+    fit() {
+      actions.setFollow(-1);
+      view.fit(player.box);
+      state.isFitted = true;
+      state.iceDirty = true;
+    },
+    follow: () => actions.setFollow(state.follow + 1 < info.ships.length ? state.follow + 1 : -1),
+    setFollow(ship) {
+      state.follow = ship;
+      byId("follow").setAttribute("aria-pressed", String(ship >= 0));
+      if (ship >= 0 && state.isFitted) {
+        const hull = info.ships[ship].waterline_m.map(([x]) => x);
+        const length = Math.max(...hull) - Math.min(...hull);
+        view.scale = Math.max(view.scale, Math.min(view.width, view.height) / (2.2 * length));
+        state.isFitted = false;
+      }
+      state.iceDirty = true;
+    },
+    colourBy(what) {
+      state.colourBy = what;
+      byId(`by-${what}`).checked = true;
+      player.showLegend();
+      state.iceDirty = true;
+    },
+    toggleLayer(name, isOn = !state.layers[name]) {
+      state.layers[name] = isOn;
+      byId(`layer-${name}`).checked = isOn;
+      player.showLegend();
+      state.iceDirty = true;
+    },
+    select(id) {
+      state.selected = id;
+      state.marksDirty = true;
+      player.cardIsStale = true;
+    },
+    /** Chooses a floe and goes to where it lives, if that is not now. */
+    visit(id) {
+      if (!places.isAlive(id, state.time)) {
+        actions.play(false);
+        actions.goTo(Math.max(range[0], floes.born[id]));
+      }
+      actions.select(id);
+    },
+    hover(px, py) {
+      const found = floeAt(run, places, ...view.toWorld(px, py));
+      byId("stage").style.cursor = found >= 0 ? "pointer" : "";
+      if (found === state.hovered) return;
+      state.hovered = found;
+      state.marksDirty = true;
+    },
+    click(px, py) {
+      const found = floeAt(run, places, ...view.toWorld(px, py));
+      state.hovered = found;
+      actions.select(found === state.selected ? -1 : found);
+    },
+    leave() {
+      state.hovered = -1;
+      state.marksDirty = true;
+    },
+    letGo() {
+      if (byId("help").open) return byId("help").close();
+      state.event = null;
+      showEventCard(byId("event-card"), run, null);
+      return actions.select(-1);
+    },
+    toggleTheme() {
+      const isDark = getComputedStyle(document.documentElement).colorScheme.includes("dark");
+      document.documentElement.dataset.theme = isDark ? "light" : "dark";
+      player.refreshTheme();
+    },
+    toggleHelp() {
+      const help = byId("help");
+      if (help.open) help.close();
+      else help.showModal();
+    },
+    toggleFullScale() {
+      plot.setFull(!plot.isFull);
+      player.showPlotTools();
+    },
+    /** Shows a part of the run in the plot [s]; without ends all of it. */
+    zoomPlot: (from = range[0], until = range[1]) => plot.show(from, until),
+    plotQuantity(name) {
+      plot.quantity = name;
+      player.rebuildPlot();
+    },
+  };
+  return actions;
+}
+
+/** Half a minute for the whole run. */
+function defaultRate(duration) {
+  return rates.find((rate) => duration / rate <= 40) ?? rates[rates.length - 1];
+}

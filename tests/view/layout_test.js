@@ -1,0 +1,158 @@
+// The page at many window sizes and in both themes, with a long description and two ships: by the boxes of its elements
+// nothing is cut off and nothing overlaps, the map keeps a useful height, and map and plot can be dragged.
+"use strict";
+const { test, before, after } = require("node:test");
+const assert = require("node:assert/strict");
+const fs = require("node:fs");
+const os = require("node:os");
+const path = require("node:path");
+const { startBrowser, openPage } = require("./browser.js");
+const { makeRun, makePage, smallScene, ship } = require("./runs.js");
+
+const sizes = [[360, 740], [390, 844], [721, 900], [768, 1024], [900, 700], [1024, 768], [1190, 800], [1280, 720], [1440, 900],
+  [1920, 1080], [844, 390]];
+const description = "Two icebreakers at constant speed through nine floes of fifteen metres, in a scene whose only purpose is a description " +
+  "of three hundred characters, because a line as long as this one once made the page wider than every window it was opened in, and its " +
+  "controls could no longer be reached by anyone who opened it.";
+
+let folder, browser, page;
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
+  const scene = smallScene("a-name-of-many-words-in-one", { description, ships: [ship("north", 60), ship("south", 10)] });
+  browser = await startBrowser();
+  page = await openPage(browser, makePage(makeRun(folder, scene)));
+  await page.addScriptTag({ content: findProblems.toString() });
+  await page.evaluate(() => {
+    const { actions } = window.polynyaPlayer;
+    actions.goTo(6);
+    actions.select(4); // with the line on the map
+    actions.toggleLayer("circles", true); // with its notice
+    actions.toggleLayer("forces", true);
+    actions.toggleLayer("velocities", true);
+  });
+});
+after(async () => {
+  await browser?.close();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+/** In the page: what is cut off, reaches out of the window or overlaps, in words. */
+function findProblems() {
+  const problems = [];
+  const name = (e) => `${e.tagName.toLowerCase()}${e.id ? `#${e.id}` : ""}${e.className?.baseVal === undefined && e.className ? `.${e.className}` : ""} "${(e.textContent || "").trim().slice(0, 24)}"`;
+  const isVisible = (e) => e.checkVisibility() && e.getBoundingClientRect().width > 0 && e.getBoundingClientRect().height > 0;
+  const { clientWidth, scrollWidth } = document.documentElement;
+  if (scrollWidth > clientWidth) problems.push(`the page is ${scrollWidth} px wide in a window of ${clientWidth}`);
+  const scroller = document.querySelector("aside");
+  const scrolls = getComputedStyle(document.body).display === "flex";
+  const all = [...document.body.querySelectorAll("*")].filter((e) => !e.closest("dialog, .uplot canvas, select, svg, noscript, script") && isVisible(e));
+  for (const e of all) {
+    const style = getComputedStyle(e);
+    if (style.display === "inline" || e.matches(".thumb, .reading, canvas")) continue;
+    if (e.scrollWidth > e.clientWidth + 1) problems.push(`${name(e)} holds ${e.scrollWidth} px in ${e.clientWidth}`);
+    if (style.overflowY === "hidden" && e.scrollHeight > e.clientHeight + 1) problems.push(`${name(e)} holds ${e.scrollHeight} px of height in ${e.clientHeight}`);
+  }
+  /** The part of an element's box that its scrolling panel shows. */
+  const boxOf = (e) => {
+    const { left, right, top, bottom } = e.getBoundingClientRect();
+    if (!scroller.contains(e)) return { left, right, top, bottom };
+    const panel = scroller.getBoundingClientRect();
+    return { left, right, top: Math.max(top, panel.top), bottom: Math.min(bottom, panel.bottom) };
+  };
+  const parts = all.filter((e) => e.matches("button, select, label, output, h1, h2, h3, dt, dd, p, li, #badge, #now, .clock > span, .legend > *, .keys-legend > span," +
+    "#stage, #chip, #notice, #plot, #track, aside")).map((e) => ({ e, box: boxOf(e) })).filter(({ box }) => box.bottom > box.top);
+  for (const { e, box } of parts) {
+    if (box.left < -0.5 || box.right > innerWidth + 0.5) problems.push(`${name(e)} reaches from ${box.left} to ${box.right} px across`);
+    if (!scrolls && (box.top < -0.5 || box.bottom > innerHeight + 0.5)) problems.push(`${name(e)} reaches from ${box.top} to ${box.bottom} px down`);
+  }
+  for (const [k, { e, box }] of parts.entries()) {
+    for (const { e: other, box: b } of parts.slice(k + 1)) {
+      if (e.contains(other) || other.contains(e)) continue;
+      const [width, height] = [Math.min(box.right, b.right) - Math.max(box.left, b.left), Math.min(box.bottom, b.bottom) - Math.max(box.top, b.top)];
+      if (width > 0.5 && height > 0.5) problems.push(`${name(e)} and ${name(other)} overlap by ${width} x ${height} px`);
+    }
+  }
+  return problems;
+}
+
+const state = () => page.evaluate(() => {
+  const { state: { time }, view: { x, y, scale } } = window.polynyaPlayer;
+  return { time, x, y, scale };
+});
+
+/** Drags the pointer over an element, from one part of its width to another; `underWay` is called halfway. */
+async function drag(selector, from, to, underWay) {
+  await page.locator(selector).scrollIntoViewIfNeeded();
+  const box = await page.locator(selector).boundingBox();
+  const at = (part) => [box.x + part * box.width, box.y + 0.6 * box.height];
+  await page.mouse.move(...at(from));
+  await page.mouse.down();
+  await page.mouse.move(...at((from + to) / 2), { steps: 3 });
+  await underWay?.();
+  await page.mouse.move(...at(to), { steps: 3 });
+  await page.mouse.up();
+  return box;
+}
+
+for (const [width, height] of sizes) {
+  test(`at ${width} x ${height} nothing is cut off or overlaps; map and plot can be dragged`, async () => {
+    await page.setViewportSize({ width, height });
+    for (const theme of ["dark", "light"]) {
+      await page.emulateMedia({ colorScheme: theme });
+      await page.waitForTimeout(80);
+      await page.evaluate(() => scrollTo(0, 0));
+      assert.deepEqual(await page.evaluate(() => findProblems()), [], theme);
+    }
+    const map = await page.locator("#stage").boundingBox();
+    assert.ok(map.height >= Math.max(200, 0.38 * height), `the map is ${map.height} px high`);
+    assert.ok(map.y + map.height <= height, "it shows without scrolling");
+
+    const before = await state();
+    await drag("#stage", 0.3, 0.5);
+    const moved = await state();
+    assert.ok(Math.abs((before.x - moved.x) * before.scale - 0.2 * map.width) < 2, "the map follows the pointer");
+
+    // Halfway the legend grows, and with it everything gets another place.
+    const box = await drag("#plot .u-over", 0.2, 0.7, () => page.evaluate(() => {
+      window.polynyaPlayer.actions.toggleLayer("forces");
+      return new Promise((done) => setTimeout(done, 50));
+    }));
+    assert.ok(Math.abs((await state()).time - 0.7 * 10) < (2 * 10) / box.width, `the drag ends at ${(await state()).time} s`);
+    await page.evaluate(() => window.polynyaPlayer.actions.fit());
+  });
+}
+
+test("each swatch of the legend stands out from its panel in both themes", async () => {
+  for (const theme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme: theme });
+    await page.evaluate(() => { for (const name of ["channel", "startIce", "forces"]) window.polynyaPlayer.actions.toggleLayer(name, true); });
+    const contrasts = await page.locator("#legend i:not(.arrow)").evaluateAll((all) => {
+      const light = (colour) => {
+        const [r, g, b] = colour.match(/[\d.]+/g).map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+      };
+      const contrast = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);
+      return all.map((i) => {
+        const panel = getComputedStyle(document.getElementById("legend")).backgroundColor;
+        const style = getComputedStyle(i);
+        return [i.parentElement.textContent, Math.max(contrast(style.backgroundColor, panel), contrast(style.borderTopColor, panel))];
+      });
+    });
+    assert.ok(contrasts.length >= 8);
+    for (const [words, contrast] of contrasts) assert.ok(contrast >= 3, `${theme}, ${words}: ${contrast}`);
+  }
+});
+
+test("each fact of the run that is one word stands in one line", async () => {
+  for (const [width, height] of sizes) {
+    await page.setViewportSize({ width, height });
+    const broken = await page.locator("#facts dd").evaluateAll((all) => all.filter((dd) => {
+      const range = document.createRange();
+      range.selectNodeContents(dd);
+      return !dd.textContent.includes(" ") && new Set([...range.getClientRects()].map(({ top }) => top)).size > 1;
+    }).map((dd) => dd.textContent));
+    assert.deepEqual(broken, [], `${width} px`);
+  }
+});
+
+test("nothing went wrong on the way", () => assert.deepEqual(page.errors, []));

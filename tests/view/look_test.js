@@ -1,0 +1,129 @@
+// What the picture means: the default colours by what became of a floe, and a ship that shows as one.
+"use strict";
+const { test, before, after } = require("node:test");
+const assert = require("node:assert/strict");
+const fs = require("node:fs");
+const os = require("node:os");
+const path = require("node:path");
+const vm = require("node:vm");
+const { startBrowser, openPage } = require("./browser.js");
+const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js");
+
+let folder, browser, page, run;
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
+  run = makeRun(folder, smallScene("plate-and-floe", {
+    time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float" }, ships: [ship("a", 30)],
+    floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } }, { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }],
+  }));
+  browser = await startBrowser();
+  page = await openPage(browser, makePage(run));
+  await page.evaluate(() => {
+    const { actions } = window.polynyaPlayer;
+    for (const layer of ["track", "channel", "startIce"]) actions.toggleLayer(layer, false);
+    actions.goToEnd(true);
+  });
+  await page.waitForTimeout(100);
+});
+after(async () => {
+  await browser?.close();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+/** The scripts' own functions, without a page. */
+function scripts(...names) {
+  const context = vm.createContext({});
+  for (const name of names) vm.runInContext(fs.readFileSync(path.join(__dirname, "../../io/player", name), "utf8"), context);
+  return context;
+}
+
+/** Colours of a canvas at points of the world. */
+const colours = (canvas, points) => page.evaluate(([id, all]) => {
+  const { view } = window.polynyaPlayer;
+  const context = document.getElementById(id).getContext("2d");
+  return all.map((point) => {
+    const [x, y] = view.toScreen(...point);
+    const [r, g, b, a] = context.getImageData(Math.round(x * view.ratio), Math.round(y * view.ratio), 1, 1).data;
+    return a === 0 ? "none" : `rgb(${r}, ${g}, ${b})`;
+  });
+}, [canvas, points]);
+
+test("untouched floes, what is left of a plate, and cusps have the colours that the legend gives them", async () => {
+  const births = readNdjson(run, "floes.ndjson");
+  const legend = Object.fromEntries(await page.locator("#legend span").evaluateAll((all) =>
+    all.filter((row) => row.querySelector("i")).map((row) => [row.textContent.split(":")[0], row.querySelector("i").style.background])));
+  const living = await page.evaluate(() => Array.from(window.polynyaPlayer.places.living.subarray(0, window.polynyaPlayer.places.count)));
+  const left = living.filter((id) => id !== 1).sort((a, b) => births[b].area_m2 - births[a].area_m2);
+  assert.ok(births[left[0]].generation > 0 && births[left[0]].area_m2 > 0.8 * 5400, "the plate lost cusps and is still there");
+  assert.ok(left.length > 1, "cusps float");
+  const inPlate = await page.evaluate((id) => [window.polynyaPlayer.places.x[id], window.polynyaPlayer.places.y[id] + 20], left[0]);
+  const [whole, cut] = await colours("ice", [[12, 90], inPlate]);
+  assert.equal(whole, legend.whole);
+  assert.equal(cut, legend.cut);
+  const breakage = await page.evaluate((ids) => ids.map((id) => window.polynyaPlayer.colourings.breakage.value(id)), left);
+  assert.deepEqual([...new Set(breakage.slice(1))], [3], "all others are broken off by bending");
+  assert.equal(breakage[0], 1);
+  assert.deepEqual(Object.keys(legend), ["whole", "cut", "broken off by bending"], "nothing was split here");
+});
+
+test("what became of a floe follows from its lineage and its area", () => {
+  const { breakagesOf } = scripts("breakage.js");
+  // Each row: parent, kind of the parent's fracture, area, what is expected. At the end a plate that loses 200 cusps.
+  const rows = [[-1, "", 1000, 0],
+    [0, "split", 600, 1], [0, "split", 300, 1], [0, "split", 100, 2],
+    [1, "bend", 580, 1], [1, "bend", 20, 3],
+    [3, "bend", 90, 2], [3, "bend", 10, 3],
+    [2, "bend", 190, 1], [2, "bend", 110, 3],
+    [5, "split", 11, 3], [5, "split", 9, 2],
+    [-1, "", 10, 0], [-1, "", 1000, 0]];
+  for (let k = 0, plate = rows.length - 1; k < 200; ++k, plate = rows.length - 2) rows.push([plate, "bend", 1000 - 4.9 * (k + 1), 1], [plate, "bend", 4.9, 3]);
+  const children = new Map();
+  const breakOf = new Map();
+  const events = [];
+  rows.forEach(([parent, kind], id) => {
+    if (parent < 0) return;
+    if (!children.has(parent)) breakOf.set(parent, events.push({ kind }) - 1);
+    children.set(parent, [...(children.get(parent) ?? []), id]);
+  });
+  const oldest = [];
+  rows.forEach(([parent], id) => oldest.push(parent < 0 ? id : oldest[parent]));
+  const floes = { count: rows.length, parent: rows.map(([parent]) => parent), area: rows.map(([, , area]) => area), oldest, children };
+  assert.deepEqual(Array.from(breakagesOf({ floes, info: { events }, breakOf })), rows.map(([, , , expected]) => expected));
+});
+
+test("the scale of loads leaves out only few and far larger rows", () => {
+  const { loadRange, alignedRanges } = scripts("plot_scale.js");
+  const wave = Float64Array.from({ length: 1000 }, (_, k) => 10 * Math.sin(k / 7));
+  const spiked = wave.with(500, 400);
+  const near = (range, wanted) => range.forEach((v, k) => assert.ok(Math.abs(v - wanted[k]) < 0.1, `${range}`));
+  near(loadRange([wave], false), [-10, 10]);
+  near(loadRange([spiked], false), [-10, 12.5]);
+  near(loadRange([spiked], true), [-10, 400]);
+  near(loadRange([new Float64Array(5)], false), [0, 0]);
+  near(loadRange([Float64Array.of(0, 0, 7)], false), [0, 7]);
+  for (const [[low, high], [low2, high2]] of [alignedRanges([[-1, 0], [0, 50]]), alignedRanges([[0, 0], [-3, 2]])]) {
+    assert.ok(low < 0 && high > 0 && Math.abs(low / high - low2 / high2) < 1e-12);
+  }
+});
+
+test("the ship shows as one: hull, deck, deck house, and a mark along its heading", async () => {
+  await page.evaluate(() => { window.polynyaPlayer.actions.goTo(0); window.polynyaPlayer.actions.setFollow(0); });
+  await page.waitForTimeout(100);
+  // It is 40 m long and 8 m wide, its centre at (-20, 30), its heading along x.
+  const at = (along, across) => [-20 + along, 30 + across];
+  const [edge, deck, house, ahead, beside, astern] = await colours("marks", [at(-10, 3.85), at(2, 2), at(-8.5, 1), at(23, 0), at(23, 4), at(-24, 0)]);
+  const theme = await page.evaluate(() => {
+    const probe = document.body.appendChild(document.createElement("i"));
+    const all = ["--hull", "--deck", "--deck-house"].map((name) => {
+      probe.style.color = `var(${name})`;
+      return getComputedStyle(probe).color;
+    });
+    probe.remove();
+    return all;
+  });
+  assert.deepEqual([edge, deck, house], theme);
+  assert.equal(ahead, theme[0], "the heading mark");
+  assert.deepEqual([beside, astern], ["none", "none"]);
+});
+
+test("nothing went wrong on the way", () => assert.deepEqual(page.errors, []));

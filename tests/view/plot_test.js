@@ -1,0 +1,152 @@
+// The plot: true loads first and under their names, a scale that a spike does not flatten, zoom and read-out.
+"use strict";
+const { test, before, after } = require("node:test");
+const assert = require("node:assert/strict");
+const fs = require("node:fs");
+const os = require("node:os");
+const path = require("node:path");
+const { startBrowser, openPage } = require("./browser.js");
+const { makeRun, makePage, readLines, smallScene, ship } = require("./runs.js");
+
+const spikeRow = 70; // of forces.csv
+let folder, browser, page, run, rows;
+
+/** A run whose forces.csv has been given known loads: a wave of 100 kN, in one row 9 MN. */
+function runWithSpike(name, fracture) {
+  const made = makeRun(folder, smallScene(name, { fracture, ships: [ship("a", 0)] }));
+  const [header, ...lines] = readLines(made, "forces.csv");
+  const names = header.split(",");
+  const given = lines.map((line, k) => {
+    const fields = line.split(",");
+    const mean = k === spikeRow ? -9e6 : -1e5 * (1 + Math.sin(k / 5));
+    Object.entries({ surge_N: mean, surge_max_N: 1.5 * mean, surge_j_over_tau_c_N: 20 * mean }).forEach(([column, value]) => {
+      fields[names.indexOf(column)] = String(value);
+    });
+    return fields.join(",");
+  });
+  fs.writeFileSync(path.join(made, "forces.csv"), `${[header, ...given].join("\n")}\n`);
+  return made;
+}
+
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
+  run = runWithSpike("spiked", { splitting: { model: "michel" } });
+  rows = readLines(run, "forces.csv").slice(1).map((line) => line.split(",").map(Number));
+  browser = await startBrowser();
+  page = await openPage(browser, makePage(run), { viewport: { width: 1440, height: 900 } });
+});
+after(async () => {
+  await browser?.close();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+const over = () => page.locator("#plot .u-over").boundingBox();
+const span = () => page.evaluate(() => window.polynyaPlayer.plot.span);
+const scale = (name) => page.evaluate((key) => {
+  const { min, max } = window.polynyaPlayer.plot.chart.scales[key];
+  return [min, max];
+}, name);
+const close = (a, b, room = 1e-6) => Math.abs(a - b) <= room;
+
+test("true loads lead: the interval's mean, then the step maximum, then the paper's j/\u03c4c under its own name and on its own axis", async () => {
+  const key = await page.locator("#load-now .curve").allTextContents();
+  assert.deepEqual(key.map((words) => words.replace(/[\u2212\d.]+ \w*N$/, "").trim()), ["0.1 s mean", "step maximum", "j/\u03c4c (paper)"]);
+  assert.equal(await page.locator("#quantity option").first().textContent(), "Surge force of the ice");
+  const zero = ([low, high]) => -low / (high - low);
+  assert.ok(close(zero(await scale("y")), zero(await scale("paper")), 1e-9), "0 is at one height on both axes");
+});
+
+test("j/\u03c4c is shown unasked where it decides splits, elsewhere where it is asked for", async () => {
+  assert.ok(await page.locator("#curve-paper").isChecked());
+  const other = await openPage(browser, makePage(runWithSpike("true-only", { splitting: { model: "lefm" } })));
+  assert.ok(!(await other.locator("#curve-paper").isChecked()));
+  assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) => series.scale)), ["y", "y"]);
+  await other.locator("#curve-paper").check();
+  assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) => series.scale)), ["paper", "y", "y"]);
+  await other.context().close();
+});
+
+test("one spike does not flatten the rest: it is marked and counted, and the full scale shows it", async () => {
+  const [low] = await scale("y");
+  assert.ok(low <= -3e5 && low > -6e5, `the scale goes down to ${low} N for steps of 300 kN`);
+  const words = await page.locator("#off-scale .long").textContent();
+  for (const part of ["0.1 s mean to \u22129.000 MN at 7.1 s", "step maximum to \u221213.50 MN at 7.1 s", "j/\u03c4c (paper) to \u2212180.0 MN"])
+    assert.ok(words.includes(part), words);
+  assert.equal(await page.evaluate(() => window.polynyaPlayer.plot.off.count), 3);
+  const painted = await page.evaluate(() => { // where the mark of the mean stands, at the lower edge
+    const { chart } = window.polynyaPlayer.plot;
+    const { data } = chart.ctx.getImageData(chart.valToPos(7.1, "x", true) - 1, chart.bbox.top + chart.bbox.height - 5, 3, 1);
+    return Array.from(data).filter((_, k) => k % 4 === 3).every((opacity) => opacity === 255);
+  });
+  assert.ok(painted);
+  await page.click("#full-scale");
+  assert.ok((await scale("y"))[0] <= -13.5e6);
+  assert.ok(!(await page.locator("#off-scale").isVisible()));
+  await page.click("#full-scale");
+  assert.equal((await scale("y"))[0], low);
+});
+
+test("the values under the pointer are the row's, with their units", async () => {
+  const box = await over();
+  for (const time of [2.06, 7.06]) {
+    await page.mouse.move(box.x + (time / 10) * box.width, box.y + 20);
+    const words = await page.locator("#reading").innerText();
+    const row = rows[Math.ceil(time / 0.1 - 1e-9) - 1];
+    assert.ok(close(row[0], time, 0.1) && words.includes(`${Number(row[0].toFixed(6))} s`), words);
+    const mean = row[2];
+    const unit = Math.abs(mean) >= 1e6 ? [1e-6, "MN"] : [1e-3, "kN"];
+    assert.ok(words.includes(`\u2212${Math.abs(mean * unit[0]).toPrecision(4)} ${unit[1]}`), words);
+    assert.match(words, /0\.1 s mean\s.*\sstep maximum\s.*\sj\/\u03c4c/s);
+    const tip = await page.locator(".reading-words").boundingBox();
+    assert.ok(tip.x >= box.x - 1 && tip.x + tip.width <= box.x + box.width + 1);
+  }
+  await page.mouse.move(box.x, box.y - 300);
+  assert.ok(!(await page.locator("#reading").isVisible()));
+});
+
+test("the wheel zooms about the pointer, a part can be chosen, a double click shows the whole run", async () => {
+  const box = await over();
+  const px = Math.round(box.x + 0.3 * box.width);
+  const part = (px - box.x) / box.width;
+  await page.mouse.move(px, box.y + 30);
+  await page.mouse.wheel(0, -500);
+  await page.waitForFunction(() => window.polynyaPlayer.plot.isZoomed());
+  const [from, until] = await span();
+  assert.ok(close(from + part * (until - from), 10 * part, 1e-3), "the time under the pointer stays there");
+  assert.ok(until - from < 6);
+  const mark = await page.locator("#track .part").boundingBox();
+  assert.ok(close(mark.x, box.x + (from / 10) * box.width, 1.5) && close(mark.width, ((until - from) / 10) * box.width, 1.5), "the timeline marks that part");
+  assert.equal(await page.locator("#off-scale").isVisible(), until > 7.1, "the scale is that of what is in view");
+  await page.mouse.dblclick(px, box.y + 30);
+  assert.deepEqual(await span(), [0, 10]);
+  assert.ok(await page.locator("#whole-run").isDisabled());
+
+  await page.keyboard.down("Shift");
+  await page.mouse.move(box.x + 0.2 * box.width, box.y + 30);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.6 * box.width, box.y + 30, { steps: 4 });
+  await page.mouse.up();
+  await page.keyboard.up("Shift");
+  const chosen = await span();
+  assert.ok(close(chosen[0], 2, 0.05) && close(chosen[1], 6, 0.05), `${chosen}`);
+  // In the part a drag goes to its times, and what is in view follows the moment.
+  await page.mouse.click(box.x + 0.5 * box.width, box.y + 30);
+  assert.ok(close(await page.evaluate(() => window.polynyaPlayer.state.time), 4, 0.05));
+  await page.evaluate(() => window.polynyaPlayer.actions.goTo(9));
+  await page.waitForFunction(() => window.polynyaPlayer.plot.span[1] > 9);
+  await page.click("#whole-run");
+  assert.deepEqual(await span(), [0, 10]);
+});
+
+test("two fingers zoom the plot", async () => {
+  const box = await over();
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, ends) => session.send("Input.dispatchTouchEvent", { type, touchPoints: ends.map((end, id) => ({ x: box.x + end * box.width, y: box.y + 40, id })) });
+  await touch("touchStart", [0.4, 0.6]);
+  for (const wide of [0.15, 0.2, 0.25]) await touch("touchMove", [0.5 - wide, 0.5 + wide]);
+  await touch("touchEnd", []);
+  const [from, until] = await span();
+  assert.ok(close(until - from, 4, 0.2) && close((from + until) / 2, 5, 0.2), `${from} ${until}`);
+});
+
+test("nothing went wrong on the way", () => assert.deepEqual(page.errors, []));
