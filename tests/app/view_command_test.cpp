@@ -93,10 +93,12 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
     EXPECT_EQ(parent[i], birth.parent);
   }
   const auto time = held.column<double>("force_t_s"), surge = held.column<double>("surge_N");
+  const auto step_maximum = held.column<double>("surge_max_N");
   ASSERT_EQ(time.size(), run->samples.size());
   for (std::size_t i = 0; i < time.size(); ++i) {
     EXPECT_EQ(time[i], run->samples[i].time);
     EXPECT_EQ(surge[i], run->samples[i].surge_force);
+    EXPECT_EQ(step_maximum[i], run->samples[i].surge_max);
   }
   EXPECT_EQ(held.info.find("events")->items().size(), run->events.size());
   const auto force = held.column<double>("contact_fx_N"), at = held.column<double>("contact_t_s");

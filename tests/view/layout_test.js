@@ -125,7 +125,11 @@ for (const [width, height] of sizes) {
 test("each swatch of the legend stands out from its panel in both themes", async () => {
   for (const theme of ["light", "dark"]) {
     await page.emulateMedia({ colorScheme: theme });
-    await page.evaluate(() => { for (const name of ["channel", "startIce", "forces"]) window.polynyaPlayer.actions.toggleLayer(name, true); });
+    await page.evaluate((by) => {
+      const { actions } = window.polynyaPlayer;
+      for (const name of ["channel", "startIce", "forces"]) actions.toggleLayer(name, true);
+      actions.colourBy(by);
+    }, theme === "light" ? "speed" : "generation");
     const contrasts = await page.locator("#legend i:not(.arrow)").evaluateAll((all) => {
       const light = (colour) => {
         const [r, g, b] = colour.match(/[\d.]+/g).map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
