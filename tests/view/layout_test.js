@@ -80,6 +80,13 @@ const state = () => page.evaluate(() => {
   return { time, x, y, scale };
 });
 
+/** Waits until the page has the theme's colours everywhere. */
+async function useTheme(theme) {
+  await page.emulateMedia({ colorScheme: theme });
+  await page.waitForFunction(() => window.polynyaPlayer.colours.ink === getComputedStyle(document.documentElement).getPropertyValue("--ink").trim());
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
 /** Drags the pointer over an element, from one part of its width to another; `underWay` is called halfway. */
 async function drag(selector, from, to, underWay) {
   await page.locator(selector).scrollIntoViewIfNeeded();
@@ -98,8 +105,7 @@ for (const [width, height] of sizes) {
   test(`at ${width} x ${height} nothing is cut off or overlaps; map and plot can be dragged`, async () => {
     await page.setViewportSize({ width, height });
     for (const theme of ["dark", "light"]) {
-      await page.emulateMedia({ colorScheme: theme });
-      await page.waitForTimeout(80);
+      await useTheme(theme);
       await page.evaluate(() => scrollTo(0, 0));
       assert.deepEqual(await page.evaluate(() => findProblems()), [], theme);
     }
@@ -124,19 +130,19 @@ for (const [width, height] of sizes) {
 
 test("each swatch of the legend stands out from its panel in both themes", async () => {
   for (const theme of ["light", "dark"]) {
-    await page.emulateMedia({ colorScheme: theme });
+    await useTheme(theme);
     await page.evaluate((by) => {
       const { actions } = window.polynyaPlayer;
       for (const name of ["channel", "startIce", "forces"]) actions.toggleLayer(name, true);
       actions.colourBy(by);
     }, theme === "light" ? "speed" : "generation");
-    const contrasts = await page.locator("#legend i:not(.arrow)").evaluateAll((all) => {
+    const contrasts = await page.evaluate(() => {
       const light = (colour) => {
         const [r, g, b] = colour.match(/[\d.]+/g).map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
       };
       const contrast = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);
-      return all.map((i) => {
+      return [...document.querySelectorAll("#legend i:not(.arrow)")].map((i) => {
         const panel = getComputedStyle(document.getElementById("legend")).backgroundColor;
         const style = getComputedStyle(i);
         return [i.parentElement.textContent, Math.max(contrast(style.backgroundColor, panel), contrast(style.borderTopColor, panel))];
