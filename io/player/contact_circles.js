@@ -90,7 +90,7 @@ function makeCircleSampler({ floes, info }) {
   };
 }
 
-/** Contact circles of the floes and hulls on the screen. Returns what to tell where they are not drawn. */
+/** Contact circles of the floes and hulls on the screen. Returns the notice to show where they are not drawn. */
 function drawCircles(context, view, run, circlesOf, places, motions, colours) {
   const { floes, info } = run;
   if (info.circle_radius_m * view.scale < 1.5) return "Zoom in to see the contact circles.";

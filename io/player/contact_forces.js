@@ -47,7 +47,7 @@ function traceArrow(context, sx, sy, fx, fy, length) {
 }
 
 /** Arrows of the forces on ships (of floe on floe: on the first), `perNewton` pixels a newton; those of the frame before go with
- * the ship they press on. Returns what to tell where there are none to show. */
+ * the ship they press on. Returns the notice to show where there are none. */
 function drawContactForces(context, view, run, motions, places, time, colours, perNewton) {
   const { columns } = run;
   if (columns.contact_t_s.length === 0) return "This run recorded no contacts.";

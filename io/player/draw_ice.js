@@ -3,8 +3,8 @@
 
 const pointsInPath = 50;
 const smallReach = 5; // [px]; floes that reach less far have no edge drawn
-const rimParts = [0, 0.1, 0.2, 0.3, 0.4, 0.5]; // of the edge's colour at the edge of small floes, for every so many px of reach
-const manySmall = 1000; // floes; so many are drawn pixel by pixel
+const rimParts = [0, 0.1, 0.2, 0.3, 0.4, 0.5]; // of the edge's colour at the edge of small floes, a part for each 5 px of reach
+const manySmall = 1000; // floes; more than these are drawn pixel by pixel
 
 /** Floe ids so that neighbours in the scene follow each other: a path of some of them then covers little of the screen. */
 function neighbourOrder(floes) {

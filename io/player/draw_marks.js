@@ -24,7 +24,7 @@ function drawVelocities(context, view, run, places, motions, colours, perSpeed) 
 
 const arrowCell = 24; // [px]
 
-/** Of the floes whose centres show in the same square of the screen the largest, so that arrows can be told apart. */
+/** Of the floes whose centres show in the same square of the screen the largest, so that arrows stay apart. */
 function largestPerCell(view, floes, places) {
   const cells = new Map();
   const cell = arrowCell / view.scale; // fixed in the world, so that arrows do not flicker as the map moves

@@ -59,7 +59,7 @@ function standIn(run, places, id, time) {
 /** What `polynya inspect` prints of a floe, in its digits. */
 function floeFacts(run, places, motions, id) {
   const { floes } = run;
-  const speed = motions.isTold(id) ? Math.hypot(places.vx[id], places.vy[id]) : null;
+  const speed = motions.isRecorded(id) ? Math.hypot(places.vx[id], places.vy[id]) : null;
   return {
     floe: [String(id), id],
     parent: [floes.parent[id] < 0 ? "none, of the scene" : String(floes.parent[id]), floes.parent[id]],

@@ -13,9 +13,9 @@ function lastAtMost(values, x, from = 0, end = values.length) {
 function makeMotions(run) {
   const { frames, floes } = run;
   const { times, doubles, recordsOf, recordFrame, recordAt } = frames;
-  const teller = floeTellers(run);
+  const reference = floeReferences(run);
   const motion = new Float64Array(6); // x, y, angle, vx, vy, spin
-  const told = new Float64Array(6);
+  const recorded = new Float64Array(6);
   let time = 0;
   let frame = 0; // the last one not after time
   let part = 0; // of the way to the next
@@ -31,25 +31,25 @@ function makeMotions(run) {
     part = frame + 1 < times.length ? (t - times[frame]) / (times[frame + 1] - times[frame]) : 0;
   }
 
-  /** Motion of a floe that frames tell of. */
-  function ofTold(floe) {
+  /** Motion of a floe that frames record. */
+  function ofRecorded(floe) {
     const first = recordsOf[floe];
     const end = recordsOf[floe + 1];
     const slot = Math.max(first, lastAtMost(recordFrame, frame, first, end));
-    const toldTime = times[recordFrame[slot]];
-    carry(motion, recordAt[slot], time - toldTime);
+    const recordTime = times[recordFrame[slot]];
+    carry(motion, recordAt[slot], time - recordTime);
     const hasNext = slot + 1 < end && recordFrame[slot + 1] === frame + 1;
-    if (toldTime > time || !hasNext) return motion;
-    carry(told, recordAt[slot], times[frame] - toldTime);
-    for (let k = 0; k < 6; ++k) motion[k] = told[k] + part * (doubles[recordAt[slot + 1] + k] - told[k]);
+    if (recordTime > time || !hasNext) return motion;
+    carry(recorded, recordAt[slot], times[frame] - recordTime);
+    for (let k = 0; k < 6; ++k) motion[k] = recorded[k] + part * (doubles[recordAt[slot + 1] + k] - recorded[k]);
     return motion;
   }
 
   /** Motion of any floe. One that lived between two frames moves with what it broke from. */
   function floe(id) {
-    const by = teller[id];
+    const by = reference[id];
     if (by < 0) return motion.set([floes.cx[id], floes.cy[id], 0, 0, 0, 0]), motion;
-    ofTold(by);
+    ofRecorded(by);
     if (by === id) return motion;
     const c = Math.cos(motion[2]);
     const s = Math.sin(motion[2]);
@@ -79,28 +79,28 @@ function makeMotions(run) {
     ship,
     shipInFrame,
     frame: () => frame,
-    /** Whether no frame from the present one to that one tells anything new of the floe. */
+    /** Whether no frame from the present one to that one records the floe. */
     isSteady(id, endFrame) {
-      const by = teller[id];
+      const by = reference[id];
       if (by < 0) return true;
       const slot = Math.max(recordsOf[by], lastAtMost(recordFrame, frame, recordsOf[by], recordsOf[by + 1]));
       return slot + 1 >= recordsOf[by + 1] || recordFrame[slot + 1] > endFrame;
     },
-    /** Whether frames tell of the floe itself. */
-    isTold: (id) => teller[id] === id,
+    /** Whether frames record the floe itself. */
+    isRecorded: (id) => reference[id] === id,
   };
 }
 
 /** For each floe the one whose records place it: itself, else the nearest ancestor, else a descendant. */
-function floeTellers({ floes, frames }) {
-  const teller = new Int32Array(floes.count).fill(-1);
+function floeReferences({ floes, frames }) {
+  const reference = new Int32Array(floes.count).fill(-1);
   for (let i = 0; i < floes.count; ++i) {
-    if (frames.recordsOf[i + 1] > frames.recordsOf[i]) teller[i] = i;
-    else if (floes.parent[i] >= 0) teller[i] = teller[floes.parent[i]];
+    if (frames.recordsOf[i + 1] > frames.recordsOf[i]) reference[i] = i;
+    else if (floes.parent[i] >= 0) reference[i] = reference[floes.parent[i]];
   }
   for (let i = floes.count - 1; i >= 0; --i) {
     const parent = floes.parent[i];
-    if (parent >= 0 && teller[parent] < 0) teller[parent] = teller[i];
+    if (parent >= 0 && reference[parent] < 0) reference[parent] = reference[i];
   }
-  return teller;
+  return reference;
 }

@@ -18,7 +18,8 @@ function plotQuantities(run) {
   const quantities = {};
   for (const [load, [word, unit]] of Object.entries(loads)) {
     const what = load === "yaw" ? "moment" : "force";
-    quantities[load] = { label: `${word} ${what} of the ice`, curves: curvesOfLoad(load, unit, info.forces_interval_s, false) };
+    const curves = curvesOfLoad(load, unit, info.forces_interval_s, false).filter(({ column }) => forces.every((rows) => rows[column]));
+    quantities[load] = { label: `${word} ${what} of the ice`, curves };
   }
   const single = (column, label, base) => ({ label, curves: [{ kind: "mean", label: "", column, base, scale: "y" }] });
   quantities.speed = single("speed_m_per_s", "Speed over ground", "m/s");

@@ -1,8 +1,8 @@
 // How far the axes of loads reach. Crushing ice gives spikes: drawn whole, one of them flattens all else.
 
-const common = 0.99; // of the rows that carry a load, so many lie within the scale
-const beyondCommon = 1.25; // so much farther than that the scale reaches
-const spike = 2; // times that reach: where nothing is larger, the scale shows everything
+const common = 0.99; // the share of rows with a load that the scale holds at least
+const beyondCommon = 1.25; // the scale reaches this many times as far
+const spike = 2; // a spike is larger than this many times that reach; without one the scale shows everything
 
 /** Of the sizes of a column's rows that are not 0 the one that `common` of them stay below, and the largest. */
 function sizesOf(values) {

@@ -1,5 +1,5 @@
 // Ice at rest, drawn once and kept as a picture. Most floes of a large field do not move for a while: then only
-// the others are drawn anew. The picture serves as long as the view stays and none of its floes has to move.
+// the others are drawn again. The picture serves as long as the view stays and none of its floes has to move.
 
 function makeStillIce(run, places, motions) {
   const { floes } = run;

@@ -63,7 +63,7 @@ test("a description that is markup is words", async () => {
   });
 });
 
-test("a run that was killed says how far it came; one without frames shows its scene", async () => {
+test("a run that was killed shows how far it came; one without frames shows its scene", async () => {
   const run = makeRun(folder, smallScene("killed", { ships: [ship("a", 0)] }));
   const summary = path.join(run, "summary.json");
   fs.writeFileSync(summary, fs.readFileSync(summary, "utf8").replace('"finished": true', '"finished": false'));
