@@ -52,6 +52,13 @@ Outcome<std::vector<io::CutOp>> one_op(const char* where, io::ToolOutcome<Tool> 
 }
 
 Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
+  const std::string* const tools[] = {&options.disc, &options.crack, &options.line, &options.polygon,
+                                      &options.ops};
+  const auto given = std::ranges::count_if(tools, [](const std::string* tool) { return !tool->empty(); });
+  if (given != 1) {
+    return fail(kUsage, fmt::format("one of --disc, --crack, --line, --polygon, --ops is needed, {} given",
+                                    given == 0 ? "none is" : fmt::format("{} are", given)));
+  }
   if (!options.disc.empty()) {
     const auto n = numbers("--disc", options.disc, 3);
     if (!n) return tl::unexpected(n.error());

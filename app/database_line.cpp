@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/database.hpp"
 
@@ -39,14 +40,12 @@ void add_database_build(CLI::App& app, Commands& commands) {
       "  polynya database build --fluid winkler --wedge-angles 30,60,90,120 --out winkler.txt\n");
   auto options = std::make_shared<DatabaseBuildOptions>();
   command->add_option("--out", options->out, "The file to write")->type_name("FILE")->capture_default_str();
-  static const std::map<std::string, fracture::FluidModel> kFluids{
-      {"winkler", fracture::FluidModel::kWinkler},
-      {"local-mass", fracture::FluidModel::kLocalMass},
-      {"potential", fracture::FluidModel::kPotential},
-      {"free-surface", fracture::FluidModel::kFreeSurface}};
-  command->add_option("--fluid", options->fluid, "What the water does; potential if not given")
-      ->type_name("winkler|local-mass|potential|free-surface")
-      ->transform(CLI::CheckedTransformer(kFluids).description(""));
+  set_choices<fracture::FluidModel>(
+      *command->add_option("--fluid", options->fluid, "What the water does; potential if not given"),
+      {{"winkler", fracture::FluidModel::kWinkler},
+       {"local-mass", fracture::FluidModel::kLocalMass},
+       {"potential", fracture::FluidModel::kPotential},
+       {"free-surface", fracture::FluidModel::kFreeSurface}});
   command
       ->add_option("--wedge-angles", options->wedge_angles_deg,
                    "Opening angles of the wedges, ascending; the shipped database's if not given [deg]")
@@ -141,13 +140,10 @@ void add_database_study(CLI::App& app, Commands& commands) {
       "  polynya database study couple              what the ice's own deflection changes\n"
       "  polynya database study accuracy            table against solution at random points\n");
   auto options = std::make_shared<DatabaseStudyOptions>();
-  static const std::map<std::string, DatabaseStudy> kStudies{{"fluid", DatabaseStudy::kFluid},
-                                                             {"couple", DatabaseStudy::kCouple},
-                                                             {"accuracy", DatabaseStudy::kAccuracy}};
-  command->add_option("study", options->study, "Which one")
-      ->required()
-      ->type_name("fluid|couple|accuracy")
-      ->transform(CLI::CheckedTransformer(kStudies).description(""));
+  set_choices<DatabaseStudy>(*command->add_option("study", options->study, "Which one")->required(),
+                             {{"fluid", DatabaseStudy::kFluid},
+                              {"couple", DatabaseStudy::kCouple},
+                              {"accuracy", DatabaseStudy::kAccuracy}});
   add_point(*command, options->load, false);
   add_load(*command, options->load);
   command->add_option("--points", options->points, "of accuracy")

@@ -1,9 +1,9 @@
-#include <map>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/geometry_commands.hpp"
 
@@ -24,22 +24,18 @@ Command add_cut(CLI::App& app) {
   command->add_option("floes", options->floes, "GeoJSON, NDJSON or WKT, told apart by content; - for stdin")
       ->required()
       ->type_name("FLOES");
-  auto* tools = command->add_option_group("Tool", "One of");
-  tools->add_option("--disc", options->disc, "The disc of that centre and radius [m]")->type_name("X,Y,R");
-  tools->add_option("--crack", options->crack, "The straight line through that point, across every floe")
-      ->type_name("X,Y,ANGLE_DEG");
-  tools->add_option("--line", options->line, "From end to end; separates where it crosses ice fully")
-      ->type_name("X0,Y0,X1,Y1");
-  tools->add_option("--polygon", options->polygon, "Polygons, with holes or not, in any format of FLOES")
-      ->type_name("FILE");
-  tools->add_option("--ops", options->ops, "A JSON list of cuts, in order, each of all pieces")
-      ->type_name("FILE");
-  tools->require_option(1);
-  static const std::map<std::string, io::Keep> kKeeps{
-      {"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}};
-  command->add_option("--keep", options->keep, "Which side of a disc or polygon stays; outside if not given")
-      ->type_name("outside|inside|both")
-      ->transform(CLI::CheckedTransformer(kKeeps).description(""));
+  const auto tool = [&](const char* name, std::string& value, const char* meaning, const char* type) {
+    command->add_option(name, value, meaning)->type_name(type)->group("Tools, one of them");
+  };
+  tool("--disc", options->disc, "The disc of that centre and radius [m]", "X,Y,R");
+  tool("--crack", options->crack, "The straight line through that point, across every floe", "X,Y,ANGLE_DEG");
+  tool("--line", options->line, "From end to end; separates where it crosses ice fully", "X0,Y0,X1,Y1");
+  tool("--polygon", options->polygon, "Polygons, with holes or not, in any format of FLOES", "FILE");
+  tool("--ops", options->ops, "A JSON list of cuts, in order, each of all pieces", "FILE");
+  set_choices<io::Keep>(
+      *command->add_option("--keep", options->keep,
+                           "Which side of a disc or polygon stays; outside if not given"),
+      {{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
   command
       ->add_option("--sagitta", options->sagitta,
                    "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less")
@@ -50,14 +46,11 @@ Command add_cut(CLI::App& app) {
       ->type_name("FILE");
   command->add_option("--ledger", options->ledger, "The ledger, JSON; stdout if not given")
       ->type_name("FILE");
-  static const std::map<std::string, geometry::FillRule> kRules{{"even-odd", geometry::FillRule::kEvenOdd},
-                                                                {"non-zero", geometry::FillRule::kNonZero}};
-  command
-      ->add_option(
-          "--repair", options->repair,
-          "Make valid polygons of those that are not, exactly, by what the rule fills; else they are refused")
-      ->type_name("even-odd|non-zero")
-      ->transform(CLI::CheckedTransformer(kRules).description(""));
+  set_choices<geometry::FillRule>(
+      *command->add_option("--repair", options->repair,
+                           "Make valid polygons of those that are not, exactly, by what the rule fills; else "
+                           "they are refused"),
+      {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
   return [options] { return cut(*options); };
 }
 
@@ -88,12 +81,10 @@ Command add_inspect(CLI::App& app) {
   auto* check =
       command->add_flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
   auto* fsd = command->add_flag("--fsd", options->fsd, "The distribution of floe sizes");
-  static const std::map<std::string, ShapeFormat> kFormats{
-      {"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}};
-  command->add_option("--format", options->format, "Of --floe; wkt if not given")
-      ->type_name("wkt|geojson|svg")
-      ->transform(CLI::CheckedTransformer(kFormats).description(""))
-      ->needs(floe);
+  auto* format = command->add_option("--format", options->format, "Of --floe; wkt if not given");
+  format->needs(floe);
+  set_choices<ShapeFormat>(
+      *format, {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}});
   floe->excludes(lineage)->excludes(check)->excludes(fsd);
   lineage->excludes(check)->excludes(fsd);
   check->excludes(fsd);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -22,25 +23,35 @@ std::pair<std::string, std::string> examples_and_rest(const std::string& footer)
 
 class ExamplesFirst : public CLI::Formatter {
  public:
+  /// In the order in which the groups' first options were added, but --help: what a command is for comes
+  /// first.
+  std::string option_groups(const CLI::App* app) const {
+    std::vector<std::string> groups;
+    const auto options = app->get_options([](const CLI::Option* option) { return option->nonpositional(); });
+    for (const CLI::Option* option : options) {
+      const std::string& group = option->get_group();
+      if (option != app->get_help_ptr() && !group.empty() && std::ranges::find(groups, group) == groups.end())
+        groups.push_back(group);
+    }
+    if (groups.empty()) groups.emplace_back("Options");
+    std::string text;
+    for (const std::string& group : groups) {
+      text += make_group(group, false, app->get_options([&group](const CLI::Option* option) {
+        return option->nonpositional() && option->get_group() == group;
+      }));
+    }
+    return text;
+  }
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
     const auto [examples, rest] = examples_and_rest(app->get_footer());
     std::string text = make_description(app);
     if (!examples.empty()) text += "\n" + examples + "\n";
-    text += make_usage(app, std::move(name)) + make_positionals(app) + make_groups(app, mode) +
+    text += make_usage(app, std::move(name)) + make_positionals(app) + option_groups(app) +
             make_subcommands(app, mode);
     return rest.empty() ? text : text + "\n" + rest;
   }
 };
-
-/// The commands people are told of: those in a group.
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  std::vector<const CLI::App*> commands;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (!command->get_group().empty()) commands.push_back(command);
-  }
-  return commands;
-}
 
 std::string roff(const std::string& words) {
   std::string text;
@@ -76,24 +87,44 @@ void append_command(std::string& text, const CLI::App& command, const std::strin
   for (const CLI::App* sub : commands_of(command)) append_command(text, *sub, path + " " + sub->get_name());
 }
 
-/// One line of the script's table for each command: its path, and what may follow it.
-void append_completions(std::string& words, std::string& choices, const CLI::App& command,
-                        const std::string& path) {
-  std::string known;
-  for (const CLI::App* sub : commands_of(command)) known += sub->get_name() + " ";
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      known += "--" + name + " ";
-      std::string type = option->get_type_name();
-      if (type.find('|') == std::string::npos) continue;
-      std::ranges::replace(type, '|', ' ');
-      choices += fmt::format("    \"{} --{}\") choices=\"{}\" ;;\n", path, name, type);
-    }
-  }
-  words += fmt::format("    \"{}\") words=\"{}\" ;;\n", path, known);
-  for (const CLI::App* sub : commands_of(command))
-    append_completions(words, choices, *sub, path + " " + sub->get_name());
+/// What may stand for a type of value in bash's completion.
+std::string_view completed_by(std::string_view type) {
+  type = type.substr(0, type.find(':'));  // a range may follow
+  if (type == "FILE" || type == "SCENE" || type == "FLOES") return "-f";
+  if (type == "RUN" || type == "DIR") return "-d";
+  return "none";
 }
+
+/// The lines of the script's tables: after an option its choices or the kind of its value, after a command
+/// its subcommands, options and the kind of its positional.
+struct Completions {
+  std::string values;
+  std::string words;
+
+  void add(const CLI::App& command, const std::string& path) {
+    std::string known, rest = "none";
+    for (const CLI::App* sub : commands_of(command)) known += sub->get_name() + " ";
+    for (const CLI::Option* option : command.get_options()) {
+      const std::string type = option->get_type_name();
+      const bool has_choices = type.find('|') != std::string::npos;
+      std::string choices = type;
+      std::ranges::replace(choices, '|', ' ');
+      if (option->get_positional()) {
+        if (has_choices) known += choices + " ";
+        rest = completed_by(type);
+        continue;
+      }
+      for (const std::string& name : option->get_lnames()) {
+        known += "--" + name + " ";
+        if (option->get_items_expected_max() == 0) continue;
+        values += has_choices ? fmt::format("    \"{} --{}\") choices=\"{}\" ;;\n", path, name, choices)
+                              : fmt::format("    \"{} --{}\") value={} ;;\n", path, name, completed_by(type));
+      }
+    }
+    words += fmt::format("    \"{}\") words=\"{}\"; rest={} ;;\n", path, known, rest);
+    for (const CLI::App* sub : commands_of(command)) add(*sub, path + " " + sub->get_name());
+  }
+};
 
 void append_paths(std::string& paths, const CLI::App& command, const std::string& path) {
   for (const CLI::App* sub : commands_of(command)) {
@@ -104,6 +135,14 @@ void append_paths(std::string& paths, const CLI::App& command, const std::string
 }
 
 }  // namespace
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  std::vector<const CLI::App*> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!command->get_group().empty()) commands.push_back(command);
+  }
+  return commands;
+}
 
 void lead_with_examples(CLI::App& app) {
   app.formatter(std::make_shared<ExamplesFirst>());
@@ -121,13 +160,14 @@ std::string man_page(const CLI::App& app) {
 }
 
 std::string bash_completion(const CLI::App& app) {
-  std::string words, choices, paths;
-  append_completions(words, choices, app, "");
+  Completions completions;
+  completions.add(app, "");
+  std::string paths;
   append_paths(paths, app, "");
   return fmt::format(R"(# Completes polynya in bash. Made by `polynya completion`.
 _polynya() {{
   local current=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}
-  local path="" words="" choices="" i
+  local path="" words="" choices="" value="" rest="" i
   for ((i = 1; i < COMP_CWORD; i++)); do
     case "$path ${{COMP_WORDS[i]}}" in
     {}) path="$path ${{COMP_WORDS[i]}}" ;;
@@ -137,18 +177,23 @@ _polynya() {{
 {}  esac
   case "$path" in
 {}  esac
-  if [ -n "$choices" ]; then
-    COMPREPLY=($(compgen -W "$choices" -- "$current"))
-  elif [[ $current == -* || -z "$path" ]]; then
-    COMPREPLY=($(compgen -W "$words" -- "$current"))
-  else
-    for i in $words; do [[ $i == -* ]] || choices="$choices $i"; done
-    COMPREPLY=($(compgen -W "$choices" -- "$current") $(compgen -f -- "$current"))
+  if [[ -z $choices && -z $value ]]; then
+    if [[ $current == -* ]]; then
+      choices=$words
+    else
+      for i in $words; do [[ $i == -* ]] || choices="$choices $i"; done
+      value=$rest
+    fi
+  fi
+  COMPREPLY=()
+  [[ -z $choices ]] || mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$current")
+  if [[ $value == -f || $value == -d ]]; then
+    mapfile -t -O "${{#COMPREPLY[@]}}" COMPREPLY < <(compgen "$value" -- "$current")
   fi
 }}
 complete -o filenames -F _polynya polynya
 )",
-                     paths, choices, words);
+                     paths, completions.values, completions.words);
 }
 
 }  // namespace polynya::app

@@ -9,25 +9,26 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/guide.hpp"
+#include "app/usage.hpp"
 #include "app/write_output.hpp"
 #include "io/version.hpp"
 
 namespace polynya::app {
 
 void add_progress(CLI::App& command, ProgressKind& kind) {
-  static const std::map<std::string, ProgressKind> kKinds{{"auto", ProgressKind::kAuto},
-                                                          {"bar", ProgressKind::kBar},
-                                                          {"json", ProgressKind::kJson},
-                                                          {"none", ProgressKind::kNone}};
-  command
-      .add_option("--progress", kind, "auto: a bar on a terminal, else a line every ten seconds; on stderr")
-      ->type_name("auto|bar|json|none")
-      ->transform(CLI::CheckedTransformer(kKinds).description(""));
+  set_choices<ProgressKind>(
+      *command.add_option("--progress", kind,
+                          "auto: a bar on a terminal, else a line every ten seconds; on stderr"),
+      {{"auto", ProgressKind::kAuto},
+       {"bar", ProgressKind::kBar},
+       {"json", ProgressKind::kJson},
+       {"none", ProgressKind::kNone}});
 }
 
 namespace {
@@ -182,11 +183,13 @@ int command_line(int count, char** words) {
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
-    std::ostringstream out, err;
-    const int code = app.exit(error, out, err);
-    write_out(out.str());
-    write_err(err.str());
-    return code == 0 ? kDone : kUsage;
+    std::ostringstream out, unused;
+    if (app.exit(error, out, unused) != 0) {
+      write_err(usage_message(app, error));
+      return kUsage;
+    }
+    write_out(out.str());  // what was asked for: help or version
+    return kDone;
   }
   return commands.at(app.get_subcommands().front()->get_name())();
 }

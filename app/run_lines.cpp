@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/run_commands.hpp"
 
@@ -29,9 +30,8 @@ Command add_channel(CLI::App& app) {
                    "How far from the track ice is looked for [m]; four beams if not given")
       ->type_name("M")
       ->check(CLI::Range(0.1, 1e5));
-  command->add_option("--format", options->format, "What stdout gets")
-      ->type_name("table|csv|json")
-      ->check(CLI::IsMember({"table", "csv", "json"}).description(""));
+  set_choices(*command->add_option("--format", options->format, "What stdout gets"),
+              {"table", "csv", "json"});
   command
       ->add_option("--out", options->out,
                    "Folder for channel.csv and channel.geojson; the run's if not given")
@@ -55,11 +55,9 @@ Command add_figures(CLI::App& app) {
   command->add_option("--at", options->at, "Moments of the maps [s]; chosen if not given")
       ->type_name("S,S,...")
       ->delimiter(',');
-  command
-      ->add_option("--load", options->load,
-                   "Peak j/tau_c as in the paper, or true loads: max of a step, mean")
-      ->type_name("peak|max|mean")
-      ->check(CLI::IsMember({"peak", "max", "mean"}).description(""));
+  set_choices(*command->add_option("--load", options->load,
+                                   "Peak j/tau_c as in the paper, or true loads: max of a step, mean"),
+              {"peak", "max", "mean"});
   command->add_option("--out", options->out, "Folder for the figures; the first run's if not given")
       ->type_name("DIR");
   return [options] { return figures(*options); };

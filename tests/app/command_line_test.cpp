@@ -44,6 +44,51 @@ TEST(CommandLine, UsageErrorsAreTwo) {
   EXPECT_FALSE(std::filesystem::exists(folder / "runs"));
 }
 
+/// Every usage error names the command, the word and what is allowed or was meant.
+TEST(CommandLine, UsageErrorsSpeakToPeople) {
+  const TemporaryFolder folder;
+  struct Case {
+    std::vector<std::string> words;
+    std::string message;
+  };
+  const std::string commands =
+      "commands: run, resume, validate, schema, init, view, channel, figures, export, inspect, cut, "
+      "database\n";
+  for (const Case& c : std::vector<Case>{
+           {{"veiw", "x"}, "polynya: no such command: veiw; did you mean view?\n" + commands},
+           {{}, "polynya: a command is missing\n" + commands},
+           {{"database", "biuld"},
+            "polynya database: no such command: biuld; did you mean build?\ncommands: build, show, query, "
+            "study\n"},
+           {{"database"}, "polynya database: a command is missing\n"},
+           {{"run", "a", "--unitl", "3", "b"},
+            "polynya run: not expected: --unitl 3 b; did you mean --until?\npolynya run --help explains its "
+            "options\n"},
+           {{"run"}, "polynya run: SCENE is missing"},
+           {{"run", "a", "--until"}, "polynya run: --until needs a value\n"},
+           {{"cut", "x", "--disc", "0,0,1", "--keep", "all"},
+            "polynya cut: --keep: \"all\" is not one of: outside, inside, both\n"},
+           {{"cut", "x", "--disc", "0,0,1", "--keep", "1"},
+            "polynya cut: --keep: \"1\" is not one of: outside, inside, both\n"},
+           {{"cut", "x"}, "one of --disc, --crack, --line, --polygon, --ops is needed, none is given\n"},
+           {{"cut", "x", "--disc", "0,0,1", "--crack", "0,0,1"}, "--ops is needed, 2 are given\n"},
+           {{"channel", "x", "--format", "jsn"},
+            "--format: \"jsn\" is not one of: table, csv, json; did you mean json?\n"},
+           {{"figures", "x", "--load", "most"}, "--load: \"most\" is not one of: peak, max, mean\n"},
+           {{"inspect", "x", "--floe", "1", "--format", "dxf"},
+            "--format: \"dxf\" is not one of: wkt, geojson, svg\n"},
+           {{"run", "x", "--progress", "loud"},
+            "--progress: \"loud\" is not one of: auto, bar, json, none\n"},
+           {{"database", "build", "--fluid", "0"},
+            "--fluid: \"0\" is not one of: winkler, local-mass, potential, free-surface\n"},
+           {{"database", "study", "fluids"},
+            "\"fluids\" is not one of: fluid, couple, accuracy; did you mean fluid?\n"}}) {
+    const Outcome outcome = polynya(c.words, {folder.path()});
+    EXPECT_EQ(outcome.code, 2) << c.message;
+    EXPECT_NE(outcome.err.find(c.message), std::string::npos) << outcome.err << "\nwanted: " << c.message;
+  }
+}
+
 TEST(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
   const TemporaryFolder folder;
   write_file(folder / "wrong.json",

@@ -87,5 +87,42 @@ TEST(Guide, BashCompletesCommandsOptionsChoicesAndFiles) {
   EXPECT_EQ(completed("polynya validate scene-of"), " scene-of-mine.json \n");
 }
 
+/// Files where a file is expected, folders where a folder is, and nothing else where neither is.
+TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
+  std::filesystem::create_directories(folder() / "scene-folder");
+  write_file(folder() / "scene-of-mine.json", "{}");
+  write_file(folder() / "scene of two words.json", "{}");
+  EXPECT_EQ(completed("polynya database \"\""), " build show query study \n");
+  EXPECT_EQ(completed("polynya database study \"\""), " fluid couple accuracy \n");
+  EXPECT_EQ(completed("polynya inspect scene"), " scene-folder \n");
+  for (const char* line : {"polynya run --until scene", "polynya cut --disc scene", "polynya schema scene",
+                           "polynya database scene", "polynya database query scene", "polynya scene"})
+    EXPECT_EQ(completed(line), "  \n") << line;
+  for (const char* line :
+       {"polynya cut scene-of", "polynya cut --ops scene-of", "polynya cut x.wkt --out scene-of"})
+    EXPECT_EQ(completed(line), " scene-of-mine.json \n") << line;
+  EXPECT_EQ(completed("polynya run \"scene of\""), " scene of two words.json \n");
+  const std::string options = completed("polynya cut floes.wkt --");
+  for (const char* tool : {"--disc", "--crack", "--line", "--polygon", "--ops", "--keep", "--repair"})
+    EXPECT_NE(options.find(std::string(" ") + tool + " "), std::string::npos) << options;
+}
+
+/// What a command is for comes first, as it was added, in help and manual page.
+TEST(Guide, OptionsComeInTheOrderOfTheirUse) {
+  const std::string help = output_of({"cut", "--help"});
+  const std::string page = std::regex_replace(output_of({"man"}), std::regex(R"(\\-)"), "-");
+  for (const auto& [text, begin] :
+       {std::pair{help, "\n  "}, {page.substr(page.find(".SS cut\n")), "\n.B "}}) {
+    std::size_t last = 0;
+    for (const char* option :
+         {"--disc ", "--crack ", "--line ", "--polygon ", "--ops ", "--keep ", "--sagitta ", "--out "}) {
+      const std::size_t at = text.find(begin + std::string(option));
+      ASSERT_NE(at, std::string::npos) << option;
+      EXPECT_GT(at, last) << option;
+      last = at;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace polynya::tests
