@@ -28,9 +28,16 @@ int write_vtk(const io::Run& run, const ExportOptions& options) {
   if (const std::string wrong = make_folder(options.vtk); !wrong.empty()) return fail(kInputOutput, wrong);
   io::FrameSelection selection;
   selection.every = options.every;
-  const auto frames = export_vtk(run, selection, options.vtk);
-  if (!frames) return fail(kInputOutput, frames.error());
-  print_out("{}  {} frames; open it in ParaView\n", (fs::path(options.vtk) / "run.pvd").string(), *frames);
+  const auto written = export_vtk(run, selection, options.vtk);
+  if (!written) return fail(kInputOutput, written.error());
+  if (const std::size_t count = written->only_outlines.size(); count > 0)
+    print_err(
+        "note: {} floe{} without triangles, only with outlines, since the rings bound no valid area; the "
+        "first is "
+        "floe {}; polynya inspect {} --check lists what is wrong\n",
+        count, count == 1 ? "" : "s", written->only_outlines.front(), options.run);
+  print_out("{}  {} frames; open it in ParaView\n", (fs::path(options.vtk) / "run.pvd").string(),
+            written->frames);
   return kDone;
 }
 

@@ -116,14 +116,23 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
 
 std::string size_distribution(const io::Run& run, double time) {
   std::vector<double> areas;
+  std::size_t without_size = 0;
   for (const io::RunFloe& floe : run.floes) {
-    if (run.is_alive(floe.birth.floe, time)) areas.push_back(floe.birth.area);
+    if (!run.is_alive(floe.birth.floe, time)) continue;
+    const double area = floe.birth.area;
+    if (std::isnormal(area) && area > 0)
+      areas.push_back(area);
+    else
+      ++without_size;
   }
   std::ranges::sort(areas);
   double total = 0;
   for (const double area : areas) total += area;
   std::string text = fmt::format("{} floes, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
                                  areas.size(), total, time);
+  if (without_size > 0)
+    text += fmt::format("left out: {} floe{} whose recorded area is not a positive number\n", without_size,
+                        without_size == 1 ? "" : "s");
   if (areas.empty()) return text;
   text += fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", std::sqrt(areas.front()),
                       std::sqrt(areas[areas.size() / 2]), std::sqrt(areas.back()));

@@ -19,8 +19,9 @@ double pause_of(ProgressKind kind) {
   return kind == ProgressKind::kBar ? 0.1 : kind == ProgressKind::kLines ? 10 : 1;
 }
 
-ProgressKind settled(ProgressKind kind) {
-  if (kind != ProgressKind::kAuto) return kind;
+/// A bar needs a terminal that can rewrite its line.
+ProgressKind kind_for_stderr(ProgressKind kind) {
+  if (kind != ProgressKind::kAuto && kind != ProgressKind::kBar) return kind;
   const char* terminal = std::getenv("TERM");
   const bool is_dumb = terminal != nullptr && std::strcmp(terminal, "dumb") == 0;
   return isatty(STDERR_FILENO) != 0 && !is_dumb ? ProgressKind::kBar : ProgressKind::kLines;
@@ -31,7 +32,16 @@ int terminal_width() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/// A bar of so many columns, in eighths.
+/// As many of the fields, two blanks apart, as fit into that many columns. A longer line would wrap, and a
+/// carriage return would not lead back to its start.
+std::string fitted(const std::string& fields, int columns) {
+  const auto room = static_cast<std::size_t>(std::max(columns, 0));
+  if (fields.size() <= room) return fields;
+  const std::size_t end = fields.rfind("  ", room);
+  return fields.substr(0, end == std::string::npos ? room : end);
+}
+
+/// A bar of that many columns, in eighths.
 std::string bar(double part, int width) {
   static constexpr const char* kEighths[] = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
   const int eighths = static_cast<int>(std::clamp(part, 0.0, 1.0) * width * 8);
@@ -45,7 +55,7 @@ std::string bar(double part, int width) {
 }  // namespace
 
 ProgressOutput::ProgressOutput(ProgressKind kind)
-    : kind_(settled(kind)), start_(std::chrono::steady_clock::now()) {}
+    : kind_(kind_for_stderr(kind)), start_(std::chrono::steady_clock::now()) {}
 
 double ProgressOutput::wall_time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -66,9 +76,10 @@ void ProgressOutput::show(const ProgressReport& report) const {
   } else if (kind_ == ProgressKind::kLines) {
     line = report.line + "\n";
   } else {
-    const int room = terminal_width() - static_cast<int>(report.beside_bar.size()) - 1;
-    line =
-        fmt::format("\r{}{}\x1b[K", room >= 8 ? bar(report.part, std::min(room, 40)) : "", report.beside_bar);
+    const int columns = terminal_width() - 1;  // the last one would wrap some terminals
+    const int room = columns - static_cast<int>(report.beside_bar.size());
+    line = fmt::format("\r{}{}\x1b[K", room >= 8 ? bar(report.part, std::min(room, 40)) : "",
+                       fitted(report.beside_bar, columns));
   }
   show_progress(line);
 }

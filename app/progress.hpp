@@ -6,8 +6,8 @@
 namespace polynya::app {
 
 enum class ProgressKind {
-  kAuto,  ///< a bar on a terminal, else a quiet line now and then
-  kBar,
+  kAuto,  ///< a bar on a terminal, else a line now and then
+  kBar,   ///< where stderr is a terminal, else kLines
   kLines,
   kJson,  ///< one object a second on stderr
   kNone,
@@ -15,10 +15,11 @@ enum class ProgressKind {
 
 /// One report of how far some work is, in each of its forms.
 struct ProgressReport {
-  double part = 0;         ///< done, 0..1
-  std::string beside_bar;  ///< follows the bar on its line
-  std::string line;        ///< without its newline
-  std::string json;        ///< one object, without its newline
+  double part = 0;  ///< done, 0..1
+  std::string
+      beside_bar;  ///< follows the bar on its line: ASCII, fields two blanks apart, the important ones first
+  std::string line;  ///< without its newline
+  std::string json;  ///< one object, without its newline
 };
 
 /// Tells reports on stderr, at the pace of their kind.

@@ -66,6 +66,7 @@ std::vector<Triangle> triangulate(const Polygon& polygon) {
       insert(triangulation, hole, first);
       first += static_cast<std::uint32_t>(hole.size());
     }
+    if (triangulation.dimension() < 2) return {};  // all on one line: there is no face to count from
     count_rings(triangulation);
     for (const auto face : triangulation.finite_face_handles()) {
       if (face->info() % 2 == 1)

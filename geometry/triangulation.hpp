@@ -13,7 +13,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 /// The constrained Delaunay triangulation of a valid polygon with holes, counter-clockwise triangles, no new
 /// corners. Decided exactly. Empty where the polygon is not valid enough to be triangulated so (rings that
-/// cross themselves).
+/// cross themselves, or have all their points on a line).
 std::vector<Triangle> triangulate(const Polygon& polygon);
 
 }  // namespace polynya::geometry

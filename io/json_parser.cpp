@@ -180,6 +180,18 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
 }  // namespace
 
+std::uint32_t nearest_offset(const JsonValue& root, std::string_view path) {
+  const JsonValue* value = &root;
+  while (!path.empty()) {
+    const auto dot = std::min(path.find('.'), path.size());
+    const JsonValue* next = value->find(path.substr(0, dot));
+    if (!next) break;
+    value = next;
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return value->offset;
+}
+
 std::string_view name_of(JsonValue::Kind kind) {
   switch (kind) {
     case JsonValue::Kind::kNull:

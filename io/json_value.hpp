@@ -70,6 +70,9 @@ inline const JsonValue* JsonValue::find(std::string_view key) const {
   return nullptr;
 }
 
+/// Offset of the value at a dotted path of keys, or of the nearest object on the way to it.
+std::uint32_t nearest_offset(const JsonValue& root, std::string_view path);
+
 /// "a number", "text", … for messages.
 std::string_view name_of(JsonValue::Kind kind);
 

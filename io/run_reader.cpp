@@ -90,6 +90,7 @@ geometry::Ring ring(const JsonValue& value) {
   if (!value.is(JsonValue::Kind::kArray)) throw Damage("not a ring");
   geometry::Ring points;
   for (const JsonValue& item : value.items()) points.push_back(point(item));
+  if (points.size() < 3) throw Damage(fmt::format("a ring of {} points; it needs 3", points.size()));
   return points;
 }
 
@@ -242,6 +243,14 @@ void read_events(Run& run) {
   });
 }
 
+/// Why a folder without a scene is none of a run.
+std::string what_is_missing(const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto status = std::filesystem::status(folder, error);
+  if (!exists(status)) return "does not exist";
+  return is_directory(status) ? fmt::format("has no {}", run_file::kScene) : "is a file";
+}
+
 }  // namespace
 
 std::vector<FloeId> Run::lineage(FloeId id) const {
@@ -265,6 +274,8 @@ tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
   try {
     Run run;
     run.folder = folder;
+    if (std::error_code error; !std::filesystem::is_regular_file(folder / run_file::kScene, error))
+      return tl::unexpected(fmt::format("not a run folder: {} {}", folder.string(), what_is_missing(folder)));
     auto scene = read_scene_file(folder / run_file::kScene);
     if (!scene) return tl::unexpected(to_string(scene.error().front()));
     run.scene = std::move(*scene);

@@ -10,6 +10,7 @@
 #include "geometry/pose.hpp"
 #include "geometry/validity.hpp"
 #include "io/overlap.hpp"
+#include "io/speed_check.hpp"
 #include "simulation/floe_size.hpp"
 
 namespace polynya::io {
@@ -20,35 +21,10 @@ using geometry::Polygon;
 constexpr double kMostSteps = 1e9;
 constexpr std::size_t kMostOverlaps = 200;
 
-/// Offset of the value at a dotted path, or of the nearest object on the way to it.
-std::uint32_t offset_of(const JsonValue& root, std::string_view path) {
-  const JsonValue* value = &root;
-  while (!path.empty()) {
-    const auto dot = std::min(path.find('.'), path.size());
-    const JsonValue* next = value->find(path.substr(0, dot));
-    if (!next) break;
-    value = next;
-    path.remove_prefix(std::min(dot + 1, path.size()));
-  }
-  return value->offset;
-}
-
-std::string path_of(const SceneDraft& draft, std::size_t floe) {
-  const Origin& origin = draft.floe_origins[floe];
-  const std::string group = fmt::format("floes[{}]", origin.group);
-  return origin.member < 0 ? group : fmt::format("{} (its floe {})", group, origin.member);
-}
-
-/// By the ship's thrust alone [m/s].
-double speed_gained_in_a_step(const simulation::Scene& scene, const simulation::ShipSpec& ship) {
-  const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
-  return constant ? std::abs(constant->thrust) / ship.mass * scene.time.step : 0;
-}
-
 void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
   const auto& scene = draft.scene;
   const auto tell = [&](const std::string& path, std::string found, std::string allowed) {
-    problems.add(0, offset_of(resolved, path),
+    problems.add(0, nearest_offset(resolved, path),
                  {.path = path, .found = std::move(found), .allowed = std::move(allowed)});
   };
   if (scene.ice.density >= scene.water.water.density)
@@ -60,22 +36,6 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, Pr
   if (scene.time.until / scene.time.step > kMostSteps)
     tell("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
          fmt::format("at most {:g} steps", kMostSteps));
-  double fastest = geometry::length(scene.water.drift);
-  for (const auto& ship : scene.ships)
-    fastest = std::max(fastest, std::abs(ship.speed) + speed_gained_in_a_step(scene, ship));
-  const simulation::ShearSettings& shear = scene.water.shear;
-  const geometry::Rotation course = geometry::Rotation::by(shear.direction);
-  for (const auto& floe : scene.floes) {
-    const geometry::Vector off = rotate_back(course, floe.polygon_in_world.outer.front() - shear.origin);
-    const geometry::Vector current = rotate(course, {shear.rate * off.y, 0});
-    fastest = std::max(fastest, geometry::length(floe.velocity + scene.water.drift + current));
-  }
-  if (fastest * scene.time.step >= scene.contact.circle_radius)
-    tell("time.step_s",
-         fmt::format("{}: {:.3g} m in one step at {:.3g} m/s", scene.time.step, fastest * scene.time.step,
-                     fastest),
-         fmt::format("a step in which nothing moves as far as a circle's radius, {} m",
-                     scene.contact.circle_radius));
   if (scene.ships.empty() && scene.floes.empty() && problems.count() == 0)
     problems.add(0, resolved.offset,
                  {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
@@ -93,8 +53,7 @@ void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vecto
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
     const auto& ship = draft.scene.ships[i];
     const Origin& origin = draft.ship_origins[i];
-    const std::string path =
-        fmt::format("{}[{}]", origin.is_structure ? "structures" : "ships", origin.group);
+    const std::string path = ship_path(draft, i);
     const auto tell = [&](std::string_view key, std::string found, std::string allowed) {
       problems.add(origin.source, origin.offset,
                    {.path = fmt::format("{}.{}", path, key),
@@ -128,7 +87,7 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
     if (!origin.is_known_valid) {
       if (const auto defect = geometry::find_defect(polygon)) {
         problems.add(origin.source, origin.offset,
-                     {.path = path_of(draft, i),
+                     {.path = floe_path(draft, i),
                       .found = "an invalid polygon: " + describe(*defect),
                       .allowed = "simple rings with an area, holes inside and apart"});
         continue;
@@ -137,7 +96,7 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
     const geometry::Measures measures = geometry::measure(polygon);
     if (!simulation::can_be_floe(measures)) {
       problems.add(origin.source, origin.offset,
-                   {.path = path_of(draft, i),
+                   {.path = floe_path(draft, i),
                     .found = fmt::format("a floe of {:.3g} m², second moment {:.3g} m⁴", measures.area,
                                          measures.second_moment),
                     .allowed = fmt::format("at least {:g} m², and a second moment above 0",
@@ -145,7 +104,7 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
       continue;
     }
     outlines.push_back(polygon);
-    named.push_back({path_of(draft, i), &origin, false});
+    named.push_back({floe_path(draft, i), &origin, false});
   }
 }
 
@@ -207,6 +166,17 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
 
 }  // namespace
 
+std::string ship_path(const SceneDraft& draft, std::size_t ship) {
+  const Origin& origin = draft.ship_origins[ship];
+  return fmt::format("{}[{}]", origin.is_structure ? "structures" : "ships", origin.group);
+}
+
+std::string floe_path(const SceneDraft& draft, std::size_t floe) {
+  const Origin& origin = draft.floe_origins[floe];
+  const std::string group = fmt::format("floes[{}]", origin.group);
+  return origin.member < 0 ? group : fmt::format("{} (its floe {})", group, origin.member);
+}
+
 std::string describe(const geometry::DefectAt& defect) {
   std::string text(name_of(defect.defect));
   for (std::size_t i = 0; i < std::min<std::size_t>(defect.places.size(), 3); ++i) {
@@ -229,6 +199,7 @@ void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemColl
   std::vector<Polygon> outlines;
   check_ships(draft, problems, named, outlines);
   check_floes(draft, problems, named, outlines);
+  check_speeds(draft, resolved, problems);
   check_overlaps(draft, named, outlines, problems);
 }
 

@@ -7,6 +7,10 @@
 
 namespace polynya::io {
 
+/// "ships[0]" or "structures[2]", "floes[1]" or "floes[1] (its floe 7)": for messages.
+std::string ship_path(const SceneDraft& draft, std::size_t ship);
+std::string floe_path(const SceneDraft& draft, std::size_t floe);
+
 /// A waterline in the world.
 geometry::Polygon waterline_in_world(const simulation::ShipSpec& ship);
 

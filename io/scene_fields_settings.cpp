@@ -64,7 +64,7 @@ const Object kWater{
       &kShear}}};
 
 const Object kIce{
-    {{"thickness_m", Kind::kNumber, "m", above(0, 20), "0.5", "thickness h of every floe",
+    {{"thickness_m", Kind::kNumber, "m", from(1e-3, 20), "0.5", "thickness h of every floe",
       [](Draft& d, const Value& v) { d.scene.ice.thickness = v.number(); }},
      {"density_kg_per_m3", Kind::kNumber, "kg/m³", from(100, 1100), "900",
       "density ρ_i, less than the water's",

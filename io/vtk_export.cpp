@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -55,11 +56,15 @@ class IceExport {
     return data;
   }
 
+  /// Floes whose rings bound no area; only their outlines are exported.
+  const std::set<simulation::FloeId>& without_triangles() const { return without_triangles_; }
+
  private:
   /// A shape is triangulated once, in its body frame, where it is exact.
   const std::vector<geometry::Triangle>& triangles_of(const simulation::Birth& birth) {
     auto& triangles = triangles_[static_cast<std::size_t>(birth.floe)];
     if (triangles.empty()) triangles = geometry::triangulate(birth.polygon_in_body);
+    if (triangles.empty()) without_triangles_.insert(birth.floe);
     return triangles;
   }
 
@@ -93,6 +98,7 @@ class IceExport {
   const Run& run_;
   MotionIndex motions_;
   std::vector<std::vector<geometry::Triangle>> triangles_;  ///< by floe id
+  std::set<simulation::FloeId> without_triangles_;
 };
 
 /// Each ship's waterline as a polygon, with what forces.csv tells of it at the time.
@@ -187,8 +193,8 @@ VtkPolyData contacts_at(const Run& run, double time) {
 
 }  // namespace
 
-tl::expected<std::size_t, std::string> export_vtk(const Run& run, const FrameSelection& selection,
-                                                  const std::filesystem::path& folder) {
+tl::expected<VtkExport, std::string> export_vtk(const Run& run, const FrameSelection& selection,
+                                                const std::filesystem::path& folder) {
   IceExport ice(run);
   const MotionIndex motions(run);
   VtkTimeline timeline;
@@ -211,7 +217,7 @@ tl::expected<std::size_t, std::string> export_vtk(const Run& run, const FrameSel
   }
   if (std::string wrong = write_named_file(folder / "run.pvd", to_pvd(timeline)); !wrong.empty())
     return tl::unexpected(std::move(wrong));
-  return number;
+  return VtkExport{number, {ice.without_triangles().begin(), ice.without_triangles().end()}};
 }
 
 }  // namespace polynya::io

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -10,9 +11,14 @@
 
 namespace polynya::io {
 
+struct VtkExport {
+  std::size_t frames = 0;
+  std::vector<simulation::FloeId> only_outlines;  ///< floes of a damaged run whose rings bound no area
+};
+
 /// Writes a run for ParaView (docs/export.md): run.pvd, and for each selected frame the ice, the ships, their
-/// loads and the contacts. Returns how many frames, or what went wrong.
-tl::expected<std::size_t, std::string> export_vtk(const Run& run, const FrameSelection& selection,
-                                                  const std::filesystem::path& folder);
+/// loads and the contacts. The error names the file.
+tl::expected<VtkExport, std::string> export_vtk(const Run& run, const FrameSelection& selection,
+                                                const std::filesystem::path& folder);
 
 }  // namespace polynya::io

@@ -10,14 +10,15 @@
 #include "geometry/measures.hpp"
 #include "geometry/validity.hpp"
 #include "simulation/floe_size.hpp"
+#include "simulation/runaway.hpp"
 #include "simulation/state_fields.hpp"
 #include "simulation/validate_world.hpp"
 
 namespace polynya::simulation {
 namespace {
 
-constexpr double kFarthest = 1e9;  ///< from the origin that a body can have gone [m]
-constexpr double kFastest = 1e3;   ///< beyond it a run ends as a numerical failure [m/s]
+constexpr double kFarthest = 1e9;               ///< from the origin that a body can have gone [m]
+constexpr double kFastest = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
 constexpr double kOutside =
     1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
 

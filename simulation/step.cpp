@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/runaway.hpp"
+
 namespace polynya::simulation {
 namespace {
 
 using geometry::Vector;
-
-constexpr double kRunawaySpeed = 1e3;  ///< beyond it the numbers mean nothing any more [m/s]
 
 Vector heading_of(const World& world, BodyIndex ship) {
   const geometry::Rotation r = world.bodies.rotation[ship];

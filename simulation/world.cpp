@@ -46,14 +46,14 @@ void add_ship(World& world, const ShipSpec& ship) {
   world.pairs.add(world.bodies, index);
 }
 
-dynamics::ShearCurrent current_of(const ShearSettings& shear) {
-  return {{std::cos(shear.direction), std::sin(shear.direction)}, shear.rate, shear.origin};
-}
-
 /// The scene's ships and floes.
 void populate(World& world);
 
 }  // namespace
+
+dynamics::ShearCurrent current_of(const ShearSettings& shear) {
+  return {{std::cos(shear.direction), std::sin(shear.direction)}, shear.rate, shear.origin};
+}
 
 dynamics::NewBody new_body_of(const World& world, const ShipSpec& ship) {
   dynamics::NewBody body;

@@ -125,6 +125,9 @@ struct NewFloe {
 /// the floe's; writes its birth.
 FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& measures);
 
+/// What a scene's sheared current is to the water drag.
+dynamics::ShearCurrent current_of(const ShearSettings& shear);
+
 /// The body of a ship where the scene has it, and that of a floe of such a shape and its measures, wherever
 /// it is.
 dynamics::NewBody new_body_of(const World& world, const ShipSpec& ship);

@@ -109,5 +109,18 @@ TEST_F(BrokenAudit, StopsARunThatIsCheckedAtEveryStep) {
   expect_reproduced();
 }
 
+/// A thrust that brings a ship to 1000 m/s in a fifth of a second.
+TEST(NumericalFailure, ItsDumpIsReadBackAndFailsAgain) {
+  const TemporaryFolder folder;
+  write_file(folder / "scene.json", R"({"time": {"step_s": 0.01, "until_s": 10},
+    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e4,
+      "moment_of_inertia_kg_m2": 5e9, "position_m": [0, 0], "propulsion": {"thrust_N": 5e7}}]})");
+  const Outcome failed = polynya({"run", "scene.json", "--out", "run"}, {folder.path()});
+  ASSERT_EQ(failed.code, 4) << failed.err;
+  const Outcome repeated = polynya({"resume", "run", "--from-failure"}, {folder.path()});
+  EXPECT_EQ(repeated.code, 4) << repeated.err;
+  EXPECT_NE(repeated.out.find("\nreproduced"), std::string::npos) << repeated.out;
+}
+
 }  // namespace
 }  // namespace polynya::tests

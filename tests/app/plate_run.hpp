@@ -1,9 +1,9 @@
 #pragma once
 
+#include "program.hpp"
 #include <gtest/gtest.h>
 
 #include "io/run_reader.hpp"
-#include "program.hpp"
 
 namespace polynya::tests {
 

@@ -1,0 +1,110 @@
+#include "program.hpp"
+#include "tiny_scene.hpp"
+#include <gtest/gtest.h>
+
+namespace polynya::tests {
+namespace {
+
+const std::vector<std::vector<std::string>> kReading{
+    {"inspect", "damaged"},
+    {"inspect", "damaged", "--check"},
+    {"inspect", "damaged", "--fsd"},
+    {"inspect", "damaged", "--floe", "0", "--format", "svg"},
+    {"inspect", "damaged", "--floe", "0", "--format", "geojson"},
+    {"view", "damaged"},
+    {"channel", "damaged"},
+    {"figures", "damaged"},
+    {"export", "damaged", "--vtk", "vtk"},
+    {"export", "damaged", "--geojson", "layers"}};
+
+class DamagedRun : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    setenv("PATH", "/", 1);  // without rsvg-convert, which takes seconds
+    folder = new TemporaryFolder;
+    write_file(folder->path() / "tiny.json", kTinyScene);
+    ASSERT_EQ(polynya({"run", "tiny.json", "--out", "damaged"}, {folder->path()}).code, 0);
+    floes = new std::string(read_file(file()));
+  }
+  static void TearDownTestSuite() {
+    delete floes;
+    delete folder;
+  }
+  static std::filesystem::path file() { return folder->path() / "damaged/floes.ndjson"; }
+  /// Writes other rings to the first floe, a plate.
+  static void damage(const std::string& ring, const std::string& holes = "") {
+    const std::size_t start = floes->find("\"ring_m\":");
+    const std::size_t end = floes->find('\n');
+    std::string text = *floes;
+    text.replace(start, end - start, R"("ring_m":)" + ring + R"(,"holes_m":[)" + holes + "]}");
+    write_file(file(), text);
+  }
+  static inline TemporaryFolder* folder = nullptr;
+  static inline std::string* floes = nullptr;
+};
+
+TEST_F(DamagedRun, ARingOfTooFewPointsIsNamedWithItsLineByEveryCommand) {
+  const char* square = "[[0,0],[9,0],[9,9],[0,9]]";
+  const std::vector<std::pair<std::string, std::string>> rings{
+      {"[]", ""},     {"[[0,0]]", ""},          {"[[0,0],[1,1]]", ""}, {"[[0,0],[1,0],[1,1e999]]", ""},
+      {square, "[]"}, {square, "[[1,1],[2,2]]"}};
+  for (const auto& [ring, hole] : rings) {
+    damage(ring, hole);
+    for (const auto& words : kReading) {
+      const Outcome outcome = polynya(words, {folder->path()});
+      EXPECT_EQ(outcome.code, 5) << words.front() << ' ' << words.back() << ring << hole;
+      EXPECT_NE(outcome.err.find("damaged/floes.ndjson:1: "), std::string::npos) << outcome.err;
+    }
+  }
+}
+
+/// Rings that can be read but bound no valid area: the check finds them, and everything else says what it
+/// leaves out.
+TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
+  for (const char* ring :
+       {"[[0,0],[1,0],[2,0]]", "[[1,1],[1,1],[1,1]]", "[[0,0],[4,4],[4,0],[0,4]]",
+        "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {
+    damage(ring);
+    for (const auto& words : kReading) {
+      const Outcome outcome = polynya(words, {folder->path()});
+      EXPECT_GE(outcome.code, 0) << words.front() << ' ' << words.back() << ring;
+      if (words.back() == "--check") {
+        EXPECT_EQ(outcome.code, 4) << outcome.out;
+        EXPECT_NE(outcome.out.find("floe 0: "), std::string::npos) << outcome.out;
+      }
+    }
+  }
+  damage("[[0,0],[1,0],[2,0]]");
+  const Outcome exported = polynya({"export", "damaged", "--vtk", "vtk"}, {folder->path()});
+  EXPECT_EQ(exported.code, 0);
+  EXPECT_NE(exported.err.find("note: 1 floe without triangles"), std::string::npos) << exported.err;
+}
+
+TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
+  for (const char* area : {"0", "-1", "1e-310"}) {
+    std::string text = *floes;
+    const std::size_t start = text.find("\"area_m2\":") + 10;
+    text.replace(start, text.find(',', start) - start, area);
+    write_file(file(), text);
+    const Outcome outcome = polynya({"inspect", "damaged", "--fsd", "--at", "0"}, {folder->path()});
+    EXPECT_EQ(outcome.code, 0) << area << outcome.err;
+    EXPECT_NE(outcome.out.find("left out: 1 floe whose"), std::string::npos) << outcome.out;
+  }
+}
+
+TEST(NotARun, IsNamedAsSuch) {
+  const TemporaryFolder folder;
+  write_file(folder / "empty/notes.txt", "");
+  for (const auto& [path, words] : {std::pair{"empty", "not a run folder: empty has no scene.json"},
+                                    {"nowhere", "not a run folder: nowhere does not exist"},
+                                    {"empty/notes.txt", "not a run folder: empty/notes.txt is a file"}}) {
+    for (const char* command : {"view", "inspect", "channel", "figures"}) {
+      const Outcome outcome = polynya({command, path}, {folder.path()});
+      EXPECT_EQ(outcome.code, 5);
+      EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace polynya::tests
