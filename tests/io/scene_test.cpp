@@ -346,7 +346,7 @@ TEST(Scene, FieldsAndStructuresHaveTheirOwnMistakes) {
           {R"({"structures": [{"radius_m": 5, "waterline_m": [[0, 0], [1, 0], [0, 1]]}]})", "structures[0]",
            "together"},
           {R"({"water": {"shear": {"rate_per_s": 0.5}}, "floes": [{"rectangle": {"corner_m": [0, 9000], "size_m": 9}}]})",
-           "time.step_s", "at 4.5e+03 m/s"}}) {
+           "floes[0]", "moves at 4504 m/s"}}) {
     const auto problems = problems_of(c.text);
     ASSERT_FALSE(problems.empty()) << c.text;
     EXPECT_EQ(problems.front().path, c.path) << all_of(problems);
