@@ -40,6 +40,7 @@ int resume(const ResumeOptions& options);
 struct ValidateOptions {
   std::string scene;
   bool resolved = false;  ///< print the scene with every default filled in
+  bool json = false;      ///< print its problems as a JSON array
 };
 int validate(const ValidateOptions& options);
 

@@ -6,22 +6,37 @@
 #include <fmt/format.h>
 
 #include "app/console.hpp"
-#include "io/source_text.hpp"
+#include "app/read_input.hpp"
 
 namespace polynya::app {
 
+namespace {
+
+void print_problems(const std::string& name, const std::vector<io::Problem>& problems) {
+  for (const io::Problem& problem : problems) print_err("{}\n", to_string(problem));
+  print_err("polynya: {} problem{} in {}; nothing was written\n", problems.size(),
+            problems.size() == 1 ? "" : "s", name);
+}
+
+}  // namespace
+
 tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
-                                                   const io::SceneOverrides& overrides) {
-  auto text = io::read_text_file(file, io::kLongestScene);
+                                                   const io::SceneOverrides& overrides,
+                                                   ProblemFormat format) {
+  const bool is_json = format == ProblemFormat::kJson;
+  const std::string name = file == "-" ? "stdin" : file;
+  auto text = read_input(file, io::kLongestScene);
   if (!text) {
-    print_err("polynya: {}: {}\n", file, text.error());
+    if (is_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
+    print_err("polynya: {}: {}\n", name, text.error());
     return tl::unexpected(kInputOutput);
   }
-  auto loaded = io::read_scene(std::move(*text), file, std::filesystem::path(file).parent_path(), overrides);
+  auto loaded = io::read_scene(std::move(*text), name, std::filesystem::path(file).parent_path(), overrides);
   if (loaded) return std::move(*loaded);
-  for (const io::Problem& problem : loaded.error()) print_err("{}\n", to_string(problem));
-  const std::size_t count = loaded.error().size();
-  print_err("polynya: {} problem{} in {}; nothing was written\n", count, count == 1 ? "" : "s", file);
+  if (is_json)
+    write_out(io::to_json_text(loaded.error()));
+  else
+    print_problems(name, loaded.error());
   return tl::unexpected(kSceneInvalid);
 }
 

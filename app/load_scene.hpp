@@ -9,9 +9,14 @@
 
 namespace polynya::app {
 
-/// The scene of that file. Where it cannot be read or is wrong, every problem has been told on stderr, and it
-/// is the code to exit with.
+/// How problems are printed: a line each on stderr, or as one JSON array on stdout.
+enum class ProblemFormat { kText, kJson };
+
+/// The scene of that file, or of stdin where its name is "-" (floe files are then looked for in the working
+/// folder). Where it cannot be read or is wrong, every problem has been printed, and it is the code to exit
+/// with.
 tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
-                                                   const io::SceneOverrides& overrides = {});
+                                                   const io::SceneOverrides& overrides = {},
+                                                   ProblemFormat format = ProblemFormat::kText);
 
 }  // namespace polynya::app

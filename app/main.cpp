@@ -66,7 +66,9 @@ Command add_run(CLI::App& app) {
       "  polynya run scenes/sawamura2017-fig4b.json\n"
       "  polynya run scenes/level-plate.json --until 60 --out /tmp/plate --overwrite\n");
   auto options = std::make_shared<RunOptions>();
-  command->add_option("scene", options->scene, "The scene's JSON file")->required()->type_name("SCENE");
+  command->add_option("scene", options->scene, "The scene's JSON file; - for stdin")
+      ->required()
+      ->type_name("SCENE");
   command->add_option("--out", options->out, "The run folder; runs/<scene name> if not given")
       ->type_name("DIR");
   command->add_option("--until", options->until, "Simulated time to run to, instead of the scene's [s]")
@@ -104,11 +106,19 @@ Command add_resume(CLI::App& app) {
 Command add_validate(CLI::App& app) {
   auto* command = app.add_subcommand("validate", "Check a scene, and tell everything that is wrong with it");
   command->footer(
-      "Examples:\n  polynya validate scene.json\n  polynya validate scene.json --resolved   with every "
-      "default filled in\n");
+      "Examples:\n"
+      "  polynya validate scene.json\n"
+      "  polynya validate scene.json --resolved   with every default filled in\n"
+      "  polynya validate scene.json --json       the problems as a JSON array, for editors\n"
+      "  make-scene | polynya validate -          a scene from stdin\n");
   auto options = std::make_shared<ValidateOptions>();
-  command->add_option("scene", options->scene, "The scene's JSON file")->required()->type_name("SCENE");
-  command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  command->add_option("scene", options->scene, "The scene's JSON file; - for stdin")
+      ->required()
+      ->type_name("SCENE");
+  auto* resolved =
+      command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  command->add_flag("--json", options->json, "Print the problems as a JSON array; [] for none")
+      ->excludes(resolved);
   return [options] { return validate(*options); };
 }
 

@@ -15,7 +15,7 @@ Command add_channel(CLI::App& app) {
       "  polynya channel runs/sawamura2017-fig4b                 also writes channel.csv and channel.geojson "
       "there\n"
       "  polynya channel runs/sawamura2017-fig4b --at 300 --out /tmp\n"
-      "  polynya channel runs/sawamura2017-fig4b --format json | jq .mean_width_m\n"
+      "  polynya channel runs/sawamura2017-fig4b --json | jq .mean_width_m\n"
       "\n"
       "Exit codes: 0 done, 2 usage, 5 input/output.\n");
   auto options = std::make_shared<ChannelOptions>();
@@ -30,8 +30,12 @@ Command add_channel(CLI::App& app) {
                    "How far from the track ice is looked for [m]; four beams if not given")
       ->type_name("M")
       ->check(CLI::Range(0.1, 1e5));
-  set_choices(*command->add_option("--format", options->format, "What stdout gets"),
-              {"table", "csv", "json"});
+  auto* format = command->add_option("--format", options->format, "What stdout gets; json: as --json");
+  set_choices(*format, {"table", "csv", "json"});
+  command
+      ->add_flag_callback(
+          "--json", [options] { options->format = "json"; }, "Print the sums as JSON instead of the table")
+      ->excludes(format);
   command
       ->add_option("--out", options->out,
                    "Folder for channel.csv and channel.geojson; the run's if not given")

@@ -10,8 +10,13 @@
 namespace polynya::app {
 
 int validate(const ValidateOptions& options) {
-  const auto loaded = load_scene(options.scene);
+  const auto loaded =
+      load_scene(options.scene, {}, options.json ? ProblemFormat::kJson : ProblemFormat::kText);
   if (!loaded) return loaded.error();
+  if (options.json) {
+    write_out(io::to_json_text(std::vector<io::Problem>{}));
+    return kDone;
+  }
   if (options.resolved) {
     write_out(loaded->resolved_text);
     return kDone;
@@ -24,8 +29,9 @@ int validate(const ValidateOptions& options) {
   const auto counted = [](std::size_t count, std::string_view noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
   };
-  print_out("{}: valid; \"{}\" with {}{} and {}, {:g} s in steps of {:g} s, hash {}\n", options.scene,
-            scene.name, counted(scene.ships.size() - structures, "ship"),
+  print_out("{}: valid; \"{}\" with {}{} and {}, {:g} s in steps of {:g} s, hash {}\n",
+            options.scene == "-" ? "stdin" : options.scene, scene.name,
+            counted(scene.ships.size() - structures, "ship"),
             structures > 0 ? ", " + counted(structures, "structure") : "",
             counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step, loaded->hash);
   for (const io::FieldReport& field : loaded->fields) {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "io/json_writer.hpp"
 
 namespace polynya::io {
 namespace {
@@ -45,6 +48,25 @@ std::string to_string(const Problem& problem) {
                                       : fmt::format("{}: ", problem.file);
   if (!problem.path.empty()) text += problem.path + ": ";
   return text + message_of(problem);
+}
+
+std::string to_json_text(const std::vector<Problem>& problems) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('[');
+  for (const Problem& problem : problems) {
+    json.start_line();
+    json.open('{').key("file").value(std::string_view(problem.file));
+    const bool has_place = problem.line > 0;
+    for (const auto& [key, value] : {std::pair{"line", problem.line}, {"column", problem.column}}) {
+      json.key(key);
+      has_place ? json.value(value) : json.null();
+    }
+    json.key("path").value(std::string_view(problem.path)).key("severity").value("error");
+    json.key("message").value(std::string_view(message_of(problem))).close('}');
+  }
+  json.close(']');
+  return text + "\n";
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates) {

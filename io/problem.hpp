@@ -25,6 +25,10 @@ std::string message_of(const Problem& problem);
 /// "scene.json:12:5: ice.thickness_m: found 0, allowed: a number > 0, ≤ 20 [m]"
 std::string to_string(const Problem& problem);
 
+/// A JSON array of them, one a line: file, line and column (null where there is no place), path, severity and
+/// message.
+std::string to_json_text(const std::vector<Problem>& problems);
+
 /// The candidate fewest edits away from a word, or "" where none is near enough to be meant.
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 

@@ -1,4 +1,5 @@
 #include "program.hpp"
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/json_parser.hpp"
@@ -118,6 +119,57 @@ TEST(CommandLine, ASceneThatCannotBeReadIsFive) {
       EXPECT_FALSE(std::filesystem::exists(folder / "runs"));
     }
   }
+}
+
+/// Problems as JSON: the same places, paths and words as on stderr; none are an empty array.
+TEST(CommandLine, ProblemsAreJsonOnRequest) {
+  const TemporaryFolder folder;
+  write_file(folder / "wrong.json",
+             "{\"ice\": {\"thicknes_m\": 1},\n \"time\": {\"step_s\": 0},\n \"name\": \"a \\\"b\\\"\"}");
+  const Outcome text = polynya({"validate", "wrong.json"}, {folder.path()});
+  const Outcome outcome = polynya({"validate", "wrong.json", "--json"}, {folder.path()});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(outcome.err, "");
+  const io::JsonDocument problems = io::parse_json(outcome.out);
+  ASSERT_TRUE(problems.faults.empty()) << outcome.out;
+  ASSERT_EQ(problems.root.items().size(), 3U) << outcome.out;
+  for (const io::JsonValue& problem : problems.root.items()) {
+    const auto member = [&](const char* key) { return problem.find(key); };
+    EXPECT_EQ(member("severity")->text(), "error");
+    const std::string line =
+        fmt::format("{}:{}:{}: {}: {}\n", member("file")->text(), member("line")->number(),
+                    member("column")->number(), member("path")->text(), member("message")->text());
+    EXPECT_NE(text.err.find(line), std::string::npos) << line << text.err;
+  }
+  EXPECT_EQ(problems.root.items()[1].find("line")->number(), 2);
+  EXPECT_EQ(problems.root.items()[1].find("path")->text(), "time.step_s");
+  const Outcome sound = polynya({"validate", scene_path("two-floes"), "--json"}, {folder.path()});
+  EXPECT_EQ(sound.code, 0);
+  EXPECT_EQ(sound.out, "[]\n");
+  const Outcome missing = polynya({"validate", "missing.json", "--json"}, {folder.path()});
+  EXPECT_EQ(missing.code, 5);
+  EXPECT_TRUE(io::parse_json(missing.out).root.items().at(0).find("line")->is_null()) << missing.out;
+  EXPECT_EQ(polynya({"validate", "wrong.json", "--json", "--resolved"}, {folder.path()}).code, 2);
+}
+
+/// A scene from stdin is the scene: the same hash, floe files from the working folder, its problems "stdin".
+TEST(CommandLine, ASceneComesFromStdin) {
+  const TemporaryFolder folder;
+  write_file(folder / "floes.geojson",
+             R"({"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
+  write_file(folder / "scene.json",
+             R"({"name": "piped", "time": {"until_s": 0.1}, "floes": [{"file": "floes.geojson"}]})");
+  write_file(folder / "wrong.json", "{\"floes\": [\n}");
+  const Start piped{folder.path(), RLIM_INFINITY, folder / "scene.json"};
+  const std::string valid = polynya({"validate", "scene.json"}, {folder.path()}).out;
+  const std::string from_stdin = polynya({"validate", "-"}, piped).out;
+  EXPECT_EQ(from_stdin, "stdin" + valid.substr(valid.find(':')));
+  const Outcome run = polynya({"run", "-", "--progress", "none"}, piped);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "runs/piped/scene.json"));
+  const Outcome wrong = polynya({"run", "-"}, {folder.path(), RLIM_INFINITY, folder / "wrong.json"});
+  EXPECT_EQ(wrong.code, 3);
+  EXPECT_EQ(wrong.err.find("stdin:2:1: found '}'"), 0U) << wrong.err;
 }
 
 TEST(CommandLine, InitWritesASceneThatIsValid) {

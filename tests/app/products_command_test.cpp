@@ -23,6 +23,11 @@ TEST(Products, AreMadeOfARunAndRemovedWithIt) {
   EXPECT_TRUE(read_file(folder / "run/channel.csv").starts_with("station,along_m,"));
   EXPECT_NE(read_file(folder / "run/channel.geojson").find("\"swept band\""), std::string::npos);
 
+  const Outcome sums = polynya({"channel", "run", "--json"}, here);
+  EXPECT_EQ(sums.code, 0);
+  EXPECT_TRUE(sums.out.starts_with("{\n")) << sums.out;
+  EXPECT_EQ(sums.out, polynya({"channel", "run", "--format", "json"}, here).out) << "its older spelling";
+
   const Outcome drawn = polynya({"figures", "run"}, here);
   ASSERT_EQ(drawn.code, 0) << drawn.err;
   for (const auto name : io::run_file::kFigures) {
