@@ -32,6 +32,7 @@ struct InspectOptions {
   std::optional<std::int64_t> lineage;  ///< the fractures that led to it
   bool check = false;
   bool fsd = false;
+  bool json = false;  ///< the report as JSON; a floe's shape has its own formats
 };
 int inspect(const InspectOptions& options);
 

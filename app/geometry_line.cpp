@@ -64,6 +64,7 @@ Command add_inspect(CLI::App& app) {
       "  polynya inspect runs/level-plate --lineage 17           the fractures that led to it\n"
       "  polynya inspect runs/level-plate --check                validity, areas, overlaps, exactly\n"
       "  polynya inspect runs/level-plate --fsd                  floe size distribution\n"
+      "  polynya inspect runs/level-plate --json                 each of these but a shape as JSON\n"
       "\n"
       "Exit codes: 0 done, 2 usage, 4 --check found a shape or an area wrong, 5 input/output.\n");
   auto options = std::make_shared<InspectOptions>();
@@ -85,7 +86,9 @@ Command add_inspect(CLI::App& app) {
   format->needs(floe);
   set_choices<ShapeFormat>(
       *format, {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}});
-  floe->excludes(lineage)->excludes(check)->excludes(fsd);
+  auto* json =
+      command->add_flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
+  floe->excludes(lineage)->excludes(check)->excludes(fsd)->excludes(json);
   lineage->excludes(check)->excludes(fsd);
   check->excludes(fsd);
   return [options] { return inspect(*options); };

@@ -6,9 +6,8 @@
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/geometry_commands.hpp"
+#include "app/inspect_json.hpp"
 #include "app/inspect_views.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/validity.hpp"
 #include "io/motion_index.hpp"
 
 namespace polynya::app {
@@ -23,30 +22,6 @@ int usage_error(const std::string& words) {
 
 std::string unknown_floe(const io::Run& run, FloeId id) {
   return fmt::format("there is no floe {}; they go from 0 to {}", id, std::ssize(run.floes) - 1);
-}
-
-std::string_view validity_of(const simulation::Birth& birth) {
-  if (!birth.is_exact) return "kept-exact";
-  const auto found = find_defect(birth.polygon_in_body);
-  return found ? name_of(found->defect) : "yes";
-}
-
-std::string table(const io::Run& run, double time) {
-  const io::MotionIndex motions(run);
-  std::string text =
-      fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>9} {}\n", "floe", "parent",
-                  "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "m_per_s", "valid");
-  for (const io::RunFloe& floe : run.floes) {
-    const simulation::Birth& birth = floe.birth;
-    if (!run.is_alive(birth.floe, time)) continue;
-    const auto motion = motions.floe_at(birth.floe, time);
-    text += fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>9} {}\n",
-                        birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
-                        birth.time, birth.area, perimeter(birth.polygon_in_body),
-                        vertex_count(birth.polygon_in_body), birth.polygon_in_body.holes.size(), birth.mass,
-                        motion ? fmt::format("{:.5f}", length(motion->velocity)) : "-", validity_of(birth));
-  }
-  return text;
 }
 
 int print_floe(const io::Run& run, const InspectOptions& options) {
@@ -81,15 +56,21 @@ int print(const io::Run& run, const InspectOptions& options) {
   if (options.floe) return print_floe(run, options);
   if (options.lineage) {
     if (!run.floe(*options.lineage)) return usage_error(unknown_floe(run, *options.lineage));
-    write_out(lineage_tree(run, *options.lineage));
+    write_out(options.json ? lineage_json(run, *options.lineage) : lineage_tree(run, *options.lineage));
     return kDone;
   }
   if (options.check) {
     const io::RunCheck check = io::check_run(run, options.at);
-    write_out(check_text(check));
+    write_out(options.json ? check_json(check) : check_text(check));
     return check.is_sound() ? kDone : kRefused;
   }
-  write_out(options.fsd ? size_distribution(run, time) : table(run, time));
+  if (options.fsd) {
+    const SizeDistribution sizes = size_distribution(run, time);
+    write_out(options.json ? size_json(sizes) : size_text(sizes));
+    return kDone;
+  }
+  const std::vector<FloeRow> rows = floe_rows(run, time);
+  write_out(options.json ? floes_json(rows, time) : floe_table(rows));
   return kDone;
 }
 

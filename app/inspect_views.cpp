@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "geometry/measures.hpp"
+#include "geometry/validity.hpp"
 #include "io/json_writer.hpp"
+#include "io/motion_index.hpp"
 #include "io/wkt.hpp"
 
 namespace polynya::app {
@@ -14,6 +17,12 @@ namespace {
 
 using geometry::Ring;
 using simulation::FloeId;
+
+std::string_view validity_of(const simulation::Birth& birth) {
+  if (!birth.is_exact) return "kept-exact";
+  const auto found = find_defect(birth.polygon_in_body);
+  return found ? name_of(found->defect) : "yes";
+}
 
 std::string as_geojson(const ShapeView& view) {
   const simulation::Birth& birth = view.birth;
@@ -92,6 +101,37 @@ std::string to_text(const ShapeView& view, ShapeFormat format) {
   return text + "\n";
 }
 
+std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
+  const io::MotionIndex motions(run);
+  std::vector<FloeRow> rows;
+  for (const io::RunFloe& floe : run.floes) {
+    const simulation::Birth& birth = floe.birth;
+    if (!run.is_alive(birth.floe, time)) continue;
+    FloeRow& row = rows.emplace_back(FloeRow{.birth = birth,
+                                             .perimeter = perimeter(birth.polygon_in_body),
+                                             .vertices = vertex_count(birth.polygon_in_body),
+                                             .holes = birth.polygon_in_body.holes.size(),
+                                             .speed = {},
+                                             .validity = validity_of(birth)});
+    if (const auto motion = motions.floe_at(birth.floe, time)) row.speed = length(motion->velocity);
+  }
+  return rows;
+}
+
+std::string floe_table(const std::vector<FloeRow>& rows) {
+  std::string text =
+      fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>9} {}\n", "floe", "parent",
+                  "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "m_per_s", "valid");
+  for (const FloeRow& row : rows) {
+    const simulation::Birth& birth = row.birth;
+    text += fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>9} {}\n",
+                        birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
+                        birth.time, birth.area, row.perimeter, row.vertices, row.holes, birth.mass,
+                        row.speed ? fmt::format("{:.5f}", *row.speed) : "-", row.validity);
+  }
+  return text;
+}
+
 std::string lineage_tree(const io::Run& run, FloeId floe) {
   std::string text;
   const std::vector<FloeId> ids = run.lineage(floe);
@@ -114,44 +154,44 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
   return text;
 }
 
-std::string size_distribution(const io::Run& run, double time) {
+SizeDistribution size_distribution(const io::Run& run, double time) {
   std::vector<double> areas;
-  std::size_t without_size = 0;
   for (const io::RunFloe& floe : run.floes) {
-    if (!run.is_alive(floe.birth.floe, time)) continue;
-    const double area = floe.birth.area;
-    if (std::isnormal(area) && area > 0)
-      areas.push_back(area);
-    else
-      ++without_size;
+    if (run.is_alive(floe.birth.floe, time)) areas.push_back(floe.birth.area);
   }
   std::ranges::sort(areas);
-  double total = 0;
-  for (const double area : areas) total += area;
-  std::string text = fmt::format("{} floes, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
-                                 areas.size(), total, time);
-  if (without_size > 0)
-    text += fmt::format("left out: {} floe{} whose recorded area is not a positive number\n", without_size,
-                        without_size == 1 ? "" : "s");
-  if (areas.empty()) return text;
-  text += fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", std::sqrt(areas.front()),
-                      std::sqrt(areas[areas.size() / 2]), std::sqrt(areas.back()));
-  text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2",
-                      "area_%", "from_on");
+  SizeDistribution sizes{.time = time, .count = areas.size(), .classes = {}};
+  if (areas.empty()) return sizes;
+  for (const double area : areas) sizes.area += area;
+  sizes.least = std::sqrt(areas.front());
+  sizes.median = std::sqrt(areas[areas.size() / 2]);
+  sizes.largest = std::sqrt(areas.back());
   const auto edge = [](int number) {  // …, 1, 2, 5, 10, 20, 50, …
     static constexpr double kSteps[] = {1, 2, 5};
     const int decade = static_cast<int>(std::floor(number / 3.0));
     return kSteps[number - 3 * decade] * std::pow(10.0, decade);
   };
-  int number = 3 * static_cast<int>(std::floor(std::log10(std::sqrt(areas.front())))) - 1;
-  while (edge(number + 1) <= std::sqrt(areas.front())) ++number;
+  int number = 3 * static_cast<int>(std::floor(std::log10(sizes.least))) - 1;
+  while (edge(number + 1) <= sizes.least) ++number;
   for (std::size_t i = 0; i < areas.size(); ++number) {
-    const std::size_t first = i;
-    double area = 0;
-    for (; i < areas.size() && std::sqrt(areas[i]) < edge(number + 1); ++i) area += areas[i];
-    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", edge(number), edge(number + 1),
-                        i - first, area, 100 * area / total, areas.size() - first);
+    SizeDistribution::Class one{.from = edge(number), .below = edge(number + 1), .from_on = areas.size() - i};
+    for (; i < areas.size() && std::sqrt(areas[i]) < one.below; ++i, ++one.count) one.area += areas[i];
+    sizes.classes.push_back(one);
   }
+  return sizes;
+}
+
+std::string size_text(const SizeDistribution& sizes) {
+  std::string text = fmt::format("{} floes, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
+                                 sizes.count, sizes.area, sizes.time);
+  if (sizes.count == 0) return text;
+  text += fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", sizes.least, sizes.median,
+                      sizes.largest);
+  text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2",
+                      "area_%", "from_on");
+  for (const SizeDistribution::Class& one : sizes.classes)
+    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", one.from, one.below, one.count,
+                        one.area, 100 * one.area / sizes.area, one.from_on);
   return text;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/geometry_commands.hpp"
 #include "io/run_check.hpp"
@@ -20,12 +23,38 @@ struct ShapeView {
 /// WKT, a GeoJSON Feature, or SVG in metres with y up.
 std::string to_text(const ShapeView& view, ShapeFormat format);
 
+/// A floe alive at some time.
+struct FloeRow {
+  const simulation::Birth& birth;
+  double perimeter = 0;  ///< [m]
+  std::size_t vertices = 0;
+  std::size_t holes = 0;
+  std::optional<double> speed;  ///< [m/s]; none between two frames
+  std::string_view validity;    ///< "yes", a defect's name, or "kept-exact"
+};
+std::vector<FloeRow> floe_rows(const io::Run& run, double time);
+std::string floe_table(const std::vector<FloeRow>& rows);
+
 /// The trunk from the scene's floe down to this one: each fracture with what decided it, and the pieces
 /// beside.
 std::string lineage_tree(const io::Run& run, simulation::FloeId floe);
 
 /// Floes by size (√area, as the fracture criteria have it) in classes of 1, 2, 5 × 10ⁿ m.
-std::string size_distribution(const io::Run& run, double time);
+struct SizeDistribution {
+  struct Class {
+    double from = 0, below = 0;  ///< [m]
+    std::size_t count = 0;
+    double area = 0;          ///< [m²]
+    std::size_t from_on = 0;  ///< how many are in it or in larger classes
+  };
+  double time = 0;  ///< [s]
+  std::size_t count = 0;
+  double area = 0;                            ///< of all [m²]
+  double least = 0, median = 0, largest = 0;  ///< [m]
+  std::vector<Class> classes;
+};
+SizeDistribution size_distribution(const io::Run& run, double time);
+std::string size_text(const SizeDistribution& sizes);
 
 /// What check_run found, in words.
 std::string check_text(const io::RunCheck& check);

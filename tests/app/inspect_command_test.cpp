@@ -102,6 +102,41 @@ TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
   EXPECT_NE(outcome.out.find("Overlap is part of the contact model"), std::string::npos);
 }
 
+/// The same reports as JSON.
+TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
+  const auto json = [](std::vector<std::string> words) {
+    words.emplace_back("--json");
+    const Outcome outcome = inspect(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    io::JsonDocument document = io::parse_json(outcome.out);
+    EXPECT_TRUE(document.faults.empty()) << outcome.out;
+    return std::move(document.root);
+  };
+  const io::JsonValue table = json({});
+  ASSERT_EQ(table.find("floes")->items().size(), living_at(run->end_time()));
+  double area = 0;
+  for (const io::JsonValue& floe : table.find("floes")->items()) {
+    area += floe.find("area_m2")->number();
+    EXPECT_EQ(floe.find("valid")->text(), "yes");
+    EXPECT_GT(floe.find("perimeter_m")->number(), 0);
+  }
+  const io::JsonValue sizes = json({"--fsd"});
+  EXPECT_NEAR(sizes.find("area_m2")->number(), area, 1e-9 * area);
+  double of_classes = 0;
+  for (const io::JsonValue& one : sizes.find("classes")->items()) of_classes += one.find("area_m2")->number();
+  EXPECT_NEAR(of_classes, area, 1e-9 * area);
+  const simulation::FloeId last = run->floes.back().birth.floe;
+  const io::JsonValue lineage = json({"--lineage", std::to_string(last)});
+  const auto& trunk = lineage.find("lineage")->items();
+  ASSERT_EQ(trunk.size(), run->lineage(last).size());
+  EXPECT_EQ(trunk.front().find("broken_by")->find("kind")->text(), "bend");
+  EXPECT_TRUE(trunk.back().find("broken_by")->is_null());
+  const io::JsonValue check = json({"--check"});
+  EXPECT_TRUE(check.find("is_sound")->boolean());
+  EXPECT_EQ(check.find("shapes")->number(), static_cast<double>(run->floes.size()));
+  EXPECT_EQ(inspect({"--floe", "3", "--json"}).code, 2);
+}
+
 /// As into `| head` or onto a full disk.
 TEST_F(InspectCommand, WhatCannotBeWrittenIsNoCrash) {
   const Start cramped{.folder = folder->path(), .largest_file = 20};
