@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "geometry/internal/compensated_sum.hpp"
+#include "geometry/internal/exact_moments.hpp"
+#include "geometry/internal/nearest_area.hpp"
 #include "geometry/internal/predicates.hpp"
 
 namespace polynya::geometry {
@@ -36,27 +38,27 @@ double ring_length(const Ring& ring) {
 }  // namespace
 
 double signed_area(const Ring& ring) {
-  if (ring.size() < 3) return 0;
-  CompensatedSum twice_area;
-  for_each_edge(ring, ring.front(), [&](Vector, Vector, double w) { twice_area += w; });
-  return twice_area.total() / 2;
+  return nearest_area(ring);
 }
 
 Measures measure(const Polygon& polygon) {
   if (polygon.outer.size() < 3) return {};
   const Box box = bounding_box(polygon.outer);
   const Point origin = midpoint(box.low, box.high);
-  CompensatedSum twice_area;
+  const Vector size = box.high - box.low;
+  Measures result;
+  result.area = nearest_area(polygon);
+  // The sums below err by some u = 1e-16 of the box's moments for each vertex: they are good as long as the
+  // region fills more than a small part of its box.
+  constexpr double kThin = 1e-6;
+  if (std::abs(result.area) < kThin * size.x * size.y) return exact_measures(polygon);
+  if (result.area == 0) return {0, origin, 0};
   CompensatedSum first_x;
   CompensatedSum first_y;
   for_each_edge(polygon, origin, [&](Vector u, Vector v, double w) {
-    twice_area += w;
     first_x += w * (u.x + v.x);
     first_y += w * (u.y + v.y);
   });
-  Measures result;
-  result.area = twice_area.total() / 2;
-  if (result.area == 0) return {0, origin, 0};
   const Vector offset = Vector{first_x.total(), first_y.total()} / (6 * result.area);
   result.centroid = origin + offset;
   CompensatedSum second;  // about the centroid directly: no parallel-axis subtraction

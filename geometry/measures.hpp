@@ -6,7 +6,7 @@ namespace polynya::geometry {
 
 /// Area, centre and second moment of a region of unit surface density.
 struct Measures {
-  double area = 0;           ///< [m²], holes taken off
+  double area = 0;           ///< nearest double of the exact area [m²], holes taken off
   Point centroid;            ///< [m]
   double second_moment = 0;  ///< polar, about the centroid: ∫|r − c|² dA [m⁴]
 };
@@ -14,7 +14,8 @@ struct Measures {
 /// Measures of a polygon with holes (outer ring counter-clockwise, holes clockwise).
 Measures measure(const Polygon& polygon);
 
-/// Signed area of a ring: positive where it runs counter-clockwise [m²].
+/// Signed area of a ring, positive where it runs counter-clockwise: the nearest double of the exact area
+/// [m²].
 double signed_area(const Ring& ring);
 
 /// Length of all boundaries, holes included [m].

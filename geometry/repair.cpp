@@ -5,12 +5,12 @@
 
 #include "geometry/internal/arrangement.hpp"
 #include "geometry/internal/predicates.hpp"
-#include "geometry/internal/settle.hpp"
+#include "geometry/internal/rounded_pieces.hpp"
 
 namespace polynya::geometry {
 namespace {
 
-Repaired repair_exactly(const std::vector<Ring>& rings, FillRule rule) {
+tl::expected<Repaired, CutError> repair_exactly(const std::vector<Ring>& rings, FillRule rule) {
   std::vector<exact::SourceSegment> segments;
   exact::Rational drawn = 0;
   for (const Ring& ring : rings) {
@@ -28,12 +28,13 @@ Repaired repair_exactly(const std::vector<Ring>& rings, FillRule rule) {
     pieces.push_back({std::move(region.polygon), Part::kOutside});
   }
   Repaired repaired;
-  CutResult settled = *exact::settle(area, std::move(pieces));
-  for (Piece& piece : settled.pieces) repaired.shapes.push_back(std::move(piece.shape));
+  CutOutcome rounded = exact::rounded_pieces(area, pieces);
+  if (!rounded) return tl::unexpected(std::move(rounded.error()));
+  for (Piece& piece : rounded->pieces) repaired.shapes.push_back(std::move(piece.shape));
   repaired.area_drawn = exact::nearest_double(abs(drawn));
-  repaired.area = settled.ledger.area_outside;
+  repaired.area = rounded->ledger.area_outside;
   repaired.area_changed = exact::nearest_double(exact::Rational(area - abs(drawn)));
-  repaired.ledger = std::move(settled.ledger);
+  repaired.ledger = std::move(rounded->ledger);
   return repaired;
 }
 
@@ -53,8 +54,8 @@ tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule
     if (Ring kept = without_repeats(ring); kept.size() > 2) usable.push_back(std::move(kept));
   }
   try {
-    Repaired repaired = repair_exactly(usable, rule);
-    if (!repaired.shapes.empty()) return repaired;
+    tl::expected<Repaired, CutError> repaired = repair_exactly(usable, rule);
+    if (!repaired || !repaired->shapes.empty()) return repaired;
   } catch (const std::exception& failure) {
     return tl::unexpected(CutError{CutFailure::kInternal, failure.what()});
   }

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "geometry/internal/arrangement.hpp"
-#include "geometry/internal/settle.hpp"
+#include "geometry/internal/rounded_pieces.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -15,13 +15,13 @@ tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
   return tl::unexpected(CutError{reason, std::move(detail)});
 }
 
-CutOutcome settle_regions(const exact::Polygon& shape, std::vector<exact::Region> regions) {
+CutOutcome round_regions(const exact::Polygon& shape, std::vector<exact::Region> regions) {
   std::vector<exact::ExactPiece> pieces;
   pieces.reserve(regions.size());
   for (exact::Region& region : regions) {
     pieces.push_back({std::move(region.polygon), region.label == 1 ? Part::kInside : Part::kOutside});
   }
-  return exact::settle(exact::area(shape), std::move(pieces));
+  return exact::rounded_pieces(exact::area(shape), pieces);
 }
 
 // A geometric failure is a value: whatever CGAL or memory throws becomes one, and the shape is as it was.
@@ -46,7 +46,7 @@ CutOutcome cut_by_polygons_generally(const exact::Polygon& shape, const std::vec
     const bool touched =
         std::any_of(overlay.regions.begin(), overlay.regions.end(), [](auto& r) { return r.label == 1; });
     if (!touched) return refuse(CutFailure::kMisses, "the polygon does not meet the shape's interior");
-    return settle_regions(shape, std::move(overlay.regions));
+    return round_regions(shape, std::move(overlay.regions));
   });
 }
 
@@ -69,7 +69,7 @@ CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<Po
                                      "the crack ends inside the ice or only bridges its holes",
                                      overlay.dangling_length});
     }
-    CutOutcome outcome = settle_regions(shape, std::move(overlay.regions));
+    CutOutcome outcome = round_regions(shape, std::move(overlay.regions));
     if (outcome) outcome->ledger.dangling_length = overlay.dangling_length;
     return outcome;
   });

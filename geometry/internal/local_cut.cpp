@@ -135,7 +135,7 @@ Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
 CutResult whole_shape_inside(const Polygon& shape) {
   CutResult result;
   result.pieces.push_back({Shape{shape, nullptr, true}, Part::kInside});
-  result.ledger.area_before = result.ledger.area_inside = sum_of_ring_areas(shape);
+  result.ledger.area_before = result.ledger.area_inside = area_of(shape);
   result.ledger.exact_balance = true;
   result.ledger.exact_defect = "0";  // the one piece is the shape itself
   return result;
@@ -191,8 +191,8 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   const std::optional<Balance> balance = balance_split_edges(cut);
   if (!balance) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
   CutOutcome outcome = is_cleanly_rounded(cut, *plans, tool_box, near_tool)
-                           ? take_as_planned(std::move(*plans), sum_of_ring_areas(shape), *balance)
-                           : settle_exactly(cut, *plans, exact::area(shape));
+                           ? take_as_planned(std::move(*plans), area_of(shape), *balance)
+                           : round_exactly(cut, *plans, exact::area(shape));
   if (outcome && !tool.is_closed) outcome->ledger.dangling_length = dangling_length(cut, shape);
   return outcome;
 }

@@ -3,7 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/internal/settle.hpp"
+#include "geometry/internal/ring_area.hpp"
+#include "geometry/internal/rounded_pieces.hpp"
 
 namespace polynya::geometry {
 
@@ -29,27 +30,26 @@ CutResult take_as_planned(std::vector<Plan> plans, double area_before, const Bal
     Piece piece;
     piece.part = plan.part;
     piece.shape.known_valid = true;
-    double area = 0;
+    std::vector<RingArea> areas;
+    Polygon& polygon = piece.shape.polygon;
     for (auto& ring : plan.rings) {
-      area += ring.area.area;
-      Polygon& polygon = piece.shape.polygon;
+      areas.push_back(ring.area);
       (polygon.outer.empty() ? polygon.outer : polygon.holes.emplace_back()) = std::move(ring.points);
     }
-    (plan.part == Part::kOutside ? ledger.area_outside : ledger.area_inside) += area;
+    (plan.part == Part::kOutside ? ledger.area_outside : ledger.area_inside) += area_of(polygon, areas);
     result.pieces.push_back(std::move(piece));
   }
   exact::sort_pieces(result.pieces);
   return result;
 }
 
-/// The pieces as settle() makes them of their exact shapes, where it did.
+/// The pieces rounded from their exact shapes, where it did.
 template <typename Cut, typename Plan>
-CutOutcome settle_exactly(const Cut& cut, const std::vector<Plan>& plans,
-                          const exact::Rational& area_before) {
+CutOutcome round_exactly(const Cut& cut, const std::vector<Plan>& plans, const exact::Rational& area_before) {
   std::vector<exact::ExactPiece> pieces;
   pieces.reserve(plans.size());
   for (const Plan& plan : plans) pieces.push_back({write_exactly(cut, plan), plan.part});
-  return exact::settle(area_before, std::move(pieces));
+  return exact::rounded_pieces(area_before, pieces);
 }
 
 }  // namespace polynya::geometry

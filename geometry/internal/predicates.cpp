@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/internal/error_free.hpp"
 #include "geometry/internal/exact_polygon.hpp"
 
 namespace polynya::geometry {
@@ -13,32 +14,6 @@ constexpr double kEps = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kBound = (3 + 16 * kEps) * kEps;
 // Products below this may have lost bits to underflow; the bound does not cover them.
 constexpr double kUnderflow = 1e-280;
-
-struct TwoDoubles {
-  double high;
-  double low;
-};
-
-// Dekker's product: high + low = a·b exactly, if nothing over- or underflows.
-TwoDoubles two_product(double a, double b) {
-  constexpr double kSplitter = 134217729.0;
-  const double p = a * b;
-  const double ca = kSplitter * a;
-  const double a_high = ca - (ca - a);
-  const double a_low = a - a_high;
-  const double cb = kSplitter * b;
-  const double b_high = cb - (cb - b);
-  const double b_low = b - b_high;
-  return {p, a_low * b_low - (((p - a_high * b_high) - a_low * b_high) - a_high * b_low)};
-}
-
-// The rounding error of a − b, exactly.
-double difference_tail(double a, double b) {
-  const double x = a - b;
-  const double b_virtual = a - x;
-  const double a_virtual = x + b_virtual;
-  return (a - a_virtual) + (b_virtual - b);
-}
 
 bool safe_factor(double v) {
   return v == 0 || (std::abs(v) > 1e-130 && std::abs(v) < 1e130);
@@ -65,8 +40,8 @@ struct Differences {
 Differences differences(Point a, Point b, Point c, Point d) {
   const Differences u{b.x - a.x, b.y - a.y, d.x - c.x, d.y - c.y, false};
   const bool exact = safe_factor(u.ux) && safe_factor(u.uy) && safe_factor(u.vx) && safe_factor(u.vy) &&
-                     difference_tail(b.x, a.x) == 0 && difference_tail(b.y, a.y) == 0 &&
-                     difference_tail(d.x, c.x) == 0 && difference_tail(d.y, c.y) == 0;
+                     two_difference(b.x, a.x).low == 0 && two_difference(b.y, a.y).low == 0 &&
+                     two_difference(d.x, c.x).low == 0 && two_difference(d.y, c.y).low == 0;
   return {u.ux, u.uy, u.vx, u.vy, exact};
 }
 

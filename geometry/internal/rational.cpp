@@ -1,6 +1,8 @@
 #include "geometry/internal/rational.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace polynya::geometry::exact {
@@ -17,9 +19,8 @@ double nearest_double(const Rational& value) {
   const Rational gap = Rational(next) - Rational(truncated);
   const int nearer = cmp(abs(Rational(2 * remainder)), abs(gap));
   if (nearer != 0) return nearer < 0 ? truncated : next;
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(truncated, &exponent), std::numeric_limits<double>::digits);
-  return std::fmod(mantissa, 2.0) == 0 ? truncated : next;
+  const bool is_even = std::bit_cast<std::uint64_t>(truncated) % 2 == 0;
+  return is_even ? truncated : next;
 }
 
 }  // namespace polynya::geometry::exact

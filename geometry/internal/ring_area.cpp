@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/internal/compensated_sum.hpp"
+#include "geometry/internal/nearest_area.hpp"
 
 namespace polynya::geometry {
 RingArea ring_area(const Ring& ring) {
@@ -41,10 +42,20 @@ RingArea ring_area(const Ring& ring) {
           4 * edges * (reach_x + reach_y) * step};
 }
 
-double sum_of_ring_areas(const Polygon& polygon) {
-  double sum = ring_area(polygon.outer).area;
-  for (const Ring& hole : polygon.holes) sum += ring_area(hole).area;
-  return sum;
+double area_of(const Polygon& polygon, const std::vector<RingArea>& rings) {
+  RingArea sum;
+  for (const RingArea& ring : rings) {
+    sum.area += ring.area;
+    sum.doubt += ring.doubt;
+  }
+  constexpr double kWorstDoubt = 1e-6;  // of the area
+  return sum.doubt > kWorstDoubt * std::abs(sum.area) ? nearest_area(polygon) : sum.area;
+}
+
+double area_of(const Polygon& polygon) {
+  std::vector<RingArea> rings{ring_area(polygon.outer)};
+  for (const Ring& hole : polygon.holes) rings.push_back(ring_area(hole));
+  return area_of(polygon, rings);
 }
 
 }  // namespace polynya::geometry

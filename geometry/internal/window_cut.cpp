@@ -134,7 +134,7 @@ double area_before(const WindowCut& cut) {
             shoelace_term(exact::exactly(rings.point(e.ring, e.index)),
                           exact::exactly(rings.point(e.ring, e.index + 1)));
   }
-  return sum_of_ring_areas(cut.shape.nearest()) + exact::nearest_double(kept / 2);
+  return area_of(cut.shape.nearest()) + exact::nearest_double(kept / 2);
 }
 
 void round_vertices(WindowCut& cut) {
@@ -144,8 +144,8 @@ void round_vertices(WindowCut& cut) {
   }
 }
 
-std::optional<CutOutcome> settle_in_window(WindowCut& cut, const exact::Classifier& classify,
-                                           bool must_separate) {
+std::optional<CutOutcome> round_in_window(WindowCut& cut, const exact::Classifier& classify,
+                                          bool must_separate) {
   round_vertices(cut);
   std::optional<std::vector<WindowPiece>> plans = plan_pieces(cut, classify);
   if (!plans || !uses_all_far_once(cut, *plans)) return {};
@@ -156,7 +156,7 @@ std::optional<CutOutcome> settle_in_window(WindowCut& cut, const exact::Classifi
   }
   const Balance balance = balance_window(cut, *plans);
   if (balance.defect != 0) return {};
-  if (!is_cleanly_rounded(cut, *plans)) return settle_exactly(cut, *plans, exact::area(cut.shape.exactly()));
+  if (!is_cleanly_rounded(cut, *plans)) return round_exactly(cut, *plans, exact::area(cut.shape.exactly()));
   return take_as_planned(std::move(*plans), area_before(cut), balance);
 }
 
@@ -187,7 +187,7 @@ std::optional<CutOutcome> cut_by_polygons_in_window(const Shape& shape,
   WindowCut cut{rings, window, tool, std::move(*overlay), {}, {}};
   if (!has_inside(cut, classify))
     return refuse(CutFailure::kMisses, "the polygon does not meet the shape's interior");
-  return settle_in_window(cut, classify, false);
+  return round_in_window(cut, classify, false);
 }
 
 std::optional<CutOutcome> cut_along_in_window(const Shape& shape,
@@ -208,7 +208,7 @@ std::optional<CutOutcome> cut_along_in_window(const Shape& shape,
   WindowCut cut{rings, window, tool, std::move(*overlay), {}, {}};
   if (!cut.overlay.tool_meets_interior)
     return refuse(CutFailure::kMisses, "the crack does not meet the shape's interior");
-  std::optional<CutOutcome> outcome = settle_in_window(cut, classify, true);
+  std::optional<CutOutcome> outcome = round_in_window(cut, classify, true);
   if (outcome && *outcome) (*outcome)->ledger.dangling_length = cut.overlay.dangling_length;
   return outcome;
 }

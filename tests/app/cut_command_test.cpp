@@ -423,6 +423,32 @@ TEST_F(CutCommand, PiecesAreFloesAgain) {
   EXPECT_EQ(total(json(again.out), "area_m2"), total(json(read("l.json")), "area_of_pieces_m2"));
 }
 
+// The line leaves a corner of 3e-33 m2, all of whose vertices round to (1.5, 1.5): no floe, but an item of
+// the ledger.
+TEST_F(CutCommand, APieceThatRoundsToAPointIsASliver) {
+  write("square.wkt", "POLYGON ((0 0, 1.5 0, 1.5 1.5, 0 1.5))\n");
+  const Outcome outcome = cut({"--line", "0,4,2.4,0", "--out", "pieces.wkt", "--ledger", "-"}, "square.wkt");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(read("pieces.wkt"), "POLYGON ((1.5 1.5, 0 1.5, 0 0, 1.5 0, 1.5 1.5))\n");
+  const io::JsonValue ledger = json(outcome.out);
+  expect_balanced(ledger);
+  EXPECT_EQ(total(ledger, "slivers"), 1);
+  EXPECT_GT(total(ledger, "area_slivers_m2"), 0);
+  EXPECT_EQ(total(ledger, "area_slivers_m2"), total(ledger, "removed_m2"));
+}
+
+TEST_F(CutCommand, AreasOfSliversAreTheNearestDoubles) {
+  // In plain doubles this floe has −3.5e-18 m2, and with rings that run clockwise it must be the same floe.
+  write("sliver.wkt",
+        "POLYGON ((10.214251825832536 9.982363678414115, 10.151854324862311 9.969288413081589, "
+        "9.066274827191009 9.741807508383557))\n");
+  const Outcome outcome = cut({"--disc", "0,0,1", "--out", "-", "--ledger", "ledger.json"}, "sliver.wkt");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const io::JsonValue ledger = json(read("ledger.json"));
+  EXPECT_EQ(total(ledger, "area_m2"), 4.1982189329424393e-18);
+  EXPECT_EQ(total(ledger, "area_of_pieces_m2"), 4.1982189329424393e-18);
+}
+
 TEST_F(CutCommand, WrongUsageIsTwo) {
   write("floes.geojson", collection({feature(kSquare)}));
   write("ops.json", "[{\"disk\": [1,2,3]}]");

@@ -171,47 +171,6 @@ TEST(Hazards, AThousandSplitsDoNotDrift) {
   EXPECT_LT(std::abs(itemised), 1e-9);
 }
 
-// Each crack built from exact vertices triples their digits, each rotation adds 35 bits: tools are doubles
-// and motion never touches coordinates, so what has to stay exact stays short however often it is cut.
-TEST(Hazards, WhatStaysExactStaysShort) {
-  std::mt19937 random(27);
-  std::size_t longest = 0;  // bits in a denominator
-  int kept = 0;
-  int cut_again = 0;
-  for (int i = 0; i < 4000; ++i) {
-    std::vector<std::uint8_t> bytes(160);
-    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
-    trials::Dice dice(bytes);
-    Shape shape{trials::roll_floe(dice)};
-    if (find_defect(shape.polygon)) continue;
-    for (int cut = 0; cut < 5; ++cut) {
-      const trials::Knife knife = trials::roll_knife(dice, shape.polygon);
-      const CutOutcome outcome =
-          knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
-      if (!outcome || outcome->pieces.empty()) continue;
-      cut_again += shape.exact ? 1 : 0;
-      shape = outcome->pieces.front().shape;
-      for (const Piece& piece : outcome->pieces) {
-        if (!piece.shape.exact) continue;
-        ++kept;
-        shape = piece.shape;
-        for (const exact::Point& p : piece.shape.exact->outer) {
-          if (std::abs(p.x.get_d()) < 1e-100 || std::abs(p.y.get_d()) < 1e-100)
-            continue;  // subnormal: long to begin with
-          longest = std::max(
-              {longest, mpz_sizeinbase(p.x.get_den_mpz_t(), 2), mpz_sizeinbase(p.y.get_den_mpz_t(), 2)});
-        }
-      }
-    }
-  }
-  EXPECT_GT(kept, 20);
-  EXPECT_GT(cut_again, 5);
-  EXPECT_LT(longest, 3000u);
-  RecordProperty("longest_denominator_bits", static_cast<int>(longest));
-  std::printf("%d kept exact, %d of them cut again, longest denominator %zu bits\n", kept, cut_again,
-              longest);
-}
-
 // What CGAL or the arithmetic refuses is a value, whatever is fed past the checks.
 TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
   std::mt19937 random(26);

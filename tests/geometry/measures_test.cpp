@@ -87,6 +87,94 @@ TEST(Measures, DiscStaysWithinItsSagitta) {
   }
 }
 
+// Triangles whose third corner lies within some steps of the line through the other two, needles, and rings
+// of many vertices, near the origin and far from it, tiny and huge.
+class AwkwardRings {
+ public:
+  Ring roll() {
+    const double size = std::ldexp(1.0, exponent_(random_));
+    const Point centre{size * far_(random_), size * far_(random_)};
+    const Point a = around(centre, size);
+    const Point b = around(centre, size);
+    switch (random_() % 4) {
+      case 0: {
+        const Point c = a + unit_(random_) * (b - a);
+        return {a, b, {near(c.x), near(c.y)}};
+      }
+      case 1:
+        return {a, b, around(b, 1e-12 * size), around(a, 1e-12 * size)};
+      case 2:
+        return {a, b, around(centre, size)};
+      default: {
+        Ring ring;
+        for (std::size_t i = 0, n = 4 + random_() % 60; i < n; ++i) ring.push_back(around(centre, size));
+        return ring;
+      }
+    }
+  }
+
+ private:
+  Point around(Point p, double size) { return {p.x + size * unit_(random_), p.y + size * unit_(random_)}; }
+  double near(double value) {
+    for (auto steps = random_() % 4; steps > 0; --steps) value = std::nextafter(value, 1e300);
+    return value;
+  }
+  std::mt19937_64 random_{7};
+  std::uniform_real_distribution<double> unit_{-1, 1};
+  std::uniform_int_distribution<int> exponent_{-180, 60};
+  std::normal_distribution<double> far_{0, 1000};
+};
+
+TEST(Measures, EveryAreaIsTheNearestDouble) {
+  AwkwardRings rings;
+  int positive = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Ring ring = rings.roll();
+    const double nearest = exact::nearest_double(exact::area(exact::exactly(ring)));
+    ASSERT_EQ(signed_area(ring), nearest);
+    ASSERT_EQ(measure({ring, {}}).area, nearest);
+    positive += nearest > 0 ? 1 : 0;
+  }
+  EXPECT_GT(positive, 5000);
+  // From a trial: plain doubles made this −3.5e-18 m².
+  const Ring sliver{{9.066274827191009, 9.741807508383557},
+                    {10.151854324862311, 9.969288413081589},
+                    {10.214251825832536, 9.982363678414115}};
+  EXPECT_EQ(measure({sliver, {}}).area, 4.1982189329424393e-18);
+}
+
+TEST(Measures, HolesAreTakenOffBeforeTheAreaIsRounded) {
+  // The hole leaves a frame of some steps between doubles, which the difference of two rounded areas loses.
+  const double wide = 1e4;
+  const double step = std::nextafter(wide, 2e4) - wide;
+  const Polygon frame{rectangle({0, 0}, wide, wide),
+                      {reversed(rectangle({step, step}, wide - 2 * step, wide - 3 * step))}};
+  const double exactly = exact::nearest_double(exact::area(exact::exactly(frame)));
+  EXPECT_GT(exactly, 0);
+  EXPECT_EQ(measure(frame).area, exactly);
+}
+
+TEST(Measures, SliversHaveTheMomentsOfTheirTriangle) {
+  AwkwardRings rings;
+  int slivers = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    const Ring ring = rings.roll();
+    if (ring.size() != 3 || !(signed_area(ring) > 1e-100)) continue;
+    const Measures m = measure({ring, {}});
+    const Vector size = bounding_box(ring).high - bounding_box(ring).low;
+    slivers += m.area < 1e-6 * size.x * size.y ? 1 : 0;
+    const Point mean{ring[0].x / 3 + ring[1].x / 3 + ring[2].x / 3,
+                     ring[0].y / 3 + ring[1].y / 3 + ring[2].y / 3};
+    const double reach = std::abs(mean.x) + std::abs(mean.y) + size.x + size.y;
+    ASSERT_NEAR(m.centroid.x, mean.x, 1e-8 * size.x + 1e-15 * reach);
+    ASSERT_NEAR(m.centroid.y, mean.y, 1e-8 * size.y + 1e-15 * reach);
+    const double sides = squared_length(ring[1] - ring[0]) + squared_length(ring[2] - ring[1]) +
+                         squared_length(ring[0] - ring[2]);
+    ASSERT_NEAR(m.second_moment, m.area / 36 * sides, 1e-8 * m.area * sides);
+  }
+  EXPECT_GT(slivers, 100);
+}
+
 // The law behind the exact area: the same sum in plain rationals, term by term, over coordinates of all
 // sizes.
 TEST(ExactArea, EqualsTheShoelaceSumInRationals) {

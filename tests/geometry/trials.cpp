@@ -1,6 +1,7 @@
 #include "tests/geometry/trials.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <tuple>
 
@@ -36,6 +37,12 @@ std::vector<exact::Ring> canonical(const Shape& shape) {
   return rings;
 }
 
+// By how much a nearest double may be off.
+exact::Rational half_step(double value) {
+  const double far = std::numeric_limits<double>::infinity();
+  return (exact::Rational(std::nextafter(std::abs(value), far)) - exact::Rational(std::abs(value))) / 2;
+}
+
 }  // namespace
 
 exact::Rational exact_area(const Shape& shape) {
@@ -58,11 +65,12 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
       return testing::AssertionFailure() << name_of(found->defect) << ": " << to_code(piece.shape.polygon);
     }
   }
-  // Slivers are known to a double each; all else is compared exactly.
-  const exact::Rational balance = sum - exact_area(shape) - exact::Rational(ledger.rounding_defect);
-  const double off = balance.get_d() + ledger.area_slivers;
-  const double allowed = 1e-15 * (std::abs(ledger.rounding_defect) + ledger.area_slivers) + 1e-300;
-  if (std::abs(off) > allowed) return testing::AssertionFailure() << "the ledger is off by " << off << " m²";
+  // The pieces and what was removed are the parent, exactly, but for what the ledger names: two nearest
+  // doubles.
+  const exact::Rational off = sum - exact_area(shape) + exact::Rational(ledger.area_slivers) -
+                              exact::Rational(ledger.rounding_defect);
+  if (abs(off) > half_step(ledger.rounding_defect) + half_step(ledger.area_slivers))
+    return testing::AssertionFailure() << "the ledger is off by " << off.get_d() << " m²";
   return testing::AssertionSuccess();
 }
 

@@ -13,9 +13,10 @@ struct ExactPiece {
   Part part = Part::kOutside;
 };
 
-/// Checks Σ pieces = parent in rationals, rounds every vertex once, and settles what rounding broke: rings
-/// are retraced at pinches, slivers removed into the ledger, and what is still invalid keeps its rationals.
-CutOutcome settle(const Rational& area_before, std::vector<ExactPiece> pieces);
+/// Checks Σ pieces = parent in rationals and rounds every piece to valid polygons of doubles: each vertex
+/// once, to nearest, where that is valid; by snap rounding where it is not; slivers are removed into the
+/// ledger. Fails (kInternal) only where a piece is not a valid polygon to begin with.
+CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPiece>& pieces);
 
 /// Pieces in the order a result promises: by part, then by lowest vertex.
 void sort_pieces(std::vector<Piece>& pieces);

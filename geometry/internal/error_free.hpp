@@ -1,0 +1,49 @@
+#pragma once
+
+namespace polynya::geometry {
+
+/// An unevaluated sum: high is the nearest double of it.
+struct TwoDoubles {
+  double high;
+  double low;
+};
+
+/// A double as the sum of two of 26 bits, whose products are exact (Veltkamp). No overflow below 1e300.
+struct SplitDouble {
+  explicit SplitDouble(double value) {
+    constexpr double kSplitter = 134217729.0;  // 2^27 + 1
+    const double c = kSplitter * value;
+    high = c - (c - value);
+    low = value - high;
+  }
+  double high;
+  double low;
+};
+
+/// high + low = a·b exactly, if nothing over- or underflows (Dekker).
+inline TwoDoubles two_product(double a, const SplitDouble& split_a, double b, const SplitDouble& split_b) {
+  const double p = a * b;
+  return {p, split_a.low * split_b.low - (((p - split_a.high * split_b.high) - split_a.low * split_b.high) -
+                                          split_a.high * split_b.low)};
+}
+inline TwoDoubles two_product(double a, double b) {
+  return two_product(a, SplitDouble(a), b, SplitDouble(b));
+}
+
+/// high + low = a + b exactly (Knuth).
+inline TwoDoubles two_sum(double a, double b) {
+  const double x = a + b;
+  const double b_virtual = x - a;
+  const double a_virtual = x - b_virtual;
+  return {x, (a - a_virtual) + (b - b_virtual)};
+}
+
+/// high + low = a − b exactly.
+inline TwoDoubles two_difference(double a, double b) {
+  const double x = a - b;
+  const double b_virtual = a - x;
+  const double a_virtual = x + b_virtual;
+  return {x, (a - a_virtual) + (b_virtual - b)};
+}
+
+}  // namespace polynya::geometry
