@@ -8,21 +8,12 @@
 #include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/database.hpp"
+#include "app/number_option.hpp"
 
 namespace polynya::app {
 namespace {
 
 using Commands = std::map<std::string, Command>;
-
-/// As CLI::Range, which lets "nan" pass.
-CLI::Validator between(double least, double most) {
-  return {[least, most](std::string& word) -> std::string {
-            double value = 0;
-            if (CLI::detail::lexical_cast(word, value) && value >= least && value <= most) return "";
-            return fmt::format("{} is not a number from {:g} to {:g}", word, least, most);
-          },
-          fmt::format("{:g} to {:g}", least, most)};
-}
 
 void add_threads(CLI::App& command, int& threads) {
   command

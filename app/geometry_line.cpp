@@ -6,6 +6,7 @@
 #include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/geometry_commands.hpp"
+#include "app/number_option.hpp"
 
 namespace polynya::app {
 
@@ -40,7 +41,7 @@ Command add_cut(CLI::App& app) {
       ->add_option("--sagitta", options->sagitta,
                    "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less")
       ->type_name("M")
-      ->check(CLI::Range(1e-12, 1e6));
+      ->check(between(1e-12, 1e6));
   command
       ->add_option("--out", options->out, "The pieces; format by extension, else that of FLOES; - for stdout")
       ->type_name("FILE");
@@ -70,7 +71,8 @@ Command add_inspect(CLI::App& app) {
   auto options = std::make_shared<InspectOptions>();
   command->add_option("run", options->run, "The run folder")->required()->type_name("RUN");
   command->add_option("--at", options->at, "At that time; the end of the run if not given [s]")
-      ->type_name("T");
+      ->type_name("T")
+      ->check(finite());
   auto* floe = command
                    ->add_option("--floe", options->floe,
                                 "The shape of one floe: in its body frame, or with "

@@ -15,6 +15,7 @@
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/guide.hpp"
+#include "app/number_option.hpp"
 #include "app/usage.hpp"
 #include "app/write_output.hpp"
 #include "io/version.hpp"
@@ -48,12 +49,12 @@ void add_carry(CLI::App& command, CarryOptions& options) {
       .add_option("--checkpoint-every", options.checkpoint_every,
                   "Simulated time between checkpoints, beside those by the clock [s]")
       ->type_name("S")
-      ->check(CLI::Range(1e-5, 1e7));
+      ->check(between(1e-5, 1e7));
   command
       .add_option("--checkpoint-every-wall", options.checkpoint_every_wall,
                   "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e7));
+      ->check(between(0, 1e7));
   command.add_flag("--check", options.check,
                    "Derive every cross-index and sum anew after every step; stop if one is off");
   add_progress(command, options.progress);
@@ -73,7 +74,7 @@ Command add_run(CLI::App& app) {
       ->type_name("DIR");
   command->add_option("--until", options->until, "Simulated time to run to, instead of the scene's [s]")
       ->type_name("S")
-      ->check(CLI::Range(1e-9, 1e7));
+      ->check(between(1e-9, 1e7));
   command->add_option("--seed", options->seed, "Seed instead of the scene's")
       ->type_name("N")
       ->check(CLI::Range(0.0, 9007199254740991.0));

@@ -4,6 +4,7 @@
 
 #include "app/choice_option.hpp"
 #include "app/command_line.hpp"
+#include "app/number_option.hpp"
 #include "app/run_commands.hpp"
 
 namespace polynya::app {
@@ -20,16 +21,18 @@ Command add_channel(CLI::App& app) {
       "Exit codes: 0 done, 2 usage, 5 input/output.\n");
   auto options = std::make_shared<ChannelOptions>();
   command->add_option("run", options->run, "The run folder")->required()->type_name("RUN");
-  command->add_option("--at", options->at, "At that time instead of the end [s]")->type_name("S");
+  command->add_option("--at", options->at, "At that time instead of the end [s]")
+      ->type_name("S")
+      ->check(finite());
   command->add_option("--ship", options->ship, "Which ship; the first one if not given")->type_name("NAME");
   command->add_option("--spacing", options->spacing, "Length of a station [m]; the beam if not given")
       ->type_name("M")
-      ->check(CLI::Range(0.1, 1e5));
+      ->check(between(0.1, 1e5));
   command
       ->add_option("--reach", options->reach,
                    "How far from the track ice is looked for [m]; four beams if not given")
       ->type_name("M")
-      ->check(CLI::Range(0.1, 1e5));
+      ->check(between(0.1, 1e5));
   auto* format = command->add_option("--format", options->format, "What stdout gets; json: as --json");
   set_choices(*format, {"table", "csv", "json"});
   command
@@ -58,7 +61,8 @@ Command add_figures(CLI::App& app) {
   command->add_option("runs", options->runs, "The run folders")->required()->type_name("RUN");
   command->add_option("--at", options->at, "Moments of the maps [s]; chosen if not given")
       ->type_name("S,S,...")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(finite());
   set_choices(*command->add_option("--load", options->load,
                                    "Peak j/tau_c as in the paper, or true loads: max of a step, mean"),
               {"peak", "max", "mean"});
@@ -88,7 +92,9 @@ Command add_export(CLI::App& app) {
           "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
           "scene has an origin, metres where not")
       ->type_name("DIR");
-  command->add_option("--at", options->at, "Moment of the GeoJSON [s]; the end if not given")->type_name("S");
+  command->add_option("--at", options->at, "Moment of the GeoJSON [s]; the end if not given")
+      ->type_name("S")
+      ->check(finite());
   command->add_flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
   return [options] { return export_run(*options); };
 }

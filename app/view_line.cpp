@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/command_line.hpp"
+#include "app/number_option.hpp"
 #include "app/view.hpp"
 
 namespace polynya::app {
@@ -23,11 +24,11 @@ Command add_view(CLI::App& app) {
   command->add_option("--every", options->every, "Only each N-th frame, and the last")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--from", options->from, "Only from that time on [s]")->type_name("S");
-  command->add_option("--until", options->until, "Only up to that time [s]")->type_name("S");
+  command->add_option("--from", options->from, "Only from that time on [s]")->type_name("S")->check(finite());
+  command->add_option("--until", options->until, "Only up to that time [s]")->type_name("S")->check(finite());
   command->add_option("--limit", options->most_megabytes, "The largest page to write [MB]; 100 if not given")
       ->type_name("MB")
-      ->check(CLI::Range(0.001, 2000.0));
+      ->check(between(0.001, 2000));
   return [options] { return view(*options); };
 }
 

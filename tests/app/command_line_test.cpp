@@ -90,6 +90,33 @@ TEST(CommandLine, UsageErrorsSpeakToPeople) {
   }
 }
 
+/// CLI11's range accepts nan, and a checkpoint every nan seconds is none.
+TEST(CommandLine, EveryNumberMustBeFinite) {
+  const TemporaryFolder folder;
+  const std::vector<std::vector<std::string>> options{{"run", "--until"},
+                                                      {"run", "--checkpoint-every"},
+                                                      {"run", "--checkpoint-every-wall"},
+                                                      {"resume", "--checkpoint-every"},
+                                                      {"resume", "--checkpoint-every-wall"},
+                                                      {"view", "--from"},
+                                                      {"view", "--until"},
+                                                      {"view", "--limit"},
+                                                      {"channel", "--at"},
+                                                      {"channel", "--spacing"},
+                                                      {"channel", "--reach"},
+                                                      {"figures", "--at"},
+                                                      {"export", "--at"},
+                                                      {"inspect", "--at"},
+                                                      {"cut", "--sagitta"}};
+  for (const auto& option : options) {
+    for (const char* word : {"nan", "-inf"}) {
+      const Outcome outcome = polynya({option[0], "nowhere", option[1], word}, {folder.path()});
+      EXPECT_EQ(outcome.code, 2) << option[0] << ' ' << option[1] << ' ' << word;
+      EXPECT_NE(outcome.err.find(option[1] + ": "), std::string::npos) << outcome.err;
+    }
+  }
+}
+
 TEST(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
   const TemporaryFolder folder;
   write_file(folder / "wrong.json",
