@@ -63,7 +63,7 @@ class SceneReading {
   SceneReading(std::string text, const std::string& name, std::filesystem::path folder)
       : folder_(std::move(folder)), problems_(SourceText{name, std::move(text)}) {}
 
-  SceneOutcome read(const std::string& default_name, const SceneOverrides& overrides) {
+  SceneOutcome read(const std::string& default_name, const SceneOverrides& overrides, std::size_t longest) {
     JsonDocument document = parse_json(problems_.source(0).text);
     bool is_cut_short = false;
     for (const JsonFault& fault : document.faults) {
@@ -83,6 +83,11 @@ class SceneReading {
     if (problems_.count() > 0) return tl::unexpected(problems_.take());
     LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description), to_json_text(resolved_), "",
                        std::move(fields_)};
+    if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
+      tell(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
+           fmt::format("at most {} bytes: fewer floes, or coordinates of fewer digits", longest));
+      return tl::unexpected(problems_.take());
+    }
     loaded.hash = hash_of(loaded.resolved_text);
     return loaded;
   }
@@ -317,8 +322,8 @@ std::string name_from(const std::string& file) {
 }  // namespace
 
 SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
-                        const SceneOverrides& overrides) {
-  return SceneReading(std::move(text), name, folder).read(name_from(name), overrides);
+                        const SceneOverrides& overrides, std::size_t longest) {
+  return SceneReading(std::move(text), name, folder).read(name_from(name), overrides, longest);
 }
 
 SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides) {

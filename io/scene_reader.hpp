@@ -14,7 +14,9 @@
 
 namespace polynya::io {
 
-inline constexpr std::size_t kLongestScene = std::size_t{64} << 20;       ///< [bytes]
+/// Of a scene with its floe files read in, too, since that is the scene.json of its run [bytes]. Any one floe
+/// file has room in it.
+inline constexpr std::size_t kLongestScene = std::size_t{512} << 20;
 inline constexpr std::size_t kLongestFloesFile = std::size_t{256} << 20;  ///< [bytes]
 inline constexpr std::size_t kMostFloes = 1'000'000;
 
@@ -44,8 +46,9 @@ using SceneOutcome = tl::expected<LoadedScene, std::vector<Problem>>;
 /// Reads a scene: JSON, comments allowed. All problems at once, each with its place (docs/scene.md).
 SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides = {});
 
-/// The same for a text at hand. `name` stands in messages; floe files are looked for in `folder`.
+/// The same for a text at hand. `name` stands in messages; floe files are looked for in `folder`. A scene
+/// whose resolved text is longer than `longest` [bytes] could not be read back, and is refused.
 SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
-                        const SceneOverrides& overrides = {});
+                        const SceneOverrides& overrides = {}, std::size_t longest = kLongestScene);
 
 }  // namespace polynya::io

@@ -211,6 +211,26 @@ TEST(Scene, OverridesTakeTheScenesPlace) {
   EXPECT_EQ(loaded->scene.name, "a-b---");
 }
 
+/// The scene.json of a run is the resolved scene: whatever is read must fit into what can be read again.
+TEST(Scene, OneThatCouldNotBeReadBackIsRefused) {
+  const TemporaryFolder folder;
+  write_file(folder / "f.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[1,0],[0,1],[0,0]]]})");
+  const std::string text = R"({"floes": [{"file": "f.geojson"}]})";
+  const auto resolved = read_scene(text, "s.json", folder.path());
+  ASSERT_TRUE(resolved.has_value());
+  const std::size_t length = resolved->resolved_text.size();
+  EXPECT_GT(length, text.size());
+  const auto fits = read_scene(text, "s.json", folder.path(), {}, length);
+  ASSERT_TRUE(fits.has_value());
+  EXPECT_TRUE(read_scene(fits->resolved_text, "scene.json", ".", {}, length).has_value());
+  const auto refused = read_scene(text, "s.json", folder.path(), {}, length - 1);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(to_string(refused.error().front()).find("s.json:1:1: found " + std::to_string(length) + " bytes"),
+            0U)
+      << to_string(refused.error().front());
+  EXPECT_GE(kLongestScene, 2 * kLongestFloesFile);
+}
+
 TEST(Scene, ALargeLatticeIsReadWhole) {
   const auto loaded =
       read_scene(R"({"floes": [{"lattice": {"columns": 400, "rows": 250, "pitch_m": 10, "size_m": 10}}]})",
