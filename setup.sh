@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 declare -A packages=(
   [build]="g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libgmp-dev libmpfr-dev
            nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev librsvg2-bin"
-  [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3"
+  [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3 strace"
   [view]="chromium nodejs npm"
   [export]="python3-vtk9 python3-pandas gdal-bin"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"

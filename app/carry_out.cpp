@@ -201,7 +201,10 @@ void report_dump(const std::string& folder, const std::string& wrong) {
 void report_stop(const RunInHand& run, const Stop& stop, double sim_time) {
   const std::string folder = run.writer.folder().string();
   print_err("polynya: stopped at {:.6g} s: {}\n", sim_time, stop.reason);
-  if (stop.code == kNumericalFailure) {
+  if (run.writer.is_displaced()) {
+    print_err(
+        "polynya: the run is lost unless its folder is elsewhere now, with all its files; resume it there\n");
+  } else if (stop.code == kNumericalFailure) {
     print_err("polynya: {} holds the run up to there\n", folder);
   } else if (stop.code == kInputOutput) {
     print_err("polynya: once that is put right, go on with: polynya resume {}\n", folder);
@@ -235,7 +238,8 @@ int carry_out(RunInHand run, const CarryOptions& options) {
                   summary.counts.bends + summary.counts.splits + summary.counts.rejected_cuts);
   // Before the run is finished: that takes away the checkpoints from which the failure is sought.
   std::optional<std::string> dumped;
-  if (stop.code == kNumericalFailure || !summary.audit.is_closed()) dumped = dump_failure(run);
+  const bool is_to_be_dumped = stop.code == kNumericalFailure || !summary.audit.is_closed();
+  if (is_to_be_dumped && !run.writer.is_displaced()) dumped = dump_failure(run);
   if (const std::string failure = run.writer.finish(summary, run.simulation); !failure.empty())
     stop = {kInputOutput, failure};
   if (stop.code != kDone) report_stop(run, stop, summary.sim_time);

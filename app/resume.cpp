@@ -10,9 +10,8 @@
 #include "app/load_scene.hpp"
 #include "app/stop_signal.hpp"
 #include "io/checkpoint.hpp"
-#include "io/json_parser.hpp"
 #include "io/run_folder.hpp"
-#include "io/source_text.hpp"
+#include "io/summary.hpp"
 
 namespace polynya::app {
 namespace {
@@ -23,14 +22,6 @@ using simulation::Simulation;
 int refuse(const std::string& reason) {
   print_err("polynya: {}\n", reason);
   return kInputOutput;
-}
-
-bool is_finished(const fs::path& folder) {
-  const auto text = io::read_text_file(folder / io::run_file::kSummary, std::size_t{64} << 20);
-  if (!text) return false;
-  const io::JsonDocument summary = io::parse_json(*text);
-  const io::JsonValue* finished = summary.faults.empty() ? summary.root.find("finished") : nullptr;
-  return finished != nullptr && finished->kind() == io::JsonValue::Kind::kBoolean && finished->boolean();
 }
 
 /// The simulation of a checkpoint, checked against the hash it was saved with.
@@ -44,12 +35,12 @@ tl::expected<Simulation, std::string> simulation_of(const io::LoadedScene& scene
 }
 
 tl::expected<RunInHand, std::string> run_at(const fs::path& path, const io::LoadedScene& scene,
-                                            const fs::path& folder) {
+                                            io::RunLock lock) {
   auto checkpoint = io::read_checkpoint_file(path, scene.hash);
   if (!checkpoint) return tl::unexpected(checkpoint.error());
   auto simulation = simulation_of(scene, *checkpoint);
   if (!simulation) return tl::unexpected(fmt::format("{}: {}", path.string(), simulation.error()));
-  auto writer = io::RunWriter::go_on(folder, scene, std::move(checkpoint->progress), *simulation);
+  auto writer = io::RunWriter::go_on(std::move(lock), scene, *checkpoint, path, *simulation);
   if (!writer) return tl::unexpected(writer.error());
   return RunInHand{scene, std::move(*simulation), std::move(*writer), checkpoint->wall_time};
 }
@@ -82,29 +73,36 @@ int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
   return now == dump->failure ? kNumericalFailure : kDone;
 }
 
-}  // namespace
+/// Why there is nothing in a folder to go on with.
+std::string no_run_in(const fs::path& folder) {
+  const std::string name = folder.string();
+  if (io::is_marked_run_folder(folder))
+    return fmt::format(
+        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again: polynya "
+        "run "
+        "SCENE --out {0} --overwrite",
+        name, io::run_file::kScene);
+  return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
+}
 
-int resume(const ResumeOptions& options) {
-  const fs::path folder = options.folder;
-  if (!fs::is_regular_file(folder / io::run_file::kScene))
-    return refuse(fmt::format("{}: no run to resume: there is no {}", folder.string(), io::run_file::kScene));
-  const auto scene = load_scene((folder / io::run_file::kScene).string());
-  if (!scene) return scene.error();
-  if (options.from_failure) return repeat_failure(*scene, folder);
-  if (is_finished(folder)) {
-    print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
-    return kDone;
-  }
-  watch_signals();
+int report_finished(const fs::path& folder) {
+  print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
+  if (io::checkpoints_in(folder).empty()) return kDone;
+  if (const auto lock = io::RunLock::take(folder)) io::remove_checkpoints(folder);  // a kill left them
+  return kDone;
+}
+
+int go_on(const io::LoadedScene& scene, io::RunLock lock, const ResumeOptions& options) {
+  const fs::path folder = lock.folder();
   const std::vector<fs::path> checkpoints = io::checkpoints_in(folder);
   if (checkpoints.empty() && options.checkpoint.empty()) {
     print_err("polynya: {}: no checkpoint was written yet; from the start\n", folder.string());
-    auto writer = io::RunWriter::begin(folder, *scene);
+    auto writer = io::RunWriter::begin(std::move(lock), scene);
     if (!writer) return refuse(writer.error());
-    return carry_out({*scene, Simulation(scene->scene), std::move(*writer)}, options.carry);
+    return carry_out({scene, Simulation(scene.scene), std::move(*writer)}, options.carry);
   }
   const fs::path chosen = options.checkpoint.empty() ? checkpoints.front() : fs::path(options.checkpoint);
-  auto run = run_at(chosen, *scene, folder);
+  auto run = run_at(chosen, scene, std::move(lock));
   if (!run) {
     refuse(run.error());
     offer_others(folder, chosen);
@@ -112,6 +110,25 @@ int resume(const ResumeOptions& options) {
   }
   print_err("polynya: from {} at {:.6g} s\n", chosen.filename().string(), run->simulation.time());
   return carry_out(std::move(*run), options.carry);
+}
+
+}  // namespace
+
+int resume(const ResumeOptions& options) {
+  const fs::path folder = options.folder;
+  const fs::path scene_file = folder / io::run_file::kScene;
+  if (!fs::is_regular_file(scene_file)) return refuse(no_run_in(folder));
+  if (options.from_failure) {
+    const auto scene = load_scene(scene_file.string());
+    return scene ? repeat_failure(*scene, folder) : scene.error();
+  }
+  if (io::is_finished_run(folder)) return report_finished(folder);
+  auto lock = io::RunLock::take(folder);
+  if (!lock) return refuse(lock.error());
+  if (io::is_finished_run(folder)) return report_finished(folder);  // by another polynya meanwhile
+  watch_signals();
+  const auto scene = load_scene(scene_file.string());
+  return scene ? go_on(*scene, std::move(*lock), options) : scene.error();
 }
 
 }  // namespace polynya::app

@@ -20,7 +20,6 @@ constexpr std::string_view kMark = "PLYNYCKP";
 constexpr std::size_t kHeadSize = 24;
 constexpr std::string_view kPrefix = "checkpoint-";
 constexpr std::string_view kSuffix = ".bin";
-constexpr std::size_t kKept = 2;
 
 std::uint32_t crc_of(std::string_view bytes) {
   boost::crc_32_type crc;
@@ -35,6 +34,20 @@ std::int64_t steps_of(const std::filesystem::path& path) {
   const std::string digits = name.substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size());
   if (digits.size() != 12 || digits.find_first_not_of("0123456789") != std::string::npos) return -1;
   return std::stoll(digits);
+}
+
+std::filesystem::path path_of(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
+  return folder / fmt::format("{}{:012}{}", kPrefix, checkpoint.steps, kSuffix);
+}
+
+std::string put(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  return write_whole_file(path, checkpoint_bytes(checkpoint), Durability::kSynced);
+}
+
+std::string remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  return error ? fmt::format("{}: {}", path.string(), error.message()) : "";
 }
 
 template <class Archive>
@@ -120,14 +133,26 @@ std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& f
 }
 
 std::string write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
-  const auto path = folder / fmt::format("{}{:012}{}", kPrefix, checkpoint.steps, kSuffix);
-  if (std::string failure = write_whole_file(path, checkpoint_bytes(checkpoint), Durability::kSynced);
-      !failure.empty())
-    return failure;
-  const std::vector<std::filesystem::path> kept = checkpoints_in(folder);
+  if (std::string failure = put(path_of(folder, checkpoint), checkpoint); !failure.empty()) return failure;
+  const std::vector<std::filesystem::path> found = checkpoints_in(folder);
+  const auto is_older = [&](const auto& path) { return steps_of(path) < checkpoint.steps; };
+  const auto kept = std::ranges::find_if(found, is_older);
   std::error_code ignored;  // one too many does no harm
-  for (std::size_t i = kKept; i < kept.size(); ++i) std::filesystem::remove(kept[i], ignored);
+  for (auto path = found.begin(); path != found.end(); ++path)
+    if (path != kept && steps_of(*path) != checkpoint.steps) std::filesystem::remove(*path, ignored);
   return "";
+}
+
+std::string rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
+                      const std::filesystem::path& file) {
+  const auto own = path_of(folder, checkpoint);
+  std::error_code ignored;  // where there is no such file yet
+  std::string failure = std::filesystem::equivalent(file, own, ignored) ? "" : put(own, checkpoint);
+  for (const auto& path : checkpoints_in(folder)) {
+    if (!failure.empty() || steps_of(path) <= checkpoint.steps) break;
+    failure = remove_file(path);
+  }
+  return failure.empty() ? sync_folder(folder) : failure;
 }
 
 tl::expected<Checkpoint, std::string> read_checkpoint_file(const std::filesystem::path& path,
@@ -145,14 +170,17 @@ tl::expected<Checkpoint, std::string> read_checkpoint_file(const std::filesystem
   return checkpoint;
 }
 
-void remove_checkpoints(const std::filesystem::path& folder) {
+std::string remove_checkpoints(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> gone = checkpoints_in(folder);
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with(kPrefix) && name.ends_with(".bin.part")) gone.push_back(entry.path());
   }
-  for (const auto& path : gone) std::filesystem::remove(path, ignored);
+  std::string failure;
+  for (const auto& path : gone)
+    if (failure.empty()) failure = remove_file(path);
+  return failure;
 }
 
 }  // namespace polynya::io

@@ -41,16 +41,23 @@ tl::expected<Checkpoint, std::string> read_checkpoint(std::string_view bytes);
 /// The checkpoints in a run folder, the newest first: "checkpoint-000000012000.bin" after so many steps.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
 
-/// Writes a checkpoint into a run folder, to a temporary name, synced and renamed; only then all but the two
-/// newest go. Returns what went wrong; empty where all is well.
+/// Writes a checkpoint into a run folder, to a temporary name, synced and renamed; only then all others go
+/// but the newest that is older. Returns what went wrong; empty where all is well.
 std::string write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
+
+/// Makes a checkpoint, read from a file in the folder or elsewhere, the newest of a run folder that is to go
+/// on from it: newer ones are of a course of the run that is now cut off. Returns what went wrong; empty
+/// where all is well.
+std::string rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
+                      const std::filesystem::path& file);
 
 /// Reads a checkpoint of the folder whose scene has that hash. The error names the file and says what is
 /// wrong.
 tl::expected<Checkpoint, std::string> read_checkpoint_file(const std::filesystem::path& path,
                                                            std::string_view scene_hash);
 
-/// Takes the checkpoints, and what a crash left of one, out of a folder: the run is finished.
-void remove_checkpoints(const std::filesystem::path& folder);
+/// Removes the checkpoints, and what a crash left of one, from a folder. Returns what went wrong; empty where
+/// all is well.
+std::string remove_checkpoints(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

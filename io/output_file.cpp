@@ -13,6 +13,17 @@
 namespace polynya::io {
 namespace {
 
+std::string words_for(const std::string& name, int error) {
+  if (error == ELOOP) return fmt::format("{}: a link; polynya writes through no link in a run folder", name);
+  return fmt::format("{}: {}", name, std::strerror(error));
+}
+
+/// A new file of that name in place of what had it. Negative, and errno, where there can be none.
+int open_new(const char* path) {
+  if (::unlink(path) != 0 && errno != ENOENT) return -1;
+  return ::open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
 /// Writes as much as goes; errno tells why it is not all.
 std::size_t write_all(int descriptor, std::string_view bytes) {
   std::size_t done = 0;
@@ -28,21 +39,23 @@ std::size_t write_all(int descriptor, std::string_view bytes) {
 }  // namespace
 
 tl::expected<OutputFile, std::string> OutputFile::create(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) return tl::unexpected(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  const int descriptor = open_new(path.c_str());
+  if (descriptor < 0) return tl::unexpected(words_for(path.string(), errno));
   return OutputFile(descriptor, path.string());
 }
 
 tl::expected<OutputFile, std::string> OutputFile::go_on(const std::filesystem::path& path,
                                                         std::uint64_t size) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  // Not blocking: a pipe without a reader is refused instead of waited for.
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   const auto fail = [&](const std::string& reason) {
     if (descriptor >= 0) ::close(descriptor);
     return tl::unexpected(fmt::format("{}: {}", path.string(), reason));
   };
-  if (descriptor < 0) return fail(std::strerror(errno));
+  if (descriptor < 0) return tl::unexpected(words_for(path.string(), errno));
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) return fail(std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) return fail("not a regular file");
   if (static_cast<std::uint64_t>(status.st_size) < size)
     return fail(fmt::format("{} bytes; there were {}", status.st_size, size));
   const auto end = static_cast<off_t>(size);
@@ -98,18 +111,35 @@ bool OutputFile::sync() {
   return failure_.empty();
 }
 
+bool OutputFile::is_in_place() const {
+  struct stat opened {
+  }, named{};
+  return ::fstat(descriptor_, &opened) == 0 && ::lstat(name_.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
 namespace {
 
-/// Waits until a folder's names are on the disk. File systems that cannot are taken at their word.
-bool sync_folder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return false;
+std::string sync_opened(const std::filesystem::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  if (descriptor < 0) return errno == EACCES ? "" : words_for(path.string(), errno);
   const bool is_synced = ::fsync(descriptor) == 0 || errno == EINVAL;
-  const int error = errno;
+  const std::string problem = is_synced ? "" : words_for(path.string(), errno);
   ::close(descriptor);
-  errno = error;
-  return is_synced;
+  return problem;
 }
+
+}  // namespace
+
+std::string sync_file(const std::filesystem::path& path) {
+  return sync_opened(path, O_NOFOLLOW);
+}
+
+std::string sync_folder(const std::filesystem::path& folder) {
+  return sync_opened(folder.empty() ? "." : folder, O_DIRECTORY);
+}
+
+namespace {
 
 /// Why `path` must not be replaced; empty where it may be.
 std::string obstacle(const std::filesystem::path& path) {
@@ -156,7 +186,7 @@ std::string write_whole_file(const std::filesystem::path& path, std::string_view
     ::unlink(temporary.c_str());
     return fmt::format("{}: {}", path.string(), std::strerror(error));
   };
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor = open_new(temporary.c_str());
   if (descriptor < 0) return fail(errno);
   const bool is_synced = durability == Durability::kSynced;
   const bool is_whole =
@@ -165,8 +195,7 @@ std::string write_whole_file(const std::filesystem::path& path, std::string_view
   const bool is_closed = ::close(descriptor) == 0;
   if (!is_whole) return fail(error);
   if (!is_closed || ::rename(temporary.c_str(), path.c_str()) != 0) return fail(errno);
-  if (is_synced && !sync_folder(path.parent_path())) return fail(errno);
-  return "";
+  return is_synced ? sync_folder(path.parent_path()) : "";
 }
 
 }  // namespace polynya::io

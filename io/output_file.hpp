@@ -11,12 +11,14 @@
 namespace polynya::io {
 
 /// A file that grows by whole records (a line, a frame). Records are buffered; what is on disk always ends
-/// with a whole one: where a write fails half way, the file is cut back to the last whole record.
+/// with a whole one: where a write fails half way, the file is cut back to the last whole record. Links are
+/// not followed: run folders come from elsewhere too.
 class OutputFile {
  public:
+  /// A new file; what had its name before, a link for example, is removed.
   static tl::expected<OutputFile, std::string> create(const std::filesystem::path& path);
   /// Goes on with a file that had that size [bytes] when it was last known to be whole: what is beyond is cut
-  /// off. A shorter file is refused and left as it is.
+  /// off. A shorter file, and what is no regular file, is refused and left as it is.
   static tl::expected<OutputFile, std::string> go_on(const std::filesystem::path& path, std::uint64_t size);
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;
@@ -33,6 +35,9 @@ class OutputFile {
   /// Writes what is buffered and waits until it is on the disk.
   bool sync();
   std::uint64_t size() const { return size_; }  ///< on disk [bytes]
+  /// Whether the file still has its name: it was neither removed nor replaced.
+  bool is_in_place() const;
+  const std::string& name() const { return name_; }
   /// Forgets what is buffered.
   void drop() {
     buffer_.clear();
@@ -55,6 +60,11 @@ enum class Durability {
   kRenamed,  ///< whole whatever happens to the program
   kSynced,   ///< whole, and there, whatever happens to the machine
 };
+
+/// Waits until a file's content is on the disk, or a folder's names. File systems that cannot, and folders
+/// that cannot be read, are taken at their word. Returns what went wrong; empty where all is well.
+std::string sync_file(const std::filesystem::path& path);
+std::string sync_folder(const std::filesystem::path& folder);
 
 /// Writes a file of a run folder at once: to a temporary name beside it, then renamed, so that a reader sees
 /// the old or the new one. A link of that name is replaced, not followed: run folders come from elsewhere

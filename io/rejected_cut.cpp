@@ -49,18 +49,57 @@ std::string ops_text(const simulation::RejectedCut& cut) {
   return text + "\n";
 }
 
+constexpr std::string_view kFloeEnding = ".geojson";
+constexpr std::string_view kOpsEnding = "-ops.json";
+
+/// Whether write_rejected_cut() gives a file that name, or left it when it was killed.
+bool is_name_of_ours(std::string_view name) {
+  constexpr std::string_view kPart = ".part";
+  constexpr std::size_t kDigits = 6;
+  if (name.ends_with(kPart)) name.remove_suffix(kPart.size());
+  const bool is_numbered = name.size() > kDigits && name.find_first_not_of("0123456789") == kDigits;
+  return is_numbered && (name.substr(kDigits) == kFloeEnding || name.substr(kDigits) == kOpsEnding);
+}
+
+bool is_link(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored));
+}
+
+std::string link_problem(const std::filesystem::path& folder) {
+  return fmt::format("{}: a link; polynya writes through no link in a run folder; remove it",
+                     folder.string());
+}
+
 }  // namespace
 
 std::string write_rejected_cut(const std::filesystem::path& run_folder, const simulation::RejectedCut& cut) {
   if (cut.number > kMostRejectedCuts) return "";
   const std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
+  if (is_link(folder)) return link_problem(folder);
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  std::filesystem::create_directory(folder, error);
   if (error) return fmt::format("{}: {}", folder.string(), error.message());
-  const std::string wrong =
-      write_whole_file(folder / fmt::format("{:06}.geojson", cut.number), floe_text(cut));
-  return wrong.empty() ? write_whole_file(folder / fmt::format("{:06}-ops.json", cut.number), ops_text(cut))
-                       : wrong;
+  const auto write = [&](std::string_view ending, const std::string& text) {
+    return write_whole_file(folder / fmt::format("{:06}{}", cut.number, ending), text, Durability::kSynced);
+  };
+  const std::string wrong = write(kFloeEnding, floe_text(cut));
+  return wrong.empty() ? write(kOpsEnding, ops_text(cut)) : wrong;
+}
+
+std::string remove_rejected_cuts(const std::filesystem::path& run_folder) {
+  const std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
+  if (is_link(folder)) return link_problem(folder);
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (is_name_of_ours(entry.path().filename().string())) files.push_back(entry.path());
+  for (const auto& file : files) {
+    std::filesystem::remove(file, error);
+    if (error) return fmt::format("{}: {}", file.string(), error.message());
+  }
+  std::filesystem::remove(folder, error);  // unless something else is in it
+  return "";
 }
 
 }  // namespace polynya::io

@@ -4,14 +4,16 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include <tl/expected.hpp>
+
+#include "io/run_lock.hpp"
 
 namespace polynya::io {
 
 /// The files of a run (docs/run-folder.md).
 namespace run_file {
+inline constexpr std::string_view kLock = ".polynya";  ///< run_lock.hpp
 inline constexpr std::string_view kScene = "scene.json";
 inline constexpr std::string_view kSummary = "summary.json";
 inline constexpr std::string_view kForces = "forces.csv";
@@ -40,26 +42,14 @@ inline constexpr std::array kAll{kScene,    kSummary, kForces,   kEvents,       
                                  kFinalPng, kView,    kChannel,  kChannelCsv};
 }  // namespace run_file
 
-/// Keeps others from writing a run's folder as long as it lives (an advisory lock on its scene.json).
-class RunLock {
- public:
-  /// The error says who or what is in the way.
-  static tl::expected<RunLock, std::string> take(const std::filesystem::path& folder);
-  RunLock(RunLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  RunLock& operator=(RunLock&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-  }
-  ~RunLock();
+/// Takes a folder for a new run, making it where there is none, and locks it: of several processes that take
+/// one folder, one gets it. A folder with anything in it is refused, but for what a run leaves that was
+/// killed before it had its scene. With `overwrite`, a run folder (finished or not, or in part removed) loses
+/// the files that polynya writes there, and nothing else; any other folder is refused even then, and nothing
+/// is written into it. The error names the folder, what is in it and what to do.
+tl::expected<RunLock, std::string> claim_run_folder(const std::filesystem::path& folder, bool overwrite);
 
- private:
-  explicit RunLock(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_ = -1;
-};
-
-/// Makes an empty run folder. A folder with anything in it is refused; if told to overwrite, a run's folder
-/// (one with scene.json and summary.json) loses the files a run writes, what other commands made of it in the
-/// folder, and nothing else. Returns what went wrong; empty where all is well.
-std::string prepare_run_folder(const std::filesystem::path& folder, bool overwrite);
+/// Whether polynya marked the folder as a run's.
+bool is_marked_run_folder(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

@@ -1,5 +1,6 @@
 #include "io/run_writer.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -31,25 +32,25 @@ Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_
 
 tl::expected<RunWriter, std::string> RunWriter::create(const std::filesystem::path& folder, bool overwrite,
                                                        const LoadedScene& scene) {
-  if (std::string problem = prepare_run_folder(folder, overwrite); !problem.empty())
-    return tl::unexpected(problem);
-  if (std::string problem = write_whole_file(folder / run_file::kScene, scene.resolved_text);
+  auto lock = claim_run_folder(folder, overwrite);
+  if (!lock) return tl::unexpected(lock.error());
+  if (std::string problem =
+          write_whole_file(folder / run_file::kScene, scene.resolved_text, Durability::kSynced);
       !problem.empty())
     return tl::unexpected(problem);
-  return begin(folder, scene);
+  return begin(std::move(*lock), scene);
 }
 
-tl::expected<RunWriter, std::string> RunWriter::begin(const std::filesystem::path& folder,
-                                                      const LoadedScene& scene) {
-  auto lock = RunLock::take(folder);
-  if (!lock) return tl::unexpected(lock.error());
+tl::expected<RunWriter, std::string> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
+  if (std::string problem = remove_checkpoints(lock.folder()); !problem.empty())
+    return tl::unexpected(problem);
   std::vector<OutputFile> files;
   for (const auto name : kGrowing) {
-    auto file = OutputFile::create(folder / name);
+    auto file = OutputFile::create(lock.folder() / name);
     if (!file) return tl::unexpected(file.error());
     files.push_back(std::move(*file));
   }
-  RunWriter writer(folder, scene, std::move(files), std::move(*lock));
+  RunWriter writer(scene, std::move(files), std::move(lock));
   writer.file(kForces).append(forces_header());
   writer.file(kFrames).append(FrameEncoder::header());
   writer.file(kContacts).append(contacts_header());
@@ -59,41 +60,55 @@ tl::expected<RunWriter, std::string> RunWriter::begin(const std::filesystem::pat
   RunSummary first;
   first.stopped_by = "still running, or killed";
   first.peaks = writer.peaks_;
-  if (std::string problem = write_whole_file(folder / run_file::kSummary, to_json_text(first, scene));
+  if (std::string problem = write_whole_file(writer.folder() / run_file::kSummary, to_json_text(first, scene),
+                                             Durability::kSynced);
       !problem.empty())
     return tl::unexpected(problem);
   return writer;
 }
 
-tl::expected<RunWriter, std::string> RunWriter::go_on(const std::filesystem::path& folder,
-                                                      const LoadedScene& scene, RunProgress progress,
+namespace {
+
+/// Why a file that grows cannot be cut back to its size at a checkpoint; empty where it can.
+std::string shortcoming(const std::filesystem::path& file, std::uint64_t size_then) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(file, error);
+  if (exists(status) && !is_regular_file(status)) return file.string() + ": not a regular file";
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return fmt::format("{}: {}", file.string(), error.message());
+  return size >= size_then
+             ? ""
+             : fmt::format("{}: {} bytes; at the checkpoint there were {}", file.string(), size, size_then);
+}
+
+}  // namespace
+
+tl::expected<RunWriter, std::string> RunWriter::go_on(RunLock lock, const LoadedScene& scene,
+                                                      const Checkpoint& checkpoint,
+                                                      const std::filesystem::path& file,
                                                       const simulation::Simulation& simulation) {
+  const RunProgress& progress = checkpoint.progress;
+  const std::filesystem::path folder = lock.folder();
   const std::size_t ships = scene.scene.ships.size();
   if (progress.file_sizes.size() != kGrowing.size() || progress.tracks.size() != ships ||
       progress.peaks.size() != ships)
     return tl::unexpected(fmt::format("{}: the checkpoint is of another run", folder.string()));
-  auto lock = RunLock::take(folder);
-  if (!lock) return tl::unexpected(lock.error());
-  for (std::size_t i = 0; i < kGrowing.size(); ++i) {  // before any is cut back
-    std::error_code error;
-    const auto size = std::filesystem::file_size(folder / kGrowing[i], error);
-    if (error || size < progress.file_sizes[i])
-      return tl::unexpected(fmt::format(
-          "{}: {}", (folder / kGrowing[i]).string(),
-          error ? error.message()
-                : fmt::format("{} bytes; at the checkpoint there were {}", size, progress.file_sizes[i])));
-  }
+  for (std::size_t i = 0; i < kGrowing.size(); ++i)  // before any is cut back
+    if (std::string problem = shortcoming(folder / kGrowing[i], progress.file_sizes[i]); !problem.empty())
+      return tl::unexpected(std::move(problem));
+  if (std::string problem = rewind_to(folder, checkpoint, file); !problem.empty())
+    return tl::unexpected(std::move(problem));
   std::vector<OutputFile> files;
   for (std::size_t i = 0; i < kGrowing.size(); ++i) {
-    auto file = OutputFile::go_on(folder / kGrowing[i], progress.file_sizes[i]);
-    if (!file) return tl::unexpected(file.error());
-    files.push_back(std::move(*file));
+    auto grown = OutputFile::go_on(folder / kGrowing[i], progress.file_sizes[i]);
+    if (!grown) return tl::unexpected(grown.error());
+    files.push_back(std::move(*grown));
   }
-  RunWriter writer(folder, scene, std::move(files), std::move(*lock));
-  writer.frames_ = FrameEncoder(std::move(progress.told));
-  writer.tracks_ = std::move(progress.tracks);
-  writer.fractures_ = std::move(progress.fractures);
-  writer.peaks_ = std::move(progress.peaks);
+  RunWriter writer(scene, std::move(files), std::move(lock));
+  writer.frames_ = FrameEncoder(progress.told);
+  writer.tracks_ = progress.tracks;
+  writer.fractures_ = progress.fractures;
+  writer.peaks_ = progress.peaks;
   for (const simulation::FloeState& floe : simulation.floe_states())
     writer.know(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
   return writer;
@@ -109,10 +124,8 @@ void RunWriter::know(simulation::FloeId floe, simulation::FloeId parent, geometr
   centroids_in_body_[id] = centroid_in_body;
 }
 
-RunWriter::RunWriter(std::filesystem::path folder, const LoadedScene& scene, std::vector<OutputFile> files,
-                     RunLock lock)
-    : folder_(std::move(folder)),
-      scene_(&scene),
+RunWriter::RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock)
+    : scene_(&scene),
       files_(std::move(files)),
       tracks_(scene.scene.ships.size()),
       peaks_(scene.scene.ships.size()),
@@ -150,7 +163,7 @@ void RunWriter::record(simulation::Journal& journal) {
     peaks_[static_cast<std::size_t>(sample.ship)].see(sample);
   }
   for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
-    if (std::string wrong = write_rejected_cut(folder_, cut); !wrong.empty()) failure_ = std::move(wrong);
+    if (std::string wrong = write_rejected_cut(folder(), cut); !wrong.empty()) failure_ = std::move(wrong);
   }
   journal.clear();
 }
@@ -190,12 +203,22 @@ RunProgress RunWriter::sync() {
 }
 
 void RunWriter::flush() {
-  bool all_well = true;
+  check_place();
+  bool all_well = !is_displaced_;
   for (OutputFile& file : files_) {
     if (!all_well) file.drop();  // nothing may be named that is not there
     all_well = all_well && file.flush();
   }
   last_flush_ = std::chrono::steady_clock::now();
+}
+
+void RunWriter::check_place() {
+  if (is_displaced_) return;
+  const auto lost = std::ranges::find_if_not(files_, &OutputFile::is_in_place);
+  is_displaced_ = !lock_.is_in_place() || lost != files_.end();
+  if (!is_displaced_ || !failure_.empty()) return;
+  failure_ = fmt::format("{}: removed, moved or replaced by another program during the run",
+                         lock_.is_in_place() ? lost->name() : folder().string());
 }
 
 void RunWriter::flush_if_due() {
@@ -240,25 +263,28 @@ Picture RunWriter::picture(const RunSummary& summary, const simulation::Simulati
 }
 
 std::string RunWriter::finish(const RunSummary& summary, const simulation::Simulation& simulation) {
-  flush();
+  sync();
+  if (is_displaced_) return failure_;  // whatever is there now is not this run's
   std::string problem = failure();
   const auto write = [&](std::string_view name, const std::string& text) {
-    const std::string wrong = write_whole_file(folder_ / name, text);
+    const std::string wrong = write_whole_file(folder() / name, text, Durability::kSynced);
     if (problem.empty()) problem = wrong;
     return wrong.empty();
   };
   const auto write_pictures = [&] {
     write(run_file::kFinalGeojson, to_geojson(simulation.floe_states(), simulation.time()));
     const std::string svg = to_svg(picture(summary, simulation));
-    if (write(run_file::kFinalSvg, svg) && svg.size() <= kLargestConverted)
-      has_png_ = convert_to_png(folder_ / run_file::kFinalSvg, folder_ / run_file::kFinalPng);
+    if (!write(run_file::kFinalSvg, svg) || svg.size() > kLargestConverted) return;
+    const auto png = folder() / run_file::kFinalPng;
+    has_png_ = convert_to_png(folder() / run_file::kFinalSvg, png);
+    if (has_png_ && problem.empty()) problem = sync_file(png);
   };
-  // A summary that says "finished" comes last, when all is there. Of a run that stopped it comes first: where
-  // space is short it matters more than the picture.
+  // A summary that says "finished" comes last, when all is there, and on the disk. Of a run that stopped it
+  // comes first: where space is short it matters more than the picture.
   if (summary.finished) write_pictures();
   if (problem.empty() || !summary.finished) write(run_file::kSummary, to_json_text(summary, *scene_));
   if (!summary.finished) write_pictures();
-  if (summary.finished && problem.empty()) remove_checkpoints(folder_);
+  if (summary.finished && problem.empty()) problem = remove_checkpoints(folder());
   return problem;
 }
 

@@ -19,6 +19,8 @@
 
 namespace polynya::io {
 
+struct Checkpoint;
+
 /// What of a run's folder is written, and what the writer has to remember of it to go on.
 struct RunProgress {
   std::vector<std::uint64_t> file_sizes;             ///< of the files that grow, on disk [bytes]
@@ -38,13 +40,15 @@ class RunWriter {
   static tl::expected<RunWriter, std::string> create(const std::filesystem::path& folder, bool overwrite,
                                                      const LoadedScene& scene);
 
-  /// The same for a folder that has its scene.json already: everything else of the run begins anew.
-  static tl::expected<RunWriter, std::string> begin(const std::filesystem::path& folder,
-                                                    const LoadedScene& scene);
+  /// The same for a folder that has its scene.json already: everything else of the run is written from the
+  /// start.
+  static tl::expected<RunWriter, std::string> begin(RunLock lock, const LoadedScene& scene);
 
-  /// Goes on with the folder of a run that was interrupted: what its files have beyond `progress` is cut off.
-  static tl::expected<RunWriter, std::string> go_on(const std::filesystem::path& folder,
-                                                    const LoadedScene& scene, RunProgress progress,
+  /// Goes on with the folder of a run that was interrupted: what its files have beyond the checkpoint is cut
+  /// off, newer checkpoints too. `file` is where the checkpoint was read.
+  static tl::expected<RunWriter, std::string> go_on(RunLock lock, const LoadedScene& scene,
+                                                    const Checkpoint& checkpoint,
+                                                    const std::filesystem::path& file,
                                                     const simulation::Simulation& simulation);
 
   /// Takes down what the journal tells and clears it.
@@ -56,8 +60,8 @@ class RunWriter {
   /// Writes what is buffered if a second has passed or much has gathered. Cheap to call after every step.
   void flush_if_due();
 
-  /// Brings everything to the disk, for a checkpoint, and tells where the folder stands. Where failure() says
-  /// that it could not, the folder stands nowhere.
+  /// Brings everything to the disk, for a checkpoint, and returns where the folder stands. Where failure() is
+  /// not empty it could not, and the folder stands nowhere.
   RunProgress sync();
 
   /// What went wrong with a file; empty where all is well.
@@ -67,23 +71,26 @@ class RunWriter {
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
   /// Ends the run: everything buffered, final.geojson, final.svg and final.png (where there is a converter),
-  /// and last summary.json. Returns what went wrong; empty where all is well.
+  /// and last summary.json. All of it is on the disk before a summary that says "finished" is, and that one
+  /// before the checkpoints go. Returns what went wrong; empty where all is well.
   std::string finish(const RunSummary& summary, const simulation::Simulation& simulation);
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return lock_.folder(); }
+  /// Whether the folder and its files were removed, moved or replaced by another program.
+  bool is_displaced() const { return is_displaced_; }
   bool has_png() const { return has_png_; }
 
  private:
-  RunWriter(std::filesystem::path folder, const LoadedScene& scene, std::vector<OutputFile> files,
-            RunLock lock);
+  RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock);
   /// What events and frames will say of a floe.
   void know(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
   OutputFile& file(std::size_t which) { return files_[which]; }
   void flush();
+  /// Notes it as the failure if the folder or a file in it has lost its name.
+  void check_place();
   std::string_view ship_name(int ship) const;
   Picture picture(const RunSummary& summary, const simulation::Simulation& simulation) const;
 
-  std::filesystem::path folder_;
   const LoadedScene* scene_;
   std::vector<OutputFile> files_;  ///< in the order they are flushed: what is named before what names it
   FrameEncoder frames_;
@@ -97,6 +104,7 @@ class RunWriter {
   std::string failure_;  ///< of what is written at once
   std::chrono::steady_clock::time_point last_flush_;
   bool has_png_ = false;
+  bool is_displaced_ = false;
 };
 
 }  // namespace polynya::io

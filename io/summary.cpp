@@ -1,6 +1,9 @@
 #include "io/summary.hpp"
 
+#include "io/json_parser.hpp"
 #include "io/json_writer.hpp"
+#include "io/run_folder.hpp"
+#include "io/source_text.hpp"
 #include "io/version.hpp"
 
 namespace polynya::io {
@@ -71,6 +74,14 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
 }
 
 }  // namespace
+
+bool is_finished_run(const std::filesystem::path& folder) {
+  const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
+  if (!text) return false;
+  const JsonDocument summary = parse_json(*text);
+  const JsonValue* finished = summary.faults.empty() ? summary.root.find("finished") : nullptr;
+  return finished != nullptr && finished->kind() == JsonValue::Kind::kBoolean && finished->boolean();
+}
 
 std::string_view version() {
   return POLYNYA_VERSION;

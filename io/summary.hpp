@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -45,5 +46,8 @@ struct RunSummary {
 };
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
+
+/// Whether a run folder has a summary.json that says so.
+bool is_finished_run(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

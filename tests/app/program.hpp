@@ -27,6 +27,7 @@ struct Start {
   std::filesystem::path input = {};     ///< its stdin; none if empty
   /// Replaces a descriptor at the last moment; the others go to files, or come from /dev/null.
   std::function<void()> arrange_streams = [] {};
+  std::vector<std::string> under = {};  ///< a program, and its options, that starts polynya
 };
 
 /// With stdout or stderr a pipe that nobody reads.
@@ -55,13 +56,14 @@ inline pid_t start_polynya(const std::vector<std::string>& words, const Start& s
     setrlimit(RLIMIT_FSIZE, &limit);
   }
   start.arrange_streams();
-  std::vector<std::string> copies{POLYNYA_BINARY};
+  std::vector<std::string> copies = start.under;
+  copies.emplace_back(POLYNYA_BINARY);
   copies.insert(copies.end(), words.begin(), words.end());
   std::vector<char*> arguments;
   arguments.reserve(copies.size() + 1);
   for (std::string& word : copies) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  execv(arguments[0], arguments.data());
+  execvp(arguments[0], arguments.data());
   _exit(127);
 }
 

@@ -130,7 +130,7 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
         std::vector<std::string>{"run", folder_ / "scene.json", "--out", folder_ / "run", "--overwrite"}}) {
     const Outcome locked = polynya(words, beside);
     EXPECT_EQ(locked.code, 5);
-    EXPECT_NE(locked.err.find("another polynya is at this run"), std::string::npos) << locked.err;
+    EXPECT_NE(locked.err.find("another polynya is writing this run"), std::string::npos) << locked.err;
   }
   kill(child, SIGTERM);
   const Outcome stopped = wait_for(child, start_);

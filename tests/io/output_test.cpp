@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 
 #include "io/output_file.hpp"
-#include "io/run_folder.hpp"
 
 namespace polynya::io {
 namespace {
@@ -80,27 +79,34 @@ TEST(OutputFile, ReplacesNoPipeNoDeviceAndNoFolder) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-TEST(RunFolder, RefusesWhatIsNotEmpty) {
+TEST(OutputFile, WritesThroughNoLinkThatWasPutInItsWay) {
   const TemporaryFolder folder;
-  EXPECT_EQ(prepare_run_folder(folder / "new/deep", false), "");
-  EXPECT_EQ(prepare_run_folder(folder / "new/deep", false), "");  // empty still
-  write_file(folder / "foreign/thesis.tex", "years of work");
-  EXPECT_NE(prepare_run_folder(folder / "foreign", false), "");
-  EXPECT_NE(prepare_run_folder(folder / "foreign", true), "");
-  EXPECT_NE(prepare_run_folder(folder / "foreign/thesis.tex", true), "");
-  EXPECT_EQ(read_file(folder / "foreign/thesis.tex"), "years of work");
+  write_file(folder / "precious", "years of work");
+  for (const char* name : {"grown", "cut", "whole.part"})
+    std::filesystem::create_symlink("precious", folder / name);
+  EXPECT_EQ(write_whole_file(folder / "whole", "text"), "");
+  EXPECT_EQ(read_file(folder / "whole"), "text");
+  auto grown = OutputFile::create(folder / "grown");
+  ASSERT_TRUE(grown.has_value());
+  grown->append("text\n");
+  EXPECT_TRUE(grown->flush() && grown->is_in_place());
+  EXPECT_EQ(read_file(folder / "grown"), "text\n");
+  const auto cut = OutputFile::go_on(folder / "cut", 0);
+  ASSERT_FALSE(cut.has_value());
+  EXPECT_NE(cut.error().find("cut: a link"), std::string::npos) << cut.error();
+  EXPECT_EQ(read_file(folder / "precious"), "years of work");
 }
 
-TEST(RunFolder, OverwritesOnlyWhatARunWrites) {
+TEST(OutputFile, KnowsWhetherItIsStillThere) {
   const TemporaryFolder folder;
-  for (const auto name : run_file::kAll) write_file(folder / ("run/" + std::string(name)), "old");
-  write_file(folder / "run/notes.txt", "mine");
-  EXPECT_NE(prepare_run_folder(folder / "run", false), "");
-  EXPECT_EQ(read_file(folder / "run/forces.csv"), "old");
-  EXPECT_EQ(prepare_run_folder(folder / "run", true), "");
-  EXPECT_EQ(read_file(folder / "run/notes.txt"), "mine");
-  for (const auto name : run_file::kAll)
-    EXPECT_FALSE(std::filesystem::exists(folder / ("run/" + std::string(name))));
+  auto file = OutputFile::create(folder / "file");
+  ASSERT_TRUE(file.has_value());
+  EXPECT_TRUE(file->is_in_place());
+  write_file(folder / "other", "");
+  std::filesystem::rename(folder / "other", folder / "file");
+  EXPECT_FALSE(file->is_in_place());
+  std::filesystem::remove(folder / "file");
+  EXPECT_FALSE(file->is_in_place());
 }
 
 }  // namespace

@@ -214,7 +214,8 @@ TEST(Scene, OverridesTakeTheScenesPlace) {
 /// The scene.json of a run is the resolved scene: whatever is read must fit into what can be read again.
 TEST(Scene, OneThatCouldNotBeReadBackIsRefused) {
   const TemporaryFolder folder;
-  write_file(folder / "f.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[1,0],[0,1],[0,0]]]})");
+  write_file(folder / "f.geojson",
+             R"({"type": "Polygon", "coordinates": [[[0,0],[1000,0],[0,1000],[0,0]]]})");
   const std::string text = R"({"floes": [{"file": "f.geojson"}]})";
   const auto resolved = read_scene(text, "s.json", folder.path());
   ASSERT_TRUE(resolved.has_value());

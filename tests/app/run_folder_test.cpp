@@ -1,0 +1,294 @@
+// What becomes of a run folder when polynya is killed, power fails, or others were there before.
+
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "interrupted_run.hpp"
+#include <gtest/gtest.h>
+
+#include "io/run_writer.hpp"
+#include "io/scene_reader.hpp"
+#include "simulation/simulation.hpp"
+
+namespace polynya::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// A ship that breaks cusps from a plate, in a moment.
+constexpr auto kScene =
+    R"({"name": "tiny", "time": {"step_s": 0.01, "until_s": 3}, "record": {"frames_interval_s": 0.5},
+        "ships": [{"hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30}, "mass_kg": 3e6,
+          "moment_of_inertia_kg_m2": 8e8, "position_m": [-31, 0], "propulsion": {"constant_speed_m_per_s": 2}}],
+        "floes": [{"rectangle": {"corner_m": [0.5, -40], "size_m": [120, 80]}}]})";
+
+/// strace with options. LeakSanitizer, where polynya has it, cannot work under it.
+Words strace(Words options) {
+  options.insert(options.begin(), {"env", "ASAN_OPTIONS=detect_leaks=0", "strace", "-f"});
+  return options;
+}
+
+class RunFolderTrial : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(folder_ / "tiny.json", kScene);
+    ASSERT_EQ(run_to("whole").code, 0);
+    ASSERT_GT(read_file(folder_ / "whole/events.ndjson").size(), 0U);
+  }
+  static bool has_strace() { return std::system("strace -o /dev/null true >/dev/null 2>&1") == 0; }
+  Outcome call(const Words& words, const Words& under = {}) const {
+    return polynya(words, {.folder = folder_.path(), .under = under});
+  }
+  Outcome run_to(const std::string& name, const Words& more = {}, const Words& under = {}) const {
+    Words words{"run", "tiny.json", "--out", name, "--progress", "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    return call(words, under);
+  }
+  std::string difference(const std::string& name) const {
+    return first_difference(folder_ / "whole", folder_ / name);
+  }
+  /// Leaves the run as a kill after so many steps does; its checkpoints are written at these steps.
+  void leave_run(const std::string& name, std::int64_t end,
+                 const std::vector<std::int64_t>& checkpoints) const;
+
+  const TemporaryFolder folder_;
+};
+
+void RunFolderTrial::leave_run(const std::string& name, std::int64_t end,
+                               const std::vector<std::int64_t>& checkpoints) const {
+  const auto scene = io::read_scene_file(folder_ / "tiny.json");
+  ASSERT_TRUE(scene.has_value());
+  simulation::Simulation simulation(scene->scene);
+  auto writer = io::RunWriter::create(folder_ / name, false, *scene);
+  ASSERT_TRUE(writer.has_value()) << writer.error();
+  for (std::int64_t step = 0;; ++step) {
+    writer->record(simulation.journal());
+    if (step % 50 == 0) writer->frame(simulation);
+    if (std::ranges::find(checkpoints, step) != checkpoints.end()) {
+      io::Checkpoint checkpoint;
+      checkpoint.scene_hash = scene->hash;
+      checkpoint.steps = step;
+      checkpoint.progress = writer->sync();
+      checkpoint.state = simulation.state();
+      checkpoint.state_hash = simulation.state_hash();
+      ASSERT_EQ(io::write_checkpoint(folder_ / name, checkpoint), "");
+    }
+    if (step == end) return;
+    simulation.step();
+  }
+}
+
+/// A kill at any call that changes the folder leaves what the next run takes, and what resume, where it takes
+/// it, brings to the end.
+TEST_F(RunFolderTrial, AKillWhileARunIsReplacedLeavesAFolderThatIsTaken) {
+  if (!has_strace()) GTEST_SKIP() << "no strace that works here";
+  for (const auto& [call, stride] : {std::pair<std::string, int>("unlink", 12), {"rename", 2}}) {
+    int kills = 0;
+    for (int at = 2;; at += stride) {
+      fs::remove_all(folder_ / "run");
+      fs::copy(folder_ / "whole", folder_ / "run", fs::copy_options::recursive);
+      const Outcome killed =
+          run_to("run", {"--overwrite"},
+                 strace({"-o", "/dev/null", "-e", "trace=" + call, "-e",
+                         "inject=" + call + ":error=EIO:signal=KILL:when=" + std::to_string(at)}));
+      if (killed.code != -SIGKILL) break;
+      SCOPED_TRACE(call + " " + std::to_string(at));
+      ++kills;
+      fs::remove_all(folder_ / "copy");
+      fs::copy(folder_ / "run", folder_ / "copy", fs::copy_options::recursive);
+      const Outcome resumed = this->call({"resume", "copy", "--progress", "none"});
+      if (resumed.code == 0) {
+        EXPECT_EQ(difference("copy"), "");
+      } else {
+        EXPECT_NE(resumed.err.find("polynya run SCENE --out copy --overwrite"), std::string::npos)
+            << resumed.err;
+      }
+      EXPECT_EQ(run_to("run", {"--overwrite"}).code, 0);
+      ASSERT_EQ(difference("run"), "");
+    }
+    EXPECT_GE(kills, 3) << call;
+  }
+}
+
+TEST_F(RunFolderTrial, AKillInAFreshFolderLeavesOneThatIsTaken) {
+  if (!has_strace()) GTEST_SKIP() << "no strace that works here";
+  for (const auto& [call, last] : {std::pair("mkdir", 1), {"flock", 1}, {"fsync", 4}, {"rename", 2}}) {
+    for (int at = 1; at <= last; ++at) {
+      SCOPED_TRACE(std::string(call) + " " + std::to_string(at));
+      fs::remove_all(folder_ / "run");
+      const Outcome killed = run_to(
+          "run", {},
+          strace({"-o", "/dev/null", "-e", std::string("trace=") + call, "-e",
+                  std::string("inject=") + call + ":error=EIO:signal=KILL:when=" + std::to_string(at)}));
+      ASSERT_EQ(killed.code, -SIGKILL);
+      const bool has_scene = fs::exists(folder_ / "run/scene.json");
+      const Outcome again = run_to("run");
+      EXPECT_EQ(again.code, has_scene ? 5 : 0) << again.err;
+      if (has_scene) {
+        EXPECT_NE(again.err.find("polynya resume run"), std::string::npos) << again.err;
+        EXPECT_EQ(this->call({"resume", "run"}).code, 0);
+      }
+      EXPECT_EQ(difference("run"), "");
+    }
+  }
+}
+
+/// The paths in a line of `strace -y`: of the descriptor "3</tmp/run/forces.csv>", and in quotes.
+std::string path_in(const std::string& line, char open, char close) {
+  const auto start = line.find(open);
+  if (start == std::string::npos) return "";
+  const auto end = line.find(close, start + 1);
+  return line.substr(start + 1, end - start - 1);
+}
+
+/// Follows a trace of calls: what of a run folder a power failure could take away.
+class Unsynced {
+ public:
+  explicit Unsynced(fs::path folder) : folder_(std::move(folder)) {}
+  void take(const std::string& line) {
+    const std::string call = line.substr(0, line.find('('));
+    const std::string opened = path_in(line, '<', '>');
+    const std::string named = fs::path(path_in(line, '"', '"')).lexically_normal();
+    if (call == "fsync") paths_.erase(opened);
+    if (call == "write" && is_in_folder(opened)) paths_.insert(opened);
+    if (call == "openat" && line.find("O_CREAT") != std::string::npos) change_names_of(named);
+    if (call == "mkdir") change_names_of(named);
+    if (call != "rename") return;
+    change_names_of(named);
+    const std::string from = folder_.parent_path() / named;
+    const auto second = line.find("\", \"") + 4;
+    const std::string to = folder_.parent_path() / line.substr(second, line.find('"', second) - second);
+    paths_.erase(to);
+    if (paths_.erase(from) > 0) paths_.insert(to);
+  }
+  std::string list() const {
+    std::string text;
+    for (const std::string& path : paths_) text += path + " ";
+    return text;
+  }
+
+ private:
+  bool is_in_folder(const std::string& path) const { return path.starts_with(folder_.string() + "/"); }
+  void change_names_of(const std::string& named) {
+    const fs::path path = folder_.parent_path() / named;
+    if (path == folder_ || is_in_folder(path)) paths_.insert(path.parent_path());
+  }
+  fs::path folder_;
+  std::set<std::string> paths_;  ///< of files with bytes, and folders with names, that are not on the disk
+};
+
+/// A checkpoint is what a run can be had again from: it goes only when all that was written before is on the
+/// disk.
+TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
+  if (!has_strace()) GTEST_SKIP() << "no strace that works here";
+  const Outcome traced = run_to(
+      "run", {"--checkpoint-every", "0.4"},
+      strace({"-y", "-s", "4096", "-o", "trace.txt", "-e", "trace=write,openat,mkdir,fsync,rename,unlink"}));
+  ASSERT_EQ(traced.code, 0) << traced.err;
+  Unsynced unsynced(fs::canonical(folder_.path()) / "run");
+  std::istringstream lines(read_file(folder_ / "trace.txt"));
+  int gone = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string call = line.substr(line.find_first_not_of(" ", line.find(' ')));
+    if (call.starts_with("unlink(") && call.find("checkpoint-") != std::string::npos &&
+        call.find("= 0") != std::string::npos) {
+      ++gone;
+      EXPECT_EQ(unsynced.list(), "") << call;
+    }
+    unsynced.take(call);
+  }
+  EXPECT_EQ(gone, 7);
+  EXPECT_EQ(difference("run"), "");
+}
+
+TEST_F(RunFolderTrial, AResumeFromAnOlderCheckpointLeavesNoNewerOne) {
+  leave_run("run", 260, {50, 100, 150, 200, 250});
+  fs::copy(folder_ / "run", folder_ / "copy", fs::copy_options::recursive);
+  const std::string older = "run/checkpoint-000000000200.bin";
+  // The disk is full soon, which stops the resumed run as a kill would.
+  const auto size = fs::file_size(folder_ / "run/forces.csv");
+  const Outcome stopped = polynya({"resume", "run", "--checkpoint", older},
+                                  {.folder = folder_.path(), .largest_file = size - 100});
+  EXPECT_EQ(stopped.code, 5) << stopped.err;
+  const auto left = io::checkpoints_in(folder_ / "run");
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_EQ(left.front(), folder_ / older);
+  EXPECT_EQ(call({"resume", "run"}).code, 0);
+  EXPECT_EQ(difference("run"), "");
+}
+
+TEST_F(RunFolderTrial, AResumeFromASavedCheckpointIsNotLostToAKill) {
+  leave_run("early", 60, {50});
+  leave_run("run", 260, {200, 250});
+  const std::string saved = "early/checkpoint-000000000050.bin";
+  if (!has_strace()) GTEST_SKIP() << "no strace that works here";
+  // Killed when it would write its third checkpoint.
+  const Outcome killed = call(
+      {"resume", "run", "--checkpoint", saved, "--checkpoint-every", "0.1"},
+      strace({"-o", "/dev/null", "-e", "trace=rename", "-e", "inject=rename:error=EIO:signal=KILL:when=4"}));
+  EXPECT_EQ(killed.code, -SIGKILL) << killed.err;
+  const auto left = io::checkpoints_in(folder_ / "run");
+  ASSERT_EQ(left.size(), 2U);
+  EXPECT_EQ(left.front().filename(), "checkpoint-000000000070.bin");
+  EXPECT_EQ(call({"resume", "run"}).code, 0);
+  EXPECT_EQ(difference("run"), "");
+}
+
+/// A run folder from elsewhere must not make polynya write outside it.
+TEST_F(RunFolderTrial, LinksInAForeignRunFolderAreNotFollowed) {
+  write_file(folder_ / "precious", "years of work");
+  fs::create_directory(folder_ / "elsewhere");
+  fs::create_directory(folder_ / "run");
+  fs::copy(folder_ / "whole/scene.json", folder_ / "run/scene.json");
+  const auto link_all = [&] {
+    for (const char* name : {"floes.ndjson", "final.png", "final.png.part", "final.svg", "final.geojson.part",
+                             "summary.json.part", "forces.csv", "scene.json.part", "summary.json"}) {
+      fs::remove(folder_ / "run" / name);
+      fs::create_symlink("../precious", folder_ / "run" / name);
+    }
+  };
+  link_all();
+  EXPECT_EQ(call({"resume", "run"}).code, 0);
+  EXPECT_EQ(difference("run"), "");
+  link_all();
+  EXPECT_EQ(run_to("run", {"--overwrite"}).code, 0);
+  EXPECT_EQ(difference("run"), "");
+  fs::remove(folder_ / "run/.polynya");
+  fs::create_symlink("../precious", folder_ / "run/.polynya");
+  EXPECT_EQ(run_to("run", {"--overwrite"}).code, 5);
+  leave_run("other", 260, {250});
+  fs::rename(folder_ / "other/states.csv", folder_ / "kept");
+  fs::create_symlink("../kept", folder_ / "other/states.csv");
+  const std::string kept = read_file(folder_ / "kept");
+  const Outcome refused = call({"resume", "other"});
+  EXPECT_EQ(refused.code, 5);
+  EXPECT_NE(refused.err.find("states.csv: not a regular file"), std::string::npos) << refused.err;
+  EXPECT_EQ(read_file(folder_ / "kept"), kept);
+  EXPECT_EQ(read_file(folder_ / "precious"), "years of work");
+}
+
+TEST_F(RunFolderTrial, AFolderThatGoesAwayDuringTheRunIsFive) {
+  write_file(folder_ / "long.json", crash_scene("1e5"));
+  const Start start{folder_.path()};
+  for (const std::string removed : {"run", "run/states.csv"}) {
+    const pid_t child = start_polynya({"run", "long.json", "--out", "run"}, start);
+    while (!has_ended(child) && !fs::exists(folder_ / "run/summary.json"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    fs::rename(folder_ / removed, folder_ / "moved");
+    if (removed == "run") write_file(folder_ / "run/notes.txt", "another folder of that name");
+    const Outcome ended = wait_for(child, start);
+    EXPECT_EQ(ended.code, 5) << ended.err;
+    EXPECT_NE(ended.err.find(removed + ": removed, moved or replaced by another program"), std::string::npos)
+        << ended.err;
+    if (removed == "run") {
+      EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "run"), {}), 1);
+    }
+    fs::remove_all(folder_ / "run");
+    fs::remove_all(folder_ / "moved");
+  }
+}
+
+}  // namespace
+}  // namespace polynya::tests

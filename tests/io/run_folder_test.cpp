@@ -1,0 +1,196 @@
+// Who owns a run folder, and what of it --overwrite removes.
+
+#include "io/run_folder.hpp"
+
+#include <array>
+
+#include "temporary_folder.hpp"
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "io/checkpoint.hpp"
+
+namespace polynya::io {
+namespace {
+
+namespace fs = std::filesystem;
+using tests::read_file;
+using tests::TemporaryFolder;
+using tests::write_file;
+
+/// Why a folder cannot be claimed; empty where it can. The claim ends at once, as at a kill.
+std::string refusal(const fs::path& folder, bool overwrite) {
+  const auto lock = claim_run_folder(folder, overwrite);
+  return lock ? "" : lock.error();
+}
+
+TEST(RunFolder, RefusesWhatIsNotEmptyAndWritesNothingThere) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusal(folder / "new/deep", false), "");
+  EXPECT_EQ(refusal(folder / "new/deep", false), "");  // empty still
+  write_file(folder / "foreign/thesis.tex", "years of work");
+  write_file(folder / "foreign/scene.json", "{}");
+  for (const bool overwrite : {false, true}) {
+    EXPECT_NE(refusal(folder / "foreign", overwrite).find("not a run folder"), std::string::npos);
+    EXPECT_NE(refusal(folder / "foreign/thesis.tex", overwrite).find("not a folder"), std::string::npos);
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "foreign"), {}), 2);
+  EXPECT_EQ(read_file(folder / "foreign/thesis.tex"), "years of work");
+}
+
+/// A run folder of this version or, without the mark, of an earlier one.
+void write_run(const fs::path& run, bool is_marked) {
+  for (const auto name : run_file::kAll) write_file(run / name, "old");
+  for (const auto name :
+       {"failure.bin", "figure-loads.svg", "figure-loads.png", "checkpoint-000000000100.bin",
+        "checkpoint-000000000200.bin.part", "summary.json.part", "rejected-cuts/000001.geojson",
+        "rejected-cuts/000001-ops.json", "rejected-cuts/000002.geojson.part"})
+    write_file(run / name, "old");
+  if (is_marked) write_file(run / run_file::kLock, "");
+}
+
+TEST(RunFolder, OverwritesOnlyWhatPolynyaWrites) {
+  for (const bool is_marked : {false, true}) {
+    const TemporaryFolder folder;
+    const fs::path run = folder / "run";
+    write_run(run, is_marked);
+    EXPECT_NE(refusal(run, false).find("--overwrite"), std::string::npos);
+    EXPECT_EQ(read_file(run / "forces.csv"), "old");
+    const std::array foreign{"notes.txt",
+                             "figure-mine.svg",
+                             "checkpoint-of-mine.bin",
+                             "rejected-cuts/notes.txt",
+                             "rejected-cuts/1.geojson",
+                             "rejected-cuts/000001.txt"};
+    for (const auto* name : foreign) write_file(run / name, "mine");
+    EXPECT_EQ(refusal(run, true), "");
+    for (const auto* name : foreign) {
+      EXPECT_EQ(read_file(run / name), "mine") << name;
+      fs::remove(run / name);
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(run / "rejected-cuts"), {}), 0);
+    EXPECT_EQ(std::distance(fs::directory_iterator(run), {}), 2) << "the mark, and rejected-cuts";
+  }
+}
+
+TEST(RunFolder, RemovesThroughNoLink) {
+  const TemporaryFolder folder;
+  const fs::path run = folder / "run";
+  write_run(run, true);
+  write_file(folder / "elsewhere/000001.geojson", "precious");
+  fs::remove_all(run / "rejected-cuts");
+  fs::create_directory_symlink(folder / "elsewhere", run / "rejected-cuts");
+  EXPECT_NE(refusal(run, true).find("rejected-cuts: a link"), std::string::npos);
+  fs::remove(run / "rejected-cuts");
+  fs::remove(run / "forces.csv");
+  fs::create_symlink(folder / "elsewhere/000001.geojson", run / "forces.csv");
+  EXPECT_EQ(refusal(run, true), "");
+  EXPECT_EQ(read_file(folder / "elsewhere/000001.geojson"), "precious");
+}
+
+/// What a kill leaves before a run has its scene, or while --overwrite removes one.
+TEST(RunFolder, WhatAKillLeavesIsTakenAndNamed) {
+  const TemporaryFolder folder;
+  const fs::path run = folder / "run";
+  write_file(run / run_file::kLock, "");
+  EXPECT_EQ(refusal(run, false), "");
+  write_file(run / "scene.json.part", "{");
+  EXPECT_EQ(refusal(run, false), "") << "nothing is lost";
+  write_file(run / "forces.csv", "old");
+  EXPECT_NE(refusal(run, false).find("parts of a run in it, without its scene"), std::string::npos);
+  EXPECT_EQ(refusal(run, true), "");
+  EXPECT_FALSE(fs::exists(run / "forces.csv"));
+  write_file(run / "scene.json", "{}");
+  EXPECT_NE(refusal(run, false).find("go on with: polynya resume"), std::string::npos);
+  EXPECT_EQ(refusal(run, true), "");
+  EXPECT_FALSE(fs::exists(run / "scene.json"));
+}
+
+/// Processes that claim one fresh folder at the same time, and keep what they get until all have tried.
+int owners_of(const fs::path& folder, int processes) {
+  std::array<int, 2> start{}, result{}, end{};
+  EXPECT_EQ(pipe(start.data()) + pipe(result.data()) + pipe(end.data()), 0);
+  for (int i = 0; i < processes; ++i) {
+    if (fork() != 0) continue;
+    char byte = 0;
+    close(start[1]);
+    close(end[1]);
+    static_cast<void>(!read(start[0], &byte, 1));  // until the parent closes its end
+    const auto lock = claim_run_folder(folder, true);
+    byte = lock.has_value() ? 1 : 0;
+    static_cast<void>(!write(result[1], &byte, 1));
+    static_cast<void>(!read(end[0], &byte, 1));
+    _exit(0);
+  }
+  close(start[1]);
+  int owners = 0;
+  for (int i = 0; i < processes; ++i) {
+    char byte = 0;
+    EXPECT_EQ(read(result[0], &byte, 1), 1);
+    owners += byte;
+  }
+  close(end[1]);
+  for (int i = 0; i < processes; ++i) wait(nullptr);
+  for (const int descriptor : {start[0], result[0], result[1], end[0]}) close(descriptor);
+  return owners;
+}
+
+TEST(RunFolder, HasOneOwner) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(owners_of(folder / ("runs/" + std::to_string(i)), 6), 1);
+}
+
+TEST(RunFolder, ALockIsNotFooledByAnotherFolderOfThatName) {
+  const TemporaryFolder folder;
+  const auto lock = claim_run_folder(folder / "run", false);
+  ASSERT_TRUE(lock.has_value());
+  EXPECT_TRUE(lock->is_in_place());
+  EXPECT_NE(refusal(folder / "run", true).find("another polynya is writing this run"), std::string::npos);
+  fs::rename(folder / "run", folder / "moved");
+  EXPECT_FALSE(lock->is_in_place());
+  EXPECT_EQ(refusal(folder / "run", false), "");
+  EXPECT_FALSE(lock->is_in_place());
+}
+
+Checkpoint checkpoint_at(std::int64_t steps) {
+  Checkpoint checkpoint;
+  checkpoint.steps = steps;
+  return checkpoint;
+}
+
+std::vector<std::int64_t> steps_in(const fs::path& folder) {
+  std::vector<std::int64_t> steps;
+  for (const fs::path& path : checkpoints_in(folder)) steps.push_back(read_checkpoint_file(path, "")->steps);
+  return steps;
+}
+
+/// Whatever is there, the checkpoint that is written stays, and is the newest.
+TEST(Checkpoints, TheOneJustWrittenIsTheNewestThatIsKept) {
+  const TemporaryFolder folder;
+  std::int64_t before = -1;
+  for (const std::int64_t steps : {10, 20, 30, 5, 7, 100, 100, 50, 60, 2}) {
+    ASSERT_EQ(write_checkpoint(folder.path(), checkpoint_at(steps)), "");
+    const auto kept = steps_in(folder.path());
+    ASSERT_EQ(kept.front(), steps);
+    EXPECT_LE(kept.size(), 2U);
+    EXPECT_EQ(kept.size() == 2 && kept[1] == before, before >= 0 && before < steps) << steps;
+    before = steps;
+  }
+}
+
+TEST(Checkpoints, RewindingRemovesWhatIsNewerAndTakesOneFromElsewhere) {
+  const TemporaryFolder folder;
+  const TemporaryFolder elsewhere;
+  ASSERT_EQ(write_checkpoint(elsewhere.path(), checkpoint_at(5)), "");
+  for (const std::int64_t steps : {10, 20})
+    ASSERT_EQ(write_checkpoint(folder.path(), checkpoint_at(steps)), "");
+  const fs::path ten = folder / "checkpoint-000000000010.bin";
+  EXPECT_EQ(rewind_to(folder.path(), checkpoint_at(10), ten), "");
+  EXPECT_EQ(steps_in(folder.path()), std::vector<std::int64_t>{10});
+  EXPECT_EQ(rewind_to(folder.path(), checkpoint_at(5), elsewhere / "checkpoint-000000000005.bin"), "");
+  EXPECT_EQ(steps_in(folder.path()), std::vector<std::int64_t>{5});
+}
+
+}  // namespace
+}  // namespace polynya::io
