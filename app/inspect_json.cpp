@@ -77,6 +77,7 @@ std::string size_json(const SizeDistribution& sizes) {
   JsonWriter json(text);
   json.open('{').key("t_s").value(sizes.time);
   write_count(json, "floes", sizes.count);
+  write_count(json, "left_out", sizes.without_size);
   json.key("area_m2").value(sizes.area).key("least_m").value(sizes.least).key("median_m").value(sizes.median);
   json.key("largest_m").value(sizes.largest).key("classes").open('[');
   for (const SizeDistribution::Class& one : sizes.classes) {

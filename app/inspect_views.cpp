@@ -156,11 +156,17 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
 
 SizeDistribution size_distribution(const io::Run& run, double time) {
   std::vector<double> areas;
+  SizeDistribution sizes{.time = time, .classes = {}};
   for (const io::RunFloe& floe : run.floes) {
-    if (run.is_alive(floe.birth.floe, time)) areas.push_back(floe.birth.area);
+    if (!run.is_alive(floe.birth.floe, time)) continue;
+    const double area = floe.birth.area;
+    if (std::isnormal(area) && area > 0)
+      areas.push_back(area);
+    else
+      ++sizes.without_size;
   }
   std::ranges::sort(areas);
-  SizeDistribution sizes{.time = time, .count = areas.size(), .classes = {}};
+  sizes.count = areas.size();
   if (areas.empty()) return sizes;
   for (const double area : areas) sizes.area += area;
   sizes.least = std::sqrt(areas.front());
@@ -184,6 +190,9 @@ SizeDistribution size_distribution(const io::Run& run, double time) {
 std::string size_text(const SizeDistribution& sizes) {
   std::string text = fmt::format("{} floes, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
                                  sizes.count, sizes.area, sizes.time);
+  if (sizes.without_size > 0)
+    text += fmt::format("left out: {} floe{} whose recorded area is not a positive number\n",
+                        sizes.without_size, sizes.without_size == 1 ? "" : "s");
   if (sizes.count == 0) return text;
   text += fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", sizes.least, sizes.median,
                       sizes.largest);

@@ -49,6 +49,7 @@ struct SizeDistribution {
   };
   double time = 0;  ///< [s]
   std::size_t count = 0;
+  std::size_t without_size = 0;               ///< left out: their recorded area is not a positive number
   double area = 0;                            ///< of all [m²]
   double least = 0, median = 0, largest = 0;  ///< [m]
   std::vector<Class> classes;
