@@ -10,6 +10,7 @@
 
 #include "app/console.hpp"
 #include "app/failure_dump.hpp"
+#include "app/force_report.hpp"
 #include "app/stop_signal.hpp"
 #include "io/run_folder.hpp"
 #include "io/version.hpp"
@@ -117,7 +118,7 @@ class Carrier {
 };
 
 std::vector<std::string> warnings_of(const Simulation& simulation, const simulation::Counts& counts) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = ship_contact_warnings(simulation);
   const auto warn = [&](std::int64_t count, const char* words) {
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, words));
   };
@@ -152,7 +153,8 @@ io::RunSummary summarise(const Simulation& simulation, const io::RunWriter& writ
   return summary;
 }
 
-void print_result(const io::RunSummary& summary, const io::RunWriter& writer) {
+void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
+                  const io::RunWriter& writer) {
   const auto& counts = summary.counts;
   const auto& ledger = summary.ledger;
   print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time\n", summary.sim_time, summary.wall_time,
@@ -173,12 +175,7 @@ void print_result(const io::RunSummary& summary, const io::RunWriter& writer) {
       energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
       summary.audit.kinetic_energy / 1e3,
       summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
-  for (const io::ShipPeaks& peaks : summary.peaks) {
-    print_out(
-        "peak force  {}: surge {:.4g} kN at {:.6g} s, sway {:.4g} kN at {:.6g} s (the paper's j/tau_c)\n",
-        peaks.ship, peaks.surge_peak.value / 1e3, peaks.surge_peak.time, peaks.sway_peak.value / 1e3,
-        peaks.sway_peak.time);
-  }
+  print_out("{}", force_lines(summary, scene));
   print_out("run folder  {}\n", writer.folder().string());
   const auto picture =
       writer.folder() / (writer.has_png() ? io::run_file::kFinalPng : io::run_file::kFinalSvg);
@@ -245,7 +242,7 @@ int carry_out(RunInHand run, const CarryOptions& options) {
   if (stop.code != kDone) report_stop(run, stop, summary.sim_time);
   if (dumped) report_dump(run.writer.folder().string(), *dumped);
   for (const std::string& warning : summary.warnings) print_err("note: {}\n", warning);
-  if (stop.code != kInputOutput) print_result(summary, run.writer);
+  if (stop.code != kInputOutput) print_result(summary, run.scene.scene, run.writer);
   return stop.code;
 }
 

@@ -41,16 +41,21 @@ int figures(const FiguresOptions& options) {
               runs.front().end_time());
     return kUsage;
   }
-  const auto kind = options.load == "peak"  ? io::LoadKind::kPeak
-                    : options.load == "max" ? io::LoadKind::kMax
-                                            : io::LoadKind::kMean;
+  for (const io::Run& run : runs) {
+    const simulation::Scene& scene = run.scene.scene;
+    if (scene.ships.empty() || !io::chosen_loads(scene, options.load).empty()) continue;
+    print_err("polynya: --load {}: {} {}\n", options.load, run.folder.string(),
+         options.load == "ships" ? "has one ship and no structure"
+                                 : "does not split floes by j/tau_c (fracture.splitting.model michel)");
+    return kUsage;
+  }
   const fs::path folder = options.out.empty() ? options.runs.front() : options.out;
   std::error_code ignored;
   fs::create_directories(folder, ignored);
   const std::vector<double> times = chosen_times(runs, options.at);
   const std::pair<std::string_view, std::string> pages[] = {
       {io::run_file::kFigureFloes, to_svg(map_figure(runs, times))},
-      {io::run_file::kFigureLoads, to_svg(load_figure(runs, kind))},
+      {io::run_file::kFigureLoads, to_svg(load_figure(runs, options.load))},
       {io::run_file::kFigureMotion, to_svg(motion_figure(runs))},
       {io::run_file::kFigureSizes, to_svg(size_figure(runs))},
       {io::run_file::kFigureEnergy, energy_figure(runs)}};

@@ -23,7 +23,7 @@ struct FiguresOptions {
   std::vector<std::string> runs;
   std::string out;            ///< folder; empty: the first run's
   std::vector<double> at;     ///< moments for the maps [s]; empty: chosen
-  std::string load = "peak";  ///< or "max", "mean"
+  std::string load = "true";  ///< io/figures.hpp, chosen_loads
 };
 int figures(const FiguresOptions& options);
 

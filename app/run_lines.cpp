@@ -63,9 +63,12 @@ Command add_figures(CLI::App& app) {
       ->type_name("S,S,...")
       ->delimiter(',')
       ->check(finite());
-  set_choices(*command->add_option("--load", options->load,
-                                   "Peak j/tau_c as in the paper, or true loads: max of a step, mean"),
-              {"peak", "max", "mean"});
+  set_choices(
+      *command->add_option(
+          "--load", options->load,
+          "True force of the ice (mean of each recorded interval and largest step, or one of the two), "
+          "force of other ships and structures, or the paper's j/tau_c"),
+      {"true", "mean", "max", "ships", "j-over-tau-c"});
   command->add_option("--out", options->out, "Folder for the figures; the first run's if not given")
       ->type_name("DIR");
   return [options] { return figures(*options); };

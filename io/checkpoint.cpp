@@ -64,7 +64,7 @@ void fields(Archive& archive, Is<Peak> auto& p) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<ShipPeaks> auto& p) {
-  archive(p.ship, p.surge, p.sway, p.yaw, p.surge_peak, p.sway_peak, p.yaw_peak, p.speed);
+  archive(p.ship, p.of_column);
 }
 template <class Archive>
 void fields(Archive& archive, Is<Motion> auto& m) {

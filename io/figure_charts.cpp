@@ -15,15 +15,9 @@ namespace {
 using simulation::ShipSample;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-struct Load {
-  const char* name;
-  const char* unit;
-  std::array<double ShipSample::*, 3> of_kind;  ///< by LoadKind
-};
-constexpr std::array kLoads{
-    Load{"surge", "N", {&ShipSample::surge_peak, &ShipSample::surge_max, &ShipSample::surge_force}},
-    Load{"sway", "N", {&ShipSample::sway_peak, &ShipSample::sway_max, &ShipSample::sway_force}},
-    Load{"yaw", "N m", {&ShipSample::yaw_peak, &ShipSample::yaw_max, &ShipSample::yaw_moment}}};
+constexpr std::array kComponents{"surge", "sway", "yaw"};
+constexpr std::array kUnits{"N", "N", "N m"};
+constexpr std::array kLoadColours{4, 6, 1};  ///< black before sky blue: apart in greyscale
 
 /// 10³ⁿ with its prefix such that values up to `most` read well.
 struct Prefix {
@@ -59,7 +53,7 @@ std::string name_of(const Subject& subject) {
 }
 
 /// Of each short stretch of time the largest and the least value: no peak is lost, and paper shows no more.
-std::vector<Chart::Point> peaks(const Subject& subject, double ShipSample::*value, double unit) {
+std::vector<Chart::Point> peaks(const Subject& subject, const ForceColumn& column, double unit) {
   const Run& run = *subject.run;
   constexpr double kStretches = 900;
   const double stretch = std::max(1e-9, run.end_time() - run.start_time()) / kStretches;
@@ -72,12 +66,12 @@ std::vector<Chart::Point> peaks(const Subject& subject, double ShipSample::*valu
     high = low = {};
   };
   for (const ShipSample& sample : run.samples) {
-    if (sample.ship != subject.ship || !std::isfinite(sample.*value)) continue;
+    const double v = column.read(sample) / unit;
+    if (sample.ship != subject.ship || !std::isfinite(v)) continue;
     if (sample.time >= until) {
       put();
       until = sample.time + stretch;
     }
-    const double v = sample.*value / unit;
     if (v > high.y) high = {sample.time, v};
     if (v < low.y) low = {sample.time, v};
   }
@@ -95,16 +89,31 @@ std::vector<Chart::Mark> marks_of(const Subject& subject) {
   return marks;
 }
 
-std::pair<double, double> common_range(const std::vector<Run>& runs, double ShipSample::*value) {
+std::pair<double, double> common_range(const std::vector<Run>& runs, const std::vector<ShownLoad>& loads,
+                                       std::size_t component) {
   double low = 0, high = 0;
   for (const Run& run : runs) {
     for (const ShipSample& sample : run.samples) {
-      if (!std::isfinite(sample.*value)) continue;
-      low = std::min(low, sample.*value);
-      high = std::max(high, sample.*value);
+      for (const ShownLoad& load : loads) {
+        const double v = load.columns[component]->read(sample);
+        if (!std::isfinite(v)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
     }
   }
   return {low, high};
+}
+
+/// The first load in front: its stems are drawn last.
+std::vector<Chart::Curve> load_curves(const Subject& subject, std::string_view option, std::size_t component,
+                                      double unit) {
+  std::vector<Chart::Curve> curves;
+  for (const ShownLoad& load : chosen_loads(subject.run->scene.scene, option))
+    curves.push_back({load.measure, kLoadColours[curves.size()], Chart::Dash::kSolid,
+                      peaks(subject, *load.columns[component], unit), Chart::Form::kStems});
+  std::ranges::reverse(curves);
+  return curves;
 }
 
 /// The range with room above it, so that the marks stand clear of the curves.
@@ -182,25 +191,29 @@ std::pair<double, double> widened(const Chart::Panel& panel) {
 
 }  // namespace
 
-Chart load_figure(const std::vector<Run>& runs, LoadKind kind) {
-  static constexpr std::array kWords{"the paper's peak load j/τ_c", "true load, the largest of single steps",
-                                     "true load, mean of each recorded interval"};
-  const auto which = static_cast<std::size_t>(kind);
+std::vector<ShownLoad> chosen_loads(const simulation::Scene& scene, std::string_view option) {
+  std::vector<ShownLoad> loads = shown_loads(scene);
+  std::erase_if(loads, [&](const ShownLoad& load) {
+    return option == "true" ? load.option != "mean" && load.option != "max" : load.option != option;
+  });
+  return loads;
+}
+
+Chart load_figure(const std::vector<Run>& runs, std::string_view option) {
   const std::vector<Subject> subjects = subjects_of(runs);
-  Chart chart{subjects.size() > runs.size() ? "Ice loads on ships and structures" : "Ice load on the ship",
-              fmt::format("{}; in the ship's frame: surge forward, sway to port, yaw "
-                          "counter-clockwise",
-                          kWords[which]),
+  const std::vector<ShownLoad> loads = chosen_loads(runs.front().scene.scene, option);
+  if (subjects.empty() || loads.empty()) return {};
+  Chart chart{fmt::format("Load of {} on {}", loads.front().source(),
+                          subjects.size() > runs.size() ? "ships and structures" : "the ship"),
+              "in the ship's frame: surge forward, sway to port, yaw counter-clockwise",
               {}};
   chart.columns = columns_for(subjects.size());
   chart.panel_height = 250;
   chart.minor_mark = "cusp broken by bending";
   chart.major_mark = "floe split";
   for (std::size_t first = 0; first < subjects.size(); first += chart.columns) {
-    for (int number = 0; number < static_cast<int>(kLoads.size()); ++number) {
-      const Load& load = kLoads[static_cast<std::size_t>(number)];
-      const auto value = load.of_kind[which];
-      const auto [low, high] = with_room_for_marks(common_range(runs, value));
+    for (std::size_t component = 0; component < kComponents.size(); ++component) {
+      const auto [low, high] = with_room_for_marks(common_range(runs, loads, component));
       const Prefix prefix = prefix_for(std::max(-low, high));
       for (std::size_t i = first; i < first + chart.columns; ++i) {
         if (i >= subjects.size()) {
@@ -208,13 +221,13 @@ Chart load_figure(const std::vector<Run>& runs, LoadKind kind) {
           continue;
         }
         const Run& run = *subjects[i].run;
-        chart.panels.push_back({fmt::format("{}: {}", name_of(subjects[i]), load.name),
-                                {"time, s", false, std::pair{run.start_time(), run.end_time()}},
-                                {fmt::format("{}, {}{}", load.name, prefix.name, load.unit), false,
-                                 std::pair{low / prefix.factor, high / prefix.factor}},
-                                {{"", number, Chart::Dash::kSolid, peaks(subjects[i], value, prefix.factor),
-                                  Chart::Form::kStems}},
-                                marks_of(subjects[i])});
+        chart.panels.push_back(
+            {fmt::format("{}: {}", name_of(subjects[i]), kComponents[component]),
+             {"time, s", false, std::pair{run.start_time(), run.end_time()}},
+             {fmt::format("{}, {}{}", kComponents[component], prefix.name, kUnits[component]), false,
+              std::pair{low / prefix.factor, high / prefix.factor}},
+             load_curves(subjects[i], option, component, prefix.factor),
+             marks_of(subjects[i])});
       }
     }
   }

@@ -6,24 +6,22 @@
 #include "io/chart.hpp"
 #include "io/picture.hpp"
 #include "io/run_reader.hpp"
+#include "io/shown_loads.hpp"
 
 namespace polynya::io {
 
 /// Figures of one run, or of several side by side, after Figs. 4–7 of [Sawamura2017] (docs/figures.md).
 
-/// Which of forces.csv's loads is shown.
-enum class LoadKind {
-  kPeak,  ///< the paper's j/τ_c, the interval's largest by magnitude
-  kMax,   ///< true force of one step, the interval's largest by magnitude
-  kMean,  ///< true force, mean over the interval
-};
-
 /// Floes, hulls, tracks and channel of each run at each time [s].
 PictureSheet map_figure(const std::vector<Run>& runs, const std::vector<double>& times);
 
-/// Surge, sway and yaw load of each run's ships and structures against time, with the fractures of each
-/// marked; one scale a load.
-Chart load_figure(const std::vector<Run>& runs, LoadKind kind);
+/// The loads of a scene that `--load` names: "true" is the true force of ice, mean and single step. None
+/// where the scene has none of that kind.
+std::vector<ShownLoad> chosen_loads(const simulation::Scene& scene, std::string_view option);
+
+/// Surge, sway and yaw of each run's ships and structures against time, by chosen_loads, with the fractures
+/// of each marked; one scale for each of the three.
+Chart load_figure(const std::vector<Run>& runs, std::string_view option);
 
 /// Speed, and heading and course over ground, of each run's ships and structures.
 Chart motion_figure(const std::vector<Run>& runs);

@@ -1,5 +1,6 @@
 #include "io/player_data.hpp"
 
+#include "io/force_columns.hpp"
 #include "io/json_writer.hpp"
 #include "io/version.hpp"
 
@@ -40,41 +41,34 @@ void add_contacts(ColumnWriter& columns, const Run& run, const std::vector<Frame
   columns.add("contact_is_crushing", is_crushing);
 }
 
+/// Loads, of other ships where there are any, and the speed.
+bool is_plotted(const ForceColumn& column, const simulation::Scene& scene) {
+  const bool is_load = column.name.ends_with("_N") || column.name.ends_with("_Nm");
+  const bool is_from_ships = column.name.find("_from_ships") != std::string_view::npos;
+  return (is_load && (!is_from_ships || scene.ships.size() > 1)) || column.name == "speed_m_per_s";
+}
+
 void add_forces(ColumnWriter& columns, const Run& run, const FrameSelection& selection) {
-  std::vector<std::int32_t> ship, contacts;
-  std::vector<double> time, surge, sway, yaw, surge_max, sway_max, yaw_max, surge_peak, sway_peak, yaw_peak,
-      speed, thrust;
+  std::vector<const simulation::ShipSample*> rows;
   for (const simulation::ShipSample& s : run.samples) {
-    if (!selection.has(s.time)) continue;
-    ship.push_back(s.ship);
-    contacts.push_back(s.contacts);
-    time.push_back(s.time);
-    surge.push_back(s.surge_force);
-    sway.push_back(s.sway_force);
-    yaw.push_back(s.yaw_moment);
-    surge_max.push_back(s.surge_max);
-    sway_max.push_back(s.sway_max);
-    yaw_max.push_back(s.yaw_max);
-    surge_peak.push_back(s.surge_peak);
-    sway_peak.push_back(s.sway_peak);
-    yaw_peak.push_back(s.yaw_peak);
-    speed.push_back(length(s.velocity_in_world));
-    thrust.push_back(s.thrust);
+    if (selection.has(s.time)) rows.push_back(&s);
+  }
+  std::vector<std::int32_t> ship, contacts;
+  std::vector<double> time;
+  for (const simulation::ShipSample* s : rows) {
+    ship.push_back(s->ship);
+    contacts.push_back(s->contacts);
+    time.push_back(s->time);
   }
   columns.add("force_ship", ship);
   columns.add("force_contacts", contacts);
   columns.add("force_t_s", time);
-  columns.add("surge_N", surge);
-  columns.add("sway_N", sway);
-  columns.add("yaw_Nm", yaw);
-  columns.add("surge_max_N", surge_max);
-  columns.add("sway_max_N", sway_max);
-  columns.add("yaw_max_Nm", yaw_max);
-  columns.add("surge_j_over_tau_c_N", surge_peak);
-  columns.add("sway_j_over_tau_c_N", sway_peak);
-  columns.add("yaw_j_over_tau_c_Nm", yaw_peak);
-  columns.add("speed_m_per_s", speed);
-  columns.add("thrust_N", thrust);
+  for (const ForceColumn& column : force_columns()) {
+    if (!is_plotted(column, run.scene.scene)) continue;
+    std::vector<double> values;
+    for (const simulation::ShipSample* s : rows) values.push_back(column.read(*s));
+    columns.add(std::string(column.name), values);
+  }
 }
 
 void write_events(JsonWriter& json, const Run& run) {
@@ -117,11 +111,6 @@ void write_summary(JsonWriter& json, const Run& run) {
     json.key("stopped_by").value(by->text());
 }
 
-/// Whether the paper's j/τ_c decides splits: only there the page shows it unasked.
-bool splits_by_j_over_tau_c(const simulation::Scene& scene) {
-  return scene.fracture.splitting == fracture::SplittingModel::kMichel;
-}
-
 std::string info_of(const Run& run, const PlayerData& data) {
   std::string text;
   JsonWriter json(text);
@@ -132,7 +121,7 @@ std::string info_of(const Run& run, const PlayerData& data) {
   json.key("frames").value(static_cast<std::int64_t>(data.frames));
   json.key("frames_of_run").value(static_cast<std::int64_t>(run.frames.size()));
   json.key("circle_radius_m").value(scene.contact.circle_radius);
-  json.key("forces_interval_s").value(scene.record.forces_interval);
+  json.key("forces_interval_s").value(recording_interval(scene));
   json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene));
   write_summary(json, run);
   write_ships(json, scene);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/force_columns.hpp"
 #include "io/json_writer.hpp"
 
 namespace polynya::io {
@@ -54,26 +55,20 @@ geometry::Ring closed_ring_in_world(const geometry::Pose& world_from_body, const
 
 }  // namespace
 
-std::string_view forces_header() {
-  return "t_s,ship,surge_N,sway_N,yaw_Nm,surge_max_N,sway_max_N,yaw_max_Nm,"
-         "surge_j_over_tau_c_N,sway_j_over_tau_c_N,yaw_j_over_tau_c_Nm,"
-         "x_m,y_m,heading_deg,speed_m_per_s,vx_m_per_s,vy_m_per_s,yaw_rate_deg_per_s,thrust_N,contacts\n";
+std::string forces_header() {
+  std::string header = "t_s,ship";
+  for (const ForceColumn& column : force_columns()) header.append(1, ',').append(column.name);
+  return header + '\n';
 }
 
 void append_forces_row(std::string& text, const simulation::ShipSample& s, std::string_view ship_name) {
   append_number(text, s.time);
   text += ',';
   text += ship_name;
-  for (const double value :
-       {s.surge_force, s.sway_force, s.yaw_moment, s.surge_max, s.sway_max, s.yaw_max, s.surge_peak,
-        s.sway_peak, s.yaw_peak, s.position_in_world.x, s.position_in_world.y, kDegrees * s.heading,
-        geometry::length(s.velocity_in_world), s.velocity_in_world.x, s.velocity_in_world.y,
-        kDegrees * s.yaw_rate, s.thrust}) {
+  for (const ForceColumn& column : force_columns()) {
     text += ',';
-    append_number(text, value);
+    append_number(text, column.read(s));
   }
-  text += ',';
-  append_number(text, std::int64_t{s.contacts});
   text += '\n';
 }
 
@@ -137,6 +132,18 @@ void append_event(std::string& text, const simulation::Event& event, std::string
   json.key("rounding_defect_m2").value(event.rounding_defect);
   if (!event.reason.empty()) json.key("reason").value(std::string_view(event.reason));
   json.close('}');
+  text += '\n';
+}
+
+void append_ship_contact(std::string& text, const simulation::ShipContact& contact,
+                         std::string_view ship_name, std::string_view by_ship_name) {
+  JsonWriter json(text);
+  json.open('{').key("t_s").value(contact.time).key("kind").value(kShipContactKind);
+  json.key("ship").value(ship_name).key("by_ship").value(by_ship_name);
+  json.key("point_m").value(contact.point_in_world);
+  json.key("closing_speed_m_per_s").value(contact.closing_speed);
+  json.key("relative_speed_m_per_s").value(contact.relative_speed);
+  json.key("is_prescribed").value(contact.is_prescribed).close('}');
   text += '\n';
 }
 

@@ -12,7 +12,7 @@ namespace polynya::io {
 /// The lines of a run's text files (docs/run-folder.md). Each appends whole lines to a buffer.
 
 /// forces.csv's first line: the names of its columns, with their units.
-std::string_view forces_header();
+std::string forces_header();
 void append_forces_row(std::string& text, const simulation::ShipSample& sample, std::string_view ship_name);
 
 /// contacts.csv: who touched whom at a frame.
@@ -29,6 +29,11 @@ void append_birth(std::string& text, const simulation::Birth& birth);
 /// `parent` is the parent of the floe that broke.
 void append_event(std::string& text, const simulation::Event& event, std::string_view ship_name,
                   simulation::FloeId parent);
+
+/// Also a line of events.ndjson, of this kind.
+inline constexpr std::string_view kShipContactKind = "ship_contact";
+void append_ship_contact(std::string& text, const simulation::ShipContact& contact,
+                         std::string_view ship_name, std::string_view by_ship_name);
 
 /// All floes as a GeoJSON FeatureCollection in world coordinates [m].
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time);

@@ -1,13 +1,13 @@
 #include "io/run_reader.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "geometry/pose.hpp"
+#include "io/csv_row.hpp"
+#include "io/force_columns.hpp"
 #include "io/json_parser.hpp"
 #include "io/records.hpp"
 #include "io/run_folder.hpp"
@@ -19,7 +19,6 @@ namespace {
 using simulation::FloeId;
 
 constexpr std::size_t kLongestFile = std::size_t{4} << 30;  ///< [bytes]
-constexpr double kRadians = std::numbers::pi / 180;
 
 /// What is wrong with a file; told to the caller of read_run as its error value.
 struct Damage : std::runtime_error {
@@ -153,37 +152,32 @@ simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene
   return event;
 }
 
-std::string_view csv_field(std::string_view& line) {
-  const std::string_view field = line.substr(0, line.find(','));
-  line.remove_prefix(std::min(line.size(), field.size() + 1));
-  return field;
+simulation::ShipContact ship_contact_of(const JsonValue& line, const simulation::Scene& scene) {
+  simulation::ShipContact contact;
+  contact.time = number(line, "t_s");
+  contact.ship = ship_index(scene, member(line, "ship", JsonValue::Kind::kText).text());
+  contact.other = ship_index(scene, member(line, "by_ship", JsonValue::Kind::kText).text());
+  if (contact.ship < 0 || contact.other < 0) throw Damage("a contact of ships that are not in the scene");
+  contact.point_in_world = point(line, "point_m");
+  contact.closing_speed = number(line, "closing_speed_m_per_s");
+  contact.relative_speed = number(line, "relative_speed_m_per_s");
+  contact.is_prescribed = member(line, "is_prescribed", JsonValue::Kind::kBoolean).boolean();
+  return contact;
 }
 
-double csv_number(std::string_view& line) {
-  const std::string_view field = csv_field(line);
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (field == "null") return std::numeric_limits<double>::quiet_NaN();
-  if (error != std::errc{} || end != field.data() + field.size())
-    throw Damage(fmt::format("\"{}\" is not a number", field));
-  return value;
+double take_number(std::string_view& row) {
+  const std::string_view field = csv_field(row);
+  const auto value = csv_number(field);
+  if (!value) throw Damage(fmt::format("\"{}\" is not a number", field));
+  return *value;
 }
 
-simulation::ShipSample sample_of(std::string_view line, const simulation::Scene& scene) {
+simulation::ShipSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
+                                 const simulation::Scene& scene) {
   simulation::ShipSample s;
-  s.time = csv_number(line);
+  s.time = take_number(line);
   s.ship = ship_index(scene, csv_field(line));
-  for (double* value :
-       {&s.surge_force, &s.sway_force, &s.yaw_moment, &s.surge_max, &s.sway_max, &s.yaw_max, &s.surge_peak,
-        &s.sway_peak, &s.yaw_peak, &s.position_in_world.x, &s.position_in_world.y, &s.heading}) {
-    *value = csv_number(line);
-  }
-  csv_number(line);  // speed follows from the velocity
-  for (double* value : {&s.velocity_in_world.x, &s.velocity_in_world.y, &s.yaw_rate, &s.thrust})
-    *value = csv_number(line);
-  s.heading *= kRadians;
-  s.yaw_rate *= kRadians;
-  s.contacts = static_cast<int>(csv_number(line));
+  for (const ForceColumn* column : columns) column->store(s, take_number(line));
   return s;
 }
 
@@ -191,21 +185,21 @@ simulation::ContactState::Body body_of(std::string_view& line, const Run& run) {
   const std::string_view ship = csv_field(line);
   std::string_view floe = csv_field(line);
   simulation::ContactState::Body body{ship_index(run.scene.scene, ship), simulation::kNoFloe};
-  if (ship.empty()) body.floe = static_cast<FloeId>(csv_number(floe));
+  if (ship.empty()) body.floe = static_cast<FloeId>(take_number(floe));
   if (body.ship < 0 && !run.floe(body.floe)) throw Damage("a contact of what there is not");
   return body;
 }
 
 RunContact contact_of(std::string_view line, const Run& run) {
   RunContact contact;
-  contact.time = csv_number(line);
+  contact.time = take_number(line);
   simulation::ContactState& state = contact.state;
   state.on = body_of(line, run);
   state.by = body_of(line, run);
   for (double* value :
        {&state.point_in_world.x, &state.point_in_world.y, &state.force.x, &state.force.y, &state.depth})
-    *value = csv_number(line);
-  state.is_crushing = csv_number(line) != 0;
+    *value = take_number(line);
+  state.is_crushing = take_number(line) != 0;
   return contact;
 }
 
@@ -232,7 +226,12 @@ void read_floes(Run& run) {
 
 void read_events(Run& run) {
   for_lines(run.folder, run_file::kEvents, [&](std::string_view line, int) {
-    simulation::Event event = event_of(json_of(line), run.scene.scene);
+    const JsonValue json = json_of(line);
+    if (member(json, "kind", JsonValue::Kind::kText).text() == kShipContactKind) {
+      run.ship_contacts.push_back(ship_contact_of(json, run.scene.scene));
+      return;
+    }
+    simulation::Event event = event_of(json, run.scene.scene);
     if (!run.floe(event.floe)) throw Damage(fmt::format("floe {} was never born", event.floe));
     if (event.kind != simulation::EventKind::kRejectedCut) {
       RunFloe& broken = run.floes[static_cast<std::size_t>(event.floe)];
@@ -240,6 +239,16 @@ void read_events(Run& run) {
       broken.death_event = run.events.size();
     }
     run.events.push_back(std::move(event));
+  });
+}
+
+void read_forces(Run& run) {
+  std::vector<const ForceColumn*> columns;
+  for_lines(run.folder, run_file::kForces, [&](std::string_view line, int number) {
+    if (number > 1) return run.samples.push_back(sample_of(line, columns, run.scene.scene));
+    auto found = force_columns_in(line);
+    if (!found) throw Damage(found.error());
+    columns = std::move(*found);
   });
 }
 
@@ -282,8 +291,7 @@ tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
     run.summary = json_of(text_of(folder, run_file::kSummary));
     read_floes(run);
     read_events(run);
-    for_rows(folder, run_file::kForces, forces_header(),
-             [&](std::string_view line) { run.samples.push_back(sample_of(line, run.scene.scene)); });
+    read_forces(run);
     if (std::filesystem::exists(folder / run_file::kContacts))
       for_rows(folder, run_file::kContacts, contacts_header(),
                [&](std::string_view line) { run.contacts.push_back(contact_of(line, run)); });

@@ -37,6 +37,7 @@ struct Run {
   JsonValue summary;
   std::vector<RunFloe> floes;  ///< by floe id
   std::vector<simulation::Event> events;
+  std::vector<simulation::ShipContact> ship_contacts;  ///< the first one of each two ships or structures
   std::vector<simulation::ShipSample> samples;
   std::vector<Frame> frames;
   std::vector<RunContact> contacts;  ///< as time goes; none in runs of versions that did not record them

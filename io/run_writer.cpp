@@ -90,8 +90,11 @@ tl::expected<RunWriter, std::string> RunWriter::go_on(RunLock lock, const Loaded
   const RunProgress& progress = checkpoint.progress;
   const std::filesystem::path folder = lock.folder();
   const std::size_t ships = scene.scene.ships.size();
+  const auto is_of_scene = [columns = peak_columns(scene.scene).size()](const ShipPeaks& peaks) {
+    return peaks.of_column.size() == columns;
+  };
   if (progress.file_sizes.size() != kGrowing.size() || progress.tracks.size() != ships ||
-      progress.peaks.size() != ships)
+      progress.peaks.size() != ships || !std::ranges::all_of(progress.peaks, is_of_scene))
     return tl::unexpected(fmt::format("{}: the checkpoint is of another run", folder.string()));
   for (std::size_t i = 0; i < kGrowing.size(); ++i)  // before any is cut back
     if (std::string problem = shortcoming(folder / kGrowing[i], progress.file_sizes[i]); !problem.empty())
@@ -128,10 +131,14 @@ RunWriter::RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, Ru
     : scene_(&scene),
       files_(std::move(files)),
       tracks_(scene.scene.ships.size()),
+      peak_columns_(peak_columns(scene.scene)),
       peaks_(scene.scene.ships.size()),
       lock_(std::move(lock)),
       last_flush_(std::chrono::steady_clock::now()) {
-  for (std::size_t i = 0; i < peaks_.size(); ++i) peaks_[i].ship = scene.scene.ships[i].name;
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    peaks_[i].ship = scene.scene.ships[i].name;
+    peaks_[i].of_column.resize(peak_columns_.size());
+  }
 }
 
 std::string_view RunWriter::ship_name(int ship) const {
@@ -158,9 +165,15 @@ void RunWriter::record(simulation::Journal& journal) {
     if (event.kind != simulation::EventKind::kRejectedCut)
       fractures_.push_back({event.point_in_world, event.kind});
   }
+  for (const simulation::ShipContact& contact : journal.ship_contacts) {
+    append_line(kEvents, [&](std::string& line) {
+      append_ship_contact(line, contact, ship_name(contact.ship), ship_name(contact.other));
+    });
+  }
   for (const simulation::ShipSample& sample : journal.samples) {
     append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, ship_name(sample.ship)); });
-    peaks_[static_cast<std::size_t>(sample.ship)].see(sample);
+    std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
+    for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].see(peak_columns_[i]->read(sample), sample.time);
   }
   for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
     if (std::string wrong = write_rejected_cut(folder(), cut); !wrong.empty()) failure_ = std::move(wrong);

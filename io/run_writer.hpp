@@ -14,6 +14,7 @@
 #include "io/picture.hpp"
 #include "io/run_folder.hpp"
 #include "io/scene_reader.hpp"
+#include "io/shown_loads.hpp"
 #include "io/summary.hpp"
 #include "simulation/simulation.hpp"
 
@@ -98,6 +99,7 @@ class RunWriter {
   std::vector<geometry::Point> centroids_in_body_;    ///< by floe id [m]
   std::vector<std::vector<geometry::Point>> tracks_;  ///< by ship, one point a frame [m]
   std::vector<Picture::Fracture> fractures_;
+  std::vector<const ForceColumn*> peak_columns_;
   std::vector<ShipPeaks> peaks_;
   RunLock lock_;
   std::string line_;

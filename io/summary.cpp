@@ -3,25 +3,20 @@
 #include "io/json_parser.hpp"
 #include "io/json_writer.hpp"
 #include "io/run_folder.hpp"
+#include "io/shown_loads.hpp"
 #include "io/source_text.hpp"
 #include "io/version.hpp"
 
 namespace polynya::io {
 namespace {
 
-void append(JsonWriter& json, const char* key, const Peak& peak) {
-  json.key(key).open('{').key("value").value(peak.value).key("t_s").value(peak.time).close('}');
-}
-
-void append(JsonWriter& json, const ShipPeaks& peaks) {
+void append(JsonWriter& json, const ShipPeaks& peaks, const std::vector<const ForceColumn*>& columns) {
   json.open('{').key("ship").value(std::string_view(peaks.ship));
-  append(json, "surge_max_N", peaks.surge);
-  append(json, "sway_max_N", peaks.sway);
-  append(json, "yaw_max_Nm", peaks.yaw);
-  append(json, "surge_j_over_tau_c_N", peaks.surge_peak);
-  append(json, "sway_j_over_tau_c_N", peaks.sway_peak);
-  append(json, "yaw_j_over_tau_c_Nm", peaks.yaw_peak);
-  append(json, "speed_m_per_s", peaks.speed);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Peak& peak = peaks.of_column[i];
+    json.key(columns[i]->name).open('{').key("value").value(peak.value);
+    json.key("t_s").value(peak.time).close('}');
+  }
   json.close('}');
 }
 
@@ -87,16 +82,6 @@ std::string_view version() {
   return POLYNYA_VERSION;
 }
 
-void ShipPeaks::see(const simulation::ShipSample& s) {
-  surge.see(s.surge_max, s.time);
-  sway.see(s.sway_max, s.time);
-  yaw.see(s.yaw_max, s.time);
-  surge_peak.see(s.surge_peak, s.time);
-  sway_peak.see(s.sway_peak, s.time);
-  yaw_peak.see(s.yaw_peak, s.time);
-  speed.see(geometry::length(s.velocity_in_world), s.time);
-}
-
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
@@ -107,8 +92,10 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   if (!summary.stopped_by.empty()) json.key("stopped_by").value(std::string_view(summary.stopped_by));
   json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
   json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
+  json.key("forces_interval_s").value(recording_interval(scene.scene));
   json.key("peaks").open('[');
-  for (const ShipPeaks& peaks : summary.peaks) append(json, peaks);
+  const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);
+  for (const ShipPeaks& peaks : summary.peaks) append(json, peaks, columns);
   json.close(']');
   append(json, summary.ledger);
   append(json, summary.audit);

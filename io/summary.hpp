@@ -23,10 +23,7 @@ struct Peak {
 /// The largest loads on one ship over a run, in its frame.
 struct ShipPeaks {
   std::string ship;
-  Peak surge, sway, yaw;                 ///< true force of one step [N], [N m]
-  Peak surge_peak, sway_peak, yaw_peak;  ///< the paper's j/τ_c [N], [N m]
-  Peak speed;                            ///< [m/s]
-  void see(const simulation::ShipSample& sample);
+  std::vector<Peak> of_column;  ///< of each of peak_columns()
 };
 
 /// What summary.json says.

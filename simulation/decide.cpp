@@ -154,15 +154,12 @@ PendingFracture judge(World& world, const Contact& c, const CrushingContact& cru
   return pending;
 }
 
+/// Adds j/τ_c of a ship's contact with ice.
 void add_peak(World& world, const Contact& c, double impulse) {
-  const Vector force = (impulse / world.scene.contact.contact_time) * c.normal;  // on b; on a the other way
-  const auto add = [&](BodyIndex ship, Vector on_ship) {
-    const Vector in_ship = rotate_back(world.bodies.rotation[ship], on_ship);
-    world.step_loads[ship].peak += in_ship;
-    world.step_loads[ship].peak_moment += cross(c.middle() - world.bodies.position[ship], on_ship);
-  };
-  if (world.is_ship(c.a)) add(c.a, -force);
-  if (world.is_ship(c.b)) add(c.b, force);
+  const Vector force = -(impulse / world.scene.contact.contact_time) * c.normal;
+  ShipLoads& loads = world.step_loads[c.a];
+  loads.peak += rotate_back(world.bodies.rotation[c.a], force);
+  loads.peak_moment += cross(c.middle() - world.bodies.position[c.a], force);
 }
 
 }  // namespace
@@ -180,9 +177,9 @@ void decide(World& world) {
                         dt;
       continue;
     }
+    if (world.is_ship(c.b)) continue;  // steel against steel does not crush
     const double impulse = eq5_impulse(world, c);
     add_peak(world, c, impulse);
-    if (world.is_ship(c.b)) continue;  // steel against steel does not crush
     const CrushingContact crushing = crushing_at(world, c);
     c.impulse_limit = crushing.shares.horizontal * crushing.normal_force * dt;
     c.friction = crushing.shares.tangential / crushing.shares.horizontal;

@@ -34,6 +34,17 @@ struct Event {
   std::string reason;                  ///< of a rejected cut
 };
 
+/// The first contact of two ships, or of a ship and a structure. Written as one line of events.ndjson.
+struct ShipContact {
+  double time = 0;                 ///< [s]
+  int ship = 0;                    ///< index in the scene
+  int other = 0;                   ///< index in the scene, greater than `ship`
+  geometry::Point point_in_world;  ///< [m]
+  double closing_speed = 0;        ///< along the contact's normal, before the contact acts [m/s]
+  double relative_speed = 0;       ///< of the two at that point [m/s]
+  bool is_prescribed = false;      ///< the motion of both is: they pass through each other without a force
+};
+
 /// A floe's shape when it came to be. Written as one line of floes.ndjson.
 struct Birth {
   FloeId floe = 0;
@@ -59,7 +70,8 @@ struct RejectedCut {
   geometry::Point crack_in_body[2];   ///< of a split: its ends [m]
 };
 
-/// One recorded moment of one ship. Forces are in the ship's frame, by ice on the ship.
+/// One recorded row of one ship, in the ship's frame. Loads are those of ice where their names state no other
+/// source.
 struct ShipSample {
   double time = 0;  ///< end of the interval [s]
   int ship = 0;
@@ -72,23 +84,33 @@ struct ShipSample {
   double surge_max = 0;    ///< largest true force of a single step in the interval, by magnitude [N]
   double sway_max = 0;     ///< [N]
   double yaw_max = 0;      ///< [N m]
+  // From contact with other ships and structures:
+  double surge_from_ships = 0;         ///< mean force over the interval [N]
+  double sway_from_ships = 0;          ///< [N]
+  double yaw_from_ships = 0;           ///< [N m]
+  double surge_from_ships_max = 0;     ///< largest force of a single step in the interval, by magnitude [N]
+  double sway_from_ships_max = 0;      ///< [N]
+  double yaw_from_ships_max = 0;       ///< [N m]
   geometry::Point position_in_world;   ///< [m]
   double heading = 0;                  ///< [rad]
   geometry::Vector velocity_in_world;  ///< over ground [m/s]
   double yaw_rate = 0;                 ///< [rad/s]
   double thrust = 0;                   ///< along the heading; for a constant-speed ship what held it [N]
-  int contacts = 0;                    ///< at the sampled step
+  int contacts = 0;                    ///< with ice, at the sampled step
+  int contacts_with_ships = 0;         ///< with other ships and structures, at the sampled step
 };
 
 /// What a step has to tell. The caller takes it and clears it; the vectors keep their capacity.
 struct Journal {
   std::vector<Event> events;
+  std::vector<ShipContact> ship_contacts;
   std::vector<Birth> births;
   std::vector<FloeId> deaths;  ///< floes that broke or left the list
   std::vector<ShipSample> samples;
   std::vector<RejectedCut> rejected_cuts;
   void clear() {
     events.clear();
+    ship_contacts.clear();
     rejected_cuts.clear();
     births.clear();
     deaths.clear();

@@ -14,9 +14,10 @@ Vector larger(Vector a, Vector b) {
   return {larger(a.x, b.x), larger(a.y, b.y)};
 }
 
-/// Adds what a contact's impulses did to the ship at its end `arm` from the centre of gravity.
+/// Adds what a contact's impulses did to the ship.
 void add_contact(World& world, const dynamics::Contact& c, BodyIndex ship, double sign) {
-  ShipLoads& loads = world.step_loads[ship];
+  const bool is_with_ship = world.is_ship(ship == c.a ? c.b : c.a);
+  ContactLoads& loads = is_with_ship ? world.step_loads[ship].ships : world.step_loads[ship].ice;
   const auto add = [&](geometry::Point at, Vector impulse) {
     loads.impulse += rotate_back(world.bodies.rotation[ship], impulse);
     loads.angular_impulse += cross(at - world.bodies.position[ship], impulse);
@@ -26,14 +27,19 @@ void add_contact(World& world, const dynamics::Contact& c, BodyIndex ship, doubl
   ++loads.contacts;
 }
 
-void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
+void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
   sum.impulse += step.impulse;
   sum.angular_impulse += step.angular_impulse;
   sum.largest = larger(sum.largest, step.impulse / dt);
   sum.largest_moment = larger(sum.largest_moment, step.angular_impulse / dt);
+  sum.contacts = step.contacts;
+}
+
+void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
+  add_step(sum.ice, step.ice, dt);
+  add_step(sum.ships, step.ships, dt);
   sum.peak = larger(sum.peak, step.peak);
   sum.peak_moment = larger(sum.peak_moment, step.peak_moment);
-  sum.contacts = step.contacts;
 }
 
 ShipSample sample_of(const World& world, BodyIndex ship, double interval) {
@@ -42,22 +48,30 @@ ShipSample sample_of(const World& world, BodyIndex ship, double interval) {
   ShipSample sample;
   sample.time = world.time();
   sample.ship = ship;
-  sample.surge_force = loads.impulse.x / interval;
-  sample.sway_force = loads.impulse.y / interval;
-  sample.yaw_moment = loads.angular_impulse / interval;
+  sample.surge_force = loads.ice.impulse.x / interval;
+  sample.sway_force = loads.ice.impulse.y / interval;
+  sample.yaw_moment = loads.ice.angular_impulse / interval;
   sample.surge_peak = loads.peak.x;
   sample.sway_peak = loads.peak.y;
   sample.yaw_peak = loads.peak_moment;
-  sample.surge_max = loads.largest.x;
-  sample.sway_max = loads.largest.y;
-  sample.yaw_max = loads.largest_moment;
+  sample.surge_max = loads.ice.largest.x;
+  sample.sway_max = loads.ice.largest.y;
+  sample.yaw_max = loads.ice.largest_moment;
+  sample.surge_from_ships = loads.ships.impulse.x / interval;
+  sample.sway_from_ships = loads.ships.impulse.y / interval;
+  sample.yaw_from_ships = loads.ships.angular_impulse / interval;
+  sample.surge_from_ships_max = loads.ships.largest.x;
+  sample.sway_from_ships_max = loads.ships.largest.y;
+  sample.yaw_from_ships_max = loads.ships.largest_moment;
   sample.position_in_world = bodies.position[ship] + world.drift();
   sample.heading = bodies.angle[ship];
   sample.velocity_in_world = bodies.velocity[ship] + world.scene.water.drift;
   sample.yaw_rate = bodies.angular_velocity[ship];
   const auto* thrust = std::get_if<ConstantThrust>(&world.scene.ships[ship].propulsion);
-  sample.thrust = thrust != nullptr ? thrust->thrust : -sample.surge_force;  // what held a held ship
-  sample.contacts = loads.contacts;
+  const double held_back = sample.surge_force + sample.surge_from_ships;
+  sample.thrust = thrust != nullptr ? thrust->thrust : -held_back;
+  sample.contacts = loads.ice.contacts;
+  sample.contacts_with_ships = loads.ships.contacts;
   return sample;
 }
 

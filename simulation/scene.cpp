@@ -15,6 +15,15 @@ geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_a
           {0.5 * length - bow, -0.5 * beam}};
 }
 
+double recording_interval(const Scene& scene) {
+  const double steps = std::max(1.0, std::round(scene.record.forces_interval / scene.time.step));
+  return steps * scene.time.step;
+}
+
+bool splits_by_j_over_tau_c(const Scene& scene) {
+  return scene.fracture.splitting == fracture::SplittingModel::kMichel;
+}
+
 geometry::Ring cylinder_waterline(double radius) {
   constexpr double kSagitta = 0.01;  // [m]
   const double half_turn = std::acos(std::max(-1.0, 1 - kSagitta / radius));

@@ -136,6 +136,12 @@ struct Scene {
   std::vector<FloeSpec> floes;
 };
 
+/// What a row of forces.csv covers: a whole number of steps [s].
+double recording_interval(const Scene& scene);
+
+/// Does the paper's collision force j/τ_c decide splits? Views show it beside the true force only then.
+bool splits_by_j_over_tau_c(const Scene& scene);
+
 /// What a run leaves out because it would change nothing. Not part of a scene: tests switch it off and
 /// compare.
 struct Shortcuts {

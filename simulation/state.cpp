@@ -87,6 +87,9 @@ class StateLoader {
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
     bytes_.require(c.largest_left_over >= 0, "a negative velocity left over");
     bytes_.require(world_.loads.size() == world_.scene.ships.size(), "loads of other ships");
+    for (const ShipContact& c : world_.ship_contacts)
+      bytes_.require(c.ship >= 0 && c.ship < c.other && c.other < world_.ship_count(),
+                     "a contact of no two ships");
     bytes_.require(world_.steps >= 0 && world_.steps <= kMostSteps, "a number of steps that cannot be");
     std::uint64_t floes = 0;
     bytes_(floes);

@@ -9,7 +9,7 @@
 namespace polynya::simulation {
 
 /// Of the bytes of save_state. Raised when the field lists (state_fields.hpp) change.
-inline constexpr std::uint32_t kStateVersion = 2;
+inline constexpr std::uint32_t kStateVersion = 3;
 
 /// All that decides how a run goes on, beside its scene, as bytes: doubles bit by bit, exact coordinates as
 /// rationals. Taken between two steps, the journal having been taken. What follows from shapes (masses,

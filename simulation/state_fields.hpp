@@ -56,8 +56,16 @@ void fields(Archive& archive, Is<FloeHead> auto& f) {
   archive(f.parent, f.born, f.generation, f.area, f.is_alive);
 }
 template <class Archive>
+void fields(Archive& archive, Is<ContactLoads> auto& l) {
+  archive(l.impulse, l.angular_impulse, l.largest, l.largest_moment, l.contacts);
+}
+template <class Archive>
+void fields(Archive& archive, Is<ShipContact> auto& c) {
+  archive(c.time, c.ship, c.other, c.point_in_world, c.closing_speed, c.relative_speed, c.is_prescribed);
+}
+template <class Archive>
 void fields(Archive& archive, Is<ShipLoads> auto& l) {
-  archive(l.impulse, l.angular_impulse, l.largest, l.largest_moment, l.peak, l.peak_moment, l.contacts);
+  archive(l.ice, l.ships, l.peak, l.peak_moment);
 }
 template <class Archive>
 void fields(Archive& archive, Is<AreaLedger> auto& l) {
@@ -96,7 +104,7 @@ void fields(Archive& archive, Is<dynamics::PairMemory> auto& p) {
 /// What of the world is neither a body, a floe nor a pair.
 template <class Archive, Is<World> AnyWorld>
 void sums_of(Archive& archive, AnyWorld& world) {
-  archive(world.steps, world.ledger, world.audit, world.counts, world.loads);
+  archive(world.steps, world.ledger, world.audit, world.counts, world.loads, world.ship_contacts);
 }
 
 }  // namespace polynya::simulation

@@ -148,6 +148,7 @@ void step(World& world) {
   apply_forces(world);
   integrate_motion(world);
   ++world.steps;
+  note_ship_contacts(world);
   apply_fractures(world);
   put_to_rest(world);
   record(world);

@@ -15,6 +15,8 @@ void solve_impulses(World& world);
 void tally_loads(World& world);
 void apply_forces(World& world);
 void integrate_motion(World& world);
+/// Enters the first contact of each two ships. After the motion, so that a contact has the step's time.
+void note_ship_contacts(World& world);
 /// The only stage that changes which floes there are: serially, in floe-id order.
 void apply_fractures(World& world);
 void put_to_rest(World& world);

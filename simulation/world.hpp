@@ -30,15 +30,21 @@ struct Floe {
   geometry::Shape shape;  ///< body frame: the scene's coordinates of its oldest ancestor; empty once it broke
 };
 
-/// Sums over a recording interval, in the ship's frame.
-struct ShipLoads {
-  geometry::Vector impulse;    ///< by ice on the ship [N s]
+/// What one kind of contact does to a ship over a recording interval, in the ship's frame.
+struct ContactLoads {
+  geometry::Vector impulse;    ///< on the ship [N s]
   double angular_impulse = 0;  ///< [N m s]
   geometry::Vector largest;    ///< single-step true force, component by component [N]
   double largest_moment = 0;   ///< [N m]
-  geometry::Vector peak;       ///< the paper's j/τ_c, component by component [N]
-  double peak_moment = 0;      ///< [N m]
   int contacts = 0;            ///< at the last step
+};
+
+/// Sums over a recording interval, in the ship's frame.
+struct ShipLoads {
+  ContactLoads ice;
+  ContactLoads ships;      ///< other ships and structures
+  geometry::Vector peak;   ///< the paper's j/τ_c of contacts with ice, component by component [N]
+  double peak_moment = 0;  ///< [N m]
 };
 
 /// A fracture decided in this step, to be applied at its end.
@@ -86,6 +92,7 @@ struct World {
   std::vector<PendingFracture> fractures;     ///< of the present step
   std::vector<ShipLoads> loads;               ///< per ship, since the last sample
   std::vector<ShipLoads> step_loads;          ///< per ship, of the present step
+  std::vector<ShipContact> ship_contacts;     ///< the first one of each pair of ships so far
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
   std::int64_t steps_per_sample = 1;
 

@@ -44,7 +44,7 @@ TEST(RunCommand, WritesAFolderAndTellsTheResult) {
   const Outcome outcome = polynya(run_for("10"), {folder.path()});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   for (const char* words :
-       {"simulated   10 s", "real time", "cusps broken by bending", "splits", "imbalance", "peak force",
+       {"simulated   10 s", "real time", "cusps broken by bending", "splits", "imbalance", "ice force",
         "run folder  runs/level-plate", "picture     runs/level-plate/final."}) {
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << "\n" << outcome.out;
   }
@@ -55,6 +55,95 @@ TEST(RunCommand, WritesAFolderAndTellsTheResult) {
   EXPECT_NEAR(run->end_time(), 10, 1e-9);
   EXPECT_TRUE(std::filesystem::exists(folder / "runs/level-plate/final.svg"));
   EXPECT_GT(run->summary.find("counts")->find("bends")->number(), 0);
+}
+
+/// The line of a text that has some words; empty where none has.
+std::string line_with(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  if (at == std::string::npos) return "";
+  const std::size_t start = text.rfind('\n', at) + 1;
+  return text.substr(start, text.find('\n', at) - start);
+}
+
+/// "-565.3 kN" after "surge" in such a line [N].
+double surge_in(const std::string& line) {
+  double value = 0;
+  char unit[4] = "";
+  EXPECT_EQ(std::sscanf(line.c_str() + line.find("surge"), "surge %lf %3s", &value, unit), 2) << line;
+  return value * (unit[0] == 'M' ? 1e6 : unit[0] == 'k' ? 1e3 : 1);
+}
+
+TEST(RunCommand, LeadsWithTheTrueForce) {
+  const TemporaryFolder folder;
+  for (const std::string model : {"michel", "lefm"}) {
+    const std::string scene =
+        R"({"time": {"until_s": 20}, "fracture": {"splitting": {"model": ")" + model + R"("}},
+        "ships": [{"name": "ship", "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7,
+          "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0], "propulsion": {"constant_speed_m_per_s": 1}}],
+        "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}}]})";
+    write_file(folder / "scene.json", scene);
+    const Outcome outcome = polynya({"run", "scene.json", "--out", model}, {folder.path()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto run = io::read_run(folder / model);
+    ASSERT_TRUE(run.has_value()) << run.error();
+    double mean = 0, step = 0;
+    for (const simulation::ShipSample& sample : run->samples) {
+      mean = std::min(mean, sample.surge_force);
+      step = std::min(step, sample.surge_max);
+    }
+    const std::size_t first = outcome.out.find("ice force"), last = outcome.out.find("j/τ_c");
+    EXPECT_NEAR(surge_in(line_with(outcome.out, "largest mean over 0.1 s")) / mean, 1, 1e-3) << outcome.out;
+    EXPECT_NEAR(surge_in(line_with(outcome.out, "largest single step of 0.005 s")) / step, 1, 1e-3);
+    const io::JsonValue& peaks = run->summary.find("peaks")->items()[0];
+    EXPECT_EQ(peaks.find("surge_N")->find("value")->number(), mean);
+    EXPECT_EQ(peaks.find("surge_max_N")->find("value")->number(), step);
+    EXPECT_EQ(run->summary.find("forces_interval_s")->number(), 0.1);
+    // j/τ_c where it decides, and then behind the true force.
+    EXPECT_EQ(last != std::string::npos, model == "michel") << outcome.out;
+    EXPECT_EQ(peaks.find("surge_j_over_tau_c_N") != nullptr, model == "michel");
+    if (last != std::string::npos) EXPECT_LT(first, last);
+    const Outcome figures = polynya({"figures", model, "--load", "j-over-tau-c"}, {folder.path()});
+    EXPECT_EQ(figures.code, model == "michel" ? 0 : 2) << figures.err;
+  }
+}
+
+TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
+  const TemporaryFolder folder;
+  const std::string ship =
+      R"("hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 30}, "mass_kg": 1e7,
+    "moment_of_inertia_kg_m2": 8e9, )";
+  write_file(folder / "scene.json",
+             R"({"time": {"until_s": 30}, "ships": [
+      {"name": "leader", )" +
+                 ship + R"("position_m": [0, 0], "propulsion": {"constant_speed_m_per_s": 1}},
+      {"name": "follower", )" +
+                 ship +
+                 R"("position_m": [-110, 0], "speed_m_per_s": 2, "propulsion": {"thrust_N": 0}}],
+    "structures": [{"name": "pier", "radius_m": 5, "position_m": [70, 0]}], "floes": []})");
+  const Outcome outcome = polynya({"run", "scene.json", "--out", "run"}, {folder.path()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string met = line_with(outcome.err, "leader and follower came into contact");
+  EXPECT_NE(met.find("closing at 1 m/s"), std::string::npos) << outcome.err;
+  EXPECT_NE(met.find("_from_ships"), std::string::npos) << outcome.err;
+  const std::string through = line_with(outcome.err, "leader and pier came into contact");
+  EXPECT_NE(through.find("pass through each other"), std::string::npos) << outcome.err;
+  EXPECT_NE(line_with(outcome.out, "ship force  leader").find("surge"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("ship force  follower: surge -"), std::string::npos) << outcome.out;
+  const auto run = io::read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  EXPECT_EQ(run->summary.find("warnings")->items().size(), 2U);
+  ASSERT_EQ(run->ship_contacts.size(), 2U);
+  EXPECT_NEAR(run->ship_contacts[0].time, 10, 0.02);
+  EXPECT_NEAR(run->ship_contacts[1].time, 15, 0.02);
+  EXPECT_TRUE(run->ship_contacts[1].is_prescribed);
+  double most = 0;
+  for (const simulation::ShipSample& sample : run->samples) {
+    EXPECT_EQ(sample.surge_force, 0);
+    EXPECT_EQ(sample.surge_max, 0);
+    most = std::max(most, sample.surge_from_ships_max);
+    if (sample.ship == 0) EXPECT_EQ(sample.thrust, -sample.surge_from_ships);
+  }
+  EXPECT_GT(most, 1e6);
 }
 
 TEST(RunCommand, TheSameSceneGivesTheSameBytesRunAfterRun) {

@@ -47,7 +47,7 @@ double least(const Chart::Panel& panel) {
 TEST(Figures, EveryShipAndStructureHasItsLoads) {
   std::vector<io::Run> runs;
   runs.push_back(run_of_three("harbour"));
-  const Chart chart = load_figure(runs, LoadKind::kMax);
+  const Chart chart = load_figure(runs, "max");
   EXPECT_EQ(chart.columns, 3U);
   ASSERT_EQ(chart.panels.size(), 9U);
   const char* names[] = {"harbour, north: surge", "harbour, south: surge", "harbour, pile: surge"};
@@ -59,16 +59,38 @@ TEST(Figures, EveryShipAndStructureHasItsLoads) {
   }
 }
 
+TEST(Figures, LeadWithTheTrueForce) {
+  std::vector<io::Run> runs;
+  runs.push_back(run_of_three("harbour"));
+  for (simulation::ShipSample& sample : runs[0].samples) {
+    sample.surge_force = -7e3;
+    sample.surge_peak = -1e9;
+    sample.surge_from_ships = -3e9;
+  }
+  const Chart chart = load_figure(runs, "true");
+  const Chart::Panel& surge = chart.panels.at(0);
+  ASSERT_EQ(surge.curves.size(), 2U);
+  EXPECT_EQ(surge.curves[0].name, "single step of 0.005 s");
+  EXPECT_EQ(surge.curves[1].name, "mean over 0.1 s") << "in front";
+  EXPECT_NEAR(std::ranges::min(surge.curves[1].points, {}, &Chart::Point::y).y, -7, 1e-9) << "in kN";
+  EXPECT_NEAR(surge.y.range->first, -300, 1e-9) << "neither j/τ_c nor the other ships are in its scale";
+  const Chart by_ships = load_figure(runs, "ships"), by_the_paper = load_figure(runs, "j-over-tau-c");
+  EXPECT_NEAR(by_ships.panels.at(0).curves.at(1).points.at(0).y, -3, 1e-9) << "in GN";
+  EXPECT_NEAR(least(by_the_paper.panels.at(0)), -1, 1e-9) << "in GN";
+  runs[0].scene.scene.fracture.splitting = fracture::SplittingModel::kLefm;
+  EXPECT_TRUE(load_figure(runs, "j-over-tau-c").panels.empty()) << "nothing there splits by it";
+}
+
 TEST(Figures, ShipsOfSeveralRunsStandInRowsOfThree) {
   std::vector<io::Run> runs;
   for (const char* name : {"a", "b", "c"}) runs.push_back(run_of_three(name));
-  const Chart nine = load_figure(runs, LoadKind::kMax);
+  const Chart nine = load_figure(runs, "max");
   EXPECT_EQ(nine.columns, 3U);
   EXPECT_EQ(nine.panels.size(), 27U);
   EXPECT_EQ(nine.panels[9].title, "b, north: surge");
   runs.pop_back();
   runs.back().scene.scene.ships.pop_back();
-  const Chart five = load_figure(runs, LoadKind::kMax);
+  const Chart five = load_figure(runs, "max");
   ASSERT_EQ(five.panels.size(), 18U);
   EXPECT_EQ(five.panels[10].title, "b, south: surge");
   EXPECT_EQ(five.panels[11].title, "") << "a place left blank";

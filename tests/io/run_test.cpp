@@ -1,9 +1,11 @@
 #include <cmath>
 
 #include "temporary_folder.hpp"
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "geometry/measures.hpp"
+#include "io/force_columns.hpp"
 #include "io/json_parser.hpp"
 #include "io/motion_index.hpp"
 #include "io/run_folder.hpp"
@@ -123,6 +125,51 @@ TEST(Run, ReadsBackWhatWasWritten) {
     EXPECT_EQ(run->samples[i].thrust, recorded.samples[i].thrust);
     EXPECT_EQ(run->samples[i].contacts, recorded.samples[i].contacts);
   }
+}
+
+TEST(Run, ForcesAreReadByTheirColumnsNames) {
+  const TemporaryFolder folder;
+  const Recorded recorded = write_run(load(), folder / "run");
+  const std::filesystem::path path = folder / "run/forces.csv";
+  const std::string whole = read_file(path);
+  // A run of before, without the columns that are optional: the rest in another order.
+  std::vector<const ForceColumn*> kept;
+  for (const ForceColumn& column : force_columns()) {
+    if (!column.is_optional) kept.insert(kept.begin(), &column);
+  }
+  std::string older = "t_s,ship";
+  for (const ForceColumn* column : kept) older.append(1, ',').append(column->name);
+  for (const simulation::ShipSample& sample : recorded.samples) {
+    older += fmt::format("\n{},a ship", sample.time);
+    for (const ForceColumn* column : kept) older += fmt::format(",{}", column->read(sample));
+  }
+  tests::write_file(path, older + '\n');
+  const auto run = read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  ASSERT_EQ(run->samples.size(), recorded.samples.size());
+  for (const ForceColumn* column : kept) {
+    for (std::size_t i = 0; i < run->samples.size(); i += 7)
+      ASSERT_NEAR(column->read(run->samples[i]), column->read(recorded.samples[i]),
+                  1e-12 * std::abs(column->read(recorded.samples[i])))
+          << column->name;
+  }
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    std::string changed = whole;
+    changed.replace(changed.find(from), from.size(), to);
+    tests::write_file(path, changed);
+    const auto read = read_run(folder / "run");
+    return read ? "" : read.error();
+  };
+  EXPECT_NE(refusal(",sway_N,", ",").find("no column \"sway_N\""), std::string::npos);
+  EXPECT_NE(refusal(",sway_N,", ",sway_kN,").find("\"sway_kN\""), std::string::npos);
+  EXPECT_NE(refusal(",sway_N,", ",surge_N,").find("\"surge_N\""), std::string::npos);
+}
+
+TEST(Run, DocumentationHasEveryColumnOfForces) {
+  const std::string page = read_file(std::filesystem::path(POLYNYA_SOURCE_DIR) / "docs/run-folder.md");
+  for (const ForceColumn& column : force_columns())
+    EXPECT_NE(page.find(fmt::format("| `{}` | {} |\n", column.name, column.meaning)), std::string::npos)
+        << column.name;
 }
 
 TEST(Run, ReadsBackTheContactsOfItsFrames) {

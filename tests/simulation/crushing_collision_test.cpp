@@ -175,6 +175,31 @@ TEST(CrushingCollision, ByTheBoundaryRuleDoesNotKnowTheCirclesRadius) {
   EXPECT_GT(std::abs(coarse[0]), 0.01) << "they did meet";
 }
 
+/// Mean of the force that level ice takes [N].
+double mean_resistance(double radius) {
+  Scene scene;
+  scene.contact.circle_radius = radius;
+  scene.ships = {icebreaker({-2, 0}, ConstantSpeed{1})};
+  scene.floes = {floe(rectangle(0, -75, 300, 75))};
+  Simulation simulation(scene);
+  run(simulation, 30);
+  double sum = 0;
+  const std::vector<ShipSample> samples = run(simulation, 130).samples;
+  for (const ShipSample& sample : samples) sum -= sample.surge_force;
+  return sum / static_cast<double>(samples.size());
+}
+
+TEST(CrushingCollision, LevelIceDependsOnTheRadiusALittle) {
+  // The overlap does not, but the memory of a contact goes on within a quarter of the radius
+  // (docs/theory.md).
+  const double fine = mean_resistance(0.5);
+  const double coarse = mean_resistance(2);
+  std::printf("mean surge %.1f kN at 0.5 m, %.1f kN at 2 m\n", fine / 1e3, coarse / 1e3);
+  EXPECT_GT(fine, 1e4);
+  EXPECT_NE(fine, coarse);
+  EXPECT_NEAR(coarse / fine, 1, 0.15);
+}
+
 TEST(CrushingCollision, ByCircleCentresIsFeltLaterByAShareOfTheRadius) {
   // The paper's rule: a corner's circle keeps off its tip by a share of the radius, so that the first touch
   // comes late by as much, and tends to the boundary's as the radius shrinks. Its normals do not: a row of

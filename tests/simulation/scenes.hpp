@@ -49,6 +49,7 @@ struct Story {
   std::vector<Birth> births;
   std::vector<FloeId> deaths;
   std::vector<ShipSample> samples;
+  std::vector<ShipContact> ship_contacts;
 };
 
 inline void listen(Simulation& simulation, Story& story) {
@@ -57,6 +58,8 @@ inline void listen(Simulation& simulation, Story& story) {
   story.births.insert(story.births.end(), journal.births.begin(), journal.births.end());
   story.deaths.insert(story.deaths.end(), journal.deaths.begin(), journal.deaths.end());
   story.samples.insert(story.samples.end(), journal.samples.begin(), journal.samples.end());
+  story.ship_contacts.insert(story.ship_contacts.end(), journal.ship_contacts.begin(),
+                             journal.ship_contacts.end());
   journal.clear();
 }
 
