@@ -45,8 +45,8 @@ int figures(const FiguresOptions& options) {
     const simulation::Scene& scene = run.scene.scene;
     if (scene.ships.empty() || !io::chosen_loads(scene, options.load).empty()) continue;
     print_err("polynya: --load {}: {} {}\n", options.load, run.folder.string(),
-         options.load == "ships" ? "has one ship and no structure"
-                                 : "does not split floes by j/tau_c (fracture.splitting.model michel)");
+              options.load == "ships" ? "has one ship and no structure"
+                                      : "does not split floes by j/tau_c (fracture.splitting.model michel)");
     return kUsage;
   }
   const fs::path folder = options.out.empty() ? options.runs.front() : options.out;

@@ -40,4 +40,8 @@ tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
   return tl::unexpected(kSceneInvalid);
 }
 
+void print_hints(const io::LoadedScene& scene) {
+  for (const io::Problem& hint : scene.hints) print_err("{}\n", to_string(hint));
+}
+
 }  // namespace polynya::app

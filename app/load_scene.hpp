@@ -19,4 +19,7 @@ tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
                                                    const io::SceneOverrides& overrides = {},
                                                    ProblemFormat format = ProblemFormat::kText);
 
+/// The scene's warnings and hints on stderr, a line each.
+void print_hints(const io::LoadedScene& scene);
+
 }  // namespace polynya::app

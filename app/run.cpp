@@ -15,6 +15,7 @@ namespace polynya::app {
 int run(const RunOptions& options) {
   const auto loaded = load_scene(options.scene, {.until = options.until, .seed = options.seed});
   if (!loaded) return loaded.error();
+  print_hints(*loaded);
   const std::filesystem::path folder = options.out.empty()
                                            ? std::filesystem::path("runs") / loaded->scene.name
                                            : std::filesystem::path(options.out);

@@ -14,9 +14,10 @@ int validate(const ValidateOptions& options) {
       load_scene(options.scene, {}, options.json ? ProblemFormat::kJson : ProblemFormat::kText);
   if (!loaded) return loaded.error();
   if (options.json) {
-    write_out(io::to_json_text(std::vector<io::Problem>{}));
+    write_out(io::to_json_text(loaded->hints));
     return kDone;
   }
+  print_hints(*loaded);
   if (options.resolved) {
     write_out(loaded->resolved_text);
     return kDone;

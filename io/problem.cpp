@@ -35,6 +35,18 @@ std::string_view without_unit(std::string_view key) {
 
 }  // namespace
 
+std::string_view name_of(Severity severity) {
+  switch (severity) {
+    case Severity::kError:
+      return "error";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kHint:
+      return "hint";
+  }
+  return "unknown";
+}
+
 std::string message_of(const Problem& problem) {
   if (!problem.sentence.empty()) return problem.sentence;
   std::string text = "found " + problem.found;
@@ -46,6 +58,7 @@ std::string message_of(const Problem& problem) {
 std::string to_string(const Problem& problem) {
   std::string text = problem.line > 0 ? fmt::format("{}:{}:{}: ", problem.file, problem.line, problem.column)
                                       : fmt::format("{}: ", problem.file);
+  if (problem.severity != Severity::kError) text += fmt::format("{}: ", name_of(problem.severity));
   if (!problem.path.empty()) text += problem.path + ": ";
   return text + message_of(problem);
 }
@@ -62,7 +75,7 @@ std::string to_json_text(const std::vector<Problem>& problems) {
       json.key(key);
       has_place ? json.value(value) : json.null();
     }
-    json.key("path").value(std::string_view(problem.path)).key("severity").value("error");
+    json.key("path").value(std::string_view(problem.path)).key("severity").value(name_of(problem.severity));
     json.key("message").value(std::string_view(message_of(problem))).close('}');
   }
   json.close(']');

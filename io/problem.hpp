@@ -7,6 +7,15 @@
 
 namespace polynya::io {
 
+/// What a problem does to a file: an error refuses it, the others do not.
+enum class Severity {
+  kError,
+  kWarning,  ///< it works, and is probably not meant
+  kHint,     ///< it is unusual
+};
+
+std::string_view name_of(Severity severity);
+
 /// One thing wrong in an input file, with its place.
 struct Problem {
   std::string file = {};
@@ -17,12 +26,14 @@ struct Problem {
   std::string allowed = {};
   std::string suggestion = {};  ///< nearest known key or choice; empty where none is near
   std::string sentence = {};    ///< in place of found and allowed where those do not fit; else empty
+  Severity severity = Severity::kError;
 };
 
 /// "found 0, allowed: a number > 0, ≤ 20 [m]"
 std::string message_of(const Problem& problem);
 
-/// "scene.json:12:5: ice.thickness_m: found 0, allowed: a number > 0, ≤ 20 [m]"
+/// "scene.json:12:5: ice.thickness_m: found 0, allowed: a number > 0, ≤ 20 [m]"; what is no error has its
+/// severity behind the place: "scene.json:9:3: hint: ice.thickness_m: …"
 std::string to_string(const Problem& problem);
 
 /// A JSON array of them, one a line: file, line and column (null where there is no place), path, severity and

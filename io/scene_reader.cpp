@@ -11,6 +11,7 @@
 #include "io/json_parser.hpp"
 #include "io/json_writer.hpp"
 #include "io/scene_check.hpp"
+#include "io/scene_hints.hpp"
 #include "io/scene_resolve.hpp"
 
 namespace polynya::io {
@@ -81,8 +82,11 @@ class SceneReading {
     build();
     check_scene(draft_, resolved_, problems_);
     if (problems_.count() > 0) return tl::unexpected(problems_.take());
-    LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description), to_json_text(resolved_), "",
-                       std::move(fields_)};
+    add_scene_hints(draft_, resolved_, problems_);
+    std::vector<Problem> hints = problems_.take();
+    LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description),
+                       to_json_text(resolved_), "",
+                       std::move(fields_),      std::move(hints)};
     if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
       tell(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
            fmt::format("at most {} bytes: fewer floes, or coordinates of fewer digits", longest));

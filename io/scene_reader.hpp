@@ -33,6 +33,7 @@ struct LoadedScene {
       resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
   std::string hash;   ///< of resolved_text: 16 hexadecimal digits, FNV-1a
   std::vector<FieldReport> fields;
+  std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene_hints.hpp)
 };
 
 /// What the command line puts in place of the scene's own.

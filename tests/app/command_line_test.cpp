@@ -75,7 +75,8 @@ TEST(CommandLine, UsageErrorsSpeakToPeople) {
            {{"cut", "x", "--disc", "0,0,1", "--crack", "0,0,1"}, "--ops is needed, 2 are given\n"},
            {{"channel", "x", "--format", "jsn"},
             "--format: \"jsn\" is not one of: table, csv, json; did you mean json?\n"},
-           {{"figures", "x", "--load", "most"}, "--load: \"most\" is not one of: peak, max, mean\n"},
+           {{"figures", "x", "--load", "most"},
+            "--load: \"most\" is not one of: true, mean, max, ships, j-over-tau-c\n"},
            {{"inspect", "x", "--floe", "1", "--format", "dxf"},
             "--format: \"dxf\" is not one of: wkt, geojson, svg\n"},
            {{"run", "x", "--progress", "loud"},
@@ -177,6 +178,30 @@ TEST(CommandLine, ProblemsAreJsonOnRequest) {
   EXPECT_EQ(missing.code, 5);
   EXPECT_TRUE(io::parse_json(missing.out).root.items().at(0).find("line")->is_null()) << missing.out;
   EXPECT_EQ(polynya({"validate", "wrong.json", "--json", "--resolved"}, {folder.path()}).code, 2);
+}
+
+TEST(CommandLine, HintsStandInTheTerminalAndChangeNoExitCode) {
+  const TemporaryFolder folder;
+  write_file(folder / "light.json", R"({"time": {"until_s": 0.1}, "ships": [
+    {"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27},
+     "mass_kg": 1e4, "moment_of_inertia_kg_m2": 5e9, "propulsion": {"thrust_N": 0}}],
+    "floes": []})");
+  const std::string warning = "light.json:3:17: warning: ships[0].mass_kg: 1e+04 kg for a hull of 120 × 24 m";
+  for (const auto& words :
+       std::vector<std::vector<std::string>>{{"validate", "light.json"}, {"run", "light.json"}}) {
+    const Outcome outcome = polynya(words, {folder.path()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find(warning), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("light.json:4:14: hint: floes: there is no ice"), std::string::npos)
+        << outcome.err;
+  }
+  const Outcome json = polynya({"validate", "light.json", "--json"}, {folder.path()});
+  EXPECT_EQ(json.code, 0);
+  EXPECT_EQ(json.err, "");
+  const io::JsonDocument hints = io::parse_json(json.out);
+  ASSERT_EQ(hints.root.items().size(), 2U) << json.out;
+  EXPECT_EQ(hints.root.items()[0].find("severity")->text(), "warning");
+  EXPECT_EQ(hints.root.items()[1].find("severity")->text(), "hint");
 }
 
 /// A scene from stdin is the scene: the same hash, floe files from the working folder, its problems "stdin".
