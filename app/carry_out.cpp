@@ -150,6 +150,11 @@ io::RunSummary summarise(const Simulation& simulation, const io::RunWriter& writ
   summary.audit = simulation.audit();
   summary.peaks = writer.peaks();
   summary.warnings = warnings_of(simulation, summary.counts);
+  for (const std::string& name : writer.overlong())
+    summary.warnings.push_back(
+        fmt::format("{} has more than the {} bytes that inspect, view and the others read; record less (the "
+                    "scene's record)",
+                    name, io::kLongestRunFile));
   return summary;
 }
 

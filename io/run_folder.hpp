@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -41,6 +42,9 @@ inline constexpr std::array kAll{kScene,    kSummary, kForces,   kEvents,       
                                  kFrames,   kStates,  kContacts, kFinalGeojson, kFinalSvg,
                                  kFinalPng, kView,    kChannel,  kChannelCsv};
 }  // namespace run_file
+
+/// What reads runs takes no longer file; a run that writes one warns [bytes].
+inline constexpr std::uint64_t kLongestRunFile = std::uint64_t{4} << 30;
 
 /// Takes a folder for a new run, making it where there is none, and locks it: of several processes that take
 /// one folder, one gets it. A folder with anything in it is refused, but for what a run leaves that was

@@ -18,15 +18,13 @@ namespace {
 
 using simulation::FloeId;
 
-constexpr std::size_t kLongestFile = std::size_t{4} << 30;  ///< [bytes]
-
 /// What is wrong with a file; told to the caller of read_run as its error value.
 struct Damage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 std::string text_of(const std::filesystem::path& folder, std::string_view name) {
-  auto text = read_text_file(folder / name, kLongestFile);
+  auto text = read_text_file(folder / name, kLongestRunFile);
   if (!text) throw Damage(fmt::format("{}: {}", (folder / name).string(), text.error()));
   return std::move(*text);
 }

@@ -68,6 +68,9 @@ class RunWriter {
   /// What went wrong with a file; empty where all is well.
   std::string failure() const;
 
+  /// The files that have become too long to be read back (kLongestRunFile).
+  std::vector<std::string> overlong() const;
+
   /// Peaks of the samples so far.
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 

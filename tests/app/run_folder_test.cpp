@@ -269,6 +269,28 @@ TEST_F(RunFolderTrial, LinksInAForeignRunFolderAreNotFollowed) {
   EXPECT_EQ(read_file(folder_ / "precious"), "years of work");
 }
 
+/// What polynya itself cannot read back, it reports when it writes it.
+TEST_F(RunFolderTrial, AFileTooLongToBeReadIsReported) {
+  leave_run("run", 260, {250});
+  const fs::path checkpoint = io::checkpoints_in(folder_ / "run").front();
+  const auto scene = io::read_scene_file(folder_ / "run/scene.json");
+  auto longer = io::read_checkpoint_file(checkpoint, scene->hash);
+  ASSERT_TRUE(longer.has_value()) << longer.error();
+  const fs::path contacts = folder_ / "run/contacts.csv";
+  auto& sizes = longer->progress.file_sizes;
+  *std::ranges::find(sizes, fs::file_size(contacts)) =
+      io::kLongestRunFile + 1;  // a hole, which takes no space
+  fs::resize_file(contacts, io::kLongestRunFile + 1);
+  ASSERT_EQ(io::write_checkpoint(folder_ / "run", *longer), "");
+  const Outcome resumed = call({"resume", "run"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_NE(resumed.err.find("note: contacts.csv has more than the 4294967296 bytes"), std::string::npos)
+      << resumed.err;
+  const Outcome refused = call({"inspect", "run"});
+  EXPECT_EQ(refused.code, 5);
+  EXPECT_NE(refused.err.find("contacts.csv"), std::string::npos) << refused.err;
+}
+
 TEST_F(RunFolderTrial, AFolderThatGoesAwayDuringTheRunIsFive) {
   write_file(folder_ / "long.json", crash_scene("1e5"));
   const Start start{folder_.path()};
