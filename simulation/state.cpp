@@ -87,8 +87,8 @@ class StateLoader {
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
     bytes_.require(c.largest_left_over >= 0, "a negative velocity left over");
     bytes_.require(world_.loads.size() == world_.scene.ships.size(), "loads of other ships");
-    for (const ShipContact& c : world_.ship_contacts)
-      bytes_.require(c.ship >= 0 && c.ship < c.other && c.other < world_.ship_count(),
+    for (const ShipContact& contact : world_.ship_contacts)
+      bytes_.require(contact.ship >= 0 && contact.ship < contact.other && contact.other < world_.ship_count(),
                      "a contact of no two ships");
     bytes_.require(world_.steps >= 0 && world_.steps <= kMostSteps, "a number of steps that cannot be");
     std::uint64_t floes = 0;

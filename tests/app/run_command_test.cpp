@@ -101,7 +101,9 @@ TEST(RunCommand, LeadsWithTheTrueForce) {
     // j/τ_c where it decides, and then behind the true force.
     EXPECT_EQ(last != std::string::npos, model == "michel") << outcome.out;
     EXPECT_EQ(peaks.find("surge_j_over_tau_c_N") != nullptr, model == "michel");
-    if (last != std::string::npos) EXPECT_LT(first, last);
+    if (last != std::string::npos) {
+      EXPECT_LT(first, last);
+    }
     const Outcome figures = polynya({"figures", model, "--load", "j-over-tau-c"}, {folder.path()});
     EXPECT_EQ(figures.code, model == "michel" ? 0 : 2) << figures.err;
   }
@@ -141,7 +143,9 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
     EXPECT_EQ(sample.surge_force, 0);
     EXPECT_EQ(sample.surge_max, 0);
     most = std::max(most, sample.surge_from_ships_max);
-    if (sample.ship == 0) EXPECT_EQ(sample.thrust, -sample.surge_from_ships);
+    if (sample.ship == 0) {
+      EXPECT_EQ(sample.thrust, -sample.surge_from_ships);
+    }
   }
   EXPECT_GT(most, 1e6);
 }

@@ -95,7 +95,9 @@ TEST(ShipContacts, OfPrescribedMotionsAreNoted) {
       // The side of the bow that meets the pile is 20 m from it at most, 25 m where it meets the very edge.
       EXPECT_GE(contact.time, 10 - 1e-9);
       EXPECT_LE(contact.time, 12.5 + 2 * step);
-      if (std::abs(off) < 11) EXPECT_NEAR(contact.time, 10, 2 * step);
+      if (std::abs(off) < 11) {
+        EXPECT_NEAR(contact.time, 10, 2 * step);
+      }
       EXPECT_EQ(contact.relative_speed, 2);
       EXPECT_GT(contact.closing_speed, 0);
       EXPECT_TRUE(contact.is_prescribed);
