@@ -27,7 +27,7 @@ std::string unknown_floe(const io::Run& run, FloeId id) {
 int print_floe(const io::Run& run, const InspectOptions& options) {
   const io::RunFloe* floe = run.floe(*options.floe);
   if (!floe) return usage_error(unknown_floe(run, *options.floe));
-  ShapeView view{floe->birth, floe->birth.polygon_in_body, {}};
+  ShapeView view{floe->birth, *run.shape(*options.floe), {}};
   if (options.at) {
     if (!run.is_alive(floe->birth.floe, *options.at)) {
       const std::string end =
@@ -40,7 +40,7 @@ int print_floe(const io::Run& run, const InspectOptions& options) {
           fmt::format("floe {} lived from {:g} to {:g} s, between two frames: where is not on record",
                       *options.floe, floe->birth.time, floe->died));
     }
-    view.polygon = polygon_in_world(floe->birth, *motion);
+    view.polygon = polygon_in_world(view.polygon, floe->birth.centroid_in_body, *motion);
     view.time_in_world = options.at;
   }
   write_out(to_text(view, options.format));

@@ -18,14 +18,14 @@ namespace {
 using geometry::Ring;
 using simulation::FloeId;
 
-std::string_view validity_of(const simulation::Birth& birth) {
+std::string_view validity_of(const simulation::BirthRecord& birth, const geometry::Polygon& polygon) {
   if (!birth.is_exact) return "kept-exact";
-  const auto found = find_defect(birth.polygon_in_body);
+  const auto found = find_defect(polygon);
   return found ? name_of(found->defect) : "yes";
 }
 
 std::string as_geojson(const ShapeView& view) {
-  const simulation::Birth& birth = view.birth;
+  const simulation::BirthRecord& birth = view.birth;
   std::string text;
   io::JsonWriter json(text);
   json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(birth.floe);
@@ -105,14 +105,15 @@ std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
   const io::MotionIndex motions(run);
   std::vector<FloeRow> rows;
   for (const io::RunFloe& floe : run.floes) {
-    const simulation::Birth& birth = floe.birth;
+    const simulation::BirthRecord& birth = floe.birth;
     if (!run.is_alive(birth.floe, time)) continue;
+    const auto polygon = run.shape(birth.floe);
     FloeRow& row = rows.emplace_back(FloeRow{.birth = birth,
-                                             .perimeter = perimeter(birth.polygon_in_body),
-                                             .vertices = vertex_count(birth.polygon_in_body),
-                                             .holes = birth.polygon_in_body.holes.size(),
+                                             .perimeter = perimeter(*polygon),
+                                             .vertices = vertex_count(*polygon),
+                                             .holes = polygon->holes.size(),
                                              .speed = {},
-                                             .validity = validity_of(birth)});
+                                             .validity = validity_of(birth, *polygon)});
     if (const auto motion = motions.floe_at(birth.floe, time)) row.speed = length(motion->velocity);
   }
   return rows;
@@ -123,7 +124,7 @@ std::string floe_table(const std::vector<FloeRow>& rows) {
       fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>9} {}\n", "floe", "parent",
                   "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "m_per_s", "valid");
   for (const FloeRow& row : rows) {
-    const simulation::Birth& birth = row.birth;
+    const simulation::BirthRecord& birth = row.birth;
     text += fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>9} {}\n",
                         birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
                         birth.time, birth.area, row.perimeter, row.vertices, row.holes, birth.mass,

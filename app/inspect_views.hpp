@@ -16,7 +16,7 @@ namespace polynya::app {
 
 /// A floe's shape in its body frame, or in the world at a time.
 struct ShapeView {
-  const simulation::Birth& birth;
+  const simulation::BirthRecord& birth;
   geometry::Polygon polygon;
   std::optional<double> time_in_world;  ///< [s]; none: the body frame
 };
@@ -25,7 +25,7 @@ std::string to_text(const ShapeView& view, ShapeFormat format);
 
 /// A floe alive at some time.
 struct FloeRow {
-  const simulation::Birth& birth;
+  const simulation::BirthRecord& birth;
   double perimeter = 0;  ///< [m]
   std::size_t vertices = 0;
   std::size_t holes = 0;

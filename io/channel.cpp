@@ -82,7 +82,7 @@ class ChannelMeasure {
 
   Done find_ice() {
     for (const PlacedFloe& floe : floes_at(run_, motions_, time_)) {
-      Polygon polygon = placed(floe.world_from_body, floe.birth->polygon_in_body);
+      Polygon polygon = placed(floe.world_from_body, *floe.polygon_in_body);
       if (auto done = add_ice(ice_, floe.birth, std::move(polygon)); !done) return done;
     }
     return {};

@@ -14,8 +14,7 @@ Picture picture_of(const Run& run, const MotionIndex& motions, double time) {
   const simulation::Scene& scene = run.scene.scene;
   for (const auto& floe : scene.floes) picture.ice_at_start.push_back(floe.polygon_in_world);
   for (const PlacedFloe& floe : floes_at(run, motions, time))
-    picture.floes.push_back(
-        {placed(floe.world_from_body, floe.birth->polygon_in_body), floe.birth->generation});
+    picture.floes.push_back({placed(floe.world_from_body, *floe.polygon_in_body), floe.birth->generation});
   for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
     Picture::Ship drawn{placed(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline), {}};
     for (const double t : frame_times_until(run, time))

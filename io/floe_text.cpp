@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "io/birth_shapes.hpp"
 #include "io/geojson_entries.hpp"
 #include "io/lenient_json.hpp"
 #include "io/text_kind.hpp"
@@ -56,11 +57,12 @@ std::string without_line(const std::string& words) {
 FloeText read_ndjson(const std::string& text) {
   FloeText floes;
   floes.format = FloeFormat::kNdjson;
+  BirthShapes births(floes);
   std::size_t feature = 0;
   for_lines(text, [&](std::string_view line, std::size_t offset) {
     const std::size_t before = floes.entries.size();
     if (const auto value = parse_lenient_json(std::string(line))) {
-      read_geojson_entries(*value, line, feature, floes);
+      read_geojson_entries(*value, line, feature, floes, births);
     } else {
       FloeEntry& entry = floes.entries.emplace_back();
       entry.feature = feature;
@@ -125,7 +127,8 @@ tl::expected<FloeText, std::string> read_kind(std::string& text) {
     blank_hash_comments(text);
     if (const auto value = parse_lenient_json(text)) {
       floes.format = FloeFormat::kGeojson;
-      read_geojson_entries(*value, text, 0, floes);
+      BirthShapes births(floes);
+      read_geojson_entries(*value, text, 0, floes, births);
       return floes;
     } else {
       wrong = value.error();
@@ -142,7 +145,8 @@ tl::expected<FloeText, std::string> read_kind(std::string& text) {
 
 FloeText read_floe_json(const JsonValue& geojson) {
   FloeText floes;
-  read_geojson_entries(geojson, "", 0, floes);
+  BirthShapes births(floes);
+  read_geojson_entries(geojson, "", 0, floes, births);
   return floes;
 }
 

@@ -1,13 +1,13 @@
 #include "io/geojson_entries.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "io/birth_shapes.hpp"
 #include "io/json_writer.hpp"
 #include "io/lenient_json.hpp"
 
@@ -27,7 +27,8 @@ struct Refusal : std::runtime_error {
 
 class GeojsonEntries {
  public:
-  GeojsonEntries(FloeText& floes, std::string_view text) : floes_(floes), text_(text) {}
+  GeojsonEntries(FloeText& floes, std::string_view text, BirthShapes& births)
+      : floes_(floes), text_(text), births_(births) {}
 
   /// Everything in a GeoJSON value, as one feature after the other from `feature` on; lines are left as
   /// offsets.
@@ -68,14 +69,15 @@ class GeojsonEntries {
       note_crs(value);
       geometry = value.find("geometry");
       if (const JsonValue* properties = value.find("properties")) {
-        floe_id_ = id_in(*properties);
+        floe_id_ = floe_id_in(*properties, "floe_id");
         properties_ = kept_of(*properties);
       }
       if (!geometry || geometry->is_null())
         return refuse(value, feature, "no-geometry", "a feature without geometry");
     }
     attempt(*geometry, [&] {
-      if (geometry->find("ring_m") && !geometry->find("type"))
+      const bool is_birth = geometry->find("ring_m") || geometry->find("ring_parts_m");
+      if (is_birth && !geometry->find("type"))
         read_birth(*geometry);
       else
         read_geometry(*geometry);
@@ -114,22 +116,25 @@ class GeojsonEntries {
     return kept.empty() ? nullptr : std::make_shared<const std::string>(std::move(kept));
   }
 
-  static std::optional<std::int64_t> id_in(const JsonValue& properties) {
-    const JsonValue* id = properties.find("floe_id");
-    if (!id || !id->is(JsonKind::kNumber)) return {};
-    const double number = id->number();
-    if (!(number >= 0 && number < 9e15 && number == std::floor(number))) return {};
-    return static_cast<std::int64_t>(number);
-  }
-
   /// A line of a run's floes.ndjson.
   void read_birth(const JsonValue& birth) {
-    floe_id_ = id_in(birth);
+    floe_id_ = floe_id_in(birth, "floe_id");
+    geometry::Polygon polygon = shape_of(birth);
+    if (floe_id_) births_.note_next(*floe_id_);
+    add(birth, std::move(polygon));
+  }
+
+  geometry::Polygon shape_of(const JsonValue& birth) {
+    if (birth.find("ring_parts_m")) {
+      auto assembled = births_.assemble(birth);
+      if (!assembled) throw Refusal("malformed", assembled.error());
+      return std::move(*assembled);
+    }
     geometry::Polygon polygon{ring_of(*birth.find("ring_m")), {}};
     if (const JsonValue* holes = birth.find("holes_m")) {
       for (const JsonValue& hole : list(*holes, "a list of holes")) polygon.holes.push_back(ring_of(hole));
     }
-    add(birth, std::move(polygon));
+    return polygon;
   }
 
   void read_geometry(const JsonValue& value) {
@@ -208,6 +213,7 @@ class GeojsonEntries {
 
   FloeText& floes_;
   std::string_view text_;
+  BirthShapes& births_;
   std::size_t feature_ = 0;
   std::size_t member_ = 0;
   std::optional<std::int64_t> floe_id_;
@@ -216,9 +222,9 @@ class GeojsonEntries {
 
 }  // namespace
 
-void read_geojson_entries(const JsonValue& value, std::string_view text, std::size_t feature,
-                          FloeText& floes) {
-  GeojsonEntries(floes, text).read(value, feature);
+void read_geojson_entries(const JsonValue& value, std::string_view text, std::size_t feature, FloeText& floes,
+                          BirthShapes& births) {
+  GeojsonEntries(floes, text, births).read(value, feature);
 }
 
 }  // namespace polynya::io

@@ -81,7 +81,7 @@ void append_id(JsonWriter& json, simulation::FloeId id) {
 std::string floes_layer(const Run& run, const MotionIndex& motions, double time, const Project& project) {
   Layer layer(project, time);
   for (const PlacedFloe& floe : floes_at(run, motions, time)) {
-    const simulation::Birth& birth = *floe.birth;
+    const simulation::BirthRecord& birth = *floe.birth;
     JsonWriter& json = layer.start();
     json.key("floe_id").value(birth.floe).key("parent_id");
     append_id(json, birth.parent);
@@ -92,7 +92,7 @@ std::string floes_layer(const Run& run, const MotionIndex& motions, double time,
       json.value(length(floe.motion->velocity));
     else
       json.null();
-    layer.end_with(placed(floe.world_from_body, birth.polygon_in_body));
+    layer.end_with(placed(floe.world_from_body, *floe.polygon_in_body));
   }
   return layer.finish();
 }

@@ -3,15 +3,15 @@
 namespace polynya::io {
 namespace {
 
-geometry::Pose pose_of(const simulation::Birth& birth, const Motion& motion) {
+geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motion) {
   const geometry::Rotation rotation = geometry::Rotation::by(motion.angle);
   return {motion.position - rotate(rotation, birth.centroid_in_body - geometry::Point{}), rotation};
 }
 
 /// Of the youngest of the floe and those it broke from that a frame tells of.
-geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::Birth& floe,
+geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe,
                          double time) {
-  const simulation::Birth* at = &floe;
+  const simulation::BirthRecord* at = &floe;
   while (true) {
     if (const auto motion = motions.floe_at(at->floe, time)) return pose_of(*at, *motion);
     const RunFloe* parent = at->parent < at->floe ? run.floe(at->parent) : nullptr;
@@ -26,8 +26,8 @@ std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, dou
   std::vector<PlacedFloe> floes;
   for (const RunFloe& floe : run.floes) {
     if (!run.is_alive(floe.birth.floe, time)) continue;
-    floes.push_back(
-        {&floe.birth, body_pose(run, motions, floe.birth, time), motions.floe_at(floe.birth.floe, time)});
+    floes.push_back({&floe.birth, run.shape(floe.birth.floe), body_pose(run, motions, floe.birth, time),
+                     motions.floe_at(floe.birth.floe, time)});
   }
   return floes;
 }

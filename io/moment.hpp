@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace polynya::io {
 
 /// A floe where it was at some moment of a run.
 struct PlacedFloe {
-  const simulation::Birth* birth = nullptr;  ///< the run's
+  const simulation::BirthRecord* birth = nullptr;            ///< the run's
+  std::shared_ptr<const geometry::Polygon> polygon_in_body;  ///< [m]
   geometry::Pose world_from_body;
   std::optional<Motion> motion;  ///< of its centre of mass; nothing where no frame tells of it
 };

@@ -8,14 +8,15 @@ namespace polynya::io {
 
 using simulation::FloeId;
 
-geometry::Polygon polygon_in_world(const simulation::Birth& birth, const Motion& motion) {
+geometry::Polygon polygon_in_world(const geometry::Polygon& polygon_in_body, geometry::Point centroid_in_body,
+                                   const Motion& motion) {
   const geometry::Rotation rotation = geometry::Rotation::by(motion.angle);
   const auto placed = [&](geometry::Ring points) {
-    for (geometry::Point& p : points) p = motion.position + rotate(rotation, p - birth.centroid_in_body);
+    for (geometry::Point& p : points) p = motion.position + rotate(rotation, p - centroid_in_body);
     return points;
   };
-  geometry::Polygon polygon{placed(birth.polygon_in_body.outer), {}};
-  for (const geometry::Ring& hole : birth.polygon_in_body.holes) polygon.holes.push_back(placed(hole));
+  geometry::Polygon polygon{placed(polygon_in_body.outer), {}};
+  for (const geometry::Ring& hole : polygon_in_body.holes) polygon.holes.push_back(placed(hole));
   return polygon;
 }
 

@@ -30,7 +30,8 @@ class MotionIndex {
   std::vector<std::vector<Motion>> ships_;  ///< by ship, one a frame
 };
 
-/// The floe's polygon in the world for a motion of its centre of mass.
-geometry::Polygon polygon_in_world(const simulation::Birth& birth, const Motion& motion);
+/// A floe's polygon in the world for a motion of its centre of mass.
+geometry::Polygon polygon_in_world(const geometry::Polygon& polygon_in_body, geometry::Point centroid_in_body,
+                                   const Motion& motion);
 
 }  // namespace polynya::io

@@ -12,7 +12,7 @@ namespace polynya::io {
 
 using geometry::Polygon;
 
-tl::expected<void, std::string> add_ice(std::vector<PlacedIce>& ice, const simulation::Birth* birth,
+tl::expected<void, std::string> add_ice(std::vector<PlacedIce>& ice, const simulation::BirthRecord* birth,
                                         Polygon polygon_in_world) {
   if (!find_defect(polygon_in_world)) {
     const geometry::Box box = bounding_box(polygon_in_world.outer);

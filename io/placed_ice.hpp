@@ -12,15 +12,15 @@ namespace polynya::io {
 
 /// A valid polygon of ice at some moment, with its box.
 struct PlacedIce {
-  const simulation::Birth* birth = nullptr;  ///< of the floe; null: of the scene
-  geometry::Polygon polygon;                 ///< in the world [m]
+  const simulation::BirthRecord* birth = nullptr;  ///< of the floe; null: of the scene
+  geometry::Polygon polygon;                       ///< in the world [m]
   geometry::Box box;
 };
 
 /// Adds a floe's polygon in the world. A placed shape is rounded and may not be valid any more: it is then
 /// what its rings wind around, in as many polygons as that takes; none where they enclose nothing. Fails with
 /// words where a coordinate is not finite.
-tl::expected<void, std::string> add_ice(std::vector<PlacedIce>& ice, const simulation::Birth* birth,
+tl::expected<void, std::string> add_ice(std::vector<PlacedIce>& ice, const simulation::BirthRecord* birth,
                                         geometry::Polygon polygon_in_world);
 
 /// The polygons whose boxes meet a box.

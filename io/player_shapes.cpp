@@ -29,7 +29,8 @@ void add_floes(ColumnWriter& columns, const Run& run) {
   std::vector<double> born, died, area, mass, centroid_x, centroid_y;
   std::vector<float> points;
   for (const RunFloe& floe : run.floes) {
-    const simulation::Birth& birth = floe.birth;
+    const simulation::BirthRecord& birth = floe.birth;
+    const auto polygon = run.shape(birth.floe);
     parent.push_back(static_cast<std::int32_t>(birth.parent));
     generation.push_back(birth.generation);
     born.push_back(birth.time);
@@ -45,8 +46,8 @@ void add_floes(ColumnWriter& columns, const Run& run) {
       }
       ring_ends.push_back(static_cast<std::int32_t>(points.size() / 2));
     };
-    add_ring(birth.polygon_in_body.outer);
-    for (const geometry::Ring& hole : birth.polygon_in_body.holes) add_ring(hole);
+    add_ring(polygon->outer);
+    for (const geometry::Ring& hole : polygon->holes) add_ring(hole);
     rings_of.push_back(static_cast<std::int32_t>(ring_ends.size()));
   }
   columns.add("parent", parent);

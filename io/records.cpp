@@ -7,6 +7,7 @@
 
 #include "io/force_columns.hpp"
 #include "io/json_writer.hpp"
+#include "io/shape_parts.hpp"
 
 namespace polynya::io {
 namespace {
@@ -36,13 +37,6 @@ void append_criterion(JsonWriter& json, const simulation::Event& event) {
   json.key("crack_length_m").value(c.crack_length);
   json.key("vertical_force_N").value(c.vertical_force).key("bending_capacity_N").value(c.bending_capacity);
   json.close('}');
-}
-
-void append_rings(JsonWriter& json, const geometry::Polygon& polygon) {
-  json.key("ring_m").value(polygon.outer);
-  json.key("holes_m").open('[');
-  for (const geometry::Ring& hole : polygon.holes) json.value(hole);
-  json.close(']');
 }
 
 geometry::Ring closed_ring_in_world(const geometry::Pose& world_from_body, const geometry::Ring& ring) {
@@ -102,14 +96,14 @@ void append_state(std::string& text, double time, std::int64_t steps, std::uint6
   text += fmt::format(",{},{:016x}\n", steps, hash);
 }
 
-void append_birth(std::string& text, const simulation::Birth& birth) {
+void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent) {
   JsonWriter json(text);
   json.open('{').key("floe_id").value(birth.floe).key("parent_id");
   append_id(json, birth.parent);
   json.key("born_s").value(birth.time).key("generation").value(birth.generation);
   json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
   json.key("centroid_m").value(birth.centroid_in_body);
-  append_rings(json, birth.polygon_in_body);
+  append_shape(json, parent ? parts_of(birth.polygon_in_body, *parent) : whole(birth.polygon_in_body));
   if (!birth.is_exact) json.key("is_exact").value(false);
   json.close('}');
   text += '\n';

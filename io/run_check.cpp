@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "geometry/exact_area.hpp"
@@ -33,13 +34,14 @@ void see(Worst& worst, double value, double scale, FloeId floe) {
 void check_shapes(const Run& run, RunCheck& check) {
   for (const RunFloe& floe : run.floes) {
     ++check.shapes;
-    const simulation::Birth& birth = floe.birth;
+    const simulation::BirthRecord& birth = floe.birth;
+    const auto polygon = run.shape(birth.floe);
     if (!birth.is_exact) {
       ++check.kept_exact;
-    } else if (const auto found = geometry::find_defect(birth.polygon_in_body)) {
+    } else if (const auto found = geometry::find_defect(*polygon)) {
       check.invalid.push_back({birth.floe, std::string(name_of(found->defect)), found->places});
     }
-    const Polygon* const ring[]{&birth.polygon_in_body};
+    const Polygon* const ring[]{polygon.get()};
     const double recorded[]{birth.area};
     see(check.recorded_area, geometry::exact_balance({}, ring, recorded), birth.area, birth.floe);
   }
@@ -48,22 +50,22 @@ void check_shapes(const Run& run, RunCheck& check) {
 void check_fracture(const Run& run, const simulation::Event& event, RunCheck& check) {
   ++check.fractures;
   std::vector<FloeId> children;
+  const auto parent = run.shape(event.floe);
+  std::vector<std::shared_ptr<const Polygon>> pieces;
   std::vector<const Polygon*> after;
   for (const FloeId child : event.children) {
     if (!run.floe(child)) continue;
     children.push_back(child);
-    after.push_back(&run.floe(child)->birth.polygon_in_body);
+    pieces.push_back(run.shape(child));
+    after.push_back(pieces.back().get());
   }
-  const simulation::Birth& parent = run.floe(event.floe)->birth;
-  const double before = parent.area;
-  const Polygon* const parents[]{&parent.polygon_in_body};
+  const double before = run.floe(event.floe)->birth.area;
+  const Polygon* const parents[]{parent.get()};
   const double terms[]{event.submerged_area, event.brash_area, -event.rounding_defect};
   see(check.balance, geometry::exact_balance(after, parents, terms), before, event.floe);
   for (std::size_t i = 0; i < children.size(); ++i) {
     for (std::size_t j = i + 1; j < children.size(); ++j) {
-      const Polygon& a = run.floe(children[i])->birth.polygon_in_body;
-      const Polygon& b = run.floe(children[j])->birth.polygon_in_body;
-      const auto shared = shared_area(a, {}, b, {});
+      const auto shared = shared_area(*pieces[i], {}, *pieces[j], {});
       if (!shared) ++check.undecided;
       if (shared && *shared > kAreaTolerance * before) ++check.overlapping_siblings;
       if (shared && *shared > check.siblings.area)
@@ -80,12 +82,12 @@ struct Placed {
   Box box_in_world;
 };
 
-Placed placed(const simulation::Birth& birth, const Motion& motion) {
+Placed placed(const simulation::BirthRecord& birth, const Polygon& polygon_in_body, const Motion& motion) {
   Placed floe{birth.floe, motion, {{}, geometry::Rotation::by(motion.angle)}, {}};
   floe.world_from_body.position =
       motion.position - rotate(floe.world_from_body.rotation, birth.centroid_in_body - Point{});
   geometry::Ring ring;
-  for (const Point p : birth.polygon_in_body.outer) ring.push_back(point_in_world(floe.world_from_body, p));
+  for (const Point p : polygon_in_body.outer) ring.push_back(point_in_world(floe.world_from_body, p));
   const Box box = bounding_box(ring);
   floe.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
   return floe;
@@ -149,7 +151,7 @@ class OverlapCheck {
   }
 
  private:
-  const simulation::Birth& birth(FloeId floe) const { return run_.floe(floe)->birth; }
+  const simulation::BirthRecord& birth(FloeId floe) const { return run_.floe(floe)->birth; }
 
   void place_floes(double time) {
     std::map<FloeId, Placed> before;
@@ -161,7 +163,7 @@ class OverlapCheck {
       if (!motion) continue;
       const auto known = before.find(floe.birth.floe);
       const bool is_still = known != before.end() && is_same_place(known->second.motion, *motion);
-      floes_.push_back(is_still ? known->second : placed(floe.birth, *motion));
+      floes_.push_back(is_still ? known->second : placed(floe.birth, *run_.shape(floe.birth.floe), *motion));
     }
     std::ranges::stable_sort(floes_, {}, [](const Placed& floe) { return floe.box_in_world.low.x; });
   }
@@ -189,13 +191,14 @@ class OverlapCheck {
   const Known& shared_by(const Placed& a, const Placed& b) {
     Known& known = known_[{a.floe, b.floe}];
     if (known.is_set && is_same_place(known.a, a.motion) && is_same_place(known.b, b.motion)) return known;
-    const auto area = shared_area(birth(a.floe).polygon_in_body, a.world_from_body,
-                                  birth(b.floe).polygon_in_body, b.world_from_body);
+    const auto polygon_a = run_.shape(a.floe);
+    const auto polygon_b = run_.shape(b.floe);
+    const auto area = shared_area(*polygon_a, a.world_from_body, *polygon_b, b.world_from_body);
     if (!area) ++check_.undecided;
     known = {true, a.motion, b.motion, area.value_or(0), 0};
     if (known.area > kTouchingArea) {
-      const Polygon first = polygon_in_world(birth(a.floe), a.motion);
-      const Polygon second = polygon_in_world(birth(b.floe), b.motion);
+      const Polygon first = polygon_in_world(*polygon_a, birth(a.floe).centroid_in_body, a.motion);
+      const Polygon second = polygon_in_world(*polygon_b, birth(b.floe).centroid_in_body, b.motion);
       known.depth = std::max(deepest_vertex(first, second), deepest_vertex(second, first));
     }
     return known;

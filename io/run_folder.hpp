@@ -12,6 +12,10 @@
 
 namespace polynya::io {
 
+/// What a run folder's files are like, in its summary.json. 2: floes.ndjson has parts of parents' shapes;
+/// folders without a number are 1.
+inline constexpr int kRunFolderVersion = 2;
+
 /// The files of a run (docs/run-folder.md).
 namespace run_file {
 inline constexpr std::string_view kLock = ".polynya";  ///< run_lock.hpp

@@ -83,16 +83,9 @@ geometry::Point point(const JsonValue& value) {
 geometry::Point point(const JsonValue& value, std::string_view key) {
   return point(member(value, key, JsonValue::Kind::kArray));
 }
-geometry::Ring ring(const JsonValue& value) {
-  if (!value.is(JsonValue::Kind::kArray)) throw Damage("not a ring");
-  geometry::Ring points;
-  for (const JsonValue& item : value.items()) points.push_back(point(item));
-  if (points.size() < 3) throw Damage(fmt::format("a ring of {} points; it needs 3", points.size()));
-  return points;
-}
 
-simulation::Birth birth_of(const JsonValue& line) {
-  simulation::Birth birth;
+simulation::BirthRecord birth_of(const JsonValue& line) {
+  simulation::BirthRecord birth;
   birth.floe = floe_id(line, "floe_id");
   birth.parent = floe_id(line, "parent_id");
   birth.time = number(line, "born_s");
@@ -100,10 +93,6 @@ simulation::Birth birth_of(const JsonValue& line) {
   birth.area = number(line, "area_m2");
   birth.mass = number(line, "mass_kg");
   birth.centroid_in_body = point(line, "centroid_m");
-  birth.polygon_in_body.outer = ring(member(line, "ring_m", JsonValue::Kind::kArray));
-  for (const JsonValue& hole : member(line, "holes_m", JsonValue::Kind::kArray).items()) {
-    birth.polygon_in_body.holes.push_back(ring(hole));
-  }
   birth.is_exact = line.find("is_exact") == nullptr;
   return birth;
 }
@@ -212,13 +201,26 @@ void for_rows(const std::filesystem::path& folder, std::string_view name, std::s
   });
 }
 
+void check_version(const Run& run) {
+  const JsonValue* found = run.summary.find("folder_version");
+  if (!found) return;
+  const double version = found->is(JsonValue::Kind::kNumber) ? found->number() : std::nan("");
+  if (!(version <= kRunFolderVersion))
+    throw Damage(fmt::format("{}: a run folder of version {}; this program reads up to {}",
+                             (run.folder / run_file::kSummary).string(), version, kRunFolderVersion));
+}
+
 void read_floes(Run& run) {
   for_lines(run.folder, run_file::kFloes, [&](std::string_view line, int) {
-    RunFloe floe{
-        .birth = birth_of(json_of(line)), .died = std::numeric_limits<double>::infinity(), .death_event = {}};
-    if (floe.birth.floe != static_cast<FloeId>(run.floes.size()))
+    const JsonValue json = json_of(line);
+    const simulation::BirthRecord birth = birth_of(json);
+    if (birth.floe != static_cast<FloeId>(run.floes.size()))
       throw Damage("floes are not in the order of their ids");
-    run.floes.push_back(std::move(floe));
+    auto shape = read_shape(json);
+    if (!shape) throw Damage(shape.error());
+    if (const std::string fault = run.shapes.add(std::move(*shape), birth.parent); !fault.empty())
+      throw Damage(fault);
+    run.floes.push_back({.birth = birth, .died = std::numeric_limits<double>::infinity(), .death_event = {}});
   });
 }
 
@@ -287,6 +289,7 @@ tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
     if (!scene) return tl::unexpected(to_string(scene.error().front()));
     run.scene = std::move(*scene);
     run.summary = json_of(text_of(folder, run_file::kSummary));
+    check_version(run);
     read_floes(run);
     read_events(run);
     read_forces(run);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include <tl/expected.hpp>
 
 #include "geometry/polygon.hpp"
+#include "io/floe_shapes.hpp"
 #include "io/frames.hpp"
 #include "io/json_value.hpp"
 #include "io/scene_reader.hpp"
@@ -19,7 +21,7 @@ namespace polynya::io {
 
 /// A floe's life in a run.
 struct RunFloe {
-  simulation::Birth birth;
+  simulation::BirthRecord birth;
   double died = std::numeric_limits<double>::infinity();  ///< when it broke [s]
   std::optional<std::size_t> death_event;                 ///< index of the event that broke it
 };
@@ -36,6 +38,7 @@ struct Run {
   LoadedScene scene;
   JsonValue summary;
   std::vector<RunFloe> floes;  ///< by floe id
+  FloeShapes shapes;           ///< theirs, in their body frames
   std::vector<simulation::Event> events;
   std::vector<simulation::ShipContact> ship_contacts;  ///< the first one of each two ships or structures
   std::vector<simulation::ShipSample> samples;
@@ -48,6 +51,8 @@ struct Run {
     return id >= 0 && static_cast<std::size_t>(id) < floes.size() ? &floes[static_cast<std::size_t>(id)]
                                                                   : nullptr;
   }
+  /// The shape of a floe that there is, in its body frame.
+  std::shared_ptr<const geometry::Polygon> shape(simulation::FloeId id) const { return shapes.of(id); }
   bool is_alive(simulation::FloeId id, double time) const {
     return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -152,9 +153,14 @@ void RunWriter::record(simulation::Journal& journal) {
     write(line_);
     file(which).append(line_);
   };
+  std::unordered_map<simulation::FloeId, const geometry::Polygon*> broken;
+  for (const simulation::Death& death : journal.deaths) broken[death.floe] = &death.polygon_in_body;
   for (const simulation::Birth& birth : journal.births) {
     know(birth.floe, birth.parent, birth.centroid_in_body);
-    append_line(kFloes, [&](std::string& line) { append_birth(line, birth); });
+    const auto parent = broken.find(birth.parent);
+    append_line(kFloes, [&](std::string& line) {
+      append_birth(line, birth, parent != broken.end() ? parent->second : nullptr);
+    });
   }
   for (const simulation::Event& event : journal.events) {
     append_line(kEvents, [&](std::string& line) {

@@ -85,7 +85,8 @@ std::string_view version() {
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
-  json.open('{').key("version").value(version()).key("scene").value(std::string_view(scene.scene.name));
+  json.open('{').key("version").value(version()).key("folder_version").value(kRunFolderVersion);
+  json.key("scene").value(std::string_view(scene.scene.name));
   json.key("seed").value(static_cast<std::int64_t>(scene.scene.seed));
   json.key("scene_hash").value(std::string_view(scene.hash));
   json.key("finished").value(summary.finished);

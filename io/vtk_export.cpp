@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -27,27 +28,28 @@ void add_vector(Column& column, geometry::Vector v) {
 /// The cells of one floe: its rings as lines, and its triangles.
 class IceExport {
  public:
-  explicit IceExport(const Run& run) : run_(run), motions_(run), triangles_(run.floes.size()) {}
+  explicit IceExport(const Run& run) : run_(run), motions_(run) {}
 
   VtkPolyData at(double time) {
     VtkPolyData data;
     data.time = time;
     const std::vector<PlacedFloe> floes = floes_at(run_, motions_, time);
+    std::erase_if(triangles_, [&](const auto& of) { return !run_.is_alive(of.first, time); });
     std::vector<std::int64_t> first_point;
     for (const PlacedFloe& floe : floes) {
       first_point.push_back(static_cast<std::int64_t>(data.points.size()));
-      add_rings(data, placed(floe.world_from_body, floe.birth->polygon_in_body));
+      add_rings(data, placed(floe.world_from_body, *floe.polygon_in_body));
     }
     data.cell_data = {
         {"floe_id", {}, 1, true},        {"parent_id", {}, 1, true},         {"generation", {}, 1, true},
         {"born_s", {}, 1, false},        {"area_m2", {}, 1, false},          {"mass_kg", {}, 1, false},
         {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false}, {"is_outline", {}, 1, true}};
     for (const PlacedFloe& floe : floes) {
-      for (std::size_t ring = 0; ring <= floe.birth->polygon_in_body.holes.size(); ++ring)
+      for (std::size_t ring = 0; ring <= floe.polygon_in_body->holes.size(); ++ring)
         add_row(data, floe, true);
     }
     for (std::size_t i = 0; i < floes.size(); ++i) {
-      for (const geometry::Triangle& triangle : triangles_of(*floes[i].birth)) {
+      for (const geometry::Triangle& triangle : triangles_of(floes[i])) {
         data.polygons.push_back(
             {first_point[i] + triangle[0], first_point[i] + triangle[1], first_point[i] + triangle[2]});
         add_row(data, floes[i], false);
@@ -61,10 +63,10 @@ class IceExport {
 
  private:
   /// A shape is triangulated once, in its body frame, where it is exact.
-  const std::vector<geometry::Triangle>& triangles_of(const simulation::Birth& birth) {
-    auto& triangles = triangles_[static_cast<std::size_t>(birth.floe)];
-    if (triangles.empty()) triangles = geometry::triangulate(birth.polygon_in_body);
-    if (triangles.empty()) without_triangles_.insert(birth.floe);
+  const std::vector<geometry::Triangle>& triangles_of(const PlacedFloe& floe) {
+    auto& triangles = triangles_[floe.birth->floe];
+    if (triangles.empty()) triangles = geometry::triangulate(*floe.polygon_in_body);
+    if (triangles.empty()) without_triangles_.insert(floe.birth->floe);
     return triangles;
   }
 
@@ -83,7 +85,7 @@ class IceExport {
   }
 
   static void add_row(VtkPolyData& data, const PlacedFloe& floe, bool is_outline) {
-    const simulation::Birth& birth = *floe.birth;
+    const simulation::BirthRecord& birth = *floe.birth;
     const geometry::Vector velocity = floe.motion ? floe.motion->velocity : geometry::Vector{kNan, kNan};
     auto& columns = data.cell_data;
     std::size_t i = 0;
@@ -97,7 +99,7 @@ class IceExport {
 
   const Run& run_;
   MotionIndex motions_;
-  std::vector<std::vector<geometry::Triangle>> triangles_;  ///< by floe id
+  std::map<simulation::FloeId, std::vector<geometry::Triangle>> triangles_;
   std::set<simulation::FloeId> without_triangles_;
 };
 

@@ -45,17 +45,28 @@ struct ShipContact {
   bool is_prescribed = false;      ///< the motion of both is: they pass through each other without a force
 };
 
-/// A floe's shape when it came to be. Written as one line of floes.ndjson.
-struct Birth {
+/// A floe when it came to be, without its shape.
+struct BirthRecord {
   FloeId floe = 0;
   FloeId parent = kNoFloe;
-  double time = 0;                    ///< [s]
-  int generation = 0;                 ///< fractures since the scene's floe
-  double area = 0;                    ///< [m²]
-  double mass = 0;                    ///< [kg]
-  geometry::Point centroid_in_body;   ///< [m]
+  double time = 0;                   ///< [s]
+  int generation = 0;                ///< fractures since the scene's floe
+  double area = 0;                   ///< [m²]
+  double mass = 0;                   ///< [kg]
+  geometry::Point centroid_in_body;  ///< [m]
+  bool is_exact = true;              ///< false where the doubles only approximate a shape kept in rationals
+};
+
+/// The same with its shape. Written as one line of floes.ndjson.
+struct Birth : BirthRecord {
   geometry::Polygon polygon_in_body;  ///< body frame: the scene's coordinates of the floe's oldest ancestor
-  bool is_exact = true;               ///< false where the doubles only approximate a shape kept in rationals
+};
+
+/// A floe that broke, and what it was: its children's boundaries are for the most part its own.
+struct Death {
+  FloeId floe = kNoFloe;
+  geometry::Polygon polygon_in_body;
+  friend bool operator==(const Death&, const Death&) = default;
 };
 
 /// What a cut that geometry refused was asked to do. Written as an input of `polynya cut`.
@@ -105,7 +116,7 @@ struct Journal {
   std::vector<Event> events;
   std::vector<ShipContact> ship_contacts;
   std::vector<Birth> births;
-  std::vector<FloeId> deaths;  ///< floes that broke or left the list
+  std::vector<Death> deaths;
   std::vector<ShipSample> samples;
   std::vector<RejectedCut> rejected_cuts;
   void clear() {

@@ -153,8 +153,9 @@ FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& mea
   const BodyIndex index = add_body(world.bodies, body);
   assert(world.floe_of(index) == id);
   world.pairs.add(world.bodies, index);
-  world.journal.births.push_back({id, floe.parent, world.time(), floe.generation, measures.area, body.mass,
-                                  body.centroid, floe.shape.polygon, floe.shape.exact == nullptr});
+  world.journal.births.push_back({{id, floe.parent, world.time(), floe.generation, measures.area, body.mass,
+                                   body.centroid, floe.shape.exact == nullptr},
+                                  floe.shape.polygon});
   return id;
 }
 
@@ -174,8 +175,8 @@ void retire_floe(World& world, FloeId floe) {
   }
   world.bodies.boundary[body].reset();
   world.bodies.drag[body].reset();
+  world.journal.deaths.push_back({floe, std::move(world.floes[floe].shape.polygon)});
   world.floes[floe].shape = {};
-  world.journal.deaths.push_back(floe);
 }
 
 void give_drag(World& world, BodyIndex body) {

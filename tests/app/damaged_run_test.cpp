@@ -2,6 +2,9 @@
 #include "tiny_scene.hpp"
 #include <gtest/gtest.h>
 
+#include "io/records.hpp"
+#include "io/run_reader.hpp"
+
 namespace polynya::tests {
 namespace {
 
@@ -24,7 +27,13 @@ class DamagedRun : public testing::Test {
     folder = new TemporaryFolder;
     write_file(folder->path() / "tiny.json", kTinyScene);
     ASSERT_EQ(polynya({"run", "tiny.json", "--out", "damaged"}, {folder->path()}).code, 0);
-    floes = new std::string(read_file(file()));
+    // Every shape whole: no other line then needs the vertices of one that is damaged.
+    const auto run = io::read_run(folder->path() / "damaged");
+    ASSERT_TRUE(run.has_value()) << run.error();
+    floes = new std::string;
+    for (const io::RunFloe& floe : run->floes)
+      io::append_birth(*floes, {floe.birth, *run->shape(floe.birth.floe)}, nullptr);
+    write_file(file(), *floes);
   }
   static void TearDownTestSuite() {
     delete floes;

@@ -50,17 +50,18 @@ TEST_F(InspectCommand, TheTableHasALineForEachLivingFloe) {
 }
 
 TEST_F(InspectCommand, AFloesShapeReadsBackToTheSameDoubles) {
-  const simulation::Birth& birth = run->floes[3].birth;
+  const simulation::BirthRecord& birth = run->floes[3].birth;
   for (const char* format : {"wkt", "geojson"}) {
     const auto floes = io::read_floe_text(inspect({"--floe", "3", "--format", format}).out);
     ASSERT_TRUE(floes.has_value());
-    EXPECT_EQ(geometry::normalised(floes->entries.at(0).polygon), birth.polygon_in_body) << format;
+    EXPECT_EQ(geometry::normalised(floes->entries.at(0).polygon), *run->shape(3)) << format;
   }
-  const simulation::Birth& last = run->floes.back().birth;
+  const simulation::BirthRecord& last = run->floes.back().birth;
   const auto moved = io::read_floe_text(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).out);
   ASSERT_TRUE(moved.has_value());
   const auto motion = io::MotionIndex(*run).floe_at(last.floe, 30);
-  EXPECT_EQ(geometry::normalised(moved->entries.at(0).polygon), polygon_in_world(last, *motion));
+  EXPECT_EQ(geometry::normalised(moved->entries.at(0).polygon),
+            polygon_in_world(*run->shape(last.floe), last.centroid_in_body, *motion));
   const io::JsonDocument feature = io::parse_json(inspect({"--floe", "3", "--format", "geojson"}).out);
   EXPECT_EQ(feature.root.find("properties")->find("parent_id")->number(), static_cast<double>(birth.parent));
   EXPECT_EQ(feature.root.find("properties")->find("frame")->text(), "body");

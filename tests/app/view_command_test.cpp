@@ -85,7 +85,7 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
   const auto parent = held.column<std::int32_t>("parent");
   ASSERT_EQ(area.size(), run->floes.size());
   for (std::size_t i = 0; i < area.size(); ++i) {
-    const simulation::Birth& birth = run->floes[i].birth;
+    const simulation::BirthRecord& birth = run->floes[i].birth;
     EXPECT_EQ(area[i], birth.area);
     EXPECT_EQ(mass[i], birth.mass);
     EXPECT_EQ(born[i], birth.time);

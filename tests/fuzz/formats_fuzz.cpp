@@ -1,14 +1,19 @@
-// Every text that Polynya reads from people: floes (GeoJSON, NDJSON, WKT), lists of cuts, scenes. The first byte says
-// which; whatever the rest is, the answer is a value or a value that says why not.
+// Every text that Polynya reads from people: floes (GeoJSON, NDJSON, WKT), lists of cuts, scenes; and the
+// shapes of floes.ndjson. The first byte says which; whatever the rest is, the answer is a value or a value
+// that says why not.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
 #include "geometry/validity.hpp"
+#include "io/birth_shapes.hpp"
 #include "io/cut_ops.hpp"
+#include "io/floe_shapes.hpp"
 #include "io/floe_text.hpp"
+#include "io/json_parser.hpp"
 #include "io/scene_reader.hpp"
 
 namespace {
@@ -22,7 +27,23 @@ void read_floes(const std::string& text) {
   if (!floes) return require(!floes.error().empty());
   for (const auto& entry : floes->entries) {
     require(entry.refusal.empty() || entry.polygon.outer.empty());
-    if (entry.refusal.empty() && entry.polygon.outer.size() < 200) (void)polynya::geometry::find_defect(entry.polygon);
+    if (entry.refusal.empty() && entry.polygon.outer.size() < 200)
+      (void)polynya::geometry::find_defect(entry.polygon);
+  }
+}
+
+void read_births(const std::string& text) {
+  polynya::io::FloeShapes shapes;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const auto line = polynya::io::parse_json(std::string_view(text).substr(start, end - start));
+    auto shape = polynya::io::read_shape(line.root);
+    if (!shape) return require(!shape.error().empty());
+    const auto parent = polynya::io::floe_id_in(line.root, "parent_id");
+    if (!shapes.add(std::move(*shape), parent.value_or(-1)).empty()) return;
+    const auto polygon = shapes.of(static_cast<std::int64_t>(shapes.size()) - 1);
+    require(polygon->outer.size() >= 3 && vertex_count(*polygon) < text.size());
+    start = end + 1;
   }
 }
 
@@ -40,8 +61,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
   switch (data[0] % 4) {
     case 0:
-    case 1:
       read_floes(text);
+      break;
+    case 1:
+      read_births(text);
       break;
     case 2:
       (void)polynya::io::read_cut_ops(text, {});

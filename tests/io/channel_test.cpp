@@ -40,14 +40,15 @@ struct HandMadeRun {
   }
   /// Ice along the track's axes.
   void add(const Polygon& along_track) {
-    simulation::Birth birth;
+    simulation::BirthRecord birth;
     birth.floe = static_cast<simulation::FloeId>(run.floes.size());
-    birth.polygon_in_body = along_track;
-    for (Point& p : birth.polygon_in_body.outer) p = world(p, 0);
-    const auto measures = measure(birth.polygon_in_body);
+    Polygon polygon = along_track;
+    for (Point& p : polygon.outer) p = world(p, 0);
+    run.shapes.add(polygon);
+    const auto measures = geometry::measure(polygon);
     birth.area = measures.area;
     birth.centroid_in_body = measures.centroid;
-    run.scene.scene.floes.push_back({birth.polygon_in_body, {}, 0});
+    run.scene.scene.floes.push_back({polygon, {}, 0});
     run.frames.front().floes.push_back({birth.floe, {birth.centroid_in_body, 0, drift, 0}});
     run.floes.push_back({.birth = birth, .death_event = {}});
   }

@@ -87,25 +87,27 @@ Ring square(double x, double y, double size) {
   return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
 }
 
-RunFloe floe(simulation::FloeId id, simulation::FloeId parent, double born, Ring ring) {
-  RunFloe result;
-  result.birth.floe = id;
-  result.birth.parent = parent;
-  result.birth.time = born;
-  result.birth.polygon_in_body = {std::move(ring), {}};
-  const geometry::Measures measures = measure(result.birth.polygon_in_body);
-  result.birth.area = measures.area;
-  result.birth.centroid_in_body = measures.centroid;
-  return result;
+void add_floe(Run& run, simulation::FloeId parent, double born, const Ring& ring) {
+  RunFloe floe;
+  floe.birth.floe = static_cast<simulation::FloeId>(run.floes.size());
+  floe.birth.parent = parent;
+  floe.birth.time = born;
+  const geometry::Measures measures = geometry::measure({ring, {}});
+  floe.birth.area = measures.area;
+  floe.birth.centroid_in_body = measures.centroid;
+  run.floes.push_back(floe);
+  run.shapes.add({ring, {}});
 }
 
 /// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards
 /// it.
-Run small_run() {
+Run small_run(const Ring& drifting = square(5, 1, 2),
+              const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
   Run run;
-  run.floes = {
-      floe(0, simulation::kNoFloe, 0, square(0, 0, 4)), floe(1, simulation::kNoFloe, 0, square(5, 1, 2)),
-      floe(2, 0, 1, {{0, 0}, {4, 0}, {4, 2}, {0, 2}}), floe(3, 0, 1, {{0, 2}, {4, 2}, {4, 4}, {0, 4}})};
+  add_floe(run, simulation::kNoFloe, 0, square(0, 0, 4));
+  add_floe(run, simulation::kNoFloe, 0, drifting);
+  add_floe(run, 0, 1, {{0, 0}, {4, 0}, {4, 2}, {0, 2}});
+  add_floe(run, 0, 1, second_half);
   run.floes[0].died = 1;
   run.floes[0].death_event = 0;
   simulation::Event event;
@@ -148,8 +150,9 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
 }
 
 TEST(RunCheck, WhatIsWrongIsFound) {
-  auto crossed = small_run();
-  std::swap(crossed.floes[1].birth.polygon_in_body.outer[0], crossed.floes[1].birth.polygon_in_body.outer[1]);
+  Ring swapped = square(5, 1, 2);
+  std::swap(swapped[0], swapped[1]);
+  const auto crossed = small_run(swapped);
   const RunCheck of_crossed = check_run(crossed, 0);
   ASSERT_EQ(of_crossed.invalid.size(), 1U);
   EXPECT_EQ(of_crossed.invalid.front().floe, 1);
@@ -160,14 +163,12 @@ TEST(RunCheck, WhatIsWrongIsFound) {
   EXPECT_EQ(check_run(misprinted).recorded_area.wrong, 1U);
   EXPECT_EQ(check_run(misprinted).recorded_area.floe, 1);
 
-  auto leaking = small_run();
-  leaking.floes[3] = floe(3, 0, 1, {{0, 2}, {4, 2}, {4, 3.999}, {0, 4}});
+  const auto leaking = small_run(square(5, 1, 2), {{0, 2}, {4, 2}, {4, 3.999}, {0, 4}});
   const RunCheck of_leaking = check_run(leaking);
   EXPECT_EQ(of_leaking.balance.wrong, 1U);
   EXPECT_NEAR(of_leaking.balance.value, -0.002, 1e-12);
 
-  auto doubled = small_run();
-  doubled.floes[3] = floe(3, 0, 1, {{0, 1}, {4, 1}, {4, 3}, {0, 3}});
+  const auto doubled = small_run(square(5, 1, 2), {{0, 1}, {4, 1}, {4, 3}, {0, 3}});
   const RunCheck of_doubled = check_run(doubled);
   EXPECT_EQ(of_doubled.balance.wrong, 0U) << "the areas add up";
   EXPECT_EQ(of_doubled.siblings.area, 4) << "but the pieces share a strip";

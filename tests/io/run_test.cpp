@@ -1,4 +1,5 @@
 #include <cmath>
+#include <regex>
 
 #include "temporary_folder.hpp"
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "io/force_columns.hpp"
 #include "io/json_parser.hpp"
 #include "io/motion_index.hpp"
+#include "io/records.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_reader.hpp"
 #include "io/run_writer.hpp"
@@ -112,7 +114,7 @@ TEST(Run, ReadsBackWhatWasWritten) {
   }
   ASSERT_EQ(run->floes.size(), recorded.births.size());
   for (std::size_t i = 0; i < run->floes.size(); ++i) {
-    EXPECT_EQ(run->floes[i].birth.polygon_in_body, recorded.births[i].polygon_in_body);
+    EXPECT_EQ(*run->shape(recorded.births[i].floe), recorded.births[i].polygon_in_body);
     EXPECT_EQ(run->floes[i].birth.parent, recorded.births[i].parent);
     EXPECT_EQ(run->floes[i].birth.area, recorded.births[i].area);
     EXPECT_EQ(run->floes[i].birth.centroid_in_body, recorded.births[i].centroid_in_body);
@@ -269,13 +271,94 @@ TEST(Run, DamageIsToldWithItsLine) {
   EXPECT_FALSE(read_run(folder / "none").has_value());
 }
 
+/// Parts of a parent's shape that cannot be.
+TEST(Run, DamagedPartsOfAShapeAreToldWithTheirLine) {
+  const TemporaryFolder folder;
+  write_run(load(), folder / "run");
+  const auto path = folder.path() / "run" / run_file::kFloes;
+  const std::string text = read_file(path);
+  std::smatch stretch;
+  ASSERT_TRUE(std::regex_search(text, stretch, std::regex(R"(\[0,\d+,\d+\])")));
+  const auto parts = static_cast<std::size_t>(stretch.position());
+  const auto line = 1 + std::ranges::count(text.substr(0, parts), '\n');
+  for (const auto& [other, reason] :
+       {std::pair{"[9,", "ring 9 of a parent"}, {"[0,999", "of the parent's ring 0, which has"}}) {
+    tests::write_file(path, std::string(text).replace(parts, 3, other));
+    const auto run = read_run(folder / "run");
+    ASSERT_FALSE(run.has_value());
+    EXPECT_NE(run.error().find("floes.ndjson:" + std::to_string(line) + ": "), std::string::npos)
+        << run.error();
+    EXPECT_NE(run.error().find(reason), std::string::npos) << run.error();
+  }
+}
+
+/// Version 1 wrote every shape whole, and no version.
+TEST(Run, AFolderOfVersionOneReadsTheSame) {
+  const TemporaryFolder folder;
+  const Recorded recorded = write_run(load(), folder / "run");
+  std::string lines;
+  for (const simulation::Birth& birth : recorded.births) append_birth(lines, birth, nullptr);
+  tests::write_file(folder.path() / "run" / run_file::kFloes, lines);
+  const auto path = folder.path() / "run" / run_file::kSummary;
+  std::string summary = read_file(path);
+  const std::string version = "\"folder_version\": 2,";
+  ASSERT_NE(summary.find(version), std::string::npos);
+  tests::write_file(path, std::string(summary).replace(summary.find(version), version.size(), ""));
+  const auto run = read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  for (const simulation::Birth& birth : recorded.births)
+    EXPECT_EQ(*run->shape(birth.floe), birth.polygon_in_body);
+  for (const char* other : {"\"folder_version\": 3,", "\"folder_version\": \"2\","}) {
+    tests::write_file(path, std::string(summary).replace(summary.find(version), version.size(), other));
+    const auto newer = read_run(folder / "run");
+    ASSERT_FALSE(newer.has_value());
+    EXPECT_NE(newer.error().find("summary.json: a run folder of version"), std::string::npos);
+  }
+}
+
+/// Level ice: every cusp leaves the same plate with a longer boundary. Later lines are as short as early
+/// ones.
+TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
+  const TemporaryFolder folder;
+  const auto scene = read_scene(R"({
+    "name": "level", "time": {"step_s": 0.02, "until_s": 60}, "fracture": {"characteristic_length": "fourth_root"},
+    "ships": [{"name": "a ship", "hull": {"length_m": 60, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 3e6,
+               "moment_of_inertia_kg_m2": 5e8, "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 3}}],
+    "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}}]
+  })",
+                                "level.json", ".");
+  ASSERT_TRUE(scene.has_value());
+  simulation::Simulation simulation(scene->scene);
+  auto writer = RunWriter::create(folder / "run", false, *scene);
+  ASSERT_TRUE(writer.has_value());
+  for (int step = 0; step < 3000; ++step) {
+    writer->record(simulation.journal());
+    simulation.step();
+  }
+  ASSERT_EQ(writer->finish({}, simulation), "");
+  const auto run = read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  std::istringstream lines(read_file(folder.path() / "run" / run_file::kFloes));
+  const std::size_t half = run->floes.size() / 2;
+  ASSERT_GT(half, 100U);
+  std::size_t vertices[2] = {}, bytes[2] = {};
+  std::string line;
+  for (std::size_t i = 0; std::getline(lines, line); ++i) {
+    const std::size_t part = i < half ? 0 : 1;
+    vertices[part] += vertex_count(*run->shape(static_cast<simulation::FloeId>(i)));
+    bytes[part] += line.size();
+  }
+  EXPECT_GT(vertices[1], 2 * vertices[0]) << "whole shapes would take twice as much";
+  EXPECT_LT(static_cast<double>(bytes[1]), 1.1 * static_cast<double>(bytes[0]));
+}
+
 TEST(Run, SummaryHasTheKeysOfTheDesign) {
   const TemporaryFolder folder;
   const LoadedScene scene = load();
   write_run(scene, folder / "run");
   const JsonValue summary = parse_json(read_file(folder.path() / "run" / run_file::kSummary)).root;
-  for (const char* key : {"version", "seed", "scene_hash", "steps", "sim_time_s", "wall_time_s",
-                          "real_time_factor", "peaks", "warnings", "finished"}) {
+  for (const char* key : {"version", "folder_version", "seed", "scene_hash", "steps", "sim_time_s",
+                          "wall_time_s", "real_time_factor", "peaks", "warnings", "finished"}) {
     EXPECT_NE(summary.find(key), nullptr) << key;
   }
   for (const char* key : {"initial_ice_area_m2", "floe_area_m2", "submerged_area_m2", "brash_area_m2",

@@ -108,7 +108,10 @@ TEST(Fracture, EveryFloeKnowsItsParentAndTheEventThatMadeIt) {
       ASSERT_TRUE(births.emplace(birth.floe, birth).second) << "born twice";
     }
     std::map<FloeId, int> deaths;
-    for (const FloeId floe : story.deaths) ++deaths[floe];
+    for (const Death& death : story.deaths) {
+      ++deaths[death.floe];
+      EXPECT_TRUE(death.polygon_in_body == births.at(death.floe).polygon_in_body) << "a shape never changes";
+    }
     std::map<FloeId, const Event*> event_of_child;
     for (const Event& event : story.events) {
       ASSERT_NE(event.kind, EventKind::kRejectedCut);

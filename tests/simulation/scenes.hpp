@@ -47,7 +47,7 @@ inline ShipSpec barge(geometry::Point middle_of_bow, const Propulsion& propulsio
 struct Story {
   std::vector<Event> events;
   std::vector<Birth> births;
-  std::vector<FloeId> deaths;
+  std::vector<Death> deaths;
   std::vector<ShipSample> samples;
   std::vector<ShipContact> ship_contacts;
 };

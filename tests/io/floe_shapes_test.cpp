@@ -1,0 +1,271 @@
+#include "io/floe_shapes.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "geometry/cut.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/validity.hpp"
+#include "io/json_parser.hpp"
+#include "io/records.hpp"
+#include "tests/geometry/dice.hpp"
+
+namespace polynya::io {
+namespace {
+
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Ring;
+using simulation::FloeId;
+
+/// Floes as a run has them, and the lines that a run writes of them.
+struct Family {
+  std::vector<simulation::Birth> births;
+  std::string lines;
+  std::string whole_lines;  ///< as version 1 wrote them
+  int holed = 0;
+  int of_parts = 0;
+};
+
+void add(Family& family, FloeId parent, const geometry::Shape& shape) {
+  simulation::Birth birth;
+  birth.floe = static_cast<FloeId>(family.births.size());
+  birth.parent = parent;
+  birth.is_exact = shape.exact == nullptr;
+  birth.polygon_in_body = shape.polygon;
+  const std::size_t before = family.lines.size();
+  append_birth(family.lines, birth,
+               parent < 0 ? nullptr : &family.births[static_cast<std::size_t>(parent)].polygon_in_body);
+  append_birth(family.whole_lines, birth, nullptr);
+  family.holed += shape.polygon.holes.empty() ? 0 : 1;
+  family.of_parts += family.lines.find("ring_parts_m", before) != std::string::npos ? 1 : 0;
+  family.births.push_back(std::move(birth));
+}
+
+/// A floe of some awkward kind, cut again and again by awkward knives; each time one of the pieces there are.
+Family roll_family(std::mt19937& random, int cuts) {
+  std::vector<std::uint8_t> bytes(2000);
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+  geometry::trials::Dice dice(std::move(bytes));
+  Family family;
+  std::vector<std::pair<FloeId, geometry::Shape>> living;
+  geometry::Shape first{geometry::trials::roll_floe(dice), nullptr};
+  if (geometry::find_defect(first.polygon)) return family;
+  add(family, simulation::kNoFloe, first);
+  living.emplace_back(0, std::move(first));
+  for (int i = 0; i < cuts && !living.empty(); ++i) {
+    const auto chosen = static_cast<std::size_t>(dice.below(static_cast<int>(living.size())));
+    const auto [parent, shape] = living[chosen];
+    const auto knives = geometry::trials::roll_knives(dice, shape.polygon);
+    const auto cut =
+        knives.is_crack ? cut_along(shape, knives.crack) : cut_by_polygons(shape, knives.polygons);
+    if (!cut) continue;
+    living.erase(living.begin() + static_cast<std::ptrdiff_t>(chosen));
+    for (const geometry::Piece& piece : cut->pieces) {
+      living.emplace_back(static_cast<FloeId>(family.births.size()), piece.shape);
+      add(family, parent, piece.shape);
+    }
+  }
+  return family;
+}
+
+/// Reads lines as run_reader does.
+tl::expected<FloeShapes, std::string> read_lines(const std::string& text) {
+  FloeShapes shapes;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = text.find('\n', start);
+    const JsonDocument line = parse_json(std::string_view(text).substr(start, end - start));
+    auto shape = read_shape(line.root);
+    if (!shape) return tl::unexpected(shape.error());
+    const JsonValue* parent = line.root.find("parent_id");
+    const bool has_parent = parent && parent->is(JsonValue::Kind::kNumber);
+    const std::string fault = shapes.add(
+        std::move(*shape), has_parent ? static_cast<FloeId>(parent->number()) : simulation::kNoFloe);
+    if (!fault.empty()) return tl::unexpected(fault);
+    start = end + 1;
+  }
+  return shapes;
+}
+
+/// Bit by bit; a text has one zero.
+bool are_same(const Ring& a, const Ring& b) {
+  return std::ranges::equal(a, b, [](Point p, Point q) {
+    const double one[]{p.x + 0.0, p.y + 0.0};
+    const double other[]{q.x + 0.0, q.y + 0.0};
+    return std::memcmp(one, other, sizeof one) == 0;
+  });
+}
+bool are_same(const Polygon& a, const Polygon& b) {
+  return are_same(a.outer, b.outer) &&
+         std::ranges::equal(a.holes, b.holes, [](const Ring& p, const Ring& q) { return are_same(p, q); });
+}
+
+TEST(FloeShapes, ReadBackToTheBitWhateverTheCuts) {
+  std::mt19937 random(15);
+  int floes = 0, of_parts = 0, holed = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Family family = roll_family(random, 12);
+    const auto shapes = read_lines(family.lines), whole_shapes = read_lines(family.whole_lines);
+    ASSERT_TRUE(shapes.has_value()) << shapes.error() << "\n" << family.lines;
+    ASSERT_TRUE(whole_shapes.has_value()) << whole_shapes.error();
+    ASSERT_EQ(shapes->size(), family.births.size());
+    std::vector<simulation::Birth> births = family.births;
+    std::ranges::shuffle(births, random);  // asked for in any order
+    for (const simulation::Birth& birth : births) {
+      ASSERT_TRUE(are_same(*shapes->of(birth.floe), birth.polygon_in_body)) << trial << ' ' << birth.floe;
+      ASSERT_TRUE(are_same(*whole_shapes->of(birth.floe), birth.polygon_in_body));
+      EXPECT_EQ(whole_shapes->parts_of(birth.floe), nullptr);
+    }
+    floes += static_cast<int>(births.size());
+    of_parts += family.of_parts;
+    holed += family.holed;
+  }
+  EXPECT_GT(floes, 700);
+  EXPECT_GT(of_parts, floes / 3);
+  EXPECT_GT(holed, 30);
+}
+
+/// A line has no vertex twice that the parent has once, and a vertex as new only if the parent has none left.
+TEST(FloeShapes, ALineHoldsWhatIsNew) {
+  std::mt19937 random(16);
+  int lines = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const Family family = roll_family(random, 12);
+    for (const simulation::Birth& birth : family.births) {
+      if (birth.parent < 0) continue;
+      const Polygon& parent = family.births[static_cast<std::size_t>(birth.parent)].polygon_in_body;
+      const ShapeParts shape = parts_of(birth.polygon_in_body, parent);
+      if (!shape.has_parent()) continue;
+      ++lines;
+      std::map<std::pair<double, double>, int> left;
+      for (const Ring* ring : {&parent.outer})
+        for (const Point p : *ring) ++left[{p.x, p.y}];
+      for (const Ring& hole : parent.holes)
+        for (const Point p : hole) ++left[{p.x, p.y}];
+      const std::vector<std::size_t> sizes = ring_sizes(whole(parent));
+      std::map<std::pair<std::int32_t, std::size_t>, int> taken;
+      for (const ShapePart& part : shape.parts) {
+        if (part.ring == ShapePart::kNew) continue;
+        const auto ring = static_cast<std::size_t>(part.ring);
+        const Ring& of = ring == 0 ? parent.outer : parent.holes[ring - 1];
+        for (std::uint32_t k = 0; k < part.count; ++k) {
+          const std::size_t at = (part.first + k) % sizes[ring];
+          EXPECT_EQ(++taken[std::pair(part.ring, at)], 1);
+          --left[{of[at].x, of[at].y}];
+        }
+      }
+      for (const Point p : shape.vertices) EXPECT_EQ(left[std::pair(p.x, p.y)], 0);
+      EXPECT_LT(shape.vertices.size(), vertex_count(birth.polygon_in_body));
+    }
+  }
+  EXPECT_GT(lines, 150);
+}
+
+/// A long boundary with a bite out of it costs the bite, wherever the rings start.
+TEST(FloeShapes, ABiteOutOfALongBoundaryIsAFewEntries) {
+  Ring ring;
+  for (int i = 0; i < 1000; ++i)
+    ring.push_back(
+        {1000 * std::cos(0.002 * 3.14159265358979 * i), 1000 * std::sin(0.002 * 3.14159265358979 * i)});
+  for (const int turn : {0, 1, 500, 999}) {
+    Ring bitten(ring.begin() + 10, ring.end());
+    bitten.push_back({900, 10});
+    std::ranges::rotate(bitten, bitten.begin() + turn % static_cast<int>(bitten.size()));
+    const ShapeParts shape = parts_of({bitten, {}}, {ring, {}});
+    EXPECT_EQ(shape.vertices.size(), 1U);
+    EXPECT_LE(shape.parts.size(), 3U);
+    EXPECT_EQ(assembled(shape, {ring, {}}).outer, bitten);
+  }
+}
+
+/// More boundary than is kept assembled (twelve million vertices of four), asked for from the end.
+TEST(FloeShapes, WhatWasAskedForLongAgoIsAssembledAgain) {
+  Ring ring;
+  for (int i = 0; i < 20000; ++i) ring.push_back({std::cos(3e-4 * i), std::sin(3e-4 * i)});
+  FloeShapes shapes;
+  shapes.add({ring, {}});
+  for (FloeId i = 0; i < 600; ++i) {
+    ShapeParts child;
+    child.vertices = {{2.0 + static_cast<double>(i), 0}};
+    child.parts = {{0, 0, 20000}, {ShapePart::kNew, 0, 1}};
+    if (i > 0) child.parts.front().count = 19000;
+    child.ring_ends = {2};
+    ASSERT_EQ(shapes.add(std::move(child), i > 0 ? i : 0), "");
+  }
+  const auto held = shapes.of(1);
+  std::size_t vertices = 0;
+  for (FloeId i = 600; i > 0; --i) vertices += shapes.of(i)->outer.size();
+  EXPECT_EQ(vertices, 20001U + 599U * 19001U);
+  EXPECT_EQ(held->outer.back(), (Point{2, 0}));
+  EXPECT_EQ(*shapes.of(1), *held);
+}
+
+TEST(FloeShapes, DamagedPartsAreRefusedWithTheReason) {
+  const std::string parent =
+      R"({"floe_id":0,"parent_id":null,"ring_m":[[0,0],[9,0],[9,9],[0,9]],"holes_m":[[[1,1],[1,2],[2,1]]]})";
+  const std::pair<const char*, const char*> lines[] = {
+      {R"("parent_id":0,"ring_parts_m":[[2,0,3]],"hole_parts_m":[])", "ring 2 of a parent that has 2"},
+      {R"("parent_id":0,"ring_parts_m":[[0,4,1],[[5,5],[6,6]]],"hole_parts_m":[])",
+       "from vertex 4 of the parent's ring 0, which has 4"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0,5]],"hole_parts_m":[])", "5 vertices from vertex 0"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0,4],[0,0,4]],"hole_parts_m":[])",
+       "8 vertices of a parent that has 7"},
+      {R"("parent_id":0,"ring_parts_m":[[-1,0,3]],"hole_parts_m":[])",
+       "-1 where [ring, first vertex, vertices]"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0.5,3]],"hole_parts_m":[])", "0.5 where"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0,1e300]],"hole_parts_m":[])", "1e+300 where"},
+      {R"("parent_id":0,"ring_parts_m":[[3000000000,0,3]],"hole_parts_m":[])", "ring 3000000000"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0]],"hole_parts_m":[])", "2 numbers where"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0,3,1]],"hole_parts_m":[])", "4 numbers where"},
+      {R"("parent_id":0,"ring_parts_m":[[0,null,3]],"hole_parts_m":[])", "null where"},
+      {R"("parent_id":0,"ring_parts_m":[[]],"hole_parts_m":[])", "nothing in it"},
+      {R"("parent_id":0,"ring_parts_m":[7],"hole_parts_m":[])", "a number where a part of a ring"},
+      {R"("parent_id":0,"ring_parts_m":{},"hole_parts_m":[])", "an object where a list of parts"},
+      {R"("parent_id":0,"ring_parts_m":[[[1,2,3]]],"hole_parts_m":[])", "3 numbers where [x, y]"},
+      {R"("parent_id":0,"ring_parts_m":[[[1,"2"]]],"hole_parts_m":[])", "text where a coordinate"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0,2]],"hole_parts_m":[])", "ring 0 has 2 vertices"},
+      {R"("parent_id":0,"ring_parts_m":[],"hole_parts_m":[])", "ring 0 has 0 vertices"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0,4]],"hole_parts_m":[[]])", "ring 1 has 0 vertices"},
+      {R"("parent_id":0,"ring_parts_m":[[0,0,4]])", "\"hole_parts_m\" is missing"},
+      {R"("parent_id":0,"ring_m":[[0,0],[1,0],[1,1]])", "\"holes_m\" is missing"},
+      {R"("parent_id":0)", "\"ring_m\" is missing"},
+      {R"("parent_id":0,"ring_m":[],"holes_m":[])", "ring 0 has 0 vertices"},
+      {R"("parent_id":0,"ring_m":[[0,0],[1,1]],"holes_m":[])", "ring 0 has 2 vertices"},
+      {R"("parent_id":null,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"},
+      {R"("parent_id":1,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"},
+      {R"("parent_id":2,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"},
+  };
+  for (const auto& [members, reason] : lines) {
+    const auto shapes = read_lines(parent + "\n{\"floe_id\":1," + members + "}\n");
+    ASSERT_FALSE(shapes.has_value()) << members;
+    EXPECT_NE(shapes.error().find(reason), std::string::npos) << members << "\n" << shapes.error();
+  }
+}
+
+/// Whatever becomes of a byte: shapes, or a reason.
+TEST(FloeShapes, DamageNeverCrashes) {
+  std::mt19937 random(17);
+  Family family;
+  while (family.of_parts < 4) family = roll_family(random, 6);
+  int readable = 0, refused = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::string damaged = family.lines;
+    static constexpr std::string_view kWritten = "0123456789[],.-e";
+    for (int k = 0; k < 1 + trial % 3; ++k)
+      damaged[random() % (damaged.size() - 1)] = kWritten[random() % kWritten.size()];
+    const auto shapes = read_lines(damaged);
+    ++(shapes ? readable : refused);
+    EXPECT_TRUE(shapes || !shapes.error().empty());
+    for (std::size_t i = 0; shapes && i < shapes->size(); ++i)
+      EXPECT_GE(vertex_count(*shapes->of(static_cast<FloeId>(i))), 3U);
+  }
+  EXPECT_GT(readable, 50);
+  EXPECT_GT(refused, 100);
+}
+
+}  // namespace
+}  // namespace polynya::io
