@@ -46,7 +46,7 @@ TEST(CommandLine, UsageErrorsAreTwo) {
 }
 
 /// Every usage error names the command, the word and what is allowed or was meant.
-TEST(CommandLine, UsageErrorsSpeakToPeople) {
+TEST(CommandLine, UsageErrorsNameTheCommandTheFaultAndWhatWasMeant) {
   const TemporaryFolder folder;
   struct Case {
     std::vector<std::string> words;

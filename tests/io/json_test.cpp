@@ -93,7 +93,7 @@ TEST(JsonParser, TellsSyntaxErrorsWhereTheyAre) {
   EXPECT_EQ(parse_json("\"\xff\"").faults.size(), 1U);
 }
 
-TEST(JsonParser, FaultsAreToldInPlainWords) {
+TEST(JsonParser, FaultsAreReportedInPlainWords) {
   struct Case {
     std::string text, message;
   };
