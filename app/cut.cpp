@@ -218,7 +218,7 @@ Outcome<bool> cut_all(const CutOptions& options) {
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));
   if (!floes) return fail(kInputOutput, fmt::format("{}:{}", name, floes.error()));
-  if (const auto units = check_units(name, *floes); !units) return units;
+  if (auto units = check_units(name, *floes); !units) return units;
   const io::FloeFormat format = wanted_format->value_or(floes->format);
   report_losses(name, *floes, format);
   io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);

@@ -50,8 +50,10 @@ class WktReader {
 
  private:
   void skip_blanks() {
-    while (at_ < text_.size() && (is_blank(text_[at_]) || text_[at_] == '#')) {
-      at_ = text_[at_] == '#' ? std::min(text_.find('\n', at_), text_.size()) : at_ + 1;
+    for (; at_ < text_.size(); ++at_) {
+      const bool is_comment = text_[at_] == '#' || text_.substr(at_, 2) == "//";
+      if (!is_comment && !is_blank(text_[at_])) return;
+      if (is_comment) at_ = std::min(text_.find('\n', at_), text_.size() - 1);
     }
   }
   void skip_between() {

@@ -173,6 +173,10 @@ TEST(FloeText, CommentsAndBlankLinesOfNdjsonArePassedOver) {
   EXPECT_EQ(floes.entries[0].line, 3U);
   EXPECT_EQ(floes.entries[1].line, 6U);
   EXPECT_EQ(read("# one\n" + square).entries.size(), 1U);
+  const FloeText wkt =
+      read("// two\nPOLYGON ((0 0, 1 0, // a corner\n 0 1)) # the end\n// and\nPOLYGON ((5 0, 6 0, 5 1))\n#");
+  ASSERT_EQ(wkt.entries.size(), 2U);
+  EXPECT_TRUE(wkt.entries[0].refusal.empty() && wkt.entries[1].refusal.empty());
 }
 
 /// A GeoJSON text with a fault stays one, though a line of it is an object of its own.
