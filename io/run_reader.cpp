@@ -1,6 +1,7 @@
 #include "io/run_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
