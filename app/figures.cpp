@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/run_commands.hpp"
 #include "app/write_output.hpp"
 #include "io/run_folder.hpp"
+#include "io/svg_convert.hpp"
 
 namespace polynya::app {
 namespace {
@@ -23,6 +26,54 @@ std::vector<double> chosen_times(const std::vector<io::Run>& runs, const std::ve
   return {runs.front().start_time(), std::round(end / 3), std::round(end * 2 / 3), end};
 }
 
+/// What is wrong with the options for these runs; empty where nothing is.
+std::string problem_of(const FiguresOptions& options, const std::vector<io::Run>& runs) {
+  for (const double time : options.at) {
+    if (time < runs.front().start_time() || time > runs.front().end_time())
+      return fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, runs.front().start_time(),
+                         runs.front().end_time());
+  }
+  if (!options.labels.empty() && options.labels.size() != runs.size())
+    return fmt::format("--label: {} names for {} runs", options.labels.size(), runs.size());
+  const auto& w = options.window;
+  if (!w.empty() && (w[0] >= w[2] || w[1] >= w[3]))
+    return fmt::format("--window {:g},{:g},{:g},{:g}: x0 must be below x1, and y0 below y1", w[0], w[1], w[2],
+                       w[3]);
+  for (const io::Run& run : runs) {
+    const simulation::Scene& scene = run.scene.scene;
+    if (scene.ships.empty() || !io::chosen_loads(scene, options.load).empty()) continue;
+    return fmt::format("--load {}: {} {}", options.load, run.folder.string(),
+                       options.load == "ships"
+                           ? "has one ship and no structure"
+                           : "does not split floes by j/tau_c (fracture.splitting.model michel)");
+  }
+  return "";
+}
+
+io::PictureSheet maps(const std::vector<io::Run>& runs, const FiguresOptions& options,
+                      const io::PageStyle& page) {
+  io::PictureSheet sheet = map_figure(runs, chosen_times(runs, options.at));
+  sheet.page = page;
+  const auto& w = options.window;
+  if (!w.empty()) sheet.window = geometry::Box{{w[0], w[1]}, {w[2], w[3]}};
+  return sheet;
+}
+
+io::Chart on(const io::PageStyle& page, io::Chart chart) {
+  chart.page = page;
+  return chart;
+}
+
+/// The PNG and the PDF of an SVG, as far as there is a converter, in lines.
+std::string converted(const fs::path& svg) {
+  std::string names;
+  for (const char* suffix : {".png", ".pdf"}) {
+    const fs::path target = fs::path(svg).replace_extension(suffix);
+    if (io::convert_svg(svg, target)) names += target.string() + "\n";
+  }
+  return names;
+}
+
 }  // namespace
 
 int figures(const FiguresOptions& options) {
@@ -33,46 +84,39 @@ int figures(const FiguresOptions& options) {
       print_err("polynya: {}\n", run ? folder + ": it has no frames" : run.error());
       return kInputOutput;
     }
+    if (runs.size() < options.labels.size()) run->label = options.labels[runs.size()];
     runs.push_back(std::move(*run));
   }
-  for (const double time : options.at) {
-    if (time >= runs.front().start_time() && time <= runs.front().end_time()) continue;
-    print_err("polynya: --at {:g}: the run goes from {:g} to {:g} s\n", time, runs.front().start_time(),
-              runs.front().end_time());
-    return kUsage;
-  }
-  for (const io::Run& run : runs) {
-    const simulation::Scene& scene = run.scene.scene;
-    if (scene.ships.empty() || !io::chosen_loads(scene, options.load).empty()) continue;
-    print_err("polynya: --load {}: {} {}\n", options.load, run.folder.string(),
-              options.load == "ships" ? "has one ship and no structure"
-                                      : "does not split floes by j/tau_c (fracture.splitting.model michel)");
+  if (const std::string problem = problem_of(options, runs); !problem.empty()) {
+    print_err("polynya: {}\n", problem);
     return kUsage;
   }
   const fs::path folder = options.out.empty() ? options.runs.front() : options.out;
   std::error_code ignored;
   fs::create_directories(folder, ignored);
-  const std::vector<double> times = chosen_times(runs, options.at);
+  const io::PageStyle page{options.width, options.title};
   const std::pair<std::string_view, std::string> pages[] = {
-      {io::run_file::kFigureFloes, to_svg(map_figure(runs, times))},
-      {io::run_file::kFigureLoads, to_svg(load_figure(runs, options.load))},
-      {io::run_file::kFigureMotion, to_svg(motion_figure(runs))},
-      {io::run_file::kFigureSizes, to_svg(size_figure(runs))},
-      {io::run_file::kFigureEnergy, energy_figure(runs)}};
-  for (const auto& [name, page] : pages) {
-    if (page.empty()) {
+      {io::run_file::kFigureFloes, to_svg(maps(runs, options, page))},
+      {io::run_file::kFigureLoads, to_svg(on(page, load_figure(runs, options.load, page)))},
+      {io::run_file::kFigureMotion, to_svg(on(page, motion_figure(runs)))},
+      {io::run_file::kFigureSizes, to_svg(on(page, size_figure(runs)))},
+      {io::run_file::kFigureEnergy, energy_figure(runs, page)}};
+  bool has_converter = true;
+  for (const auto& [name, text] : pages) {
+    if (text.empty()) {
       print_err("note: there is no energy in summary.json; {} is left out\n", name);
       continue;
     }
-    const fs::path svg = folder / name;
-    if (const std::string wrong = write_product(options.out, options.runs.front(), name, page);
+    if (const std::string wrong = write_product(options.out, options.runs.front(), name, text);
         !wrong.empty()) {
       print_err("polynya: {}\n", wrong);
       return kInputOutput;
     }
-    const fs::path png = fs::path(svg).replace_extension(".png");
-    write_out(svg.string() + (io::convert_to_png(svg, png) ? "\n" + png.string() + "\n" : "\n"));
+    const std::string more = converted(folder / name);
+    has_converter = has_converter && !more.empty();
+    write_out((folder / name).string() + "\n" + more);
   }
+  if (!has_converter) print_err("note: rsvg-convert (./setup.sh) makes PNG and PDF of these\n");
   return kDone;
 }
 

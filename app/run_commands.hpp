@@ -21,9 +21,13 @@ int channel(const ChannelOptions& options);
 
 struct FiguresOptions {
   std::vector<std::string> runs;
-  std::string out;            ///< folder; empty: the first run's
-  std::vector<double> at;     ///< moments for the maps [s]; empty: chosen
-  std::string load = "true";  ///< io/figures.hpp, chosen_loads
+  std::string out;                   ///< folder; empty: the first run's
+  std::vector<double> at;            ///< moments for the maps [s]; empty: chosen
+  std::string load = "true";         ///< io/figures.hpp, chosen_loads
+  std::optional<std::string> title;  ///< instead of the figures' own; empty: none
+  std::vector<std::string> labels;   ///< of the runs, instead of their scenes' names
+  double width = 170;                ///< of a figure on paper [mm]
+  std::vector<double> window;        ///< of the maps: x0, y0, x1, y1; empty: all of it [m]
 };
 int figures(const FiguresOptions& options);
 

@@ -55,7 +55,9 @@ Command add_figures(CLI::App& app) {
       "  polynya figures runs/sawamura2017-fig4b --at 0,185,285,550\n"
       "  polynya figures runs/6a runs/6b --out figures                 side by side, in one scale\n"
       "\n"
-      "PNG files are made beside the SVG where rsvg-convert is installed.\n"
+      "  polynya figures runs/6a runs/6b --label \"10 m\",\"20 m\" --width-mm 85 --title \"\"\n"
+      "\n"
+      "A PNG and a PDF are made beside each SVG where rsvg-convert is installed.\n"
       "Exit codes: 0 done, 2 usage, 5 input/output.\n");
   auto options = std::make_shared<FiguresOptions>();
   command->add_option("runs", options->runs, "The run folders")->required()->type_name("RUN");
@@ -69,6 +71,23 @@ Command add_figures(CLI::App& app) {
           "True force of the ice (mean of each recorded interval and largest step, or one of the two), "
           "force of other ships and structures, or the paper's j/tau_c"),
       {"true", "mean", "max", "ships", "j-over-tau-c"});
+  command->add_option("--label", options->labels, "Names of the runs; their scenes' if not given")
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  command->add_option("--title", options->title, "Title of the figures instead of their own; \"\" for none")
+      ->type_name("TEXT");
+  command
+      ->add_option("--width-mm", options->width,
+                   "Width on paper, on which text has 7 to 9 pt; 170 if not given")
+      ->type_name("MM")
+      ->check(between(60, 400));
+  command
+      ->add_option("--window", options->window,
+                   "The part of the world that the maps show [m]; all if not given")
+      ->type_name("X0,Y0,X1,Y1")
+      ->delimiter(',')
+      ->expected(4)
+      ->check(finite());
   command->add_option("--out", options->out, "Folder for the figures; the first run's if not given")
       ->type_name("DIR");
   return [options] { return figures(*options); };

@@ -53,12 +53,13 @@ struct Channel {
   double reach = 0;                    ///< [m]
   std::vector<geometry::Point> track;  ///< of the ship's centre, carried with the water to now [m]
   std::vector<ChannelStation> stations;
-  std::vector<geometry::Polygon> swept;       ///< by the hull, carried with the water to now [m]
-  double swept_area = 0;                      ///< [m²]
-  double swept_ice_at_start = 0;              ///< of it that was ice when the run began [m²]
-  std::vector<ChannelFloe> floes;             ///< in the band, the largest first
-  std::vector<geometry::Polygon> open_water;  ///< joined to the track, from the first to the last bounded cell [m]
-  double open_area = 0;                       ///< [m²]
+  std::vector<geometry::Polygon> swept;  ///< by the hull, carried with the water to now [m]
+  double swept_area = 0;                 ///< [m²]
+  double swept_ice_at_start = 0;         ///< of it that was ice when the run began [m²]
+  std::vector<ChannelFloe> floes;        ///< in the band, the largest first
+  std::vector<geometry::Polygon>
+      open_water;        ///< joined to the track, from the first to the last bounded cell [m]
+  double open_area = 0;  ///< [m²]
 
   double swept_ice() const;  ///< [m²]
 };

@@ -15,20 +15,20 @@
 namespace polynya::io {
 namespace {
 
-constexpr double kWidth = 1600;     ///< [px]
-constexpr double kHeader = 112;     ///< [px]
-constexpr double kHeadOfRow = 32;   ///< for the titles of further rows of panels [px]
-constexpr double kLeft = 92;        ///< of a frame, for the y axis' numbers and label [px]
-constexpr double kRight = 24;       ///< [px]
-constexpr double kBelow = 80;       ///< of a frame, for the x axis' numbers and label [px]
-constexpr double kLegendLine = 30;  ///< [px]
-constexpr std::size_t kLegendColumns = 3;
+constexpr double kLeft = 92;         ///< of a frame, for the y axis' numbers and label [px]
+constexpr double kRight = 24;        ///< [px]
+constexpr double kBelow = 62;        ///< of a frame, for the x axis' numbers and label [px]
+constexpr double kTitleLine = 20;    ///< of a panel [px]
+constexpr double kLeastPitch = 300;  ///< from panel to panel [px]
+constexpr std::size_t kMostColumns = 3;
 constexpr auto kMajorMark = "#000000";
 constexpr auto kMinorMark = "#555555";
 
 AxisScale scale_of(const Chart::Panel& panel, const Chart::Axis& axis, double Chart::Point::*coordinate,
                    AxisFit fit) {
-  if (axis.range) return axis_scale(axis.range->first, axis.range->second, axis.is_log, fit);
+  if (axis.range)
+    return axis_scale(axis.range->first, axis.range->second, axis.is_log,
+                      axis.is_exact ? AxisFit::kTight : fit);
   const AxisScale any{.is_log = axis.is_log, .ticks = {}};
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Chart::Curve& curve : panel.curves) {
@@ -54,18 +54,20 @@ class SvgChart {
  public:
   explicit SvgChart(const Chart& chart)
       : chart_(chart),
-        columns_(chart.columns > 0 ? chart.columns : std::max<std::size_t>(1, chart.panels.size())),
-        row_height_(chart.panel_height + kBelow),
-        legend_(legend_entries()),
-        svg_(kWidth, page_height()) {}
+        columns_(chart.columns > 0 ? chart.columns : columns_for(chart.panels.size(), chart.page)),
+        pitch_((chart.page.pixels() - kRight) / static_cast<double>(columns_)),
+        heading_(chart.page, kRight, chart.title, chart.caption),
+        titles_(panel_titles()),
+        names_(legend_names()),
+        legend_(legend_entries(), kLeft, chart.page.pixels() - kRight),
+        svg_(chart.page.pixels(), legend_top() + legend_.height()) {}
 
   std::string draw() {
-    svg_.title(kRight, chart_.title, chart_.caption);
-    const double pitch = (kWidth - kRight) / static_cast<double>(columns_);
+    heading_.draw(svg_);
     for (std::size_t i = 0; i < chart_.panels.size(); ++i) {
-      left_ = pitch * static_cast<double>(i % columns_) + kLeft;
-      width_ = pitch - kLeft - 12;
-      top_ = kHeader + (row_height_ + kHeadOfRow) * static_cast<double>(row_of(i, columns_));
+      left_ = pitch_ * static_cast<double>(i % columns_) + kLeft;
+      width_ = pitch_ - kLeft - 12;
+      top_ = top_of_row(static_cast<double>(row_of(i, columns_)));
       if (!chart_.panels[i].title.empty()) draw_panel(chart_.panels[i], i);
     }
     draw_legend();
@@ -73,11 +75,30 @@ class SvgChart {
   }
 
  private:
-  double page_height() const {
-    return kHeader + rows() * row_height_ + (rows() - 1) * kHeadOfRow + legend_height() + 16;
+  /// Of the frames in it.
+  double top_of_row(double row) const {
+    std::size_t lines = 1;
+    for (const auto& title : titles_) lines = std::max(lines, title.size());
+    const double head = 8 + kTitleLine * static_cast<double>(lines);
+    return heading_.height() + head + row * (head + chart_.panel_height + kBelow);
   }
-  double rows() const {
-    return static_cast<double>(rows_of(std::max<std::size_t>(1, chart_.panels.size()), columns_));
+  double legend_top() const {
+    const auto rows = static_cast<double>(rows_of(std::max<std::size_t>(1, chart_.panels.size()), columns_));
+    return top_of_row(rows - 1) + chart_.panel_height + kBelow;
+  }
+  /// With their letters, in lines.
+  std::vector<std::vector<std::string>> panel_titles() const {
+    const auto shown = static_cast<std::size_t>(
+        std::ranges::count_if(chart_.panels, [](const Chart::Panel& p) { return !p.title.empty(); }));
+    std::vector<std::vector<std::string>> titles;
+    std::size_t number = 0;
+    for (const Chart::Panel& panel : chart_.panels) {
+      if (panel.title.empty())
+        titles.emplace_back();
+      else
+        titles.push_back(wrapped(letter_of(number++, shown) + panel.title, 17.6, pitch_ - 24));
+    }
+    return titles;
   }
   double px(double x) const { return left_ + width_ * x_scale_.share(x); }
   double py(double y) const { return top_ + chart_.panel_height * (1 - y_scale_.share(y)); }
@@ -85,7 +106,7 @@ class SvgChart {
   void draw_panel(const Chart::Panel& panel, std::size_t number) {
     x_scale_ = scale_of(panel, panel.x, &Chart::Point::x, AxisFit::kTight);
     y_scale_ = scale_of(panel, panel.y, &Chart::Point::y, AxisFit::kRoomy);
-    draw_axes(panel);
+    draw_axes(panel, titles_[number]);
     svg_.add(
         "<clipPath id='panel{}'><rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}'/></clipPath>\n"
         "<g clip-path='url(#panel{})' fill='none' stroke-linejoin='round'>\n",
@@ -97,24 +118,35 @@ class SvgChart {
         left_, top_, width_, chart_.panel_height);
   }
 
-  void draw_axes(const Chart::Panel& panel) {
+  void draw_axes(const Chart::Panel& panel, const std::vector<std::string>& title) {
     const double bottom = top_ + chart_.panel_height;
-    svg_.add("<text x='{:.2f}' y='{:.2f}' font-size='18' font-weight='bold'>{}</text>\n<g font-size='16'>\n",
-             left_, top_ - 10, escaped(panel.title));
-    for (const double tick : x_scale_.ticks)
-      svg_.add(
-          "<path d='M{0:.2f} {1:.2f}V{2:.2f}' stroke='#dddddd'/><text x='{0:.2f}' y='{3:.2f}' "
-          "text-anchor='middle'>{4:.6g}</text>\n",
-          px(tick), top_, bottom, bottom + 24, tick);
-    for (const double tick : y_scale_.ticks)
-      svg_.add(
-          "<path d='M{0:.2f} {1:.2f}h{2:.2f}' stroke='#dddddd'/><text x='{3:.2f}' y='{4:.2f}' "
-          "text-anchor='end'>{5:.6g}</text>\n",
-          left_, py(tick), width_, left_ - 8, py(tick) + 5.5, tick);
-    svg_.add("<text x='{:.2f}' y='{:.2f}' text-anchor='middle'>{}</text>\n", left_ + 0.5 * width_,
-             bottom + 54, escaped(panel.x.label));
-    svg_.add("<text transform='translate({:.2f} {:.2f}) rotate(-90)' text-anchor='middle'>{}</text>\n</g>\n",
-             left_ - 62, top_ + 0.5 * chart_.panel_height, escaped(panel.y.label));
+    double y = top_ - 8 - kTitleLine * static_cast<double>(title.size() - 1);
+    for (const std::string& line : title) {
+      svg_.add("<text x='{:.2f}' y='{:.2f}' font-size='16' font-weight='bold'>{}</text>\n",
+               left_ - kLeft + 24, y, escaped(line));
+      y += kTitleLine;
+    }
+    double free_from = -kLeft;  // where there is room for the next number
+    for (const double tick : x_scale_.ticks) {
+      const std::string number = fmt::format("{:.6g}", tick);
+      const double x = px(tick), half = 0.5 * width_of(number, 16);
+      svg_.add("<path d='M{:.2f} {:.2f}V{:.2f}' stroke='#dddddd'/>\n", x, top_, bottom);
+      if (x - half < free_from) continue;
+      svg_.words(x, bottom + 22, 16, number, "middle");
+      free_from = x + half + 8;
+    }
+    double free_below = bottom + 40;
+    for (const double tick : y_scale_.ticks) {
+      svg_.add("<path d='M{:.2f} {:.2f}h{:.2f}' stroke='#dddddd'/>\n", left_, py(tick), width_);
+      if (py(tick) > free_below) continue;
+      svg_.words(left_ - 8, py(tick) + 5.5, 16, fmt::format("{:.6g}", tick), "end");
+      free_below = py(tick) - 18;
+    }
+    svg_.words(left_ + 0.5 * width_, bottom + 46, 16, panel.x.label, "middle");
+    svg_.add(
+        "<text transform='translate({:.2f} {:.2f}) rotate(-90)' font-size='16' "
+        "text-anchor='middle'>{}</text>\n",
+        left_ - 66, top_ + 0.5 * chart_.panel_height, escaped(panel.y.label));
   }
 
   void draw_mark(const Chart::Mark& mark) {
@@ -164,55 +196,51 @@ class SvgChart {
   }
 
   /// The curves of all panels, each name once.
-  std::vector<const Chart::Curve*> legend_entries() const {
-    std::vector<const Chart::Curve*> entries;
+  std::vector<const Chart::Curve*> legend_names() const {
+    std::vector<const Chart::Curve*> names;
     for (const Chart::Panel& panel : chart_.panels) {
       for (const Chart::Curve& curve : panel.curves) {
         const auto is_it = [&](const Chart::Curve* other) { return other->name == curve.name; };
-        if (!curve.name.empty() && std::ranges::none_of(entries, is_it)) entries.push_back(&curve);
+        if (!curve.name.empty() && std::ranges::none_of(names, is_it)) names.push_back(&curve);
       }
+    }
+    return names;
+  }
+  std::vector<Legend::Entry> legend_entries() const {
+    std::vector<Legend::Entry> entries;
+    for (const Chart::Curve* curve : names_) entries.push_back({curve->name});
+    for (const std::string& mark : {chart_.minor_mark, chart_.major_mark}) {
+      if (!mark.empty()) entries.push_back({mark, 24});
     }
     return entries;
   }
-  std::size_t mark_entries() const {
-    return (chart_.minor_mark.empty() ? 0U : 1U) + (chart_.major_mark.empty() ? 0U : 1U);
-  }
-  double legend_height() const {
-    return kLegendLine * static_cast<double>(rows_of(legend_.size() + mark_entries(), kLegendColumns));
-  }
 
   void draw_legend() {
-    const double top = page_height() - legend_height();
-    std::size_t place = 0;
-    const auto next = [&] {
-      const double pitch = (kWidth - kLeft) / static_cast<double>(kLegendColumns);
-      const double x = kLeft + pitch * static_cast<double>(place % kLegendColumns);
-      const double y = top + kLegendLine * static_cast<double>(row_of(place, kLegendColumns));
-      ++place;
-      return std::pair{x, y};
-    };
-    for (const Chart::Curve* curve : legend_) {
-      const auto [x, y] = next();
-      svg_.add("<path d='M{:.2f} {:.2f}h48' stroke='{}' stroke-width='3' stroke-dasharray='{}'/>", x, y - 5.5,
-               colour_of(*curve), dash_array(curve->dash));
-      svg_.words(x + 58, y, 16, curve->name);
+    const double top = legend_top();
+    std::size_t entry = 0;
+    for (const Chart::Curve* curve : names_) {
+      const geometry::Point at = legend_.draw(svg_, entry++, top);
+      svg_.add("<path d='M{:.2f} {:.2f}h48' stroke='{}' stroke-width='3' stroke-dasharray='{}'/>\n", at.x,
+               at.y - 5.5, colour_of(*curve), dash_array(curve->dash));
     }
     if (!chart_.minor_mark.empty()) {
-      const auto [x, y] = next();
-      svg_.add("<path d='M{:.2f} {:.2f}v10m8 -10v10m5 -10v10' stroke='{}'/>", x + 18, y - 11, kMinorMark);
-      svg_.words(x + 58, y, 16, chart_.minor_mark);
+      const geometry::Point at = legend_.draw(svg_, entry++, top);
+      svg_.add("<path d='M{:.2f} {:.2f}v10m8 -10v10m5 -10v10' stroke='{}'/>\n", at.x + 4, at.y - 11,
+               kMinorMark);
     }
     if (!chart_.major_mark.empty()) {
-      const auto [x, y] = next();
-      svg_.add("<path d='M{:.2f} {:.2f}l-7 -14h14Z' fill='{}'/>", x + 24, y, kMajorMark);
-      svg_.words(x + 58, y, 16, chart_.major_mark);
+      const geometry::Point at = legend_.draw(svg_, entry++, top);
+      svg_.add("<path d='M{:.2f} {:.2f}l-7 -14h14Z' fill='{}'/>\n", at.x + 12, at.y, kMajorMark);
     }
   }
 
   const Chart& chart_;
   std::size_t columns_;
-  double row_height_;  ///< [px]
-  std::vector<const Chart::Curve*> legend_;
+  double pitch_;  ///< from panel to panel [px]
+  Heading heading_;
+  std::vector<std::vector<std::string>> titles_;  ///< of the panels, in lines
+  std::vector<const Chart::Curve*> names_;        ///< in the legend
+  Legend legend_;
   SvgText svg_;
   AxisScale x_scale_, y_scale_;
   double left_ = 0;   ///< of the panel's frame [px]
@@ -225,6 +253,11 @@ class SvgChart {
 int colour_of_run(std::size_t run) {
   constexpr int kOrder[] = {4, 1, 6, 0, 3};
   return kOrder[run % std::size(kOrder)];
+}
+
+std::size_t columns_for(std::size_t panels, const PageStyle& page) {
+  const double room = std::clamp(page.pixels() / kLeastPitch, 1.0, static_cast<double>(kMostColumns));
+  return panels == 0 ? 1 : rows_of(panels, rows_of(panels, static_cast<std::size_t>(room)));
 }
 
 std::string to_svg(const Chart& chart) {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/svg_layout.hpp"
+
 namespace polynya::io {
 
 /// Curves over common axes, in panels side by side and below each other.
@@ -31,6 +33,7 @@ struct Chart {
     std::string label;  ///< with its unit
     bool is_log = false;
     std::optional<std::pair<double, double>> range = {};  ///< instead of that of the curves
+    bool is_exact = false;                                ///< the axis ends where the range does
   };
   /// Something that happened at some x.
   struct Mark {
@@ -46,11 +49,15 @@ struct Chart {
   std::string title;
   std::string caption;
   std::vector<Panel> panels;    ///< one without a title leaves its place blank
-  std::size_t columns = 0;      ///< panels beside each other; 0: all
-  double panel_height = 560;    ///< of a frame [px]
+  std::size_t columns = 0;      ///< panels beside each other; 0: as many as the page has room for
+  double panel_height = 380;    ///< of a frame [px]
   std::string minor_mark = {};  ///< what marks mean, for the legend
   std::string major_mark = {};
+  PageStyle page = {};
 };
+
+/// Panels beside each other on such a page, so that none is too narrow to read and the rows are nearly full.
+std::size_t columns_for(std::size_t panels, const PageStyle& page);
 
 /// Dark to light, apart for colour-blind eyes [Okabe2008]: blue, vermilion, green, purple, black, grey,
 /// sky blue.
@@ -61,9 +68,9 @@ inline constexpr const char* kCurveColours[] = {"#0072b2", "#d55e00", "#009e73",
 /// apart in greyscale too.
 int colour_of_run(std::size_t run);
 
-/// The chart as SVG, 1600 px wide, the legend below has each name once. A linear axis of positive
-/// values starts at 0. On a log axis points that are not positive are left out, on any axis those that are
-/// not finite. The same chart gives the same bytes.
+/// The chart as SVG; several panels have letters, and the legend below has each name once. A linear axis of
+/// positive values starts at 0. On a log axis points that are not positive are left out, on any axis those
+/// that are not finite. The same chart gives the same bytes.
 std::string to_svg(const Chart& chart);
 
 }  // namespace polynya::io

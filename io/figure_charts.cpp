@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "io/figures.hpp"
-#include "io/rows_of.hpp"
 
 namespace polynya::io {
 namespace {
@@ -47,9 +46,9 @@ std::vector<Subject> subjects_of(const std::vector<Run>& runs) {
 
 /// The run's name, and the ship's where the run has several.
 std::string name_of(const Subject& subject) {
-  const simulation::Scene& scene = subject.run->scene.scene;
-  if (scene.ships.size() == 1) return scene.name;
-  return scene.name + ", " + scene.ships[static_cast<std::size_t>(subject.ship)].name;
+  const auto& ships = subject.run->scene.scene.ships;
+  if (ships.size() == 1) return subject.run->label;
+  return subject.run->label + ", " + ships[static_cast<std::size_t>(subject.ship)].name;
 }
 
 /// Of each short stretch of time the largest and the least value: no peak is lost, and paper shows no more.
@@ -123,7 +122,7 @@ std::pair<double, double> with_room_for_marks(std::pair<double, double> range) {
 
 std::string names(const std::vector<Run>& runs) {
   std::string text;
-  for (const Run& run : runs) text += (text.empty() ? "" : ", ") + run.scene.scene.name;
+  for (const Run& run : runs) text += (text.empty() ? "" : ", ") + run.label;
   return text;
 }
 
@@ -171,12 +170,6 @@ SizeCurves sizes_at(const Run& run, double time) {
   return curves;
 }
 
-/// Panels beside each other, so that none is too narrow to read and the rows are nearly full.
-std::size_t columns_for(std::size_t subjects) {
-  constexpr std::size_t kMost = 3;
-  return subjects == 0 ? 1 : rows_of(subjects, rows_of(subjects, kMost));
-}
-
 /// The x of a panel's curves with some room to either side.
 std::pair<double, double> widened(const Chart::Panel& panel) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
@@ -199,7 +192,7 @@ std::vector<ShownLoad> chosen_loads(const simulation::Scene& scene, std::string_
   return loads;
 }
 
-Chart load_figure(const std::vector<Run>& runs, std::string_view option) {
+Chart load_figure(const std::vector<Run>& runs, std::string_view option, const PageStyle& page) {
   const std::vector<Subject> subjects = subjects_of(runs);
   const std::vector<ShownLoad> loads = chosen_loads(runs.front().scene.scene, option);
   if (subjects.empty() || loads.empty()) return {};
@@ -207,8 +200,9 @@ Chart load_figure(const std::vector<Run>& runs, std::string_view option) {
                           subjects.size() > runs.size() ? "ships and structures" : "the ship"),
               "in the ship's frame: surge forward, sway to port, yaw counter-clockwise",
               {}};
-  chart.columns = columns_for(subjects.size());
-  chart.panel_height = 250;
+  chart.page = page;
+  chart.columns = columns_for(subjects.size(), page);
+  chart.panel_height = 180;
   chart.minor_mark = "cusp broken by bending";
   chart.major_mark = "floe split";
   for (std::size_t first = 0; first < subjects.size(); first += chart.columns) {
@@ -236,7 +230,7 @@ Chart load_figure(const std::vector<Run>& runs, std::string_view option) {
 
 Chart motion_figure(const std::vector<Run>& runs) {
   Chart chart{"Speed and course", names(runs), {}};
-  chart.panel_height = 420;
+  chart.panel_height = 300;
   Chart::Panel speed{"Speed over ground", {"time, s"}, {"speed, m/s"}, {}};
   Chart::Panel heading{"Heading, and course over ground", {"time, s"}, {"angle from the x axis, °"}, {}};
   const std::vector<Subject> subjects = subjects_of(runs);
@@ -266,17 +260,19 @@ Chart motion_figure(const std::vector<Run>& runs) {
 
 Chart size_figure(const std::vector<Run>& runs) {
   Chart chart{"Floe sizes", names(runs) + "; size is the root of the area", {}};
-  chart.panel_height = 420;
+  chart.panel_height = 300;
   Chart::Panel counts{"Number of floes at least as large", {"size, m", true}, {"floes", true}, {}};
-  Chart::Panel shares{
-      "Share of the ice in floes at least as large", {"size, m", true}, {"share of the ice, %"}, {}};
+  Chart::Panel shares{"Share of the ice in floes at least as large",
+                      {"size, m", true},
+                      {"share of the ice, %", false, std::pair{0.0, 100.0}, true},
+                      {}};
   std::size_t number = 0;
   for (const Run& run : runs) {
     const int colour = colour_of_run(number++);
     for (const bool is_end : {false, true}) {
       const SizeCurves curves = sizes_at(run, is_end ? run.end_time() : run.start_time());
       const std::string name =
-          fmt::format("{} at {:g} s", run.scene.scene.name, is_end ? run.end_time() : run.start_time());
+          fmt::format("{} at {:g} s", run.label, is_end ? run.end_time() : run.start_time());
       const auto dash = is_end ? Chart::Dash::kSolid : Chart::Dash::kDashed;
       counts.curves.push_back({name, colour, dash, curves.counts, Chart::Form::kSteps});
       shares.curves.push_back({name, colour, dash, curves.shares, Chart::Form::kSteps});

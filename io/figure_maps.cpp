@@ -42,14 +42,14 @@ PictureSheet map_figure(const std::vector<Run>& runs, const std::vector<double>&
       Picture picture = picture_of(run, motions, time);
       const auto splits =
           std::ranges::count(picture.fractures, simulation::EventKind::kSplit, &Picture::Fracture::kind);
-      picture.title = fmt::format("{}, {:.4g} s", run.scene.scene.name, time);
+      picture.title = fmt::format("{}, {:.4g} s", run.label, time);
       picture.caption = fmt::format("{} cusps, {} {}, {} floes", std::ssize(picture.fractures) - splits,
                                     splits, splits == 1 ? "split" : "splits", picture.floes.size());
       sheet.pictures.push_back(std::move(picture));
     }
   }
   sheet.columns = sheet.pictures.size() > 1 ? 2 : 1;
-  sheet.title = runs.size() == 1 ? runs.front().scene.scene.name : "Floes and channels";
+  sheet.title = runs.size() == 1 ? runs.front().label : "Floes and channels";
   sheet.caption = "Fractures are marked where they happened; the ice has moved since.";
   return sheet;
 }

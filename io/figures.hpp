@@ -10,7 +10,8 @@
 
 namespace polynya::io {
 
-/// Figures of one run, or of several side by side, after Figs. 4–7 of [Sawamura2017] (docs/figures.md).
+/// Figures of one run, or of several side by side, each under its label, after Figs. 4–7 of [Sawamura2017]
+/// (docs/figures.md).
 
 /// Floes, hulls, tracks and channel of each run at each time [s].
 PictureSheet map_figure(const std::vector<Run>& runs, const std::vector<double>& times);
@@ -21,7 +22,7 @@ std::vector<ShownLoad> chosen_loads(const simulation::Scene& scene, std::string_
 
 /// Surge, sway and yaw of each run's ships and structures against time, by chosen_loads, with the fractures
 /// of each marked; one scale for each of the three.
-Chart load_figure(const std::vector<Run>& runs, std::string_view option);
+Chart load_figure(const std::vector<Run>& runs, std::string_view option, const PageStyle& page = {});
 
 /// Speed, and heading and course over ground, of each run's ships and structures.
 Chart motion_figure(const std::vector<Run>& runs);
@@ -29,7 +30,8 @@ Chart motion_figure(const std::vector<Run>& runs);
 /// How many floes, and how much ice, is in floes of at least a size, at the start and at the end.
 Chart size_figure(const std::vector<Run>& runs);
 
-/// Where each run's energy went, from summary.json's `energy`; empty where no run has it.
-std::string energy_figure(const std::vector<Run>& runs);
+/// Where each run's energy came from and where it went, from summary.json's `energy`; empty where no run has
+/// it.
+std::string energy_figure(const std::vector<Run>& runs, const PageStyle& page = {});
 
 }  // namespace polynya::io

@@ -1,17 +1,14 @@
 #include "io/picture.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "io/map_marks.hpp"
 #include "io/rows_of.hpp"
-#include "io/svg_text.hpp"
+#include "io/svg_layout.hpp"
 
 namespace polynya::io {
 namespace {
@@ -19,24 +16,11 @@ namespace {
 using geometry::Box;
 using geometry::Point;
 
-constexpr double kWidth = 1600;    ///< [px]
-constexpr double kHeader = 60;     ///< [px]
-constexpr double kFooter = 96;     ///< [px]
-constexpr double kMargin = 24;     ///< [px]
-constexpr double kHead = 32;       ///< above each map of several [px]
-constexpr double kTallest = 1500;  ///< of the map [px]
-
-// Light ice on mid water on paper: apart in greyscale. Marks in the Okabe–Ito palette.
-constexpr auto kWater = "#8fb8d0";
-constexpr auto kIceAtStart = "#a9cadd";
-constexpr auto kChannel = "#5e93b5";
-constexpr auto kIce = "#ffffff";
-constexpr auto kBrokenIce = "#fbeec2";
-constexpr auto kIceEdge = "#3d5261";
-constexpr auto kShip = "#2b2b2b";
-constexpr auto kTrack = "#d55e00";
-constexpr auto kBend = "#0072b2";
-constexpr auto kSplit = "#d55e00";
+constexpr double kMargin = 24;       ///< [px]
+constexpr double kLeastMap = 220;    ///< as wide as maps beside each other are at least [px]
+constexpr double kTallest = 1200;    ///< of the map [px]
+constexpr double kHeadLine = 20;     ///< of the words above each map of several [px]
+constexpr double kFullMarks = 1400;  ///< marks have their full size on a map of that width [px]
 
 /// All that a picture shows.
 std::optional<Box> extent_of(const Picture& picture) {
@@ -54,6 +38,7 @@ std::optional<Box> extent_of(const Picture& picture) {
 }
 
 Box extent_of(const PictureSheet& sheet) {
+  if (sheet.window) return *sheet.window;
   std::vector<Point> corners;
   for (const Picture& picture : sheet.pictures) {
     if (const auto box = extent_of(picture)) corners.insert(corners.end(), {box->low, box->high});
@@ -76,18 +61,6 @@ struct MapFrame {
   double height() const { return scale * (extent.high.y - extent.low.y); }
 };
 
-/// The mark of a fracture; `size` of the one on a map that has the page to itself is 1.
-void draw_mark(SvgText& svg, simulation::EventKind kind, double x, double y, double size) {
-  if (kind == simulation::EventKind::kSplit)
-    svg.add(
-        "<path d='M{0:.2f} {1:.2f}l{2:.2f} {3:.2f}h{4:.2f}Z' fill='{5}' stroke='#ffffff' "
-        "stroke-width='1.5'/>\n",
-        x, y - 9 * size, 8 * size, 14 * size, -16 * size, kSplit);
-  else
-    svg.add("<circle cx='{:.2f}' cy='{:.2f}' r='{:.2f}' fill='{}' stroke='#ffffff' stroke-width='0.5'/>\n", x,
-            y, 2.8 * size, kBend, size < 0.8 ? "0" : "0.5");
-}
-
 class SvgMap {
  public:
   SvgMap(SvgText& svg, const Picture& picture, const MapFrame& frame, std::size_t number)
@@ -98,7 +71,7 @@ class SvgMap {
         "<clipPath id='map{5}'><rect x='{0:.2f}' y='{1:.2f}' width='{2:.2f}' height='{3:.2f}'/></clipPath>\n"
         "<rect x='{0:.2f}' y='{1:.2f}' width='{2:.2f}' height='{3:.2f}' fill='{4}'/>\n<g "
         "clip-path='url(#map{5})'>\n",
-        frame_.left, frame_.top, frame_.width(), frame_.height(), kWater, number_);
+        frame_.left, frame_.top, frame_.width(), frame_.height(), map_colour::kWater, number_);
     draw_water();
     draw_ice();
     draw_fractures(simulation::EventKind::kBend);
@@ -124,9 +97,9 @@ class SvgMap {
   }
 
   void draw_water() {
-    svg_.add("<g fill='{}'>\n", kIceAtStart);
+    svg_.add("<g fill='{}'>\n", map_colour::kIceAtStart);
     for (const auto& polygon : picture_.ice_at_start) path(polygon);
-    svg_.add("</g>\n<g fill='{}' fill-rule='evenodd'>\n", kChannel);
+    svg_.add("</g>\n<g fill='{}' fill-rule='evenodd'>\n", map_colour::kChannel);
     for (const auto& polygon : picture_.channel) path(polygon);
     svg_.add("</g>\n");
   }
@@ -136,7 +109,7 @@ class SvgMap {
     for (const bool is_broken : {false, true}) {
       svg_.add(
           "<g fill='{}' fill-rule='evenodd' stroke='{}' stroke-width='{:.2f}' stroke-linejoin='round'>\n",
-          is_broken ? kBrokenIce : kIce, kIceEdge, line);
+          is_broken ? map_colour::kBrokenIce : map_colour::kIce, map_colour::kIceEdge, line);
       for (const auto& floe : picture_.floes) {
         if ((floe.generation > 0) == is_broken) path(floe.polygon_in_world);
       }
@@ -146,22 +119,23 @@ class SvgMap {
 
   void draw_ships() {
     for (const auto& ship : picture_.ships) {
-      svg_.add("<polyline fill='none' stroke='{}' stroke-width='2.5' stroke-dasharray='10 5' points='",
-               kTrack);
+      svg_.add("<polyline fill='none' stroke='{}' stroke-width='2' stroke-dasharray='8 4' points='",
+               map_colour::kTrack);
       for (const Point p : ship.track) svg_.add("{:.2f},{:.2f} ", frame_.x(p), frame_.y(p));
-      svg_.add("'/>\n<g fill='{}' fill-opacity='0.88' stroke='#ffffff' stroke-width='1.5'>\n", kShip);
+      svg_.add("'/>\n<g fill='{}' fill-opacity='0.88' stroke='#ffffff' stroke-width='1.5'>\n",
+               map_colour::kShip);
       path({ship.waterline_in_world, {}});
       svg_.add("</g>\n");
     }
   }
 
   void draw_fractures(simulation::EventKind kind) {
-    const double share = std::clamp(frame_.width() / kWidth, 0.5, 1.0);
+    const double share = std::clamp(frame_.width() / kFullMarks, 0.45, 1.0);
     const bool is_crowded = kind == simulation::EventKind::kBend && picture_.fractures.size() > 400;
     for (const auto& fracture : picture_.fractures) {
       if (fracture.kind == kind)
-        draw_mark(svg_, kind, frame_.x(fracture.point_in_world), frame_.y(fracture.point_in_world),
-                  share * (is_crowded ? 0.65 : 1));
+        draw_fracture_mark(svg_, kind, frame_.x(fracture.point_in_world), frame_.y(fracture.point_in_world),
+                           share * (is_crowded ? 0.65 : 1));
     }
   }
 
@@ -174,125 +148,90 @@ class SvgMap {
 class SvgSheet {
  public:
   explicit SvgSheet(const PictureSheet& sheet)
-      : sheet_(sheet), columns_(std::max<std::size_t>(1, std::min(sheet.columns, sheet.pictures.size()))) {
+      : sheet_(sheet),
+        width_(sheet.page.pixels()),
+        heading_(sheet.page, kMargin, sheet.title, sheet.caption) {
+    const auto most = static_cast<std::size_t>(std::max(1.0, (width_ - kMargin) / (kLeastMap + kMargin)));
+    columns_ = std::max<std::size_t>(1, std::min({sheet.columns, sheet.pictures.size(), most}));
+    const auto across = static_cast<double>(columns_);
+    cell_ = (width_ - (across + 1) * kMargin) / across;
     const Box extent = extent_of(sheet);
     const geometry::Vector size = extent.high - extent.low;
-    const auto across = static_cast<double>(columns_);
-    const double scale =
-        std::min((kWidth - (across + 1) * kMargin) / across / size.x, kTallest / across / size.y);
-    has_heads_ = std::ranges::any_of(sheet.pictures, [](const Picture& p) { return !p.title.empty(); });
-    frame_ = {extent, scale, 0, 0};
-    left_ = 0.5 * (kWidth - across * frame_.width() - (across - 1) * kMargin);
+    frame_ = {extent, std::min(cell_ / size.x, kTallest / across / size.y), 0, 0};
+    for (std::size_t i = 0; i < sheet.pictures.size(); ++i) heads_.push_back(head_of(i));
   }
 
   std::string draw() {
+    std::size_t lines = 0;
+    for (const auto& head : heads_) lines = std::max(lines, head.size());
+    const double head = kHeadLine * static_cast<double>(lines) + (lines > 0 ? 8 : 0);
     const std::size_t rows = rows_of(sheet_.pictures.size(), columns_);
-    const double pitch = frame_.height() + (has_heads_ ? kHead : 0) + (rows > 1 ? 8 : 0);
-    const double below = kHeader + pitch * static_cast<double>(rows);
-    SvgText svg(kWidth, below + kFooter);
-    svg.title(left_, sheet_.title, sheet_.caption);
+    const double pitch = head + frame_.height() + 10;
+    const double below = heading_.height() + pitch * static_cast<double>(rows);
+    const bool has_channel =
+        std::ranges::any_of(sheet_.pictures, [](const Picture& p) { return !p.channel.empty(); });
+    const std::vector<MapKey> keys = map_keys(frame_.scale, (width_ - 2 * kMargin) / 6, has_channel);
+    std::vector<Legend::Entry> entries;
+    for (const MapKey& key : keys) entries.push_back(key.entry);
+    const Legend legend(entries, kMargin, width_ - kMargin);
+    SvgText svg(width_, below + legend.height());
+    heading_.draw(svg);
     for (std::size_t i = 0; i < sheet_.pictures.size(); ++i) {
-      const Picture& picture = sheet_.pictures[i];
-      frame_.left = left_ + static_cast<double>(i % columns_) * (frame_.width() + kMargin);
-      frame_.top = kHeader + static_cast<double>(row_of(i, columns_)) * pitch + (has_heads_ ? kHead : 0);
-      if (has_heads_) {
-        svg.add(
-            "<text x='{:.0f}' y='{:.0f}' font-size='17'><tspan font-weight='bold'>{}</tspan>  {}</text>\n",
-            frame_.left, frame_.top - 9, escaped(picture.title), escaped(picture.caption));
-      }
-      SvgMap(svg, picture, frame_, i).draw();
+      frame_.left = left_of_cell(i % columns_) + 0.5 * (cell_ - frame_.width());
+      frame_.top = heading_.height() + static_cast<double>(row_of(i, columns_)) * pitch + head;
+      draw_head(svg, i, frame_.top - head);
+      SvgMap(svg, sheet_.pictures[i], frame_, i).draw();
     }
-    draw_legend(svg, below + 34);
+    for (std::size_t i = 0; i < keys.size(); ++i) keys[i].draw(svg, legend.draw(svg, i, below));
     return svg.finish();
   }
 
  private:
-  template <class Has>
-  bool any(Has has) const {
-    return std::ranges::any_of(sheet_.pictures, has);
+  double left_of_cell(std::size_t column) const {
+    return kMargin + static_cast<double>(column) * (cell_ + kMargin);
   }
 
-  void draw_scale_bar(SvgText& svg, double line) const {
-    // The longest of 1, 2, 5 × 10ⁿ metres that fits into a sixth of the page.
-    const double room = (kWidth - 2 * kMargin) / frame_.scale / 6;
-    const double decade = std::pow(10, std::floor(std::log10(room)));
-    const double length = decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
-    svg.add("<path d='M{0:.1f} {1:.1f}v8h{2:.1f}v-8' fill='none' stroke='#000000' stroke-width='2'/>\n",
-            kMargin, line - 8, length * frame_.scale);
-    svg.words(kMargin, line + 28, 16, fmt::format("{:g} m", length));
+  /// The words above a map, in lines: its title, then its caption.
+  std::vector<std::string> head_of(std::size_t picture) const {
+    const Picture& p = sheet_.pictures[picture];
+    if (p.title.empty()) return {};
+    const std::string letter = letter_of(picture, sheet_.pictures.size());
+    std::vector<std::string> lines = wrapped(letter + p.title, 17.6, cell_);
+    for (std::string& line : wrapped(p.caption, 14, cell_)) lines.push_back(std::move(line));
+    return lines;
   }
 
-  static void swatch(SvgText& svg, double at, double line, const char* colour, const char* edge,
-                     const char* words) {
-    svg.add("<rect x='{:.0f}' y='{:.0f}' width='26' height='16' fill='{}' stroke='{}'/>\n", at, line - 13,
-            colour, edge);
-    svg.words(at + 34, line, 16, words);
-  }
-
-  void draw_legend(SvgText& svg, double first) const {
-    const double second = first + 34;
-    const double left = kMargin + 300;
-    draw_scale_bar(svg, first);
-    swatch(svg, left, first, kIce, kIceEdge, "floe as in the scene");
-    swatch(svg, left + 260, first, kBrokenIce, kIceEdge, "piece of a broken floe");
-    swatch(svg, left + 540, first, kIceAtStart, kIceAtStart, "ice at the start, open now");
-    swatch(svg, left + 830, first, kWater, kWater, "water");
-    if (any([](const Picture& p) { return !p.channel.empty(); }))
-      swatch(svg, left + 960, first, kChannel, kChannel, "channel: open water");
-    swatch(svg, left, second, kShip, kShip, "ship");
-    svg.add("<path d='M{:.0f} {:.0f}h26' stroke='{}' stroke-width='2.5' stroke-dasharray='10 5'/>\n",
-            left + 260, second - 5, kTrack);
-    svg.words(left + 294, second, 16, "its track");
-    draw_mark(svg, simulation::EventKind::kBend, left + 553, second - 5, 1);
-    svg.words(left + 574, second, 16, "cusp broken by bending");
-    draw_mark(svg, simulation::EventKind::kSplit, left + 843, second - 7, 1);
-    svg.words(left + 864, second, 16, "floe split");
-    if (any([](const Picture& p) { return !p.channel.empty(); }))
-      svg.words(left + 994, second, 16, "joined to the track");
+  void draw_head(SvgText& svg, std::size_t picture, double y) const {
+    const std::size_t bold =
+        wrapped(letter_of(picture, sheet_.pictures.size()) + sheet_.pictures[picture].title, 17.6, cell_)
+            .size();
+    for (std::size_t i = 0; i < heads_[picture].size(); ++i) {
+      y += kHeadLine;
+      svg.add("<text x='{:.2f}' y='{:.2f}' font-size='{}' font-weight='{}'>{}</text>\n",
+              left_of_cell(picture % columns_), y, i < bold ? 16 : 14, i < bold ? "bold" : "normal",
+              escaped(heads_[picture][i]));
+    }
   }
 
   const PictureSheet& sheet_;
-  std::size_t columns_;
-  bool has_heads_ = false;
-  MapFrame frame_;   ///< of the map being drawn
-  double left_ = 0;  ///< of the first column [px]
+  double width_;  ///< of the page [px]
+  Heading heading_;
+  std::size_t columns_ = 1;
+  double cell_ = 0;  ///< room for a map, as wide [px]
+  std::vector<std::vector<std::string>> heads_;
+  MapFrame frame_;  ///< of the map being drawn
 };
 
 }  // namespace
 
 std::string to_svg(const Picture& picture) {
-  PictureSheet sheet{picture.title, picture.caption, {picture}, 1};
+  PictureSheet sheet{picture.title, picture.caption, {picture}};
   sheet.pictures.front().title.clear();
   return to_svg(sheet);
 }
 
 std::string to_svg(const PictureSheet& sheet) {
   return SvgSheet(sheet).draw();
-}
-
-bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png) {
-  std::error_code error_of_file;
-  const auto there = std::filesystem::symlink_status(png, error_of_file);
-  if (exists(there) && !is_regular_file(there) && !is_symlink(there)) return false;
-  std::filesystem::path part = png;  // what is at `png`, or is linked there, is never opened
-  part += ".part";
-  std::filesystem::remove(part, error_of_file);
-  std::array<std::string, 4> words{"rsvg-convert", "--output", part.string(), svg.string()};
-  std::array<char*, 5> arguments{words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", 1, 0);
-  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", 1, 0);
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  int status = 1;
-  bool is_made = error == 0 && waitpid(child, &status, 0) == child && status == 0;
-  if (is_made) std::filesystem::rename(part, png, error_of_file);
-  is_made = is_made && !error_of_file;
-  if (!is_made) std::filesystem::remove(part, error_of_file);
-  if (!is_made) std::filesystem::remove(png, error_of_file);  // of an earlier picture
-  return is_made;
 }
 
 }  // namespace polynya::io

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/polygon.hpp"
+#include "io/svg_layout.hpp"
 #include "simulation/journal.hpp"
 
 namespace polynya::io {
@@ -36,16 +37,15 @@ struct Picture {
 struct PictureSheet {
   std::string title;
   std::string caption;
-  std::vector<Picture> pictures;  ///< their titles and captions stand above each
-  std::size_t columns = 1;
+  std::vector<Picture> pictures;  ///< their letters, titles and captions stand above each
+  std::size_t columns = 1;        ///< at most, where the page has room for them
+  PageStyle page = {};
+  std::optional<geometry::Box> window = {};  ///< the part of the world to show; all of it if not given [m]
 };
 
-/// The picture as SVG, 1600 px wide, with scale bar and legend. Its colours stay apart in greyscale and for
+/// The picture as SVG, with scale bar and legend. Its colours stay apart in greyscale and for
 /// colour-blind eyes.
 std::string to_svg(const Picture& picture);
 std::string to_svg(const PictureSheet& sheet);
-
-/// Makes a PNG of an SVG file where rsvg-convert is installed. False where it is not or fails.
-bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png);
 
 }  // namespace polynya::io

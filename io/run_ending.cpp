@@ -6,6 +6,7 @@
 #include "io/checkpoint.hpp"
 #include "io/records.hpp"
 #include "io/run_writer.hpp"
+#include "io/svg_convert.hpp"
 
 namespace polynya::io {
 namespace {
@@ -56,7 +57,7 @@ std::string RunWriter::finish(const RunSummary& summary, const simulation::Simul
     const std::string svg = to_svg(picture(summary, simulation));
     if (!write(run_file::kFinalSvg, svg) || svg.size() > kLargestConverted) return;
     const auto png = folder() / run_file::kFinalPng;
-    has_png_ = convert_to_png(folder() / run_file::kFinalSvg, png);
+    has_png_ = convert_svg(folder() / run_file::kFinalSvg, png);
     if (has_png_ && problem.empty()) problem = sync_file(png);
   };
   // A summary that says "finished" comes last, when all is there, and on the disk. Of a run that stopped it

@@ -109,7 +109,7 @@ std::string remove_run(const fs::path& folder) {
   remove_named(run_file::kFailure);
   for (const fs::path figure : run_file::kFigures) {
     remove_named(figure);
-    remove_named(fs::path(figure).replace_extension(".png"));
+    for (const char* suffix : {".png", ".pdf"}) remove_named(fs::path(figure).replace_extension(suffix));
   }
   for (const auto name : run_file::kAll)
     if (name != run_file::kScene) remove_named(name);

@@ -289,6 +289,7 @@ tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
     auto scene = read_scene_file(folder / run_file::kScene);
     if (!scene) return tl::unexpected(to_string(scene.error().front()));
     run.scene = std::move(*scene);
+    run.label = run.scene.scene.name;
     run.summary = json_of(text_of(folder, run_file::kSummary));
     check_version(run);
     read_floes(run);

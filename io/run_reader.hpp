@@ -35,6 +35,7 @@ struct RunContact {
 /// A run folder read back (docs/run-folder.md): what every tool that looks at runs starts from.
 struct Run {
   std::filesystem::path folder;
+  std::string label;  ///< names the run in figures: its scene's name, if nothing else is wanted
   LoadedScene scene;
   JsonValue summary;
   std::vector<RunFloe> floes;  ///< by floe id

@@ -10,16 +10,20 @@
 
 namespace polynya::io {
 
+/// The unit of pictures for print: 16 px are 8 pt, at any width of the page. So words of 14 to 18 px have 7
+/// to 9 pt on paper.
+inline constexpr double kPixelsPerMm = 16 / (8 * 25.4 / 72);
+
 /// The text of an SVG while it is written.
 class SvgText {
  public:
   /// A white page of that many pixels.
   SvgText(double width, double height) {
-    add("<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
-        "{1:.0f}' "
+    add("<svg xmlns='http://www.w3.org/2000/svg' width='{0:.2f}mm' height='{1:.2f}mm' viewBox='0 0 {2:.2f} "
+        "{3:.2f}' "
         "font-family='DejaVu Sans, Helvetica, Arial, sans-serif'>\n"
         "<rect width='100%' height='100%' fill='#ffffff'/>\n",
-        width, height);
+        width / kPixelsPerMm, height / kPixelsPerMm, width, height);
   }
 
   template <class... Values>
@@ -31,10 +35,6 @@ class SvgText {
   void words(double x, double y, int size, const std::string& text, const char* anchor = "start") {
     add("<text x='{:.2f}' y='{:.2f}' font-size='{}' text-anchor='{}'>{}</text>\n", x, y, size, anchor,
         escaped(text));
-  }
-  void title(double x, const std::string& title, const std::string& caption) {
-    add("<text x='{:.0f}' y='30' font-size='24' font-weight='bold'>{}</text>\n", x, escaped(title));
-    add("<text x='{:.0f}' y='52' font-size='16' fill='#333333'>{}</text>\n", x, escaped(caption));
   }
 
   std::string finish() {

@@ -12,7 +12,7 @@
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/crushing.hpp"
 #include "io/json_parser.hpp"
-#include "io/picture.hpp"
+#include "io/svg_convert.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -373,7 +373,7 @@ TEST(DatabaseShowCommand, DrawsTheSameThreePicturesEachTime) {
     EXPECT_FALSE(contains(text, "nan")) << name;
     EXPECT_EQ(text, read_file(folder / "two" / (name + ".svg")));
     if (system("command -v rsvg-convert >/dev/null") == 0) {
-      EXPECT_TRUE(io::convert_to_png(svg, folder / (name + ".png"))) << name;
+      EXPECT_TRUE(io::convert_svg(svg, folder / (name + ".png"))) << name;
     }
   }
   write_file(folder / "file", "");
