@@ -79,7 +79,7 @@ class SvgChart {
   double top_of_row(double row) const {
     std::size_t lines = 1;
     for (const auto& title : titles_) lines = std::max(lines, title.size());
-    const double head = 8 + kTitleLine * static_cast<double>(lines);
+    const double head = 16 + kTitleLine * static_cast<double>(lines);
     return heading_.height() + head + row * (head + chart_.panel_height + kBelow);
   }
   double legend_top() const {
@@ -120,7 +120,7 @@ class SvgChart {
 
   void draw_axes(const Chart::Panel& panel, const std::vector<std::string>& title) {
     const double bottom = top_ + chart_.panel_height;
-    double y = top_ - 8 - kTitleLine * static_cast<double>(title.size() - 1);
+    double y = top_ - 14 - kTitleLine * static_cast<double>(title.size() - 1);
     for (const std::string& line : title) {
       svg_.add("<text x='{:.2f}' y='{:.2f}' font-size='16' font-weight='bold'>{}</text>\n",
                left_ - kLeft + 24, y, escaped(line));

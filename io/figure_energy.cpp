@@ -88,6 +88,7 @@ class EnergyFigure {
         high = std::max(high, energy.value_or(0));
       }
     }
+    if (-low < 1e-6 * high) low = 0;  // rounding, in the imbalance
     axis_ = axis_scale(low / 1e6, high / 1e6, false, AxisFit::kRoomy);
   }
 
