@@ -136,6 +136,7 @@ Run run_with_energy(const std::string& name) {
     floe.birth.floe = i;
     floe.birth.area = 10.0 * (i + 1) * (i + 1);
     run.floes.push_back(floe);
+    run.shapes.add({{{20.0 * i, 0}, {20.0 * i + 3 * (i + 1), 0}, {20.0 * i, 3.0 * (i + 1)}}, {}});
   }
   run.summary = parse_json(R"({"energy": {"initial_J": 1e6, "kinetic_J": 2e6, "thrust_J": 5e6, "current_J": 0,
     "drag_J": 1e6, "crushing_J": 3e6, "imbalance_J": 0, "turnover_J": 6e6}})")
@@ -260,7 +261,7 @@ TEST(Figures, ALegendKeepsEachSwatchBesideItsWords) {
   double before = -1;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const geometry::Point at = legend.draw(svg, i, 0);
-    EXPECT_EQ(at.x, 10) << "no room for a second one in the row";
+    EXPECT_NEAR(at.x, 10, 1e-9) << "no room for a second one in the row";
     EXPECT_GT(at.y, before);
     before = at.y;
   }
@@ -268,7 +269,7 @@ TEST(Figures, ALegendKeepsEachSwatchBesideItsWords) {
   const std::string text = svg.finish();
   const std::vector<double> x = numbers_of(text, "x");
   EXPECT_GT(x.size(), 5U) << "the long words in lines";
-  for (const double left : x) EXPECT_EQ(left, 68) << "beside the swatches";
+  for (const double left : x) EXPECT_NEAR(left, 68, 1e-9) << "beside the swatches";
 }
 
 }  // namespace
