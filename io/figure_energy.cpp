@@ -59,7 +59,7 @@ std::vector<Sink> sinks_of(const std::vector<Run>& runs) {
       found->by_run[i] = member.value.number();
     }
   }
-  std::ranges::stable_partition(sinks, &Sink::is_source);
+  std::stable_partition(sinks.begin(), sinks.end(), [](const Sink& sink) { return sink.is_source; });
   return sinks;
 }
 
