@@ -21,14 +21,16 @@ int fail(ExitCode code, const std::string& problem) {
   return code;
 }
 
-/// Why the file cannot be written there, as far as can be told before the work; empty where it can.
+/// Why the file cannot be written there; empty where it can. Before the work this tries it, with the
+/// temporary file that the write begins with.
 std::string obstacle(const std::filesystem::path& path, bool overwrite) {
   std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, ignored)) return folder.string() + ": no such folder";
-  if (!std::filesystem::exists(path, ignored)) return "";
+  if (!std::filesystem::exists(path, ignored)) return io::trial_of_named_file(path);
   if (!std::filesystem::is_regular_file(path, ignored)) return path.string() + ": it is not a file";
-  return overwrite ? "" : path.string() + ": it exists already; --overwrite replaces it";
+  return overwrite ? io::trial_of_named_file(path)
+                   : path.string() + ": it exists already; --overwrite replaces it";
 }
 
 ProgressReport report(std::size_t done, std::size_t total, double wall) {

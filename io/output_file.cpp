@@ -157,6 +157,27 @@ std::filesystem::path end_of_links(std::filesystem::path path) {
   return path;
 }
 
+/// What keeps the links of that name from being followed; empty where nothing does.
+std::string fault_of_links(const std::filesystem::path& path) {
+  std::error_code error;
+  static_cast<void>(std::filesystem::status(path, error));
+  return error == std::errc::too_many_symbolic_link_levels
+             ? fmt::format("{}: {}", path.string(), error.message())
+             : "";
+}
+
+/// Whether that name is a file to be replaced at once, rather than a pipe or a device to write to.
+bool is_replaced(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  return !exists(status) || is_regular_file(status) || is_directory(status);
+}
+
+std::filesystem::path temporary_of(std::filesystem::path path) {
+  path += ".part";
+  return path;
+}
+
 std::string write_through(const std::filesystem::path& path, std::string_view text) {
   const auto failure = [&] { return fmt::format("{}: {}", path.string(), std::strerror(errno)); };
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
@@ -169,19 +190,28 @@ std::string write_through(const std::filesystem::path& path, std::string_view te
 }  // namespace
 
 std::string write_named_file(const std::filesystem::path& path, std::string_view text) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (error == std::errc::too_many_symbolic_link_levels)
-    return fmt::format("{}: {}", path.string(), error.message());
-  const bool is_replaced = !exists(status) || is_regular_file(status) || is_directory(status);
-  return is_replaced ? write_whole_file(end_of_links(path), text) : write_through(path, text);
+  if (std::string problem = fault_of_links(path); !problem.empty()) return problem;
+  return is_replaced(path) ? write_whole_file(end_of_links(path), text) : write_through(path, text);
+}
+
+std::string trial_of_named_file(const std::filesystem::path& path) {
+  const auto failure = [&] { return fmt::format("{}: {}", path.string(), std::strerror(errno)); };
+  if (std::string problem = fault_of_links(path); !problem.empty()) return problem;
+  if (!is_replaced(path)) return ::access(path.c_str(), W_OK) == 0 ? "" : failure();
+  const std::filesystem::path target = end_of_links(path);
+  if (std::string problem = obstacle(target); !problem.empty()) return problem;
+  const std::filesystem::path temporary = temporary_of(target);
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) return failure();
+  ::close(descriptor);
+  ::unlink(temporary.c_str());
+  return "";
 }
 
 std::string write_whole_file(const std::filesystem::path& path, std::string_view text,
                              Durability durability) {
   if (std::string problem = obstacle(path); !problem.empty()) return problem;
-  std::filesystem::path temporary = path;
-  temporary += ".part";
+  const std::filesystem::path temporary = temporary_of(path);
   const auto fail = [&](int error) {
     ::unlink(temporary.c_str());
     return fmt::format("{}: {}", path.string(), std::strerror(error));

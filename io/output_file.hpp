@@ -76,4 +76,8 @@ std::string write_whole_file(const std::filesystem::path& path, std::string_view
 /// pipe or a device is written to. Returns what went wrong; empty where all is well.
 std::string write_named_file(const std::filesystem::path& path, std::string_view text);
 
+/// Whether write_named_file() can begin: its temporary file, or the pipe or device, is opened and nothing
+/// written. For long work that ends in a file. Returns what is in the way; empty where nothing is.
+std::string trial_of_named_file(const std::filesystem::path& path);
+
 }  // namespace polynya::io

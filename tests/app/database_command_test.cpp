@@ -102,13 +102,20 @@ TEST(DatabaseBuildCommand, AFullDiskKeepsTheOldFile) {
   EXPECT_FALSE(std::filesystem::exists(folder / "old.txt.part"));
 }
 
-TEST(DatabaseBuildCommand, NowhereToWriteIsToldBeforeTheWork) {
+// Before the work: no wedge is solved, which --progress json would show.
+TEST(DatabaseBuildCommand, NowhereToWriteIsFoundBeforeTheWork) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "folder");
-  for (const char* out : {"missing/file.txt", "folder", "/dev/full"}) {
-    const Outcome outcome = database({"build", "--out", out, "--overwrite"}, folder);
+  std::filesystem::create_symlink("nowhere/file.txt", folder / "dangling");
+  // Nobody, root included, makes files in /proc, or files of such names anywhere.
+  const std::string long_name(255, 'n');
+  for (const std::string& out :
+       {std::string("missing/file.txt"), std::string("folder"), std::string("/dev/full"),
+        std::string("/proc/file.txt"), std::string("dangling"), long_name}) {
+    const Outcome outcome = database({"build", "--out", out, "--overwrite", "--progress", "json"}, folder);
     EXPECT_EQ(outcome.code, 5) << out;
     EXPECT_TRUE(contains(outcome.err, "polynya: ")) << outcome.err;
+    EXPECT_FALSE(contains(outcome.err, "wedges_total")) << outcome.err;
   }
 }
 
