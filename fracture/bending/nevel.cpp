@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
+
 #include "fracture/characteristic_length.hpp"
 
 namespace polynya::fracture {
@@ -27,30 +29,22 @@ double nevel_force(double opening_angle, double load_length_over_l, const Ice& i
 }
 
 double nevel_cusp_radius_over_l(double load_length_over_l) {
+  constexpr double kFirstSlope = 0.19, kLastSlope = 3.2;  // of the ratio, at both ends of the table
+  static const boost::math::interpolators::cardinal_cubic_b_spline<double> kRatio(
+      kRadiusOverRoot.begin(), kRadiusOverRoot.end(), 0.0, kStep, kFirstSlope, kLastSlope);
+  constexpr double kLast = kStep * (kRadiusOverRoot.size() - 1);
   const double root = std::cbrt(std::max(load_length_over_l, 0.0));
-  const double place = std::min(root / kStep, static_cast<double>(kRadiusOverRoot.size() - 1));
-  const auto last = static_cast<int>(kRadiusOverRoot.size()) - 1;
-  const int k = std::min(static_cast<int>(place), last - 1);
-  const double s = place - k;
-  // Catmull–Rom cubic; at the two ends the missing neighbour continues the line.
-  const auto at = [last](int i) {
-    if (i < 0) return 2 * kRadiusOverRoot[0] - kRadiusOverRoot[1];
-    if (i > last) return 2 * kRadiusOverRoot[last] - kRadiusOverRoot[last - 1];
-    return kRadiusOverRoot[static_cast<std::size_t>(i)];
-  };
-  const double p0 = at(k - 1), p1 = at(k), p2 = at(k + 1), p3 = at(k + 2);
-  const double ratio =
-      p1 + 0.5 * s * (p2 - p0 + s * (2 * p0 - 5 * p1 + 4 * p2 - p3 + s * (3 * (p1 - p2) + p3 - p0)));
-  return ratio * root;
+  return kRatio(std::min(root, kLast)) * root;
 }
 
 BendingCapacity NevelModel::capacity(const BendingLoad& load) const {
   const double l = characteristic_length(load.ice, load.water);
   const double load_length = load.penetration / l;
+  const double opening_angle = load.front_half_angle + load.back_half_angle;
   BendingCapacity result;
-  result.vertical_force = nevel_force(load.front_half_angle + load.back_half_angle, load_length, load.ice);
+  result.vertical_force = nevel_force(opening_angle, load_length, load.ice);
   result.cusp_radius = nevel_cusp_radius_over_l(load_length) * l;
-  result.is_in_range = load_length <= kLargestNevelLoadLength;
+  result.is_in_range = load_length <= kLargestNevelLoadLength && opening_angle <= kWidestNevelWedge;
   return result;
 }
 

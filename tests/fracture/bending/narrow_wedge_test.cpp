@@ -8,6 +8,7 @@
 #include "fracture/bending/floating_beam.hpp"
 #include "fracture/bending/kashtelyan.hpp"
 #include "fracture/bending/nevel.hpp"
+#include "fracture/bending/wedge_solver.hpp"
 #include "fracture/characteristic_length.hpp"
 
 namespace polynya::fracture {
@@ -106,6 +107,33 @@ TEST(Nevel, ModelAnswersInPhysicalUnits) {
   EXPECT_TRUE(capacity.is_in_range);
   load.penetration = 1.01 * l;
   EXPECT_FALSE(NevelModel().capacity(load).is_in_range);
+}
+
+// His wedge is a beam: wide ones, whose tan α grows without bound, are outside of it. Up to the limit the
+// form stays near the plate at rest.
+TEST(Nevel, WideWedgesAreOutOfRange) {
+  const auto capacity = [](double opening_angle, double penetration) {
+    BendingLoad load;
+    load.front_half_angle = load.back_half_angle = 0.5 * opening_angle;
+    load.penetration = penetration * characteristic_length(load.ice, load.water);
+    return NevelModel().capacity(load);
+  };
+  EXPECT_TRUE(capacity(std::numbers::pi / 3, 0.01).is_in_range);
+  for (const double degrees : {61.0, 90.0, 120.0, 175.0})
+    EXPECT_FALSE(capacity(degrees * std::numbers::pi / 180, 0.01).is_in_range) << degrees;
+  const Ice ice;
+  const double force_scale = ice.flexural_strength * ice.thickness * ice.thickness;
+  SolverSettings still;
+  still.fluid = FluidModel::kWinkler;
+  for (const double opening_angle : {0.5, kWidestNevelWedge}) {
+    const WedgeSolver plate(opening_angle, 0.05, still);
+    for (const double softness : {1e-4, 1e-2}) {
+      const WedgeFailure failure = *plate.failure({1e-5, softness, 0, 0});
+      EXPECT_NEAR(nevel_force(opening_angle, failure.penetration, ice) / force_scale / failure.force, 1,
+                  0.04);
+      EXPECT_NEAR(nevel_cusp_radius_over_l(failure.penetration) / failure.cusp_radius, 1, 0.02);
+    }
+  }
 }
 
 TEST(Kashtelyan, ForceAndRadius) {
