@@ -59,7 +59,10 @@ struct DatabaseStudyOptions {
   DatabaseLoadOptions load;
   int points = 200;               ///< kAccuracy
   std::uint64_t seed = 20170611;  ///< kAccuracy
-  int threads = 0;                ///< kAccuracy; 0: as many as the machine runs at once
+  std::optional<double>
+      inner_radius;             ///< kAccuracy, of the solution compared with [l]; a quarter of the table's
+  std::optional<int> elements;  ///< kAccuracy, along its radius; as closely spaced as the table's
+  int threads = 0;              ///< kAccuracy; 0: as many as the machine runs at once
 };
 int database_study(const DatabaseStudyOptions& options);
 

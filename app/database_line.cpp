@@ -15,12 +15,23 @@ namespace {
 
 using Commands = std::map<std::string, Command>;
 
+/// For files and folders: an empty name is a shell variable that is not set, not the default.
+CLI::Validator name() {
+  return {[](std::string& word) -> std::string { return word.empty() ? "the name is empty" : ""; }, ""};
+}
+
 void add_threads(CLI::App& command, int& threads) {
   command
       .add_option("--threads", threads,
                   "As many as the machine runs at once if not given; no result depends on it")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole(1, 1024));
+}
+
+void add_database_file(CLI::App& command, std::string& file) {
+  command.add_option("--database", file, "The database; the shipped one if not given")
+      ->type_name("FILE")
+      ->check(name());
 }
 
 void add_database_build(CLI::App& app, Commands& commands) {
@@ -30,7 +41,10 @@ void add_database_build(CLI::App& app, Commands& commands) {
       "  polynya database build                     byte for byte the database that ships with Polynya\n"
       "  polynya database build --fluid winkler --wedge-angles 30,60,90,120 --out winkler.txt\n");
   auto options = std::make_shared<DatabaseBuildOptions>();
-  command->add_option("--out", options->out, "The file to write")->type_name("FILE")->capture_default_str();
+  command->add_option("--out", options->out, "The file to write")
+      ->type_name("FILE")
+      ->check(name())
+      ->capture_default_str();
   set_choices<fracture::FluidModel>(
       *command->add_option("--fluid", options->fluid, "What the water does; potential if not given"),
       {{"winkler", fracture::FluidModel::kWinkler},
@@ -92,11 +106,14 @@ void add_database_show(CLI::App& app, Commands& commands) {
       "  polynya database show                      the database that ships with Polynya\n"
       "  polynya database show winkler.txt --svg plots --thickness 1\n");
   auto options = std::make_shared<DatabaseShowOptions>();
-  command->add_option("file", options->file, "The database; the shipped one if not given")->type_name("FILE");
+  command->add_option("file", options->file, "The database; the shipped one if not given")
+      ->type_name("FILE")
+      ->check(name());
   command
       ->add_option("--svg", options->svg_folder,
                    "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(name());
   add_point(*command, options->load, false);
   add_load(*command, options->load);
   commands["show"] = [options] { return database_show(*options); };
@@ -117,8 +134,7 @@ void add_database_query(CLI::App& app, Commands& commands) {
       ->type_name("M_PER_S")
       ->check(between(-100, 100))
       ->capture_default_str();
-  command->add_option("--database", options->file, "The database; the shipped one if not given")
-      ->type_name("FILE");
+  add_database_file(*command, options->file);
   command->add_flag("--json", options->json, "Answer as JSON, in SI units");
   commands["query"] = [options] { return database_query(*options); };
 }
@@ -129,7 +145,8 @@ void add_database_study(CLI::App& app, Commands& commands) {
       "Examples:\n"
       "  polynya database study fluid               what each fluid model changes against speed\n"
       "  polynya database study couple              what the ice's own deflection changes\n"
-      "  polynya database study accuracy            table against solution at random points\n");
+      "  polynya database study accuracy            table against finer solutions at random points\n"
+      "  polynya database study accuracy --inner-radius 0.001 --elements 72\n");
   auto options = std::make_shared<DatabaseStudyOptions>();
   set_choices<DatabaseStudy>(*command->add_option("study", options->study, "Which one")->required(),
                              {{"fluid", DatabaseStudy::kFluid},
@@ -138,14 +155,23 @@ void add_database_study(CLI::App& app, Commands& commands) {
   add_point(*command, options->load, false);
   add_load(*command, options->load);
   command->add_option("--points", options->points, "of accuracy")
-      ->check(CLI::Range(1, 100000))
+      ->check(whole(1, 100000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of accuracy's points")
-      ->check(between(0, 9007199254740991))
+      ->check(whole(0, 9007199254740991))
       ->capture_default_str();
+  command
+      ->add_option("--inner-radius", options->inner_radius,
+                   "of the solution that accuracy compares with; a quarter of the table's if not given")
+      ->type_name("L")
+      ->check(between(1e-6, 0.1));
+  command
+      ->add_option("--elements", options->elements,
+                   "along its radius; as closely spaced as the table's if not given")
+      ->type_name("N")
+      ->check(whole(8, 400));
   add_threads(*command, options->threads);
-  command->add_option("--database", options->file, "The database; the shipped one if not given")
-      ->type_name("FILE");
+  add_database_file(*command, options->file);
   commands["study"] = [options] { return database_study(*options); };
 }
 

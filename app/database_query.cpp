@@ -33,17 +33,6 @@ bool can_bend(const BendingLoad& load) {
   return load.vertical_to_crushing > 0;
 }
 
-/// The items of "softness, Froude number".
-std::vector<std::string_view> listed(std::string_view names) {
-  std::vector<std::string_view> items;
-  while (!names.empty()) {
-    const std::size_t comma = names.find(", ");
-    items.push_back(names.substr(0, comma));
-    names.remove_prefix(comma == std::string_view::npos ? names.size() : comma + 2);
-  }
-  return items;
-}
-
 // ---- as JSON
 
 /// A member; null where the ice cannot bend.
@@ -63,9 +52,11 @@ void write_published(io::JsonWriter& json, std::string_view name, const BendingC
   json.key("in_range").value(is_known && capacity.is_in_range).close('}');
 }
 
-void write_outside(io::JsonWriter& json, const std::string& names) {
+void write_outside(io::JsonWriter& json, const std::vector<fracture::OutsideRange>& ranges, bool is_known) {
   json.key("outside").open('[');
-  for (const std::string_view name : listed(names)) json.value(name);
+  if (!is_known) json.value("hull angle");
+  for (const fracture::OutsideRange& range : ranges)
+    if (is_known) json.value(range.name);
   json.close(']');
 }
 
@@ -90,11 +81,13 @@ void write_load(io::JsonWriter& json, const DatabaseLoadOptions& options, const 
   json.close('}');
 }
 
-void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled) {
+void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled,
+                  const fracture::BendingForecast& forecast) {
   json.key("groups").open('{');
   json.key("opening_angle_deg").value(scaled.groups.opening_angle * kDegree);
   json.key("mass_ratio").value(scaled.groups.mass_ratio);
   json.key("softness").value(scaled.groups.softness);
+  json.key("equivalent_softness").value(forecast.equivalent_softness);
   json.key("froude").value(scaled.groups.froude);
   json.key("characteristic_length_m").value(scaled.length_scale).close('}');
 }
@@ -114,11 +107,11 @@ void print_json(const DatabaseQueryOptions& options, const BendingDatabase& data
   item("penetration_m", forecast.penetration);
   json.key("radial_crack_first").value(is_known && forecast.capacity.radial_crack_first);
   json.key("in_range").value(is_known && forecast.capacity.is_in_range);
-  write_outside(json, is_known ? forecast.outside : "hull angle");
+  write_outside(json, forecast.outside, is_known);
   write_published(json, "nevel", answer.nevel, is_known);
   write_published(json, "kashtelyan", answer.kashtelyan, is_known);
   write_load(json, options.load, load);
-  write_groups(json, fracture::scaled(load));
+  write_groups(json, fracture::scaled(load), forecast);
   json.key("database").open('{').key("file");
   if (options.file.empty())
     json.null();
@@ -169,6 +162,9 @@ void print_for_people(const DatabaseQueryOptions& options, const BendingDatabase
   print_out("groups    2a {:g} deg, m {:.4g}, softness {:.4g}, Fr {:.4g}; l {:.4g} m\n",
             scaled.groups.opening_angle * kDegree, scaled.groups.mass_ratio, scaled.groups.softness,
             scaled.groups.froude, scaled.length_scale);
+  if (answer.database.equivalent_softness != scaled.groups.softness)
+    print_out("          crushes through the thickness: equivalent softness {:.4g}\n",
+              answer.database.equivalent_softness);
   print_out("database  {}: fluid {}, hash {}\n", database_title(options.file),
             fracture::fluid_name(database.settings().fluid), fracture::database_hash(database));
   print_out("\n");
@@ -178,21 +174,13 @@ void print_for_people(const DatabaseQueryOptions& options, const BendingDatabase
     print_out("The ice only crushes: friction outweighs what presses it down.\n");
 }
 
-/// The groups by those names with their range in the table: "softness (3e-05 to 0.1)".
-std::string with_ranges(const std::string& names, const BendingDatabase& database) {
-  const fracture::DatabaseGrid& grid = database.grid();
-  const std::vector<double>* const axes[] = {&grid.opening_angles_deg, &grid.mass_ratios, &grid.softnesses,
-                                             &grid.froude_numbers};
-  std::string text;
-  for (const std::string_view name : listed(names)) {
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
-    const auto axis = std::ranges::find(fracture::kGroupNames, name) - fracture::kGroupNames.begin();
-    if (axis < std::ssize(axes))
-      text += fmt::format(" ({:g} to {:g})", axes[axis]->front(), axes[axis]->back());
-    else
-      text += fmt::format(" (only {:g})", database.settings().poisson_ratio);
-  }
-  return text;
+/// "softness 0.2, the table's 3e-05 to 0.1; Poisson ratio 0.25, the table's 0.3"
+std::string with_ranges(const std::vector<fracture::OutsideRange>& ranges) {
+  std::vector<std::string> parts;
+  for (const auto& [name, value, least, most] : ranges)
+    parts.push_back(fmt::format("{} {:.4g}, the table's {:g}", name, value, least) +
+                    (most > least ? fmt::format(" to {:g}", most) : ""));
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 }  // namespace
@@ -216,7 +204,7 @@ int database_query(const DatabaseQueryOptions& options) {
               load->hull_angle * kDegree, load->ice.friction);
   else if (!answer.database.outside.empty())
     print_err("note: outside the database: {}; the answer is its nearest edge's\n",
-              with_ranges(answer.database.outside, **database));
+              with_ranges(answer.database.outside));
   return kDone;
 }
 

@@ -76,11 +76,20 @@ void print_errors(const char* name, const std::vector<AccuracyRow>& rows, double
             worst.groups.softness, worst.groups.froude);
 }
 
+std::string mesh_of(const fracture::SolverSettings& settings) {
+  return fmt::format("{} elements from {:g} l", settings.radial_elements, settings.inner_radius);
+}
+
 void study_accuracy(const BendingDatabase& database, const DatabaseStudyOptions& options) {
+  constexpr double kUsualRefinement = 4;
+  const fracture::SolverSettings& own = database.settings();
+  fracture::SolverSettings reference =
+      with_inner_radius(own, options.inner_radius.value_or(own.inner_radius / kUsualRefinement));
+  if (options.elements) reference = with_elements(reference, *options.elements);
   const fracture::AccuracyStudy study =
-      accuracy_study(database, options.points, options.seed, thread_count(options.threads));
-  print_out("Table against solution at {} random points of the whole box, seed {}; errors in %\n\n",
-            options.points, options.seed);
+      accuracy_study(database, reference, options.points, options.seed, thread_count(options.threads));
+  print_out("Table ({}) against solution ({})\n", mesh_of(own), mesh_of(reference));
+  print_out("at {} random points of the whole box, seed {}; errors in %\n\n", options.points, options.seed);
   print_out(
       "| | median | 90 of 100 | 99 of 100 | worst | worst at 2a, m, softness, Fr "
       "|\n|---|---|---|---|---|---|\n");

@@ -23,8 +23,10 @@ double natural_log(double x) {
 
 /// An interval of one axis and where in it a coordinate lies, 0..1.
 struct Cell {
-  std::size_t lower;
-  double fraction;
+  std::size_t lower = 0;
+  double fraction = 0;
+
+  double weight(unsigned end) const { return end == 0 ? 1 - fraction : fraction; }
 };
 
 Cell cell_at(const std::vector<double>& axis, double x) {
@@ -33,8 +35,44 @@ Cell cell_at(const std::vector<double>& axis, double x) {
   return {upper - 1, std::clamp((x - axis[upper - 1]) / (axis[upper] - axis[upper - 1]), 0.0, 1.0)};
 }
 
+/// How far the interpolation between two softnesses follows pushes of equal duration: with the exponent ½ of
+/// Fr ∝ Π^½ the time to the break, τ_b = √(Π V̂)/Fr, is the same at both but for V̂.
+constexpr double kEqualDuration = 0.5;
+
+/// Where to read the table at the softness cell's lower and upper value. What inertia does to the break
+/// depends on how long the push lasts, so that the table is far smoother along Fr ∝ Π^½ than along Π alone.
+/// Near the ends of the Froude axis the exponent shrinks to what both softnesses have.
+std::array<Cell, 2> froude_cells(const std::vector<double>& softnesses, const Cell& softness,
+                                 const std::vector<double>& froudes, double log_froude) {
+  const double x = std::clamp(log_froude, froudes.front(), froudes.back());
+  const double width = softnesses[softness.lower + 1] - softnesses[softness.lower];
+  const double below = softness.fraction * width, above = width - below;
+  const double exponent = std::min({kEqualDuration, (x - froudes.front()) / std::max(below, 1e-300),
+                                    (froudes.back() - x) / std::max(above, 1e-300)});
+  return {cell_at(froudes, x - exponent * below), cell_at(froudes, x + exponent * above)};
+}
+
+/// A load's place on the axes.
+std::array<double, 4> axis_coordinates(const WedgeGroups& groups) {
+  return {groups.opening_angle, std::log(groups.mass_ratio), std::log(groups.softness),
+          std::log(groups.froude)};
+}
+
 /// Rounding at the edge of an axis is not "outside".
 constexpr double kEdgeTolerance = 1e-9;
+
+/// One bit per group that lies outside its axis, NaN included. A Froude number below the least does not: the
+/// wedge is only more at rest.
+std::uint8_t outside_bits(const std::array<std::vector<double>, 4>& axes, const std::array<double, 4>& x) {
+  unsigned bits = 0;
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    const bool may_be_below = axis == static_cast<std::size_t>(Group::kFroude);
+    const bool is_inside = x[axis] <= axes[axis].back() + kEdgeTolerance &&
+                           (x[axis] >= axes[axis].front() - kEdgeTolerance || may_be_below);
+    if (!is_inside) bits |= 1U << axis;
+  }
+  return static_cast<std::uint8_t>(bits);
+}
 
 }  // namespace
 
@@ -45,12 +83,15 @@ bool is_grid_axis(const std::vector<double>& values) {
   return true;
 }
 
+/// Chosen by `polynya database study accuracy`: closer in Fr where inertia overshoots, and in Π where the
+/// loaded patch is no longer small.
 DatabaseGrid default_grid() {
-  return {{20, 25, 30, 35, 40, 45, 50, 60, 75, 90, 105, 120, 135, 150, 165, 180},
-          {0.02, 0.05, 0.1},
-          {3e-5, 5.5e-5, 1e-4, 3e-4, 7e-4, 1.5e-3, 3e-3, 6e-3, 1.3e-2, 3e-2, 4.1e-2, 5.5e-2, 7.5e-2, 1e-1},
-          {5e-4, 1e-3, 2e-3,   3.5e-3, 6e-3, 1e-2,   1.6e-2, 2.5e-2, 4e-2, 6e-2,
-           8e-2, 1e-1, 1.3e-1, 1.6e-1, 2e-1, 2.5e-1, 4e-1,   7e-1,   1,    1.5}};
+  return {
+      {20, 29, 40, 51, 63, 76, 90, 104, 118, 132, 145, 156, 165, 173, 180},
+      {0.02, 0.05, 0.1},
+      {3e-5, 9.5e-5, 2.7e-4, 7e-4, 1.6e-3, 3.5e-3, 7e-3, 1.3e-2, 2.3e-2, 4e-2, 6.5e-2, 1e-1},
+      {5e-4,   7.5e-4, 1.1e-3, 1.6e-3, 2.3e-3, 3.3e-3, 4.7e-3, 6.7e-3, 9.4e-3, 1.3e-2, 1.8e-2, 2.5e-2, 3.5e-2,
+       4.8e-2, 6.5e-2, 8.7e-2, 0.114,  0.15,   0.2,    0.27,   0.38,   0.54,   0.76,   1.07,   1.5}};
 }
 
 BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid,
@@ -59,61 +100,56 @@ BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid,
   assert(entries_.size() == grid_.size());
   assert(is_grid_axis(grid_.opening_angles_deg) && is_grid_axis(grid_.mass_ratios) &&
          is_grid_axis(grid_.softnesses) && is_grid_axis(grid_.froude_numbers));
-  coordinates_ = {mapped(grid_.opening_angles_deg, radians), grid_.mass_ratios,
+  coordinates_ = {mapped(grid_.opening_angles_deg, radians), mapped(grid_.mass_ratios, natural_log),
                   mapped(grid_.softnesses, natural_log), mapped(grid_.froude_numbers, natural_log)};
   strides_[3] = 1;
   for (std::size_t axis = 3; axis > 0; --axis)
     strides_[axis - 1] = strides_[axis] * coordinates_[axis].size();
   stored_.reserve(entries_.size());
-  for (const DatabaseEntry& e : entries_) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const DatabaseEntry& e = entries_[i];
     assert(e.force > 0 && e.cusp_radius > 0);
-    stored_.push_back({std::log(e.force), std::log(e.cusp_radius), e.crack_ratio});
+    const double opening_angle = coordinates_[0][i / strides_[0]];
+    stored_.push_back({std::log(e.force / opening_angle), std::log(e.cusp_radius), e.crack_ratio});
   }
 }
 
 DatabaseAnswer BendingDatabase::look_up(const WedgeGroups& groups) const {
-  const std::array<double, 4> x = {groups.opening_angle, groups.mass_ratio, std::log(groups.softness),
-                                   std::log(groups.froude)};
+  const std::array<double, 4> x = axis_coordinates(groups);
+  const Cell angle = cell_at(coordinates_[0], x[0]), mass = cell_at(coordinates_[1], x[1]),
+             softness = cell_at(coordinates_[2], x[2]);
+  const std::array<Cell, 2> froude = froude_cells(coordinates_[2], softness, coordinates_[3], x[3]);
   DatabaseAnswer answer;
-  std::array<double, 4> fraction{};
-  std::size_t corner = 0;
-  for (std::size_t axis = 0; axis < 4; ++axis) {
-    const bool may_be_below =
-        axis == static_cast<std::size_t>(Group::kFroude);  // slower is only more at rest
-    const bool is_inside = x[axis] <= coordinates_[axis].back() + kEdgeTolerance &&
-                           (x[axis] >= coordinates_[axis].front() - kEdgeTolerance || may_be_below);
-    if (!is_inside) answer.outside = static_cast<std::uint8_t>(answer.outside | (1U << axis));
-    const Cell cell = cell_at(coordinates_[axis], x[axis]);
-    fraction[axis] = cell.fraction;
-    corner += cell.lower * strides_[axis];
-  }
+  answer.outside = outside_bits(coordinates_, x);
   double log_force = 0, log_radius = 0;
   for (unsigned vertex = 0; vertex < 16; ++vertex) {  // the corners of the cell
-    double weight = 1;
-    std::size_t index = corner;
-    for (std::size_t axis = 0; axis < 4; ++axis) {
-      const bool upper = ((vertex >> axis) & 1U) != 0;
-      weight *= upper ? fraction[axis] : 1 - fraction[axis];
-      index += upper ? strides_[axis] : 0;
-    }
-    const DatabaseEntry& e = stored_[index];
+    const unsigned a = vertex & 1U, m = (vertex >> 1U) & 1U, s = (vertex >> 2U) & 1U, f = vertex >> 3U;
+    const double weight = angle.weight(a) * mass.weight(m) * softness.weight(s) * froude[s].weight(f);
+    const DatabaseEntry& e =
+        stored_[(angle.lower + a) * strides_[0] + (mass.lower + m) * strides_[1] +
+                (softness.lower + s) * strides_[2] + (froude[s].lower + f) * strides_[3]];
     log_force += weight * e.force;
     log_radius += weight * e.cusp_radius;
     answer.crack_ratio += weight * e.crack_ratio;
   }
-  answer.force = std::exp(log_force);
+  const std::vector<double>& angles = coordinates_[0];
+  answer.force = std::exp(log_force) * std::clamp(groups.opening_angle, angles.front(), angles.back());
   answer.cusp_radius = std::exp(log_radius);
   return answer;
 }
 
-std::string outside_names(const DatabaseAnswer& answer) {
-  std::string names;
-  for (std::size_t axis = 0; axis < kGroupNames.size(); ++axis) {
-    if (!answer.is_outside(static_cast<Group>(axis))) continue;
-    if (!names.empty()) names += ", ";
-    names += kGroupNames[axis];
-  }
-  return names;
+std::vector<OutsideRange> BendingDatabase::outside(const WedgeGroups& groups) const {
+  const std::uint8_t bits = outside_bits(coordinates_, axis_coordinates(groups));
+  const std::array<double, 4> values = {groups.opening_angle * (180 / std::numbers::pi), groups.mass_ratio,
+                                        groups.softness, groups.froude};
+  const std::array<const std::vector<double>*, 4> axes = {&grid_.opening_angles_deg, &grid_.mass_ratios,
+                                                          &grid_.softnesses, &grid_.froude_numbers};
+  std::vector<OutsideRange> ranges;
+  for (std::size_t axis = 0; axis < axes.size(); ++axis)
+    if (((static_cast<unsigned>(bits) >> axis) & 1U) != 0)
+      ranges.push_back(
+          {std::string(kGroupNames[axis]), values[axis], axes[axis]->front(), axes[axis]->back()});
+  return ranges;
 }
 
 }  // namespace polynya::fracture

@@ -64,6 +64,15 @@ struct DatabaseAnswer : DatabaseEntry {
   bool is_in_range() const { return outside == 0; }
 };
 
+/// A group of a load that lies outside of a table, and the table's range.
+struct OutsideRange {
+  std::string name;  ///< of kGroupNames, or of what else a table is made for
+  double value = 0;  ///< the load's; the opening angle in degrees
+  double least = 0, most = 0;
+
+  friend bool operator==(const OutsideRange&, const OutsideRange&) = default;
+};
+
 /// The icebreaking database: where wedges of floating ice break, tabulated over the dimensionless groups.
 class BendingDatabase {
  public:
@@ -71,10 +80,13 @@ class BendingDatabase {
   /// force, radius and grid value is positive and the grid ascends.
   BendingDatabase(SolverSettings settings, DatabaseGrid grid, std::vector<DatabaseEntry> entries);
 
-  /// Multilinear in 2α, m̂, ln Π, ln Fr for ln V̂, ln R/l and the crack ratio. Outside the grid the nearest
-  /// edge answers and says so; except that below the least Froude number the wedge is at rest on its water,
-  /// and the edge's answer is the answer.
+  /// Multilinear in 2α, ln m̂, ln Π and, along pushes of equal duration Fr ∝ Π^½, ln Fr, for ln V̂/2α, ln R/l
+  /// and the crack ratio. Outside the grid the nearest edge answers and is named; except that below the least
+  /// Froude number the wedge is at rest on its water, and the edge's answer is the answer.
   DatabaseAnswer look_up(const WedgeGroups& groups) const;
+
+  /// The groups that look_up() takes back to an edge; empty in range.
+  std::vector<OutsideRange> outside(const WedgeGroups& groups) const;
 
   const SolverSettings& settings() const { return settings_; }
   const DatabaseGrid& grid() const { return grid_; }
@@ -84,13 +96,10 @@ class BendingDatabase {
   SolverSettings settings_;
   DatabaseGrid grid_;
   std::vector<DatabaseEntry> entries_;
-  std::vector<DatabaseEntry> stored_;               ///< ln V̂, ln R/l, crack ratio
-  std::array<std::vector<double>, 4> coordinates_;  ///< 2α [rad], m̂, ln Π, ln Fr
+  std::vector<DatabaseEntry> stored_;               ///< ln V̂/2α, ln R/l, crack ratio
+  std::array<std::vector<double>, 4> coordinates_;  ///< 2α [rad], ln m̂, ln Π, ln Fr
   std::array<std::size_t, 4> strides_;
 };
-
-/// The names of the groups an answer was outside of, such as "softness, Froude number"; empty in range.
-std::string outside_names(const DatabaseAnswer& answer);
 
 /// Why a database could not be made or read, with its line where it has one.
 struct DatabaseError {

@@ -10,11 +10,15 @@
 namespace polynya::fracture {
 namespace {
 
-/// The softness of the push κ ξ² that has the true push's force at this penetration.
-double equivalent_softness(const ScaledLoad& load, double penetration) {
-  if (load.full_depth <= 0 || penetration <= load.full_depth) return load.groups.softness;
-  const double share = 1 - load.full_depth / penetration;
-  return load.groups.softness / (1 - share * share);
+/// The groups to look up for a load that has come so deep [m]: the softness is that of the push κ ξ² with the
+/// true push's force at this penetration.
+WedgeGroups looked_up_groups(const ScaledLoad& load, double penetration) {
+  WedgeGroups groups = load.groups;
+  const double depth = penetration / load.length_scale;
+  if (load.full_depth <= 0 || depth <= load.full_depth) return groups;
+  const double share = 1 - load.full_depth / depth;
+  groups.softness /= 1 - share * share;
+  return groups;
 }
 
 BendingCapacity to_capacity(const DatabaseAnswer& answer, const ScaledLoad& load, bool has_table_poisson) {
@@ -26,7 +30,10 @@ BendingCapacity to_capacity(const DatabaseAnswer& answer, const ScaledLoad& load
   return capacity;
 }
 
-constexpr double kPoissonTolerance = 1e-9;
+bool has_poisson_ratio_of(const BendingDatabase& database, const BendingLoad& load) {
+  constexpr double kTolerance = 1e-9;
+  return std::abs(load.ice.poisson_ratio - database.settings().poisson_ratio) <= kTolerance;
+}
 
 }  // namespace
 
@@ -39,45 +46,42 @@ FsiDatabaseModel::FsiDatabaseModel(std::shared_ptr<const BendingDatabase> databa
   assert(database_ != nullptr);
 }
 
-DatabaseAnswer FsiDatabaseModel::answer(const BendingLoad& load, const ScaledLoad& scaled_load) const {
-  WedgeGroups groups = scaled_load.groups;
-  groups.softness = equivalent_softness(scaled_load, load.penetration / scaled_load.length_scale);
-  return database_->look_up(groups);
-}
-
 BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
   const ScaledLoad scaled_load = scaled(load);
-  return to_capacity(
-      answer(load, scaled_load), scaled_load,
-      std::abs(load.ice.poisson_ratio - database_->settings().poisson_ratio) <= kPoissonTolerance);
+  return to_capacity(database_->look_up(looked_up_groups(scaled_load, load.penetration)), scaled_load,
+                     has_poisson_ratio_of(*database_, load));
 }
 
 BendingForecast FsiDatabaseModel::forecast(const BendingLoad& load) const {
   const ScaledLoad scaled_load = scaled(load);
   const WedgePush push = push_of(scaled_load, Feedback::kIgnored);
   // Where the contact crushes through the thickness before it breaks, force and penetration decide each
-  // other; the force depends weakly on the penetration, so that a few rounds settle both.
+  // other; the force depends weakly on the penetration, so that a few rounds find both.
   constexpr int kRounds = 20;
-  BendingLoad at_break = load;
-  at_break.penetration = 0;
+  BendingForecast forecast;
+  WedgeGroups groups;
   DatabaseAnswer found;
   for (int round = 0; round < kRounds; ++round) {
-    found = answer(at_break, scaled_load);
+    groups = looked_up_groups(scaled_load, forecast.penetration);
+    found = database_->look_up(groups);
     const double depth = push_depth(push, found.force) * scaled_load.length_scale;
-    const bool is_settled = std::abs(depth - at_break.penetration) <= 1e-12 * depth;
-    at_break.penetration = depth;
-    if (is_settled || !std::isfinite(depth)) break;
+    const bool has_converged = std::abs(depth - forecast.penetration) <= 1e-12 * depth;
+    forecast.penetration = depth;
+    if (has_converged || !std::isfinite(depth)) break;
   }
-  BendingForecast forecast;
-  const bool has_table_poisson =
-      std::abs(load.ice.poisson_ratio - database_->settings().poisson_ratio) <= kPoissonTolerance;
-  forecast.capacity = to_capacity(found, scaled_load, has_table_poisson);
+  forecast.capacity = to_capacity(found, scaled_load, has_poisson_ratio_of(*database_, load));
   forecast.normal_force = forecast.capacity.vertical_force / load.vertical_to_crushing;
-  forecast.penetration = at_break.penetration;
-  forecast.time = load.mean_approach_speed > 0 ? at_break.penetration / load.mean_approach_speed
+  forecast.time = load.mean_approach_speed > 0 ? forecast.penetration / load.mean_approach_speed
                                                : std::numeric_limits<double>::infinity();
-  forecast.outside = outside_names(found);
-  if (!has_table_poisson) forecast.outside += forecast.outside.empty() ? "Poisson ratio" : ", Poisson ratio";
+  forecast.equivalent_softness = groups.softness;
+  forecast.outside = database_->outside(groups);
+  for (OutsideRange& range : forecast.outside)
+    if (range.name == kGroupNames[static_cast<std::size_t>(Group::kSoftness)] &&
+        groups.softness != scaled_load.groups.softness)
+      range.name = "equivalent softness";
+  const double table_poisson = database_->settings().poisson_ratio;
+  if (!has_poisson_ratio_of(*database_, load))
+    forecast.outside.push_back({"Poisson ratio", load.ice.poisson_ratio, table_poisson, table_poisson});
   return forecast;
 }
 

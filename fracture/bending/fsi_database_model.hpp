@@ -1,7 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/bending/database.hpp"
@@ -15,7 +15,10 @@ struct BendingForecast {
   double normal_force = 0;  ///< F_n = V_b / c_V on the crushed facet at the break [N]
   double penetration = 0;   ///< ξ_b [m]
   double time = 0;          ///< from first contact to the break [s]; infinite at rest
-  std::string outside;      ///< what of the load lies outside the table, such as "softness"; empty in range
+  /// Π of the push κ ξ² that has the force of this one at its penetration: the load's own softness unless the
+  /// contact crushes through the thickness before the break.
+  double equivalent_softness = 0;
+  std::vector<OutsideRange> outside;  ///< what of the load lies outside the table; empty in range
 };
 
 /// The paper's bending model: the icebreaking database of a fluid–structure solution, looked up with the
@@ -37,8 +40,6 @@ class FsiDatabaseModel final : public BendingModel {
   const BendingDatabase& database() const { return *database_; }
 
  private:
-  DatabaseAnswer answer(const BendingLoad& load, const ScaledLoad& scaled_load) const;
-
   std::shared_ptr<const BendingDatabase> database_;
 };
 

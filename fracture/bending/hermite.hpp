@@ -2,6 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+
+#include <boost/math/quadrature/gauss.hpp>
 
 namespace polynya::fracture {
 
@@ -27,16 +30,16 @@ struct GaussPoint {
   double weight;
 };
 
-/// Five-point Gauss–Legendre rule on [left, right], exact to degree nine [Abramowitz1964, table 25.4].
+/// Five-point Gauss–Legendre rule on [left, right], exact to degree nine.
 inline std::array<GaussPoint, 5> gauss_points(double left, double right) {
-  constexpr std::array<double, 5> kAbscissae = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683,
-                                                0.906179845938664};
-  constexpr std::array<double, 5> kWeights = {0.236926885056189, 0.478628670499366, 0.568888888888889,
-                                              0.478628670499366, 0.236926885056189};
-  std::array<GaussPoint, 5> rule{};
+  using Rule = boost::math::quadrature::gauss<double, 5>;  // the points from the middle outwards
+  const auto& offsets = Rule::abscissa();
+  const auto& weights = Rule::weights();
   const double middle = 0.5 * (left + right), half = 0.5 * (right - left);
-  for (std::size_t i = 0; i < 5; ++i) rule[i] = {middle + half * kAbscissae[i], half * kWeights[i]};
-  return rule;
+  const auto at = [&](double side, std::size_t i) {
+    return GaussPoint{middle + side * half * offsets[i], half * weights[i]};
+  };
+  return {at(-1, 2), at(-1, 1), at(1, 0), at(1, 1), at(1, 2)};
 }
 
 /// Where a cubic element's curvature converges one order faster than elsewhere: its two Gauss points.

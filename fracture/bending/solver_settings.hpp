@@ -17,16 +17,23 @@ struct SolverSettings {
   FluidModel fluid = FluidModel::kPotential;
   double poisson_ratio = 0.3;     ///< ν [-]
   double local_mass = 0.5;        ///< c of FluidModel::kLocalMass [-]
-  double inner_radius = 0.002;    ///< r0, where the plate's mesh starts [-]
+  double inner_radius = 0.001;    ///< r0, where the plate's mesh starts [-]
   double outer_radius = 8;        ///< where it ends, free [-]
   int radial_elements = 36;       ///< cubic Hermite elements
-  int angular_terms = 6;          ///< even Legendre polynomials across the wedge
-  int panel_rings = 48;           ///< fluid panels along the radius
-  int panel_columns = 8;          ///< fluid panels across the half wedge
-  int free_surface_columns = 16;  ///< fluid panels across the half of the open water, kFreeSurface only
-  int steps_to_failure = 120;     ///< time steps from first contact to where a slow push breaks the wedge
+  int angular_terms = 5;          ///< even Legendre polynomials across the wedge
+  int panel_rings = 72;           ///< fluid panels along the radius; a multiple of radial_elements is best
+  int panel_columns = 6;          ///< fluid panels across the half wedge
+  int free_surface_columns = 10;  ///< fluid panels across the half of the open water, kFreeSurface only
+  int steps_to_failure = 60;      ///< time steps from first contact to where a slow push breaks the wedge
 
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };
+
+/// The same discretisation from another inner radius on: as many elements more or fewer as keep their
+/// spacing, and fluid panels in proportion. inner_radius in l, below the outer radius.
+SolverSettings with_inner_radius(const SolverSettings& settings, double inner_radius);
+
+/// The same discretisation with that many radial elements, and fluid panels in proportion.
+SolverSettings with_elements(const SolverSettings& settings, int radial_elements);
 
 }  // namespace polynya::fracture

@@ -22,6 +22,7 @@ set(POLYNYA_BENDING_SOURCES
   bending/nevel.cpp
   bending/peak.cpp
   bending/scaled_load.cpp
+  bending/solver_settings.cpp
   bending/studies.cpp
   bending/wedge_push.cpp
   bending/wedge_solver.cpp

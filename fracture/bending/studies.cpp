@@ -38,8 +38,9 @@ double log_uniform(std::mt19937_64& random, const std::vector<double>& axis) {
   return std::exp(uniform(random, std::log(axis.front()), std::log(axis.back())));
 }
 
-AccuracyRow compared(const BendingDatabase& database, const WedgeGroups& groups) {
-  const WedgeSolver solver(groups.opening_angle, groups.mass_ratio, database.settings());
+AccuracyRow compared(const BendingDatabase& database, const SolverSettings& reference,
+                     const WedgeGroups& groups) {
+  const WedgeSolver solver(groups.opening_angle, groups.mass_ratio, reference);
   const std::optional<WedgeFailure> solution = solver.failure({groups.froude, groups.softness, 0, 0});
   if (!solution) return {groups, 1, 1};
   const DatabaseAnswer answer = database.look_up(groups);
@@ -97,7 +98,8 @@ std::vector<FeedbackStudyRow> feedback_study(const BendingLoad& load, std::span<
   return rows;
 }
 
-AccuracyStudy accuracy_study(const BendingDatabase& database, int points, std::uint64_t seed, int threads) {
+AccuracyStudy accuracy_study(const BendingDatabase& database, const SolverSettings& reference, int points,
+                             std::uint64_t seed, int threads) {
   const DatabaseGrid& grid = database.grid();
   std::mt19937_64 random(seed);
   std::vector<WedgeGroups> groups;
@@ -114,7 +116,8 @@ AccuracyStudy accuracy_study(const BendingDatabase& database, int points, std::u
   study.rows.resize(groups.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    for (std::size_t i = next++; i < groups.size(); i = next++) study.rows[i] = compared(database, groups[i]);
+    for (std::size_t i = next++; i < groups.size(); i = next++)
+      study.rows[i] = compared(database, reference, groups[i]);
   };
   std::vector<std::thread> helpers;
   for (int i = 1; i < threads; ++i) helpers.emplace_back(work);

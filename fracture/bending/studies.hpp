@@ -51,7 +51,7 @@ struct FeedbackStudyRow {
 std::vector<FeedbackStudyRow> feedback_study(const BendingLoad& load, std::span<const double> speeds,
                                              const SolverSettings& settings);
 
-/// The database against the solution it tabulates, at one point between its own.
+/// The database against a solution, at one point between its own.
 struct AccuracyRow {
   WedgeGroups groups;
   double force_error = 0;   ///< table / solution − 1
@@ -64,9 +64,11 @@ struct AccuracyStudy {
   double worst_radius_error = 0;  ///< greatest |radius_error|
 };
 
-/// At random points of the grid's box, uniform in 2α, m̂, ln Π and ln Fr. The same points and numbers for the
-/// same seed, whatever the number of threads. A point that does not break counts as an error of 1.
-AccuracyStudy accuracy_study(const BendingDatabase& database, int points, std::uint64_t seed,
-                             int threads = 1);
+/// Against solutions with the settings `reference` at random points of the grid's box, uniform in 2α, m̂, ln Π
+/// and ln Fr. With the table's own settings this measures its interpolation alone; another inner radius or
+/// mesh shows what they cost as well. The same points and numbers for the same seed, whatever the number of
+/// threads. A point that does not break counts as an error of 1.
+AccuracyStudy accuracy_study(const BendingDatabase& database, const SolverSettings& reference, int points,
+                             std::uint64_t seed, int threads = 1);
 
 }  // namespace polynya::fracture

@@ -94,9 +94,11 @@ void require_answers_among_entries(const BendingDatabase& database) {
       std::pair{radians(grid.opening_angles_deg.front()), radians(grid.opening_angles_deg.back())},
       std::pair{grid.mass_ratios.front(), grid.mass_ratios.back()},
       std::pair{grid.softnesses.front(), grid.softnesses.back()}, std::pair{0.0, grid.froude_numbers.back()}};
-  Range force, radius, crack;
-  for (const DatabaseEntry& entry : database.entries()) {
-    force.take(entry.force);
+  Range force, radius, crack;  // the force per opening angle, which is what is interpolated
+  for (std::size_t i = 0; i < database.entries().size(); ++i) {
+    const DatabaseEntry& entry = database.entries()[i];
+    const std::size_t angle = i / (grid.size() / grid.opening_angles_deg.size());
+    force.take(entry.force / radians(grid.opening_angles_deg[angle]));
     radius.take(entry.cusp_radius);
     crack.take(entry.crack_ratio);
   }
@@ -104,7 +106,9 @@ void require_answers_among_entries(const BendingDatabase& database) {
                            off_points(grid.softnesses), off_points(grid.froude_numbers)};
   for_each_load(loads, [&](const WedgeGroups& groups) {
     const DatabaseAnswer answer = database.look_up(groups);
-    require(force.has(answer.force) && radius.has(answer.cusp_radius) && crack.has(answer.crack_ratio));
+    const double angle = std::clamp(groups.opening_angle, edges[0].first, edges[0].second);
+    require(force.has(answer.force / angle) && radius.has(answer.cusp_radius) &&
+            crack.has(answer.crack_ratio));
     const double x[] = {groups.opening_angle, groups.mass_ratio, groups.softness, groups.froude};
     for (std::size_t i = 0; i < 4; ++i) {
       const auto [least, most] = edges[i];

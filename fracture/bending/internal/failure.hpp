@@ -15,12 +15,14 @@ struct BisectorState {
 
 BisectorState bisector_state(const WedgeModes& modes, const Eigen::VectorXd& amplitudes);
 
-/// Greatest of the moments: top-fibre tension breaks off the cusp, bottom-fibre hoop tension opens a
-/// crack.
-double peak_moment(const WedgeModes& modes, const Eigen::VectorXd& moments);
+/// Greatest top-fibre tension: where it reaches kBreakingMoment the cusp breaks off.
+double peak_radial(const WedgeModes& modes, const BisectorState& state);
+
+/// Greatest bottom-fibre hoop tension: where it reaches kBreakingMoment a crack opens along the bisector.
+double peak_hoop(const WedgeModes& modes, const BisectorState& state);
 
 /// Distance from the tip to the greatest top-fibre tension: where the cusp breaks off. That maximum is flat,
 /// 0.1 % of stress spans 10 % of radius, hence the fit.
-double cusp_radius(const WedgeModes& modes, const Eigen::VectorXd& radial);
+double cusp_radius(const WedgeModes& modes, const BisectorState& state);
 
 }  // namespace polynya::fracture

@@ -84,8 +84,8 @@ MarchState next_state(const WedgeModes& modes, const WedgePush& push, const Moda
 /// Penetration at which a slow push breaks the wedge: where the static peak moment reaches the strength.
 std::optional<double> static_failure_depth(const WedgeModes& modes, const WedgePush& push) {
   const auto breaks = [&](double depth) {
-    const Eigen::VectorXd radial = modes.radial_moment * modal_load(modes, push, depth).matrix();
-    return peak_moment(modes, radial) >= kBreakingMoment;
+    const BisectorState state = {modes.radial_moment * modal_load(modes, push, depth).matrix(), {}};
+    return peak_radial(modes, state) >= kBreakingMoment;
   };
   double whole = modes.mesh.radii.front() * 1e-3, broken = whole;
   while (!breaks(broken)) {
@@ -111,28 +111,28 @@ struct Moment {
   BisectorState bisector;
 };
 
+/// The bisector between two states, linearly.
+BisectorState between(const BisectorState& a, const BisectorState& b, double share) {
+  return {a.radial + share * (b.radial - a.radial), a.hoop + share * (b.hoop - a.hoop)};
+}
+
 /// The break between two moments, by linear interpolation of the bisector's state.
 WedgeFailure failure_between(const WedgeModes& modes, const WedgePush& push, const Moment& whole,
                              const Moment& broken) {
-  const double s =
-      crossing(peak_moment(modes, whole.bisector.radial), peak_moment(modes, broken.bisector.radial));
-  const auto between = [s](const Eigen::VectorXd& a, const Eigen::VectorXd& b) -> Eigen::VectorXd {
-    return a + s * (b - a);
-  };
+  const double s = crossing(peak_radial(modes, whole.bisector), peak_radial(modes, broken.bisector));
+  const BisectorState at_break = between(whole.bisector, broken.bisector, s);
   WedgeFailure failure;
   failure.time = whole.state.time + s * (broken.state.time - whole.state.time);
   failure.penetration = whole.state.penetration + s * (broken.state.penetration - whole.state.penetration);
   failure.force = push_force(push, failure.penetration);
-  failure.cusp_radius = cusp_radius(modes, between(whole.bisector.radial, broken.bisector.radial));
-  failure.crack_ratio =
-      peak_moment(modes, between(whole.bisector.hoop, broken.bisector.hoop)) / kBreakingMoment;
+  failure.cusp_radius = cusp_radius(modes, at_break);
+  failure.crack_ratio = peak_hoop(modes, at_break) / kBreakingMoment;
   return failure;
 }
 
 /// When the hoop moment passed the strength between two moments.
 double crack_between(const WedgeModes& modes, const Moment& before, const Moment& after) {
-  const double s =
-      crossing(peak_moment(modes, before.bisector.hoop), peak_moment(modes, after.bisector.hoop));
+  const double s = crossing(peak_hoop(modes, before.bisector), peak_hoop(modes, after.bisector));
   return before.state.time + s * (after.state.time - before.state.time);
 }
 
@@ -148,9 +148,9 @@ std::optional<WedgeFailure> march(const WedgeModes& modes, const WedgePush& push
     Moment next;
     next.state = next_state(modes, push, step, duration * i / steps, now.state);
     next.bisector = bisector_state(modes, next.state.amplitude.matrix());
-    const double hoop = peak_moment(modes, next.bisector.hoop);
+    const double hoop = peak_hoop(modes, next.bisector);
     if (!crack_time && hoop >= kBreakingMoment) crack_time = crack_between(modes, now, next);
-    if (peak_moment(modes, next.bisector.radial) >= kBreakingMoment) {
+    if (peak_radial(modes, next.bisector) >= kBreakingMoment) {
       WedgeFailure failure = failure_between(modes, push, now, next);
       failure.crack_ratio = std::max(failure.crack_ratio, greatest_hoop / kBreakingMoment);
       if (crack_time && *crack_time <= failure.time) failure.crack_time = crack_time;

@@ -84,13 +84,17 @@ WedgeModes wedge_modes(double half_angle, double mass_ratio, const SolverSetting
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(wedge.mass, wedge.stiffness);
   assert(solver.info() == Eigen::Success);
   modes.inertia = solver.eigenvalues().cwiseMax(0);
-  const BisectorMoments moments = bisector_moments(
-      modes.mesh, settings.poisson_ratio, kFirstJudgedRadius * settings.inner_radius, kLastJudgedRadius);
+  const auto moments_from = [&](double first) {
+    return bisector_moments(modes.mesh, settings.poisson_ratio, first, kLastJudgedRadius);
+  };
+  const BisectorMoments top = moments_from(kFirstJudgedRadius * settings.inner_radius);
+  const BisectorMoments bottom = moments_from(kFirstJudgedHoopRadius);
   const auto shapes = solver.eigenvectors().topRows(modes.mesh.unknowns());
   modes.load_shapes = shapes.topRows(modes.mesh.radial_unknowns()).transpose();
-  modes.radii = moments.radii;
-  modes.radial_moment = moments.radial * shapes;
-  modes.hoop_moment = moments.hoop * shapes;
+  modes.radii = top.radii;
+  modes.radial_moment = top.radial * shapes;
+  modes.hoop_radii = bottom.radii;
+  modes.hoop_moment = bottom.hoop * shapes;
   modes.tip = (deflection_rows(modes.mesh, {settings.inner_radius}, {0}) * shapes).transpose();
   return modes;
 }

@@ -9,8 +9,13 @@
 
 namespace polynya::fracture {
 
-/// Fibres nearer the tip than this many inner radii are not judged: the mesh's free inner edge disturbs them.
+/// Top fibres nearer the tip than this many inner radii are not judged: the mesh's free inner edge disturbs
+/// them.
 inline constexpr double kFirstJudgedRadius = 5;
+
+/// Nor are bottom fibres nearer than this many l. The hoop stress under the tip's load grows without bound as
+/// the loaded patch shrinks; within a fraction of the thickness a plate's bending stress is not the ice's.
+inline constexpr double kFirstJudgedHoopRadius = 0.01;
 
 /// Nor are those beyond this many l, which see only ripples.
 inline constexpr double kLastJudgedRadius = 4;
@@ -21,12 +26,13 @@ inline constexpr double kLastJudgedRadius = 4;
 /// load at once. Time in t0 = √(l/g).
 struct WedgeModes {
   PlateMesh mesh;
-  Eigen::VectorXd inertia;        ///< μ ≥ 0, ascending
-  Eigen::MatrixXd load_shapes;    ///< modal loads = leading columns · tip_load(mesh, ξ)
-  std::vector<double> radii;      ///< judged points on the bisector, ascending
-  Eigen::MatrixXd radial_moment;  ///< top-fibre tension at those points per unit of each mode
-  Eigen::MatrixXd hoop_moment;    ///< bottom-fibre hoop tension there
-  Eigen::VectorXd tip;            ///< deflection of the tip per unit of each mode
+  Eigen::VectorXd inertia;         ///< μ ≥ 0, ascending
+  Eigen::MatrixXd load_shapes;     ///< modal loads = leading columns · tip_load(mesh, ξ)
+  std::vector<double> radii;       ///< points on the bisector where the top fibre is judged, ascending
+  Eigen::MatrixXd radial_moment;   ///< top-fibre tension at those points per unit of each mode
+  std::vector<double> hoop_radii;  ///< points on the bisector where the bottom fibre is judged, ascending
+  Eigen::MatrixXd hoop_moment;     ///< bottom-fibre hoop tension at those points per unit of each mode
+  Eigen::VectorXd tip;             ///< deflection of the tip per unit of each mode
 };
 
 /// What a wedge weighs and stands on, before it is taken apart into modes. The unknowns are the plate's,

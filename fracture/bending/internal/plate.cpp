@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
+
+#include <boost/math/special_functions/legendre.hpp>
 
 #include "fracture/bending/hermite.hpp"
 
@@ -32,22 +33,13 @@ std::vector<Legendre> even_legendre(double x, int terms) {
   return even;
 }
 
-/// Gauss–Legendre rule of n points on [0, 1], its roots by Newton's method.
-std::vector<GaussPoint> unit_gauss_rule(int n) {
+/// The half 0 < x < 1 of the Gauss–Legendre rule of 2n points on [-1, 1]: exact for even integrands of degree
+/// 4n − 1 at most.
+std::vector<GaussPoint> even_gauss_rule(int n) {
   std::vector<GaussPoint> rule;
-  for (int i = n; i >= 1; --i) {
-    double x = std::cos(std::numbers::pi * (i - 0.25) / (n + 0.5)), slope = 1;
-    for (int iteration = 0; iteration < 30; ++iteration) {
-      double p = 1, before = 0;
-      for (int k = 1; k <= n; ++k) {
-        const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-        before = p;
-        p = next;
-      }
-      slope = n * (x * p - before) / (x * x - 1);
-      x -= p / slope;
-    }
-    rule.push_back({0.5 * (1 + x), 1 / ((1 - x * x) * slope * slope)});
+  for (const double x : boost::math::legendre_p_zeros<double>(2 * n)) {
+    const double slope = boost::math::legendre_p_prime(2 * n, x);
+    rule.push_back({x, 2 / ((1 - x * x) * slope * slope)});
   }
   return rule;
 }
@@ -74,14 +66,17 @@ void scatter(const PlateMesh& mesh, int element, const Eigen::MatrixXd& local, E
 
 }  // namespace
 
+double radial_coordinate(double radius) {
+  return std::log(radius) + radius / kEvenRadius;
+}
+
 std::vector<double> graded_radii(double inner, double outer, int intervals) {
-  const auto coordinate = [](double r) { return std::log(r) + r / kEvenRadius; };
-  const double first = coordinate(inner), step = (coordinate(outer) - first) / intervals;
+  const double first = radial_coordinate(inner), step = (radial_coordinate(outer) - first) / intervals;
   std::vector<double> radii = {inner};
   for (int i = 1; i < intervals; ++i) {
     double r = radii.back();
     for (int iteration = 0; iteration < 50; ++iteration)  // Newton in ln r, where the coordinate is convex
-      r *= std::exp((first + step * i - coordinate(r)) / (1 + r / kEvenRadius));
+      r *= std::exp((first + step * i - radial_coordinate(r)) / (1 + r / kEvenRadius));
     radii.push_back(r);
   }
   radii.push_back(outer);
@@ -116,7 +111,7 @@ PlatePoint plate_point(const PlateMesh& mesh, int element, double radius, double
 
 PlateMatrices assemble_plate(const PlateMesh& mesh, double poisson_ratio) {
   const double nu = poisson_ratio;
-  const std::vector<GaussPoint> angular_rule = unit_gauss_rule(2 * mesh.angular_terms + 2);
+  const std::vector<GaussPoint> angular_rule = even_gauss_rule(mesh.angular_terms + 1);
   PlateMatrices matrices{Eigen::MatrixXd::Zero(mesh.unknowns(), mesh.unknowns()),
                          Eigen::MatrixXd::Zero(mesh.unknowns(), mesh.unknowns())};
   const int size = 4 * mesh.angular_terms;
@@ -145,8 +140,13 @@ Eigen::VectorXd tip_load(const PlateMesh& mesh, double patch_radius) {
       std::upper_bound(mesh.radii.begin(), mesh.radii.end(), patch_radius) - mesh.radii.begin();
   const auto loaded_nodes = std::min(nodes_inside + 1, static_cast<std::ptrdiff_t>(mesh.radii.size()));
   Eigen::VectorXd load = Eigen::VectorXd::Zero(2 * loaded_nodes);
-  const double inside = std::min(mesh.radii.front(), patch_radius) / patch_radius;
-  load[0] = inside * inside;
+  // The tip inside the inner radius r0 continues the mesh along straight rays, w(r) = w(r0) − (r0 − r)
+  // w'(r0): what it carries is a force and a moment on the innermost node.
+  const double inner = mesh.radii.front(), reach = std::min(inner, patch_radius);
+  const double inside = (reach / patch_radius) * (reach / patch_radius);  // of the unit force
+  const double centroid = 2 * reach / 3;
+  load[0] = inside;
+  load[1] = -inside * (inner - centroid);
   for (int e = 0; e < mesh.elements(); ++e) {
     const double left = mesh.radii[static_cast<std::size_t>(e)],
                  right = mesh.radii[static_cast<std::size_t>(e) + 1];

@@ -25,8 +25,11 @@ struct PlateMesh {
 
 PlateMesh make_plate_mesh(double half_angle, const SolverSettings& settings);
 
-/// Radii from inner to outer, spaced geometrically near the tip and evenly far from it: equal steps of
-/// ln r + r / kEvenRadius.
+/// What the mesh steps evenly in, from the tip outwards: ln r + r / 2, geometric near the tip and even far
+/// from it. r in l.
+double radial_coordinate(double radius);
+
+/// Radii from inner to outer at equal steps of radial_coordinate().
 std::vector<double> graded_radii(double inner, double outer, int intervals);
 
 /// The element's shape functions at one point: the deflection and its curvatures per unknown. Length 4 ·
@@ -52,7 +55,9 @@ PlateMatrices assemble_plate(const PlateMesh& mesh, double poisson_ratio);
 
 /// Generalised load of a unit force spread evenly over the tip sector r < patch_radius. It does not vary with
 /// θ, so only the first angular term is loaded; of that, the leading entries up to the last loaded node are
-/// returned. What falls inside the mesh's inner radius is carried by the innermost node.
+/// returned. What falls inside the mesh's inner radius r0 loads the innermost node with its force and with
+/// its moment about r0. Without the moment a patch smaller than r0 would act as one of 1.5 r0, and a narrow
+/// wedge would break up to a third too far out.
 Eigen::VectorXd tip_load(const PlateMesh& mesh, double patch_radius);
 
 /// Moments per width on the bisector, one row per point, where elements' curvatures are most accurate.

@@ -81,28 +81,45 @@ TEST(DefaultDatabase, IsWhatTheSolverMakes) {
   EXPECT_EQ(shipped.settings(), SolverSettings{});
   EXPECT_EQ(shipped.grid(), default_grid());
   DatabaseGrid part = default_grid();
-  part.opening_angles_deg = {part.opening_angles_deg.front(), part.opening_angles_deg[9]};
+  constexpr std::size_t kMiddle = 6;
+  part.opening_angles_deg = {part.opening_angles_deg.front(), part.opening_angles_deg[kMiddle]};
   part.mass_ratios = {part.mass_ratios.front(), part.mass_ratios.back()};
   const auto built = build_database(shipped.settings(), part, 2);
   ASSERT_TRUE(built.has_value());
   const std::size_t block = part.softnesses.size() * part.froude_numbers.size();
   const std::size_t masses = default_grid().mass_ratios.size();
   for (std::size_t wedge = 0; wedge < 4; ++wedge) {
-    const std::size_t angle = wedge / 2 == 0 ? 0 : 9, mass = wedge % 2 == 0 ? 0 : masses - 1;
+    const std::size_t angle = wedge / 2 == 0 ? 0 : kMiddle, mass = wedge % 2 == 0 ? 0 : masses - 1;
     for (std::size_t k = 0; k < block; ++k)
       ASSERT_EQ(built->entries()[wedge * block + k], shipped.entries()[(angle * masses + mass) * block + k]);
   }
 }
 
-TEST(DefaultDatabase, AgreesWithTheSolutionAt200RandomPoints) {
+// What docs/theory-bending.md promises: over the whole box, against solutions whose mesh starts four times
+// nearer the tip. Against the table's own mesh an inner radius that is too coarse would not show.
+TEST(DefaultDatabase, AgreesWithFinerSolutionsAt200RandomPoints) {
   constexpr std::uint64_t kSeed = 20170611;
-  const AccuracyStudy study = accuracy_study(default_database(), 200, kSeed, 2);
+  const SolverSettings& own = default_database().settings();
+  const AccuracyStudy study =
+      accuracy_study(default_database(), with_inner_radius(own, own.inner_radius / 4), 200, kSeed, 2);
   std::printf("seed %llu: force within %.2f %%, radius within %.2f %%\n",
               static_cast<unsigned long long>(kSeed), 100 * study.worst_force_error,
               100 * study.worst_radius_error);
   EXPECT_EQ(study.rows.size(), 200U);
   EXPECT_LT(study.worst_force_error, 0.01);
-  EXPECT_LT(study.worst_radius_error, 0.04);
+  EXPECT_LT(study.worst_radius_error, 0.03);
+}
+
+// A mesh that starts too far out shows against a finer one, not against itself.
+TEST(AccuracyStudy, SeesACoarseInnerRadius) {
+  SolverSettings settings = coarse_settings();
+  settings.inner_radius = 0.02;
+  const DatabaseGrid grid{{20, 22}, {0.05, 0.055}, {3e-5, 4e-5}, {0.1, 0.12}};
+  const BendingDatabase database = *build_database(settings, grid, 1);
+  constexpr int kPoints = 3;
+  EXPECT_LT(accuracy_study(database, settings, kPoints, 1).worst_radius_error, 0.02);
+  const SolverSettings finer = with_inner_radius(settings, settings.inner_radius / 16);
+  EXPECT_GT(accuracy_study(database, finer, kPoints, 1).worst_radius_error, 0.1);
 }
 
 // ---- looking up
@@ -124,22 +141,62 @@ TEST(DatabaseLookUp, ReproducesItsOwnPoints) {
         }
 }
 
-TEST(DatabaseLookUp, SaysWhichGroupIsOutside) {
+/// "mass ratio, Froude number"
+std::string names(const std::vector<OutsideRange>& ranges) {
+  std::string text;
+  for (const OutsideRange& range : ranges) text += (text.empty() ? "" : ", ") + range.name;
+  return text;
+}
+
+// Neither at the grid's planes nor where the ends of the Froude axis limit the interpolation does the answer
+// jump.
+TEST(DatabaseLookUp, IsContinuous) {
+  const BendingDatabase& database = default_database();
+  const DatabaseGrid& grid = database.grid();
+  constexpr unsigned kSeed = 5;
+  std::printf("seed %u\n", kSeed);
+  std::mt19937_64 random(kSeed);
+  const auto one_of = [&](const std::vector<double>& values) { return values[random() % values.size()]; };
+  const auto between = [&](const std::vector<double>& values) {
+    const double share = static_cast<double>(random() >> 11U) * 0x1p-53;
+    return values.front() * std::pow(values.back() / values.front(), share);
+  };
+  for (int trial = 0; trial < 2000; ++trial) {
+    const auto pick = [&](const std::vector<double>& values) {
+      return random() % 2 == 0 ? one_of(values) : between(values);
+    };
+    WedgeGroups below{pick(grid.opening_angles_deg) * kPi / 180, pick(grid.mass_ratios),
+                      pick(grid.softnesses), pick(grid.froude_numbers)};
+    WedgeGroups above = below;
+    constexpr double kNear = 1e-8;
+    for (double WedgeGroups::*group : {&WedgeGroups::opening_angle, &WedgeGroups::mass_ratio,
+                                       &WedgeGroups::softness, &WedgeGroups::froude}) {
+      below.*group *= 1 - kNear;
+      above.*group *= 1 + kNear;
+    }
+    const DatabaseAnswer a = database.look_up(below), b = database.look_up(above);
+    ASSERT_NEAR(a.force / b.force, 1, 1e-6) << trial;
+    ASSERT_NEAR(a.cusp_radius / b.cusp_radius, 1, 1e-6) << trial;
+  }
+}
+
+TEST(DatabaseLookUp, NamesWhatIsOutside) {
   const BendingDatabase& database = default_database();
   const WedgeGroups inside{kPi / 2, 0.05, 1e-3, 0.1};
-  EXPECT_EQ(outside_names(database.look_up(inside)), "");
+  EXPECT_TRUE(database.outside(inside).empty());
   WedgeGroups groups = inside;
   groups.opening_angle = 0.1;
-  EXPECT_EQ(outside_names(database.look_up(groups)), "opening angle");
+  EXPECT_EQ(database.outside(groups),
+            (std::vector<OutsideRange>{{"opening angle", 0.1 * (180 / kPi), 20, 180}}));
   groups = inside;
   groups.mass_ratio = 0.5;
   groups.froude = 7;
-  const DatabaseAnswer edge = database.look_up(groups);
-  EXPECT_EQ(outside_names(edge), "mass ratio, Froude number");
-  EXPECT_EQ(edge.force, database.look_up({kPi / 2, 0.1, 1e-3, 1.5}).force);  // the edge's answer, not a guess
+  EXPECT_EQ(names(database.outside(groups)), "mass ratio, Froude number");
+  // the edge's answer, not a guess
+  EXPECT_EQ(database.look_up(groups).force, database.look_up({kPi / 2, 0.1, 1e-3, 1.5}).force);
   groups = inside;
   groups.softness = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(outside_names(database.look_up(groups)), "softness");
+  EXPECT_EQ(names(database.outside(groups)), "softness");
   groups.softness = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(database.look_up(groups).is_in_range());
 }
@@ -178,7 +235,7 @@ TEST(DefaultDatabase, RadiusFallsWithSpeed) {
     ++compared;
     ASSERT_LT(fast.cusp_radius, slow.cusp_radius) << k;
   }
-  EXPECT_GT(compared, database.entries().size() / 3);
+  EXPECT_GT(compared, database.entries().size() / 4);
 }
 
 TEST(FsiDatabaseModel, ForceGrowsWithThicknessStrengthAndAngle) {
@@ -233,7 +290,8 @@ TEST(FsiDatabaseModel, IsTheDirectSolution) {
   load.mean_approach_speed = 1.3;
   const BendingForecast table = model.forecast(load);
   const BendingForecast direct = *direct_forecast(wedge_of(load, {}), load);
-  EXPECT_EQ(table.outside, "");
+  EXPECT_TRUE(table.outside.empty());
+  EXPECT_EQ(table.equivalent_softness, scaled(load).groups.softness);
   EXPECT_NEAR(table.capacity.vertical_force / direct.capacity.vertical_force, 1, 0.01);
   EXPECT_NEAR(table.capacity.cusp_radius / direct.capacity.cusp_radius, 1, 0.04);
   EXPECT_NEAR(table.time / direct.time, 1, 0.01);
@@ -277,7 +335,7 @@ TEST(FsiDatabaseModel, ThroughThicknessContact) {
   }
 }
 
-TEST(FsiDatabaseModel, SaysWhereItIsOutside) {
+TEST(FsiDatabaseModel, NamesWhatIsOutside) {
   const FsiDatabaseModel model;
   BendingLoad load;
   load.hull_angle = 1;
@@ -286,12 +344,30 @@ TEST(FsiDatabaseModel, SaysWhereItIsOutside) {
   EXPECT_TRUE(model.capacity(load).is_in_range);
   load.ice.poisson_ratio = 0.25;
   EXPECT_FALSE(model.capacity(load).is_in_range);
-  EXPECT_EQ(model.forecast(load).outside, "Poisson ratio");
+  EXPECT_EQ(model.forecast(load).outside, (std::vector<OutsideRange>{{"Poisson ratio", 0.25, 0.3, 0.3}}));
   load.ice.poisson_ratio = 0.3;
   load.vertical_to_crushing = -0.1;  // a wall too steep to press down: finite, and outside
   EXPECT_FALSE(model.capacity(load).is_in_range);
   EXPECT_TRUE(std::isfinite(model.capacity(load).vertical_force));
-  EXPECT_EQ(model.forecast(load).outside, "softness");
+  EXPECT_EQ(names(model.forecast(load).outside), "softness");
+}
+
+// A hull that barely presses the ice down crushes far through the thickness. What is looked up, and outside,
+// is then not the load's own softness.
+TEST(FsiDatabaseModel, NamesTheSoftnessItLooksUp) {
+  const FsiDatabaseModel model;
+  BendingLoad load;
+  load.hull_angle = 12 * kPi / 180;
+  load.vertical_to_crushing = std::sin(load.hull_angle) - 0.2 * std::cos(load.hull_angle);
+  load.mean_approach_speed = 1;
+  const double own = scaled(load).groups.softness;
+  ASSERT_LT(own, model.database().grid().softnesses.back());
+  const BendingForecast forecast = model.forecast(load);
+  ASSERT_EQ(names(forecast.outside), "equivalent softness");
+  EXPECT_EQ(forecast.outside[0].value, forecast.equivalent_softness);
+  EXPECT_GT(forecast.outside[0].value, forecast.outside[0].most);
+  load.penetration = forecast.penetration;
+  EXPECT_FALSE(model.capacity(load).is_in_range);
 }
 
 // ---- the text
@@ -381,7 +457,7 @@ TEST(DatabaseText, SurvivesRandomDamage) {
   std::printf("seed %u\n", kSeed);
   std::mt19937 random(kSeed);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
-  int hashes_mended = 0;
+  int hashes_repaired = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     std::string damaged = text;
     for (std::size_t i = 0; i <= below(4) && !damaged.empty(); ++i) {
@@ -416,13 +492,13 @@ TEST(DatabaseText, SurvivesRandomDamage) {
     const auto wanted = hashed.error().message.find("expected 'hash fnv1a64 ");
     if (wanted == std::string::npos || hashed.error().message.find("found 'hash") == std::string::npos)
       continue;
-    ++hashes_mended;
-    const std::string mended = body + hashed.error().message.substr(wanted + 10, 29) + "\n";
-    const auto sound = parse_database(mended);
+    ++hashes_repaired;
+    const std::string repaired = body + hashed.error().message.substr(wanted + 10, 29) + "\n";
+    const auto sound = parse_database(repaired);
     ASSERT_TRUE(sound.has_value()) << sound.error().message;
     EXPECT_TRUE(std::isfinite(sound->look_up({1, 0.05, 1e-3, 0.05}).force));
   }
-  EXPECT_GT(hashes_mended, 100);
+  EXPECT_GT(hashes_repaired, 100);
 }
 
 }  // namespace
