@@ -9,7 +9,7 @@
 namespace polynya::io {
 
 /// Columns of numbers one after the other, each at a multiple of 8 bytes, as the player reads them. `table`
-/// tells of each: name, type ("f64", "f32", "i32", "u8"), first byte, how many numbers.
+/// tells of each: name, type ("f64", "i32", "u8"), first byte, how many numbers.
 class ColumnWriter {
  public:
   struct Column {
@@ -19,7 +19,6 @@ class ColumnWriter {
     std::size_t count = 0;
   };
   void add(const std::string& name, const std::vector<double>& values);
-  void add(const std::string& name, const std::vector<float>& values);
   void add(const std::string& name, const std::vector<std::int32_t>& values);
   void add(const std::string& name, std::string_view bytes);
   const std::vector<Column>& table() const { return table_; }
@@ -32,8 +31,9 @@ class ColumnWriter {
   std::string bytes_;
 };
 
-/// Every floe of the run: parent, generation, born_s, died_s, area_m2, mass_kg, centroid_m, and its rings as
-/// single-precision points from its centroid (for drawing; right to 1e-7 of the floe's size).
+/// Every floe of the run: parent, generation, born_s, died_s, area_m2, mass_kg, centroid_m, and its shape:
+/// the ends of its rings, counted from its first vertex, and its vertices, or of one that is parts of its
+/// parent's the parts, its new vertices and its farthest vertex from its centroid.
 void add_floes(ColumnWriter& columns, const Run& run);
 
 }  // namespace polynya::io

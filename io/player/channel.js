@@ -155,7 +155,7 @@ function clippedAcross(outline, au, av, bu, bv) {
 /** How far a cell is open: from the track to the nearest ice to port and to starboard [m]; null where there is none. */
 function opening(run, places, cell) {
   const { floes } = run;
-  const { points, ringsOf, ringEnds } = floes;
+  const { ringsOf, ringEnds } = floes;
   let port = Infinity;
   let starboard = Infinity;
   const see = (low, high) => {
@@ -172,12 +172,15 @@ function opening(run, places, cell) {
     if (v - reach > Math.max(0, port) || -v - reach > Math.max(0, starboard)) continue; // behind nearer ice
     const [c, s] = [places.cos[id], places.sin[id]];
     if (contains(floes, id, -c * dx - s * dy, s * dx - c * dy)) see(-Infinity, Infinity);
-    let k = ringsOf[id] > 0 ? ringEnds[ringsOf[id] - 1] : 0;
+    const { points, first } = floes.shape(id);
+    const [cx, cy] = [floes.cx[id], floes.cy[id]];
+    let k = first;
     for (let ring = ringsOf[id]; ring < ringsOf[id + 1]; ++ring) {
-      const last = ringEnds[ring] - 1;
+      const last = first + ringEnds[ring] - 1;
       let [au, av] = [0, 0];
       for (let i = k - 1; i <= last; ++i) {
-        const [px, py] = [points[2 * (i < k ? last : i)], points[2 * (i < k ? last : i) + 1]];
+        const from = i < k ? last : i;
+        const [px, py] = [points[2 * from] - cx, points[2 * from + 1] - cy];
         const [wx, wy] = [dx + c * px - s * py, dy + s * px + c * py];
         const [bu, bv] = [cell.fx * wx + cell.fy * wy, cell.fx * wy - cell.fy * wx];
         const across = i < k ? null : clippedAcross(cell.outline, au, av, bu, bv);

@@ -71,11 +71,13 @@ function contactCircles(rings, radius) {
 /** A floe's rings as points from its centroid, in its body frame. */
 function ringsOf(floes, id) {
   const rings = [];
-  let first = floes.ringsOf[id] > 0 ? floes.ringEnds[floes.ringsOf[id] - 1] : 0;
+  const { points, first } = floes.shape(id);
+  let start = first;
   for (let ring = floes.ringsOf[id]; ring < floes.ringsOf[id + 1]; ++ring) {
-    const end = floes.ringEnds[ring];
-    rings.push(Array.from({ length: end - first }, (_, k) => [floes.points[2 * (first + k)], floes.points[2 * (first + k) + 1]]));
-    first = end;
+    const end = first + floes.ringEnds[ring];
+    rings.push(Array.from({ length: end - start }, (_, k) =>
+      [points[2 * (start + k)] - floes.cx[id], points[2 * (start + k) + 1] - floes.cy[id]]));
+    start = end;
   }
   return rings;
 }

@@ -65,15 +65,17 @@ function traceFloe(context, view, floes, places, id) {
   const s = places.sin[id] * view.scale;
   const x0 = (places.x[id] - view.x) * view.scale + view.width / 2;
   const y0 = (view.y - places.y[id]) * view.scale + view.height / 2;
-  const { points, ringsOf, ringEnds } = floes;
-  let k = ringsOf[id] > 0 ? ringEnds[ringsOf[id] - 1] : 0;
+  const { ringsOf, ringEnds } = floes;
+  const { points, first } = floes.shape(id);
+  const [cx, cy] = [floes.cx[id], floes.cy[id]];
+  let k = first;
   let traced = 0;
   for (let ring = ringsOf[id]; ring < ringsOf[id + 1]; ++ring) {
     let lastX = NaN;
     let lastY = NaN;
-    for (; k < ringEnds[ring]; ++k) {
-      const px = points[2 * k];
-      const py = points[2 * k + 1];
+    for (const end = first + ringEnds[ring]; k < end; ++k) {
+      const px = points[2 * k] - cx;
+      const py = points[2 * k + 1] - cy;
       const x = x0 + c * px - s * py;
       const y = y0 - s * px - c * py;
       if (Math.abs(x - lastX) < 0.5 && Math.abs(y - lastY) < 0.5) continue;

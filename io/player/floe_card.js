@@ -18,16 +18,18 @@ function floeAt(run, places, x, y) {
 
 /** Whether a floe's polygon holds a point, given from its centroid in its body frame. Even-odd over all rings. */
 function contains(floes, id, x, y) {
-  const { points, ringsOf, ringEnds } = floes;
+  const { ringsOf, ringEnds } = floes;
+  const { points, first } = floes.shape(id);
+  const [px, py] = [x + floes.cx[id], y + floes.cy[id]]; // in its body frame
   let isInside = false;
-  let first = ringsOf[id] > 0 ? ringEnds[ringsOf[id] - 1] : 0;
+  let start = first;
   for (let ring = ringsOf[id]; ring < ringsOf[id + 1]; ++ring) {
-    const end = ringEnds[ring];
-    for (let k = first, j = end - 1; k < end; j = k++) {
+    const end = first + ringEnds[ring];
+    for (let k = start, j = end - 1; k < end; j = k++) {
       const [xk, yk, xj, yj] = [points[2 * k], points[2 * k + 1], points[2 * j], points[2 * j + 1]];
-      if (yk > y !== yj > y && x < ((xj - xk) * (y - yk)) / (yj - yk) + xk) isInside = !isInside;
+      if (yk > py !== yj > py && px < ((xj - xk) * (py - yk)) / (yj - yk) + xk) isInside = !isInside;
     }
-    first = end;
+    start = end;
   }
   return isInside;
 }

@@ -55,15 +55,22 @@ function makeFloeRaster() {
     const s = places.sin[id] * scale;
     const rows = Math.ceil(y0 + reach) + 1;
     for (let row = 0; row < rows; ++row) counts[row] = 0;
-    const { points, ringsOf, ringEnds } = floes;
-    let k = ringsOf[id] > 0 ? ringEnds[ringsOf[id] - 1] : 0;
+    const { ringsOf, ringEnds } = floes;
+    const { points, first } = floes.shape(id);
+    const cx = floes.cx[id];
+    const cy = floes.cy[id];
+    let k = first;
     for (let ring = ringsOf[id]; ring < ringsOf[id + 1]; ++ring) {
-      const end = ringEnds[ring];
-      let ax = x0 + c * points[2 * end - 2] - s * points[2 * end - 1];
-      let ay = y0 - s * points[2 * end - 2] - c * points[2 * end - 1];
+      const end = first + ringEnds[ring];
+      const lastX = points[2 * end - 2] - cx;
+      const lastY = points[2 * end - 1] - cy;
+      let ax = x0 + c * lastX - s * lastY;
+      let ay = y0 - s * lastX - c * lastY;
       for (; k < end; ++k) {
-        const bx = x0 + c * points[2 * k] - s * points[2 * k + 1];
-        const by = y0 - s * points[2 * k] - c * points[2 * k + 1];
+        const px = points[2 * k] - cx;
+        const py = points[2 * k + 1] - cy;
+        const bx = x0 + c * px - s * py;
+        const by = y0 - s * px - c * py;
         if (k + 1 < end && Math.abs(bx - ax) < 0.5 && Math.abs(by - ay) < 0.5) continue;
         cross(ax, ay, bx, by);
         ax = bx;

@@ -53,9 +53,10 @@ function extentOf(run, motions, places, range) {
   for (const time of range) {
     places.setTime(time);
     for (const i of places.living.subarray(0, places.count)) {
-      const [first, end] = pointsOf(floes, i);
+      const { points, first } = floes.shape(i);
+      const end = first + floes.ringEnds[floes.ringsOf[i + 1] - 1];
       for (let k = first; k < end; ++k) {
-        const [px, py] = [floes.points[2 * k], floes.points[2 * k + 1]];
+        const [px, py] = [points[2 * k] - floes.cx[i], points[2 * k + 1] - floes.cy[i]];
         include(places.x[i] + places.cos[i] * px - places.sin[i] * py, places.y[i] + places.sin[i] * px + places.cos[i] * py);
       }
     }

@@ -8,7 +8,7 @@ function bytesOfBase64(text) {
   return bytes;
 }
 
-const columnTypes = { f64: Float64Array, f32: Float32Array, i32: Int32Array, u8: Uint8Array };
+const columnTypes = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 
 function readRun() {
   const info = JSON.parse(byId("run-info").textContent);
@@ -35,29 +35,31 @@ function readFloes(columns) {
     cy: columns.centroid_y_m,
     ringsOf: columns.rings_of,
     ringEnds: columns.ring_ends,
-    points: columns.points_m,
+    shape: makeShapes(columns),
     reach: new Float64Array(count), // farthest vertex from the centroid [m]
     oldest: new Int32Array(count), // the floe of the scene it comes from
     children: new Map(),
   };
+  const isParts = new Uint8Array(count); // of these the page has the reach, in their order
+  for (const floe of columns.part_floe) isParts[floe] = 1;
+  let reaches = 0;
   for (let i = 0; i < count; ++i) {
     const parent = floes.parent[i];
     floes.oldest[i] = parent >= 0 ? floes.oldest[parent] : i;
     if (parent >= 0) floes.children.set(parent, [...(floes.children.get(parent) ?? []), i]);
-    const [first, end] = pointsOf(floes, i);
-    let most = 0;
-    for (let k = 2 * first; k < 2 * end; k += 2)
-      most = Math.max(most, floes.points[k] ** 2 + floes.points[k + 1] ** 2);
-    floes.reach[i] = Math.sqrt(most);
+    floes.reach[i] = isParts[i] ? columns.parts_reach_m[reaches++] : reachOf(floes, i);
   }
   return floes;
 }
 
-/** First and one past the last point of a floe's rings. */
-function pointsOf(floes, floe) {
-  const ends = floes.ringEnds;
-  const ring = floes.ringsOf[floe];
-  return [ring > 0 ? ends[ring - 1] : 0, ends[floes.ringsOf[floe + 1] - 1]];
+/** The distance of a floe's farthest vertex from its centroid [m]. */
+function reachOf(floes, floe) {
+  const { points, first } = floes.shape(floe);
+  const end = first + floes.ringEnds[floes.ringsOf[floe + 1] - 1];
+  let most = 0;
+  for (let k = first; k < end; ++k)
+    most = Math.max(most, (points[2 * k] - floes.cx[floe]) ** 2 + (points[2 * k + 1] - floes.cy[floe]) ** 2);
+  return Math.sqrt(most);
 }
 
 /** frames.bin (docs/run-folder.md), indexed by floe. */

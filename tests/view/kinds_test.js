@@ -197,10 +197,11 @@ test("contact circles touch their floe from inside, one for each piece of its bo
       const { run: { floes }, circlesOf } = window.polynyaPlayer;
       return Array.from({ length: floes.count }, (_, id) => {
         const rings = [];
-        let first = floes.ringsOf[id] > 0 ? floes.ringEnds[floes.ringsOf[id] - 1] : 0;
+        const { points, first } = floes.shape(id);
+        let k = first;
         for (let ring = floes.ringsOf[id]; ring < floes.ringsOf[id + 1]; ++ring) {
           rings.push([]);
-          for (; first < floes.ringEnds[ring]; ++first) rings.at(-1).push([floes.points[2 * first], floes.points[2 * first + 1]]);
+          for (; k < first + floes.ringEnds[ring]; ++k) rings.at(-1).push([points[2 * k] - floes.cx[id], points[2 * k + 1] - floes.cy[id]]);
         }
         return { rings, circles: Array.from(circlesOf(id)) };
       });

@@ -180,10 +180,10 @@ test("floes are drawn where final.geojson has them", async () => {
     const { places, run: { floes } } = window.polynyaPlayer;
     const rings = {};
     for (const id of places.living.subarray(0, places.count)) {
-      const first = floes.ringsOf[id] > 0 ? floes.ringEnds[floes.ringsOf[id] - 1] : 0;
+      const { points, first } = floes.shape(id);
       rings[id] = [];
-      for (let k = first; k < floes.ringEnds[floes.ringsOf[id]]; ++k) {
-        const [px, py] = [floes.points[2 * k], floes.points[2 * k + 1]];
+      for (let k = first; k < first + floes.ringEnds[floes.ringsOf[id]]; ++k) {
+        const [px, py] = [points[2 * k] - floes.cx[id], points[2 * k + 1] - floes.cy[id]];
         rings[id].push([places.x[id] + places.cos[id] * px - places.sin[id] * py, places.y[id] + places.sin[id] * px + places.cos[id] * py]);
       }
     }
