@@ -125,7 +125,6 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
   warn(counts.rejected_cuts, "cuts were rejected; events.ndjson has each with its reason");
   warn(counts.unconverged_steps, "steps used all sweeps of the impulse solver (contact.iterations)");
   warn(counts.database_out_of_range, "bending loads lay outside the database's range");
-  warn(counts.kept_exact, "shapes had to stay in rationals; their rings in floes.ndjson are nearest doubles");
   if (const simulation::Audit audit = simulation.audit(); !audit.is_closed()) {
     warnings.push_back(fmt::format(
         "THE AUDIT IS BROKEN: energy is off by {:.2e} J of {:.2e} J, momentum by {:.2e} N s of {:.2e} N s; "

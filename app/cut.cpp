@@ -145,10 +145,9 @@ void report_totals(const io::CutReport& report) {
       "{:.2e} m2)\n",
       floes, floes == 1 ? "" : "s", totals.pieces, totals.pieces == 1 ? "" : "s", totals.area,
       totals.area_of_pieces, totals.removed, totals.exact_defect, totals.rounding_defect);
-  if (totals.kept_exact > 0) {
-    print_err(
-        "polynya: {} piece{} would not round validly; written as the nearest doubles (\"is_exact\": false)\n",
-        totals.kept_exact, totals.kept_exact == 1 ? "" : "s");
+  if (totals.snap_rounded > 0) {
+    print_err("polynya: {} piece{} snap-rounded: nearest doubles did not make a valid polygon\n",
+              totals.snap_rounded, totals.snap_rounded == 1 ? " was" : "s were");
   }
   if (totals.rejected > 0) {
     print_err("polynya: {} refused; {}\n", totals.rejected,

@@ -77,7 +77,7 @@ class FloeCutter {
       return false;
     }
     floe_.area = measure(polygon).area;
-    add({{.polygon = std::move(polygon), .exact = nullptr, .known_valid = true}, Part::kOutside});
+    add({{.polygon = std::move(polygon), .known_valid = true}, Part::kOutside});
     return true;
   }
 
@@ -102,8 +102,7 @@ class FloeCutter {
     for (Piece& piece : pieces_) {
       const double area = measure(piece.shape.polygon).area;
       floe_.area_of_pieces += area;
-      floe_.pieces.push_back(
-          {next_id++, piece.part, area, std::move(piece.shape.polygon), piece.shape.exact == nullptr});
+      floe_.pieces.push_back({next_id++, piece.part, area, std::move(piece.shape.polygon)});
     }
   }
 
@@ -180,6 +179,7 @@ class FloeCutter {
   void count(const geometry::CutLedger& ledger) {
     floe_.rounding_defect += ledger.rounding_defect;
     floe_.slivers += ledger.slivers;
+    floe_.snap_rounded += ledger.snap_rounded;
     floe_.area_slivers += ledger.area_slivers;
     floe_.removed += ledger.area_slivers;
     // Geometry refuses a cut whose pieces do not sum to their parent exactly; were it ever not so, it shows

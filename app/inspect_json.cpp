@@ -124,7 +124,6 @@ std::string check_json(const io::RunCheck& check) {
   JsonWriter json(text, JsonWriter::Layout::kIndented);
   json.open('{').key("is_sound").value(check.is_sound());
   write_count(json, "shapes", check.shapes);
-  write_count(json, "kept_exact", check.kept_exact);
   write_invalid(json, check.invalid);
   write_worst(json, "recorded_area", check.recorded_area);
   write_count(json, "fractures", check.fractures);

@@ -18,8 +18,7 @@ namespace {
 using geometry::Ring;
 using simulation::FloeId;
 
-std::string_view validity_of(const simulation::BirthRecord& birth, const geometry::Polygon& polygon) {
-  if (!birth.is_exact) return "kept-exact";
+std::string_view validity_of(const geometry::Polygon& polygon) {
   const auto found = find_defect(polygon);
   return found ? name_of(found->defect) : "yes";
 }
@@ -38,7 +37,6 @@ std::string as_geojson(const ShapeView& view) {
   json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
   json.key("frame").value(view.time_in_world ? "world" : "body");
   if (view.time_in_world) json.key("t_s").value(*view.time_in_world);
-  if (!birth.is_exact) json.key("is_exact").value(false);
   json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
   const auto write = [&json](Ring ring) {
     ring.push_back(ring.front());
@@ -113,7 +111,7 @@ std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
                                              .vertices = vertex_count(*polygon),
                                              .holes = polygon->holes.size(),
                                              .speed = {},
-                                             .validity = validity_of(birth, *polygon)});
+                                             .validity = validity_of(*polygon)});
     if (const auto motion = motions.floe_at(birth.floe, time)) row.speed = length(motion->velocity);
   }
   return rows;
@@ -211,8 +209,7 @@ std::string check_text(const io::RunCheck& check) {
   const auto from = [](simulation::FloeId floe) {
     return floe == simulation::kNoFloe ? std::string() : fmt::format(" (floe {})", floe);
   };
-  add(fmt::format("validity   {} shapes, {} invalid, {} kept exact and not judged", check.shapes,
-                  check.invalid.size(), check.kept_exact));
+  add(fmt::format("validity   {} shapes, {} invalid", check.shapes, check.invalid.size()));
   for (const io::InvalidFloe& floe : check.invalid) {
     std::string line = fmt::format("           floe {}: {}", floe.floe, floe.defect);
     for (std::size_t i = 0; i < std::min<std::size_t>(floe.places_in_body.size(), 4); ++i)

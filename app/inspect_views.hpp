@@ -30,7 +30,7 @@ struct FloeRow {
   std::size_t vertices = 0;
   std::size_t holes = 0;
   std::optional<double> speed;  ///< [m/s]; none between two frames
-  std::string_view validity;    ///< "yes", a defect's name, or "kept-exact"
+  std::string_view validity;    ///< "yes" or a defect's name
 };
 std::vector<FloeRow> floe_rows(const io::Run& run, double time);
 std::string floe_table(const std::vector<FloeRow>& rows);

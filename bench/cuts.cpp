@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
   const std::vector<std::pair<const char*, Seconds>> columns{
       {"find_defect", polynya_cuts::seconds_to_validate},
       {"crack, whole", polynya_cuts::seconds_to_cut_generally},
-      {"crack, window", polynya_cuts::seconds_to_cut_kept_exact},
+      {"crack, window", polynya_cuts::seconds_to_cut_in_window},
       {"2 discs, whole", polynya_cuts::seconds_to_cut_by_two_generally},
       {"2 discs, window", polynya_cuts::seconds_to_cut_by_two}};
   std::printf("exact cost by size of the floe [ms], least of %d\n  %10s", rounds, "vertices");

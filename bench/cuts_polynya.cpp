@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <memory>
 #include <stdexcept>
 
 #include "bench/cut_cases.hpp"
 #include "geometry/cut.hpp"
 #include "geometry/internal/general_cut.hpp"
+#include "geometry/internal/window_cut.hpp"
 #include "geometry/validity.hpp"
 
 namespace polynya::bench::polynya_cuts {
@@ -34,7 +34,7 @@ Result march(const March& march) {
 }
 
 Result split(const Split& split) {
-  const CutOutcome outcome = cut_along(Shape{{split.floe, {}}, nullptr, true}, {split.from, split.to});
+  const CutOutcome outcome = cut_along(Shape{{split.floe, {}}, true}, {split.from, split.to});
   if (!outcome) throw std::runtime_error(outcome.error().detail);
   Result result;
   for (const Piece& piece : outcome->pieces) result.vertices += piece.shape.polygon.outer.size();
@@ -79,16 +79,14 @@ double seconds_to_cut_by_two_generally(int vertices) {
 
 double seconds_to_cut_by_two(int vertices) {
   const Split split = split_of_floe(vertices);
-  const Shape floe{{split.floe, {}}, nullptr, true};
+  const Shape floe{{split.floe, {}}, true};
   return seconds_of([&] { return cut_by_polygons(floe, two_discs(split)).has_value(); });
 }
 
-double seconds_to_cut_kept_exact(int vertices) {
+double seconds_to_cut_in_window(int vertices) {
   const Split split = split_of_floe(vertices);
-  geometry::Polygon polygon{split.floe, {}};
-  auto exactly = std::make_shared<const geometry::exact::Polygon>(geometry::exact::exactly(polygon));
-  const Shape floe{std::move(polygon), std::move(exactly), true};
-  return seconds_of([&] { return cut_along(floe, {split.from, split.to}).has_value(); });
+  const Shape floe{{split.floe, {}}, true};
+  return seconds_of([&] { return cut_along_in_window(floe, {split.from, split.to}).has_value(); });
 }
 
 }  // namespace polynya::bench::polynya_cuts

@@ -20,10 +20,6 @@ tl::unexpected<CutError> refuse(CutFailure reason, const DefectAt& found) {
   return tl::unexpected(CutError{reason, std::string(name_of(found.defect))});
 }
 
-exact::Polygon exact_polygon_of(const Shape& shape) {
-  return shape.exact ? *shape.exact : exact::exactly(shape.polygon);
-}
-
 bool are_usable(const std::vector<Point>& points) {
   return std::all_of(points.begin(), points.end(), is_usable);
 }
@@ -75,12 +71,12 @@ std::optional<CutOutcome> guarded(Work work) {
 CutOutcome cut_by_polygons_exactly(const Shape& shape, const std::vector<Polygon>& tools) {
   if (auto outcome = guarded([&] { return cut_by_polygons_in_window(shape, tools); }))
     return *std::move(outcome);
-  return cut_by_polygons_generally(exact_polygon_of(shape), tools);
+  return cut_by_polygons_generally(exact::exactly(shape.polygon), tools);
 }
 
 // Cuts a valid shape by valid tools: by the first path that covers the case.
 CutOutcome cut_by_valid(const Shape& shape, const std::vector<Polygon>& tools) {
-  if (!shape.exact && tools.size() == 1 && tools.front().holes.empty()) {
+  if (tools.size() == 1 && tools.front().holes.empty()) {
     if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tools.front().outer, true}); }))
       return *std::move(outcome);
   }
@@ -102,7 +98,7 @@ std::vector<Polygon> near_tools(const Shape& shape, const std::vector<Polygon>& 
 }
 
 std::optional<DefectAt> find_shape_defect(const Shape& shape) {
-  if (shape.known_valid || shape.exact) return {};
+  if (shape.known_valid) return {};
   return find_defect(shape.polygon);
 }
 
@@ -136,7 +132,6 @@ CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools
   for (const Polygon& tool : tools_in_body) {
     if (const auto found = find_tool_defect(tool)) return refuse(CutFailure::kInvalidTool, *found);
   }
-  if (shape.exact) return cut_by_valid(shape, tools_in_body);
   const std::vector<Polygon> near = near_tools(shape, tools_in_body);
   if (near.empty()) {
     return tl::unexpected(CutError{CutFailure::kMisses, "the polygon does not meet the shape's interior"});
@@ -150,12 +145,12 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
   std::vector<Point> crack = polyline_in_body;
   crack.erase(std::unique(crack.begin(), crack.end()), crack.end());
   if (crack.size() < 2) return refuse(CutFailure::kInvalidTool, {Defect::kTooFewPoints, {}});
-  if (!shape.exact && is_simple(crack)) {
+  if (is_simple(crack)) {
     if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {crack, false}); }))
       return *std::move(outcome);
   }
   if (auto outcome = guarded([&] { return cut_along_in_window(shape, crack); })) return *std::move(outcome);
-  return cut_along_generally(exact_polygon_of(shape), crack);
+  return cut_along_generally(exact::exactly(shape.polygon), crack);
 }
 
 Ring disc_polygon(Point centre, double radius, double sagitta) {

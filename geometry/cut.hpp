@@ -29,7 +29,7 @@ struct CutLedger {
   bool exact_balance = false;  ///< Σ exact pieces − parent is exactly 0, checked in rationals
   std::string exact_defect;    ///< that difference as a rational [m²]: "0", or the cut is refused
   double dangling_length = 0;  ///< of crack that runs in the ice and separates nothing [m]
-  int kept_exact = 0;          ///< pieces that would not round validly and keep rationals
+  int snap_rounded = 0;        ///< exact pieces whose nearest doubles were not valid, rounded another way
 };
 
 struct CutResult {

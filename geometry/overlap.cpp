@@ -21,7 +21,7 @@ exact::Ring placed(const exact::Ring& ring, const Pose& world_from_body) {
 }
 
 exact::Polygon placed(const Shape& shape, const Pose& world_from_body) {
-  const exact::Polygon body = shape.exact ? *shape.exact : exact::exactly(shape.polygon);
+  const exact::Polygon body = exact::exactly(shape.polygon);
   exact::Polygon result{placed(body.outer, world_from_body), {}};
   for (const exact::Ring& hole : body.holes) result.holes.push_back(placed(hole, world_from_body));
   return result;

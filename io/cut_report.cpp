@@ -24,7 +24,6 @@ void write_feature(JsonWriter& json, const std::string& crs, const CutFloe& floe
   json.key("properties").open('{');
   json.key("floe_id").value(piece.floe_id).key("parent_id").value(floe.floe_id);
   json.key("area_m2").value(piece.area).key("part").value(name_of(piece.part));
-  if (!piece.is_exact) json.key("is_exact").value(false);
   if (floe.properties) json.json(*floe.properties);
   json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
   json.value(closed(piece.polygon.outer));
@@ -97,6 +96,7 @@ void write_floe(JsonWriter& json, const CutFloe& floe) {
   json.key("area_of_pieces_m2").value(floe.area_of_pieces).key("removed_m2").value(floe.removed);
   json.key("exact_defect_m2").value(std::string_view(floe.exact_defect));
   json.key("rounding_defect_m2").value(floe.rounding_defect);
+  json.key("snap_rounded").value(floe.snap_rounded);
   json.key("slivers").value(floe.slivers).key("area_slivers_m2").value(floe.area_slivers);
   write_dangling(json, floe);
   if (floe.repair) {
@@ -113,7 +113,6 @@ void write_floe(JsonWriter& json, const CutFloe& floe) {
   for (const CutPiece& piece : floe.pieces) {
     json.open('{').key("floe_id").value(piece.floe_id).key("part").value(name_of(piece.part));
     json.key("area_m2").value(piece.area);
-    if (!piece.is_exact) json.key("is_exact").value(false);
     json.close('}');
   }
   json.close(']').close('}');
@@ -148,8 +147,7 @@ CutTotals totals_of(const CutReport& report) {
     totals.rounding_defect += floe.rounding_defect;
     totals.slivers += static_cast<std::size_t>(floe.slivers);
     totals.pieces += floe.pieces.size();
-    totals.kept_exact +=
-        static_cast<std::size_t>(std::ranges::count(floe.pieces, false, &CutPiece::is_exact));
+    totals.snap_rounded += static_cast<std::size_t>(floe.snap_rounded);
     totals.dangling += floe.dangling.size();
     totals.rejected += floe.rejected ? 1 : 0;
     if (floe.repair) {
@@ -186,7 +184,7 @@ std::string to_ledger_json(const CutReport& report) {
   json.key("rounding_defect_m2").value(totals.rounding_defect);
   count("slivers", totals.slivers);
   json.key("area_slivers_m2").value(totals.area_slivers);
-  count("kept_exact", totals.kept_exact);
+  count("snap_rounded", totals.snap_rounded);
   count("dangling", totals.dangling);
   count("repaired", totals.repaired);
   json.key("area_changed_by_repair_m2").value(totals.area_repaired);

@@ -39,7 +39,6 @@ struct CutPiece {
   geometry::Part part = geometry::Part::kOutside;
   double area = 0;  ///< [m²]
   geometry::Polygon polygon;
-  bool is_exact = true;  ///< false where the doubles only approximate a shape that would not round
 };
 
 /// What became of one floe. area_of_pieces + removed = area + rounding_defect.
@@ -53,6 +52,7 @@ struct CutFloe {
   double removed = 0;         ///< what was not kept, slivers included [m²]
   double area_slivers = 0;    ///< of that, what was too narrow to survive rounding [m²]
   int slivers = 0;
+  int snap_rounded = 0;            ///< pieces of any cut whose nearest doubles were not valid
   double rounding_defect = 0;      ///< what rounding the vertices changed [m²]
   std::string exact_defect = "0";  ///< Σ exact pieces + removed − parent, over all cuts, as a rational
   std::vector<CutPiece> pieces;
@@ -75,7 +75,7 @@ std::string_view name_of(Keep keep);
 struct CutTotals {
   double area = 0, area_of_pieces = 0, removed = 0, area_slivers = 0, rounding_defect = 0;  ///< [m²]
   std::string exact_defect = "0";
-  std::size_t floes = 0, pieces = 0, slivers = 0, kept_exact = 0, dangling = 0, repaired = 0, rejected = 0;
+  std::size_t floes = 0, pieces = 0, slivers = 0, snap_rounded = 0, dangling = 0, repaired = 0, rejected = 0;
   double area_repaired = 0;  ///< Σ area_changed of repairs [m²]
 };
 CutTotals totals_of(const CutReport& report);

@@ -17,7 +17,7 @@ namespace {
 using JsonKind = JsonValue::Kind;
 
 /// What Polynya writes of each piece in place of its parent's.
-constexpr std::string_view kOwnProperties[] = {"floe_id", "parent_id", "area_m2", "part", "is_exact"};
+constexpr std::string_view kOwnProperties[] = {"floe_id", "parent_id", "area_m2", "part"};
 
 /// Ends the reading of one feature.
 struct Refusal : std::runtime_error {

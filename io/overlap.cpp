@@ -37,7 +37,7 @@ bool has_separating_edge(const Ring& a, const Ring& b) {
 
 /// Shared area of two valid polygons [m²], found exactly.
 double shared_area(const Polygon& a, const Polygon& b) {
-  const auto cut = geometry::cut_by_polygon({a, nullptr}, b);
+  const auto cut = geometry::cut_by_polygon({a}, b);
   if (cut) return cut->ledger.area_inside;
   return cut.error().reason == geometry::CutFailure::kMisses ? 0 : std::numeric_limits<double>::quiet_NaN();
 }

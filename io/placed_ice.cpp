@@ -39,7 +39,7 @@ std::vector<Polygon> near(const std::vector<PlacedIce>& ice, const geometry::Box
 
 tl::expected<Parted, std::string> part(const Polygon& polygon, const std::vector<Polygon>& by) {
   if (by.empty()) return Parted{{}, {polygon}, 0};
-  auto cut = geometry::cut_by_polygons({polygon, nullptr}, by);
+  auto cut = geometry::cut_by_polygons({polygon}, by);
   if (!cut && cut.error().reason == geometry::CutFailure::kMisses) return Parted{{}, {polygon}, 0};
   if (!cut)
     return tl::unexpected(

@@ -104,7 +104,6 @@ void append_birth(std::string& text, const simulation::Birth& birth, const geome
   json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
   json.key("centroid_m").value(birth.centroid_in_body);
   append_shape(json, parent ? parts_of(birth.polygon_in_body, *parent) : whole(birth.polygon_in_body));
-  if (!birth.is_exact) json.key("is_exact").value(false);
   json.close('}');
   text += '\n';
 }

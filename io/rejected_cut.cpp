@@ -26,7 +26,6 @@ std::string floe_text(const simulation::RejectedCut& cut) {
   JsonWriter json(text);
   json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(cut.floe);
   json.key("t_s").value(cut.time).key("reason").value(std::string_view(cut.reason));
-  if (!cut.is_exact) json.key("is_exact").value(false);
   json.close('}').key("geometry");
   append_geometry(json, cut.polygon_in_body);
   json.close('}');

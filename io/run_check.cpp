@@ -36,9 +36,7 @@ void check_shapes(const Run& run, RunCheck& check) {
     ++check.shapes;
     const simulation::BirthRecord& birth = floe.birth;
     const auto polygon = run.shape(birth.floe);
-    if (!birth.is_exact) {
-      ++check.kept_exact;
-    } else if (const auto found = geometry::find_defect(*polygon)) {
+    if (const auto found = geometry::find_defect(*polygon)) {
       check.invalid.push_back({birth.floe, std::string(name_of(found->defect)), found->places});
     }
     const Polygon* const ring[]{polygon.get()};

@@ -36,8 +36,7 @@ struct SharedIce {
 struct RunCheck {
   std::size_t shapes = 0;
   std::vector<InvalidFloe> invalid;
-  std::size_t kept_exact = 0;  ///< shapes that live on as rationals; their doubles are not judged
-  Worst recorded_area;         ///< recorded − that of the ring
+  Worst recorded_area;  ///< recorded − that of the ring
   std::size_t fractures = 0;
   Worst balance;  ///< children + submerged + brash − rounding defect − parent
   std::size_t overlapping_siblings =

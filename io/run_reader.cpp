@@ -94,7 +94,6 @@ simulation::BirthRecord birth_of(const JsonValue& line) {
   birth.area = number(line, "area_m2");
   birth.mass = number(line, "mass_kg");
   birth.centroid_in_body = point(line, "centroid_m");
-  birth.is_exact = line.find("is_exact") == nullptr;
   return birth;
 }
 

@@ -61,7 +61,10 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("crush_contacts").value(counts.crush_contacts).key("rejected_cuts").value(counts.rejected_cuts);
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
-  json.key("kept_exact").value(counts.kept_exact).key("unconverged_steps").value(counts.unconverged_steps);
+  json.key("snap_rounded")
+      .value(counts.snap_rounded)
+      .key("unconverged_steps")
+      .value(counts.unconverged_steps);
   json.key("largest_left_over_m_per_s").value(counts.largest_left_over);
   json.key("unpaired_stretches").value(counts.unpaired_stretches);
   json.key("peak_contacts").value(counts.peak_contacts).key("peak_awake").value(counts.peak_awake);

@@ -58,7 +58,7 @@ tl::expected<std::vector<Polygon>, std::string> union_of(const std::vector<Polyg
   }
   const geometry::Box all = grown(geometry::bounding_box(corners), 1);
   const Polygon sheet{{all.low, {all.high.x, all.low.y}, all.high, {all.low.x, all.high.y}}, {}};
-  auto cut = geometry::cut_by_polygons({sheet, nullptr}, polygons);
+  auto cut = geometry::cut_by_polygons({sheet}, polygons);
   if (!cut) return tl::unexpected(std::string(name_of(cut.error().reason)) + ": " + cut.error().detail);
   std::vector<Polygon> pieces;
   for (geometry::Piece& piece : cut->pieces) {

@@ -40,14 +40,8 @@ void reject(World& world, const PendingFracture& pending, const geometry::CutErr
   event.reason = std::string(name_of(error.reason)) + ": " + error.detail;
   ++world.counts.rejected_cuts;
   const geometry::Shape& shape = world.floes[pending.floe].shape;
-  RejectedCut rejected{world.counts.rejected_cuts,
-                       world.time(),
-                       pending.floe,
-                       event.reason,
-                       shape.polygon,
-                       shape.exact == nullptr,
-                       {},
-                       {}};
+  RejectedCut rejected{
+      world.counts.rejected_cuts, world.time(), pending.floe, event.reason, shape.polygon, {}, {}};
   if (pending.failure == fracture::Failure::kBend) rejected.cusp_in_body = cusp_of(world, pending);
   rejected.crack_in_body[0] = pending.crack_in_body.start;
   rejected.crack_in_body[1] = pending.crack_in_body.end;
@@ -104,10 +98,10 @@ void replace_by_pieces(World& world, const PendingFracture& pending, const geome
     wake(world, world.body_of(id));
     event.children.push_back(id);
     world.counts.floated_cusps += is_cusp ? 1 : 0;
-    world.counts.kept_exact += piece.shape.exact != nullptr ? 1 : 0;
   }
   event.brash_area += cut.ledger.area_slivers;
   event.rounding_defect = cut.ledger.rounding_defect;
+  world.counts.snap_rounded += cut.ledger.snap_rounded;
   world.ledger.submerged_area += event.submerged_area;
   world.ledger.brash_area += event.brash_area;
   world.ledger.rounding_defect += event.rounding_defect;

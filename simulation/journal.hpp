@@ -54,7 +54,6 @@ struct BirthRecord {
   double area = 0;                   ///< [m²]
   double mass = 0;                   ///< [kg]
   geometry::Point centroid_in_body;  ///< [m]
-  bool is_exact = true;              ///< false where the doubles only approximate a shape kept in rationals
 };
 
 /// The same with its shape. Written as one line of floes.ndjson.
@@ -76,7 +75,6 @@ struct RejectedCut {
   FloeId floe = kNoFloe;
   std::string reason;
   geometry::Polygon polygon_in_body;  ///< of the floe
-  bool is_exact = true;               ///< false where the doubles only approximate a shape kept in rationals
   geometry::Ring cusp_in_body;        ///< of a bend; empty of a split [m]
   geometry::Point crack_in_body[2];   ///< of a split: its ends [m]
 };
@@ -148,7 +146,7 @@ struct Counts {
   std::int64_t rejected_cuts = 0;
   std::int64_t floated_cusps = 0;
   std::int64_t brash_pieces = 0;
-  std::int64_t kept_exact = 0;  ///< shapes that had to stay in rationals
+  std::int64_t snap_rounded = 0;  ///< pieces whose nearest doubles were not a valid polygon
   std::int64_t database_out_of_range = 0;
   std::int64_t unconverged_steps = 0;   ///< steps in which the impulse solver used all its sweeps
   double largest_left_over = 0;         ///< of a velocity, what the last sweep of such a step changed [m/s]

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "geometry/exact_text.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/validity.hpp"
 #include "simulation/floe_size.hpp"
@@ -52,8 +51,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     const Floe& floe = world.floes[id];
     archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, world.is_alive(id)});
     if (!world.is_alive(id)) continue;
-    if (floe.parent != kNoFloe)
-      archive(floe.shape.polygon, geometry::exact_text(floe.shape));  // else the scene's
+    if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
     archive(motion_of(world.bodies, world.body_of(id)));
   }
   archive(pairs);
@@ -82,7 +80,7 @@ class StateLoader {
     const Counts& c = world_.counts;
     for (const std::int64_t count :
          {c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
-          c.brash_pieces, c.kept_exact, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
+          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
           c.peak_contacts, c.peak_awake})
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
     bytes_.require(c.largest_left_over >= 0, "a negative velocity left over");
@@ -178,24 +176,16 @@ class StateLoader {
 
   geometry::Shape load_shape() {
     geometry::Shape shape;
-    std::string exact;
-    bytes_(shape.polygon, exact);
+    bytes_(shape.polygon);
     const auto is_in_ice = [&](geometry::Point p) { return overlaps(ice_, {p, p}); };
     bool is_within = shape.polygon.outer.size() >= 3 && std::ranges::all_of(shape.polygon.outer, is_in_ice);
     for (const geometry::Ring& hole : shape.polygon.holes)
       is_within = is_within && hole.size() >= 3 && std::ranges::all_of(hole, is_in_ice);
     bytes_.require(is_within, "a floe outside the scene's ice");
     if (!bytes_.is_well()) return shape;
-    auto rationals = geometry::read_exact_text(exact, shape.polygon);
-    if (!rationals) {
-      bytes_.fail(rationals.error());
-    } else if (*rationals == nullptr) {
-      if (const auto defect = find_defect(shape.polygon))
-        bytes_.fail(fmt::format("a floe that is {}", name_of(defect->defect)));
-      shape.known_valid = true;
-    } else {
-      shape.exact = *std::move(rationals);
-    }
+    if (const auto defect = find_defect(shape.polygon))
+      bytes_.fail(fmt::format("a floe that is {}", name_of(defect->defect)));
+    shape.known_valid = true;
     bytes_.require(can_be_floe(geometry::measure(shape.polygon)), "a floe too small to be one");
     return shape;
   }

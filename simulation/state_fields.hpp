@@ -74,7 +74,7 @@ void fields(Archive& archive, Is<AreaLedger> auto& l) {
 template <class Archive>
 void fields(Archive& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
-          c.brash_pieces, c.kept_exact, c.database_out_of_range, c.unconverged_steps, c.largest_left_over,
+          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.largest_left_over,
           c.unpaired_stretches, c.peak_contacts, c.peak_awake);
 }
 template <class Archive>

@@ -153,9 +153,9 @@ FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& mea
   const BodyIndex index = add_body(world.bodies, body);
   assert(world.floe_of(index) == id);
   world.pairs.add(world.bodies, index);
-  world.journal.births.push_back({{id, floe.parent, world.time(), floe.generation, measures.area, body.mass,
-                                   body.centroid, floe.shape.exact == nullptr},
-                                  floe.shape.polygon});
+  world.journal.births.push_back(
+      {{id, floe.parent, world.time(), floe.generation, measures.area, body.mass, body.centroid},
+       floe.shape.polygon});
   return id;
 }
 

@@ -134,7 +134,7 @@ Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
 
 CutResult whole_shape_inside(const Polygon& shape) {
   CutResult result;
-  result.pieces.push_back({Shape{shape, nullptr, true}, Part::kInside});
+  result.pieces.push_back({Shape{shape, true}, Part::kInside});
   result.ledger.area_before = result.ledger.area_inside = area_of(shape);
   result.ledger.exact_balance = true;
   result.ledger.exact_defect = "0";  // the one piece is the shape itself

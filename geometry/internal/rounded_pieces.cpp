@@ -58,6 +58,7 @@ class Rounding {
       std::optional<std::vector<geometry::Polygon>> parts = snapped(piece.polygon, lattice);
       if (!parts) continue;
       if (parts->empty()) add_sliver(exact_area);
+      result_.ledger.snap_rounded += parts->empty() ? 0 : 1;
       for (geometry::Polygon& part : *parts) add(std::move(part), piece.part);
       return true;
     }
@@ -76,7 +77,7 @@ class Rounding {
     CutLedger& ledger = result_.ledger;
     (part == Part::kOutside ? ledger.area_outside : ledger.area_inside) += nearest_area(polygon);
     change_ += area(polygon);
-    result_.pieces.push_back({Shape{std::move(polygon), nullptr, true}, part});
+    result_.pieces.push_back({Shape{std::move(polygon), true}, part});
   }
 
   void add_sliver(const Rational& exact_area) {

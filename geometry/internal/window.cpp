@@ -7,14 +7,9 @@
 namespace polynya::geometry {
 namespace {
 
-std::size_t wrapped(int i, std::size_t size) {
-  const auto at = static_cast<std::size_t>(i);
-  return at < size ? at : at - size;
-}
-
 class Marker {
  public:
-  explicit Marker(const ShapeRings& shape) : shape_(shape), rings_(shape.rings()) {
+  explicit Marker(const Rings& rings) : rings_(rings) {
     for (int r = 0; r < rings_.count(); ++r) is_near_.emplace_back(rings_[r].size(), 0);
   }
 
@@ -22,7 +17,6 @@ class Marker {
     is_near_[static_cast<std::size_t>(ring)][static_cast<std::size_t>(index)] = 1;
   }
 
-  // A tool's points are doubles, and edges without double ends are in the window anyway.
   void mark_near_tool(const std::vector<exact::SourceSegment>& tool) {
     std::vector<Edge> edges;
     Ring ends;
@@ -43,26 +37,16 @@ class Marker {
 
   // Where rings touch, the pieces' boundaries may have to be parted: all of it belongs to the window.
   void mark_touches() {
-    const std::vector<Edge> edges = edges_of(shape_.nearest());
-    const auto is_double = [&](const Edge& e) { return shape_.has_double_ends({e.ring, e.index}); };
+    const std::vector<Edge> edges = edges_of(rings_.polygon());
     EdgeTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
       const Edge& e = edges[i];
       const Edge& f = edges[j];
       if (e.ring == f.ring) return true;
-      if (is_double(e) && is_double(f) && meet(e.a, e.b, f.a, f.b).kind == Meeting::kNone) return true;
+      if (meet(e.a, e.b, f.a, f.b).kind == Meeting::kNone) return true;
       mark(e.ring, e.index);
       mark(f.ring, f.index);
       return true;
     });
-  }
-
-  void mark_rationals() {
-    for (int r = 0; r < rings_.count(); ++r) {
-      const int n = static_cast<int>(rings_[r].size());
-      for (int i = 0; i < n; ++i) {
-        if (!shape_.has_double_ends({r, i})) mark(r, i);
-      }
-    }
   }
 
   Window window() const {
@@ -100,49 +84,16 @@ class Marker {
       window.chain_before[first_near] = static_cast<int>(window.chains.size()) - 1;
   }
 
-  const ShapeRings& shape_;
-  Rings rings_;
+  const Rings& rings_;
   std::vector<std::vector<char>> is_near_;
 };
 
 }  // namespace
 
-ShapeRings::ShapeRings(const Shape& shape) : shape_(shape) {
-  if (!shape.exact) return;
-  rounded_ = exact::rounded(*shape.exact);
-  for (int r = 0; r < rings().count(); ++r) {
-    is_rational_.emplace_back();
-    const Ring& ring = rings()[r];
-    for (int i = 0; i < static_cast<int>(ring.size()); ++i)
-      is_rational_.back().push_back(exact::exactly(ring[static_cast<std::size_t>(i)]) == point(r, i) ? 0 : 1);
-  }
-}
-
-exact::Point ShapeRings::point(int ring, int i) const {
-  const std::size_t at = wrapped(i, rings()[ring].size());
-  if (!shape_.exact) return exact::exactly(rings()[ring][at]);
-  return ring == 0 ? shape_.exact->outer[at] : shape_.exact->holes[static_cast<std::size_t>(ring) - 1][at];
-}
-
-bool ShapeRings::is_double(int ring, int i) const {
-  if (is_rational_.empty()) return true;
-  const std::vector<char>& is_rational = is_rational_[static_cast<std::size_t>(ring)];
-  return is_rational[wrapped(i, is_rational.size())] == 0;
-}
-
-bool ShapeRings::has_double_ends(EdgeId e) const {
-  return is_double(e.ring, e.index) && is_double(e.ring, e.index + 1);
-}
-
-exact::Polygon ShapeRings::exactly() const {
-  return shape_.exact ? *shape_.exact : exact::exactly(shape_.polygon);
-}
-
-Window open_window(const ShapeRings& shape, const std::vector<exact::SourceSegment>& tool) {
+Window open_window(const Rings& shape, const std::vector<exact::SourceSegment>& tool) {
   Marker marker(shape);
   marker.mark_near_tool(tool);
-  marker.mark_rationals();
-  if (shape.rings().count() > 1) marker.mark_touches();
+  if (shape.count() > 1) marker.mark_touches();
   return marker.window();
 }
 

@@ -27,7 +27,8 @@ tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
 Balance balance_window(const WindowCut& cut, const std::vector<WindowPiece>& pieces) {
   Balance balance;
   for (const EdgeId e : cut.window.near)
-    balance.defect -= shoelace_term(cut.shape.point(e.ring, e.index), cut.shape.point(e.ring, e.index + 1));
+    balance.defect -=
+        shoelace_term(cut.shape.exact_point(e.ring, e.index), cut.shape.exact_point(e.ring, e.index + 1));
   for (const WindowPiece& piece : pieces) {
     for (const WindowPieceRing& ring : piece.rings) {
       for_each_near_edge(ring.steps, [&](int from, int to) {
@@ -101,7 +102,7 @@ std::vector<Segment> far_edges_near(const WindowCut& cut, const std::vector<Segm
   std::vector<EdgeId> arranged = cut.window.near;
   std::sort(arranged.begin(), arranged.end(), less);
   std::vector<Segment> far;
-  const Rings rings = cut.shape.rings();
+  const Rings& rings = cut.shape;
   for (const EdgeId e : edges_near(rings, bounding_box(ends))) {
     if (std::binary_search(arranged.begin(), arranged.end(), e, less)) continue;
     far.push_back({rings.point(e.ring, e.index), rings.point(e.ring, e.index + 1)});
@@ -124,19 +125,6 @@ bool is_cleanly_rounded(const WindowCut& cut, const std::vector<WindowPiece>& pi
   return true;
 }
 
-/// Of the shape, whose rationals may differ from their nearest doubles.
-double area_before(const WindowCut& cut) {
-  const Rings rings = cut.shape.rings();
-  Rational kept = 0;  // twice what they differ by
-  for (const EdgeId e : cut.window.near) {
-    if (cut.shape.has_double_ends(e)) continue;
-    kept += shoelace_term(cut.shape.point(e.ring, e.index), cut.shape.point(e.ring, e.index + 1)) -
-            shoelace_term(exact::exactly(rings.point(e.ring, e.index)),
-                          exact::exactly(rings.point(e.ring, e.index + 1)));
-  }
-  return area_of(cut.shape.nearest()) + exact::nearest_double(kept / 2);
-}
-
 void round_vertices(WindowCut& cut) {
   for (const exact::Point& p : cut.overlay.graph.points) {
     cut.nearest.push_back(exact::rounded(p));
@@ -156,8 +144,8 @@ std::optional<CutOutcome> round_in_window(WindowCut& cut, const exact::Classifie
   }
   const Balance balance = balance_window(cut, *plans);
   if (balance.defect != 0) return {};
-  if (!is_cleanly_rounded(cut, *plans)) return round_exactly(cut, *plans, exact::area(cut.shape.exactly()));
-  return take_as_planned(std::move(*plans), area_before(cut), balance);
+  if (!is_cleanly_rounded(cut, *plans)) return round_exactly(cut, *plans, exact::area(cut.shape.polygon()));
+  return take_as_planned(std::move(*plans), area_of(cut.shape.polygon()), balance);
 }
 
 bool has_inside(const WindowCut& cut, const exact::Classifier& classify) {
@@ -165,15 +153,15 @@ bool has_inside(const WindowCut& cut, const exact::Classifier& classify) {
     if (boundary.label == 1) return true;
   }
   if (cut.window.far_rings.empty() || cut.window.far_rings.front() != 0) return false;
-  return classify({1, winding_left_of(cut.tool, cut.shape.point(0, 0))}) == 1;
+  return classify({1, winding_left_of(cut.tool, cut.shape.exact_point(0, 0))}) == 1;
 }
 
 }  // namespace
 
 std::optional<CutOutcome> cut_by_polygons_in_window(const Shape& shape,
                                                     const std::vector<Polygon>& tools_in_body) {
-  const ShapeRings rings(shape);
-  const Box box = bounding_box(rings.nearest().outer);
+  const Rings rings(shape.polygon);
+  const Box box = bounding_box(shape.polygon.outer);
   std::vector<SourceSegment> tool;
   for (const Polygon& polygon : tools_in_body) {
     if (overlaps(bounding_box(polygon.outer), box)) append_segments(tool, exact::exactly(polygon), 1);
@@ -192,7 +180,7 @@ std::optional<CutOutcome> cut_by_polygons_in_window(const Shape& shape,
 
 std::optional<CutOutcome> cut_along_in_window(const Shape& shape,
                                               const std::vector<Point>& polyline_in_body) {
-  const ShapeRings rings(shape);
+  const Rings rings(shape.polygon);
   std::vector<SourceSegment> tool;
   for (std::size_t i = 1; i < polyline_in_body.size(); ++i) {
     const Point from = polyline_in_body[i - 1];

@@ -23,19 +23,19 @@ bool precedes(const exact::Point& a, const exact::Point& b) {
 
 // Strictly inside a valid polygon on whose boundary the point is not? Nearest doubles decide wherever they
 // can.
-bool is_inside(const ShapeRings& shape, const exact::Point& p) {
+bool is_inside(const Rings& shape, const exact::Point& p) {
   const Point near_p = exact::rounded(p);
   bool inside = false;
-  for (int r = 0; r < shape.rings().count(); ++r) {
-    const Ring& ring = shape.rings()[r];
+  for (int r = 0; r < shape.count(); ++r) {
+    const Ring& ring = shape[r];
     for (int i = 0; i < static_cast<int>(ring.size()); ++i) {
       const Point near_a = ring[at(i)];
-      const Point near_b = shape.rings().point(r, i + 1);
+      const Point near_b = shape.point(r, i + 1);
       if ((near_a.y > near_p.y && near_b.y > near_p.y) || (near_a.y < near_p.y && near_b.y < near_p.y))
         continue;
       if (near_a.x > near_p.x && near_b.x > near_p.x) continue;
-      const exact::Point a = shape.point(r, i);
-      const exact::Point b = shape.point(r, i + 1);
+      const exact::Point a = shape.exact_point(r, i);
+      const exact::Point b = shape.exact_point(r, i + 1);
       if ((a.y > p.y) == (b.y > p.y)) continue;
       const bool is_left = (orientation(a, b, p) > 0) == (a.y > b.y);
       if (is_left) inside = !inside;
@@ -48,7 +48,7 @@ bool is_inside(const ShapeRings& shape, const exact::Point& p) {
 // are walked as if the whole shape had been arranged.
 class Faces {
  public:
-  Faces(const ShapeRings& shape, const Window& window, const std::vector<SourceSegment>& segments,
+  Faces(const Rings& shape, const Window& window, const std::vector<SourceSegment>& segments,
         const std::vector<SourceSegment>& tool, bool tool_winds)
       : shape_(shape),
         window_(window),
@@ -353,7 +353,7 @@ class Faces {
     return ring;
   }
 
-  const ShapeRings& shape_;
+  const Rings& shape_;
   const Window& window_;
   const std::vector<SourceSegment>& segments_;
   const std::vector<SourceSegment>& tool_;
@@ -382,13 +382,13 @@ int winding_left_of(const std::vector<SourceSegment>& tool, const exact::Point& 
   return winding;
 }
 
-std::optional<WindowOverlay> overlay_in_window(const ShapeRings& shape, const Window& window,
+std::optional<WindowOverlay> overlay_in_window(const Rings& shape, const Window& window,
                                                const std::vector<SourceSegment>& tool,
                                                const exact::Classifier& classify, Seams seams) {
   std::vector<SourceSegment> segments;
   segments.reserve(window.near.size() + tool.size());
   for (const EdgeId e : window.near)
-    segments.push_back({shape.point(e.ring, e.index), shape.point(e.ring, e.index + 1), 0});
+    segments.push_back({shape.exact_point(e.ring, e.index), shape.exact_point(e.ring, e.index + 1), 0});
   segments.insert(segments.end(), tool.begin(), tool.end());
   Faces faces(shape, window, segments, tool, seams == Seams::kDissolve);
   if (!faces.build(classify, seams)) return {};

@@ -36,7 +36,7 @@ struct WindowOverlay {
 
 /// What exact::overlay gives, up to the far rings and to which holes belong to which region. The tool's
 /// segments wind (polygons) or do not (a crack). None where the graph is not what a valid shape makes.
-std::optional<WindowOverlay> overlay_in_window(const ShapeRings& shape, const Window& window,
+std::optional<WindowOverlay> overlay_in_window(const Rings& shape, const Window& window,
                                                const std::vector<exact::SourceSegment>& tool,
                                                const exact::Classifier& classify, exact::Seams seams);
 

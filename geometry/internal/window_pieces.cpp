@@ -16,19 +16,19 @@ std::size_t at(int i) {
 template <typename Append>
 void for_each_inner(const WindowCut& cut, const WindowStep& step, Append append) {
   const FarChain& chain = cut.window.chains[at(step.chain)];
-  const int n = static_cast<int>(cut.shape.rings()[chain.ring].size());
+  const int n = static_cast<int>(cut.shape[chain.ring].size());
   for (int k = 1; k < chain.count; ++k)
     append(chain.ring, (chain.first + (step.is_forward ? k : chain.count - k)) % n);
 }
 
 Ring write(const WindowCut& cut, const WindowPieceRing& ring) {
-  if (ring.far_ring >= 0) return cut.shape.rings()[ring.far_ring];
+  if (ring.far_ring >= 0) return cut.shape[ring.far_ring];
   Ring points;
   for (const WindowStep& step : ring.steps) {
     if (step.chain < 0) {
       points.push_back(cut.nearest[at(step.vertex)]);
     } else {
-      for_each_inner(cut, step, [&](int r, int i) { points.push_back(cut.shape.rings().point(r, i)); });
+      for_each_inner(cut, step, [&](int r, int i) { points.push_back(cut.shape.point(r, i)); });
     }
   }
   return points;
@@ -37,15 +37,15 @@ Ring write(const WindowCut& cut, const WindowPieceRing& ring) {
 exact::Ring write_exactly(const WindowCut& cut, const WindowPieceRing& ring) {
   exact::Ring points;
   if (ring.far_ring >= 0) {
-    const int n = static_cast<int>(cut.shape.rings()[ring.far_ring].size());
-    for (int i = 0; i < n; ++i) points.push_back(cut.shape.point(ring.far_ring, i));
+    const int n = static_cast<int>(cut.shape[ring.far_ring].size());
+    for (int i = 0; i < n; ++i) points.push_back(cut.shape.exact_point(ring.far_ring, i));
     return points;
   }
   for (const WindowStep& step : ring.steps) {
     if (step.chain < 0) {
       points.push_back(cut.overlay.graph.points[at(step.vertex)]);
     } else {
-      for_each_inner(cut, step, [&](int r, int i) { points.push_back(cut.shape.point(r, i)); });
+      for_each_inner(cut, step, [&](int r, int i) { points.push_back(cut.shape.exact_point(r, i)); });
     }
   }
   return points;
@@ -141,7 +141,7 @@ class Planner {
       if (components_[i] != group.component && holds(boxes_[i], box)) candidates.push_back(i);
     }
     if (candidates.size() == 1) return candidates.front();
-    const exact::Point p = ring.far_ring >= 0 ? cut_.shape.point(ring.far_ring, 0)
+    const exact::Point p = ring.far_ring >= 0 ? cut_.shape.exact_point(ring.far_ring, 0)
                                               : cut_.overlay.graph.points[at(first_vertex(ring.steps))];
     std::optional<std::size_t> home;
     for (const std::size_t i : candidates) {
@@ -182,7 +182,7 @@ std::optional<std::vector<WindowPiece>> plan_pieces(const WindowCut& cut, const 
     std::vector<WindowPieceRing> rings;
     rings.push_back(written(cut, {}, r));
     if (rings.front().turn != (r == 0 ? 1 : -1)) return {};
-    const int label = r == 0 ? classify({1, winding_left_of(cut.tool, cut.shape.point(0, 0))}) : 0;
+    const int label = r == 0 ? classify({1, winding_left_of(cut.tool, cut.shape.exact_point(0, 0))}) : 0;
     if (!planner.add(std::move(rings), label, component++)) return {};
   }
   return planner.pieces();

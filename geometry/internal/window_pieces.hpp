@@ -24,7 +24,7 @@ struct WindowPiece {
 
 /// Everything a cut in a window has found out.
 struct WindowCut {
-  const ShapeRings& shape;
+  const Rings& shape;
   const Window& window;
   const std::vector<exact::SourceSegment>& tool;
   WindowOverlay overlay;

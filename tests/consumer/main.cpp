@@ -19,8 +19,9 @@ int main(int count, char** words) {
   const auto ledger = simulation.area_ledger();
 
   const polynya::geometry::Polygon square{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}};
-  const auto cut = polynya::geometry::cut_along({square, nullptr}, {{5, -1}, {5, 11}});
-  const double length = polynya::fracture::characteristic_length(loaded->scene.ice, loaded->scene.water.water);
+  const auto cut = polynya::geometry::cut_along({square}, {{5, -1}, {5, 11}});
+  const double length =
+      polynya::fracture::characteristic_length(loaded->scene.ice, loaded->scene.water.water);
   std::printf("%.0f m2 of ice after %g s, %zu pieces, l = %.3f m\n", ledger.floe_area, simulation.time(),
               cut ? cut->pieces.size() : 0, length);
   return cut && cut->pieces.size() == 2 && std::abs(ledger.imbalance) < 1e-6 ? 0 : 1;

@@ -31,7 +31,7 @@ CutOutcome cut_and_check(const Shape& shape, const Knife& knife) {
   require(trials::is_sound(shape, outcome), shape, knife);
   const bool was_tried = outcome || outcome.error().reason == CutFailure::kMisses ||
                          outcome.error().reason == CutFailure::kDoesNotSeparate;
-  if (!was_tried || shape.exact) return outcome;
+  if (!was_tried) return outcome;
   const exact::Polygon exact_shape = exact::exactly(shape.polygon);
   require(
       trials::are_equal(outcome, knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
@@ -40,17 +40,16 @@ CutOutcome cut_and_check(const Shape& shape, const Knife& knife) {
   return outcome;
 }
 
-// What the general path covers: several polygons, cracks that cross themselves, shapes kept exact.
-void cut_in_window_and_check(Dice& dice, Shape shape) {
-  if (!shape.exact && dice.below(2) == 1) shape = trials::roll_exact_piece(dice, shape);
+// What the general path covers: several polygons, cracks that cross themselves.
+void cut_in_window_and_check(Dice& dice, const Shape& shape) {
   const trials::ManyKnives knives = trials::roll_knives(dice, shape.polygon);
   if (!knives.is_crack && knives.polygons.empty()) return;
   const std::optional<CutOutcome> outcome = trials::cut_in_window(shape, knives);
   testing::AssertionResult held = outcome ? trials::is_sound(shape, *outcome) : testing::AssertionFailure();
   if (held) held = trials::are_equal(*outcome, trials::cut_generally(shape, knives));
   if (held) return;
-  std::fprintf(stderr, "%s\n%s%s%s\n", held.message(), trials::to_code(shape.polygon).c_str(),
-               shape.exact ? " exact" : "", trials::to_code(knives).c_str());
+  std::fprintf(stderr, "%s\n%s%s\n", held.message(), trials::to_code(shape.polygon).c_str(),
+               trials::to_code(knives).c_str());
   std::abort();
 }
 
@@ -58,13 +57,15 @@ void cut_in_window_and_check(Dice& dice, Shape shape) {
 void cut_past_the_checks(Dice& dice, Shape shape) {
   shape.known_valid = true;
   const trials::ManyKnives knives = trials::roll_knives(dice, shape.polygon);
-  static_cast<void>(knives.is_crack ? cut_along(shape, knives.crack) : cut_by_polygons(shape, knives.polygons));
+  static_cast<void>(knives.is_crack ? cut_along(shape, knives.crack)
+                                    : cut_by_polygons(shape, knives.polygons));
 }
 
 void tell_story(Dice dice) {
   Shape shape{trials::roll_floe(dice)};
   if (const auto found = find_defect(shape.polygon)) {
-    if (found->defect != Defect::kNotFinite && shape.polygon.outer.size() > 2) cut_past_the_checks(dice, shape);
+    if (found->defect != Defect::kNotFinite && shape.polygon.outer.size() > 2)
+      cut_past_the_checks(dice, shape);
     return;
   }
   if (dice.below(4) == 0) return cut_in_window_and_check(dice, shape);

@@ -30,7 +30,7 @@ CutOutcome cut(const Shape& shape, const Knife& knife) {
 }
 
 CutOutcome cut_generally(const Shape& shape, const Knife& knife) {
-  const exact::Polygon exact_shape = shape.exact ? *shape.exact : exact::exactly(shape.polygon);
+  const exact::Polygon exact_shape = exact::exactly(shape.polygon);
   return knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
                        : cut_along_generally(exact_shape, knife.points);
 }
@@ -82,8 +82,7 @@ TEST(Laws, LocalEqualsGeneral) {
     RC_PRE(outcome || outcome.error().reason != CutFailure::kInvalidTool);
     require(are_equal(outcome, cut_generally(shape, knife)), shape, knife);
     ++cuts;
-    if (!shape.exact && outcome)
-      local += cut_locally(shape.polygon, {knife.points, knife.is_ring}).has_value() ? 1 : 0;
+    if (outcome) local += cut_locally(shape.polygon, {knife.points, knife.is_ring}).has_value() ? 1 : 0;
   });
   EXPECT_GT(4 * local, cuts) << "the law would be empty if the local path seldom answered";
 }
@@ -98,7 +97,7 @@ bool has_subnormals(const Ring& ring) {
 
 TEST(Laws, QuarterTurnsAndPowersOfTwoCommuteWithTheCut) {
   check("cut(turn(x)) = turn(cut(x))", [](const Shape& shape, const Knife& knife) {
-    RC_PRE(!shape.exact && !has_subnormals(shape.polygon.outer) && !has_subnormals(knife.points));
+    RC_PRE(!has_subnormals(shape.polygon.outer) && !has_subnormals(knife.points));
     const auto turned_ring = [](Ring ring) {
       for (Point& p : ring) p = {-4 * p.y, 4 * p.x};
       return ring;
@@ -112,7 +111,7 @@ TEST(Laws, QuarterTurnsAndPowersOfTwoCommuteWithTheCut) {
     const CutOutcome second = cut(Shape{turned(shape.polygon)}, {knife.is_ring, turned_ring(knife.points)});
     if (first) {
       RC_PRE(first->ledger.slivers == 0 &&
-             first->ledger.kept_exact == 0);  // judged by boxes, which turning changes
+             first->ledger.snap_rounded == 0);  // judged by boxes, which turning changes
       for (Piece& piece : first->pieces) piece.shape.polygon = turned(piece.shape.polygon);
       first->ledger.rounding_defect *= 16;
       first->ledger.dangling_length *= 4;

@@ -29,7 +29,7 @@ exact::Ring canonical(exact::Ring ring) {
 
 // The outer ring, then the holes in order, each from its lowest vertex on.
 std::vector<exact::Ring> canonical(const Shape& shape) {
-  const exact::Polygon polygon = shape.exact ? *shape.exact : exact::exactly(shape.polygon);
+  const exact::Polygon polygon = exact::exactly(shape.polygon);
   std::vector<exact::Ring> rings;
   for (const exact::Ring& hole : polygon.holes) rings.push_back(canonical(hole));
   std::sort(rings.begin(), rings.end(), ring_precedes);
@@ -46,7 +46,7 @@ exact::Rational half_step(double value) {
 }  // namespace
 
 exact::Rational exact_area(const Shape& shape) {
-  return shape.exact ? exact::area(*shape.exact) : exact::area(shape.polygon);
+  return exact::area(shape.polygon);
 }
 
 testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome) {
@@ -60,7 +60,6 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   for (const Piece& piece : outcome->pieces) {
     sum += exact_area(piece.shape);
     if (exact_area(piece.shape) <= 0) return testing::AssertionFailure() << "a piece of no area";
-    if (piece.shape.exact) continue;
     if (const auto found = find_defect(piece.shape.polygon)) {
       return testing::AssertionFailure() << name_of(found->defect) << ": " << to_code(piece.shape.polygon);
     }
@@ -94,9 +93,9 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
            << name_of(one.error().reason) << " and " << name_of(other.error().reason);
   }
   const auto listed = [](const CutOutcome& outcome) {
-    std::vector<std::tuple<Part, std::vector<exact::Ring>, bool>> pieces;
+    std::vector<std::tuple<Part, std::vector<exact::Ring>>> pieces;
     for (const Piece& piece : outcome->pieces) {
-      pieces.emplace_back(piece.part, canonical(piece.shape), piece.shape.exact != nullptr);
+      pieces.emplace_back(piece.part, canonical(piece.shape));
     }
     std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
       if (std::get<0>(a) != std::get<0>(b)) return std::get<0>(a) < std::get<0>(b);
@@ -115,9 +114,7 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
   for (const CutOutcome* outcome : {&one, &other}) {
     failure << "\n--";
     for (const Piece& piece : (*outcome)->pieces)
-      failure << "\n"
-              << static_cast<int>(piece.part) << (piece.shape.exact ? " exact " : " ")
-              << to_code(piece.shape.polygon);
+      failure << "\n" << static_cast<int>(piece.part) << " " << to_code(piece.shape.polygon);
   }
   return failure;
 }
@@ -128,26 +125,9 @@ std::optional<CutOutcome> cut_in_window(const Shape& shape, const ManyKnives& kn
 }
 
 CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives) {
-  const exact::Polygon exact_shape = shape.exact ? *shape.exact : exact::exactly(shape.polygon);
+  const exact::Polygon exact_shape = exact::exactly(shape.polygon);
   return knives.is_crack ? cut_along_generally(exact_shape, knives.crack)
                          : cut_by_polygons_generally(exact_shape, knives.polygons);
-}
-
-Shape roll_exact_piece(Dice& dice, const Shape& shape) {
-  const Knife knife = roll_knife(dice, shape.polygon);
-  std::vector<exact::SourceSegment> segments;
-  append_segments(segments, exact::exactly(shape.polygon), 0);
-  for (std::size_t i = knife.is_ring ? 0 : 1; i < knife.points.size(); ++i) {
-    const Point from = knife.points[i == 0 ? knife.points.size() - 1 : i - 1];
-    if (from != knife.points[i])
-      segments.push_back({exact::exactly(from), exact::exactly(knife.points[i]), 1});
-  }
-  const auto inside = [](exact::Winding w) { return w.shape > 0 ? 0 : -1; };
-  exact::Overlay overlay = exact::overlay(segments, inside, exact::Seams::kKeep);
-  const auto i = static_cast<std::size_t>(dice.below(static_cast<int>(overlay.regions.size())));
-  exact::Polygon& piece = overlay.regions[i].polygon;
-  Polygon looks = exact::rounded(piece);
-  return {std::move(looks), std::make_shared<const exact::Polygon>(std::move(piece)), true};
 }
 
 std::string to_code(const ManyKnives& knives) {

@@ -26,10 +26,6 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
 std::optional<CutOutcome> cut_in_window(const Shape& shape, const ManyKnives& knives);
 CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives);
 
-/// A piece of the shape as a cut leaves it before rounding, kept exact; the shape itself where the knife
-/// rolled does not cut it.
-Shape roll_exact_piece(Dice& dice, const Shape& shape);
-
 /// Vertices as C++ that can be pasted into a fixture.
 std::string to_code(const Polygon& polygon);
 std::string to_code(const Ring& ring);

@@ -37,7 +37,7 @@ void check(const char* name, Law law) {
 }
 
 void require_same(const Shape& shape, const ManyKnives& knives) {
-  const std::string story = to_code(shape.polygon) + (shape.exact ? " exact" : "") + to_code(knives);
+  const std::string story = to_code(shape.polygon) + to_code(knives);
   const std::optional<CutOutcome> window = cut_in_window(shape, knives);
   if (!window) RC_FAIL("the window gives no answer\n" + story);
   const testing::AssertionResult sound = is_sound(shape, *window);
@@ -50,18 +50,6 @@ TEST(WindowCut, EqualsTheWholeOverlay) {
   check("several polygons with holes, cracks that cross themselves", [](Dice& dice) {
     const Shape shape{roll_floe(dice)};
     RC_PRE(!find_defect(shape.polygon));
-    const ManyKnives knives = roll_knives(dice, shape.polygon);
-    RC_PRE(knives.is_crack || !knives.polygons.empty());
-    require_same(shape, knives);
-  });
-}
-
-TEST(WindowCut, EqualsTheWholeOverlayOfShapesKeptExact) {
-  check("shapes that never were rounded", [](Dice& dice) {
-    Shape shape{roll_floe(dice)};
-    RC_PRE(!find_defect(shape.polygon));
-    shape = roll_exact_piece(dice, shape);
-    RC_PRE(shape.exact != nullptr);
     const ManyKnives knives = roll_knives(dice, shape.polygon);
     RC_PRE(knives.is_crack || !knives.polygons.empty());
     require_same(shape, knives);
@@ -92,13 +80,13 @@ TEST(WindowCut, ArrangesOnlyWhatIsNearTheTool) {
                                    {disc_polygon({-60, 10}, 9, 0.02), {}}};
   std::vector<exact::SourceSegment> tool;
   for (const Polygon& polygon : tools) append_segments(tool, exact::exactly(polygon), 1);
-  const ShapeRings rings(shape);
+  const Rings rings(shape.polygon);
   const Window window = open_window(rings, tool);
   EXPECT_LT(window.near.size(), 250u);
   EXPECT_EQ(window.far_rings.size(), 18u);
   std::size_t edges = window.near.size();
   for (const FarChain& chain : window.chains) edges += static_cast<std::size_t>(chain.count);
-  for (const int r : window.far_rings) edges += rings.rings()[r].size();
+  for (const int r : window.far_rings) edges += rings[r].size();
   EXPECT_EQ(edges, vertex_count(shape.polygon));
   const auto outcome = cut_by_polygons_in_window(shape, tools);
   ASSERT_TRUE(outcome);

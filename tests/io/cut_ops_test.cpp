@@ -109,7 +109,8 @@ TEST(CutReport, TheLedgerHasItsKeysAndAddsUp) {
     floe.area = area;
     floe.removed = 1;
     floe.area_of_pieces = area - 1;
-    floe.pieces.push_back({5, geometry::Part::kInside, area - 1, {{{0, 0}, {1, 0}, {0, 1}}, {}}, area > 15});
+    floe.pieces.push_back({5, geometry::Part::kInside, area - 1, {{{0, 0}, {1, 0}, {0, 1}}, {}}});
+    floe.snap_rounded = area > 15 ? 1 : 0;
   }
   report.floes.emplace_back().rejected = Rejection{"not-finite", "", {{NAN, 1}}};
   const JsonDocument ledger = parse_json(to_ledger_json(report));
@@ -128,7 +129,7 @@ TEST(CutReport, TheLedgerHasItsKeysAndAddsUp) {
   EXPECT_EQ(totals.find("pieces")->number(), 2);
   EXPECT_EQ(totals.find("area_of_pieces_m2")->number() + totals.find("removed_m2")->number(), 30);
   EXPECT_EQ(totals.find("exact_defect_m2")->text(), "0");
-  EXPECT_EQ(totals.find("kept_exact")->number(), 1);
+  EXPECT_EQ(totals.find("snap_rounded")->number(), 1);
   EXPECT_EQ(totals.find("rejected")->number(), 1);
 }
 

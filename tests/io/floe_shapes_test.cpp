@@ -35,7 +35,6 @@ void add(Family& family, FloeId parent, const geometry::Shape& shape) {
   simulation::Birth birth;
   birth.floe = static_cast<FloeId>(family.births.size());
   birth.parent = parent;
-  birth.is_exact = shape.exact == nullptr;
   birth.polygon_in_body = shape.polygon;
   const std::size_t before = family.lines.size();
   append_birth(family.lines, birth,
@@ -53,7 +52,7 @@ Family roll_family(std::mt19937& random, int cuts) {
   geometry::trials::Dice dice(std::move(bytes));
   Family family;
   std::vector<std::pair<FloeId, geometry::Shape>> living;
-  geometry::Shape first{geometry::trials::roll_floe(dice), nullptr};
+  geometry::Shape first{geometry::trials::roll_floe(dice)};
   if (geometry::find_defect(first.polygon)) return family;
   add(family, simulation::kNoFloe, first);
   living.emplace_back(0, std::move(first));

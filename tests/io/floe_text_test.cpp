@@ -51,7 +51,7 @@ TEST(FloeText, EveryFormatReadsBackToTheSameDoubles) {
                              : polygon.holes.back())
         .push_back({values[i], values[i + 1]});
   CutReport report;
-  report.floes.emplace_back().pieces.push_back({1, geometry::Part::kOutside, 1, polygon, true});
+  report.floes.emplace_back().pieces.push_back({1, geometry::Part::kOutside, 1, polygon});
   for (const FloeFormat format : {FloeFormat::kGeojson, FloeFormat::kNdjson, FloeFormat::kWkt}) {
     const FloeText floes = read(to_floe_text(report, format));
     ASSERT_EQ(floes.entries.size(), 1U);
@@ -208,7 +208,7 @@ TEST(FloeText, PropertiesAndCrsAreKeptAsWritten) {
     "crs": {"type": "name", "properties": {"name": "EPSG:3413"}}, "features": [
     {"type": "Feature", "properties": {"floe_id": 7, "name": "a  \"b\" // c", "thick_m": 0.70, // a note
       "id": 12345678901234567890, "mean": NaN, "huge": 1e999, "list": [1, /* two */ {"x": -Infinity}],
-      "area_m2": 3, "part": "inside", "parent_id": 1, "is_exact": false}, "geometry": )" +
+      "area_m2": 3, "part": "inside", "parent_id": 1}, "geometry": )" +
                               square + R"(},
     {"type": "Feature", "properties": null, "geometry": )" +
                               square + "}]}");
