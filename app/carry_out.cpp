@@ -12,6 +12,7 @@
 #include "app/failure_dump.hpp"
 #include "app/force_report.hpp"
 #include "app/stop_signal.hpp"
+#include "io/final_map.hpp"
 #include "io/run_folder.hpp"
 #include "io/version.hpp"
 #include "simulation/world.hpp"
@@ -158,7 +159,7 @@ io::RunSummary summarise(const Simulation& simulation, const io::RunWriter& writ
 }
 
 void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
-                  const io::RunWriter& writer) {
+                  const std::filesystem::path& folder, const std::string& picture) {
   const auto& counts = summary.counts;
   const auto& ledger = summary.ledger;
   print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time\n", summary.sim_time, summary.wall_time,
@@ -180,10 +181,8 @@ void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
       summary.audit.kinetic_energy / 1e3,
       summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
   print_out("{}", force_lines(summary, scene));
-  print_out("run folder  {}\n", writer.folder().string());
-  const auto picture =
-      writer.folder() / (writer.has_png() ? io::run_file::kFinalPng : io::run_file::kFinalSvg);
-  print_out("picture     {}\n", picture.string());
+  print_out("run folder  {}\n", folder.string());
+  if (!picture.empty()) print_out("picture     {}\n", (folder / picture).string());
 }
 
 /// What dump_failure() said.
@@ -243,10 +242,18 @@ int carry_out(RunInHand run, const CarryOptions& options) {
   if (is_to_be_dumped && !run.writer.is_displaced()) dumped = dump_failure(run);
   if (const std::string failure = run.writer.finish(summary, run.simulation); !failure.empty())
     stop = {kInputOutput, failure};
+  std::string picture;
+  if (stop.code != kInputOutput) {
+    auto drawn = io::draw_final_map(run.writer.folder());
+    if (drawn)
+      picture = *drawn;
+    else
+      stop = {kInputOutput, drawn.error()};
+  }
   if (stop.code != kDone) report_stop(run, stop, summary.sim_time);
   if (dumped) report_dump(run.writer.folder().string(), *dumped);
   for (const std::string& warning : summary.warnings) print_err("note: {}\n", warning);
-  if (stop.code != kInputOutput) print_result(summary, run.scene.scene, run.writer);
+  if (stop.code != kInputOutput) print_result(summary, run.scene.scene, run.writer.folder(), picture);
   return stop.code;
 }
 

@@ -10,6 +10,7 @@
 #include "app/load_scene.hpp"
 #include "app/stop_signal.hpp"
 #include "io/checkpoint.hpp"
+#include "io/final_map.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
 
@@ -85,11 +86,17 @@ std::string no_run_in(const fs::path& folder) {
   return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
 }
 
+/// A kill between the end of a run and the end of the command leaves checkpoints, or no picture.
 int report_finished(const fs::path& folder) {
   print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
-  if (io::checkpoints_in(folder).empty()) return kDone;
-  if (const auto lock = io::RunLock::take(folder)) io::remove_checkpoints(folder);  // a kill left them
-  return kDone;
+  const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg);
+  if (is_drawn && io::checkpoints_in(folder).empty()) return kDone;
+  const auto lock = io::RunLock::take(folder);
+  if (!lock) return kDone;  // whoever holds it does what is left
+  io::remove_checkpoints(folder);
+  if (is_drawn) return kDone;
+  const auto drawn = io::draw_final_map(folder);
+  return drawn ? kDone : refuse(drawn.error());
 }
 
 int go_on(const io::LoadedScene& scene, io::RunLock lock, const ResumeOptions& options) {

@@ -75,12 +75,8 @@ void fields(Archive& archive, Is<FrameEncoder::Told> auto& t) {
   archive(t.time, t.motion);
 }
 template <class Archive>
-void fields(Archive& archive, Is<Picture::Fracture> auto& f) {
-  archive(f.point_in_world, f.kind);
-}
-template <class Archive>
 void fields(Archive& archive, Is<RunProgress> auto& p) {
-  archive(p.file_sizes, p.told, p.tracks, p.fractures, p.peaks);
+  archive(p.file_sizes, p.told, p.peaks);
 }
 
 std::string checkpoint_file_of(std::string_view payload) {
@@ -113,10 +109,6 @@ tl::expected<Checkpoint, std::string> read_checkpoint(std::string_view bytes) {
   simulation::ByteReader reader(payload);
   fields(reader, checkpoint);
   reader.require(reader.is_at_end(), "more bytes than it should have");
-  const auto is_known = [](const Picture::Fracture& fracture) {
-    return fracture.kind == simulation::EventKind::kBend || fracture.kind == simulation::EventKind::kSplit;
-  };
-  reader.require(std::ranges::all_of(checkpoint.progress.fractures, is_known), "a fracture of no kind");
   reader.require(checkpoint.steps >= 0, "a number of steps that cannot be");
   if (!reader.is_well()) return fail("damaged: " + reader.failure());
   return checkpoint;

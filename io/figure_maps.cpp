@@ -7,9 +7,8 @@
 #include "io/moment.hpp"
 
 namespace polynya::io {
-namespace {
 
-Picture picture_of(const Run& run, const MotionIndex& motions, double time) {
+Picture picture_at(const Run& run, const MotionIndex& motions, double time) {
   Picture picture;
   const simulation::Scene& scene = run.scene.scene;
   for (const auto& floe : scene.floes) picture.ice_at_start.push_back(floe.polygon_in_world);
@@ -20,15 +19,23 @@ Picture picture_of(const Run& run, const MotionIndex& motions, double time) {
     for (const double t : frame_times_until(run, time))
       drawn.track.push_back(ship_pose_at(run, motions, ship, t).position);
     picture.ships.push_back(std::move(drawn));
-    if (std::holds_alternative<simulation::FixedInPlace>(scene.ships[ship].propulsion)) continue;
-    if (const auto channel = measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0}))
-      picture.channel.insert(picture.channel.end(), channel->open_water.begin(), channel->open_water.end());
   }
   for (const simulation::Event& event : run.events) {
     if (event.time <= time && event.kind != simulation::EventKind::kRejectedCut)
       picture.fractures.push_back({event.point_in_world, event.kind});
   }
   return picture;
+}
+
+namespace {
+
+void add_channels(Picture& picture, const Run& run, double time) {
+  const simulation::Scene& scene = run.scene.scene;
+  for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
+    if (std::holds_alternative<simulation::FixedInPlace>(scene.ships[ship].propulsion)) continue;
+    if (const auto channel = measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0}))
+      picture.channel.insert(picture.channel.end(), channel->open_water.begin(), channel->open_water.end());
+  }
 }
 
 }  // namespace
@@ -39,7 +46,8 @@ PictureSheet map_figure(const std::vector<Run>& runs, const std::vector<double>&
     const MotionIndex motions(run);
     for (const double wanted : times) {
       const double time = std::clamp(wanted, run.start_time(), run.end_time());
-      Picture picture = picture_of(run, motions, time);
+      Picture picture = picture_at(run, motions, time);
+      add_channels(picture, run, time);
       const auto splits =
           std::ranges::count(picture.fractures, simulation::EventKind::kSplit, &Picture::Fracture::kind);
       picture.title = fmt::format("{}, {:.4g} s", run.label, time);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/chart.hpp"
+#include "io/motion_index.hpp"
 #include "io/picture.hpp"
 #include "io/run_reader.hpp"
 #include "io/shown_loads.hpp"
@@ -12,6 +13,9 @@ namespace polynya::io {
 
 /// Figures of one run, or of several side by side, each under its label, after Figs. 4–7 of [Sawamura2017]
 /// (docs/figures.md).
+
+/// A run's floes, hulls, tracks and fractures at a time [s].
+Picture picture_at(const Run& run, const MotionIndex& motions, double time);
 
 /// Floes, hulls, tracks and channel of each run at each time [s].
 PictureSheet map_figure(const std::vector<Run>& runs, const std::vector<double>& times);

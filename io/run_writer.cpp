@@ -92,8 +92,8 @@ tl::expected<RunWriter, std::string> RunWriter::go_on(RunLock lock, const Loaded
   const auto is_of_scene = [columns = peak_columns(scene.scene).size()](const ShipPeaks& peaks) {
     return peaks.of_column.size() == columns;
   };
-  if (progress.file_sizes.size() != kGrowing.size() || progress.tracks.size() != ships ||
-      progress.peaks.size() != ships || !std::ranges::all_of(progress.peaks, is_of_scene))
+  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != ships ||
+      !std::ranges::all_of(progress.peaks, is_of_scene))
     return tl::unexpected(fmt::format("{}: the checkpoint is of another run", folder.string()));
   for (std::size_t i = 0; i < kGrowing.size(); ++i)  // before any is cut back
     if (std::string problem = shortcoming(folder / kGrowing[i], progress.file_sizes[i]); !problem.empty())
@@ -108,8 +108,6 @@ tl::expected<RunWriter, std::string> RunWriter::go_on(RunLock lock, const Loaded
   }
   RunWriter writer(scene, std::move(files), std::move(lock));
   writer.frames_ = FrameEncoder(progress.told);
-  writer.tracks_ = progress.tracks;
-  writer.fractures_ = progress.fractures;
   writer.peaks_ = progress.peaks;
   for (const simulation::FloeState& floe : simulation.floe_states())
     writer.know(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
@@ -129,7 +127,6 @@ void RunWriter::know(simulation::FloeId floe, simulation::FloeId parent, geometr
 RunWriter::RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock)
     : scene_(&scene),
       files_(std::move(files)),
-      tracks_(scene.scene.ships.size()),
       peak_columns_(peak_columns(scene.scene)),
       peaks_(scene.scene.ships.size()),
       lock_(std::move(lock)),
@@ -166,8 +163,6 @@ void RunWriter::record(simulation::Journal& journal) {
     append_line(kEvents, [&](std::string& line) {
       append_event(line, event, ship_name(event.ship), parents_[static_cast<std::size_t>(event.floe)]);
     });
-    if (event.kind != simulation::EventKind::kRejectedCut)
-      fractures_.push_back({event.point_in_world, event.kind});
   }
   for (const simulation::ShipContact& contact : journal.ship_contacts) {
     append_line(kEvents, [&](std::string& line) {
@@ -188,7 +183,6 @@ void RunWriter::record(simulation::Journal& journal) {
 void RunWriter::frame(const simulation::Simulation& simulation) {
   std::vector<Motion> ships;
   for (const simulation::ShipState& ship : simulation.ship_states()) {
-    tracks_[ships.size()].push_back(ship.world_from_ship.position);
     ships.push_back({ship.world_from_ship.position, ship.heading, ship.velocity, ship.angular_velocity});
   }
   std::vector<FloeMotion> floes;
@@ -213,8 +207,6 @@ RunProgress RunWriter::sync() {
     progress.file_sizes.push_back(file.size());
   }
   progress.told = frames_.told();
-  progress.tracks = tracks_;
-  progress.fractures = fractures_;
   progress.peaks = peaks_;
   return progress;
 }

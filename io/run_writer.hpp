@@ -11,7 +11,6 @@
 
 #include "io/frames.hpp"
 #include "io/output_file.hpp"
-#include "io/picture.hpp"
 #include "io/run_folder.hpp"
 #include "io/scene_reader.hpp"
 #include "io/shown_loads.hpp"
@@ -24,10 +23,8 @@ struct Checkpoint;
 
 /// What of a run's folder is written, and what the writer has to remember of it to go on.
 struct RunProgress {
-  std::vector<std::uint64_t> file_sizes;             ///< of the files that grow, on disk [bytes]
-  std::vector<FrameEncoder::Told> told;              ///< by floe id
-  std::vector<std::vector<geometry::Point>> tracks;  ///< by ship, one point a frame [m]
-  std::vector<Picture::Fracture> fractures;
+  std::vector<std::uint64_t> file_sizes;  ///< of the files that grow, on disk [bytes]
+  std::vector<FrameEncoder::Told> told;   ///< by floe id
   std::vector<ShipPeaks> peaks;
 };
 
@@ -74,15 +71,14 @@ class RunWriter {
   /// Peaks of the samples so far.
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
-  /// Ends the run: everything buffered, final.geojson, final.svg and final.png (where there is a converter),
-  /// and last summary.json. All of it is on the disk before a summary that says "finished" is, and that one
-  /// before the checkpoints go. Returns what went wrong; empty where all is well.
+  /// Ends the run: everything buffered, final.geojson, and last summary.json. All of it is on the disk before
+  /// a summary that says "finished" is, and that one before the checkpoints go. Returns what went wrong;
+  /// empty where all is well.
   std::string finish(const RunSummary& summary, const simulation::Simulation& simulation);
 
   const std::filesystem::path& folder() const { return lock_.folder(); }
   /// Whether the folder and its files were removed, moved or replaced by another program.
   bool is_displaced() const { return is_displaced_; }
-  bool has_png() const { return has_png_; }
 
  private:
   RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock);
@@ -93,22 +89,18 @@ class RunWriter {
   /// Notes it as the failure if the folder or a file in it has lost its name.
   void check_place();
   std::string_view ship_name(int ship) const;
-  Picture picture(const RunSummary& summary, const simulation::Simulation& simulation) const;
 
   const LoadedScene* scene_;
   std::vector<OutputFile> files_;  ///< in the order they are flushed: what is named before what names it
   FrameEncoder frames_;
-  std::vector<simulation::FloeId> parents_;           ///< by floe id
-  std::vector<geometry::Point> centroids_in_body_;    ///< by floe id [m]
-  std::vector<std::vector<geometry::Point>> tracks_;  ///< by ship, one point a frame [m]
-  std::vector<Picture::Fracture> fractures_;
+  std::vector<simulation::FloeId> parents_;         ///< by floe id
+  std::vector<geometry::Point> centroids_in_body_;  ///< by floe id [m]
   std::vector<const ForceColumn*> peak_columns_;
   std::vector<ShipPeaks> peaks_;
   RunLock lock_;
   std::string line_;
   std::string failure_;  ///< of what is written at once
   std::chrono::steady_clock::time_point last_flush_;
-  bool has_png_ = false;
   bool is_displaced_ = false;
 };
 

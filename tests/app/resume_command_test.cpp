@@ -44,6 +44,17 @@ TEST_F(Resume, GivesTheBytesOfTheRunNobodyInterrupted) {
   EXPECT_NE(again.err.find("finished"), std::string::npos);
 }
 
+/// The map is drawn from the finished folder: a kill may come between.
+TEST_F(Resume, AFinishedRunWithoutItsMapGetsIt) {
+  interrupt();
+  ASSERT_EQ(resume().code, 0);
+  const auto map = folder_ / "run" / io::run_file::kFinalSvg;
+  const std::string drawn = read_file(map);
+  std::filesystem::remove(map);
+  EXPECT_EQ(resume().code, 0);
+  EXPECT_EQ(read_file(map), drawn);
+}
+
 TEST_F(Resume, WhatRunsPastTheCheckpointIsCutBack) {
   interrupt();
   for (const auto name : {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes,

@@ -29,8 +29,6 @@ int main(int count, char** words) {
     checkpoint.steps = until;
     checkpoint.progress.file_sizes = {1, 2, 3, 4, 5, 6};
     checkpoint.progress.told = {{0, {}}, {}};
-    checkpoint.progress.tracks = {{{1, 2}, {3, 4}}};
-    checkpoint.progress.fractures = {{{1, 2}, polynya::simulation::EventKind::kSplit}};
     checkpoint.progress.peaks = {{.ship = "ship"}};
     checkpoint.state = simulation.state();
     checkpoint.state_hash = simulation.state_hash();

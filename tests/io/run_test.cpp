@@ -235,9 +235,8 @@ TEST(Run, TheSameSceneGivesTheSameBytes) {
   const LoadedScene scene = load();
   write_run(scene, folder / "a");
   write_run(scene, folder / "b");
-  for (const auto name :
-       {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames, run_file::kContacts,
-        run_file::kFinalGeojson, run_file::kFinalSvg, run_file::kScene}) {
+  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames,
+                          run_file::kContacts, run_file::kFinalGeojson, run_file::kScene}) {
     EXPECT_EQ(read_file(folder.path() / "a" / name), read_file(folder.path() / "b" / name)) << name;
   }
 }
