@@ -72,8 +72,9 @@ def speed_at(result: dict, time_s: float) -> float:
     return min(result["forces"], key=lambda row: abs(row["t_s"] - time_s))["speed_m_per_s"]
 
 
-def magnitude(row: dict) -> float:
-    return max(abs(row["surge_j_over_tau_c_N"]), abs(row["sway_j_over_tau_c_N"]))
+def peak(rows: list, suffix: str) -> float:
+    """The largest surge or sway of a kind by magnitude: "_N" the mean over 0.1 s, "_max_N" a single step."""
+    return max(max(abs(row["surge" + suffix]), abs(row["sway" + suffix])) for row in rows)
 
 
 def table(head: list, rows: list) -> str:
@@ -87,18 +88,21 @@ def main_table(results: dict) -> str:
         fractures = [e for e in result["events"] if e["kind"] in ("bend", "split")]
         first = fractures[0]["t_s"] if fractures else float("nan")
         # The ship presses on a plate for a moment before it breaks: removal ends 5 s before the first fracture.
-        removal = [magnitude(r) for r in result["forces"] if 0 < r["t_s"] < first - 5]
-        breaking = [magnitude(r) for r in result["forces"] if r["t_s"] >= first]
+        removal = [r for r in result["forces"] if 0 < r["t_s"] < first - 5]
+        breaking = [r for r in result["forces"] if r["t_s"] >= first]
+        loads = [f"{peak(rows, suffix) / unit:.{digits}f}" for suffix, unit, digits in
+                 (("_N", 1e3, 0), ("_max_N", 1e3, 0), ("_j_over_tau_c_N", 1e6, 2)) for rows in (removal, breaking)]
         splits = [e["t_s"] for e in fractures if e["kind"] == "split"]
         widths = widths_in(result, 30, SMALL_FLOES_END_M[name] - 30)
         last = result["forces"][-1]
         rows.append([
             name, f"{first:.0f}", sum(e["kind"] == "bend" for e in fractures), len(splits),
-            ", ".join(f"{t:.0f}" for t in splits), f"{max(removal) / 1e6:.3f}", f"{max(breaking) / 1e6:.2f}",
+            ", ".join(f"{t:.0f}" for t in splits), *loads,
             f"{statistics.mean(widths):.1f}" if widths else "closed", f"{speed_at(result, first):.2f}",
             f"{last['heading_deg']:.0f}", f"{last['x_m']:.0f}"])
-    return table(["scene", "breaking starts, s", "bends", "splits", "splits at, s", "peak j/τ_c removing, MN",
-                  "peak j/τ_c breaking, MN", "channel in the small floes, m", "speed at the plates, m/s",
+    return table(["scene", "breaking starts, s", "bends", "splits", "splits at, s",
+                  "ice force removing, mean over 0.1 s, kN", "breaking", "removing, single step, kN", "breaking",
+                  "j/τ_c removing, MN", "breaking", "channel in the small floes, m", "speed at the plates, m/s",
                   "heading at 550 s, °", "ship at x, m"], rows)
 
 
