@@ -213,6 +213,18 @@ void report_stop(const RunInHand& run, const Stop& stop, double sim_time) {
   }
 }
 
+/// Draws the run's map and returns its name; empty where the folder cannot be read back, or the map not
+/// written, which is a failure of the run's output.
+std::string draw(const std::filesystem::path& folder, Stop& stop) {
+  const auto run = io::read_run(folder);
+  if (!run) print_err("note: no map is drawn: {}\n", run.error());
+  if (!run) return "";
+  auto drawn = io::draw_final_map(*run);
+  if (drawn) return *drawn;
+  stop = {kInputOutput, drawn.error()};
+  return "";
+}
+
 }  // namespace
 
 io::Checkpoint checkpoint_of(const Simulation& simulation, const io::LoadedScene& scene,
@@ -242,14 +254,7 @@ int carry_out(RunInHand run, const CarryOptions& options) {
   if (is_to_be_dumped && !run.writer.is_displaced()) dumped = dump_failure(run);
   if (const std::string failure = run.writer.finish(summary, run.simulation); !failure.empty())
     stop = {kInputOutput, failure};
-  std::string picture;
-  if (stop.code != kInputOutput) {
-    auto drawn = io::draw_final_map(run.writer.folder());
-    if (drawn)
-      picture = *drawn;
-    else
-      stop = {kInputOutput, drawn.error()};
-  }
+  const std::string picture = stop.code == kInputOutput ? "" : draw(run.writer.folder(), stop);
   if (stop.code != kDone) report_stop(run, stop, summary.sim_time);
   if (dumped) report_dump(run.writer.folder().string(), *dumped);
   for (const std::string& warning : summary.warnings) print_err("note: {}\n", warning);

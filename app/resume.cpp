@@ -95,7 +95,9 @@ int report_finished(const fs::path& folder) {
   if (!lock) return kDone;  // whoever holds it does what is left
   io::remove_checkpoints(folder);
   if (is_drawn) return kDone;
-  const auto drawn = io::draw_final_map(folder);
+  const auto run = io::read_run(folder);
+  if (!run) return refuse(run.error());
+  const auto drawn = io::draw_final_map(*run);
   return drawn ? kDone : refuse(drawn.error());
 }
 

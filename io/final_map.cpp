@@ -29,16 +29,13 @@ Picture final_picture(const Run& run) {
 
 }  // namespace
 
-tl::expected<std::string, std::string> draw_final_map(const std::filesystem::path& folder) {
-  const auto run = read_run(folder);
-  if (!run) return tl::unexpected(run.error());
-  const std::string svg = to_svg(final_picture(*run));
-  if (std::string wrong = write_whole_file(folder / run_file::kFinalSvg, svg, Durability::kSynced);
-      !wrong.empty())
+tl::expected<std::string, std::string> draw_final_map(const Run& run) {
+  const std::string svg = to_svg(final_picture(run));
+  const auto file = run.folder / run_file::kFinalSvg;
+  if (std::string wrong = write_whole_file(file, svg, Durability::kSynced); !wrong.empty())
     return tl::unexpected(std::move(wrong));
-  const auto png = folder / run_file::kFinalPng;
-  if (svg.size() > kLargestConverted || !convert_svg(folder / run_file::kFinalSvg, png))
-    return std::string(run_file::kFinalSvg);
+  const auto png = run.folder / run_file::kFinalPng;
+  if (svg.size() > kLargestConverted || !convert_svg(file, png)) return std::string(run_file::kFinalSvg);
   if (std::string wrong = sync_file(png); !wrong.empty()) return tl::unexpected(std::move(wrong));
   return std::string(run_file::kFinalPng);
 }

@@ -1,14 +1,15 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include <tl/expected.hpp>
 
+#include "io/run_reader.hpp"
+
 namespace polynya::io {
 
-/// Reads a run folder, finished or not, and draws its last frame into it: final.svg, and final.png where
-/// there is a converter. Returns the name of the best picture; the error states the file and the reason.
-tl::expected<std::string, std::string> draw_final_map(const std::filesystem::path& folder);
+/// Draws the last frame of a run, finished or not, into its folder: final.svg, and final.png where there is a
+/// converter. Returns the name of the better one; the error names the file that could not be written.
+tl::expected<std::string, std::string> draw_final_map(const Run& run);
 
 }  // namespace polynya::io
