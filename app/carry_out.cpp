@@ -4,17 +4,23 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
+#include <new>
 #include <optional>
+#include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "app/console.hpp"
 #include "app/failure_dump.hpp"
-#include "app/force_report.hpp"
+#include "app/last_whole_step.hpp"
+#include "app/memory_check.hpp"
+#include "app/memory_reserve.hpp"
+#include "app/run_result.hpp"
 #include "app/stop_signal.hpp"
 #include "io/final_map.hpp"
 #include "io/run_folder.hpp"
-#include "io/version.hpp"
 #include "simulation/world.hpp"
 
 namespace polynya::app {
@@ -31,13 +37,22 @@ std::string signal_name(int signal) {
 struct Stop {
   ExitCode code = kDone;
   std::string reason;
+  bool is_out_of_memory = false;
 };
+
+Stop no_memory() {
+  return {kOutOfMemory, "memory", true};
+}
 
 /// Carries a run from where it is to its end, writing as it goes.
 class Carrier {
  public:
   Carrier(RunInHand& run, const CarryOptions& options, Progress& progress)
-      : run_(run), options_(options), progress_(progress), last_checkpoint_(Clock::now()) {
+      : run_(run),
+        options_(options),
+        progress_(progress),
+        last_whole_step_(run.simulation),
+        last_checkpoint_(Clock::now()) {
     const simulation::StepSettings& time = simulation().scene().time;
     const simulation::RecordSettings& record = simulation().scene().record;
     last_step_ = static_cast<std::int64_t>(std::ceil(time.until / time.step - 1e-9));
@@ -46,6 +61,31 @@ class Carrier {
       steps_per_checkpoint_ = std::max<std::int64_t>(1, std::llround(options.checkpoint_every / time.step));
   }
 
+  Stop carry() {
+    try {
+      return advance();
+    } catch (const std::bad_alloc&) {
+      return no_memory();
+    } catch (const std::system_error&) {
+      throw;
+    } catch (const std::runtime_error& no_thread) {  // TBB's, which starts threads when it needs them
+      if (options_.threads == 1) throw;
+      return {kOutOfMemory, no_thread.what(), true};
+    }
+  }
+
+  /// Between two steps: there may be memory for a checkpoint still.
+  Stop stop_without_memory() {
+    try {
+      if (Stop stop = checkpoint(); stop.code != kDone) return stop;
+    } catch (const std::bad_alloc&) {
+    }  // an older one, or the start, has to do
+    return no_memory();
+  }
+
+  const LastWholeStep& last_whole_step() const { return last_whole_step_; }
+
+ private:
   Stop advance() {
     std::int64_t step = simulation().steps();
     if (step == 0) {
@@ -55,16 +95,16 @@ class Carrier {
     while (step < last_step_) {
       simulation().step();
       ++step;
-      writer().record(simulation().journal());
+      take_down_step();
       if (auto failure = failure_of_step()) return {kNumericalFailure, *failure};
       if (step % steps_per_frame_ == 0 || step == last_step_) writer().frame(simulation());
+      if (is_memory_reserve_used()) return stop_without_memory();
       if (const int signal = stop_signal()) return stop_on(signal);
       if (Stop stop = look_around(step); stop.code != kDone) return stop;
     }
     return {};
   }
 
- private:
   Simulation& simulation() { return run_.simulation; }
   io::RunWriter& writer() { return run_.writer; }
 
@@ -72,6 +112,13 @@ class Carrier {
     if (options_.check) return failure_after_step(simulation());
     if (auto failure = simulation().numerical_failure()) return "numerical failure: " + *failure;
     return {};
+  }
+
+  void take_down_step() {
+    simulation::Journal& journal = simulation().journal();
+    const auto more_floes = std::ssize(journal.births) - std::ssize(journal.deaths);
+    writer().record(journal);
+    last_whole_step_.take(simulation(), more_floes);
   }
 
   Stop stop_on(int signal) {
@@ -112,78 +159,12 @@ class Carrier {
   RunInHand& run_;
   const CarryOptions& options_;
   Progress& progress_;
+  LastWholeStep last_whole_step_;
   std::int64_t last_step_ = 0;
   std::int64_t steps_per_frame_ = 1;
   std::int64_t steps_per_checkpoint_ = 0;
   Clock::time_point last_checkpoint_;
 };
-
-std::vector<std::string> warnings_of(const Simulation& simulation, const simulation::Counts& counts) {
-  std::vector<std::string> warnings = ship_contact_warnings(simulation);
-  const auto warn = [&](std::int64_t count, const char* words) {
-    if (count > 0) warnings.push_back(fmt::format("{} {}", count, words));
-  };
-  warn(counts.rejected_cuts, "cuts were rejected; events.ndjson has each with its reason");
-  warn(counts.unconverged_steps, "steps used all sweeps of the impulse solver (contact.iterations)");
-  warn(counts.database_out_of_range, "bending loads lay outside the database's range");
-  if (const simulation::Audit audit = simulation.audit(); !audit.is_closed()) {
-    warnings.push_back(fmt::format(
-        "THE AUDIT IS BROKEN: energy is off by {:.2e} J of {:.2e} J, momentum by {:.2e} N s of {:.2e} N s; "
-        "do not trust this run, and please report it with its failure.bin",
-        audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
-  }
-  if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
-    warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");
-  return warnings;
-}
-
-io::RunSummary summarise(const Simulation& simulation, const io::RunWriter& writer, const Stop& stop,
-                         double wall_time) {
-  io::RunSummary summary;
-  summary.finished = stop.code == kDone;
-  summary.stopped_by = stop.reason;
-  summary.counts = simulation.counts();
-  summary.steps = summary.counts.steps;
-  summary.sim_time = simulation.time();
-  summary.wall_time = wall_time;
-  summary.ledger = simulation.area_ledger();
-  summary.audit = simulation.audit();
-  summary.peaks = writer.peaks();
-  summary.warnings = warnings_of(simulation, summary.counts);
-  for (const std::string& name : writer.overlong())
-    summary.warnings.push_back(
-        fmt::format("{} has more than the {} bytes that inspect, view and the others read; record less (the "
-                    "scene's record)",
-                    name, io::kLongestRunFile));
-  return summary;
-}
-
-void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
-                  const std::filesystem::path& folder, const std::string& picture) {
-  const auto& counts = summary.counts;
-  const auto& ledger = summary.ledger;
-  print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time\n", summary.sim_time, summary.wall_time,
-            summary.real_time_factor());
-  print_out("fractures   {} cusps broken by bending, {} splits, {} rejected cuts\n", counts.bends,
-            counts.splits, counts.rejected_cuts);
-  print_out("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
-  print_out(
-      "ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding "
-      "{:.1e} m2)\n",
-      ledger.initial_ice_area, ledger.floe_area, ledger.submerged_area, ledger.brash_area, ledger.imbalance,
-      ledger.rounding_defect);
-  const simulation::EnergyFlows& energy = summary.audit.sums.energy;
-  print_out(
-      "energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
-      "motion (imbalance {:.1e} of it)\n",
-      (energy.thrust + energy.current + summary.audit.sums.initial_energy) / 1e3, energy.drag / 1e3,
-      energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
-      summary.audit.kinetic_energy / 1e3,
-      summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
-  print_out("{}", force_lines(summary, scene));
-  print_out("run folder  {}\n", folder.string());
-  if (!picture.empty()) print_out("picture     {}\n", (folder / picture).string());
-}
 
 /// What dump_failure() said.
 void report_dump(const std::string& folder, const std::string& wrong) {
@@ -204,7 +185,7 @@ void report_stop(const RunInHand& run, const Stop& stop, double sim_time) {
   if (run.writer.is_displaced()) {
     print_err(
         "polynya: the run is lost unless its folder is elsewhere now, with all its files; resume it there\n");
-  } else if (stop.code == kNumericalFailure) {
+  } else if (stop.code == kNumericalFailure && !stop.is_out_of_memory) {
     print_err("polynya: {} holds the run up to there\n", folder);
   } else if (stop.code == kInputOutput) {
     print_err("polynya: once that is put right, go on with: polynya resume {}\n", folder);
@@ -214,38 +195,31 @@ void report_stop(const RunInHand& run, const Stop& stop, double sim_time) {
 }
 
 /// Draws the run's map and returns its name; empty where the folder cannot be read back, or the map not
-/// written, which is a failure of the run's output.
+/// written, which is a failure of the run's output, or does not fit into memory.
 std::string draw(const std::filesystem::path& folder, Stop& stop) {
-  const auto run = io::read_run(folder);
-  if (!run) print_err("note: no map is drawn: {}\n", run.error());
-  if (!run) return "";
-  auto drawn = io::draw_final_map(*run);
-  if (drawn) return *drawn;
-  stop = {kInputOutput, drawn.error()};
+  try {
+    const auto run = io::read_run(folder);
+    if (!run) print_err("note: no map is drawn: {}\n", run.error());
+    if (!run) return "";
+    auto drawn = io::draw_final_map(*run);
+    if (drawn) return *drawn;
+    stop = {kInputOutput, drawn.error()};
+  } catch (const std::bad_alloc&) {
+    stop = {kOutOfMemory, "the final map: " + out_of_memory(), true};
+  }
   return "";
 }
 
-}  // namespace
+/// What there is to report of a run whose folder is finished.
+struct Ending {
+  Stop stop;
+  io::RunSummary summary;
+  std::optional<std::string> dumped;
+};
 
-io::Checkpoint checkpoint_of(const Simulation& simulation, const io::LoadedScene& scene,
-                             io::RunProgress progress, double wall_time) {
-  io::Checkpoint checkpoint;
-  checkpoint.program_version = io::version();
-  checkpoint.scene_hash = scene.hash;
-  checkpoint.steps = simulation.steps();
-  checkpoint.wall_time = wall_time;
-  checkpoint.progress = std::move(progress);
-  checkpoint.state = simulation.state();
-  checkpoint.state_hash = simulation.state_hash();
-  return checkpoint;
-}
-
-int carry_out(RunInHand run, const CarryOptions& options) {
-  run.simulation.set_threads(options.threads);
-  Progress progress(options.progress, run.scene.scene.time.until);
-  Stop stop = Carrier(run, options, progress).advance();
-  const io::RunSummary summary =
-      summarise(run.simulation, run.writer, stop, run.wall_time + progress.wall_time());
+Ending finish(RunInHand& run, Stop stop, Progress& progress) {
+  io::RunSummary summary =
+      summarise(run.simulation, run.writer, stop.reason, run.wall_time + progress.wall_time());
   progress.finish(summary.sim_time,
                   summary.counts.bends + summary.counts.splits + summary.counts.rejected_cuts);
   // Before the run is finished: that takes away the checkpoints from which the failure is sought.
@@ -254,12 +228,65 @@ int carry_out(RunInHand run, const CarryOptions& options) {
   if (is_to_be_dumped && !run.writer.is_displaced()) dumped = dump_failure(run);
   if (const std::string failure = run.writer.finish(summary, run.simulation); !failure.empty())
     stop = {kInputOutput, failure};
+  return {stop, std::move(summary), std::move(dumped)};
+}
+
+int report(RunInHand& run, const Ending& ending) {
+  Stop stop = ending.stop;
+  { const Simulation freed = std::move(run.simulation); }  // makes room for the map
   const std::string picture = stop.code == kInputOutput ? "" : draw(run.writer.folder(), stop);
-  if (stop.code != kDone) report_stop(run, stop, summary.sim_time);
-  if (dumped) report_dump(run.writer.folder().string(), *dumped);
-  for (const std::string& warning : summary.warnings) print_err("note: {}\n", warning);
-  if (stop.code != kInputOutput) print_result(summary, run.scene.scene, run.writer.folder(), picture);
+  if (stop.code != kDone) report_stop(run, stop, ending.summary.sim_time);
+  if (ending.dumped) report_dump(run.writer.folder().string(), *ending.dumped);
+  for (const std::string& warning : ending.summary.warnings) print_err("note: {}\n", warning);
+  if (stop.code != kInputOutput) print_result(ending.summary, run.scene.scene, run.writer.folder(), picture);
   return stop.code;
+}
+
+/// Ends a run whose world is not to be relied on, since memory ran out in it; what it takes is freed first.
+int end_without_memory(RunInHand& run, const Stop& stop, const LastWholeStep& last, Progress& progress) {
+  { const Simulation freed = std::move(run.simulation); }
+  release_memory_reserve();
+  io::RunSummary summary;
+  last.fill(summary);
+  summary.stopped_by = stop.reason;
+  summary.wall_time = run.wall_time + progress.wall_time();
+  summary.peaks = run.writer.peaks();
+  summary.warnings.emplace_back(
+      "memory ran out: floe area, kinetic energy and momentum are what the accounts leave, not measured");
+  progress.finish(summary.sim_time,
+                  summary.counts.bends + summary.counts.splits + summary.counts.rejected_cuts);
+  const std::string failure = run.writer.cut_off(summary);
+  if (!failure.empty()) {
+    report_stop(run, {kInputOutput, failure}, summary.sim_time);
+    return kInputOutput;
+  }
+  const std::string folder = run.writer.folder().string();
+  const auto checkpoints = io::checkpoints_in(folder);
+  print_err("polynya: stopped at {:.6g} s: {}\n", summary.sim_time,
+            stop.reason == no_memory().reason ? out_of_memory() : stop.reason);
+  print_err("polynya: {} holds the run up to there, without the final map; {}\n", folder, kToNeedLessMemory);
+  print_err("polynya: with more memory, go on {} with: polynya resume {}\n",
+            checkpoints.empty() ? "from the start" : "from " + checkpoints.front().filename().string(),
+            folder);
+  return kOutOfMemory;
+}
+
+}  // namespace
+
+int carry_out(RunInHand run, const CarryOptions& options) {
+  keep_memory_reserve();
+  run.simulation.set_threads(options.threads);
+  Progress progress(options.progress, run.scene.scene.time.until);
+  Carrier carrier(run, options, progress);
+  Stop stop = carrier.carry();
+  std::optional<Ending> ending;
+  try {
+    if (!stop.is_out_of_memory) ending = finish(run, stop, progress);
+  } catch (const std::bad_alloc&) {  // in final.geojson
+    if (stop.code == kDone) carrier.stop_without_memory();
+    stop = no_memory();
+  }
+  return ending ? report(run, *ending) : end_without_memory(run, stop, carrier.last_whole_step(), progress);
 }
 
 }  // namespace polynya::app

@@ -1,5 +1,8 @@
 #include "app/failure_dump.hpp"
 
+#include <new>
+
+#include "app/memory_check.hpp"
 #include "io/output_file.hpp"
 #include "io/run_folder.hpp"
 #include "simulation/validate_world.hpp"
@@ -34,7 +37,9 @@ std::optional<std::string> failure_after_step(const Simulation& simulation) {
   return {};
 }
 
-std::string dump_failure(const RunInHand& run) {
+namespace {
+
+std::string find_and_dump(const RunInHand& run) {
   Simulation ahead = at_last_checkpoint(run);
   Simulation before = at_last_checkpoint(run);
   std::optional<std::string> failure;
@@ -49,6 +54,16 @@ std::string dump_failure(const RunInHand& run) {
   dump.failure = *failure;
   return write_whole_file(run.writer.folder() / io::run_file::kFailure, checkpoint_bytes(dump),
                           io::Durability::kSynced);
+}
+
+}  // namespace
+
+std::string dump_failure(const RunInHand& run) {
+  try {
+    return find_and_dump(run);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 }  // namespace polynya::app

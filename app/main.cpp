@@ -15,9 +15,11 @@
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/guide.hpp"
+#include "app/memory_check.hpp"
 #include "app/number_option.hpp"
 #include "app/usage.hpp"
 #include "app/write_output.hpp"
+#include "geometry/exact_memory.hpp"
 #include "io/version.hpp"
 
 namespace polynya::app {
@@ -167,12 +169,19 @@ constexpr auto kExamples =
     "Polynya simulates an icebreaker in pack ice: floes are pushed, plates break by bending and splitting.\n";
 
 constexpr auto kCodes =
-    "Exit codes: 0 done, 2 usage, 3 scene invalid, 4 numerical failure or geometry refused, 5 input/output, "
-    "75 stopped on a "
+    "Exit codes: 0 done, 2 usage, 3 scene invalid, 4 numerical failure, geometry refused or out of memory, "
+    "5 input/output, 75 stopped on a "
     "signal with a checkpoint (polynya resume), 141 the reader of stdout or stderr closed the pipe.\n"
     "Data goes to stdout, messages to stderr.\n";
 
-constexpr std::string_view kOutOfMemory = "polynya: out of memory\n";
+int report_out_of_memory() {
+  try {
+    print_err("polynya: {}\n", out_of_memory());
+  } catch (const std::bad_alloc&) {
+    write_err("polynya: out of memory\n");
+  }
+  return kOutOfMemory;
+}
 
 int command_line(int count, char** words) {
   CLI::App app(kExamples, "polynya");
@@ -210,14 +219,13 @@ int guarded_command_line(int count, char** words) {
   try {
     return command_line(count, words);
   } catch (const std::bad_alloc&) {
-    write_err(kOutOfMemory);
+    return report_out_of_memory();
   } catch (const std::length_error&) {
-    write_err(kOutOfMemory);
+    return report_out_of_memory();
   } catch (const std::system_error& error) {
     print_err("polynya: {}\n", error.what());
     return kInputOutput;
   }
-  return kNumericalFailure;
 }
 
 }  // namespace
@@ -225,5 +233,6 @@ int guarded_command_line(int count, char** words) {
 
 int main(int count, char** words) {
   polynya::app::open_streams();
+  polynya::geometry::let_exact_numbers_outlast_memory();
   return polynya::app::close_streams(polynya::app::guarded_command_line(count, words));
 }

@@ -1,4 +1,7 @@
 #include <filesystem>
+#include <memory>
+#include <new>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -6,26 +9,50 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/load_scene.hpp"
+#include "app/memory_check.hpp"
 #include "app/stop_signal.hpp"
 #include "io/run_writer.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::app {
+namespace {
+
+/// A run before its first step. That it fits into memory is known before anything is written.
+struct Start {
+  std::unique_ptr<io::LoadedScene> scene;
+  std::unique_ptr<simulation::Simulation> simulation;
+};
+
+tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
+  try {
+    auto loaded = load_scene(options.scene, {.until = options.until, .seed = options.seed});
+    if (!loaded) return tl::unexpected(loaded.error());
+    print_hints(*loaded);
+    if (!may_fit(loaded->scene, options.scene, memory_available())) return tl::unexpected(kOutOfMemory);
+    auto simulation = std::make_unique<simulation::Simulation>(loaded->scene);
+    return Start{std::make_unique<io::LoadedScene>(std::move(*loaded)), std::move(simulation)};
+  } catch (const std::bad_alloc&) {
+    print_err("polynya: {}: {}; nothing was written; {}\n", options.scene, out_of_memory(),
+              kToNeedLessMemory);
+    return tl::unexpected(kOutOfMemory);
+  }
+}
+
+}  // namespace
 
 int run(const RunOptions& options) {
-  const auto loaded = load_scene(options.scene, {.until = options.until, .seed = options.seed});
-  if (!loaded) return loaded.error();
-  print_hints(*loaded);
+  const auto start = start_of(options);
+  if (!start) return start.error();
   const std::filesystem::path folder = options.out.empty()
-                                           ? std::filesystem::path("runs") / loaded->scene.name
+                                           ? std::filesystem::path("runs") / start->scene->scene.name
                                            : std::filesystem::path(options.out);
   watch_signals();
-  auto writer = io::RunWriter::create(folder, options.overwrite, *loaded);
+  auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
   if (!writer) {
     print_err("polynya: {}\n", writer.error());
     return kInputOutput;
   }
-  return carry_out({*loaded, simulation::Simulation(loaded->scene), std::move(*writer)}, options.carry);
+  return carry_out({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.carry);
 }
 
 }  // namespace polynya::app

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <new>
 #include <numbers>
 
 #include "geometry/internal/edge_tree.hpp"
@@ -58,11 +59,13 @@ bool is_simple(const std::vector<Point>& polyline) {
   });
 }
 
-// Out of memory inside a cut is a failed cut; the general path then says so.
+// What fails here is left to the general path. Out of memory is no failed cut: the caller has to know.
 template <typename Work>
 std::optional<CutOutcome> guarded(Work work) {
   try {
     return work();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return {};
   }

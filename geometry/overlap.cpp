@@ -1,6 +1,7 @@
 #include "geometry/overlap.hpp"
 
 #include <exception>
+#include <new>
 
 #include "geometry/internal/arrangement.hpp"
 
@@ -51,6 +52,8 @@ tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a
       sum += exact::area(region.polygon);
     }
     return Overlap{exact::nearest_double(sum), sum.get_str()};
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& failure) {
     return tl::unexpected(CutError{CutFailure::kInternal, failure.what()});
   }

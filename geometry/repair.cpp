@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 
 #include "geometry/internal/arrangement.hpp"
 #include "geometry/internal/predicates.hpp"
@@ -56,6 +57,8 @@ tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule
   try {
     tl::expected<Repaired, CutError> repaired = repair_exactly(usable, rule);
     if (!repaired || !repaired->shapes.empty()) return repaired;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& failure) {
     return tl::unexpected(CutError{CutFailure::kInternal, failure.what()});
   }

@@ -1,6 +1,7 @@
 #include "geometry/triangulation.hpp"
 
 #include <exception>
+#include <new>
 #include <queue>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -72,6 +73,8 @@ std::vector<Triangle> triangulate(const Polygon& polygon) {
       if (face->info() % 2 == 1)
         triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     }
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return {};
   }

@@ -71,6 +71,8 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       name_(std::move(other.name_)),
       buffer_(std::move(other.buffer_)),
       record_ends_(std::move(other.record_ends_)),
+      kept_(other.kept_),
+      kept_records_(other.kept_records_),
       size_(other.size_),
       failure_(std::move(other.failure_)) {}
 
@@ -79,6 +81,8 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   std::swap(name_, other.name_);
   std::swap(buffer_, other.buffer_);
   std::swap(record_ends_, other.record_ends_);
+  std::swap(kept_, other.kept_);
+  std::swap(kept_records_, other.kept_records_);
   std::swap(size_, other.size_);
   std::swap(failure_, other.failure_);
   return *this;

@@ -38,10 +38,21 @@ class OutputFile {
   /// Whether the file still has its name: it was neither removed nor replaced.
   bool is_in_place() const;
   const std::string& name() const { return name_; }
+  /// What was appended so far is whole: a step's records, or a frame's.
+  void keep() {
+    kept_ = buffer_.size();
+    kept_records_ = record_ends_.size();
+  }
+  /// Forgets what was appended since keep(), in part or in whole. Takes no memory.
+  void drop_unkept() {
+    buffer_.resize(kept_);
+    record_ends_.resize(kept_records_);
+  }
   /// Forgets what is buffered.
   void drop() {
     buffer_.clear();
     record_ends_.clear();
+    keep();
   }
   /// What went wrong, with the file's name; empty where all is well.
   const std::string& failure() const { return failure_; }
@@ -52,7 +63,9 @@ class OutputFile {
   std::string name_;
   std::string buffer_;
   std::vector<std::size_t> record_ends_;  ///< in the buffer
-  std::uint64_t size_ = 0;                ///< on disk [bytes]
+  std::size_t kept_ = 0;                  ///< of the buffer [bytes]
+  std::size_t kept_records_ = 0;
+  std::uint64_t size_ = 0;  ///< on disk [bytes]
   std::string failure_;
 };
 

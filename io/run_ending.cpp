@@ -26,4 +26,13 @@ std::string RunWriter::finish(const RunSummary& summary, const simulation::Simul
   return problem;
 }
 
+std::string RunWriter::cut_off(const RunSummary& summary) {
+  for (OutputFile& file : files_) file.drop_unkept();
+  sync_files();
+  if (is_displaced_) return failure_;
+  const std::string problem =
+      write_whole_file(folder() / run_file::kSummary, to_json_text(summary, *scene_), Durability::kSynced);
+  return failure().empty() ? problem : failure();
+}
+
 }  // namespace polynya::io

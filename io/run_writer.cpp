@@ -171,13 +171,20 @@ void RunWriter::record(simulation::Journal& journal) {
   }
   for (const simulation::ShipSample& sample : journal.samples) {
     append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, ship_name(sample.ship)); });
-    std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
-    for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].see(peak_columns_[i]->read(sample), sample.time);
   }
   for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
     if (std::string wrong = write_rejected_cut(folder(), cut); !wrong.empty()) failure_ = std::move(wrong);
   }
+  for (const simulation::ShipSample& sample : journal.samples) {
+    std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
+    for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].see(peak_columns_[i]->read(sample), sample.time);
+  }
   journal.clear();
+  keep();
+}
+
+void RunWriter::keep() {
+  for (OutputFile& file : files_) file.keep();
 }
 
 void RunWriter::frame(const simulation::Simulation& simulation) {
@@ -197,15 +204,18 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
   line_.clear();
   append_state(line_, simulation.time(), simulation.counts().steps, simulation.state_hash());
   file(kStates).append(line_);
+  keep();
+}
+
+bool RunWriter::sync_files() {
+  flush();
+  return std::ranges::all_of(files_, &OutputFile::sync);
 }
 
 RunProgress RunWriter::sync() {
-  flush();
+  sync_files();
   RunProgress progress;
-  for (OutputFile& file : files_) {
-    if (!file.sync()) break;
-    progress.file_sizes.push_back(file.size());
-  }
+  for (const OutputFile& file : files_) progress.file_sizes.push_back(file.size());
   progress.told = frames_.told();
   progress.peaks = peaks_;
   return progress;

@@ -76,6 +76,11 @@ class RunWriter {
   /// empty where all is well.
   std::string finish(const RunSummary& summary, const simulation::Simulation& simulation);
 
+  /// Ends a run that ran out of memory, which perhaps was in the middle of record() or frame(): what these
+  /// took down in part is left out. No pictures, which take memory; checkpoints stay. Returns what went
+  /// wrong; empty where all is well.
+  std::string cut_off(const RunSummary& summary);
+
   const std::filesystem::path& folder() const { return lock_.folder(); }
   /// Whether the folder and its files were removed, moved or replaced by another program.
   bool is_displaced() const { return is_displaced_; }
@@ -86,6 +91,8 @@ class RunWriter {
   void know(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
   OutputFile& file(std::size_t which) { return files_[which]; }
   void flush();
+  bool sync_files();
+  void keep();
   /// Notes it as the failure if the folder or a file in it has lost its name.
   void check_place();
   std::string_view ship_name(int ship) const;

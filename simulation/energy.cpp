@@ -47,16 +47,20 @@ bool Audit::is_closed() const {
 }
 
 Audit audit(const World& world) {
+  return audit(world.audit, kinetic_energy(world), momentum(world));
+}
+
+Audit audit(const AuditSums& sums, double kinetic_energy, Vector momentum) {
   Audit audit;
-  audit.sums = world.audit;
+  audit.sums = sums;
   const EnergyFlows& e = audit.sums.energy;
   const MomentumFlows& m = audit.sums.momentum;
-  audit.kinetic_energy = kinetic_energy(world);
+  audit.kinetic_energy = kinetic_energy;
   const double in = e.thrust + e.current;
   const double out = e.drag + e.friction + e.restitution + e.crushing + e.bending + e.splitting + e.rest;
   audit.energy_imbalance = audit.kinetic_energy - audit.sums.initial_energy - in + out;
   audit.turnover = audit.sums.initial_energy + std::abs(e.thrust) + std::abs(e.current) + std::abs(out);
-  audit.total_momentum = momentum(world);
+  audit.total_momentum = momentum;
   audit.momentum_imbalance =
       audit.total_momentum - audit.sums.initial_momentum - m.thrust - m.held - m.water + m.removed;
   audit.momentum_turnover = length(audit.sums.initial_momentum) + audit.sums.impulses;

@@ -58,5 +58,7 @@ geometry::Vector momentum(const World& world);  ///< of the same [N s]
 /// Opens the accounts, before the first step.
 void open_accounts(World& world);
 Audit audit(const World& world);
+/// The same of what is known of a world: its sums, its kinetic energy [J] and its momentum [N s].
+Audit audit(const AuditSums& sums, double kinetic_energy, geometry::Vector momentum);
 
 }  // namespace polynya::simulation

@@ -1,6 +1,8 @@
 #include "geometry/internal/arrangement.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <new>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -47,15 +49,22 @@ Point from_cgal(const Kernel::Point_2& p) {
   return {p.x().exact(), p.y().exact()};
 }
 
-Arrangement arrange(const std::vector<SourceSegment>& segments) {
+// Where memory runs out in it, CGAL leaves an arrangement behind whose destructor never ends: that one is
+// kept.
+std::unique_ptr<const Arrangement> arrange(const std::vector<SourceSegment>& segments) {
   make_cgal_throw_quietly();
   std::vector<Traits::Curve_2> curves;
   curves.reserve(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     curves.emplace_back(Kernel::Segment_2(to_cgal(segments[i].from), to_cgal(segments[i].to)), i);
   }
-  Arrangement arrangement;
-  CGAL::insert(arrangement, curves.begin(), curves.end());
+  auto arrangement = std::make_unique<Arrangement>();
+  try {
+    CGAL::insert(*arrangement, curves.begin(), curves.end());
+  } catch (const std::bad_alloc&) {
+    static_cast<void>(arrangement.release());
+    throw;
+  }
   return arrangement;
 }
 
@@ -283,7 +292,8 @@ bool runs_rightward(const SourceSegment& s) {
 }
 
 Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& classify, Seams seams) {
-  const Arrangement arrangement = arrange(segments);
+  const std::unique_ptr<const Arrangement> arranged = arrange(segments);
+  const Arrangement& arrangement = *arranged;
   Tracer tracer(arrangement, segments, classify, seams);
   Overlay result{tracer.regions()};
   tracer.find_tool_inside(result);
@@ -291,7 +301,8 @@ Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& cl
 }
 
 PlaneGraph plane_graph(const std::vector<SourceSegment>& segments) {
-  const Arrangement arrangement = arrange(segments);
+  const std::unique_ptr<const Arrangement> arranged = arrange(segments);
+  const Arrangement& arrangement = *arranged;
   PlaneGraph graph;
   std::unordered_map<const void*, int> number;
   for (auto v = arrangement.vertices_begin(); v != arrangement.vertices_end(); ++v) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 
 #include "geometry/internal/arrangement.hpp"
 #include "geometry/internal/rounded_pieces.hpp"
@@ -24,11 +25,14 @@ CutOutcome round_regions(const exact::Polygon& shape, std::vector<exact::Region>
   return exact::rounded_pieces(exact::area(shape), pieces);
 }
 
-// A geometric failure is a value: whatever CGAL or memory throws becomes one, and the shape is as it was.
+// A geometric failure is a value: whatever CGAL throws becomes one, and the shape is as it was. Out of memory
+// is no such failure.
 template <typename Work>
 CutOutcome guarded(Work work) {
   try {
     return work();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& failure) {
     return refuse(CutFailure::kInternal, failure.what());
   }

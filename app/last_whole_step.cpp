@@ -1,0 +1,35 @@
+#include "app/last_whole_step.hpp"
+
+#include "simulation/world.hpp"
+
+namespace polynya::app {
+
+LastWholeStep::LastWholeStep(const simulation::Simulation& simulation) {
+  counts_.floes_final = simulation.counts().floes_final;
+  take(simulation, 0);
+}
+
+void LastWholeStep::take(const simulation::Simulation& simulation, std::int64_t more_floes) {
+  const simulation::World& world = simulation.world();
+  const std::int64_t floes = counts_.floes_final + more_floes;
+  counts_ = world.counts;
+  counts_.floes_final = floes;
+  counts_.steps = world.steps;
+  time_ = world.time();
+  ledger_ = world.ledger;
+  sums_ = world.audit;
+}
+
+void LastWholeStep::fill(io::RunSummary& summary) const {
+  summary.counts = counts_;
+  summary.steps = counts_.steps;
+  summary.sim_time = time_;
+  summary.ledger = ledger_;
+  summary.ledger.floe_area =
+      ledger_.initial_ice_area + ledger_.rounding_defect - ledger_.submerged_area - ledger_.brash_area;
+  summary.ledger.imbalance = 0;
+  const simulation::Audit at_rest = audit(sums_, 0, {});
+  summary.audit = audit(sums_, -at_rest.energy_imbalance, -at_rest.momentum_imbalance);
+}
+
+}  // namespace polynya::app

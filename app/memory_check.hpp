@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "app/memory_available.hpp"
+#include "simulation/scene.hpp"
+
+namespace polynya::app {
+
+/// Whether a run of a scene may fit into memory. Where it surely does not, that is reported on stderr; where
+/// it does only while most of the ice rests, a note is. `name` stands in messages.
+bool may_fit(const simulation::Scene& scene, const std::string& name, const MemoryAvailable& available);
+
+/// What a message says of memory that ran out, with how much there is.
+std::string out_of_memory();
+
+/// What there is to be done about it.
+inline constexpr const char* kToNeedLessMemory =
+    "use fewer floes, fewer vertices or larger contact circles (contact.circle_radius_m), or more memory";
+
+}  // namespace polynya::app
