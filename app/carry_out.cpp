@@ -19,9 +19,9 @@
 #include "app/memory_reserve.hpp"
 #include "app/run_result.hpp"
 #include "app/stop_signal.hpp"
-#include "io/final_map.hpp"
-#include "io/run_folder.hpp"
+#include "io/run/run_folder.hpp"
 #include "simulation/world.hpp"
+#include "views/map/final_map.hpp"
 
 namespace polynya::app {
 namespace {
@@ -201,7 +201,7 @@ std::string draw(const std::filesystem::path& folder, Stop& stop) {
     const auto run = io::read_run(folder);
     if (!run) print_err("note: no map is drawn: {}\n", run.error());
     if (!run) return "";
-    auto drawn = io::draw_final_map(*run);
+    auto drawn = views::draw_final_map(*run);
     if (drawn) return *drawn;
     stop = {kInputOutput, drawn.error()};
   } catch (const std::bad_alloc&) {

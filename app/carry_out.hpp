@@ -2,9 +2,9 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
-#include "io/checkpoint.hpp"
-#include "io/run_writer.hpp"
-#include "io/scene_reader.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/run_writer.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::app {

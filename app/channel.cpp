@@ -1,14 +1,14 @@
-#include "io/channel.hpp"
+#include "analysis/channel.hpp"
 
 #include <algorithm>
 #include <filesystem>
 
+#include "analysis/channel_text.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/run_commands.hpp"
 #include "app/write_output.hpp"
-#include "io/channel_text.hpp"
-#include "io/run_folder.hpp"
+#include "io/run/run_folder.hpp"
 
 namespace polynya::app {
 namespace {
@@ -23,7 +23,7 @@ int fail(ExitCode code, const std::string& words) {
 int channel(const ChannelOptions& options) {
   const auto run = io::read_run(options.run);
   if (!run) return fail(kInputOutput, run.error());
-  io::ChannelOptions wanted{
+  analysis::ChannelOptions wanted{
       .ship = 0, .time = options.at, .spacing = options.spacing, .reach = options.reach};
   const auto& ships = run->scene.scene.ships;
   if (!options.ship.empty()) {
@@ -31,7 +31,7 @@ int channel(const ChannelOptions& options) {
     if (found == ships.end()) return fail(kUsage, fmt::format("the run has no ship \"{}\"", options.ship));
     wanted.ship = static_cast<std::size_t>(found - ships.begin());
   }
-  const auto channel = io::measure_channel(*run, wanted);
+  const auto channel = analysis::measure_channel(*run, wanted);
   if (!channel) return fail(kUsage, channel.error());
   std::error_code error;
   if (!options.out.empty()) std::filesystem::create_directories(options.out, error);

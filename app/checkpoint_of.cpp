@@ -1,5 +1,5 @@
 #include "app/carry_out.hpp"
-#include "io/version.hpp"
+#include "io/text/version.hpp"
 
 namespace polynya::app {
 

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "io/problem.hpp"
+#include "app/command_line.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::app {
 

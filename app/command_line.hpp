@@ -2,11 +2,9 @@
 
 #include <functional>
 
-#include "app/progress.hpp"
+#include <CLI/CLI.hpp>
 
-namespace CLI {
-class App;
-}
+#include "app/progress.hpp"
 
 namespace polynya::app {
 

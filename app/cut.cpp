@@ -11,10 +11,10 @@
 #include "app/geometry_commands.hpp"
 #include "app/read_input.hpp"
 #include "app/write_output.hpp"
-#include "io/cut_ops.hpp"
-#include "io/cut_report.hpp"
-#include "io/degrees.hpp"
-#include "io/json_parser.hpp"
+#include "io/text/cut_ops.hpp"
+#include "io/text/cut_report.hpp"
+#include "io/text/degrees.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::app {
 namespace {

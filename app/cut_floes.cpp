@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "app/dangling.hpp"
-#include "geometry/cut.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
 
 namespace polynya::app {
 namespace {

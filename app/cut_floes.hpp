@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/repair.hpp"
-#include "io/cut_report.hpp"
-#include "io/floe_text.hpp"
+#include "geometry/cut/repair.hpp"
+#include "io/text/cut_report.hpp"
+#include "io/text/floe_text.hpp"
 
 namespace polynya::app {
 

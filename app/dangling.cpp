@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/measures.hpp"
+#include "geometry/exact/measures.hpp"
 
 namespace polynya::app {
 namespace {

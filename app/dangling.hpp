@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "geometry/polygon.hpp"
-#include "io/cut_report.hpp"
+#include "geometry/shape/polygon.hpp"
+#include "io/text/cut_report.hpp"
 
 namespace polynya::app {
 

@@ -9,7 +9,7 @@
 #include "app/exit_code.hpp"
 #include "app/stop_signal.hpp"
 #include "fracture/bending/database_text.hpp"
-#include "io/output_file.hpp"
+#include "io/text/output_file.hpp"
 
 namespace polynya::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "app/console.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/crushing.hpp"
-#include "io/source_text.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::app {
 namespace {

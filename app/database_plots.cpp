@@ -80,20 +80,20 @@ struct Figure {
   std::vector<std::vector<SlicePoint>> slices;
 };
 
-io::Chart::Panel panel(const Figure& figure, std::string title, io::Chart::Axis x, io::Chart::Axis y,
-                       Quantity quantity) {
-  io::Chart::Panel panel{std::move(title), std::move(x), std::move(y), {}};
+views::Chart::Panel panel(const Figure& figure, std::string title, views::Chart::Axis x, views::Chart::Axis y,
+                          Quantity quantity) {
+  views::Chart::Panel panel{std::move(title), std::move(x), std::move(y), {}};
   const double x_scale = figure.axis == SliceAxis::kOpeningAngle ? kDegree : 1;
-  const auto add = [&](std::string name, int colour, io::Chart::Dash dash,
+  const auto add = [&](std::string name, int colour, views::Chart::Dash dash,
                        const std::vector<SlicePoint>& slice, auto capacity_of) {
-    io::Chart::Curve curve{std::move(name), colour, dash, {}};
+    views::Chart::Curve curve{std::move(name), colour, dash, {}};
     for (const SlicePoint& point : slice) {
       const fracture::BendingCapacity& capacity = capacity_of(point);
       curve.points.push_back({point.abscissa * x_scale, quantity(capacity), !capacity.is_in_range});
     }
     panel.curves.push_back(std::move(curve));
   };
-  using Dash = io::Chart::Dash;
+  using Dash = views::Chart::Dash;
   for (std::size_t i = 0; i < figure.members.size(); ++i)
     add(
         "database, " + figure.members[i].name, static_cast<int>(i), Dash::kSolid, figure.slices[i],
@@ -120,11 +120,11 @@ NamedChart draw(const FsiDatabaseModel& model, const std::string& title, const B
   Figure figure{axis, family(load, axis), {}};
   for (const Member& member : figure.members)
     figure.slices.push_back(slice(model, member.load, axis, abscissae));
-  io::Chart chart;
+  views::Chart chart;
   chart.title = "Icebreaking database: " + title;
   chart.caption =
       "Around " + describe(load) + ". Faint: outside of the table or of the published form's range.";
-  const io::Chart::Axis x{text.x_label, text.is_x_log};
+  const views::Chart::Axis x{text.x_label, text.is_x_log};
   chart.panels.push_back(
       panel(figure, "Vertical force that breaks the wedge", x, {"vertical force V [kN]", true}, force_of));
   chart.panels.push_back(

@@ -5,13 +5,13 @@
 
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
-#include "io/chart.hpp"
+#include "views/map/chart.hpp"
 
 namespace polynya::app {
 
 struct NamedChart {
   std::string file;  ///< such as "speed.svg"
-  io::Chart chart;
+  views::Chart chart;
 };
 
 /// Slices of a database through one load: force and radius against speed, opening angle and thickness, each

@@ -16,7 +16,7 @@
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/scaled_load.hpp"
 #include "fracture/bending/studies.hpp"
-#include "io/json_writer.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::app {
 namespace {

@@ -16,7 +16,7 @@
 #include "app/exit_code.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
-#include "io/output_file.hpp"
+#include "io/text/output_file.hpp"
 
 namespace polynya::app {
 namespace {
@@ -104,7 +104,7 @@ std::string write_pictures(const std::vector<NamedChart>& charts, const std::fil
   std::filesystem::create_directories(folder, error);
   if (error) return folder.string() + ": " + error.message();
   for (const auto& [file, chart] : charts) {
-    if (std::string problem = io::write_named_file(folder / file, io::to_svg(chart)); !problem.empty())
+    if (std::string problem = io::write_named_file(folder / file, views::to_svg(chart)); !problem.empty())
       return problem;
     print_out("{}picture         {}\n", &file == &charts.front().file ? "\n" : "", (folder / file).string());
   }

@@ -3,9 +3,9 @@
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/run_commands.hpp"
-#include "io/geojson_export.hpp"
-#include "io/output_file.hpp"
-#include "io/vtk_export.hpp"
+#include "io/text/output_file.hpp"
+#include "views/export/geojson_export.hpp"
+#include "views/export/vtk_export.hpp"
 
 namespace polynya::app {
 namespace {
@@ -28,7 +28,7 @@ int write_vtk(const io::Run& run, const ExportOptions& options) {
   if (const std::string wrong = make_folder(options.vtk); !wrong.empty()) return fail(kInputOutput, wrong);
   io::FrameSelection selection;
   selection.every = options.every;
-  const auto written = export_vtk(run, selection, options.vtk);
+  const auto written = views::export_vtk(run, selection, options.vtk);
   if (!written) return fail(kInputOutput, written.error());
   if (const std::size_t count = written->only_outlines.size(); count > 0)
     print_err(
@@ -52,7 +52,7 @@ int write_geojson(const io::Run& run, const ExportOptions& options) {
   if (options.is_in_metres) origin.reset();
   if (!origin && !options.is_in_metres)
     print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
-  for (const auto& [name, text] : io::geojson_layers(run, time, origin)) {
+  for (const auto& [name, text] : views::geojson_layers(run, time, origin)) {
     const fs::path file = fs::path(options.geojson) / name;
     if (const std::string wrong = io::write_named_file(file, text); !wrong.empty())
       return fail(kInputOutput, wrong);

@@ -3,9 +3,9 @@
 #include <new>
 
 #include "app/memory_check.hpp"
-#include "io/output_file.hpp"
-#include "io/run_folder.hpp"
-#include "simulation/validate_world.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/text/output_file.hpp"
+#include "simulation/state/validate_world.hpp"
 
 namespace polynya::app {
 namespace {

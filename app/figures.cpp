@@ -1,4 +1,4 @@
-#include "io/figures.hpp"
+#include "views/map/figures.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -10,8 +10,8 @@
 #include "app/exit_code.hpp"
 #include "app/run_commands.hpp"
 #include "app/write_output.hpp"
-#include "io/run_folder.hpp"
-#include "io/svg_convert.hpp"
+#include "io/run/run_folder.hpp"
+#include "views/map/svg_convert.hpp"
 
 namespace polynya::app {
 namespace {
@@ -41,7 +41,7 @@ std::string problem_of(const FiguresOptions& options, const std::vector<io::Run>
                        w[3]);
   for (const io::Run& run : runs) {
     const simulation::Scene& scene = run.scene.scene;
-    if (scene.ships.empty() || !io::chosen_loads(scene, options.load).empty()) continue;
+    if (scene.ships.empty() || !views::chosen_loads(scene, options.load).empty()) continue;
     return fmt::format("--load {}: {} {}", options.load, run.folder.string(),
                        options.load == "ships"
                            ? "has one ship and no structure"
@@ -50,16 +50,16 @@ std::string problem_of(const FiguresOptions& options, const std::vector<io::Run>
   return "";
 }
 
-io::PictureSheet maps(const std::vector<io::Run>& runs, const FiguresOptions& options,
-                      const io::PageStyle& page) {
-  io::PictureSheet sheet = map_figure(runs, chosen_times(runs, options.at));
+views::PictureSheet maps(const std::vector<io::Run>& runs, const FiguresOptions& options,
+                         const views::PageStyle& page) {
+  views::PictureSheet sheet = views::map_figure(runs, chosen_times(runs, options.at));
   sheet.page = page;
   const auto& w = options.window;
   if (!w.empty()) sheet.window = geometry::Box{{w[0], w[1]}, {w[2], w[3]}};
   return sheet;
 }
 
-io::Chart on(const io::PageStyle& page, io::Chart chart) {
+views::Chart on(const views::PageStyle& page, views::Chart chart) {
   chart.page = page;
   return chart;
 }
@@ -69,7 +69,7 @@ std::string converted(const fs::path& svg) {
   std::string names;
   for (const char* suffix : {".png", ".pdf"}) {
     const fs::path target = fs::path(svg).replace_extension(suffix);
-    if (io::convert_svg(svg, target)) names += target.string() + "\n";
+    if (views::convert_svg(svg, target)) names += target.string() + "\n";
   }
   return names;
 }
@@ -94,13 +94,13 @@ int figures(const FiguresOptions& options) {
   const fs::path folder = options.out.empty() ? options.runs.front() : options.out;
   std::error_code ignored;
   fs::create_directories(folder, ignored);
-  const io::PageStyle page{options.width, options.title};
+  const views::PageStyle page{options.width, options.title};
   const std::pair<std::string_view, std::string> pages[] = {
-      {io::run_file::kFigureFloes, to_svg(maps(runs, options, page))},
-      {io::run_file::kFigureLoads, to_svg(on(page, load_figure(runs, options.load, page)))},
-      {io::run_file::kFigureMotion, to_svg(on(page, motion_figure(runs)))},
-      {io::run_file::kFigureSizes, to_svg(on(page, size_figure(runs)))},
-      {io::run_file::kFigureEnergy, energy_figure(runs, page)}};
+      {io::run_file::kFigureFloes, views::to_svg(maps(runs, options, page))},
+      {io::run_file::kFigureLoads, views::to_svg(on(page, views::load_figure(runs, options.load, page)))},
+      {io::run_file::kFigureMotion, views::to_svg(on(page, views::motion_figure(runs)))},
+      {io::run_file::kFigureSizes, views::to_svg(on(page, views::size_figure(runs)))},
+      {io::run_file::kFigureEnergy, views::energy_figure(runs, page)}};
   bool has_converter = true;
   for (const auto& [name, text] : pages) {
     if (text.empty()) {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "io/shown_loads.hpp"
+#include "io/run/shown_loads.hpp"
 #include "simulation/world.hpp"
 
 namespace polynya::app {

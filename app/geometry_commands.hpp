@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "geometry/repair.hpp"
-#include "io/cut_ops.hpp"
+#include "geometry/cut/repair.hpp"
+#include "io/text/cut_ops.hpp"
 
 namespace polynya::app {
 

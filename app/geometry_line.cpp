@@ -1,8 +1,6 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/geometry_commands.hpp"

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "io/version.hpp"
+#include "app/command_line.hpp"
+#include "io/text/version.hpp"
 
 namespace polynya::app {
 namespace {

@@ -5,8 +5,8 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
-#include "io/output_file.hpp"
-#include "io/scene_schema.hpp"
+#include "io/scene/scene_schema.hpp"
+#include "io/text/output_file.hpp"
 
 namespace polynya::app {
 

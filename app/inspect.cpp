@@ -8,7 +8,7 @@
 #include "app/geometry_commands.hpp"
 #include "app/inspect_json.hpp"
 #include "app/inspect_views.hpp"
-#include "io/motion_index.hpp"
+#include "io/run/motion_index.hpp"
 
 namespace polynya::app {
 namespace {
@@ -60,7 +60,7 @@ int print(const io::Run& run, const InspectOptions& options) {
     return kDone;
   }
   if (options.check) {
-    const io::RunCheck check = io::check_run(run, options.at);
+    const analysis::RunCheck check = analysis::check_run(run, options.at);
     write_out(options.json ? check_json(check) : check_text(check));
     return check.is_sound() ? kDone : kRefused;
   }

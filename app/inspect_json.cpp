@@ -1,7 +1,7 @@
 #include "app/inspect_json.hpp"
 
-#include "io/json_writer.hpp"
-#include "io/records.hpp"
+#include "io/run/records.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::app {
 namespace {
@@ -20,14 +20,14 @@ void write_count(JsonWriter& json, std::string_view key, std::size_t count) {
   json.key(key).value(static_cast<std::int64_t>(count));
 }
 
-void write_worst(JsonWriter& json, std::string_view key, const io::Worst& worst) {
+void write_worst(JsonWriter& json, std::string_view key, const analysis::Worst& worst) {
   json.key(key).open('{').key("largest_m2").value(worst.value);
   write_id(json, "floe_id", worst.floe);
   write_count(json, "wrong", worst.wrong);
   json.close('}');
 }
 
-void write_shared(JsonWriter& json, std::string_view key, const io::SharedIce& shared) {
+void write_shared(JsonWriter& json, std::string_view key, const analysis::SharedIce& shared) {
   json.key(key);
   if (shared.first == simulation::kNoFloe) {
     json.null();
@@ -38,9 +38,9 @@ void write_shared(JsonWriter& json, std::string_view key, const io::SharedIce& s
   json.close('}');
 }
 
-void write_invalid(JsonWriter& json, const std::vector<io::InvalidFloe>& invalid) {
+void write_invalid(JsonWriter& json, const std::vector<analysis::InvalidFloe>& invalid) {
   json.key("invalid").open('[');
-  for (const io::InvalidFloe& floe : invalid) {
+  for (const analysis::InvalidFloe& floe : invalid) {
     json.open('{').key("floe_id").value(floe.floe).key("defect").value(std::string_view(floe.defect));
     json.key("places_m").value(floe.places_in_body).close('}');
   }
@@ -119,7 +119,7 @@ std::string lineage_json(const io::Run& run, simulation::FloeId floe) {
   return text + "\n";
 }
 
-std::string check_json(const io::RunCheck& check) {
+std::string check_json(const analysis::RunCheck& check) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
   json.open('{').key("is_sound").value(check.is_sound());

@@ -16,6 +16,6 @@ std::string size_json(const SizeDistribution& sizes);
 /// The floes from the scene's down to this one; of each the fracture that broke it, as in events.ndjson.
 std::string lineage_json(const io::Run& run, simulation::FloeId floe);
 
-std::string check_json(const io::RunCheck& check);
+std::string check_json(const analysis::RunCheck& check);
 
 }  // namespace polynya::app

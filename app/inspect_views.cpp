@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "geometry/measures.hpp"
-#include "geometry/validity.hpp"
-#include "io/json_writer.hpp"
-#include "io/motion_index.hpp"
-#include "io/wkt.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
+#include "io/run/motion_index.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/wkt.hpp"
 
 namespace polynya::app {
 namespace {
@@ -203,14 +203,14 @@ std::string size_text(const SizeDistribution& sizes) {
   return text;
 }
 
-std::string check_text(const io::RunCheck& check) {
+std::string check_text(const analysis::RunCheck& check) {
   std::string text;
   const auto add = [&text](const std::string& line) { text += line + "\n"; };
   const auto from = [](simulation::FloeId floe) {
     return floe == simulation::kNoFloe ? std::string() : fmt::format(" (floe {})", floe);
   };
   add(fmt::format("validity   {} shapes, {} invalid", check.shapes, check.invalid.size()));
-  for (const io::InvalidFloe& floe : check.invalid) {
+  for (const analysis::InvalidFloe& floe : check.invalid) {
     std::string line = fmt::format("           floe {}: {}", floe.floe, floe.defect);
     for (std::size_t i = 0; i < std::min<std::size_t>(floe.places_in_body.size(), 4); ++i)
       line += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", floe.places_in_body[i].x,
@@ -219,12 +219,12 @@ std::string check_text(const io::RunCheck& check) {
   }
   add(fmt::format("areas      recorded - ring at most {:.2e} m2{}, {} beyond {:g} of the area",
                   check.recorded_area.value, from(check.recorded_area.floe), check.recorded_area.wrong,
-                  io::kAreaTolerance));
+                  analysis::kAreaTolerance));
   add(
       fmt::format("fractures  {}: pieces + submerged + brash - rounding - parent at most {:.2e} m2{}, {} "
                   "beyond {:g} of it",
                   check.fractures, check.balance.value, from(check.balance.floe), check.balance.wrong,
-                  io::kAreaTolerance));
+                  analysis::kAreaTolerance));
   add(check.siblings.area > 0 ? fmt::format("           pieces of one fracture share at most {:.2e} m2 in "
                                             "their body frame (floes {} and {})",
                                             check.siblings.area, check.siblings.first, check.siblings.second)
@@ -237,7 +237,7 @@ std::string check_text(const io::RunCheck& check) {
   add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice",
                   check.most_shared, check.most_shared_time,
                   check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));
-  const auto add_pair = [&](const char* words, const io::SharedIce& pair) {
+  const auto add_pair = [&](const char* words, const analysis::SharedIce& pair) {
     if (pair.first == simulation::kNoFloe) return;
     add(fmt::format("           {}: floes {} and {} at {:.6g} s, {:.6g} m2, a vertex {:.4g} m deep", words,
                     pair.first, pair.second, pair.time, pair.area, pair.depth));

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/run_check.hpp"
 #include "app/geometry_commands.hpp"
-#include "io/run_check.hpp"
-#include "io/run_reader.hpp"
+#include "io/run/run_reader.hpp"
 
 namespace polynya::app {
 
@@ -58,6 +58,6 @@ SizeDistribution size_distribution(const io::Run& run, double time);
 std::string size_text(const SizeDistribution& sizes);
 
 /// What check_run found, in words.
-std::string check_text(const io::RunCheck& check);
+std::string check_text(const analysis::RunCheck& check);
 
 }  // namespace polynya::app

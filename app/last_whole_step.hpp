@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/summary.hpp"
+#include "io/run/summary.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::app {

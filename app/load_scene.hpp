@@ -5,7 +5,7 @@
 #include <tl/expected.hpp>
 
 #include "app/exit_code.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace polynya::app {
 

@@ -7,8 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
@@ -19,8 +17,8 @@
 #include "app/number_option.hpp"
 #include "app/usage.hpp"
 #include "app/write_output.hpp"
-#include "geometry/exact_memory.hpp"
-#include "io/version.hpp"
+#include "geometry/exact/exact_memory.hpp"
+#include "io/text/version.hpp"
 
 namespace polynya::app {
 

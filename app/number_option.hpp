@@ -6,8 +6,9 @@
 #include <string>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include "app/command_line.hpp"
 
 namespace polynya::app {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "io/source_text.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::app {
 namespace {

@@ -9,10 +9,10 @@
 #include "app/failure_dump.hpp"
 #include "app/load_scene.hpp"
 #include "app/stop_signal.hpp"
-#include "io/checkpoint.hpp"
-#include "io/final_map.hpp"
-#include "io/run_folder.hpp"
-#include "io/summary.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/run/summary.hpp"
+#include "views/map/final_map.hpp"
 
 namespace polynya::app {
 namespace {
@@ -97,7 +97,7 @@ int report_finished(const fs::path& folder) {
   if (is_drawn) return kDone;
   const auto run = io::read_run(folder);
   if (!run) return refuse(run.error());
-  const auto drawn = io::draw_final_map(*run);
+  const auto drawn = views::draw_final_map(*run);
   return drawn ? kDone : refuse(drawn.error());
 }
 

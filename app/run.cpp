@@ -11,7 +11,7 @@
 #include "app/load_scene.hpp"
 #include "app/memory_check.hpp"
 #include "app/stop_signal.hpp"
-#include "io/run_writer.hpp"
+#include "io/run/run_writer.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::app {

@@ -23,7 +23,7 @@ struct FiguresOptions {
   std::vector<std::string> runs;
   std::string out;                   ///< folder; empty: the first run's
   std::vector<double> at;            ///< moments for the maps [s]; empty: chosen
-  std::string load = "true";         ///< io/figures.hpp, chosen_loads
+  std::string load = "true";         ///< views/map/figures.hpp, chosen_loads
   std::optional<std::string> title;  ///< instead of the figures' own; empty: none
   std::vector<std::string> labels;   ///< of the runs, instead of their scenes' names
   double width = 170;                ///< of a figure on paper [mm]

@@ -1,7 +1,5 @@
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/choice_option.hpp"
 #include "app/command_line.hpp"
 #include "app/number_option.hpp"

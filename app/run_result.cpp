@@ -6,7 +6,7 @@
 
 #include "app/console.hpp"
 #include "app/force_report.hpp"
-#include "io/run_folder.hpp"
+#include "io/run/run_folder.hpp"
 
 namespace polynya::app {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "io/run_writer.hpp"
-#include "io/summary.hpp"
+#include "io/run/run_writer.hpp"
+#include "io/run/summary.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::app {

@@ -1,7 +1,7 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
-#include "io/scene_schema.hpp"
+#include "io/scene/scene_schema.hpp"
 
 namespace polynya::app {
 

@@ -4,12 +4,12 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/command_line.hpp"
 #include "app/guide.hpp"
-#include "io/problem.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::app {
 namespace {

@@ -9,9 +9,9 @@
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/write_output.hpp"
-#include "io/output_file.hpp"
-#include "io/player_page.hpp"
-#include "io/run_folder.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/text/output_file.hpp"
+#include "views/player/player_page.hpp"
 
 namespace polynya::app {
 namespace {
@@ -41,7 +41,7 @@ int view(const ViewOptions& options) {
   wanted.every = options.every;
   if (options.from) wanted.from = *options.from;
   if (options.until) wanted.until = *options.until;
-  const io::PlayerData data = player_data(*run, wanted);
+  const views::PlayerData data = views::player_data(*run, wanted);
   if (data.frames == 0 && !run->frames.empty())
     return fail(kUsage, fmt::format("no frame of the run is in that part; they go from {:g} to {:g} s",
                                     run->start_time(), run->end_time()));

@@ -1,7 +1,5 @@
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/command_line.hpp"
 #include "app/number_option.hpp"
 #include "app/view.hpp"

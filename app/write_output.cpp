@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "app/console.hpp"
-#include "io/output_file.hpp"
+#include "io/text/output_file.hpp"
 
 namespace polynya::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
-#include "geometry/cut.hpp"
-#include "geometry/pose.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/shape/pose.hpp"
 
 namespace polynya::bench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "geometry/polygon.hpp"
+#include "geometry/shape/polygon.hpp"
 
 namespace polynya::bench {
 

@@ -4,10 +4,10 @@
 #include <stdexcept>
 
 #include "bench/cut_cases.hpp"
-#include "geometry/cut.hpp"
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/internal/window_cut.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/window_cut.hpp"
+#include "geometry/exact/validity.hpp"
 
 namespace polynya::bench::polynya_cuts {
 

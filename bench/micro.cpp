@@ -7,7 +7,7 @@
 
 #include "dynamics/water_drag.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
-#include "geometry/cut.hpp"
+#include "geometry/cut/cut.hpp"
 #include "simulation/floe_field.hpp"
 #include "simulation/step.hpp"
 

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "bench/voyage_run.hpp"
-#include "io/chart.hpp"
 #include "simulation/floe_field.hpp"
+#include "views/map/chart.hpp"
 
 namespace polynya::bench {
 namespace {
@@ -103,19 +103,19 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
   return sweeps;
 }
 
-io::Chart chart_of(const std::vector<Sweep>& sweeps) {
-  io::Chart chart;
+views::Chart chart_of(const std::vector<Sweep>& sweeps) {
+  views::Chart chart;
   chart.title = "Cost of a step";
   chart.caption =
       "Mean wall time of a step over a run, one thread but for the last panel. Commands: "
       "bench/performance.sh.";
   for (const Sweep& sweep : sweeps) {
-    io::Chart::Panel panel;
+    views::Chart::Panel panel;
     panel.title = sweep.title;
     panel.x = {sweep.x_label, true};
     panel.y = {"step [µs]", true};
-    io::Chart::Curve mean{"mean", 0, io::Chart::Dash::kSolid, {}};
-    io::Chart::Curve median{"median", 1, io::Chart::Dash::kDashed, {}};
+    views::Chart::Curve mean{"mean", 0, views::Chart::Dash::kSolid, {}};
+    views::Chart::Curve median{"median", 1, views::Chart::Dash::kDashed, {}};
     for (const Sample& sample : sweep.samples) {
       mean.points.push_back({sample.x, 1e6 * sample.cost.mean_step(), false});
       median.points.push_back({sample.x, 1e6 * sample.cost.median_step(), false});
@@ -148,5 +148,5 @@ int main(int count, char** words) {
             << 1e6 * s.cost.median_step() << ',' << s.cost.mean_awake << ',' << s.cost.mean_contacts << '\n';
     }
   }
-  if (!svg.empty()) std::ofstream(svg) << polynya::io::to_svg(chart_of(sweeps));
+  if (!svg.empty()) std::ofstream(svg) << polynya::views::to_svg(chart_of(sweeps));
 }

@@ -8,7 +8,7 @@
 
 #include <malloc.h>
 
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "simulation/world.hpp"
 
 namespace polynya::bench {

@@ -1,4 +1,4 @@
-# The player's page (io/player) as a C++ source: its style sheets and scripts are put into its HTML, and that into
+# The player's page (views/player) as a C++ source: its style sheets and scripts are put into its HTML, and that into
 # one constant, when one of them changes. Building needs nothing but CMake.
 #
 #   polynya_player_page(FOLDER OUTPUT)
@@ -37,6 +37,6 @@ if(CMAKE_SCRIPT_MODE_FILE)
   string(REPLACE "/*{{styles}}*/" "${styles}" page "${page}")
   string(REPLACE "/*{{plot}}*/" "${plot}" page "${page}")
   string(REPLACE "/*{{scripts}}*/" "${scripts}" page "${page}")
-  file(WRITE ${OUTPUT} "#include \"io/player_page.hpp\"\n\nnamespace polynya::io {\n\n"
-    "const std::string_view kPlayerTemplate = R\"player~(${page})player~\";\n\n}  // namespace polynya::io\n")
+  file(WRITE ${OUTPUT} "#include \"views/player/player_page.hpp\"\n\nnamespace polynya::views {\n\n"
+    "const std::string_view kPlayerTemplate = R\"player~(${page})player~\";\n\n}  // namespace polynya::views\n")
 endif()

@@ -1,60 +1,100 @@
-"""Fails on an include that goes up, sideways, or takes a package into a room it may not enter; and on what belongs
-into one file only."""
+"""Fails on an include that goes up, between siblings, into another room's internals, or to a foreign package's header.
+
+    python3 cmake/check_layers.py SOURCE
+"""
 import pathlib
 import re
 import sys
 
-FLOOR = {"geometry": 0, "dynamics": 1, "fracture": 1, "simulation": 2, "io": 3, "app": 4}
-# A package and the rooms that may include it.
-PACKAGE_ROOMS = {
-    r"<CGAL/": {"geometry"},
-    r"<nlohmann/": {"io"},
-    r"<Eigen/": {"fracture", "dynamics"},
-    r"<CLI/": {"app"},
+# Room or sub-room -> floor. An include goes to the same folder or to a lower floor.
+FLOORS = {
+    "geometry/shape": 0,
+    "geometry/exact": 1,
+    "geometry/cut": 2,
+    "geometry/contact": 3,  # first contact asks for exact overlaps
+    "dynamics": 4,
+    "fracture": 4,
+    "simulation": 5,
+    "io/text": 6,
+    "io/scene": 7,
+    "io/run": 8,
+    "analysis": 9,
+    "views/map": 10,
+    "views/player": 11,
+    "views/export": 11,
+    "app": 12,
 }
-# What is written in one file only, and why.
-ONE_FILE = {
-    r"\bfmt::print\b|\bstd::(cout|cerr|clog)\b|\b(printf|fprintf|puts|fputs|putchar)\s*\(":
-        ({"app/console.cpp", "simulation/simulation.cpp"}, "text goes out through app/console.hpp, which reports what could not be written"),
+# Header of a package -> the only folders, or files, that include it.
+PACKAGES = {
+    r"CGAL/": ["geometry/"],
+    r"gmpxx?\.h": ["geometry/exact/"],
+    r"(tbb|oneapi)/": ["dynamics/"],
+    r"Eigen/": ["fracture/bending/"],
+    r"boost/container/": ["dynamics/"],
+    r"boost/math/": ["fracture/bending/"],
+    r"boost/crc": ["io/run/"],
+    r"nlohmann/": ["io/text/"],
+    r"CLI/": ["app/command_line.hpp"],
+    r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/"],
+    r"tl/expected": [""],
 }
-COMMENT = re.compile(r"//.*")
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
+STANDARD = re.compile(r"[a-z_0-9]+$|(sys|bits|linux|sanitizer)/[a-z_]+\.h$|(unistd|fcntl|signal|poll|errno|spawn|emmintrin)\.h$")
 
 
-def problems_in(path: pathlib.Path, room: str):
-    for number, line in enumerate(path.read_text().splitlines(), 1):
-        for pattern, (files, reason) in ONE_FILE.items():
-            found = re.search(pattern, COMMENT.sub("", line))
-            if found and not any(str(path).endswith(file) for file in files):
-                yield f"{path}:{number}: {found.group(0)}: {reason}"
+def room_of(path):
+    """The deepest room with a floor that the path lies in."""
+    inside = [room for room in FLOORS if path.startswith(room + "/")]
+    return max(inside, key=len, default=None)
+
+
+def problems_of_own(path, room, target):
+    other = room_of(target)
+    if other is None:
+        yield f"{target} lies in no room"
+    elif other != room and FLOORS[other] >= FLOORS[room]:
+        yield f"{room} (floor {FLOORS[room]}) includes {target} (floor {FLOORS[other]})"
+    if "/internal/" in target and target.split("/")[0] != path.split("/")[0]:
+        yield f"{target} is internal to {target.split('/')[0]}"
+
+
+def problems_of_foreign(path, target):
+    if STANDARD.match(target):
+        return
+    for package, places in PACKAGES.items():
+        if re.match(package, target):
+            if not any(path.startswith(place) for place in places):
+                yield f"<{target}> may be included only in {places}"
+            elif path.endswith(".hpp") and target.startswith("CGAL/") and "/internal/" not in path:
+                yield f"<{target}>: CGAL stays out of public headers"
+            return
+    yield f"<{target}> belongs to no package that cmake/check_layers.py lists"
+
+
+def problems_of(path, text):
+    room = room_of(path)
+    if room is None:
+        yield f"{path}: lies in no room of cmake/check_layers.py"
+        return
+    for number, line in enumerate(text.splitlines(), 1):
         match = INCLUDE.match(line)
         if not match:
             continue
-        target = match.group(2)
-        other = target.split("/")[0]
-        place = f"{path}:{number}"
-        if match.group(1) == '"' and other in FLOOR and other != room and FLOOR[other] >= FLOOR[room]:
-            yield f"{place}: {room} (floor {FLOOR[room]}) includes {target} (floor {FLOOR[other]})"
-        if match.group(1) == '"' and "/internal/" in target and other != room:
-            yield f"{place}: {target} is internal to {other}"
-        for package, rooms in PACKAGE_ROOMS.items():
-            if (match.group(1) + target).startswith(package) and room not in rooms:
-                yield f"{place}: <{target}> may be included only in {sorted(rooms)}"
-        if target.startswith("CGAL/") and path.suffix == ".hpp" and "internal" not in path.parts:
-            yield f"{place}: CGAL stays out of public headers"
+        kind, target = match.groups()
+        found = problems_of_own(path, room, target) if kind == '"' else problems_of_foreign(path, target)
+        for problem in found:
+            yield f"{path}:{number}: {problem}"
 
 
-def main() -> int:
-    root = pathlib.Path(sys.argv[1])
-    found = []
-    files = 0
-    for room in FLOOR:
-        for path in sorted((root / room).rglob("*.[ch]pp")):
+def main(root):
+    found, files = [], 0
+    for top in sorted({room.split("/")[0] for room in FLOORS}):
+        for path in sorted((root / top).rglob("*.[ch]pp")):
             files += 1
-            found.extend(problems_in(path, room))
+            found.extend(problems_of(path.relative_to(root).as_posix(), path.read_text()))
     print("\n".join(found) or f"{files} files, includes go down")
     return 1 if found or files == 0 else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(pathlib.Path(sys.argv[1])))

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/boundary.hpp"
-#include "geometry/pose.hpp"
+#include "geometry/contact/boundary.hpp"
+#include "geometry/shape/pose.hpp"
 
 namespace polynya::dynamics {
 

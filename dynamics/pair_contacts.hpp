@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dynamics/contact.hpp"
-#include "geometry/boundary.hpp"
+#include "geometry/contact/boundary.hpp"
 
 namespace polynya::dynamics {
 

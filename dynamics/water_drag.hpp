@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dynamics/bodies.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/shape/polygon.hpp"
 
 namespace polynya::dynamics {
 

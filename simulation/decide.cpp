@@ -4,8 +4,8 @@
 #include "dynamics/collision.hpp"
 #include "fracture/crushing.hpp"
 #include "fracture/splitting.hpp"
-#include "geometry/crack_path.hpp"
-#include "geometry/wedge.hpp"
+#include "geometry/contact/crack_path.hpp"
+#include "geometry/contact/wedge.hpp"
 #include "simulation/crushed_overlap.hpp"
 #include "simulation/step.hpp"
 

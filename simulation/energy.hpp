@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/point.hpp"
+#include "geometry/shape/point.hpp"
 
 namespace polynya::simulation {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/measures.hpp"
-#include "geometry/power_diagram.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/shape/power_diagram.hpp"
 #include "simulation/random.hpp"
 
 namespace polynya::simulation {

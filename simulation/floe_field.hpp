@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/polygon.hpp"
+#include "geometry/shape/polygon.hpp"
 
 namespace polynya::simulation {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/measures.hpp"
+#include "geometry/exact/measures.hpp"
 
 namespace polynya::simulation {
 

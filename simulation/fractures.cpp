@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/cut.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/measures.hpp"
 #include "simulation/floe_size.hpp"
 #include "simulation/step.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fracture/decision.hpp"
-#include "geometry/cut.hpp"
-#include "geometry/point.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/shape/point.hpp"
 
 namespace polynya::simulation {
 

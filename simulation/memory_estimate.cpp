@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/boundary.hpp"
+#include "geometry/contact/boundary.hpp"
 #include "simulation/world.hpp"
 
 namespace polynya::simulation {

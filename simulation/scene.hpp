@@ -9,7 +9,7 @@
 #include "fracture/characteristic_length.hpp"
 #include "fracture/materials.hpp"
 #include "fracture/splitting.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/shape/polygon.hpp"
 
 namespace polynya::simulation {
 

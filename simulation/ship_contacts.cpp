@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/first_touch.hpp"
+#include "geometry/contact/first_touch.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {

@@ -3,12 +3,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
-#include "simulation/state.hpp"
+#include "dynamics/thread_limit.hpp"
+#include "simulation/state/state.hpp"
+#include "simulation/state/validate_world.hpp"
 #include "simulation/step.hpp"
-#include "simulation/validate_world.hpp"
 
 namespace polynya::simulation {
 
@@ -25,15 +23,6 @@ std::string_view name_of(EventKind kind) {
   }
   return "unknown";
 }
-
-/// So many threads, also where there are fewer cores.
-struct ThreadLimit {
-  explicit ThreadLimit(int threads)
-      : most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
-        arena(threads) {}
-  tbb::global_control most;
-  tbb::task_arena arena;
-};
 
 Simulation::Simulation(Scene scene, Shortcuts shortcuts)
     : world_(std::make_unique<World>(std::move(scene), shortcuts)) {}
@@ -57,7 +46,7 @@ std::uint64_t Simulation::state_hash() const {
 
 void Simulation::set_threads(int threads) {
   world_->threads = threads;
-  thread_limit_ = threads > 1 ? std::make_unique<ThreadLimit>(threads) : nullptr;
+  thread_limit_ = threads > 1 ? std::make_unique<dynamics::ThreadLimit>(threads) : nullptr;
 }
 
 namespace {
@@ -91,7 +80,7 @@ void Simulation::step() {
   if (thread_limit_ == nullptr) {
     simulation::step(*world_);
   } else {
-    thread_limit_->arena.execute([&] { simulation::step(*world_); });
+    thread_limit_->execute([&] { simulation::step(*world_); });
   }
   look_at(*world_);
 }

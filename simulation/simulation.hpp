@@ -7,15 +7,18 @@
 
 #include <tl/expected.hpp>
 
-#include "geometry/pose.hpp"
+#include "geometry/shape/pose.hpp"
 #include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
 #include "simulation/scene.hpp"
 
+namespace polynya::dynamics {
+class ThreadLimit;
+}
+
 namespace polynya::simulation {
 
 struct World;
-struct ThreadLimit;
 
 /// Where one living floe is. Frames and pictures are made of these.
 struct FloeState {
@@ -97,7 +100,7 @@ class Simulation {
  private:
   explicit Simulation(std::unique_ptr<World> world);
   std::unique_ptr<World> world_;
-  std::unique_ptr<ThreadLimit> thread_limit_;
+  std::unique_ptr<dynamics::ThreadLimit> thread_limit_;
 };
 
 }  // namespace polynya::simulation

@@ -7,7 +7,7 @@
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/kashtelyan.hpp"
 #include "fracture/bending/nevel.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/exact/measures.hpp"
 
 namespace polynya::simulation {
 namespace {

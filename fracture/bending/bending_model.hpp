@@ -8,23 +8,24 @@ namespace polynya::fracture {
 struct BendingLoad {
   Ice ice;
   Water water;
-  double front_half_angle = 0.7854;    ///< θ_wf, from the inward normal to one ice edge [rad]
-  double back_half_angle = 0.7854;     ///< θ_wb, from the inward normal to the other [rad]
-  double hull_angle = 0.7854;          ///< θ_s, the hull's inclination from the vertical [rad]
-  double mean_approach_speed = 0;      ///< mean v_n since first contact [m/s]
-  double penetration = 0;              ///< ξ, so far crushed along the plan normal [m]
-  double vertical_to_crushing = 1;     ///< c_V = V / F_n of section 2 [-]
+  double front_half_angle = 0.7854;  ///< θ_wf, from the inward normal to one ice edge [rad]
+  double back_half_angle = 0.7854;   ///< θ_wb, from the inward normal to the other [rad]
+  double hull_angle = 0.7854;        ///< θ_s, the hull's inclination from the vertical [rad]
+  double mean_approach_speed = 0;    ///< mean v_n since first contact [m/s]
+  double penetration = 0;            ///< ξ, so far crushed along the plan normal [m]
+  double vertical_to_crushing = 1;   ///< c_V = V / F_n of section 2 [-]
 };
 
 /// What the wedge bears before its cusp breaks off.
 struct BendingCapacity {
-  double vertical_force = 0;    ///< V_b [N]
-  double cusp_radius = 0;       ///< R [m]
-  bool is_in_range = true;      ///< false where a tabulated model had to clamp the load to its table
+  double vertical_force = 0;        ///< V_b [N]
+  double cusp_radius = 0;           ///< R [m]
+  bool is_in_range = true;          ///< false where a tabulated model had to clamp the load to its table
   bool radial_crack_first = false;  ///< a radial crack opens before the cusp breaks, where the model tells
 };
 
-/// When a plate breaks by bending, and how large the cusp is. Implementations are values without state of a run.
+/// When a plate breaks by bending, and how large the cusp is. Implementations are values without state of a
+/// run.
 class BendingModel {
  public:
   virtual ~BendingModel() = default;

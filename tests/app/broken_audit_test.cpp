@@ -4,11 +4,11 @@
 #include "program.hpp"
 #include <gtest/gtest.h>
 
-#include "io/checkpoint.hpp"
-#include "io/json_parser.hpp"
-#include "io/run_folder.hpp"
-#include "io/run_writer.hpp"
-#include "io/scene_reader.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/run/run_writer.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/json_parser.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/world.hpp"
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/json_parser.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/json_parser.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::tests {

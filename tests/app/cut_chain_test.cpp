@@ -12,10 +12,10 @@
 #include <gtest/gtest.h>
 
 #include "app/cut_floes.hpp"
-#include "geometry/exact_area.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/repair.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/exact_area.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
 
 namespace polynya::tests {
 namespace {

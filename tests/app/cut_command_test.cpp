@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "geometry/measures.hpp"
-#include "geometry/repair.hpp"
-#include "geometry/validity.hpp"
-#include "io/floe_text.hpp"
-#include "io/json_parser.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
+#include "io/text/floe_text.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::tests {
 namespace {

@@ -2,7 +2,7 @@
 #include "program.hpp"
 #include <gtest/gtest.h>
 
-#include "io/json_parser.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::tests {
 namespace {

@@ -2,8 +2,8 @@
 #include "tiny_scene.hpp"
 #include <gtest/gtest.h>
 
-#include "io/records.hpp"
-#include "io/run_reader.hpp"
+#include "io/run/records.hpp"
+#include "io/run/run_reader.hpp"
 
 namespace polynya::tests {
 namespace {

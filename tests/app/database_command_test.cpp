@@ -11,8 +11,8 @@
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/crushing.hpp"
-#include "io/json_parser.hpp"
-#include "io/svg_convert.hpp"
+#include "io/text/json_parser.hpp"
+#include "views/map/svg_convert.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -445,7 +445,7 @@ TEST(DatabaseShowCommand, DrawsTheSameThreePicturesEachTime) {
     EXPECT_FALSE(contains(text, "nan")) << name;
     EXPECT_EQ(text, read_file(folder / "two" / (name + ".svg")));
     if (system("command -v rsvg-convert >/dev/null") == 0) {
-      EXPECT_TRUE(io::convert_svg(svg, folder / (name + ".png"))) << name;
+      EXPECT_TRUE(views::convert_svg(svg, folder / (name + ".png"))) << name;
     }
   }
   write_file(folder / "file", "");

@@ -1,11 +1,11 @@
 #include "plate_run.hpp"
 #include <gtest/gtest.h>
 
-#include "geometry/repair.hpp"
-#include "io/floe_text.hpp"
-#include "io/json_parser.hpp"
-#include "io/motion_index.hpp"
-#include "io/run_reader.hpp"
+#include "geometry/cut/repair.hpp"
+#include "io/run/motion_index.hpp"
+#include "io/run/run_reader.hpp"
+#include "io/text/floe_text.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::tests {
 namespace {

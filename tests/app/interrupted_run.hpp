@@ -7,8 +7,8 @@
 
 #include "program.hpp"
 
-#include "io/checkpoint.hpp"
-#include "io/run_folder.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/run_folder.hpp"
 
 namespace polynya::tests {
 

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "io/json_parser.hpp"
-#include "io/run_check.hpp"
-#include "io/run_folder.hpp"
-#include "io/run_reader.hpp"
-#include "io/summary.hpp"
+#include "analysis/run_check.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/run/run_reader.hpp"
+#include "io/run/summary.hpp"
+#include "io/text/json_parser.hpp"
 #include "simulation/memory_estimate.hpp"
 
 namespace polynya::tests {

@@ -3,7 +3,7 @@
 #include "program.hpp"
 #include <gtest/gtest.h>
 
-#include "io/run_reader.hpp"
+#include "io/run/run_reader.hpp"
 
 namespace polynya::tests {
 

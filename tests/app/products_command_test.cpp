@@ -2,7 +2,7 @@
 #include "program.hpp"
 #include <gtest/gtest.h>
 
-#include "io/run_folder.hpp"
+#include "io/run/run_folder.hpp"
 
 namespace polynya::tests {
 namespace {

@@ -1,12 +1,12 @@
 // Every cut that geometry refuses is written as an input of polynya cut, which refuses it for the same
 // reason.
 
-#include "io/rejected_cut.hpp"
+#include "io/run/rejected_cut.hpp"
 
 #include "program.hpp"
 #include <gtest/gtest.h>
 
-#include "io/json_parser.hpp"
+#include "io/text/json_parser.hpp"
 #include "simulation/step.hpp"
 #include "tests/simulation/scenes.hpp"
 

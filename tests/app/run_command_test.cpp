@@ -5,9 +5,9 @@
 #include "program.hpp"
 #include <gtest/gtest.h>
 
-#include "io/json_parser.hpp"
-#include "io/run_folder.hpp"
-#include "io/run_reader.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/run/run_reader.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::tests {
 namespace {

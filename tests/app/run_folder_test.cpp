@@ -7,8 +7,8 @@
 #include "interrupted_run.hpp"
 #include <gtest/gtest.h>
 
-#include "io/run_writer.hpp"
-#include "io/scene_reader.hpp"
+#include "io/run/run_writer.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::tests {

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "fracture/characteristic_length.hpp"
-#include "geometry/cut.hpp"
-#include "io/scene_reader.hpp"
+#include "geometry/cut/cut.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 
 int main(int count, char** words) {

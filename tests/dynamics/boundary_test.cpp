@@ -1,5 +1,5 @@
 // Contact circles, and what two boundaries have near each other, against brute force over all edges.
-#include "geometry/boundary.hpp"
+#include "geometry/contact/boundary.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,8 +1,8 @@
 #include "dynamics/pair_grid.hpp"
 
-#include <gtest/gtest.h>
-
 #include <set>
+
+#include <gtest/gtest.h>
 
 namespace polynya::dynamics {
 namespace {

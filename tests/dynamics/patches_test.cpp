@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/boundary.hpp"
-#include "geometry/overlap.hpp"
+#include "geometry/contact/boundary.hpp"
+#include "geometry/cut/overlap.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {

@@ -9,7 +9,7 @@
 #include "dynamics/bodies.hpp"
 #include "dynamics/impulse_solver.hpp"
 #include "dynamics/water_drag.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/exact/measures.hpp"
 
 namespace polynya::scenery {
 

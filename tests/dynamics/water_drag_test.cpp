@@ -104,7 +104,8 @@ TEST(WaterDrag, ActsAgainstTheVelocityAndTakesTheEnergyItReports) {
     const Vector v = bodies.velocity[0];
     const double before = kinetic_energy(bodies);
     const double work = apply_water_drag(bodies, {0}, {random.between(0, 2), kWater, {}},
-                                         std::pow(10.0, random.between(-4, 4))).lost;
+                                         std::pow(10.0, random.between(-4, 4)))
+                            .lost;
     const double after = kinetic_energy(bodies);
     ASSERT_LE(after, before);
     ASSERT_NEAR((before - after) / before, work / before, 1e-12);

@@ -1,12 +1,12 @@
 // The wedge of ice at a contact, and the straight crack through a floe.
-#include "geometry/wedge.hpp"
+#include "geometry/contact/wedge.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "geometry/crack_path.hpp"
-#include "geometry/cut.hpp"
+#include "geometry/contact/crack_path.hpp"
+#include "geometry/cut/cut.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {

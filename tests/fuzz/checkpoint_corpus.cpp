@@ -7,7 +7,7 @@
 
 #include "checkpoint_scene.hpp"
 
-#include "io/checkpoint.hpp"
+#include "io/run/checkpoint.hpp"
 #include "simulation/simulation.hpp"
 
 int main(int count, char** words) {

@@ -8,9 +8,9 @@
 
 #include "checkpoint_scene.hpp"
 
-#include "io/checkpoint.hpp"
+#include "io/run/checkpoint.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/validate_world.hpp"
+#include "simulation/state/validate_world.hpp"
 
 namespace {
 

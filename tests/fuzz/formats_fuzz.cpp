@@ -8,13 +8,13 @@
 #include <cstdlib>
 #include <string>
 
-#include "geometry/validity.hpp"
-#include "io/birth_shapes.hpp"
-#include "io/cut_ops.hpp"
-#include "io/floe_shapes.hpp"
-#include "io/floe_text.hpp"
-#include "io/json_parser.hpp"
-#include "io/scene_reader.hpp"
+#include "geometry/exact/validity.hpp"
+#include "io/run/floe_shapes.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/birth_shapes.hpp"
+#include "io/text/cut_ops.hpp"
+#include "io/text/floe_text.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace {
 

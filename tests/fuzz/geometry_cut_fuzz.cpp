@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/repair.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/validity.hpp"
 #include "tests/geometry/dice.hpp"
 #include "tests/geometry/trials.hpp"
 

@@ -1,4 +1,4 @@
-#include "geometry/cut.hpp"
+#include "geometry/cut/cut.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/internal/exact_polygon.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
 
 namespace polynya::geometry {
 namespace {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/cut.hpp"
-#include "geometry/internal/predicates.hpp"
-#include "geometry/pose.hpp"
-#include "geometry/repair.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/validity.hpp"
+#include "geometry/shape/pose.hpp"
 
 namespace polynya::geometry::trials {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/polygon.hpp"
-#include "geometry/shape.hpp"
+#include "geometry/shape/polygon.hpp"
+#include "geometry/shape/shape.hpp"
 
 namespace polynya::geometry::trials {
 

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/measures.hpp"
-#include "geometry/pose.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/shape/pose.hpp"
 #include "tests/geometry/trials.hpp"
 
 namespace polynya::geometry {

@@ -1,11 +1,11 @@
 // When two outlines that move in straight lines first touch.
-#include "geometry/first_touch.hpp"
+#include "geometry/contact/first_touch.hpp"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "geometry/overlap.hpp"
+#include "geometry/cut/overlap.hpp"
 
 namespace polynya::geometry {
 namespace {

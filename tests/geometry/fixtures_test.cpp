@@ -1,8 +1,8 @@
 // Every failure that RapidCheck or the fuzzer found, shrunk, so that it stays found.
 #include <gtest/gtest.h>
 
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/exact/validity.hpp"
 #include "tests/geometry/trials.hpp"
 
 namespace polynya::geometry {

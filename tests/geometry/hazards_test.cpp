@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/internal/local_cut.hpp"
-#include "geometry/internal/window_cut.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/pose.hpp"
-#include "geometry/repair.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/local_cut.hpp"
+#include "geometry/cut/internal/window_cut.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
+#include "geometry/shape/pose.hpp"
 #include "tests/geometry/dice.hpp"
 #include "tests/geometry/trials.hpp"
 

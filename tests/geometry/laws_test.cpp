@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/internal/local_cut.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/overlap.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/local_cut.hpp"
+#include "geometry/cut/overlap.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
 #include "tests/geometry/dice.hpp"
 #include "tests/geometry/trials.hpp"
 

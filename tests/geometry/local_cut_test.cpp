@@ -1,13 +1,13 @@
 // The local path against the general one: wherever both answer they give the same bits.
-#include "geometry/internal/local_cut.hpp"
+#include "geometry/cut/internal/local_cut.hpp"
 
 #include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/exact/measures.hpp"
 #include "tests/geometry/trials.hpp"
 
 namespace polynya::geometry {

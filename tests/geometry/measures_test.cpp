@@ -1,4 +1,4 @@
-#include "geometry/measures.hpp"
+#include "geometry/exact/measures.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/cut.hpp"
-#include "geometry/exact_area.hpp"
-#include "geometry/internal/exact_polygon.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/exact_area.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
 
 namespace polynya::geometry {
 namespace {

@@ -10,11 +10,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "geometry/cut.hpp"
-#include "geometry/exact_memory.hpp"
-#include "geometry/overlap.hpp"
-#include "geometry/repair.hpp"
-#include "geometry/triangulation.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/cut/overlap.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/exact_memory.hpp"
+#include "geometry/shape/triangulation.hpp"
 
 namespace {
 

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/internal/predicates.hpp"
-#include "geometry/internal/window_cut.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/window_cut.hpp"
+#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/validity.hpp"
 #include "tests/geometry/trials.hpp"
 
 namespace polynya::geometry {

@@ -1,9 +1,9 @@
 // Cells against the definition: every point belongs to the site of least power distance.
-#include "geometry/power_diagram.hpp"
+#include "geometry/shape/power_diagram.hpp"
 
 #include <gtest/gtest.h>
 
-#include "geometry/measures.hpp"
+#include "geometry/exact/measures.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {

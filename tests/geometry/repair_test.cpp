@@ -1,4 +1,4 @@
-#include "geometry/repair.hpp"
+#include "geometry/cut/repair.hpp"
 
 #include <cmath>
 #include <random>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/overlap.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/overlap.hpp"
+#include "geometry/exact/validity.hpp"
 #include "tests/geometry/trials.hpp"
 
 namespace polynya::geometry {

@@ -1,5 +1,5 @@
 // Snap rounding of exact polygons: always valid on even lattices, and no area moved but along the edges.
-#include "geometry/internal/snap_rounding.hpp"
+#include "geometry/cut/internal/snap_rounding.hpp"
 
 #include <cmath>
 #include <random>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/internal/arrangement.hpp"
-#include "geometry/overlap.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/internal/arrangement.hpp"
+#include "geometry/cut/overlap.hpp"
+#include "geometry/exact/validity.hpp"
 
 namespace polynya::geometry {
 namespace {

@@ -5,11 +5,11 @@
 #include <sstream>
 #include <tuple>
 
-#include "geometry/internal/arrangement.hpp"
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/internal/window_cut.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/internal/arrangement.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/window_cut.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
 
 namespace polynya::geometry::trials {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/cut.hpp"
-#include "geometry/internal/exact_polygon.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
 #include "tests/geometry/dice.hpp"
 
 namespace polynya::geometry::trials {

@@ -5,8 +5,8 @@
 #include <geos_c.h>
 #include <gtest/gtest.h>
 
-#include "geometry/repair.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/validity.hpp"
 #include "tests/geometry/dice.hpp"
 #include "tests/geometry/trials.hpp"
 

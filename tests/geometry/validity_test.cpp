@@ -1,4 +1,4 @@
-#include "geometry/validity.hpp"
+#include "geometry/exact/validity.hpp"
 
 #include <cmath>
 #include <limits>

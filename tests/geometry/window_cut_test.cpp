@@ -1,5 +1,5 @@
 // The general path on the window around the cut against the same on the whole shape: the same bits, always.
-#include "geometry/internal/window_cut.hpp"
+#include "geometry/cut/internal/window_cut.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "geometry/internal/general_cut.hpp"
-#include "geometry/internal/window.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/repair.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/window.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
 #include "tests/geometry/dice.hpp"
 #include "tests/geometry/trials.hpp"
 

@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::tests {

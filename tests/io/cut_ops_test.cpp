@@ -1,11 +1,11 @@
-#include "io/cut_ops.hpp"
+#include "io/text/cut_ops.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "io/cut_report.hpp"
-#include "io/json_parser.hpp"
+#include "io/text/cut_report.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::io {
 namespace {

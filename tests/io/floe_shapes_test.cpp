@@ -1,4 +1,4 @@
-#include "io/floe_shapes.hpp"
+#include "io/run/floe_shapes.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/cut.hpp"
-#include "geometry/measures.hpp"
-#include "geometry/validity.hpp"
-#include "io/json_parser.hpp"
-#include "io/records.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
+#include "io/run/records.hpp"
+#include "io/text/json_parser.hpp"
 #include "tests/geometry/dice.hpp"
 
 namespace polynya::io {

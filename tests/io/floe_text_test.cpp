@@ -1,4 +1,4 @@
-#include "io/floe_text.hpp"
+#include "io/text/floe_text.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "geometry/repair.hpp"
-#include "io/cut_report.hpp"
-#include "io/wkt.hpp"
+#include "geometry/cut/repair.hpp"
+#include "io/text/cut_report.hpp"
+#include "io/text/wkt.hpp"
 
 namespace polynya::io {
 namespace {

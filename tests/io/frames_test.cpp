@@ -1,4 +1,4 @@
-#include "io/frames.hpp"
+#include "io/run/frames.hpp"
 
 #include <cmath>
 #include <random>

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "io/json_fault.hpp"
-#include "io/json_parser.hpp"
-#include "io/json_writer.hpp"
-#include "io/problem.hpp"
-#include "io/source_text.hpp"
+#include "io/text/json_fault.hpp"
+#include "io/text/json_parser.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/problem.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-#include "io/output_file.hpp"
+#include "io/text/output_file.hpp"
 
 namespace polynya::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/overlap.hpp"
+#include "io/scene/overlap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/pose.hpp"
+#include "geometry/shape/pose.hpp"
 
 namespace polynya::io {
 namespace {

@@ -1,6 +1,6 @@
 // Who owns a run folder, and what of it --overwrite removes.
 
-#include "io/run_folder.hpp"
+#include "io/run/run_folder.hpp"
 
 #include <array>
 
@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/checkpoint.hpp"
+#include "io/run/checkpoint.hpp"
 
 namespace polynya::io {
 namespace {

@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "geometry/measures.hpp"
-#include "io/force_columns.hpp"
-#include "io/json_parser.hpp"
-#include "io/motion_index.hpp"
-#include "io/records.hpp"
-#include "io/run_folder.hpp"
-#include "io/run_reader.hpp"
-#include "io/run_writer.hpp"
+#include "geometry/exact/measures.hpp"
+#include "io/run/force_columns.hpp"
+#include "io/run/motion_index.hpp"
+#include "io/run/records.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/run/run_reader.hpp"
+#include "io/run/run_writer.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/scene_fields.hpp"
+#include "io/scene/scene_fields.hpp"
 
 #include <functional>
 #include <set>
@@ -7,10 +7,10 @@
 #include "temporary_folder.hpp"
 #include <gtest/gtest.h>
 
-#include "io/json_parser.hpp"
-#include "io/json_writer.hpp"
-#include "io/scene_reader.hpp"
-#include "io/scene_schema.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/scene/scene_schema.hpp"
+#include "io/text/json_parser.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::io {
 namespace {

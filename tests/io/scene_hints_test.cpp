@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace polynya::io {
 namespace {

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "geometry/measures.hpp"
-#include "io/scene_reader.hpp"
+#include "geometry/exact/measures.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace polynya::io {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/overlap.hpp"
-#include "geometry/validity.hpp"
+#include "geometry/cut/overlap.hpp"
+#include "geometry/exact/validity.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {

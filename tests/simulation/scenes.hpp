@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/measures.hpp"
+#include "geometry/exact/measures.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/world.hpp"
 

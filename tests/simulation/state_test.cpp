@@ -1,6 +1,6 @@
 // A run that is interrupted and resumed goes on as if it had not been.
 
-#include "simulation/state.hpp"
+#include "simulation/state/state.hpp"
 
 #include <bit>
 

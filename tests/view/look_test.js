@@ -33,7 +33,7 @@ after(async () => {
 /** The scripts' own functions, without a page. */
 function scripts(...names) {
   const context = vm.createContext({});
-  for (const name of names) vm.runInContext(fs.readFileSync(path.join(__dirname, "../../io/player", name), "utf8"), context);
+  for (const name of names) vm.runInContext(fs.readFileSync(path.join(__dirname, "../../views/player", name), "utf8"), context);
   return context;
 }
 

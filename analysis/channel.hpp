@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "geometry/shape/polygon.hpp"
+#include "io/run/run_reader.hpp"
+
+namespace polynya::analysis {
+
+/// The channel behind a ship at a moment of its run (docs/channel.md). The ship's track and the band its hull
+/// swept are carried with the water to that moment; floes are where the run has them.
+
+struct ChannelOptions {
+  std::size_t ship = 0;
+  std::optional<double> time;  ///< [s]; the end of the run if not given
+  double spacing = 0;          ///< of stations along the track [m]; 0: the ship's beam
+  double reach = 0;            ///< how far to either side ice is looked for [m]; 0: four beams
+};
+
+/// A cell of the channel: a stretch of the track as long as the spacing, as far as the reach to either side.
+struct ChannelStation {
+  double along = 0;          ///< of its middle from the track's beginning [m]
+  double passed = 0;         ///< when the ship's centre was there [s]
+  geometry::Point middle;    ///< on the track, now [m]
+  geometry::Vector forward;  ///< unit, along the track
+  double port = 0;       ///< from the track to the nearest ice in the cell [m]; the reach where there is none
+  double starboard = 0;  ///< [m]
+  bool has_port_ice = false;
+  bool has_starboard_ice = false;
+  double ice_across_beam = 0;  ///< share of the cell within half a beam of the track that ice covers [-]
+
+  double width() const { return port + starboard; }  ///< [m]
+  bool is_bounded() const { return has_port_ice && has_starboard_ice; }
+};
+
+/// A floe that reaches into the band the hull swept.
+struct ChannelFloe {
+  simulation::FloeId floe = 0;
+  double size = 0;    ///< √area [m]
+  double area = 0;    ///< [m²]
+  double inside = 0;  ///< of it in the band [m²]
+};
+
+struct Channel {
+  std::string ship;
+  double time = 0;                     ///< [s]
+  double beam = 0;                     ///< [m]
+  double spacing = 0;                  ///< [m]
+  double reach = 0;                    ///< [m]
+  std::vector<geometry::Point> track;  ///< of the ship's centre, carried with the water to now [m]
+  std::vector<ChannelStation> stations;
+  std::vector<geometry::Polygon> swept;  ///< by the hull, carried with the water to now [m]
+  double swept_area = 0;                 ///< [m²]
+  double swept_ice_at_start = 0;         ///< of it that was ice when the run began [m²]
+  std::vector<ChannelFloe> floes;        ///< in the band, the largest first
+  std::vector<geometry::Polygon>
+      open_water;        ///< joined to the track, from the first to the last bounded cell [m]
+  double open_area = 0;  ///< [m²]
+
+  double swept_ice() const;  ///< [m²]
+};
+
+/// Widths of the stations with ice on both sides [m]; NaN where there are none.
+struct WidthSummary {
+  std::size_t count = 0;
+  double mean = 0, least = 0, most = 0;
+};
+WidthSummary widths(const Channel& channel);
+
+/// Fails with words where the ship or the time is not in the run, or geometry refuses.
+tl::expected<Channel, std::string> measure_channel(const io::Run& run, const ChannelOptions& options);
+
+}  // namespace polynya::analysis

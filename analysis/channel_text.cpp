@@ -1,0 +1,205 @@
+#include "analysis/channel_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <iterator>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "io/text/json_writer.hpp"
+
+namespace polynya::analysis {
+namespace {
+
+double heading_deg(const ChannelStation& station) {
+  return 180 / std::numbers::pi * std::atan2(station.forward.y, station.forward.x);
+}
+
+std::string side(double width, bool has_ice) {
+  return has_ice ? fmt::format("{:.2f}", width) : fmt::format(">{:.2f}", width);
+}
+
+/// Floes by size, in classes of 1, 2, 5 × 10ⁿ metres.
+std::string size_table(const Channel& channel) {
+  std::string text = fmt::format("{:>10} {:>10} {:>8} {:>16} {:>10}\n", "from_m", "below_m", "floes",
+                                 "inside_area_m2", "from_on");
+  if (channel.floes.empty()) return "";
+  const double least = channel.floes.back().size;
+  const double most = channel.floes.front().size;
+  for (int step = 3 * static_cast<int>(std::floor(std::log10(least)));; ++step) {
+    const auto bound = [](int s) {
+      const int power = static_cast<int>(std::floor(s / 3.0));
+      return std::pow(10.0, power) * (s - 3 * power == 0 ? 1 : s - 3 * power == 1 ? 2 : 5);
+    };
+    const double low = bound(step), high = bound(step + 1);
+    if (high <= least) continue;
+    if (low > most) return text;
+    int count = 0, larger = 0;
+    double inside = 0;
+    for (const ChannelFloe& floe : channel.floes) {
+      larger += floe.size >= low ? 1 : 0;
+      if (floe.size < low || floe.size >= high) continue;
+      ++count;
+      inside += floe.inside;
+    }
+    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.4f} {:>10}\n", low, high, count, inside, larger);
+  }
+}
+
+std::string summary_lines(const Channel& channel) {
+  const WidthSummary width = widths(channel);
+  std::string text;
+  if (width.count == 0)
+    text += "no station has ice on both sides within reach: nothing to call a width\n";
+  else
+    text += fmt::format(
+        "width  mean {:.2f} m, least {:.2f} m, most {:.2f} m; over the beam {:.2f}, {:.2f}, {:.2f}\n",
+        width.mean, width.least, width.most, width.mean / channel.beam, width.least / channel.beam,
+        width.most / channel.beam);
+  const double swept = channel.swept_area;
+  text += fmt::format(
+      "swept by the hull  {:.2f} m2; ice covered {:.2f} % of it at the start, {:.2f} % now ({:.2f} m2)\n",
+      swept, 100 * channel.swept_ice_at_start / swept, 100 * channel.swept_ice() / swept,
+      channel.swept_ice());
+  if (channel.floes.empty())
+    text += "no floe is left in it\n";
+  else
+    text += fmt::format("largest floe in it  floe {}, {:.2f} m (root of its area), {:.2f} m2 of it inside\n",
+                        channel.floes.front().floe, channel.floes.front().size, channel.floes.front().inside);
+  text += fmt::format("open water joined to the track, up to {:g} m to either side  {:.2f} m2\n",
+                      channel.reach, channel.open_area);
+  return text;
+}
+
+void append(io::JsonWriter& json, const Channel& channel) {
+  const WidthSummary width = widths(channel);
+  json.key("ship").value(std::string_view(channel.ship)).key("t_s").value(channel.time);
+  json.key("beam_m").value(channel.beam).key("spacing_m").value(channel.spacing);
+  json.key("reach_m").value(channel.reach);
+  json.key("stations").value(static_cast<std::int64_t>(channel.stations.size()));
+  json.key("bounded_stations").value(static_cast<std::int64_t>(width.count));
+  json.key("mean_width_m").value(width.mean).key("least_width_m").value(width.least);
+  json.key("most_width_m").value(width.most);
+  json.key("swept_area_m2").value(channel.swept_area);
+  json.key("swept_ice_at_start_m2").value(channel.swept_ice_at_start);
+  json.key("swept_ice_m2").value(channel.swept_ice());
+  json.key("floes_in_band").value(static_cast<std::int64_t>(channel.floes.size()));
+  json.key("largest_floe_m").value(channel.floes.empty() ? 0 : channel.floes.front().size);
+  json.key("open_area_m2").value(channel.open_area);
+}
+
+void append(io::JsonWriter& json, const std::vector<geometry::Polygon>& polygons) {
+  const auto ring = [&](geometry::Ring points) {
+    points.push_back(points.front());
+    json.value(points);
+  };
+  json.key("geometry").open('{').key("type").value("MultiPolygon").key("coordinates").open('[');
+  for (const geometry::Polygon& polygon : polygons) {
+    json.open('[');
+    ring(polygon.outer);
+    std::ranges::for_each(polygon.holes, ring);
+    json.close(']');
+  }
+  json.close(']').close('}');
+}
+
+void append_line(io::JsonWriter& json, const geometry::Ring& points) {
+  json.key("geometry").open('{').key("type").value("LineString").key("coordinates").value(points).close('}');
+}
+
+io::JsonWriter& start_feature(io::JsonWriter& json, const char* part) {
+  json.start_line();
+  return json.open('{').key("type").value("Feature").key("properties").open('{').key("part").value(part);
+}
+
+void append_station(io::JsonWriter& json, const ChannelStation& s, std::size_t number) {
+  start_feature(json, "station").key("station").value(static_cast<std::int64_t>(number));
+  json.key("along_m").value(s.along).key("passed_s").value(s.passed).key("port_m").value(s.port);
+  json.key("starboard_m").value(s.starboard).key("width_m").value(s.width());
+  json.key("is_bounded").value(s.is_bounded()).key("ice_across_beam").value(s.ice_across_beam).close('}');
+  const geometry::Vector to_port = perpendicular(s.forward);
+  append_line(json, {s.middle + s.port * to_port, s.middle - s.starboard * to_port});
+  json.close('}');
+}
+
+}  // namespace
+
+std::string to_table(const Channel& channel) {
+  std::string text =
+      fmt::format("channel of {} at {:g} s: {} stations of {:g} m, {} with ice on both sides within {:g} m\n",
+                  channel.ship, channel.time, channel.stations.size(), channel.spacing, widths(channel).count,
+                  channel.reach);
+  text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>9} {:>10}\n", "along_m", "passed_s",
+                      "x_m", "y_m", "port_m", "starboard_m", "width_m", "over_beam", "ice_beam_%");
+  for (const ChannelStation& s : channel.stations)
+    text += fmt::format("{:>9.1f} {:>9.1f} {:>9.2f} {:>9.2f} {:>9} {:>11} {:>9} {:>9.2f} {:>10.2f}\n",
+                        s.along, s.passed, s.middle.x, s.middle.y, side(s.port, s.has_port_ice),
+                        side(s.starboard, s.has_starboard_ice), side(s.width(), s.is_bounded()),
+                        s.width() / channel.beam, 100 * s.ice_across_beam);
+  return text + summary_lines(channel) + size_table(channel);
+}
+
+std::string to_csv(const Channel& channel) {
+  std::string text =
+      "station,along_m,passed_s,x_m,y_m,track_deg,port_m,starboard_m,width_m,width_over_beam,has_port_ice,"
+      "has_starboard_ice,ice_across_beam\n";
+  for (std::size_t i = 0; i < channel.stations.size(); ++i) {
+    const ChannelStation& s = channel.stations[i];
+    io::append_number(text, static_cast<std::int64_t>(i));
+    for (const double value : {s.along, s.passed, s.middle.x, s.middle.y, heading_deg(s), s.port, s.starboard,
+                               s.width(), s.width() / channel.beam, s.has_port_ice ? 1.0 : 0.0,
+                               s.has_starboard_ice ? 1.0 : 0.0, s.ice_across_beam}) {
+      text += ',';
+      io::append_number(text, value);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string to_json_text(const Channel& channel) {
+  std::string text;
+  io::JsonWriter json(text, io::JsonWriter::Layout::kIndented);
+  json.open('{');
+  append(json, channel);
+  json.key("floes").open('[');
+  for (const ChannelFloe& floe : channel.floes) {
+    json.open('{').key("floe_id").value(floe.floe).key("size_m").value(floe.size).key("area_m2").value(
+        floe.area);
+    json.key("inside_m2").value(floe.inside).close('}');
+  }
+  json.close(']').close('}');
+  return text + "\n";
+}
+
+std::string to_geojson(const Channel& channel) {
+  std::string text;
+  io::JsonWriter json(text);
+  json.open('{')
+      .key("type")
+      .value("FeatureCollection")
+      .key("t_s")
+      .value(channel.time)
+      .key("features")
+      .open('[');
+  start_feature(json, "open water");
+  append(json, channel);
+  json.close('}');
+  append(json, channel.open_water);
+  json.close('}');
+  start_feature(json, "swept band").key("area_m2").value(channel.swept_area).close('}');
+  append(json, channel.swept);
+  json.close('}');
+  if (channel.track.size() > 1) {
+    start_feature(json, "track").close('}');
+    append_line(json, channel.track);
+    json.close('}');
+  }
+  for (std::size_t i = 0; i < channel.stations.size(); ++i) append_station(json, channel.stations[i], i);
+  json.close(']').close('}');
+  return text + "\n";
+}
+
+}  // namespace polynya::analysis

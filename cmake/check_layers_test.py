@@ -1,0 +1,45 @@
+"""The layer test itself: what is planted into a copy of the source's headers is found, and nothing else.
+
+    python3 cmake/check_layers_test.py SOURCE
+"""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import check_layers  # noqa: E402
+
+SOURCE = pathlib.Path(sys.argv.pop() if len(sys.argv) > 1 else ".")
+# A file of the source, an include to plant there.
+PLANTED = [
+    ("geometry/shape/point.hpp", '"geometry/cut/cut.hpp"'),  # up, between sub-rooms
+    ("geometry/cut/cut.cpp", '"geometry/contact/boundary.hpp"'),  # sideways
+    ("fracture/crushing.cpp", '"dynamics/bodies.hpp"'),  # sideways, between rooms
+    ("simulation/step.cpp", '"io/scene/scene_reader.hpp"'),  # up
+    ("io/run/run_writer.cpp", '"views/map/picture.hpp"'),  # up: the writer draws nothing
+    ("io/scene/scene_check.cpp", '"geometry/cut/internal/local_cut.hpp"'),  # another room's internals
+    ("io/scene/scene_reader.cpp", "<nlohmann/json.hpp>"),  # foreign, elsewhere
+    ("simulation/world.cpp", "<CGAL/Polygon_2.h>"),
+    ("geometry/cut/cut.hpp", "<CGAL/Polygon_2.h>"),  # in its room, but public
+    ("app/run.cpp", "<CLI/CLI.hpp>"),
+    ("geometry/shape/point.hpp", "<Eigen/Dense>"),
+    ("app/run.cpp", "<zlib.h>"),  # listed nowhere
+]
+
+
+class CheckLayers(unittest.TestCase):
+    def test_the_source_is_clean(self):
+        self.assertEqual(check_layers.main(SOURCE), 0)
+
+    def test_what_is_planted_is_found(self):
+        for path, include in PLANTED:
+            with self.subTest(path=path, include=include):
+                text = (SOURCE / path).read_text()
+                self.assertEqual(list(check_layers.problems_of(path, text)), [])
+                planted = list(check_layers.problems_of(path, f"#include {include}\n" + text))
+                self.assertEqual(len(planted), 1, planted)
+                self.assertTrue(planted[0].startswith(f"{path}:1: "), planted)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace polynya::dynamics {
+
+/// Makes parallel loops use a number of threads, also where there are fewer cores, for as long as it lives.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+  /// Calls a function whose parallel loops are to use these threads.
+  void execute(const std::function<void()>& function);
+
+ private:
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+};
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,141 @@
+#include "geometry/contact/boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace polynya::geometry {
+namespace {
+
+constexpr std::uint32_t kLeafCovers = 4;
+
+/// Builds the node over covers [first, first + count) and everything below it; returns its index.
+std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t count) {
+  const auto index = static_cast<std::uint32_t>(boundary.tree.size());
+  boundary.tree.push_back({});
+  const auto begin = boundary.covers.begin() + first;
+  Box box{begin->centre, begin->centre};
+  for (auto c = begin; c != begin + count; ++c) {
+    box.low = {std::min(box.low.x, c->centre.x), std::min(box.low.y, c->centre.y)};
+    box.high = {std::max(box.high.x, c->centre.x), std::max(box.high.y, c->centre.y)};
+  }
+  CoverNode node{midpoint(box.low, box.high), 0, first, count, 0};
+  for (auto c = begin; c != begin + count; ++c) {
+    node.reach = std::max(node.reach, distance(node.centre, c->centre) + c->reach);
+  }
+  node.reach *= 1 + 1e-12;
+  if (count > kLeafCovers) {
+    build_node(boundary, first, count / 2);
+    node.right = build_node(boundary, first + count / 2, count - count / 2);
+  }
+  boundary.tree[index] = node;
+  return index;
+}
+
+double gap(const CoverNode& a, const CoverNode& b, Point b_centre_in_a) {
+  return distance(a.centre, b_centre_in_a) - a.reach - b.reach;
+}
+
+}  // namespace
+
+Boundary make_outline(const Polygon& polygon) {
+  Boundary boundary;
+  boundary.edges = edge_list(polygon);
+  return boundary;
+}
+
+void make_ready(Boundary& boundary, const CoverRule& rule) {
+  boundary.pieces = boundary_pieces(boundary.edges, rule.circle_radius);
+  boundary.covers.reserve(boundary.pieces.size());
+  if (rule.has_circles) {
+    boundary.circles = sample_contact_circles(boundary.edges, boundary.pieces, rule.circle_radius);
+    for (const ContactCircle& circle : boundary.circles)
+      boundary.covers.push_back({circle.centre, circle.reach});
+  } else {
+    for (const BoundaryPiece& piece : boundary.pieces) boundary.covers.push_back({piece.middle, piece.reach});
+  }
+  boundary.tree.reserve(boundary.covers.size());
+  build_node(boundary, 0, static_cast<std::uint32_t>(boundary.covers.size()));
+}
+
+Boundary make_boundary(const Polygon& polygon, const CoverRule& rule) {
+  Boundary boundary = make_outline(polygon);
+  make_ready(boundary, rule);
+  return boundary;
+}
+
+double near_covers(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
+                   std::vector<NearPair>& cover_pairs) {
+  double bound = std::numeric_limits<double>::infinity();
+  NearPair stack[128];  // depth of both trees: a boundary of 2^60 circles would fit
+  int top = 0;
+  stack[top++] = {0, 0};
+  while (top > 0) {
+    const NearPair pair = stack[--top];
+    const CoverNode& na = a.tree[pair.a];
+    const CoverNode& nb = b.tree[pair.b];
+    const double d = gap(na, nb, point_in_world(a_from_b, nb.centre));
+    if (d > margin) {
+      bound = std::min(bound, d);
+      continue;
+    }
+    if (na.right == 0 && nb.right == 0) {
+      for (std::uint32_t k = nb.first; k < nb.first + nb.count; ++k) {
+        const Point centre = point_in_world(a_from_b, b.covers[k].centre);
+        for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
+          const double free = distance(a.covers[i].centre, centre) - a.covers[i].reach - b.covers[k].reach;
+          bound = std::min(bound, free);
+          if (free <= margin) cover_pairs.push_back({i, k});
+        }
+      }
+    } else if (nb.right == 0 || (na.right != 0 && na.reach >= nb.reach)) {
+      stack[top++] = {na.right, pair.b};
+      stack[top++] = {pair.a + 1, pair.b};
+    } else {
+      stack[top++] = {pair.a, nb.right};
+      stack[top++] = {pair.a, pair.b + 1};
+    }
+  }
+  return bound;
+}
+
+void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& cover_pairs,
+              std::vector<NearPair>& edge_pairs) {
+  for (const NearPair pair : cover_pairs) {
+    const BoundaryPiece& ca = a.pieces[pair.a];
+    const BoundaryPiece& cb = b.pieces[pair.b];
+    std::uint32_t ea = ca.first_edge;
+    for (std::uint32_t i = 0; i < ca.edges; ++i, ea = a.edges.next[ea]) {
+      std::uint32_t eb = cb.first_edge;
+      for (std::uint32_t k = 0; k < cb.edges; ++k, eb = b.edges.next[eb]) {
+        if (edge_pairs.empty() || edge_pairs.back() != NearPair{ea, eb}) edge_pairs.push_back({ea, eb});
+      }
+    }
+  }
+  std::sort(edge_pairs.begin(), edge_pairs.end());
+  edge_pairs.erase(std::unique(edge_pairs.begin(), edge_pairs.end()), edge_pairs.end());
+}
+
+double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                      const std::vector<NearPair>& edge_pairs) {
+  double least = std::numeric_limits<double>::infinity();  // squared
+  const auto squared_to_segment = [](Point p, Point from, Point to) {
+    const Vector d = to - from;
+    const double along = std::clamp(dot(p - from, d) / squared_length(d), 0.0, 1.0);
+    return squared_length(from + along * d - p);
+  };
+  for (const NearPair pair : edge_pairs) {
+    const Point a0 = a.edges.from(pair.a);
+    const Point a1 = a.edges.to(pair.a);
+    const Point b0 = point_in_world(a_from_b, b.edges.from(pair.b));
+    const Point b1 = point_in_world(a_from_b, b.edges.to(pair.b));
+    const double b_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0);
+    const double a_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0);
+    if (b_sides <= 0 && a_sides <= 0) return 0;
+    least = std::min({least, squared_to_segment(a0, b0, b1), squared_to_segment(a1, b0, b1),
+                      squared_to_segment(b0, a0, a1), squared_to_segment(b1, a0, a1)});
+  }
+  return std::sqrt(least);
+}
+
+}  // namespace polynya::geometry

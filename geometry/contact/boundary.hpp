@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/contact/contact_circles.hpp"
+#include "geometry/shape/pose.hpp"
+
+namespace polynya::geometry {
+
+/// A circle that covers a piece of boundary.
+struct Cover {
+  Point centre;      ///< [m]
+  double reach = 0;  ///< [m]
+};
+
+/// A node of the tree over a boundary's covers: a circle that covers all of its own.
+struct CoverNode {
+  Point centre;             ///< [m]
+  double reach = 0;         ///< [m]
+  std::uint32_t first = 0;  ///< first cover
+  std::uint32_t count = 0;  ///< number of covers; children split them in halves
+  std::uint32_t right = 0;  ///< index of the second child, the first is the next node; 0 at a leaf
+};
+
+/// How a boundary is covered.
+struct CoverRule {
+  double circle_radius = 1.0;  ///< of contact circles, and the most length of a piece [m]
+  bool has_circles = false;    ///< contact circles touch the boundary from inside (find_circle_patches wants
+                               ///< them); without, covers stand on it and are tighter
+};
+
+/// A body's boundary: its edges and, once it is ready for finding contacts, its pieces, covers of the pieces
+/// and a tree over the covers. Everything is in the body frame.
+struct Boundary {
+  EdgeList edges;
+  std::vector<BoundaryPiece> pieces;
+  std::vector<ContactCircle> circles;  ///< of the pieces; empty where the rule has none
+  std::vector<Cover> covers;           ///< of the pieces: the circles' centres, or the pieces' middles
+  std::vector<CoverNode> tree;
+
+  bool is_ready() const { return !tree.empty(); }
+};
+
+/// A boundary of which only the edges are there yet: a floe that nobody comes near needs no more.
+Boundary make_outline(const Polygon& polygon);
+
+/// Makes a boundary ready for finding contacts.
+void make_ready(Boundary& boundary, const CoverRule& rule);
+
+Boundary make_boundary(const Polygon& polygon, const CoverRule& rule);
+
+/// A pair of edges (or of covers) of two boundaries that are near each other.
+struct NearPair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  friend auto operator<=>(const NearPair&, const NearPair&) = default;
+};
+
+/// Finds what two boundaries have near each other: all pairs of covers within `margin` of each other [m], and
+/// so all pieces. Appends to `cover_pairs`. Returns a lower bound of the distance between the
+/// boundaries [m], of use where nothing is within the margin.
+double near_covers(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
+                   std::vector<NearPair>& cover_pairs);
+
+/// The pairs of edges behind pairs of covers, each once, in order.
+void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& cover_pairs,
+              std::vector<NearPair>& edge_pairs);
+
+/// Where two bodies overlap, seen as one contact. In the frame of a.
+struct ContactPatch {
+  Point ends[2];                    ///< the ends of the contact line [m]
+  Vector normal;                    ///< unit, from a into b
+  double width = 0;                 ///< length of the contact line [m]
+  double depth = 0;                 ///< extent of the overlap along the normal [m]
+  double area = 0;                  ///< of the overlap [m²]
+  Point tip_of_b;                   ///< the point of b farthest inside a [m]
+  std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
+};
+
+/// Reusable memory of find_patches.
+struct PatchScratch {
+  struct Crossing {
+    Point point;
+    std::uint32_t edge_a, edge_b;
+    double along_a, along_b;
+    bool is_entering;          ///< a's boundary enters b here
+    std::uint32_t place_on_a;  ///< in the order along a
+  };
+  std::vector<Crossing> crossings;
+  std::vector<Crossing> by_b;         ///< the same, in the order along b
+  std::vector<Point> side_a, side_b;  ///< the overlap's two sides, (along the line, off it) [m]
+};
+
+/// The contact patches of two overlapping bodies, from the edges near each other (edges_of). Each stretch of
+/// a's boundary inside b makes one: the contact line joins the points where the boundaries cross, the normal
+/// stands on it. Appends to `patches`. Returns how many stretches were left out because their crossings did
+/// not pair up (rounding at a touching vertex; they pair up one step later).
+int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                 const std::vector<NearPair>& edge_pairs, PatchScratch& scratch,
+                 std::vector<ContactPatch>& patches);
+
+/// Least distance between the edges of the pairs, 0 where two cross or touch [m].
+double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                      const std::vector<NearPair>& edge_pairs);
+
+/// The paper's own rule: every pair of overlapping contact circles is a contact with its normal along the
+/// line of centres and its contact point half-way into the overlap. [Sawamura2017], Fig. 1. Depth is the
+/// circles' overlap; width and area are those of the circles' lens.
+void find_circle_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                         const std::vector<NearPair>& circle_pairs, std::vector<ContactPatch>& patches);
+
+}  // namespace polynya::geometry

@@ -1,0 +1,175 @@
+#include "geometry/cut/cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <numbers>
+
+#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/local_cut.hpp"
+#include "geometry/cut/internal/window_cut.hpp"
+#include "geometry/exact/internal/edge_tree.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
+#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/validity.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+tl::unexpected<CutError> refuse(CutFailure reason, const DefectAt& found) {
+  return tl::unexpected(CutError{reason, std::string(name_of(found.defect))});
+}
+
+bool are_usable(const std::vector<Point>& points) {
+  return std::all_of(points.begin(), points.end(), is_usable);
+}
+
+// Strictly convex, counter-clockwise and once around: then nothing else can be wrong with a ring.
+bool is_convex(const Ring& ring) {
+  const std::size_t n = ring.size();
+  if (n < 3 || !are_usable(ring)) return false;
+  int turns_back = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point a = ring[i];
+    const Point b = ring[(i + 1) % n];
+    const Point c = ring[(i + 2) % n];
+    if (orientation(a, b, c) <= 0) return false;
+    const auto rightward = [](Point p, Point q) { return p.x < q.x || (p.x == q.x && p.y < q.y); };
+    turns_back += rightward(a, b) != rightward(b, c) ? 1 : 0;
+  }
+  return turns_back == 2;
+}
+
+std::optional<DefectAt> find_tool_defect(const Polygon& tool) {
+  if (tool.holes.empty() && is_convex(tool.outer)) return {};
+  return find_defect(tool);
+}
+
+// Does the polyline neither cross nor touch itself? (Ends that meet count as touching.)
+bool is_simple(const std::vector<Point>& polyline) {
+  if (polyline.size() == 2) return true;
+  std::vector<Edge> edges;
+  for (std::size_t i = 1; i < polyline.size(); ++i)
+    edges.push_back({polyline[i - 1], polyline[i], 0, static_cast<int>(i)});
+  return EdgeTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
+    const SegmentMeeting meeting = meet(edges[i].a, edges[i].b, edges[j].a, edges[j].b);
+    if (meeting.kind == Meeting::kNone) return true;
+    return j == i + 1 && meeting.kind == Meeting::kTouch;
+  });
+}
+
+// What fails here is left to the general path. Out of memory is no failed cut: the caller has to know.
+template <typename Work>
+std::optional<CutOutcome> guarded(Work work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+CutOutcome cut_by_polygons_exactly(const Shape& shape, const std::vector<Polygon>& tools) {
+  if (auto outcome = guarded([&] { return cut_by_polygons_in_window(shape, tools); }))
+    return *std::move(outcome);
+  return cut_by_polygons_generally(exact::exactly(shape.polygon), tools);
+}
+
+// Cuts a valid shape by valid tools: by the first path that covers the case.
+CutOutcome cut_by_valid(const Shape& shape, const std::vector<Polygon>& tools) {
+  if (tools.size() == 1 && tools.front().holes.empty()) {
+    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tools.front().outer, true}); }))
+      return *std::move(outcome);
+  }
+  return cut_by_polygons_exactly(shape, tools);
+}
+
+// A tool's rings that are nowhere near the shape cut nothing of it, and without them the local path may do.
+std::vector<Polygon> near_tools(const Shape& shape, const std::vector<Polygon>& tools) {
+  const Box box = bounding_box(shape.polygon.outer);
+  std::vector<Polygon> near;
+  for (const Polygon& tool : tools) {
+    if (!overlaps(bounding_box(tool.outer), box)) continue;
+    near.push_back({tool.outer, {}});
+    for (const Ring& hole : tool.holes) {
+      if (overlaps(bounding_box(hole), box)) near.back().holes.push_back(hole);
+    }
+  }
+  return near;
+}
+
+std::optional<DefectAt> find_shape_defect(const Shape& shape) {
+  if (shape.known_valid) return {};
+  return find_defect(shape.polygon);
+}
+
+}  // namespace
+
+std::string_view name_of(CutFailure reason) {
+  switch (reason) {
+    case CutFailure::kInvalidShape:
+      return "invalid-shape";
+    case CutFailure::kInvalidTool:
+      return "invalid-tool";
+    case CutFailure::kMisses:
+      return "misses";
+    case CutFailure::kDoesNotSeparate:
+      return "does-not-separate";
+    case CutFailure::kInternal:
+      return "internal";
+  }
+  return "unknown";
+}
+
+CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
+  if (!tool_in_body.holes.empty()) return cut_by_polygons(shape, {tool_in_body});
+  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
+  if (const auto found = find_tool_defect(tool_in_body)) return refuse(CutFailure::kInvalidTool, *found);
+  return cut_by_valid(shape, {tool_in_body});
+}
+
+CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body) {
+  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
+  for (const Polygon& tool : tools_in_body) {
+    if (const auto found = find_tool_defect(tool)) return refuse(CutFailure::kInvalidTool, *found);
+  }
+  const std::vector<Polygon> near = near_tools(shape, tools_in_body);
+  if (near.empty()) {
+    return tl::unexpected(CutError{CutFailure::kMisses, "the polygon does not meet the shape's interior"});
+  }
+  return cut_by_valid(shape, near);
+}
+
+CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body) {
+  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
+  if (!are_usable(polyline_in_body)) return refuse(CutFailure::kInvalidTool, {Defect::kNotFinite, {}});
+  std::vector<Point> crack = polyline_in_body;
+  crack.erase(std::unique(crack.begin(), crack.end()), crack.end());
+  if (crack.size() < 2) return refuse(CutFailure::kInvalidTool, {Defect::kTooFewPoints, {}});
+  if (is_simple(crack)) {
+    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {crack, false}); }))
+      return *std::move(outcome);
+  }
+  if (auto outcome = guarded([&] { return cut_along_in_window(shape, crack); })) return *std::move(outcome);
+  return cut_along_generally(exact::exactly(shape.polygon), crack);
+}
+
+Ring disc_polygon(Point centre, double radius, double sagitta) {
+  // A chord subtending an angle 2π/n leaves the circle by r(1 − cos(π/n)).
+  constexpr int kFewest = 8;
+  constexpr int kMost = 4096;
+  const double half_angle = std::acos(std::clamp(1 - sagitta / radius, -1.0, 1.0));
+  const double wanted = half_angle > 0 ? std::ceil(std::numbers::pi / half_angle) : kMost;
+  const int n = static_cast<int>(std::clamp(wanted, double{kFewest}, double{kMost}));
+  Ring ring;
+  ring.reserve(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    ring.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return ring;
+}
+
+}  // namespace polynya::geometry

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/cut/cut.hpp"
+#include "geometry/shape/pose.hpp"
+
+namespace polynya::geometry {
+
+/// What two placed floes have in common.
+struct Overlap {
+  double area = 0;         ///< nearest double [m²]
+  std::string exact_area;  ///< as a rational: "0" where the interiors are disjoint
+};
+
+/// The area two placed shapes share, exactly: each vertex is placed by its pose's doubles in rational
+/// arithmetic. A shape covers the points around which its rings wind more often counter-clockwise than
+/// clockwise: those inside it where it is valid. Rings may cross themselves and each other. Fails (kInternal)
+/// only where CGAL refuses.
+tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
+                                        const Pose& world_from_b);
+
+}  // namespace polynya::geometry

@@ -1,0 +1,98 @@
+#include "geometry/exact/internal/exact_polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace polynya::geometry::exact {
+namespace {
+
+template <typename AnyRing, typename Convert>
+auto convert_ring(const AnyRing& ring, Convert convert) {
+  std::vector<decltype(convert(ring.front()))> result;
+  result.reserve(ring.size());
+  std::transform(ring.begin(), ring.end(), std::back_inserter(result), convert);
+  return result;
+}
+
+template <typename Result, typename AnyPolygon, typename Convert>
+Result convert_polygon(const AnyPolygon& polygon, Convert convert) {
+  Result result{convert(polygon.outer), {}};
+  for (const auto& hole : polygon.holes) result.holes.push_back(convert(hole));
+  return result;
+}
+
+// A pairwise sum: the terms that meet are of like size, so the numbers stay short.
+Rational shoelace_sum(const Ring& ring, std::size_t first, std::size_t last) {
+  if (last - first == 1) return shoelace_term(ring[first], ring[(first + 1) % ring.size()]);
+  const std::size_t middle = first + (last - first) / 2;
+  return shoelace_sum(ring, first, middle) + shoelace_sum(ring, middle, last);
+}
+
+}  // namespace
+
+Ring exactly(const geometry::Ring& ring) {
+  return convert_ring(ring, [](geometry::Point p) { return exactly(p); });
+}
+Polygon exactly(const geometry::Polygon& polygon) {
+  return convert_polygon<Polygon>(polygon, [](const geometry::Ring& ring) { return exactly(ring); });
+}
+geometry::Ring rounded(const Ring& ring) {
+  return convert_ring(ring, [](const Point& p) { return rounded(p); });
+}
+geometry::Polygon rounded(const Polygon& polygon) {
+  return convert_polygon<geometry::Polygon>(polygon, [](const Ring& ring) { return rounded(ring); });
+}
+
+Rational area(const Ring& ring) {
+  if (ring.empty()) return 0;
+  return shoelace_sum(ring, 0, ring.size()) / 2;
+}
+Rational area(const Polygon& polygon) {
+  Rational sum = area(polygon.outer);
+  for (const Ring& hole : polygon.holes) sum += area(hole);
+  return sum;
+}
+// Doubles are whole multiples of one power of two: integers are enough, and an order of magnitude faster.
+Rational area(const geometry::Ring& ring) {
+  constexpr int kDigits = std::numeric_limits<double>::digits;
+  int unit = std::numeric_limits<int>::max();  // the power of two of which all coordinates are multiples
+  const auto see = [&unit](double value) {
+    int exponent = 0;
+    std::frexp(value, &exponent);
+    if (value != 0) unit = std::min(unit, exponent - kDigits);
+  };
+  for (const geometry::Point p : ring) {
+    see(p.x);
+    see(p.y);
+  }
+  if (ring.size() < 3 || unit == std::numeric_limits<int>::max()) return 0;
+  const auto in_units = [unit](double value) {
+    int exponent = 0;
+    const double digits = std::ldexp(std::frexp(value, &exponent), kDigits);
+    const mpz_class whole(digits);
+    return value == 0 ? whole : mpz_class(whole << static_cast<unsigned>(exponent - kDigits - unit));
+  };
+  const std::size_t n = ring.size();
+  mpz_class twice = 0;
+  mpz_class before = in_units(ring[n - 1].y);
+  mpz_class here = in_units(ring[0].y);
+  for (std::size_t i = 0; i < n; ++i) {
+    mpz_class after = in_units(ring[i + 1 == n ? 0 : i + 1].y);
+    twice += in_units(ring[i].x) * (after - before);
+    before = std::move(here);
+    here = std::move(after);
+  }
+  const Rational sum(twice);
+  const int shift = 2 * unit - 1;
+  return shift < 0 ? Rational(sum >> static_cast<unsigned>(-shift))
+                   : Rational(sum << static_cast<unsigned>(shift));
+}
+Rational area(const geometry::Polygon& polygon) {
+  Rational sum = area(polygon.outer);
+  for (const geometry::Ring& hole : polygon.holes) sum += area(hole);
+  return sum;
+}
+
+}  // namespace polynya::geometry::exact

@@ -1,0 +1,188 @@
+#include "geometry/exact/internal/predicates.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/exact/internal/error_free.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon() / 2;
+// [Shewchuk1997] orient2d's bound A, (3 + 16ε)ε, holds for differences of any two pairs of points.
+constexpr double kBound = (3 + 16 * kEps) * kEps;
+// Products below this may have lost bits to underflow; the bound does not cover them.
+constexpr double kUnderflow = 1e-280;
+
+bool safe_factor(double v) {
+  return v == 0 || (std::abs(v) > 1e-130 && std::abs(v) < 1e130);
+}
+
+int sign(double v) {
+  return (v > 0) - (v < 0);
+}
+
+// Sign of ux·vy ∓ uy·vx with exact factors.
+int sign_of_products(double left_a, double left_b, double right_a, double right_b) {
+  const TwoDoubles left = two_product(left_a, left_b);
+  const TwoDoubles right = two_product(right_a, right_b);
+  // Rounding is monotone: where the rounded products differ, so do the products, and in the same order.
+  if (left.high != right.high) return left.high > right.high ? 1 : -1;
+  return sign(left.low - right.low);
+}
+
+struct Differences {
+  double ux, uy, vx, vy;
+  bool exact;
+};
+
+Differences differences(Point a, Point b, Point c, Point d) {
+  const Differences u{b.x - a.x, b.y - a.y, d.x - c.x, d.y - c.y, false};
+  const bool exact = safe_factor(u.ux) && safe_factor(u.uy) && safe_factor(u.vx) && safe_factor(u.vy) &&
+                     two_difference(b.x, a.x).low == 0 && two_difference(b.y, a.y).low == 0 &&
+                     two_difference(d.x, c.x).low == 0 && two_difference(d.y, c.y).low == 0;
+  return {u.ux, u.uy, u.vx, u.vy, exact};
+}
+
+int cross_sign_slow(Point a, Point b, Point c, Point d) {
+  const Differences u = differences(a, b, c, d);
+  if (u.exact) return sign_of_products(u.ux, u.vy, u.uy, u.vx);
+  using exact::Rational;
+  const Rational ux = Rational(b.x) - Rational(a.x);
+  const Rational uy = Rational(b.y) - Rational(a.y);
+  const Rational vx = Rational(d.x) - Rational(c.x);
+  const Rational vy = Rational(d.y) - Rational(c.y);
+  return sgn(Rational(ux * vy - uy * vx));
+}
+
+}  // namespace
+
+int cross_sign(Point a, Point b, Point c, Point d) {
+  const double left = (b.x - a.x) * (d.y - c.y);
+  const double right = (b.y - a.y) * (d.x - c.x);
+  const double det = left - right;
+  const double bound = kBound * (std::abs(left) + std::abs(right)) + kUnderflow;
+  if (det > bound) return 1;
+  if (-det > bound) return -1;
+  return cross_sign_slow(a, b, c, d);
+}
+
+int dot_sign(Point a, Point b, Point c, Point d) {
+  // u · v = u × (v turned back by 90°): the same bound holds.
+  const double left = (b.x - a.x) * (d.x - c.x);
+  const double right = (b.y - a.y) * (d.y - c.y);
+  const double sum = left + right;
+  const double bound = kBound * (std::abs(left) + std::abs(right)) + kUnderflow;
+  if (sum > bound) return 1;
+  if (-sum > bound) return -1;
+  const Differences u = differences(a, b, c, d);
+  if (u.exact) return sign_of_products(u.ux, u.vx, -u.uy, u.vy);
+  using exact::Rational;
+  const Rational xs = (Rational(b.x) - Rational(a.x)) * (Rational(d.x) - Rational(c.x));
+  const Rational ys = (Rational(b.y) - Rational(a.y)) * (Rational(d.y) - Rational(c.y));
+  return sgn(Rational(xs + ys));
+}
+
+int area_sign(const Ring& ring) {
+  if (ring.size() < 3) return 0;
+  const Point o = ring.front();
+  double sum = 0;
+  double magnitude = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector u = ring[i] - o;
+    const Vector v = ring[i + 1 == ring.size() ? 0 : i + 1] - o;
+    sum += cross(u, v);
+    magnitude += std::abs(u.x * v.y) + std::abs(u.y * v.x);
+  }
+  // Each term errs by at most 4ε of its magnitude, the running sums by nε of theirs.
+  const double bound = (static_cast<double>(ring.size()) + 8) * 2 * kEps * magnitude + kUnderflow;
+  if (sum > bound) return 1;
+  if (-sum > bound) return -1;
+  return sgn(exact::area(ring));
+}
+
+Point approximate_crossing(Point a, Point b, Point c, Point d) {
+  const double denominator = cross(b - a, d - c);
+  if (denominator == 0) return midpoint(a, b);
+  const double t = std::clamp(cross(c - a, d - c) / denominator, 0.0, 1.0);
+  return a + t * (b - a);
+}
+
+namespace {
+
+SegmentMeeting meet_collinear(Point a, Point b, Point c, Point d) {
+  const bool by_x = a.x != b.x || c.x != d.x;
+  const auto less = [by_x](Point p, Point q) { return by_x ? p.x < q.x : p.y < q.y; };
+  if (less(b, a)) std::swap(a, b);
+  if (less(d, c)) std::swap(c, d);
+  const Point low = less(a, c) ? c : a;
+  const Point high = less(b, d) ? b : d;
+  if (less(high, low)) return {};
+  return {low == high ? Meeting::kTouch : Meeting::kOverlap, low};
+}
+
+}  // namespace
+
+SegmentMeeting meet(Point a, Point b, Point c, Point d) {
+  const int side_c = orientation(a, b, c);
+  const int side_d = orientation(a, b, d);
+  if (side_c * side_d > 0) return {};
+  const int side_a = orientation(c, d, a);
+  const int side_b = orientation(c, d, b);
+  if (side_a * side_b > 0) return {};
+  if (side_c == 0 && side_d == 0) return meet_collinear(a, b, c, d);
+  if (side_c == 0 && in_span(a, b, c)) return {Meeting::kTouch, c};
+  if (side_d == 0 && in_span(a, b, d)) return {Meeting::kTouch, d};
+  if (side_a == 0 && in_span(c, d, a)) return {Meeting::kTouch, a};
+  if (side_b == 0 && in_span(c, d, b)) return {Meeting::kTouch, b};
+  if (side_a * side_b < 0 && side_c * side_d < 0) {
+    return {Meeting::kCross, approximate_crossing(a, b, c, d)};
+  }
+  return {};
+}
+
+namespace {
+
+// 0 along `from`, 1 in the left half-plane, 2 against it, 3 in the right half-plane.
+int turn_class(const Ray& from, const Ray& a) {
+  const int side = cross_sign(from, a);
+  if (side != 0) return side > 0 ? 1 : 3;
+  return dot_sign(from.tail, from.head, a.tail, a.head) > 0 ? 0 : 2;
+}
+
+}  // namespace
+
+bool met_before(const Ray& from, const Ray& a, const Ray& b) {
+  const int class_a = turn_class(from, a);
+  const int class_b = turn_class(from, b);
+  if (class_a != class_b) return class_a < class_b;
+  return (class_a == 1 || class_a == 3) && cross_sign(a, b) > 0;
+}
+
+int side_of_ring(const Ring& ring, Point p) {
+  bool inside = false;
+  Point a = ring.back();
+  for (const Point b : ring) {
+    if ((a.y > p.y) != (b.y > p.y)) {
+      if (p.x <= std::max(a.x, b.x)) {
+        const int side = p.x < std::min(a.x, b.x) ? (b.y > a.y ? 1 : -1) : orientation(a, b, p);
+        if (side == 0) return 0;
+        if ((side > 0) == (b.y > a.y)) inside = !inside;
+      }
+    } else if (a.y == p.y && b.y == p.y && in_span(a, b, p)) {
+      return 0;
+    }
+    if (b == p) return 0;
+    a = b;
+  }
+  return inside ? 1 : -1;
+}
+
+bool contains_strictly(const Polygon& polygon, Point p) {
+  if (side_of_ring(polygon.outer, p) <= 0) return false;
+  return std::all_of(polygon.holes.begin(), polygon.holes.end(),
+                     [p](const Ring& hole) { return side_of_ring(hole, p) < 0; });
+}
+
+}  // namespace polynya::geometry

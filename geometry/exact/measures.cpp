@@ -1,0 +1,98 @@
+#include "geometry/exact/measures.hpp"
+
+#include <cmath>
+
+#include "geometry/exact/internal/exact_moments.hpp"
+#include "geometry/exact/internal/nearest_area.hpp"
+#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/shape/internal/compensated_sum.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+// Calls visit(u, v, w) for each edge a→b with u = a − origin, v = b − origin, w = u × v. Taking vertices from
+// a nearby origin first is what keeps the digits of a polygon far from its frame's origin.
+template <typename Visit>
+void for_each_edge(const Ring& ring, Point origin, Visit visit) {
+  if (ring.empty()) return;
+  Vector u = ring.back() - origin;
+  for (const Point p : ring) {
+    const Vector v = p - origin;
+    visit(u, v, cross(u, v));
+    u = v;
+  }
+}
+
+template <typename Visit>
+void for_each_edge(const Polygon& polygon, Point origin, Visit visit) {
+  for_each_edge(polygon.outer, origin, visit);
+  for (const Ring& hole : polygon.holes) for_each_edge(hole, origin, visit);
+}
+
+double ring_length(const Ring& ring) {
+  CompensatedSum sum;
+  for_each_edge(ring, Point{}, [&sum](Vector u, Vector v, double) { sum += length(v - u); });
+  return sum.total();
+}
+
+}  // namespace
+
+double signed_area(const Ring& ring) {
+  return nearest_area(ring);
+}
+
+Measures measure(const Polygon& polygon) {
+  if (polygon.outer.size() < 3) return {};
+  const Box box = bounding_box(polygon.outer);
+  const Point origin = midpoint(box.low, box.high);
+  const Vector size = box.high - box.low;
+  Measures result;
+  result.area = nearest_area(polygon);
+  // The sums below err by some u = 1e-16 of the box's moments for each vertex: they are good as long as the
+  // region fills more than a small part of its box.
+  constexpr double kThin = 1e-6;
+  if (std::abs(result.area) < kThin * size.x * size.y) return exact_measures(polygon);
+  if (result.area == 0) return {0, origin, 0};
+  CompensatedSum first_x;
+  CompensatedSum first_y;
+  for_each_edge(polygon, origin, [&](Vector u, Vector v, double w) {
+    first_x += w * (u.x + v.x);
+    first_y += w * (u.y + v.y);
+  });
+  const Vector offset = Vector{first_x.total(), first_y.total()} / (6 * result.area);
+  result.centroid = origin + offset;
+  CompensatedSum second;  // about the centroid directly: no parallel-axis subtraction
+  for_each_edge(polygon, origin, [&](Vector u, Vector v, double) {
+    const Vector a = u - offset;
+    const Vector b = v - offset;
+    second += cross(a, b) * (dot(a, a) + dot(a, b) + dot(b, b));
+  });
+  result.second_moment = second.total() / 12;
+  return result;
+}
+
+double perimeter(const Polygon& polygon) {
+  double sum = ring_length(polygon.outer);
+  for (const Ring& hole : polygon.holes) sum += ring_length(hole);
+  return sum;
+}
+
+bool contains(const Polygon& polygon, Point point) {
+  if (polygon.outer.empty()) return false;
+  bool inside = false;
+  const auto toggles = [&](const Ring& ring, bool& on_boundary) {
+    const int side = ring.empty() ? -1 : side_of_ring(ring, point);
+    on_boundary = side == 0;
+    if (side > 0) inside = !inside;
+  };
+  bool on_boundary = false;
+  toggles(polygon.outer, on_boundary);
+  if (on_boundary) return true;
+  for (const Ring& hole : polygon.holes) {
+    toggles(hole, on_boundary);
+    if (on_boundary) return true;
+  }
+  return inside;
+}
+
+}  // namespace polynya::geometry

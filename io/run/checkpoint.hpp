@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "io/run/run_writer.hpp"
+
+namespace polynya::io {
+
+/// A moment of a run from which it can go on, and what was on disk then.
+///
+///   file = "PLYNYCKP" u32:version u32:crc u64:length payload{length}
+///
+/// crc is the CRC-32 of the payload; the payload is the field list of this and of RunProgress in the layout
+/// of simulation/state/archive.hpp. Little-endian.
+struct Checkpoint {
+  std::string program_version;  ///< that wrote it
+  std::string scene_hash;       ///< of the run's scene.json
+  std::int64_t steps = 0;       ///< done
+  double wall_time = 0;         ///< that the run has taken so far, all its parts together [s]
+  RunProgress progress;         ///< of the run folder
+  std::string state;            ///< simulation/state/state.hpp
+  std::uint64_t state_hash = 0;
+  std::string failure;  ///< of a dump: what went wrong in the step after it; empty in a checkpoint
+};
+
+inline constexpr std::uint32_t kCheckpointVersion = 5;
+
+/// The file around a payload: mark, version, checksum, length.
+std::string checkpoint_file_of(std::string_view payload);
+std::string checkpoint_bytes(const Checkpoint& checkpoint);
+
+/// The error says why the bytes are no checkpoint, or a damaged one, or one of another version.
+tl::expected<Checkpoint, std::string> read_checkpoint(std::string_view bytes);
+
+/// The checkpoints in a run folder, the newest first: "checkpoint-000000012000.bin" after so many steps.
+std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
+
+/// Writes a checkpoint into a run folder, to a temporary name, synced and renamed; only then all others go
+/// but the newest that is older. Returns what went wrong; empty where all is well.
+std::string write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
+
+/// Makes a checkpoint, read from a file in the folder or elsewhere, the newest of a run folder that is to go
+/// on from it: newer ones are of a course of the run that is now cut off. Returns what went wrong; empty
+/// where all is well.
+std::string rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
+                      const std::filesystem::path& file);
+
+/// Reads a checkpoint of the folder whose scene has that hash. The error names the file and says what is
+/// wrong.
+tl::expected<Checkpoint, std::string> read_checkpoint_file(const std::filesystem::path& path,
+                                                           std::string_view scene_hash);
+
+/// Removes the checkpoints, and what a crash left of one, from a folder. Returns what went wrong; empty where
+/// all is well.
+std::string remove_checkpoints(const std::filesystem::path& folder);
+
+}  // namespace polynya::io

@@ -1,0 +1,130 @@
+#include "io/run/frames.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace polynya::io {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "frames.bin is written as the machine holds numbers");
+
+constexpr std::string_view kFileMark = "PLYNYFRM";
+constexpr std::string_view kFrameMark = "FRAM";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHeaderSize = 16;
+constexpr std::size_t kFrameHeadSize = 24;
+constexpr std::size_t kMotionSize = 48;
+constexpr std::size_t kFloeSize = 56;
+
+template <class Number>
+void append(std::string& bytes, Number value) {
+  std::array<char, sizeof value> raw;
+  std::memcpy(raw.data(), &value, sizeof value);
+  bytes.append(raw.data(), raw.size());
+}
+
+void append(std::string& bytes, const Motion& m) {
+  for (const double value :
+       {m.position.x, m.position.y, m.angle, m.velocity.x, m.velocity.y, m.angular_velocity})
+    append(bytes, value);
+}
+
+template <class Number>
+Number take(std::string_view& bytes) {
+  Number value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  bytes.remove_prefix(sizeof value);
+  return value;
+}
+
+Motion take_motion(std::string_view& bytes) {
+  Motion m;
+  for (double* value :
+       {&m.position.x, &m.position.y, &m.angle, &m.velocity.x, &m.velocity.y, &m.angular_velocity}) {
+    *value = take<double>(bytes);
+  }
+  return m;
+}
+
+bool is_close(const Motion& a, const Motion& b) {
+  return std::abs(a.position.x - b.position.x) <= kFramePositionTolerance &&
+         std::abs(a.position.y - b.position.y) <= kFramePositionTolerance &&
+         std::abs(a.angle - b.angle) <= kFrameAngleTolerance &&
+         std::abs(a.velocity.x - b.velocity.x) <= kFrameSpeedTolerance &&
+         std::abs(a.velocity.y - b.velocity.y) <= kFrameSpeedTolerance &&
+         std::abs(a.angular_velocity - b.angular_velocity) <= kFrameSpinTolerance;
+}
+
+}  // namespace
+
+Motion carried_on(const Motion& motion, double duration) {
+  Motion later = motion;
+  later.position += duration * motion.velocity;
+  later.angle += duration * motion.angular_velocity;
+  return later;
+}
+
+std::string FrameEncoder::header() {
+  std::string bytes(kFileMark);
+  append(bytes, kVersion);
+  append(bytes, std::uint32_t{0});
+  return bytes;
+}
+
+std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes) {
+  std::string bytes(kFrameMark);
+  append(bytes, static_cast<std::uint32_t>(ships.size()));
+  append(bytes, static_cast<std::uint32_t>(floes.size()));
+  append(bytes, std::uint32_t{0});
+  append(bytes, time);
+  for (const Motion& ship : ships) append(bytes, ship);
+  for (const FloeMotion& floe : floes) {
+    append(bytes, floe.floe);
+    append(bytes, floe.motion);
+  }
+  return bytes;
+}
+
+std::string FrameEncoder::encode(double time, std::span<const Motion> ships,
+                                 std::span<const FloeMotion> floes) {
+  std::vector<FloeMotion> written;
+  for (const FloeMotion& floe : floes) {
+    const auto id = static_cast<std::size_t>(floe.floe);
+    if (id >= told_.size()) told_.resize(id + 1);
+    Told& told = told_[id];
+    if (told.time >= 0 && is_close(carried_on(told.motion, time - told.time), floe.motion)) continue;
+    told = {time, floe.motion};
+    written.push_back(floe);
+  }
+  return frame_bytes(time, ships, written);
+}
+
+tl::expected<std::vector<Frame>, std::string> decode_frames(std::string_view bytes) {
+  if (bytes.size() < kHeaderSize || !bytes.starts_with(kFileMark))
+    return tl::unexpected(std::string("not a file of frames"));
+  bytes.remove_prefix(kFileMark.size());
+  if (take<std::uint32_t>(bytes) != kVersion) return tl::unexpected(std::string("frames of another version"));
+  bytes.remove_prefix(4);
+  std::vector<Frame> frames;
+  while (bytes.size() >= kFrameHeadSize) {
+    if (!bytes.starts_with(kFrameMark)) return tl::unexpected(std::string("a damaged frame"));
+    bytes.remove_prefix(kFrameMark.size());
+    const std::size_t ships = take<std::uint32_t>(bytes);
+    const std::size_t floes = take<std::uint32_t>(bytes);
+    bytes.remove_prefix(4);
+    Frame frame{.time = take<double>(bytes), .ships = {}, .floes = {}};
+    if (bytes.size() < ships * kMotionSize + floes * kFloeSize) break;
+    for (std::size_t i = 0; i < ships; ++i) frame.ships.push_back(take_motion(bytes));
+    for (std::size_t i = 0; i < floes; ++i) {
+      const auto id = take<std::int64_t>(bytes);
+      frame.floes.push_back({id, take_motion(bytes)});
+    }
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "geometry/shape/point.hpp"
+#include "simulation/simulation.hpp"
+
+namespace polynya::io {
+
+/// frames.bin: where everything was. Little-endian, all numbers aligned to their size (docs/run-folder.md).
+///
+///   file   = "PLYNYFRM" u32:version=1 u32:0 frame*
+///   frame  = "FRAM" u32:ships u32:floes u32:0 f64:t_s ship{ships} floe{floes}
+///   ship   = f64:x_m f64:y_m f64:heading_rad f64:vx f64:vy f64:yaw_rate
+///   floe   = i64:floe_id f64:x_m f64:y_m f64:angle_rad f64:vx f64:vy f64:angular_velocity
+///
+/// x, y of a floe are its centre of mass. A frame lists a floe only where its last record, carried on by its
+/// velocity, no longer tells where it is within the tolerances below.
+
+inline constexpr double kFramePositionTolerance = 1e-3;  ///< [m]
+inline constexpr double kFrameAngleTolerance = 1e-5;     ///< [rad]
+inline constexpr double kFrameSpeedTolerance = 1e-3;     ///< [m/s]
+inline constexpr double kFrameSpinTolerance = 1e-5;      ///< [rad/s]
+
+/// A body's motion at one moment. Angles count whole turns.
+struct Motion {
+  geometry::Point position;     ///< of the centre of mass in the world [m]
+  double angle = 0;             ///< [rad]
+  geometry::Vector velocity;    ///< over ground [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
+};
+
+/// The motion carried on at its velocity for a time [s].
+Motion carried_on(const Motion& motion, double duration);
+
+struct FloeMotion {
+  simulation::FloeId floe = 0;
+  Motion motion;
+};
+
+/// A frame's bytes, of exactly these ships and floes.
+std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
+
+/// Makes frames' bytes; remembers what was told last of each floe.
+class FrameEncoder {
+ public:
+  struct Told {
+    double time = -1;  ///< < 0: never told
+    Motion motion;
+  };
+  FrameEncoder() = default;
+  /// One that goes on where another was.
+  explicit FrameEncoder(std::vector<Told> told) : told_(std::move(told)) {}
+
+  static std::string header();
+  /// One frame. All living floes are given; those that need it are written.
+  std::string encode(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
+  const std::vector<Told>& told() const { return told_; }
+
+ private:
+  std::vector<Told> told_;  ///< by floe id
+};
+
+struct Frame {
+  double time = 0;  ///< [s]
+  std::vector<Motion> ships;
+  std::vector<FloeMotion> floes;  ///< only those with a record in this frame
+};
+
+/// Reads frames; a last one that is cut short is left out.
+tl::expected<std::vector<Frame>, std::string> decode_frames(std::string_view bytes);
+
+}  // namespace polynya::io

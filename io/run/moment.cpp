@@ -1,0 +1,64 @@
+#include "io/run/moment.hpp"
+
+namespace polynya::io {
+namespace {
+
+geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motion) {
+  const geometry::Rotation rotation = geometry::Rotation::by(motion.angle);
+  return {motion.position - rotate(rotation, birth.centroid_in_body - geometry::Point{}), rotation};
+}
+
+/// Of the youngest of the floe and those it broke from that a frame tells of.
+geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe,
+                         double time) {
+  const simulation::BirthRecord* at = &floe;
+  while (true) {
+    if (const auto motion = motions.floe_at(at->floe, time)) return pose_of(*at, *motion);
+    const RunFloe* parent = at->parent < at->floe ? run.floe(at->parent) : nullptr;
+    if (!parent) return {};
+    at = &parent->birth;
+  }
+}
+
+}  // namespace
+
+std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time) {
+  std::vector<PlacedFloe> floes;
+  for (const RunFloe& floe : run.floes) {
+    if (!run.is_alive(floe.birth.floe, time)) continue;
+    floes.push_back({&floe.birth, run.shape(floe.birth.floe), body_pose(run, motions, floe.birth, time),
+                     motions.floe_at(floe.birth.floe, time)});
+  }
+  return floes;
+}
+
+geometry::Ring placed(const geometry::Pose& world_from_body, const geometry::Ring& ring) {
+  geometry::Ring moved;
+  moved.reserve(ring.size());
+  for (const geometry::Point p : ring) moved.push_back(point_in_world(world_from_body, p));
+  return moved;
+}
+
+geometry::Polygon placed(const geometry::Pose& world_from_body, const geometry::Polygon& polygon) {
+  geometry::Polygon moved{placed(world_from_body, polygon.outer), {}};
+  for (const geometry::Ring& hole : polygon.holes) moved.holes.push_back(placed(world_from_body, hole));
+  return moved;
+}
+
+geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time) {
+  if (const auto motion = motions.ship_at(ship, time))
+    return {motion->position, geometry::Rotation::by(motion->angle)};
+  const simulation::ShipSpec& spec = run.scene.scene.ships.at(ship);
+  return {spec.position_in_world, geometry::Rotation::by(spec.heading)};
+}
+
+std::vector<double> frame_times_until(const Run& run, double time) {
+  std::vector<double> times;
+  for (const Frame& frame : run.frames) {
+    if (frame.time < time) times.push_back(frame.time);
+  }
+  times.push_back(time);
+  return times;
+}
+
+}  // namespace polynya::io

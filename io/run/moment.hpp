@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+#include "geometry/shape/pose.hpp"
+#include "io/run/motion_index.hpp"
+#include "io/run/run_reader.hpp"
+
+namespace polynya::io {
+
+/// A floe where it was at some moment of a run.
+struct PlacedFloe {
+  const simulation::BirthRecord* birth = nullptr;            ///< the run's
+  std::shared_ptr<const geometry::Polygon> polygon_in_body;  ///< [m]
+  geometry::Pose world_from_body;
+  std::optional<Motion> motion;  ///< of its centre of mass; nothing where no frame tells of it
+};
+
+/// The floes alive at a time, by id. A floe that lived between two frames is placed as the floe it broke from
+/// was, whose body frame it shares; one of which no frame ever told, where it was born.
+std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time);
+
+geometry::Ring placed(const geometry::Pose& world_from_body, const geometry::Ring& ring);
+geometry::Polygon placed(const geometry::Pose& world_from_body, const geometry::Polygon& polygon);
+
+/// Where a ship's frame is in the world; where the scene puts it if the run has no frames.
+geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time);
+
+/// The times of the frames up to a time, and that time itself [s].
+std::vector<double> frame_times_until(const Run& run, double time);
+
+}  // namespace polynya::io

@@ -1,0 +1,169 @@
+#include "io/run/records.hpp"
+
+#include <initializer_list>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "io/run/force_columns.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/shape_parts.hpp"
+
+namespace polynya::io {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+void append_id(JsonWriter& json, simulation::FloeId id) {
+  if (id == simulation::kNoFloe)
+    json.null();
+  else
+    json.value(id);
+}
+
+/// What decided a fracture: the load that reached the capacity.
+void append_criterion(JsonWriter& json, const simulation::Event& event) {
+  const fracture::FailureCriteria& c = event.criteria;
+  json.key("criterion").open('{');
+  if (event.kind == simulation::EventKind::kSplit) {
+    json.key("kind").value("collision force > splitting force");
+    json.key("load_N").value(c.collision_force).key("capacity_N").value(c.splitting_force);
+  } else {
+    json.key("kind").value("vertical force >= bending capacity");
+    json.key("load_N").value(c.vertical_force).key("capacity_N").value(c.bending_capacity);
+  }
+  json.key("floe_size_m").value(c.floe_size).key("breakable_size_m").value(c.breakable_size);
+  json.key("collision_force_N").value(c.collision_force).key("splitting_force_N").value(c.splitting_force);
+  json.key("crack_length_m").value(c.crack_length);
+  json.key("vertical_force_N").value(c.vertical_force).key("bending_capacity_N").value(c.bending_capacity);
+  json.close('}');
+}
+
+geometry::Ring closed_ring_in_world(const geometry::Pose& world_from_body, const geometry::Ring& ring) {
+  geometry::Ring moved;
+  moved.reserve(ring.size() + 1);
+  for (const geometry::Point p : ring) moved.push_back(point_in_world(world_from_body, p));
+  moved.push_back(moved.front());
+  return moved;
+}
+
+}  // namespace
+
+std::string forces_header() {
+  std::string header = "t_s,ship";
+  for (const ForceColumn& column : force_columns()) header.append(1, ',').append(column.name);
+  return header + '\n';
+}
+
+void append_forces_row(std::string& text, const simulation::ShipSample& s, std::string_view ship_name) {
+  append_number(text, s.time);
+  text += ',';
+  text += ship_name;
+  for (const ForceColumn& column : force_columns()) {
+    text += ',';
+    append_number(text, column.read(s));
+  }
+  text += '\n';
+}
+
+std::string_view contacts_header() {
+  return "t_s,ship,floe_id,by_ship,by_floe_id,x_m,y_m,fx_N,fy_N,depth_m,is_crushing\n";
+}
+
+void append_contact(std::string& text, double time, const simulation::ContactState& contact,
+                    std::string_view on_ship, std::string_view by_ship) {
+  append_number(text, time);
+  for (const auto& [ship, floe] : {std::pair{on_ship, contact.on.floe}, {by_ship, contact.by.floe}}) {
+    text += ',';
+    text += ship;
+    text += ',';
+    if (floe != simulation::kNoFloe) append_number(text, floe);
+  }
+  for (const double value : {contact.point_in_world.x, contact.point_in_world.y, contact.force.x,
+                             contact.force.y, contact.depth}) {
+    text += ',';
+    append_number(text, value);
+  }
+  text += contact.is_crushing ? ",1\n" : ",0\n";
+}
+
+std::string_view states_header() {
+  return "t_s,steps,state_hash\n";
+}
+
+void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash) {
+  append_number(text, time);
+  text += fmt::format(",{},{:016x}\n", steps, hash);
+}
+
+void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent) {
+  JsonWriter json(text);
+  json.open('{').key("floe_id").value(birth.floe).key("parent_id");
+  append_id(json, birth.parent);
+  json.key("born_s").value(birth.time).key("generation").value(birth.generation);
+  json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
+  json.key("centroid_m").value(birth.centroid_in_body);
+  append_shape(json, parent ? parts_of(birth.polygon_in_body, *parent) : whole(birth.polygon_in_body));
+  json.close('}');
+  text += '\n';
+}
+
+void append_event(std::string& text, const simulation::Event& event, std::string_view ship_name,
+                  simulation::FloeId parent) {
+  JsonWriter json(text);
+  json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
+  json.key("ship").value(ship_name).key("floe").value(event.floe).key("parent");
+  append_id(json, parent);
+  json.key("children").open('[');
+  for (const simulation::FloeId child : event.children) json.value(child);
+  json.close(']');
+  json.key("point_m").value(event.point_in_world).key("normal").value(event.normal_in_world);
+  append_criterion(json, event);
+  json.key("penetration_m").value(event.penetration);
+  if (event.cusp_radius > 0) json.key("cusp_radius_m").value(event.cusp_radius);
+  json.key("submerged_area_m2").value(event.submerged_area).key("brash_area_m2").value(event.brash_area);
+  json.key("rounding_defect_m2").value(event.rounding_defect);
+  if (!event.reason.empty()) json.key("reason").value(std::string_view(event.reason));
+  json.close('}');
+  text += '\n';
+}
+
+void append_ship_contact(std::string& text, const simulation::ShipContact& contact,
+                         std::string_view ship_name, std::string_view by_ship_name) {
+  JsonWriter json(text);
+  json.open('{').key("t_s").value(contact.time).key("kind").value(kShipContactKind);
+  json.key("ship").value(ship_name).key("by_ship").value(by_ship_name);
+  json.key("point_m").value(contact.point_in_world);
+  json.key("closing_speed_m_per_s").value(contact.closing_speed);
+  json.key("relative_speed_m_per_s").value(contact.relative_speed);
+  json.key("is_prescribed").value(contact.is_prescribed).close('}');
+  text += '\n';
+}
+
+std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{').key("type").value("FeatureCollection").key("t_s").value(time).key("features").open('[');
+  for (const simulation::FloeState& floe : floes) {
+    json.start_line();
+    json.open('{').key("type").value("Feature").key("properties").open('{');
+    json.key("floe_id").value(floe.floe).key("parent_id");
+    append_id(json, floe.parent);
+    json.key("born_s").value(floe.born).key("generation").value(floe.generation);
+    json.key("area_m2").value(floe.area).key("mass_kg").value(floe.mass);
+    json.key("speed_m_per_s").value(geometry::length(floe.velocity));
+    json.key("vx_m_per_s").value(floe.velocity.x).key("vy_m_per_s").value(floe.velocity.y);
+    json.key("angular_velocity_deg_per_s").value(kDegrees * floe.angular_velocity);
+    json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
+    json.value(closed_ring_in_world(floe.world_from_body, floe.polygon_in_body->outer));
+    for (const geometry::Ring& hole : floe.polygon_in_body->holes) {
+      json.value(closed_ring_in_world(floe.world_from_body, hole));
+    }
+    json.close(']').close('}').close('}');
+  }
+  json.close(']').close('}');
+  text += '\n';
+  return text;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,104 @@
+#include "io/run/rejected_cut.hpp"
+
+#include <fmt/format.h>
+
+#include "io/run/run_folder.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/output_file.hpp"
+
+namespace polynya::io {
+namespace {
+
+void append_ring(JsonWriter& json, geometry::Ring ring) {
+  ring.push_back(ring.front());
+  json.value(ring);
+}
+
+void append_geometry(JsonWriter& json, const geometry::Polygon& polygon) {
+  json.open('{').key("type").value("Polygon").key("coordinates").open('[');
+  append_ring(json, polygon.outer);
+  for (const geometry::Ring& hole : polygon.holes) append_ring(json, hole);
+  json.close(']').close('}');
+}
+
+std::string floe_text(const simulation::RejectedCut& cut) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(cut.floe);
+  json.key("t_s").value(cut.time).key("reason").value(std::string_view(cut.reason));
+  json.close('}').key("geometry");
+  append_geometry(json, cut.polygon_in_body);
+  json.close('}');
+  return text + "\n";
+}
+
+std::string ops_text(const simulation::RejectedCut& cut) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('[').open('{');
+  if (cut.cusp_in_body.empty()) {
+    json.key("line").open('[').value(cut.crack_in_body[0].x).value(cut.crack_in_body[0].y);
+    json.value(cut.crack_in_body[1].x).value(cut.crack_in_body[1].y).close(']');
+  } else {
+    json.key("polygon");
+    append_geometry(json, {cut.cusp_in_body, {}});
+    json.key("keep").value("both");
+  }
+  json.key("must_cut").value(true).close('}').close(']');
+  return text + "\n";
+}
+
+constexpr std::string_view kFloeEnding = ".geojson";
+constexpr std::string_view kOpsEnding = "-ops.json";
+
+/// Whether write_rejected_cut() gives a file that name, or left it when it was killed.
+bool is_name_of_ours(std::string_view name) {
+  constexpr std::string_view kPart = ".part";
+  constexpr std::size_t kDigits = 6;
+  if (name.ends_with(kPart)) name.remove_suffix(kPart.size());
+  const bool is_numbered = name.size() > kDigits && name.find_first_not_of("0123456789") == kDigits;
+  return is_numbered && (name.substr(kDigits) == kFloeEnding || name.substr(kDigits) == kOpsEnding);
+}
+
+bool is_link(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored));
+}
+
+std::string link_problem(const std::filesystem::path& folder) {
+  return fmt::format("{}: a link; polynya writes through no link in a run folder; remove it",
+                     folder.string());
+}
+
+}  // namespace
+
+std::string write_rejected_cut(const std::filesystem::path& run_folder, const simulation::RejectedCut& cut) {
+  if (cut.number > kMostRejectedCuts) return "";
+  const std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
+  if (is_link(folder)) return link_problem(folder);
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (error) return fmt::format("{}: {}", folder.string(), error.message());
+  const auto write = [&](std::string_view ending, const std::string& text) {
+    return write_whole_file(folder / fmt::format("{:06}{}", cut.number, ending), text, Durability::kSynced);
+  };
+  const std::string wrong = write(kFloeEnding, floe_text(cut));
+  return wrong.empty() ? write(kOpsEnding, ops_text(cut)) : wrong;
+}
+
+std::string remove_rejected_cuts(const std::filesystem::path& run_folder) {
+  const std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
+  if (is_link(folder)) return link_problem(folder);
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (is_name_of_ours(entry.path().filename().string())) files.push_back(entry.path());
+  for (const auto& file : files) {
+    std::filesystem::remove(file, error);
+    if (error) return fmt::format("{}: {}", file.string(), error.message());
+  }
+  std::filesystem::remove(folder, error);  // unless something else is in it
+  return "";
+}
+
+}  // namespace polynya::io

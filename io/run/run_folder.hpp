@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "io/run/run_lock.hpp"
+
+namespace polynya::io {
+
+/// What a run folder's files are like, in its summary.json. 2: floes.ndjson has parts of parents' shapes;
+/// folders without a number are 1.
+inline constexpr int kRunFolderVersion = 2;
+
+/// The files of a run (docs/run-folder.md).
+namespace run_file {
+inline constexpr std::string_view kLock = ".polynya";  ///< run_lock.hpp
+inline constexpr std::string_view kScene = "scene.json";
+inline constexpr std::string_view kSummary = "summary.json";
+inline constexpr std::string_view kForces = "forces.csv";
+inline constexpr std::string_view kEvents = "events.ndjson";
+inline constexpr std::string_view kFloes = "floes.ndjson";
+inline constexpr std::string_view kFrames = "frames.bin";
+inline constexpr std::string_view kStates = "states.csv";
+inline constexpr std::string_view kContacts = "contacts.csv";
+inline constexpr std::string_view kFinalGeojson = "final.geojson";
+inline constexpr std::string_view kFinalSvg = "final.svg";
+inline constexpr std::string_view kFinalPng = "final.png";
+inline constexpr std::string_view kView = "view.html";           ///< `polynya view` writes it, not the run
+inline constexpr std::string_view kChannel = "channel.geojson";  ///< `polynya channel` writes these two
+inline constexpr std::string_view kChannelCsv = "channel.csv";
+// `polynya figures` writes these, and a PNG beside each where there is a converter.
+inline constexpr std::string_view kFigureFloes = "figure-floes.svg";
+inline constexpr std::string_view kFigureLoads = "figure-loads.svg";
+inline constexpr std::string_view kFigureMotion = "figure-motion.svg";
+inline constexpr std::string_view kFigureSizes = "figure-sizes.svg";
+inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
+inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
+inline constexpr std::string_view kFailure = "failure.bin";
+inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
+inline constexpr std::array kAll{kScene,    kSummary, kForces,   kEvents,       kFloes,
+                                 kFrames,   kStates,  kContacts, kFinalGeojson, kFinalSvg,
+                                 kFinalPng, kView,    kChannel,  kChannelCsv};
+}  // namespace run_file
+
+/// What reads runs takes no longer file; a run that writes one warns [bytes].
+inline constexpr std::uint64_t kLongestRunFile = std::uint64_t{4} << 30;
+
+/// Takes a folder for a new run, making it where there is none, and locks it: of several processes that take
+/// one folder, one gets it. A folder with anything in it is refused, but for what a run leaves that was
+/// killed before it had its scene. With `overwrite`, a run folder (finished or not, or in part removed) loses
+/// the files that polynya writes there, and nothing else; any other folder is refused even then, and nothing
+/// is written into it. The error names the folder, what is in it and what to do.
+tl::expected<RunLock, std::string> claim_run_folder(const std::filesystem::path& folder, bool overwrite);
+
+/// Whether polynya marked the folder as a run's.
+bool is_marked_run_folder(const std::filesystem::path& folder);
+
+}  // namespace polynya::io

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "geometry/shape/polygon.hpp"
+#include "io/run/floe_shapes.hpp"
+#include "io/run/frames.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/json_value.hpp"
+#include "simulation/journal.hpp"
+
+namespace polynya::io {
+
+/// A floe's life in a run.
+struct RunFloe {
+  simulation::BirthRecord birth;
+  double died = std::numeric_limits<double>::infinity();  ///< when it broke [s]
+  std::optional<std::size_t> death_event;                 ///< index of the event that broke it
+};
+
+/// A line of contacts.csv.
+struct RunContact {
+  double time = 0;  ///< [s]
+  simulation::ContactState state;
+};
+
+/// A run folder read back (docs/run-folder.md): what every tool that looks at runs starts from.
+struct Run {
+  std::filesystem::path folder;
+  std::string label;  ///< names the run in figures: its scene's name, if nothing else is wanted
+  LoadedScene scene;
+  JsonValue summary;
+  std::vector<RunFloe> floes;  ///< by floe id
+  FloeShapes shapes;           ///< theirs, in their body frames
+  std::vector<simulation::Event> events;
+  std::vector<simulation::ShipContact> ship_contacts;  ///< the first one of each two ships or structures
+  std::vector<simulation::ShipSample> samples;
+  std::vector<Frame> frames;
+  std::vector<RunContact> contacts;  ///< as time goes; none in runs of versions that did not record them
+
+  double start_time() const { return frames.empty() ? 0 : frames.front().time; }
+  double end_time() const { return frames.empty() ? 0 : frames.back().time; }
+  const RunFloe* floe(simulation::FloeId id) const {
+    return id >= 0 && static_cast<std::size_t>(id) < floes.size() ? &floes[static_cast<std::size_t>(id)]
+                                                                  : nullptr;
+  }
+  /// The shape of a floe that there is, in its body frame.
+  std::shared_ptr<const geometry::Polygon> shape(simulation::FloeId id) const { return shapes.of(id); }
+  bool is_alive(simulation::FloeId id, double time) const {
+    return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died;
+  }
+  /// Those recorded at the moment of a frame.
+  std::span<const RunContact> contacts_at(double time) const;
+  /// The floes that broke to make this one, oldest first, itself last.
+  std::vector<simulation::FloeId> lineage(simulation::FloeId id) const;
+};
+
+/// Reads a run folder, finished or not; a last line or frame that is cut short is left out.
+/// What is wrong is told with its file and line.
+tl::expected<Run, std::string> read_run(const std::filesystem::path& folder);
+
+}  // namespace polynya::io

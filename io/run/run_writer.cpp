@@ -1,0 +1,264 @@
+#include "io/run/run_writer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "geometry/exact/measures.hpp"
+#include "geometry/shape/pose.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/records.hpp"
+#include "io/run/rejected_cut.hpp"
+
+namespace polynya::io {
+namespace {
+
+/// The files that grow, in the order they are flushed: what is named before what names it.
+constexpr std::array kGrowing{run_file::kFloes,    run_file::kEvents, run_file::kFrames,
+                              run_file::kContacts, run_file::kStates, run_file::kForces};
+enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kStates, kForces };
+constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
+constexpr auto kLongestWait = std::chrono::seconds(1);
+
+Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
+  return {point_in_world(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity,
+          floe.angular_velocity};
+}
+
+}  // namespace
+
+tl::expected<RunWriter, std::string> RunWriter::create(const std::filesystem::path& folder, bool overwrite,
+                                                       const LoadedScene& scene) {
+  auto lock = claim_run_folder(folder, overwrite);
+  if (!lock) return tl::unexpected(lock.error());
+  if (std::string problem =
+          write_whole_file(folder / run_file::kScene, scene.resolved_text, Durability::kSynced);
+      !problem.empty())
+    return tl::unexpected(problem);
+  return begin(std::move(*lock), scene);
+}
+
+tl::expected<RunWriter, std::string> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
+  if (std::string problem = remove_checkpoints(lock.folder()); !problem.empty())
+    return tl::unexpected(problem);
+  std::vector<OutputFile> files;
+  for (const auto name : kGrowing) {
+    auto file = OutputFile::create(lock.folder() / name);
+    if (!file) return tl::unexpected(file.error());
+    files.push_back(std::move(*file));
+  }
+  RunWriter writer(scene, std::move(files), std::move(lock));
+  writer.file(kForces).append(forces_header());
+  writer.file(kFrames).append(FrameEncoder::header());
+  writer.file(kContacts).append(contacts_header());
+  writer.file(kStates).append(states_header());
+  writer.flush();  // the headers
+  if (std::string problem = writer.failure(); !problem.empty()) return tl::unexpected(problem);
+  RunSummary first;
+  first.stopped_by = "still running, or killed";
+  first.peaks = writer.peaks_;
+  if (std::string problem = write_whole_file(writer.folder() / run_file::kSummary, to_json_text(first, scene),
+                                             Durability::kSynced);
+      !problem.empty())
+    return tl::unexpected(problem);
+  return writer;
+}
+
+namespace {
+
+/// Why a file that grows cannot be cut back to its size at a checkpoint; empty where it can.
+std::string shortcoming(const std::filesystem::path& file, std::uint64_t size_then) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(file, error);
+  if (exists(status) && !is_regular_file(status)) return file.string() + ": not a regular file";
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return fmt::format("{}: {}", file.string(), error.message());
+  return size >= size_then
+             ? ""
+             : fmt::format("{}: {} bytes; at the checkpoint there were {}", file.string(), size, size_then);
+}
+
+}  // namespace
+
+tl::expected<RunWriter, std::string> RunWriter::go_on(RunLock lock, const LoadedScene& scene,
+                                                      const Checkpoint& checkpoint,
+                                                      const std::filesystem::path& file,
+                                                      const simulation::Simulation& simulation) {
+  const RunProgress& progress = checkpoint.progress;
+  const std::filesystem::path folder = lock.folder();
+  const std::size_t ships = scene.scene.ships.size();
+  const auto is_of_scene = [columns = peak_columns(scene.scene).size()](const ShipPeaks& peaks) {
+    return peaks.of_column.size() == columns;
+  };
+  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != ships ||
+      !std::ranges::all_of(progress.peaks, is_of_scene))
+    return tl::unexpected(fmt::format("{}: the checkpoint is of another run", folder.string()));
+  for (std::size_t i = 0; i < kGrowing.size(); ++i)  // before any is cut back
+    if (std::string problem = shortcoming(folder / kGrowing[i], progress.file_sizes[i]); !problem.empty())
+      return tl::unexpected(std::move(problem));
+  if (std::string problem = rewind_to(folder, checkpoint, file); !problem.empty())
+    return tl::unexpected(std::move(problem));
+  std::vector<OutputFile> files;
+  for (std::size_t i = 0; i < kGrowing.size(); ++i) {
+    auto grown = OutputFile::go_on(folder / kGrowing[i], progress.file_sizes[i]);
+    if (!grown) return tl::unexpected(grown.error());
+    files.push_back(std::move(*grown));
+  }
+  RunWriter writer(scene, std::move(files), std::move(lock));
+  writer.frames_ = FrameEncoder(progress.told);
+  writer.peaks_ = progress.peaks;
+  for (const simulation::FloeState& floe : simulation.floe_states())
+    writer.know(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
+  return writer;
+}
+
+void RunWriter::know(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body) {
+  const auto id = static_cast<std::size_t>(floe);
+  if (id >= parents_.size()) {
+    parents_.resize(id + 1, simulation::kNoFloe);
+    centroids_in_body_.resize(id + 1);
+  }
+  parents_[id] = parent;
+  centroids_in_body_[id] = centroid_in_body;
+}
+
+RunWriter::RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock)
+    : scene_(&scene),
+      files_(std::move(files)),
+      peak_columns_(peak_columns(scene.scene)),
+      peaks_(scene.scene.ships.size()),
+      lock_(std::move(lock)),
+      last_flush_(std::chrono::steady_clock::now()) {
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    peaks_[i].ship = scene.scene.ships[i].name;
+    peaks_[i].of_column.resize(peak_columns_.size());
+  }
+}
+
+std::string_view RunWriter::ship_name(int ship) const {
+  const auto& ships = scene_->scene.ships;
+  return ship >= 0 && static_cast<std::size_t>(ship) < ships.size()
+             ? std::string_view(ships[static_cast<std::size_t>(ship)].name)
+             : "";
+}
+
+void RunWriter::record(simulation::Journal& journal) {
+  const auto append_line = [&](std::size_t which, auto&& write) {
+    line_.clear();
+    write(line_);
+    file(which).append(line_);
+  };
+  std::unordered_map<simulation::FloeId, const geometry::Polygon*> broken;
+  for (const simulation::Death& death : journal.deaths) broken[death.floe] = &death.polygon_in_body;
+  for (const simulation::Birth& birth : journal.births) {
+    know(birth.floe, birth.parent, birth.centroid_in_body);
+    const auto parent = broken.find(birth.parent);
+    append_line(kFloes, [&](std::string& line) {
+      append_birth(line, birth, parent != broken.end() ? parent->second : nullptr);
+    });
+  }
+  for (const simulation::Event& event : journal.events) {
+    append_line(kEvents, [&](std::string& line) {
+      append_event(line, event, ship_name(event.ship), parents_[static_cast<std::size_t>(event.floe)]);
+    });
+  }
+  for (const simulation::ShipContact& contact : journal.ship_contacts) {
+    append_line(kEvents, [&](std::string& line) {
+      append_ship_contact(line, contact, ship_name(contact.ship), ship_name(contact.other));
+    });
+  }
+  for (const simulation::ShipSample& sample : journal.samples) {
+    append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, ship_name(sample.ship)); });
+  }
+  for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
+    if (std::string wrong = write_rejected_cut(folder(), cut); !wrong.empty()) failure_ = std::move(wrong);
+  }
+  for (const simulation::ShipSample& sample : journal.samples) {
+    std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
+    for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].see(peak_columns_[i]->read(sample), sample.time);
+  }
+  journal.clear();
+  keep();
+}
+
+void RunWriter::keep() {
+  for (OutputFile& file : files_) file.keep();
+}
+
+void RunWriter::frame(const simulation::Simulation& simulation) {
+  std::vector<Motion> ships;
+  for (const simulation::ShipState& ship : simulation.ship_states()) {
+    ships.push_back({ship.world_from_ship.position, ship.heading, ship.velocity, ship.angular_velocity});
+  }
+  std::vector<FloeMotion> floes;
+  for (const simulation::FloeState& floe : simulation.floe_states()) {
+    floes.push_back({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
+  }
+  file(kFrames).append(frames_.encode(simulation.time(), ships, floes));
+  line_.clear();  // a moment's contacts are one record: no file holds a part of them
+  for (const simulation::ContactState& contact : simulation.contact_states())
+    append_contact(line_, simulation.time(), contact, ship_name(contact.on.ship), ship_name(contact.by.ship));
+  if (!line_.empty()) file(kContacts).append(line_);
+  line_.clear();
+  append_state(line_, simulation.time(), simulation.counts().steps, simulation.state_hash());
+  file(kStates).append(line_);
+  keep();
+}
+
+bool RunWriter::sync_files() {
+  flush();
+  return std::ranges::all_of(files_, &OutputFile::sync);
+}
+
+RunProgress RunWriter::sync() {
+  sync_files();
+  RunProgress progress;
+  for (const OutputFile& file : files_) progress.file_sizes.push_back(file.size());
+  progress.told = frames_.told();
+  progress.peaks = peaks_;
+  return progress;
+}
+
+void RunWriter::flush() {
+  check_place();
+  bool all_well = !is_displaced_;
+  for (OutputFile& file : files_) {
+    if (!all_well) file.drop();  // nothing may be named that is not there
+    all_well = all_well && file.flush();
+  }
+  last_flush_ = std::chrono::steady_clock::now();
+}
+
+void RunWriter::check_place() {
+  if (is_displaced_) return;
+  const auto lost = std::ranges::find_if_not(files_, &OutputFile::is_in_place);
+  is_displaced_ = !lock_.is_in_place() || lost != files_.end();
+  if (!is_displaced_ || !failure_.empty()) return;
+  failure_ = fmt::format("{}: removed, moved or replaced by another program during the run",
+                         lock_.is_in_place() ? lost->name() : folder().string());
+}
+
+void RunWriter::flush_if_due() {
+  std::size_t buffered = 0;
+  for (const OutputFile& file : files_) buffered += file.buffered();
+  if (buffered > kMuchBuffered || std::chrono::steady_clock::now() - last_flush_ > kLongestWait) flush();
+}
+
+std::string RunWriter::failure() const {
+  if (!failure_.empty()) return failure_;
+  for (const OutputFile& file : files_) {
+    if (!file.failure().empty()) return file.failure();
+  }
+  return "";
+}
+
+std::vector<std::string> RunWriter::overlong() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < files_.size(); ++i)
+    if (files_[i].size() + files_[i].buffered() > kLongestRunFile) names.emplace_back(kGrowing[i]);
+  return names;
+}
+
+}  // namespace polynya::io

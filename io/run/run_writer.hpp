@@ -1,0 +1,114 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "io/run/frames.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/run/shown_loads.hpp"
+#include "io/run/summary.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/output_file.hpp"
+#include "simulation/simulation.hpp"
+
+namespace polynya::io {
+
+struct Checkpoint;
+
+/// What of a run's folder is written, and what the writer has to remember of it to go on.
+struct RunProgress {
+  std::vector<std::uint64_t> file_sizes;  ///< of the files that grow, on disk [bytes]
+  std::vector<FrameEncoder::Told> told;   ///< by floe id
+  std::vector<ShipPeaks> peaks;
+};
+
+/// Writes a run's folder while it runs (docs/run-folder.md). What is on disk is whole lines and whole frames
+/// at all times, and summary.json says from the start that the run is not finished: a killed run leaves a
+/// usable folder. Disk errors are kept: the caller asks failure() now and then and stops.
+class RunWriter {
+ public:
+  /// Prepares the folder (run_folder.hpp) and writes scene.json and a first summary.json. `scene` must
+  /// outlive this.
+  static tl::expected<RunWriter, std::string> create(const std::filesystem::path& folder, bool overwrite,
+                                                     const LoadedScene& scene);
+
+  /// The same for a folder that has its scene.json already: everything else of the run is written from the
+  /// start.
+  static tl::expected<RunWriter, std::string> begin(RunLock lock, const LoadedScene& scene);
+
+  /// Goes on with the folder of a run that was interrupted: what its files have beyond the checkpoint is cut
+  /// off, newer checkpoints too. `file` is where the checkpoint was read.
+  static tl::expected<RunWriter, std::string> go_on(RunLock lock, const LoadedScene& scene,
+                                                    const Checkpoint& checkpoint,
+                                                    const std::filesystem::path& file,
+                                                    const simulation::Simulation& simulation);
+
+  /// Takes down what the journal tells and clears it.
+  void record(simulation::Journal& journal);
+
+  /// Takes down a frame: where everything is now.
+  void frame(const simulation::Simulation& simulation);
+
+  /// Writes what is buffered if a second has passed or much has gathered. Cheap to call after every step.
+  void flush_if_due();
+
+  /// Brings everything to the disk, for a checkpoint, and returns where the folder stands. Where failure() is
+  /// not empty it could not, and the folder stands nowhere.
+  RunProgress sync();
+
+  /// What went wrong with a file; empty where all is well.
+  std::string failure() const;
+
+  /// The files that have become too long to be read back (kLongestRunFile).
+  std::vector<std::string> overlong() const;
+
+  /// Peaks of the samples so far.
+  const std::vector<ShipPeaks>& peaks() const { return peaks_; }
+
+  /// Ends the run: everything buffered, final.geojson, and last summary.json. All of it is on the disk before
+  /// a summary that says "finished" is, and that one before the checkpoints go. Returns what went wrong;
+  /// empty where all is well.
+  std::string finish(const RunSummary& summary, const simulation::Simulation& simulation);
+
+  /// Ends a run that ran out of memory, which perhaps was in the middle of record() or frame(): what these
+  /// took down in part is left out. No pictures, which take memory; checkpoints stay. Returns what went
+  /// wrong; empty where all is well.
+  std::string cut_off(const RunSummary& summary);
+
+  const std::filesystem::path& folder() const { return lock_.folder(); }
+  /// Whether the folder and its files were removed, moved or replaced by another program.
+  bool is_displaced() const { return is_displaced_; }
+
+ private:
+  RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock);
+  /// What events and frames will say of a floe.
+  void know(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
+  OutputFile& file(std::size_t which) { return files_[which]; }
+  void flush();
+  bool sync_files();
+  void keep();
+  /// Notes it as the failure if the folder or a file in it has lost its name.
+  void check_place();
+  std::string_view ship_name(int ship) const;
+
+  const LoadedScene* scene_;
+  std::vector<OutputFile> files_;  ///< in the order they are flushed: what is named before what names it
+  FrameEncoder frames_;
+  std::vector<simulation::FloeId> parents_;         ///< by floe id
+  std::vector<geometry::Point> centroids_in_body_;  ///< by floe id [m]
+  std::vector<const ForceColumn*> peak_columns_;
+  std::vector<ShipPeaks> peaks_;
+  RunLock lock_;
+  std::string line_;
+  std::string failure_;  ///< of what is written at once
+  std::chrono::steady_clock::time_point last_flush_;
+  bool is_displaced_ = false;
+};
+
+}  // namespace polynya::io

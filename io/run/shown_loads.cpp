@@ -1,0 +1,36 @@
+#include "io/run/shown_loads.hpp"
+
+#include <fmt/format.h>
+
+namespace polynya::io {
+namespace {
+
+std::array<const ForceColumn*, 3> columns_of(std::string_view middle) {
+  return {&force_column(fmt::format("surge{}_N", middle)), &force_column(fmt::format("sway{}_N", middle)),
+          &force_column(fmt::format("yaw{}_Nm", middle))};
+}
+
+}  // namespace
+
+std::vector<ShownLoad> shown_loads(const simulation::Scene& scene) {
+  const std::string mean = fmt::format("mean over {:.6g} s", recording_interval(scene));
+  const std::string step = fmt::format("single step of {:.6g} s", scene.time.step);
+  std::vector<ShownLoad> loads{{"mean", mean, true, columns_of("")}, {"max", step, true, columns_of("_max")}};
+  if (scene.ships.size() > 1) {
+    loads.push_back({"ships", mean, false, columns_of("_from_ships")});
+    loads.push_back({"ships", step, false, columns_of("_from_ships_max")});
+  }
+  if (splits_by_j_over_tau_c(scene))
+    loads.push_back({"j-over-tau-c", "j/τ_c of the paper", true, columns_of("_j_over_tau_c")});
+  return loads;
+}
+
+std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene) {
+  std::vector<const ForceColumn*> columns;
+  for (const ShownLoad& load : shown_loads(scene))
+    columns.insert(columns.end(), load.columns.begin(), load.columns.end());
+  columns.push_back(&force_column("speed_m_per_s"));
+  return columns;
+}
+
+}  // namespace polynya::io

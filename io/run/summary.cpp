@@ -1,0 +1,114 @@
+#include "io/run/summary.hpp"
+
+#include "io/run/run_folder.hpp"
+#include "io/run/shown_loads.hpp"
+#include "io/text/json_parser.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/source_text.hpp"
+#include "io/text/version.hpp"
+
+namespace polynya::io {
+namespace {
+
+void append(JsonWriter& json, const ShipPeaks& peaks, const std::vector<const ForceColumn*>& columns) {
+  json.open('{').key("ship").value(std::string_view(peaks.ship));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Peak& peak = peaks.of_column[i];
+    json.key(columns[i]->name).open('{').key("value").value(peak.value);
+    json.key("t_s").value(peak.time).close('}');
+  }
+  json.close('}');
+}
+
+void append(JsonWriter& json, const simulation::AreaLedger& ledger) {
+  json.key("ledger").open('{');
+  json.key("initial_ice_area_m2").value(ledger.initial_ice_area).key("floe_area_m2").value(ledger.floe_area);
+  json.key("submerged_area_m2").value(ledger.submerged_area).key("brash_area_m2").value(ledger.brash_area);
+  json.key("rounding_defect_m2").value(ledger.rounding_defect).key("imbalance_m2").value(ledger.imbalance);
+  json.close('}');
+}
+
+void append(JsonWriter& json, const simulation::Audit& audit) {
+  const simulation::EnergyFlows& e = audit.sums.energy;
+  json.key("energy").open('{');
+  json.key("initial_J").value(audit.sums.initial_energy).key("kinetic_J").value(audit.kinetic_energy);
+  json.key("thrust_J").value(e.thrust).key("current_J").value(e.current).key("drag_J").value(e.drag);
+  json.key("friction_J").value(e.friction).key("restitution_J").value(e.restitution);
+  json.key("crushing_J").value(e.crushing).key("bending_J").value(e.bending);
+  json.key("splitting_J").value(e.splitting).key("rest_J").value(e.rest);
+  json.key("imbalance_J").value(audit.energy_imbalance).key("turnover_J").value(audit.turnover);
+  json.close('}');
+  const auto vector = [&](const char* key, geometry::Vector v) {
+    json.key(key).open('[').value(v.x).value(v.y).close(']');
+  };
+  const simulation::MomentumFlows& m = audit.sums.momentum;
+  json.key("momentum").open('{');
+  vector("initial_Ns", audit.sums.initial_momentum);
+  vector("final_Ns", audit.total_momentum);
+  vector("thrust_Ns", m.thrust);
+  vector("held_Ns", m.held);
+  vector("water_Ns", m.water);
+  vector("removed_Ns", m.removed);
+  vector("imbalance_Ns", audit.momentum_imbalance);
+  json.key("turnover_Ns").value(audit.momentum_turnover).close('}');
+  json.key("audit_closed").value(audit.is_closed());
+}
+
+void append(JsonWriter& json, const simulation::Counts& counts) {
+  json.key("counts").open('{');
+  json.key("floes_initial").value(counts.floes_initial).key("floes_final").value(counts.floes_final);
+  json.key("bends").value(counts.bends).key("splits").value(counts.splits);
+  json.key("crush_contacts").value(counts.crush_contacts).key("rejected_cuts").value(counts.rejected_cuts);
+  json.key("database_out_of_range").value(counts.database_out_of_range);
+  json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
+  json.key("snap_rounded")
+      .value(counts.snap_rounded)
+      .key("unconverged_steps")
+      .value(counts.unconverged_steps);
+  json.key("largest_left_over_m_per_s").value(counts.largest_left_over);
+  json.key("unpaired_stretches").value(counts.unpaired_stretches);
+  json.key("peak_contacts").value(counts.peak_contacts).key("peak_awake").value(counts.peak_awake);
+  json.close('}');
+}
+
+}  // namespace
+
+bool is_finished_run(const std::filesystem::path& folder) {
+  const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
+  if (!text) return false;
+  const JsonDocument summary = parse_json(*text);
+  const JsonValue* finished = summary.faults.empty() ? summary.root.find("finished") : nullptr;
+  return finished != nullptr && finished->kind() == JsonValue::Kind::kBoolean && finished->boolean();
+}
+
+std::string_view version() {
+  return POLYNYA_VERSION;
+}
+
+std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
+  std::string text;
+  JsonWriter json(text, JsonWriter::Layout::kIndented);
+  json.open('{').key("version").value(version()).key("folder_version").value(kRunFolderVersion);
+  json.key("scene").value(std::string_view(scene.scene.name));
+  json.key("seed").value(static_cast<std::int64_t>(scene.scene.seed));
+  json.key("scene_hash").value(std::string_view(scene.hash));
+  json.key("finished").value(summary.finished);
+  if (!summary.stopped_by.empty()) json.key("stopped_by").value(std::string_view(summary.stopped_by));
+  json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
+  json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
+  json.key("forces_interval_s").value(recording_interval(scene.scene));
+  json.key("peaks").open('[');
+  const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);
+  for (const ShipPeaks& peaks : summary.peaks) append(json, peaks, columns);
+  json.close(']');
+  append(json, summary.ledger);
+  append(json, summary.audit);
+  append(json, summary.counts);
+  json.key("warnings").open('[');
+  for (const std::string& warning : summary.warnings) json.value(std::string_view(warning));
+  json.close(']').close('}');
+  text += '\n';
+  return text;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/scene/scene_reader.hpp"
+#include "simulation/energy.hpp"
+#include "simulation/journal.hpp"
+
+namespace polynya::io {
+
+/// The largest value of something, by magnitude, and when.
+struct Peak {
+  double value = 0;
+  double time = 0;  ///< [s]
+  void see(double candidate, double at) {
+    if (std::abs(candidate) > std::abs(value)) *this = {candidate, at};
+  }
+};
+
+/// The largest loads on one ship over a run, in its frame.
+struct ShipPeaks {
+  std::string ship;
+  std::vector<Peak> of_column;  ///< of each of peak_columns()
+};
+
+/// What summary.json says.
+struct RunSummary {
+  bool finished = false;
+  std::string stopped_by;  ///< why it did not finish; empty while it runs and when it finished
+  std::int64_t steps = 0;
+  double sim_time = 0;   ///< [s]
+  double wall_time = 0;  ///< [s]
+  simulation::AreaLedger ledger;
+  simulation::Audit audit;
+  simulation::Counts counts;
+  std::vector<ShipPeaks> peaks;
+  std::vector<std::string> warnings;
+
+  double real_time_factor() const { return wall_time > 0 ? sim_time / wall_time : 0; }
+};
+
+std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
+
+/// Whether a run folder has a summary.json that says so.
+bool is_finished_run(const std::filesystem::path& folder);
+
+}  // namespace polynya::io

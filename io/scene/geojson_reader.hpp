@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+#include "io/text/json_value.hpp"
+#include "io/text/problem_collector.hpp"
+
+namespace polynya::io {
+
+struct GeojsonPolygon {
+  geometry::Polygon polygon;  ///< in house notation (floe_group.hpp), not yet known to be valid
+  std::uint32_t offset = 0;   ///< of its coordinates in the text
+};
+
+struct GeojsonFloes {
+  std::vector<GeojsonPolygon> polygons;
+  std::optional<double> run_time;  ///< where the floes are those of a run at that time [s]
+};
+
+/// The polygons of a GeoJSON text (Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection), in
+/// order. Coordinates are metres in the scene's plane; a third one is passed over. Anything else is added as
+/// a problem of that source of the collector; so is, once for the whole text, that its coordinates are
+/// longitude and latitude (by its crs, or by how little ice they would be) or too large.
+GeojsonFloes read_geojson(std::size_t source, ProblemCollector& problems);
+
+}  // namespace polynya::io

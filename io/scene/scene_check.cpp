@@ -1,0 +1,206 @@
+#include "io/scene/scene_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "geometry/exact/validity.hpp"
+#include "geometry/shape/pose.hpp"
+#include "io/scene/overlap.hpp"
+#include "io/scene/speed_check.hpp"
+#include "simulation/floe_size.hpp"
+
+namespace polynya::io {
+namespace {
+
+using geometry::Polygon;
+
+constexpr double kMostSteps = 1e9;
+constexpr std::size_t kMostOverlaps = 200;
+
+void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+  const auto& scene = draft.scene;
+  const auto tell = [&](const std::string& path, std::string found, std::string allowed) {
+    problems.add(0, nearest_offset(resolved, path),
+                 {.path = path, .found = std::move(found), .allowed = std::move(allowed)});
+  };
+  if (scene.ice.density >= scene.water.water.density)
+    tell("ice.density_kg_per_m3", fmt::format("{}: this ice sinks", scene.ice.density),
+         fmt::format("a number < the water's density, {} [kg/m³]", scene.water.water.density));
+  if (scene.time.until < scene.time.step)
+    tell("time.until_s", fmt::format("{}, less than one step", scene.time.until),
+         fmt::format("a number ≥ step_s, {} [s]", scene.time.step));
+  if (scene.time.until / scene.time.step > kMostSteps)
+    tell("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
+         fmt::format("at most {:g} steps", kMostSteps));
+  if (scene.ships.empty() && scene.floes.empty() && problems.count() == 0)
+    problems.add(0, resolved.offset,
+                 {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
+}
+
+/// A body that takes part in the search for overlaps.
+struct Named {
+  std::string path;
+  const Origin* origin;
+  bool is_ship;
+};
+
+void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vector<Named>& named,
+                 std::vector<Polygon>& outlines) {
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
+    const auto& ship = draft.scene.ships[i];
+    const Origin& origin = draft.ship_origins[i];
+    const std::string path = ship_path(draft, i);
+    const auto tell = [&](std::string_view key, std::string found, std::string allowed) {
+      problems.add(origin.source, origin.offset,
+                   {.path = fmt::format("{}.{}", path, key),
+                    .found = std::move(found),
+                    .allowed = std::move(allowed)});
+    };
+    for (std::size_t k = 0; k < i; ++k) {
+      if (draft.scene.ships[k].name == ship.name)
+        tell("name", fmt::format("\"{}\" a second time", ship.name), "each ship and structure its own name");
+    }
+    const auto& hull = ship.hull;
+    if (!hull.angles_from_vertical.empty() && hull.angles_from_vertical.size() != hull.waterline.size())
+      tell("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
+           fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
+    if (const auto defect = geometry::find_defect({hull.waterline, {}})) {
+      tell(origin.is_structure ? "waterline_m" : "hull", "an invalid waterline: " + describe(*defect),
+           origin.is_structure ? "a simple ring with an area"
+                               : "a simple ring with an area; a wedge bow must end before the stern");
+      continue;
+    }
+    outlines.push_back(waterline_in_world(ship));
+    named.push_back({path, &origin, true});
+  }
+}
+
+void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vector<Named>& named,
+                 std::vector<Polygon>& outlines) {
+  for (std::size_t i = 0; i < draft.scene.floes.size(); ++i) {
+    const Polygon& polygon = draft.scene.floes[i].polygon_in_world;
+    const Origin& origin = draft.floe_origins[i];
+    if (!origin.is_known_valid) {
+      if (const auto defect = geometry::find_defect(polygon)) {
+        problems.add(origin.source, origin.offset,
+                     {.path = floe_path(draft, i),
+                      .found = "an invalid polygon: " + describe(*defect),
+                      .allowed = "simple rings with an area, holes inside and apart"});
+        continue;
+      }
+    }
+    const geometry::Measures measures = geometry::measure(polygon);
+    if (!simulation::can_be_floe(measures)) {
+      problems.add(origin.source, origin.offset,
+                   {.path = floe_path(draft, i),
+                    .found = fmt::format("a floe of {:.3g} m², second moment {:.3g} m⁴", measures.area,
+                                         measures.second_moment),
+                    .allowed = fmt::format("at least {:g} m², and a second moment above 0",
+                                           simulation::kLeastFloeArea)});
+      continue;
+    }
+    outlines.push_back(polygon);
+    named.push_back({floe_path(draft, i), &origin, false});
+  }
+}
+
+/// Overlaps in which floes of a run take part, with each other or with other bodies.
+struct RunOverlaps {
+  std::size_t count = 0;
+  std::size_t among_them = 0;
+  double largest = 0;  ///< [m²]
+};
+
+/// One problem for all overlaps of a run's floes, which are in contact, and so overlap by the ice they
+/// crushed.
+void report_run_overlaps(std::size_t source, double time, const RunOverlaps& overlaps,
+                         ProblemCollector& problems) {
+  problems.add(
+      source, 0,
+      {.sentence = fmt::format(
+           "these are the floes of a run at {:g} s, of which {}{} pairs overlap, by at most {:.3g} m²: ice "
+           "in "
+           "contact overlaps by what it crushed; starting a scene from a run comes in a later version; "
+           "polynya resume RUN continues one that was stopped",
+           time, overlaps.count >= kMostOverlaps ? "at least " : "", overlaps.count, overlaps.largest)});
+}
+
+void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
+                    const std::vector<Polygon>& outlines, ProblemCollector& problems) {
+  const auto overlaps = find_overlaps(outlines, kMostOverlaps);
+  std::map<std::size_t, RunOverlaps> of_runs;
+  const auto run_of = [&](const Overlap& overlap) -> RunOverlaps* {
+    const std::size_t source = named[overlap.second].origin->source;  // floes come behind ships
+    return draft.run_times.contains(source) ? &of_runs[source] : nullptr;
+  };
+  for (const Overlap& overlap : overlaps) {
+    RunOverlaps* run = run_of(overlap);
+    if (!run) continue;
+    const bool is_among_them = named[overlap.first].origin->source == named[overlap.second].origin->source;
+    run->among_them += is_among_them ? 1 : 0;
+    run->largest = std::fmax(run->largest, overlap.area);
+    ++run->count;
+  }
+  for (const auto& [source, run] : of_runs) {
+    if (run.among_them > 0) report_run_overlaps(source, draft.run_times.at(source), run, problems);
+  }
+  for (const Overlap& overlap : overlaps) {
+    if (const RunOverlaps* run = run_of(overlap); run && run->among_them > 0) continue;
+    const Named& first = named[overlap.first];
+    const Named& second = named[overlap.second];
+    const std::string area = std::isnan(overlap.area) ? "" : fmt::format(", {:.6g} m² shared", overlap.area);
+    problems.add(second.origin->source, second.origin->offset,
+                 {.path = second.path,
+                  .found = fmt::format("an overlap with {}{}", first.path, area),
+                  .allowed = first.is_ship && !second.is_ship ? "floes outside the waterline"
+                                                              : "bodies that at most touch"});
+  }
+  if (overlaps.size() == kMostOverlaps && of_runs.empty())
+    problems.add(0, 0,
+                 {.path = "floes", .found = fmt::format("{} overlaps, and perhaps more", kMostOverlaps)});
+}
+
+}  // namespace
+
+std::string ship_path(const SceneDraft& draft, std::size_t ship) {
+  const Origin& origin = draft.ship_origins[ship];
+  return fmt::format("{}[{}]", origin.is_structure ? "structures" : "ships", origin.group);
+}
+
+std::string floe_path(const SceneDraft& draft, std::size_t floe) {
+  const Origin& origin = draft.floe_origins[floe];
+  const std::string group = fmt::format("floes[{}]", origin.group);
+  return origin.member < 0 ? group : fmt::format("{} (its floe {})", group, origin.member);
+}
+
+std::string describe(const geometry::DefectAt& defect) {
+  std::string text(name_of(defect.defect));
+  for (std::size_t i = 0; i < std::min<std::size_t>(defect.places.size(), 3); ++i) {
+    text += fmt::format("{} ({}, {})", i == 0 ? " at" : ",", defect.places[i].x, defect.places[i].y);
+  }
+  return text;
+}
+
+Polygon waterline_in_world(const simulation::ShipSpec& ship) {
+  const geometry::Pose world_from_ship{ship.position_in_world, geometry::Rotation::by(ship.heading)};
+  Polygon outline;
+  for (const geometry::Point p : ship.hull.waterline)
+    outline.outer.push_back(point_in_world(world_from_ship, p));
+  return outline;
+}
+
+void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+  check_water_and_time(draft, resolved, problems);
+  std::vector<Named> named;
+  std::vector<Polygon> outlines;
+  check_ships(draft, problems, named, outlines);
+  check_floes(draft, problems, named, outlines);
+  check_speeds(draft, resolved, problems);
+  check_overlaps(draft, named, outlines, problems);
+}
+
+}  // namespace polynya::io

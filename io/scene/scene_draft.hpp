@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+#include "simulation/floe_field.hpp"
+#include "simulation/scene.hpp"
+
+namespace polynya::io {
+
+/// One entry of the scene's "floes" while it is read. The fields of the chosen form are filled in.
+struct FloeGroup {
+  enum class Form { kLattice, kRectangle, kPolygon, kFile, kField };
+  Form form = Form::kPolygon;
+  geometry::Point origin;     ///< lattice: corner of its area; rectangle: its corner [m]
+  int columns = 1;            ///< along x
+  int rows = 1;               ///< along y
+  geometry::Vector pitch;     ///< [m]
+  geometry::Vector size;      ///< [m]
+  double angle = 0;           ///< rectangle, about its corner [rad]
+  geometry::Polygon polygon;  ///< as written: rings may run either way and may be closed [m]
+  std::string file;           ///< GeoJSON in the scene's folder
+  simulation::FloeField field;
+  geometry::Vector extent;      ///< field: of its region; 0 where that is an outline [m]
+  geometry::Vector velocity;    ///< relative to the water [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
+};
+
+/// Where a ship or a floe of the scene stands in the text, for messages.
+struct Origin {
+  std::size_t source = 0;       ///< index in the ProblemCollector's sources
+  std::uint32_t offset = 0;     ///< byte in that source
+  std::size_t group = 0;        ///< index in the scene's "floes", "ships" or "structures"
+  int member = -1;              ///< which floe of a lattice or file; −1: the only one
+  bool is_known_valid = false;  ///< by construction
+  bool is_structure = false;
+};
+
+/// A scene while it is read: the field table's setters write into it.
+struct SceneDraft {
+  simulation::Scene scene;
+  std::string description;
+  double hull_length = 0;  ///< of the ship being read; 0 where its waterline is given point by point [m]
+  double hull_beam = 0;    ///< [m]
+  double hull_entrance_angle = 0;  ///< [rad]
+  double structure_radius = 0;     ///< of the structure being read; 0 where its outline is given [m]
+  double structure_slope = 0;      ///< of its wall from the vertical [rad]
+  FloeGroup group;
+  std::vector<Origin> ship_origins;
+  std::vector<Origin> floe_origins;
+  std::map<std::size_t, double> run_times;  ///< of sources that hold the floes of a run, at that time [s]
+
+  simulation::ShipSpec& ship() { return scene.ships.back(); }
+};
+
+}  // namespace polynya::io

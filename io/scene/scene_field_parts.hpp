@@ -1,0 +1,53 @@
+#pragma once
+
+#include <numbers>
+
+#include "io/scene/scene_fields.hpp"
+
+namespace polynya::io {
+
+// What the parts of the table of scene_fields.hpp are written with, and the parts.
+
+inline constexpr double kLargestCoordinate = 1e6;  ///< [m]
+inline constexpr double kLargestCount = 1e6;
+
+inline Range above(double low, double high) {
+  return {low, high, true, false};
+}
+inline Range from(double low, double high) {
+  return {low, high, false, false};
+}
+inline Range below(double low, double high) {
+  return {low, high, false, true};
+}
+inline Range coordinate() {
+  return {-kLargestCoordinate, kLargestCoordinate, false, false};
+}
+
+inline double radians(const JsonValue& v) {
+  return v.number() * std::numbers::pi / 180;
+}
+inline geometry::Vector vector_of(const JsonValue& v) {
+  return {v.items()[0].number(), v.items()[1].number()};
+}
+inline geometry::Point point_of(const JsonValue& v) {
+  return {v.items()[0].number(), v.items()[1].number()};
+}
+inline geometry::Ring ring_of(const JsonValue& v) {
+  geometry::Ring ring;
+  for (const JsonValue& point : v.items()) ring.push_back(point_of(point));
+  return ring;
+}
+
+const Object& origin_object();
+const Object& time_object();
+const Object& water_object();
+const Object& ice_object();
+const Object& contact_object();
+const Object& fracture_object();
+const Object& record_object();
+const Object& ship_object();
+const Object& structure_object();
+const Object& floes_object();
+
+}  // namespace polynya::io

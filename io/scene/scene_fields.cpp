@@ -1,0 +1,123 @@
+#include "io/scene/scene_fields.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/scene/scene_field_parts.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace polynya::io {
+namespace {
+
+using Draft = SceneDraft;
+using Value = JsonValue;
+using Kind = FieldKind;
+
+const Object kScene{
+    {{"name",
+      Kind::kName,
+      "",
+      {},
+      "\"scene\"",
+      "names the run folder; if left out, the scene file's name",
+      [](Draft& d, const Value& v) { d.scene.name = v.text(); }},
+     {"description",
+      Kind::kText,
+      "",
+      {},
+      "\"\"",
+      "for people",
+      [](Draft& d, const Value& v) { d.description = v.text(); }},
+     {"seed", Kind::kInteger, "", from(0, 9007199254740991), "1", "of whatever is random: the floe fields",
+      [](Draft& d, const Value& v) { d.scene.seed = static_cast<std::uint64_t>(v.number()); }},
+     {"origin",
+      Kind::kObject,
+      "",
+      {},
+      kLeftOut,
+      "where the scene lies on the Earth, for `polynya export --geojson`; nothing else depends on it",
+      nullptr,
+      {},
+      "",
+      &origin_object()},
+     {"time", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &time_object()},
+     {"water", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &water_object()},
+     {"ice", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &ice_object()},
+     {"contact", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &contact_object()},
+     {"fracture", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &fracture_object()},
+     {"record", Kind::kObject, "", {}, "{}", "", nullptr, {}, "", &record_object()},
+     {"ships", Kind::kList, "", from(0, 100), "[]", "the ships", nullptr, {}, "", &ship_object()},
+     {"structures",
+      Kind::kList,
+      "",
+      from(0, 100),
+      "[]",
+      "what stands in the ice and does not move",
+      nullptr,
+      {},
+      "",
+      &structure_object()},
+     {"floes",
+      Kind::kList,
+      "",
+      from(0, kLargestCount),
+      "[]",
+      "the ice, in groups",
+      nullptr,
+      {},
+      "",
+      &floes_object()}}};
+
+std::string describe_range(const Field& field) {
+  std::string text;
+  const auto number = [](double value) {
+    std::string digits;
+    append_number(digits, value);
+    return digits;
+  };
+  if (field.range.low > -std::numeric_limits<double>::infinity())
+    text += (field.range.is_low_excluded ? " > " : " ≥ ") + number(field.range.low);
+  if (field.range.high < std::numeric_limits<double>::infinity())
+    text += (text.empty() ? "" : ",") + std::string(field.range.is_high_excluded ? " < " : " ≤ ") +
+            number(field.range.high);
+  if (!field.unit.empty()) text += fmt::format(" [{}]", field.unit);
+  return text;
+}
+
+}  // namespace
+
+const Object& scene_object() {
+  return kScene;
+}
+
+std::string describe_allowed(const Field& field) {
+  switch (field.kind) {
+    case Kind::kText:
+      return "text";
+    case Kind::kName:
+      return "1 to 100 letters, digits, spaces and . _ -, starting with a letter or digit";
+    case Kind::kInteger:
+      return "an integer" + describe_range(field);
+    case Kind::kNumber:
+      return "a number" + describe_range(field);
+    case Kind::kChoice:
+      return fmt::format("one of {}", fmt::join(field.choices, ", "));
+    case Kind::kVector:
+      return "[x, y], each" + describe_range(field);
+    case Kind::kNumberOrVector:
+      return "a number or [x, y], each" + describe_range(field);
+    case Kind::kNumbers:
+      return "a list of numbers, each" + describe_range(field);
+    case Kind::kRing:
+      return "a list of three or more [x, y], each" + describe_range(field);
+    case Kind::kRings:
+      return "a list of rings, each three or more [x, y], each" + describe_range(field);
+    case Kind::kObject:
+      return "an object";
+    case Kind::kList:
+      return "a list of objects, its length" + describe_range(field);
+  }
+  return "";
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,182 @@
+#include "io/scene/scene_field_parts.hpp"
+
+namespace polynya::io {
+namespace {
+
+using simulation::ConstantSpeed;
+using simulation::ConstantThrust;
+using Draft = SceneDraft;
+using Value = JsonValue;
+using Kind = FieldKind;
+
+const Object kHull{
+    {{"length_m",
+      Kind::kNumber,
+      "m",
+      from(0.1, 1000),
+      "",
+      "length of the waterline",
+      [](Draft& d, const Value& v) { d.hull_length = v.number(); },
+      {},
+      "wedge bow"},
+     {"beam_m",
+      Kind::kNumber,
+      "m",
+      from(0.1, 1000),
+      "",
+      "beam of the waterline",
+      [](Draft& d, const Value& v) { d.hull_beam = v.number(); },
+      {},
+      "wedge bow"},
+     {"entrance_angle_deg",
+      Kind::kNumber,
+      "°",
+      from(1, 89),
+      "",
+      "of each bow flank from the centreline",
+      [](Draft& d, const Value& v) { d.hull_entrance_angle = radians(v); },
+      {},
+      "wedge bow"},
+     {"waterline_m",
+      Kind::kRing,
+      "m",
+      from(-1000, 1000),
+      "",
+      "the waterline in the ship's frame: origin at the centre of gravity, x forward, y to port",
+      [](Draft& d, const Value& v) { d.ship().hull.waterline = ring_of(v); },
+      {},
+      "outline"},
+     {"angles_from_vertical_deg",
+      Kind::kNumbers,
+      "°",
+      below(0, 89),
+      "[]",
+      "the hull's inclination from the vertical at each vertex of the waterline; empty: from the stem angle",
+      [](Draft& d, const Value& v) {
+        for (const Value& angle : v.items()) d.ship().hull.angles_from_vertical.push_back(radians(angle));
+      },
+      {},
+      "outline"},
+     {"stem_angle_deg", Kind::kNumber, "°", from(1, 90), "30", "φ, of the stem from the horizontal",
+      [](Draft& d, const Value& v) { d.ship().hull.stem_angle = radians(v); }}},
+    {"wedge bow", "outline"}};
+
+const Object kPropulsion{
+    {{"thrust_N",
+      Kind::kNumber,
+      "N",
+      from(-1e9, 1e9),
+      "",
+      "constant thrust along the heading",
+      [](Draft& d, const Value& v) { d.ship().propulsion = ConstantThrust{v.number()}; },
+      {},
+      "thrust"},
+     {"constant_speed_m_per_s",
+      Kind::kNumber,
+      "m/s",
+      from(-20, 20),
+      "",
+      "velocity over ground and heading are held; the forces reported are what it takes to hold them",
+      [](Draft& d, const Value& v) { d.ship().propulsion = ConstantSpeed{v.number()}; },
+      {},
+      "constant speed"}},
+    {"thrust", "constant speed"}};
+
+const Object kShip{
+    {{"name",
+      Kind::kName,
+      "",
+      {},
+      "\"ship-#\"",
+      "its name in the outputs; # is its number",
+      [](Draft& d, const Value& v) { d.ship().name = v.text(); }},
+     {"hull",
+      Kind::kObject,
+      "",
+      {},
+      "",
+      "the waterline, by its main dimensions or point by point",
+      nullptr,
+      {},
+      "",
+      &kHull},
+     {"mass_kg", Kind::kNumber, "kg", from(1, 1e12), "", "displacement",
+      [](Draft& d, const Value& v) { d.ship().mass = v.number(); }},
+     {"moment_of_inertia_kg_m2", Kind::kNumber, "kg m²", from(1e-3, 1e16), "",
+      "about the vertical through the centre of gravity",
+      [](Draft& d, const Value& v) { d.ship().moment_of_inertia = v.number(); }},
+     {"position_m", Kind::kVector, "m", coordinate(), "[0, 0]",
+      "of the centre of gravity at the start (amidships for a wedge bow)",
+      [](Draft& d, const Value& v) { d.ship().position_in_world = point_of(v); }},
+     {"heading_deg", Kind::kNumber, "°", from(-360, 360), "0", "from the x axis, counter-clockwise",
+      [](Draft& d, const Value& v) { d.ship().heading = radians(v); }},
+     {"speed_m_per_s", Kind::kNumber, "m/s", from(-20, 20), "0",
+      "along the heading over ground at the start; of a ship at constant speed, that speed",
+      [](Draft& d, const Value& v) { d.ship().speed = v.number(); }},
+     {"propulsion",
+      Kind::kObject,
+      "",
+      {},
+      "",
+      "constant thrust or constant speed",
+      nullptr,
+      {},
+      "",
+      &kPropulsion}},
+    {},
+    [](Draft& d) {
+      d.scene.ships.emplace_back();
+      d.hull_length = 0;
+    }};
+
+const Object kStructure{
+    {{"name",
+      Kind::kName,
+      "",
+      {},
+      "\"structure-#\"",
+      "its name in the outputs; # is its number",
+      [](Draft& d, const Value& v) { d.ship().name = v.text(); }},
+     {"radius_m",
+      Kind::kNumber,
+      "m",
+      from(0.1, 1000),
+      "",
+      "of a cylinder or cone at the waterline",
+      [](Draft& d, const Value& v) { d.structure_radius = v.number(); },
+      {},
+      "cylinder"},
+     {"waterline_m",
+      Kind::kRing,
+      "m",
+      from(-1000, 1000),
+      "",
+      "the waterline in the structure's frame",
+      [](Draft& d, const Value& v) { d.ship().hull.waterline = ring_of(v); },
+      {},
+      "outline"},
+     {"position_m", Kind::kVector, "m", coordinate(), "[0, 0]", "of its frame's origin; moments are about it",
+      [](Draft& d, const Value& v) { d.ship().position_in_world = point_of(v); }},
+     {"heading_deg", Kind::kNumber, "°", from(-360, 360), "0",
+      "of its frame, from the x axis, counter-clockwise; forces are in that frame",
+      [](Draft& d, const Value& v) { d.ship().heading = radians(v); }},
+     {"wall_angle_deg", Kind::kNumber, "°", below(0, 89), "0",
+      "inclination of its walls from the vertical, all around: 0 crushes the ice, more presses it down as a "
+      "hull does",
+      [](Draft& d, const Value& v) { d.structure_slope = radians(v); }}},
+    {"cylinder", "outline"},
+    [](Draft& d) {
+      d.scene.ships.emplace_back();
+      d.structure_radius = 0;
+    }};
+
+}  // namespace
+
+const Object& ship_object() {
+  return kShip;
+}
+const Object& structure_object() {
+  return kStructure;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,208 @@
+#include "io/scene/scene_hints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "geometry/contact/first_touch.hpp"
+#include "io/scene/scene_check.hpp"
+
+namespace polynya::io {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+using simulation::ShipSpec;
+
+// Block coefficients are those of fine-lined and of full ships; a draught is most often a third of the beam.
+constexpr double kLeastBlock = 0.4, kMostBlock = 0.9;                          // [-]
+constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
+constexpr double kFastestShip = 12;       ///< icebreakers reach 11 m/s in open water [m/s]
+constexpr double kFastestIce = 3;         ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
+constexpr double kThinnestIce = 0.01;     ///< thinner ice is grease and slush [m]
+constexpr double kThickestIce = 4;        ///< level ice grows no thicker; ridges are no plates [m]
+constexpr double kKnots = 3600 / 1852.0;  ///< [kn / (m/s)]
+
+/// A hull's size along and across its axis [m].
+struct HullSize {
+  double length = 0;
+  double beam = 0;
+};
+HullSize size_of(const ShipSpec& ship) {
+  const geometry::Box box = geometry::bounding_box(ship.hull.waterline);
+  return {box.high.x - box.low.x, box.high.y - box.low.y};
+}
+
+Vector ahead_of(const ShipSpec& ship) {
+  return {std::cos(ship.heading), std::sin(ship.heading)};
+}
+
+bool is_fixed(const ShipSpec& ship) {
+  return std::holds_alternative<simulation::FixedInPlace>(ship.propulsion);
+}
+bool is_held(const ShipSpec& ship) {
+  return !std::holds_alternative<simulation::ConstantThrust>(ship.propulsion);
+}
+double thrust_of(const ShipSpec& ship) {
+  const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
+  return constant ? constant->thrust : 0;
+}
+
+class Hinter {
+ public:
+  Hinter(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& hints)
+      : scene_(draft.scene), draft_(draft), resolved_(resolved), hints_(hints) {}
+
+  void add_all() {
+    hint_at_ice();
+    for (std::size_t i = 0; i < scene_.ships.size(); ++i) {
+      if (is_fixed(scene_.ships[i])) continue;
+      hint_at_mass(i);
+      hint_at_speed(i);
+      hint_at_course(i);
+    }
+    for (std::size_t i = 0; i < scene_.ships.size(); ++i) {
+      for (std::size_t k = i + 1; k < scene_.ships.size(); ++k) hint_at_crossing(i, k);
+    }
+    hint_at_drift();
+  }
+
+ private:
+  void add(Severity severity, const JsonValue& at, std::string path, std::string sentence) {
+    hints_.add(0, at.offset,
+               {.path = std::move(path), .sentence = std::move(sentence), .severity = severity});
+  }
+  void add(Severity severity, std::size_t ship, std::string_view key, std::string sentence) {
+    const Origin& origin = draft_.ship_origins[ship];
+    const std::string_view list = origin.is_structure ? "structures" : "ships";
+    const JsonValue& item = resolved_.find(list)->items()[origin.group];
+    const JsonValue* member = item.find(key);
+    add(severity, member ? *member : item, fmt::format("{}[{}].{}", list, origin.group, key),
+        std::move(sentence));
+  }
+  /// A member of an object of the scene, or what is there of it.
+  const JsonValue& value_at(std::string_view object, std::string_view key) const {
+    const JsonValue* found = resolved_.find(object);
+    const JsonValue* member = found ? found->find(key) : nullptr;
+    return member ? *member : found ? *found : resolved_;
+  }
+
+  void hint_at_ice() {
+    if (scene_.floes.empty()) {
+      add(Severity::kHint, value_at("floes", ""), "floes", "there is no ice in this scene");
+      return;
+    }
+    const double h = scene_.ice.thickness;
+    if (h > kThickestIce)
+      add(Severity::kHint, value_at("ice", "thickness_m"), "ice.thickness_m",
+          fmt::format("{:g} m: level ice is {:g} m at most, and bends as plates only to there", h,
+                      kThickestIce));
+    if (h < kThinnestIce)
+      add(Severity::kHint, value_at("ice", "thickness_m"), "ice.thickness_m",
+          fmt::format("{:g} m: ice under {:g} m is slush and no plate", h, kThinnestIce));
+  }
+
+  void hint_at_mass(std::size_t i) {
+    const ShipSpec& ship = scene_.ships[i];
+    const auto [length, beam] = size_of(ship);
+    const double shallow = kLeastDraughtOfBeam * beam, deep = kMostDraughtOfBeam * beam;
+    const double area = scene_.water.water.density * length * beam;
+    const double least = kLeastBlock * area * shallow, most = kMostBlock * area * deep;
+    if (ship.mass >= least && ship.mass <= most) return;
+    add(Severity::kWarning, i, "mass_kg",
+        fmt::format(
+            "{:.4g} kg for a hull of {:.4g} × {:.4g} m, which displaces {:.2g} to {:.2g} kg of water at a "
+            "draught of {:.2g} to {:.2g} m and block coefficients of {:g} to {:g}",
+            ship.mass, length, beam, least, most, shallow, deep, kLeastBlock, kMostBlock));
+  }
+
+  void hint_at_speed(std::size_t i) {
+    const ShipSpec& ship = scene_.ships[i];
+    const auto too_fast = [&](double speed) { return std::abs(speed) > kFastestShip; };
+    const std::string most = fmt::format("ships in ice stay below {:g} m/s", kFastestShip);
+    const std::string_view key = is_held(ship) ? "propulsion" : "speed_m_per_s";
+    if (too_fast(ship.speed))
+      return add(Severity::kHint, i, key,
+                 fmt::format("{:.4g} m/s ({:.3g} kn): {}", ship.speed, ship.speed * kKnots, most));
+    const double gained = thrust_of(ship) / ship.mass * scene_.time.until;
+    if (!too_fast(ship.speed + gained)) return;
+    add(Severity::kHint, i, "propulsion",
+        fmt::format(
+            "where no ice stops it this thrust takes the ship to {:.3g} m/s by {:g} s, since water does not "
+            "slow ships here; {}",
+            ship.speed + gained, scene_.time.until, most));
+  }
+
+  /// All of the ice is behind the hull, and the ship moves away from it.
+  void hint_at_course(std::size_t i) {
+    const ShipSpec& ship = scene_.ships[i];
+    const bool is_ice_moved = scene_.water.shear.rate != 0 ||
+                              std::ranges::any_of(scene_.floes, [](const simulation::FloeSpec& floe) {
+                                return floe.velocity != Vector{};
+                              });
+    if (scene_.floes.empty() || is_ice_moved) return;
+    const double drift = dot(scene_.water.drift, ahead_of(ship));
+    const double speed = ship.speed - drift, thrust = thrust_of(ship);
+    if ((speed == 0 && thrust == 0) || speed * thrust < 0) return;
+    const Vector course = (speed + thrust > 0 ? 1.0 : -1.0) * ahead_of(ship);
+    double stern = std::numeric_limits<double>::infinity(), ice = -stern;
+    for (const Point p : waterline_in_world(ship).outer) stern = std::min(stern, dot(p - Point{}, course));
+    for (const simulation::FloeSpec& floe : scene_.floes) {
+      for (const Point p : floe.polygon_in_world.outer) ice = std::max(ice, dot(p - Point{}, course));
+    }
+    if (ice > stern) return;
+    add(Severity::kWarning, i, "heading_deg",
+        fmt::format("the ship moves away from all ice: the nearest lies {:.4g} m behind its end",
+                    stern - ice));
+  }
+
+  /// Two whose motions are prescribed do not stop each other.
+  void hint_at_crossing(std::size_t i, std::size_t k) {
+    const ShipSpec &ship = scene_.ships[i], &other = scene_.ships[k];
+    if (!is_held(ship) || !is_held(other) || (is_fixed(ship) && is_fixed(other))) return;
+    const Vector velocity = other.speed * ahead_of(other) - ship.speed * ahead_of(ship);
+    const auto touch = geometry::first_touch(waterline_in_world(ship).outer, waterline_in_world(other).outer,
+                                             velocity, 0, scene_.time.until);
+    if (!touch) return;
+    const Point at = touch->point + touch->time * ship.speed * ahead_of(ship);
+    add(Severity::kWarning, i, "propulsion",
+        fmt::format(
+            "it meets {} after {:.4g} s at ({:.4g}, {:.4g}) m, where the motion of both is prescribed: they "
+            "pass through each other without a force; give it thrust_N",
+            other.name, touch->time, at.x, at.y));
+  }
+
+  void hint_at_drift() {
+    const double drift = length(scene_.water.drift);
+    if (drift > kFastestIce)
+      add(Severity::kHint, value_at("water", "drift_m_per_s"), "water.drift_m_per_s",
+          fmt::format("{:.3g} m/s: ice drifts at {:g} m/s at most", drift, kFastestIce));
+    std::optional<std::size_t> last;  // one hint a group
+    for (std::size_t i = 0; i < scene_.floes.size(); ++i) {
+      const double speed = length(scene_.floes[i].velocity);
+      const std::size_t group = draft_.floe_origins[i].group;
+      if (speed <= kFastestIce || last == group) continue;
+      last = group;
+      hints_.add(0, draft_.floe_origins[i].source == 0 ? draft_.floe_origins[i].offset : resolved_.offset,
+                 {.path = fmt::format("floes[{}]", group),
+                  .sentence = fmt::format("{:.3g} m/s: ice moves at {:g} m/s at most", speed, kFastestIce),
+                  .severity = Severity::kHint});
+    }
+  }
+
+  const simulation::Scene& scene_;
+  const SceneDraft& draft_;
+  const JsonValue& resolved_;
+  ProblemCollector& hints_;
+};
+
+}  // namespace
+
+void add_scene_hints(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& hints) {
+  Hinter(draft, resolved, hints).add_all();
+}
+
+}  // namespace polynya::io

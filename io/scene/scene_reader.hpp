@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "io/text/problem.hpp"
+#include "simulation/floe_field.hpp"
+#include "simulation/scene.hpp"
+
+namespace polynya::io {
+
+/// Of a scene with its floe files read in, too, since that is the scene.json of its run [bytes]. Any one floe
+/// file has room in it.
+inline constexpr std::size_t kLongestScene = std::size_t{512} << 20;
+inline constexpr std::size_t kLongestFloesFile = std::size_t{256} << 20;  ///< [bytes]
+inline constexpr std::size_t kMostFloes = 1'000'000;
+
+/// How a random field of the scene came out.
+struct FieldReport {
+  std::size_t group = 0;                 ///< index in the scene's "floes"
+  simulation::FloeFieldOutcome outcome;  ///< without its floes; they are the scene's
+};
+
+struct LoadedScene {
+  simulation::Scene scene;
+  std::string description;
+  std::string
+      resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
+  std::string hash;   ///< of resolved_text: 16 hexadecimal digits, FNV-1a
+  std::vector<FieldReport> fields;
+  std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_hints.hpp)
+};
+
+/// What the command line puts in place of the scene's own.
+struct SceneOverrides {
+  std::optional<double> until;  ///< [s]
+  std::optional<std::uint64_t> seed;
+};
+
+using SceneOutcome = tl::expected<LoadedScene, std::vector<Problem>>;
+
+/// Reads a scene: JSON, comments allowed. All problems at once, each with its place (docs/scene.md).
+SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides = {});
+
+/// The same for a text at hand. `name` stands in messages; floe files are looked for in `folder`. A scene
+/// whose resolved text is longer than `longest` [bytes] could not be read back, and is refused.
+SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
+                        const SceneOverrides& overrides = {}, std::size_t longest = kLongestScene);
+
+}  // namespace polynya::io

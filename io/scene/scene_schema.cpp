@@ -1,0 +1,230 @@
+#include "io/scene/scene_schema.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/scene/scene_fields.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace polynya::io {
+namespace {
+
+using Kind = FieldKind;
+
+void write_range(JsonWriter& json, const Range& range, const char* low, const char* high) {
+  if (std::isfinite(range.low)) json.key(range.is_low_excluded ? "exclusiveMinimum" : low).value(range.low);
+  if (std::isfinite(range.high))
+    json.key(range.is_high_excluded ? "exclusiveMaximum" : high).value(range.high);
+}
+
+void write_number(JsonWriter& json, const Field& field, const char* type) {
+  json.key("type").value(type);
+  write_range(json, field.range, "minimum", "maximum");
+}
+
+/// A list whose items `write_items` describes.
+template <class WriteItems>
+void write_list(JsonWriter& json, int least, int most, WriteItems write_items) {
+  json.key("type").value("array");
+  if (least > 0) json.key("minItems").value(least);
+  if (most > 0) json.key("maxItems").value(most);
+  json.key("items").open('{');
+  write_items();
+  json.close('}');
+}
+
+void write_object(JsonWriter& json, const Object& object);
+
+void write_vector(JsonWriter& json, const Field& field) {
+  write_list(json, 2, 2, [&] { write_number(json, field, "number"); });
+}
+void write_ring(JsonWriter& json, const Field& field) {
+  write_list(json, 3, 0, [&] { write_vector(json, field); });
+}
+
+void write_type(JsonWriter& json, const Field& field) {
+  switch (field.kind) {
+    case Kind::kText:
+      json.key("type").value("string");
+      return;
+    case Kind::kName:
+      json.key("type").value("string").key("pattern").value("^[0-9A-Za-z][0-9A-Za-z ._-]{0,99}$");
+      return;
+    case Kind::kInteger:
+      return write_number(json, field, "integer");
+    case Kind::kNumber:
+      return write_number(json, field, "number");
+    case Kind::kChoice:
+      json.key("enum").open('[');
+      for (const auto choice : field.choices) json.value(choice);
+      json.close(']');
+      return;
+    case Kind::kVector:
+      return write_vector(json, field);
+    case Kind::kNumberOrVector:
+      json.key("oneOf").open('[').open('{');
+      write_number(json, field, "number");
+      json.close('}').open('{');
+      write_vector(json, field);
+      json.close('}').close(']');
+      return;
+    case Kind::kNumbers:
+      return write_list(json, 0, 0, [&] { write_number(json, field, "number"); });
+    case Kind::kRing:
+      return write_ring(json, field);
+    case Kind::kRings:
+      return write_list(json, 0, 0, [&] { write_ring(json, field); });
+    case Kind::kObject:
+      return write_object(json, *field.object);
+    case Kind::kList:
+      return write_list(json, 0, static_cast<int>(field.range.high),
+                        [&] { write_object(json, *field.object); });
+  }
+}
+
+void write_required(JsonWriter& json, const Object& object, std::string_view alternative) {
+  json.key("required").open('[');
+  for (const Field& field : object.fields) {
+    if (field.alternative == alternative && field.default_json.empty()) json.value(field.key);
+  }
+  json.close(']');
+}
+
+void write_object(JsonWriter& json, const Object& object) {
+  json.key("type").value("object").key("additionalProperties").value(false);
+  write_required(json, object, "");
+  if (!object.alternatives.empty()) {
+    json.key("oneOf").open('[');
+    for (const auto alternative : object.alternatives) {
+      json.open('{');
+      write_required(json, object, alternative);
+      json.close('}');
+    }
+    json.close(']');
+  }
+  json.key("properties").open('{');
+  if (&object == &scene_object()) json.key("$schema").open('{').key("type").value("string").close('}');
+  for (const Field& field : object.fields) {
+    json.key(field.key).open('{');
+    if (!field.meaning.empty())
+      json.key("description")
+          .value(field.unit.empty() ? std::string(field.meaning)
+                                    : fmt::format("{} [{}]", field.meaning, field.unit));
+    // A default that is filled in from elsewhere ("ship-#", objects) is no default of the schema's.
+    if (!field.default_json.empty() && field.kind != Kind::kObject && field.kind != Kind::kName)
+      json.key("default").json(field.default_json);
+    write_type(json, field);
+    json.close('}');
+  }
+  json.close('}');
+}
+
+std::string join(std::string_view path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
+void append_table(std::string& text, const Object& object, const std::string& path) {
+  const std::string title = path.empty() ? "The scene" : fmt::format("`{}`", path);
+  text += fmt::format("### {}\n\n", title);
+  if (!object.alternatives.empty())
+    text += fmt::format("Exactly one of: {}. The fields marked so belong to it, and are given with it.\n\n",
+                        fmt::join(object.alternatives, ", "));
+  text += "| key | allowed | default | meaning |\n|---|---|---|---|\n";
+  for (const Field& field : object.fields) {
+    const std::string default_text = field.default_json == kLeftOut ? "left out"
+                                     : !field.default_json.empty()  ? fmt::format("`{}`", field.default_json)
+                                     : field.alternative.empty()    ? "must be given"
+                                                                    : "—";
+    const std::string mark = field.alternative.empty() ? "" : fmt::format("*{}*: ", field.alternative);
+    text += fmt::format("| `{}` | {} | {} | {}{} |\n", field.key, describe_allowed(field), default_text, mark,
+                        field.meaning);
+  }
+  text += '\n';
+  for (const Field& field : object.fields) {
+    if (field.object == nullptr) continue;
+    append_table(text, *field.object, join(path, field.key) + (field.kind == Kind::kList ? "[]" : ""));
+  }
+}
+
+constexpr auto kExampleShips = R"(  "ships": [
+    {
+      "name": "icebreaker",
+      // the waterline by its main dimensions; or point by point with "waterline_m"
+      "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},
+      "mass_kg": 1e7,
+      "moment_of_inertia_kg_m2": 5e9,
+      "position_m": [-61, 0],  // of amidships: the stem is 1 m from the ice
+      "heading_deg": 0,
+      // Only ice acts on the ship: under {"thrust_N": 5e5} nothing else would brake it in open water.
+      "propulsion": {"constant_speed_m_per_s": 1.5}
+    }
+  ],
+)";
+constexpr auto kExampleFloes = R"(  "floes": [
+    {"rectangle": {"corner_m": [0, -60], "size_m": [100, 120]}},
+    // each floe stands in the middle of its cell
+    {"lattice": {"origin_m": [100, -60], "columns": 5, "rows": 6, "pitch_m": 20, "size_m": 15}},
+    {"polygon": {"outer_m": [[210, -20], [240, -25], [250, 10], [225, 30]]}}
+    // {"file": "floes.geojson"}  polygons from a file beside this one
+    // {"field": {"corner_m": [250, -60], "extent_m": [200, 120], "floe_size_m": 15, "concentration": 0.5}}
+  ]
+)";
+
+void append_settings(std::string& text, const Object& object, int depth) {
+  const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
+  for (const Field& field : object.fields) {
+    if (field.kind == Kind::kList || field.default_json == kLeftOut) continue;
+    const bool is_last = &field == &object.fields.back();
+    if (field.kind == Kind::kObject) {
+      text += fmt::format("{}\"{}\": {{\n", indent, field.key);
+      append_settings(text, *field.object, depth + 1);
+      text += fmt::format("{}}}{}\n", indent, is_last ? "" : ",");
+      continue;
+    }
+    std::string allowed =
+        field.kind == Kind::kText || field.kind == Kind::kName ? "" : "; " + describe_allowed(field);
+    text += fmt::format("{0}// {1}{2}\n{0}\"{3}\": {4}{5}\n", indent, field.meaning, allowed, field.key,
+                        field.default_json, is_last ? "" : ",");
+  }
+}
+
+}  // namespace
+
+std::string scene_schema() {
+  std::string text;
+  JsonWriter json(text, JsonWriter::Layout::kIndented);
+  json.open('{').key("$schema").value("https://json-schema.org/draft/2020-12/schema");
+  json.key("title").value("Polynya scene");
+  write_object(json, scene_object());
+  json.close('}');
+  text += '\n';
+  return text;
+}
+
+std::string scene_tables() {
+  std::string text;
+  append_table(text, scene_object(), "");
+  text.pop_back();
+  return text;
+}
+
+std::string commented_scene() {
+  std::string text =
+      "// A scene for polynya. What stands here are the defaults; delete what you do not change.\n"
+      "// Everything a scene may say: docs/scene.md, or `polynya schema`.\n{\n";
+  append_settings(text, scene_object(), 1);
+  text += kExampleShips;
+  text += kExampleFloes;
+  text += "}\n";
+  // The defaults would call every scene the same and run for the paper's time.
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace(R"("name": "scene")", R"("name": "my-scene")");
+  replace(R"("until_s": 550)", R"("until_s": 120)");
+  return text;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,222 @@
+#include "io/text/cut_ops.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/cut/cut.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/validity.hpp"
+#include "io/text/floe_text.hpp"
+#include "io/text/lenient_json.hpp"
+#include "io/text/problem.hpp"
+
+namespace polynya::io {
+namespace {
+
+using JsonKind = JsonValue::Kind;
+
+tl::unexpected<ToolError> malformed(std::string words) {
+  return tl::unexpected(ToolError{ToolError::Kind::kMalformed, std::move(words)});
+}
+tl::unexpected<ToolError> invalid(std::string words) {
+  return tl::unexpected(ToolError{ToolError::Kind::kInvalidPolygon, std::move(words)});
+}
+
+std::string places_of(const geometry::DefectAt& found) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(found.places.size(), kMost); ++i)
+    text += fmt::format("{}({}, {})", i > 0 ? ", " : " at ", found.places[i].x, found.places[i].y);
+  return text;
+}
+
+ToolOutcome<PolygonTool> tool_of(const FloeText& text) {
+  PolygonTool tool;
+  for (const FloeEntry& entry : text.entries) {
+    const std::string place = fmt::format("feature {}, polygon {}", entry.feature, entry.member);
+    if (!entry.refusal.empty()) return invalid(fmt::format("{}: {}: {}", place, entry.refusal, entry.detail));
+    geometry::Polygon polygon = geometry::normalised(entry.polygon);
+    if (const auto found = geometry::find_defect(polygon))
+      return invalid(fmt::format("{}: {}{}", place, name_of(found->defect), places_of(*found)));
+    tool.polygons.push_back(std::move(polygon));
+  }
+  if (tool.polygons.empty()) return malformed("there is no polygon in it");
+  return tool;
+}
+
+tl::expected<std::vector<double>, std::string> numbers_of(const JsonValue& value, std::size_t wanted,
+                                                          const char* form) {
+  const auto is_number = [](const JsonValue& item) { return item.is(JsonKind::kNumber); };
+  if (!value.is(JsonKind::kArray) || value.items().size() != wanted ||
+      !std::ranges::all_of(value.items(), is_number))
+    return tl::unexpected(fmt::format("expected {}", form));
+  std::vector<double> numbers;
+  for (const JsonValue& item : value.items()) numbers.push_back(item.number());
+  return numbers;
+}
+
+ToolOutcome<LineTool> read_line(const JsonValue& value) {
+  constexpr auto kForm = "[x0, y0, x1, y1] or a list of two or more [x, y]";
+  const bool has_points =
+      value.is(JsonKind::kArray) && !value.items().empty() && value.items().front().is(JsonKind::kArray);
+  if (!has_points) {
+    const auto n = numbers_of(value, 4, kForm);
+    if (!n) return malformed(n.error());
+    return line_tool({{(*n)[0], (*n)[1]}, {(*n)[2], (*n)[3]}});
+  }
+  std::vector<geometry::Point> path;
+  for (const JsonValue& item : value.items()) {
+    const auto n = numbers_of(item, 2, kForm);
+    if (!n) return malformed(n.error());
+    path.push_back({(*n)[0], (*n)[1]});
+  }
+  return line_tool(std::move(path));
+}
+
+template <class Tool>
+ToolOutcome<CutOp> as_op(ToolOutcome<Tool> tool) {
+  if (!tool) return tl::unexpected(std::move(tool.error()));
+  return CutOp{std::move(*tool), {}};
+}
+
+ToolOutcome<CutOp> read_tool(std::string_view kind, const JsonValue& value, double sagitta) {
+  if (kind == "disc") {
+    const auto n = numbers_of(value, 3, "[x, y, radius]");
+    if (!n) return malformed(n.error());
+    return as_op(disc_tool(*n, sagitta));
+  }
+  if (kind == "crack") {
+    const auto n = numbers_of(value, 3, "[x, y, angle_deg]");
+    if (!n) return malformed(n.error());
+    return CutOp{CrackTool{{(*n)[0], (*n)[1]}, (*n)[2]}, {}};
+  }
+  if (kind == "line") return as_op(read_line(value));
+  if (value.is(JsonKind::kText)) return as_op(polygon_tool(value.text()));
+  return as_op(tool_of(read_floe_json(value)));
+}
+
+ToolOutcome<Keep> read_keep(const JsonValue& value) {
+  if (value.is(JsonKind::kText)) {
+    if (value.text() == "outside") return Keep::kOutside;
+    if (value.text() == "inside") return Keep::kInside;
+    if (value.text() == "both") return Keep::kBoth;
+  }
+  return malformed(R"(keep: expected "outside", "inside" or "both")");
+}
+
+ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) {
+  constexpr auto kForm = "expected an object with one of disc, crack, line, polygon";
+  if (!value.is(JsonKind::kObject)) return malformed(kForm);
+  const JsonMember* tool = nullptr;
+  Keep keep = defaults.keep;
+  bool must_cut = false;
+  double sagitta = defaults.sagitta;
+  for (const JsonMember& member : value.members()) {
+    if (member.key == "keep") {
+      const auto read = read_keep(member.value);
+      if (!read) return tl::unexpected(read.error());
+      keep = *read;
+    } else if (member.key == "must_cut") {
+      if (!member.value.is(JsonKind::kBoolean)) return malformed("must_cut: expected true or false");
+      must_cut = member.value.boolean();
+    } else if (member.key == "sagitta_m") {
+      if (!member.value.is(JsonKind::kNumber) || !(member.value.number() > 0))
+        return malformed("sagitta_m: expected a number > 0");
+      sagitta = member.value.number();
+    } else if (member.key == "disc" || member.key == "crack" || member.key == "line" ||
+               member.key == "polygon") {
+      if (tool) return malformed(fmt::format(R"("{}" and "{}" in one: {})", tool->key, member.key, kForm));
+      tool = &member;
+    } else {
+      const std::string meant =
+          nearest(member.key, {"disc", "crack", "line", "polygon", "keep", "must_cut", "sagitta_m"});
+      return malformed(fmt::format("unknown key \"{}\"{}", member.key.substr(0, 40),
+                                   meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)));
+    }
+  }
+  if (!tool) return malformed(kForm);
+  auto op = read_tool(tool->key, tool->value, sagitta);
+  if (op) {
+    op->keep = keep;
+    op->must_cut = must_cut;
+  } else {
+    op.error().words = fmt::format("{}: {}", tool->key, op.error().words);
+  }
+  return op;
+}
+
+}  // namespace
+
+double default_sagitta(double radius) {
+  return std::min(0.02, radius / 250);
+}
+
+tl::expected<std::vector<double>, std::string> read_numbers(std::string_view text, std::size_t wanted) {
+  std::vector<double> numbers;
+  const auto skip_blanks = [&] {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  };
+  while (true) {
+    skip_blanks();
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || !std::isfinite(value))
+      return tl::unexpected(fmt::format("\"{}\" is not a finite number", text.substr(0, text.find(','))));
+    numbers.push_back(value);
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    skip_blanks();
+    if (text.empty()) break;
+    if (text.front() != ',') return tl::unexpected(fmt::format("\"{}\" where a comma is expected", text));
+    text.remove_prefix(1);
+  }
+  if (numbers.size() != wanted)
+    return tl::unexpected(
+        fmt::format("{} number{}, expected {}", numbers.size(), numbers.size() == 1 ? "" : "s", wanted));
+  return numbers;
+}
+
+ToolOutcome<DiscTool> disc_tool(const std::vector<double>& centre_and_radius, double sagitta) {
+  DiscTool disc{{centre_and_radius[0], centre_and_radius[1]}, centre_and_radius[2], sagitta, {}};
+  if (!(disc.radius > 0)) return malformed("the radius is not > 0");
+  if (!(disc.sagitta > 0)) disc.sagitta = default_sagitta(disc.radius);
+  disc.polygon.outer = geometry::disc_polygon(disc.centre, disc.radius, disc.sagitta);
+  if (const auto found = geometry::find_defect(disc.polygon)) {
+    return invalid(fmt::format("the disc's polygon has no room among the doubles there: {}{}",
+                               name_of(found->defect), places_of(*found)));
+  }
+  return disc;
+}
+
+ToolOutcome<LineTool> line_tool(std::vector<geometry::Point> path) {
+  path.erase(std::unique(path.begin(), path.end()), path.end());
+  if (path.size() < 2) return malformed("the line's ends are one point");
+  return LineTool{std::move(path)};
+}
+
+ToolOutcome<PolygonTool> polygon_tool(std::string text) {
+  const auto floes = read_floe_text(std::move(text));
+  if (!floes) return malformed(floes.error());
+  return tool_of(*floes);
+}
+
+ToolOutcome<std::vector<CutOp>> read_cut_ops(std::string text, const CutDefaults& defaults) {
+  const auto value = parse_lenient_json(text);
+  if (!value) return malformed(value.error());
+  if (!value->is(JsonKind::kArray)) return malformed("expected a list of cuts");
+  std::vector<CutOp> ops;
+  for (const JsonValue& item : value->items()) {
+    auto op = read_op(item, defaults);
+    if (!op)
+      return tl::unexpected(
+          ToolError{op.error().kind, fmt::format("[{}]: {}", ops.size(), op.error().words)});
+    ops.push_back(std::move(*op));
+  }
+  if (ops.empty()) return malformed("the list of cuts is empty");
+  return ops;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,228 @@
+#include "io/text/cut_report.hpp"
+
+#include <algorithm>
+
+#include "geometry/exact/validity.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/wkt.hpp"
+
+namespace polynya::io {
+namespace {
+
+geometry::Ring closed(geometry::Ring ring) {
+  if (!ring.empty()) ring.push_back(ring.front());
+  return ring;
+}
+
+void write_crs(JsonWriter& json, const std::string& crs) {
+  if (!crs.empty()) json.key("crs").json(crs);
+}
+
+void write_feature(JsonWriter& json, const std::string& crs, const CutFloe& floe, const CutPiece& piece) {
+  json.open('{').key("type").value("Feature");
+  write_crs(json, crs);
+  json.key("properties").open('{');
+  json.key("floe_id").value(piece.floe_id).key("parent_id").value(floe.floe_id);
+  json.key("area_m2").value(piece.area).key("part").value(name_of(piece.part));
+  if (floe.properties) json.json(*floe.properties);
+  json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
+  json.value(closed(piece.polygon.outer));
+  for (const geometry::Ring& hole : piece.polygon.holes) json.value(closed(hole));
+  json.close(']').close('}').close('}');
+}
+
+void write_numbers(JsonWriter& json, std::initializer_list<double> numbers) {
+  json.open('[');
+  for (const double number : numbers) json.value(number);
+  json.close(']');
+}
+
+void write_tool(JsonWriter& json, const DiscTool& disc) {
+  json.key("disc");
+  write_numbers(json, {disc.centre.x, disc.centre.y, disc.radius});
+  json.key("sagitta_m").value(disc.sagitta).key("vertices").value(std::ssize(disc.polygon.outer));
+}
+void write_tool(JsonWriter& json, const PolygonTool& tool) {
+  std::size_t vertices = 0;
+  for (const geometry::Polygon& polygon : tool.polygons) vertices += vertex_count(polygon);
+  json.key("polygons")
+      .value(std::ssize(tool.polygons))
+      .key("vertices")
+      .value(static_cast<std::int64_t>(vertices));
+}
+void write_tool(JsonWriter& json, const CrackTool& crack) {
+  json.key("crack");
+  write_numbers(json, {crack.point.x, crack.point.y, crack.angle_deg});
+}
+void write_tool(JsonWriter& json, const LineTool& line) {
+  json.key("line").value(line.path);
+}
+
+void write_op(JsonWriter& json, const CutOp& op) {
+  json.open('{');
+  std::visit([&](const auto& tool) { write_tool(json, tool); }, op.tool);
+  if (std::holds_alternative<DiscTool>(op.tool) || std::holds_alternative<PolygonTool>(op.tool))
+    json.key("keep").value(name_of(op.keep));
+  if (op.must_cut) json.key("must_cut").value(true);
+  json.close('}');
+}
+
+void write_dangling(JsonWriter& json, const CutFloe& floe) {
+  json.key("dangling_length_m").value(floe.dangling_length).key("dangling").open('[');
+  for (const Dangling& one : floe.dangling) {
+    json.open('{').key("from_m").value(one.from).key("to_m").value(one.to);
+    json.key("length_m").value(distance(one.from, one.to)).close('}');
+  }
+  json.close(']');
+}
+
+void write_rejection(JsonWriter& json, const std::optional<Rejection>& rejected) {
+  json.key("rejected");
+  if (!rejected) {
+    json.null();
+    return;
+  }
+  json.open('{').key("reason").value(std::string_view(rejected->reason));
+  if (!rejected->detail.empty()) json.key("detail").value(std::string_view(rejected->detail));
+  json.key("vertices").value(rejected->vertices).close('}');
+}
+
+void write_floe(JsonWriter& json, const CutFloe& floe) {
+  json.open('{').key("floe_id").value(floe.floe_id);
+  json.key("feature").value(static_cast<std::int64_t>(floe.feature));
+  json.key("polygon").value(static_cast<std::int64_t>(floe.member));
+  json.key("line").value(static_cast<std::int64_t>(floe.line));
+  json.key("area_m2").value(floe.area).key("pieces").value(std::ssize(floe.pieces));
+  json.key("area_of_pieces_m2").value(floe.area_of_pieces).key("removed_m2").value(floe.removed);
+  json.key("exact_defect_m2").value(std::string_view(floe.exact_defect));
+  json.key("rounding_defect_m2").value(floe.rounding_defect);
+  json.key("snap_rounded").value(floe.snap_rounded);
+  json.key("slivers").value(floe.slivers).key("area_slivers_m2").value(floe.area_slivers);
+  write_dangling(json, floe);
+  if (floe.repair) {
+    json.key("repair").open('{').key("rule").value(floe.repair->rule);
+    json.key("defect").value(std::string_view(floe.repair->defect));
+    json.key("area_drawn_m2")
+        .value(floe.repair->area_drawn)
+        .key("area_changed_m2")
+        .value(floe.repair->area_changed);
+    json.key("shapes").value(static_cast<std::int64_t>(floe.repair->shapes)).close('}');
+  }
+  write_rejection(json, floe.rejected);
+  json.key("parts").open('[');
+  for (const CutPiece& piece : floe.pieces) {
+    json.open('{').key("floe_id").value(piece.floe_id).key("part").value(name_of(piece.part));
+    json.key("area_m2").value(piece.area);
+    json.close('}');
+  }
+  json.close(']').close('}');
+}
+
+}  // namespace
+
+std::string_view name_of(geometry::Part part) {
+  return part == geometry::Part::kInside ? "inside" : "outside";
+}
+
+std::string_view name_of(Keep keep) {
+  switch (keep) {
+    case Keep::kOutside:
+      return "outside";
+    case Keep::kInside:
+      return "inside";
+    case Keep::kBoth:
+      return "both";
+  }
+  return "";
+}
+
+CutTotals totals_of(const CutReport& report) {
+  CutTotals totals;
+  totals.floes = report.floes.size();
+  for (const CutFloe& floe : report.floes) {
+    totals.area += floe.area;
+    totals.area_of_pieces += floe.area_of_pieces;
+    totals.removed += floe.removed;
+    totals.area_slivers += floe.area_slivers;
+    totals.rounding_defect += floe.rounding_defect;
+    totals.slivers += static_cast<std::size_t>(floe.slivers);
+    totals.pieces += floe.pieces.size();
+    totals.snap_rounded += static_cast<std::size_t>(floe.snap_rounded);
+    totals.dangling += floe.dangling.size();
+    totals.rejected += floe.rejected ? 1 : 0;
+    if (floe.repair) {
+      ++totals.repaired;
+      totals.area_repaired += floe.repair->area_changed;
+    }
+    if (floe.exact_defect != "0") totals.exact_defect = floe.exact_defect;
+  }
+  return totals;
+}
+
+std::string to_ledger_json(const CutReport& report) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{').key("tools").open('[');
+  for (const CutOp& op : report.ops) write_op(json, op);
+  json.close(']').key("floes").open('[');
+  for (const CutFloe& floe : report.floes) {
+    json.start_line();
+    write_floe(json, floe);
+  }
+  json.close(']');
+  const CutTotals totals = totals_of(report);
+  const auto count = [&](std::string_view key, std::size_t value) {
+    json.key(key).value(static_cast<std::int64_t>(value));
+  };
+  json.start_line();
+  json.key("totals").open('{');
+  count("floes", totals.floes);
+  json.key("area_m2").value(totals.area);
+  count("pieces", totals.pieces);
+  json.key("area_of_pieces_m2").value(totals.area_of_pieces).key("removed_m2").value(totals.removed);
+  json.key("exact_defect_m2").value(std::string_view(totals.exact_defect));
+  json.key("rounding_defect_m2").value(totals.rounding_defect);
+  count("slivers", totals.slivers);
+  json.key("area_slivers_m2").value(totals.area_slivers);
+  count("snap_rounded", totals.snap_rounded);
+  count("dangling", totals.dangling);
+  count("repaired", totals.repaired);
+  json.key("area_changed_by_repair_m2").value(totals.area_repaired);
+  count("rejected", totals.rejected);
+  json.close('}').close('}');
+  text += '\n';
+  return text;
+}
+
+std::string to_floe_text(const CutReport& report, FloeFormat format) {
+  std::string text;
+  if (format == FloeFormat::kGeojson) {
+    JsonWriter json(text);
+    json.open('{').key("type").value("FeatureCollection");
+    write_crs(json, report.crs);
+    json.key("features").open('[');
+    for (const CutFloe& floe : report.floes) {
+      for (const CutPiece& piece : floe.pieces) {
+        json.start_line();
+        write_feature(json, "", floe, piece);
+      }
+    }
+    json.close(']').close('}');
+    text += '\n';
+    return text;
+  }
+  for (const CutFloe& floe : report.floes) {
+    for (const CutPiece& piece : floe.pieces) {
+      if (format == FloeFormat::kNdjson) {
+        JsonWriter json(text);
+        write_feature(json, report.crs, floe, piece);
+      } else {
+        append_wkt(text, piece.polygon);
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,76 @@
+#include "io/text/degrees.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "geometry/exact/measures.hpp"
+
+namespace polynya::io {
+namespace {
+
+constexpr double kPolarLatitude = 40;  ///< [°]
+constexpr double kLeastIce = 1;        ///< of a scene in metres [m²]
+constexpr double kMostPolarIce = 100;  ///< of a scene in degrees [°²]
+
+/// Codes of EPSG and OGC in common use whose axes are longitude and latitude.
+constexpr std::string_view kGeographic[] = {
+    "CRS84", "CRS84H", "CRS83", "CRS27", "4326", "4979", "4258", "4937", "4267", "4269",
+    "4617",  "4619",   "4283",  "7844",  "4167", "4490", "4612", "6668", "4674", "4148",
+    "4162",  "4170",   "4202",  "4203",  "4230", "4277", "4284", "4314", "4313", "4322"};
+
+std::string name_in(const JsonValue& crs) {
+  const JsonValue* properties = crs.find("properties");
+  if (!properties) return "";
+  for (const char* key : {"name", "code"}) {  // of type "name", and of type "EPSG" in older files
+    const JsonValue* name = properties->find(key);
+    if (name && name->is(JsonValue::Kind::kText)) return name->text();
+    if (name && name->is(JsonValue::Kind::kNumber)) return fmt::format("EPSG:{}", name->number());
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string geographic_crs(const JsonValue& crs) {
+  const std::string name = name_in(crs);
+  std::string code = name.substr(name.find_last_of(":/#") + 1);  // npos + 1 is 0
+  std::ranges::transform(code, code.begin(),
+                         [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c; });
+  const bool is_known = std::ranges::find(kGeographic, code) != std::end(kGeographic);
+  return is_known || code == "WGS 84" || code == "WGS84" || code.find("LONGLAT") != std::string::npos ? name
+                                                                                                      : "";
+}
+
+void CoordinateEvidence::add(const geometry::Polygon& polygon) {
+  if (polygon.outer.empty()) return;
+  const geometry::Box of_polygon = bounding_box(polygon.outer);
+  if (is_empty) box = of_polygon;
+  is_empty = false;
+  box.low = {std::min(box.low.x, of_polygon.low.x), std::min(box.low.y, of_polygon.low.y)};
+  box.high = {std::max(box.high.x, of_polygon.high.x), std::max(box.high.y, of_polygon.high.y)};
+  area += std::abs(geometry::signed_area(polygon.outer));
+}
+
+bool CoordinateEvidence::look_polar() const {
+  const bool is_in_range = box.low.x >= -180 && box.high.x <= 360 && box.low.y >= -90 && box.high.y <= 90;
+  const bool is_far_north_or_south = box.low.y >= kPolarLatitude || box.high.y <= -kPolarLatitude;
+  return !is_empty && is_in_range && is_far_north_or_south && area < kMostPolarIce;
+}
+
+bool CoordinateEvidence::look_like_degrees() const {
+  const bool is_in_range = box.low.x >= -180 && box.high.x <= 360 && box.low.y >= -90 && box.high.y <= 90;
+  return !is_empty && ((is_in_range && area < kLeastIce) || look_polar());
+}
+
+std::string how_to_project(const geometry::Box& box_in_degrees, const std::string& file) {
+  return fmt::format(
+      "ogr2ogr -f GeoJSON -t_srs \"+proj=aeqd +lat_0={:.4g} +lon_0={:.5g}\" metres.geojson {} (its "
+      "origin is then in their middle)",
+      0.5 * (box_in_degrees.low.y + box_in_degrees.high.y),
+      0.5 * (box_in_degrees.low.x + box_in_degrees.high.x), file);
+}
+
+}  // namespace polynya::io

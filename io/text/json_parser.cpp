@@ -1,0 +1,230 @@
+#include "io/text/json_parser.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/text/json_fault.hpp"
+
+namespace polynya::io {
+namespace {
+
+/// Follows the parser's events through the text. The parser tells no positions, but between two events only
+/// blanks, comments, commas and colons can stand, so each event's own first byte can be found again.
+class PlaceFinder {
+ public:
+  explicit PlaceFinder(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xEF\xBB\xBF")) end_ = 3;
+  }
+
+  std::uint32_t start_of_token() {
+    while (end_ < text_.size()) {
+      if (std::string_view(" \t\r\n,:").find(text_[end_]) != std::string_view::npos) {
+        if (text_[end_] == ',') commas_.push_back(end_);
+        ++end_;
+      } else if (text_.substr(end_, 2) == "//") {
+        end_ = std::min(text_.find_first_of("\r\n", end_), text_.size());
+      } else if (text_.substr(end_, 2) == "/*") {
+        end_ = std::min(text_.find("*/", end_ + 2), text_.size() - 2) + 2;
+      } else {
+        break;
+      }
+    }
+    return static_cast<std::uint32_t>(end_);
+  }
+  void pass(std::size_t length) { begin_gap(end_ + length); }
+  void pass_number() { begin_gap(std::min(text_.find_first_not_of("+-.0123456789eE", end_), text_.size())); }
+  void pass_text() {
+    for (++end_; end_ < text_.size() && text_[end_] != '"'; ++end_) {
+      if (text_[end_] == '\\') ++end_;
+    }
+    begin_gap(end_ + 1);
+  }
+  /// Just behind the last token.
+  std::size_t gap() const { return gap_; }
+  /// Where commas stand between the last token and what start_of_token() found.
+  const std::vector<std::size_t>& commas() const { return commas_; }
+
+ private:
+  void begin_gap(std::size_t at) {
+    end_ = gap_ = at;
+    commas_.clear();
+  }
+
+  std::string_view text_;
+  std::size_t end_ = 0;  // as far as the text has been followed
+  std::size_t gap_ = 0;
+  std::vector<std::size_t> commas_;
+};
+
+class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  TreeBuilder(std::string_view text, JsonDocument& document)
+      : places_(text), text_(text), document_(document) {}
+
+  bool null() override {
+    place(nullptr);
+    places_.pass(4);
+    return true;
+  }
+  bool boolean(bool value) override {
+    place(value);
+    places_.pass(value ? 4 : 5);
+    return true;
+  }
+  bool number_integer(number_integer_t value) override { return any_number(static_cast<double>(value)); }
+  bool number_unsigned(number_unsigned_t value) override { return any_number(static_cast<double>(value)); }
+  bool number_float(number_float_t value, const string_t&) override { return any_number(value); }
+  bool string(string_t& value) override {
+    place(std::move(value));
+    places_.pass_text();
+    return true;
+  }
+  bool binary(binary_t&) override { return false; }
+
+  bool start_object(std::size_t) override { return open(JsonValue::Object{}); }
+  bool start_array(std::size_t) override { return open(JsonValue::Array{}); }
+  bool key(string_t& key) override {
+    const std::uint32_t offset = places_.start_of_token();
+    places_.pass_text();
+    follows_value_ = false;
+    open_.back()->members().push_back({std::move(key), offset, {}});
+    return true;
+  }
+  bool end_object() override {
+    drop_repeated_keys(*open_.back());
+    return close();
+  }
+  bool end_array() override { return close(); }
+
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::json::exception& error) override {
+    const std::size_t gap = places_.gap();
+    const std::size_t token = places_.start_of_token();
+    ParserStop stop{.text = text_,
+                    .reason = error.what(),
+                    .token = token,
+                    .last_read = position > 0 ? position - 1 : 0,
+                    .gap = gap,
+                    .commas = places_.commas(),
+                    .follows_value = follows_value_};
+    if (!open_.empty()) stop.open = {open_.back()->offset, open_.back()->is(JsonValue::Kind::kArray)};
+    document_.faults.push_back(fault_of(stop));
+    return false;
+  }
+
+ private:
+  template <class Value>
+  JsonValue& place(Value&& value) {
+    JsonValue* slot = &document_.root;
+    if (!open_.empty()) {
+      JsonValue& parent = *open_.back();
+      slot = parent.is(JsonValue::Kind::kArray) ? &parent.items().emplace_back()
+                                                : &parent.members().back().value;
+    }
+    slot->data = std::forward<Value>(value);
+    slot->offset = places_.start_of_token();
+    follows_value_ = true;
+    return *slot;
+  }
+  bool any_number(double value) {
+    place(value);
+    places_.pass_number();
+    return true;
+  }
+  template <class Container>
+  bool open(Container container) {
+    JsonValue& slot = place(std::move(container));
+    places_.pass(1);
+    follows_value_ = false;
+    if (open_.size() >= kDeepestNesting) {
+      document_.faults.push_back(
+          {slot.offset, "", "deeper nesting", fmt::format("at most {} levels", kDeepestNesting)});
+      return false;
+    }
+    open_.push_back(&slot);  // stays put: its parent grows only after it is closed
+    return true;
+  }
+  bool close() {
+    places_.start_of_token();
+    places_.pass(1);
+    follows_value_ = true;
+    open_.pop_back();
+    return true;
+  }
+  void drop_repeated_keys(JsonValue& object) {
+    auto& members = object.members();
+    std::vector<const JsonMember*> sorted;
+    for (const JsonMember& member : members) sorted.push_back(&member);
+    std::ranges::stable_sort(sorted, {}, [](const JsonMember* m) { return std::string_view(m->key); });
+    std::vector<std::uint32_t> repeated;
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i]->key != sorted[i - 1]->key) continue;
+      repeated.push_back(sorted[i]->key_offset);
+      document_.faults.push_back({sorted[i]->key_offset, sorted[i]->key,
+                                  fmt::format("\"{}\" a second time", sorted[i]->key), "each key once"});
+    }
+    if (repeated.empty()) return;
+    std::erase_if(members, [&](const JsonMember& m) {
+      return std::ranges::find(repeated, m.key_offset) != repeated.end();
+    });
+  }
+
+  PlaceFinder places_;
+  std::string_view text_;
+  JsonDocument& document_;
+  std::vector<JsonValue*> open_;
+  bool follows_value_ = false;  // the last token completed a value
+};
+
+}  // namespace
+
+std::uint32_t nearest_offset(const JsonValue& root, std::string_view path) {
+  const JsonValue* value = &root;
+  while (!path.empty()) {
+    const auto dot = std::min(path.find('.'), path.size());
+    const JsonValue* next = value->find(path.substr(0, dot));
+    if (!next) break;
+    value = next;
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return value->offset;
+}
+
+std::string_view name_of(JsonValue::Kind kind) {
+  switch (kind) {
+    case JsonValue::Kind::kNull:
+      return "null";
+    case JsonValue::Kind::kBoolean:
+      return "true or false";
+    case JsonValue::Kind::kNumber:
+      return "a number";
+    case JsonValue::Kind::kText:
+      return "text";
+    case JsonValue::Kind::kArray:
+      return "a list";
+    case JsonValue::Kind::kObject:
+      return "an object";
+  }
+  return "";
+}
+
+JsonDocument parse_json(std::string_view text) {
+  JsonDocument document;
+  if (text.size() > kLongestText) {
+    document.faults.push_back(
+        {0, "", fmt::format("{} bytes", text.size()), fmt::format("at most {} bytes", kLongestText)});
+    return document;
+  }
+  if (const auto nul = text.find('\0'); nul != std::string_view::npos) {
+    document.faults.push_back({static_cast<std::uint32_t>(nul), "", "a zero byte", "text in UTF-8"});
+    return document;
+  }
+  TreeBuilder builder(text, document);
+  nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json, true,
+                            true);
+  return document;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,202 @@
+#include "io/text/json_writer.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace polynya::io {
+
+void append_number(std::string& text, double value) {
+  if (!std::isfinite(value)) {
+    text += "null";
+    return;
+  }
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value + 0.0).ptr;  // + 0.0: no "-0"
+  text.append(digits, end);
+}
+
+void append_number(std::string& text, std::int64_t value) {
+  char digits[24];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  text.append(digits, end);
+}
+
+void append_text(std::string& text, std::string_view value) {
+  static constexpr char kHex[] = "0123456789abcdef";
+  text += '"';
+  for (const char c : value) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      text += '\\';
+      text += c;
+    } else if (c == '\n') {
+      text += "\\n";
+    } else if (byte < 0x20) {
+      text += "\\u00";
+      text += kHex[byte >> 4];
+      text += kHex[byte & 15];
+    } else {
+      text += c;
+    }
+  }
+  text += '"';
+}
+
+void JsonWriter::break_line() {
+  text_ += '\n';
+  text_.append(2 * depth_, ' ');
+}
+
+void JsonWriter::separate() {
+  if (follows_key_) {
+    follows_key_ = false;
+    return;
+  }
+  if (!is_first_) text_ += ',';
+  if (layout_ == Layout::kIndented && depth_ > 0) break_line();
+  if (std::exchange(starts_line_, false)) text_ += '\n';
+  is_first_ = false;
+}
+
+JsonWriter& JsonWriter::open(char bracket) {
+  separate();
+  text_ += bracket;
+  ++depth_;
+  is_first_ = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::close(char bracket) {
+  --depth_;
+  if (layout_ == Layout::kIndented && !is_first_) break_line();
+  text_ += bracket;
+  is_first_ = false;
+  return *this;
+}
+
+JsonWriter& JsonWriter::key(std::string_view name) {
+  separate();
+  append_text(text_, name);
+  text_ += layout_ == Layout::kIndented ? ": " : ":";
+  follows_key_ = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(double number) {
+  separate();
+  append_number(text_, number);
+  return *this;
+}
+JsonWriter& JsonWriter::value(std::int64_t number) {
+  separate();
+  append_number(text_, number);
+  return *this;
+}
+JsonWriter& JsonWriter::value(bool truth) {
+  return json(truth ? "true" : "false");
+}
+JsonWriter& JsonWriter::value(std::string_view words) {
+  separate();
+  append_text(text_, words);
+  return *this;
+}
+JsonWriter& JsonWriter::null() {
+  return json("null");
+}
+JsonWriter& JsonWriter::json(std::string_view raw) {
+  separate();
+  text_ += raw;
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(geometry::Point point) {
+  separate();
+  text_ += '[';
+  append_number(text_, point.x);
+  text_ += ',';
+  append_number(text_, point.y);
+  text_ += ']';
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(const geometry::Ring& ring) {
+  separate();
+  text_ += '[';
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (i > 0) text_ += ',';
+    text_ += '[';
+    append_number(text_, ring[i].x);
+    text_ += ',';
+    append_number(text_, ring[i].y);
+    text_ += ']';
+  }
+  text_ += ']';
+  return *this;
+}
+
+namespace {
+
+void append_flat(std::string& text, const JsonValue& value) {
+  if (!value.is(JsonValue::Kind::kArray)) return append_number(text, value.number());
+  text += '[';
+  for (std::size_t i = 0; i < value.items().size(); ++i) {
+    if (i > 0) text += ", ";
+    append_flat(text, value.items()[i]);
+  }
+  text += ']';
+}
+
+bool holds_only_numbers(const JsonValue& value) {
+  if (value.is(JsonValue::Kind::kNumber)) return true;
+  return value.is(JsonValue::Kind::kArray) && std::ranges::all_of(value.items(), holds_only_numbers);
+}
+
+void write(JsonWriter& json, const JsonValue& value) {
+  switch (value.kind()) {
+    case JsonValue::Kind::kNull:
+      json.null();
+      return;
+    case JsonValue::Kind::kBoolean:
+      json.value(value.boolean());
+      return;
+    case JsonValue::Kind::kNumber:
+      json.value(value.number());
+      return;
+    case JsonValue::Kind::kText:
+      json.value(std::string_view(value.text()));
+      return;
+    case JsonValue::Kind::kArray:
+      if (holds_only_numbers(value)) {
+        std::string flat;
+        append_flat(flat, value);
+        json.json(flat);
+        return;
+      }
+      json.open('[');
+      for (const JsonValue& item : value.items()) write(json, item);
+      json.close(']');
+      return;
+    case JsonValue::Kind::kObject:
+      json.open('{');
+      for (const JsonMember& member : value.members()) {
+        json.key(member.key);
+        write(json, member.value);
+      }
+      json.close('}');
+      return;
+  }
+}
+
+}  // namespace
+
+std::string to_json_text(const JsonValue& value) {
+  std::string text;
+  JsonWriter json(text, JsonWriter::Layout::kIndented);
+  write(json, value);
+  text += '\n';
+  return text;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+#include "io/text/json_value.hpp"
+
+namespace polynya::io {
+
+/// Appends a number as the shortest text that reads back to the same double, whatever the locale.
+/// Zero has no sign; what is not finite becomes null.
+void append_number(std::string& text, double value);
+void append_number(std::string& text, std::int64_t value);
+
+/// Appends text as a JSON string with its quotes.
+void append_text(std::string& text, std::string_view value);
+
+/// Writes JSON into a string it is given, so that buffers can be used again.
+///
+///   JsonWriter json(line);
+///   json.open('{').key("t_s").value(0.5).key("children").open('[').value(3).close(']').close('}');
+class JsonWriter {
+ public:
+  enum class Layout { kLine, kIndented };
+  explicit JsonWriter(std::string& text, Layout layout = Layout::kLine) : text_(text), layout_(layout) {}
+
+  JsonWriter& open(char bracket);
+  JsonWriter& close(char bracket);
+  JsonWriter& key(std::string_view name);
+  JsonWriter& value(double number);
+  JsonWriter& value(std::int64_t number);
+  JsonWriter& value(int number) { return value(std::int64_t{number}); }
+  JsonWriter& value(bool truth);
+  JsonWriter& value(std::string_view words);
+  JsonWriter& value(const char* words) { return value(std::string_view(words)); }
+  JsonWriter& null();
+  JsonWriter& value(geometry::Point point);
+  JsonWriter& value(geometry::Vector vector) { return value(geometry::Point{vector.x, vector.y}); }
+  JsonWriter& value(const geometry::Ring& ring);
+  /// A value that is JSON already.
+  JsonWriter& json(std::string_view raw);
+  /// The next item or member starts on a line of its own.
+  void start_line() { starts_line_ = true; }
+
+ private:
+  void separate();
+  void break_line();
+  std::string& text_;
+  Layout layout_;
+  std::size_t depth_ = 0;
+  bool is_first_ = true;
+  bool follows_key_ = false;
+  bool starts_line_ = false;
+};
+
+/// A value as indented JSON; lists of numbers (and lists of points) stay on one line. Deterministic.
+std::string to_json_text(const JsonValue& value);
+
+}  // namespace polynya::io

@@ -1,0 +1,102 @@
+#include "io/text/problem.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "io/text/json_writer.hpp"
+
+namespace polynya::io {
+namespace {
+
+/// Levenshtein distance in bytes, with the exchange of two neighbours as one edit.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  std::iota(above.begin(), above.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t exchange = a[i - 1] == b[j - 1] ? 0 : 1;
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + exchange});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, above);
+    std::swap(above, row);
+  }
+  return above[b.size()];
+}
+
+std::string_view without_unit(std::string_view key) {
+  return key.substr(0, key.rfind('_'));
+}
+
+}  // namespace
+
+std::string_view name_of(Severity severity) {
+  switch (severity) {
+    case Severity::kError:
+      return "error";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kHint:
+      return "hint";
+  }
+  return "unknown";
+}
+
+std::string message_of(const Problem& problem) {
+  if (!problem.sentence.empty()) return problem.sentence;
+  std::string text = "found " + problem.found;
+  if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
+  if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);
+  return text;
+}
+
+std::string to_string(const Problem& problem) {
+  std::string text = problem.line > 0 ? fmt::format("{}:{}:{}: ", problem.file, problem.line, problem.column)
+                                      : fmt::format("{}: ", problem.file);
+  if (problem.severity != Severity::kError) text += fmt::format("{}: ", name_of(problem.severity));
+  if (!problem.path.empty()) text += problem.path + ": ";
+  return text + message_of(problem);
+}
+
+std::string to_json_text(const std::vector<Problem>& problems) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('[');
+  for (const Problem& problem : problems) {
+    json.start_line();
+    json.open('{').key("file").value(std::string_view(problem.file));
+    const bool has_place = problem.line > 0;
+    for (const auto& [key, value] : {std::pair{"line", problem.line}, {"column", problem.column}}) {
+      json.key(key);
+      has_place ? json.value(value) : json.null();
+    }
+    json.key("path").value(std::string_view(problem.path)).key("severity").value(name_of(problem.severity));
+    json.key("message").value(std::string_view(message_of(problem))).close('}');
+  }
+  json.close(']');
+  return text + "\n";
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
+  std::string_view best;
+  std::size_t least = std::string_view::npos;
+  if (word.size() > 200) return "";
+  for (const std::string_view candidate : candidates) {
+    // A forgotten or wrong unit counts as one edit: "thickness" means "thickness_m".
+    const bool same_name = word == without_unit(candidate) || without_unit(word) == without_unit(candidate);
+    const std::size_t distance = same_name ? 1 : edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  const std::size_t near_enough = std::max<std::size_t>(2, word.size() / 3);
+  return least <= near_enough ? std::string(best) : "";
+}
+
+}  // namespace polynya::io

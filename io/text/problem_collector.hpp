@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/text/problem.hpp"
+#include "io/text/source_text.hpp"
+
+namespace polynya::io {
+
+/// Gathers everything wrong in a scene and in the files it names, so that it can be told at once.
+class ProblemCollector {
+ public:
+  static constexpr std::size_t kMost = 500;  ///< what comes after these is only counted
+
+  explicit ProblemCollector(SourceText main) { sources_.push_back(std::move(main)); }
+
+  /// Adds a further source; its index is for add().
+  std::size_t add_source(SourceText source) {
+    sources_.push_back(std::move(source));
+    return sources_.size() - 1;
+  }
+  const SourceText& source(std::size_t index) const { return sources_[index]; }
+
+  void add(std::size_t source, std::uint32_t offset, Problem problem);
+  std::size_t count() const { return entries_.size() + beyond_; }
+
+  /// In the order of sources and places. Where there were too many, a last one says how many are left out.
+  std::vector<Problem> take();
+
+ private:
+  struct Entry {
+    std::size_t source;
+    std::uint32_t offset;
+    Problem problem;
+  };
+  std::vector<SourceText> sources_;
+  std::vector<Entry> entries_;
+  std::size_t beyond_ = 0;
+};
+
+}  // namespace polynya::io

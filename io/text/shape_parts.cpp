@@ -1,0 +1,180 @@
+#include "io/text/shape_parts.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace polynya::io {
+namespace {
+
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Ring;
+
+std::vector<const Ring*> rings_in(const Polygon& polygon) {
+  std::vector<const Ring*> rings{&polygon.outer};
+  for (const Ring& hole : polygon.holes) rings.push_back(&hole);
+  return rings;
+}
+
+/// Finds stretches of a ring among the rings of another shape, each vertex of which is given out once.
+class StretchFinder {
+ public:
+  explicit StretchFinder(const Polygon& parent) : rings_(rings_in(parent)) {
+    for (const Ring* ring : rings_) {
+      first_.push_back(points_.size());
+      points_.insert(points_.end(), ring->begin(), ring->end());
+    }
+    is_taken_.resize(points_.size());
+    order_.resize(points_.size());
+    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
+    std::ranges::stable_sort(order_, is_before, [this](std::uint32_t i) { return points_[i]; });
+  }
+
+  /// The longest stretch that the ring follows from its vertex `from` on, and takes it; of no vertices where
+  /// the parent has no such vertex left.
+  ShapePart take(const Ring& ring, std::size_t from) {
+    ShapePart best;
+    auto same = std::ranges::lower_bound(order_, ring[from], is_before,
+                                         [this](std::uint32_t i) { return points_[i]; });
+    for (; same != order_.end() && points_[*same] == ring[from]; ++same) {
+      const ShapePart found = stretch(ring, from, *same);
+      if (found.count > best.count) best = found;
+    }
+    for (std::uint32_t k = 0; k < best.count; ++k) is_taken_[place(best, k)] = true;
+    return best;
+  }
+
+ private:
+  static bool is_before(Point p, Point q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
+
+  std::size_t place(const ShapePart& part, std::size_t k) const {
+    const auto ring = static_cast<std::size_t>(part.ring);
+    return first_[ring] + (part.first + k) % rings_[ring]->size();
+  }
+
+  ShapePart stretch(const Ring& ring, std::size_t from, std::uint32_t vertex) const {
+    const auto next = std::ranges::upper_bound(first_, vertex);  // rings of a shape have vertices
+    const auto index = static_cast<std::size_t>(next - first_.begin()) - 1;
+    ShapePart part{static_cast<std::int32_t>(index), static_cast<std::uint32_t>(vertex - first_[index]), 0};
+    const std::size_t most = std::min(ring.size() - from, rings_[index]->size());
+    while (part.count < most) {
+      const std::size_t at = place(part, part.count);
+      if (is_taken_[at] || !(points_[at] == ring[from + part.count])) break;
+      ++part.count;
+    }
+    return part;
+  }
+
+  std::vector<const Ring*> rings_;
+  std::vector<std::size_t> first_;  ///< of each ring, in points_
+  std::vector<Point> points_;       ///< of all rings
+  std::vector<bool> is_taken_;
+  std::vector<std::uint32_t> order_;  ///< of points_, by their coordinates
+};
+
+void append_new(ShapeParts& shape, const Ring& ring, std::size_t from, std::size_t count) {
+  shape.parts.push_back({ShapePart::kNew, static_cast<std::uint32_t>(shape.vertices.size()),
+                         static_cast<std::uint32_t>(count)});
+  const auto first = ring.begin() + static_cast<std::ptrdiff_t>(from);
+  shape.vertices.insert(shape.vertices.end(), first, first + static_cast<std::ptrdiff_t>(count));
+}
+
+void close_ring(ShapeParts& shape) {
+  shape.ring_ends.push_back(static_cast<std::uint32_t>(shape.parts.size()));
+}
+
+template <class Use>
+void for_parts(const ShapeParts& shape, Use use) {
+  std::size_t part = 0;
+  for (std::size_t ring = 0; ring < shape.ring_ends.size(); ++ring) {
+    for (; part < shape.ring_ends[ring]; ++part) use(ring, shape.parts[part]);
+  }
+}
+
+}  // namespace
+
+bool ShapeParts::has_parent() const {
+  return std::ranges::any_of(parts, [](const ShapePart& part) { return part.ring != ShapePart::kNew; });
+}
+
+ShapeParts whole(const Polygon& polygon) {
+  ShapeParts shape;
+  for (const Ring* ring : rings_in(polygon)) {
+    append_new(shape, *ring, 0, ring->size());
+    close_ring(shape);
+  }
+  return shape;
+}
+
+ShapeParts parts_of(const Polygon& polygon, const Polygon& parent) {
+  StretchFinder finder(parent);
+  ShapeParts shape;
+  std::size_t stretches = 0;
+  for (const Ring* ring : rings_in(polygon)) {
+    std::size_t fresh = 0;  // vertices before `at` that are new and not yet written
+    for (std::size_t at = 0; at < ring->size();) {
+      const ShapePart found = finder.take(*ring, at);
+      if (found.count == 0) {
+        ++fresh;
+        ++at;
+        continue;
+      }
+      if (fresh > 0) append_new(shape, *ring, at - fresh, fresh);
+      fresh = 0;
+      shape.parts.push_back(found);
+      ++stretches;
+      at += found.count;
+    }
+    if (fresh > 0) append_new(shape, *ring, ring->size() - fresh, fresh);
+    close_ring(shape);
+  }
+  const bool is_shorter = stretches + shape.vertices.size() < vertex_count(polygon);
+  return is_shorter ? shape : whole(polygon);
+}
+
+std::vector<std::size_t> ring_sizes(const ShapeParts& shape) {
+  std::vector<std::size_t> sizes(shape.ring_ends.size());
+  for_parts(shape, [&](std::size_t ring, const ShapePart& part) { sizes[ring] += part.count; });
+  return sizes;
+}
+
+std::string find_fault(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes) {
+  const std::size_t most =
+      std::accumulate(parent_ring_sizes.begin(), parent_ring_sizes.end(), std::size_t{0});
+  std::size_t taken = 0;
+  for (const ShapePart& part : shape.parts) {
+    if (part.ring == ShapePart::kNew) continue;
+    const auto ring = static_cast<std::size_t>(part.ring);
+    if (ring >= parent_ring_sizes.size())
+      return fmt::format("ring {} of a parent that has {}", ring, parent_ring_sizes.size());
+    const std::size_t size = parent_ring_sizes[ring];
+    if (part.first >= size || part.count > size)
+      return fmt::format("{} vertices from vertex {} of the parent's ring {}, which has {}", part.count,
+                         part.first, ring, size);
+    taken += part.count;
+  }
+  if (taken > most) return fmt::format("{} vertices of a parent that has {}", taken, most);
+  return "";
+}
+
+Polygon assembled(const ShapeParts& shape, const Polygon& parent) {
+  const std::vector<const Ring*> from = rings_in(parent);
+  const std::vector<std::size_t> sizes = ring_sizes(shape);
+  Polygon polygon;
+  polygon.holes.resize(sizes.size() - 1);
+  for_parts(shape, [&](std::size_t ring, const ShapePart& part) {
+    Ring& to = ring == 0 ? polygon.outer : polygon.holes[ring - 1];
+    if (to.empty()) to.reserve(sizes[ring]);
+    const Ring& of =
+        part.ring == ShapePart::kNew ? shape.vertices : *from[static_cast<std::size_t>(part.ring)];
+    const auto first = of.begin() + part.first;
+    const auto before_end = std::min<std::ptrdiff_t>(part.count, of.end() - first);
+    to.insert(to.end(), first, first + before_end);
+    to.insert(to.end(), of.begin(), of.begin() + (part.count - before_end));
+  });
+  return polygon;
+}
+
+}  // namespace polynya::io

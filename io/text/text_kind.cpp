@@ -1,0 +1,82 @@
+#include "io/text/text_kind.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace polynya::io {
+namespace {
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// Whether the first bracket of the line is closed by its last character.
+bool is_one_object(std::string_view line) {
+  if (line.front() != '{' || line.back() != '}') return false;
+  int depth = 0;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    if (c == '"') {
+      for (++at; at < line.size() && line[at] != '"'; ++at) {
+        if (line[at] == '\\') ++at;
+      }
+    } else if (c == '{' || c == '[') {
+      ++depth;
+    } else if ((c == '}' || c == ']') && --depth == 0) {
+      return at + 1 == line.size();
+    }
+  }
+  return false;
+}
+
+bool is_continued(std::string_view line) {
+  return std::string_view("]},:").find(line.front()) != std::string_view::npos ||
+         std::string_view("[{,:").find(line.back()) != std::string_view::npos;
+}
+
+/// The name of a geometry, or any word with a bracket behind it.
+bool begins_wkt(std::string_view line) {
+  const auto end_of_word = static_cast<std::size_t>(std::ranges::find_if_not(line, is_letter) - line.begin());
+  std::string word(line.substr(0, end_of_word));
+  for (char& c : word) c = static_cast<char>(c & ~0x20);  // upper case
+  const auto begins = [&](std::string_view name) { return word.starts_with(name); };
+  if (begins("POLYGON") || begins("MULTIPOLYGON") || begins("GEOMETRYCOLLECTION") || begins("SRID") ||
+      begins("POINT") || begins("LINESTRING") || begins("MULTIPOINT") || begins("MULTILINESTRING"))
+    return true;
+  return !word.empty() && trimmed(line.substr(end_of_word)).starts_with('(');
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
+}
+
+bool is_comment(std::string_view line) {
+  return line.starts_with('#') || line.starts_with("//");
+}
+
+LinesSeen lines_seen(std::string_view text) {
+  LinesSeen seen;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const std::string_view line = trimmed(text.substr(start, end - start));
+    start = end + 1;
+    if (line.empty() || is_comment(line)) continue;
+    if (seen.lines++ == 0) {
+      seen.first_line = line;
+      seen.is_wkt_first = begins_wkt(line);
+    }
+    if (is_one_object(line))
+      ++seen.objects;
+    else if (begins_wkt(line))
+      ++seen.wkt;
+    else if (is_continued(line))
+      ++seen.continued;
+  }
+  return seen;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+
+namespace polynya::io {
+
+/// One geometry of a WKT text, or what is wrong with it.
+struct WktGeometry {
+  std::vector<geometry::Polygon> polygons;  ///< rings as drawn; a coordinate may be NaN or infinite
+  std::size_t offset = 0;                   ///< of its first byte
+  bool has_more_coordinates = false;        ///< Z or M, passed over
+  bool has_srid = false;                    ///< "SRID=…;", passed over
+  std::string refusal;                      ///< "not-a-polygon", "syntax" or empty
+  std::string detail;                       ///< for people
+};
+
+/// The geometries of a text, in order: POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION of them, any case, with
+/// or without Z and M, "SRID=…;" before and ";" behind passed over, '#' and '//' comments to the line's end.
+/// After a syntax error reading goes on at the next line.
+std::vector<WktGeometry> read_wkt(std::string_view text);
+
+/// Appends "POLYGON ((…), (…))" with numbers that read back to the same doubles.
+void append_wkt(std::string& text, const geometry::Polygon& polygon);
+
+}  // namespace polynya::io

@@ -1,0 +1,243 @@
+#include "simulation/state/state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
+#include "simulation/floe_size.hpp"
+#include "simulation/runaway.hpp"
+#include "simulation/state/state_fields.hpp"
+#include "simulation/state/validate_world.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+constexpr double kFarthest = 1e9;               ///< from the origin that a body can have gone [m]
+constexpr double kFastest = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
+constexpr double kOutside =
+    1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
+
+BodyMotion motion_of(const dynamics::Bodies& bodies, BodyIndex i) {
+  return {bodies.position[i],         bodies.angle[i],  bodies.rotation[i],  bodies.velocity[i],
+          bodies.angular_velocity[i], bodies.travel[i], bodies.rim_speed[i], bodies.is_awake[i] != 0};
+}
+
+void set_motion(dynamics::Bodies& bodies, BodyIndex i, const BodyMotion& motion) {
+  bodies.position[i] = motion.position;
+  bodies.angle[i] = motion.angle;
+  bodies.rotation[i] = motion.rotation;
+  bodies.velocity[i] = motion.velocity;
+  bodies.angular_velocity[i] = motion.angular_velocity;
+  bodies.travel[i] = motion.travel;
+  bodies.rim_speed[i] = motion.rim_speed;
+}
+
+/// Pairs that touch: the others are but near, and found again.
+std::vector<dynamics::PairMemory> touching(std::vector<dynamics::PairMemory> pairs) {
+  std::erase_if(pairs, [](const dynamics::PairMemory& pair) { return pair.records.empty(); });
+  return pairs;
+}
+
+template <class Archive>
+void write(Archive& archive, const World& world, const std::vector<dynamics::PairMemory>& pairs) {
+  sums_of(archive, world);
+  archive(std::uint64_t{world.floes.size()});
+  for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) archive(motion_of(world.bodies, ship));
+  for (FloeId id = 0; id < static_cast<FloeId>(world.floes.size()); ++id) {
+    const Floe& floe = world.floes[id];
+    archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, world.is_alive(id)});
+    if (!world.is_alive(id)) continue;
+    if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
+    archive(motion_of(world.bodies, world.body_of(id)));
+  }
+  archive(pairs);
+}
+
+/// Where the ice of a scene was at the start: its floes' frames, in which their pieces stay.
+geometry::Box ice_box(const Scene& scene) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  geometry::Box box{{kFar, kFar}, {-kFar, -kFar}};
+  for (const FloeSpec& floe : scene.floes) {
+    const geometry::Box own = geometry::bounding_box(floe.polygon_in_world.outer);
+    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
+    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
+  }
+  return geometry::grown(box, kOutside);
+}
+
+/// Fills a bare world from bytes, checking as it goes.
+class StateLoader {
+ public:
+  StateLoader(World& world, std::string_view bytes)
+      : world_(world), bytes_(bytes), ice_(ice_box(world.scene)) {}
+
+  std::string load() {
+    sums_of(bytes_, world_);
+    const Counts& c = world_.counts;
+    for (const std::int64_t count :
+         {c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
+          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
+          c.peak_contacts, c.peak_awake})
+      bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
+    bytes_.require(c.largest_left_over >= 0, "a negative velocity left over");
+    bytes_.require(world_.loads.size() == world_.scene.ships.size(), "loads of other ships");
+    for (const ShipContact& contact : world_.ship_contacts)
+      bytes_.require(contact.ship >= 0 && contact.ship < contact.other && contact.other < world_.ship_count(),
+                     "a contact of no two ships");
+    bytes_.require(world_.steps >= 0 && world_.steps <= kMostSteps, "a number of steps that cannot be");
+    std::uint64_t floes = 0;
+    bytes_(floes);
+    bytes_.require(floes >= world_.scene.floes.size() && floes <= bytes_.left(),
+                   "a number of floes that cannot be");
+    for (BodyIndex ship = 0; ship < world_.ship_count() && bytes_.is_well(); ++ship) load_ship(ship);
+    for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
+    if (bytes_.is_well()) load_pairs();
+    bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
+    if (bytes_.is_well()) {
+      if (auto wrong = validate_world(world_)) bytes_.fail(*std::move(wrong));
+    }
+    return bytes_.failure();
+  }
+
+ private:
+  static constexpr std::int64_t kMostSteps = 1'000'000'000;
+  static constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
+
+  BodyMotion load_motion(double radius) {
+    BodyMotion motion;
+    bytes_(motion);
+    const auto is_within = [](double x, double y, double most) {
+      return std::max(std::abs(x), std::abs(y)) <= most;
+    };
+    const geometry::Rotation r = motion.rotation;
+    bytes_.require(is_within(motion.position.x, motion.position.y, kFarthest), "a body beyond the world");
+    bytes_.require(is_within(motion.velocity.x, motion.velocity.y, kFastest), "a body faster than any");
+    bytes_.require(std::abs(motion.angular_velocity) * radius <= kFastest,
+                   "a body that spins faster than any");
+    bytes_.require(std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6, "a rotation that is none");
+    bytes_.require(motion.travel >= 0, "a way of less than nothing");
+    return motion;
+  }
+
+  void place(BodyIndex body, const BodyMotion& motion) {
+    if (!bytes_.is_well()) return;
+    set_motion(world_.bodies, body, motion);
+    world_.pairs.add(world_.bodies, body);
+    if (!motion.is_awake) return;
+    world_.bodies.is_awake[body] = 1;
+    world_.awake.push_back(body);
+    give_drag(world_, body);
+  }
+
+  void load_ship(BodyIndex ship) {
+    add_body(world_.bodies, new_body_of(world_, world_.scene.ships[ship]));
+    const BodyMotion motion = load_motion(world_.bodies.bounding_radius[ship]);
+    bytes_.require(motion.is_awake, "a ship asleep");
+    place(ship, motion);
+  }
+
+  FloeHead load_head(FloeId id) {
+    FloeHead head;
+    bytes_(head);
+    const bool is_of_scene = id < static_cast<FloeId>(world_.scene.floes.size());
+    bytes_.require(head.parent >= kNoFloe && head.parent < id, "a floe older than its parent");
+    bytes_.require((head.parent == kNoFloe) == is_of_scene, "a floe without a parent");
+    if (!bytes_.is_well()) return head;
+    const int generation = is_of_scene ? 0 : world_.floes[head.parent].generation + 1;
+    bytes_.require(head.generation == generation, "a generation that does not follow the parent's");
+    bytes_.require(is_of_scene || !world_.is_alive(head.parent), "a parent that still lives");
+    return head;
+  }
+
+  void load_floe(FloeId id) {
+    const FloeHead head = load_head(id);
+    if (!bytes_.is_well()) return;
+    Floe floe{head.parent, head.born, head.generation, head.area, {}};
+    if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = world_.scene.floes[id].polygon_in_world;
+    if (head.is_alive && head.parent != kNoFloe) floe.shape = load_shape();
+    if (!bytes_.is_well()) return;
+    dynamics::NewBody body;
+    if (head.is_alive) {
+      body = new_body_of(world_, floe.shape.polygon, geometry::measure(floe.shape.polygon));
+    } else {  // its index stays, and nothing else of it
+      body.mass = body.moment = 1;
+      body.boundary = std::make_shared<geometry::Boundary>();
+    }
+    const BodyIndex index = add_body(world_.bodies, body);
+    world_.floes.push_back(std::move(floe));
+    if (head.is_alive) return place(index, load_motion(world_.bodies.bounding_radius[index]));
+    world_.bodies.is_alive[index] = 0;
+    world_.bodies.boundary[index].reset();
+  }
+
+  geometry::Shape load_shape() {
+    geometry::Shape shape;
+    bytes_(shape.polygon);
+    const auto is_in_ice = [&](geometry::Point p) { return overlaps(ice_, {p, p}); };
+    bool is_within = shape.polygon.outer.size() >= 3 && std::ranges::all_of(shape.polygon.outer, is_in_ice);
+    for (const geometry::Ring& hole : shape.polygon.holes)
+      is_within = is_within && hole.size() >= 3 && std::ranges::all_of(hole, is_in_ice);
+    bytes_.require(is_within, "a floe outside the scene's ice");
+    if (!bytes_.is_well()) return shape;
+    if (const auto defect = find_defect(shape.polygon))
+      bytes_.fail(fmt::format("a floe that is {}", name_of(defect->defect)));
+    shape.known_valid = true;
+    bytes_.require(can_be_floe(geometry::measure(shape.polygon)), "a floe too small to be one");
+    return shape;
+  }
+
+  void load_pairs() {
+    std::vector<dynamics::PairMemory> pairs;
+    std::vector<double> quiet_until;
+    bytes_(pairs, quiet_until);
+    bytes_.require(pairs.size() == quiet_until.size(), "pairs that are not all told of");
+    const dynamics::Bodies& bodies = world_.bodies;
+    for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {
+      dynamics::PairMemory& pair = pairs[i];
+      const bool is_there = pair.a >= 0 && pair.a < pair.b && pair.b < bodies.size();
+      bytes_.require(is_there && bodies.is_alive[pair.a] && bodies.is_alive[pair.b],
+                     "a pair of no two bodies");
+      if (!bytes_.is_well()) return;
+      bytes_.require(bodies.is_awake[pair.a] || bodies.is_awake[pair.b], "a pair of two asleep");
+      bytes_.require(bodies.inverse_mass[pair.a] > 0 || bodies.inverse_mass[pair.b] > 0,
+                     "a pair of two held");
+      const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
+      bytes_.require(is_next, "pairs out of their order");
+      pair.quiet_until = quiet_until[i];
+    }
+    if (bytes_.is_well()) world_.pairs.remember(bodies, pairs);
+  }
+
+  World& world_;
+  ByteReader bytes_;
+  geometry::Box ice_;
+};
+
+}  // namespace
+
+std::string save_state(const World& world) {
+  const std::vector<dynamics::PairMemory> pairs = world.pairs.memory();
+  std::vector<double> quiet_until;
+  quiet_until.reserve(pairs.size());
+  for (const dynamics::PairMemory& pair : pairs) quiet_until.push_back(pair.quiet_until);
+  ByteWriter archive;
+  write(archive, world, pairs);
+  archive(quiet_until);
+  return archive.take();
+}
+
+std::string load_state(World& bare, std::string_view bytes) {
+  return StateLoader(bare, bytes).load();
+}
+
+std::uint64_t state_hash(const World& world) {
+  HashWriter archive;
+  write(archive, world, touching(world.pairs.memory()));
+  return archive.hash();
+}
+
+}  // namespace polynya::simulation

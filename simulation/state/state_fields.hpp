@@ -1,0 +1,110 @@
+#pragma once
+
+#include "dynamics/pairs.hpp"
+#include "geometry/shape/polygon.hpp"
+#include "simulation/state/archive.hpp"
+#include "simulation/world.hpp"
+
+namespace polynya::simulation {
+
+// What a run's state is made of, member by member. A member that is added here is kept, read back and hashed;
+// raise kStateVersion (state.hpp) with it.
+
+/// Where a body is and how it moves, and the way it has gone, which its neighbours' caches count by.
+struct BodyMotion {
+  geometry::Point position;
+  double angle = 0;
+  geometry::Rotation rotation;
+  geometry::Vector velocity;
+  double angular_velocity = 0;
+  double travel = 0;
+  double rim_speed = 0;
+  bool is_awake = false;
+};
+
+/// A floe without its shape.
+struct FloeHead {
+  FloeId parent = kNoFloe;
+  double born = 0;
+  std::int32_t generation = 0;
+  double area = 0;
+  bool is_alive = false;
+};
+
+template <class Archive>
+void fields(Archive& archive, Is<geometry::Point> auto& p) {
+  archive(p.x, p.y);
+}
+template <class Archive>
+void fields(Archive& archive, Is<geometry::Vector> auto& v) {
+  archive(v.x, v.y);
+}
+template <class Archive>
+void fields(Archive& archive, Is<geometry::Rotation> auto& r) {
+  archive(r.cosine, r.sine);
+}
+template <class Archive>
+void fields(Archive& archive, Is<geometry::Polygon> auto& p) {
+  archive(p.outer, p.holes);
+}
+template <class Archive>
+void fields(Archive& archive, Is<BodyMotion> auto& m) {
+  archive(m.position, m.angle, m.rotation, m.velocity, m.angular_velocity, m.travel, m.rim_speed, m.is_awake);
+}
+template <class Archive>
+void fields(Archive& archive, Is<FloeHead> auto& f) {
+  archive(f.parent, f.born, f.generation, f.area, f.is_alive);
+}
+template <class Archive>
+void fields(Archive& archive, Is<ContactLoads> auto& l) {
+  archive(l.impulse, l.angular_impulse, l.largest, l.largest_moment, l.contacts);
+}
+template <class Archive>
+void fields(Archive& archive, Is<ShipContact> auto& c) {
+  archive(c.time, c.ship, c.other, c.point_in_world, c.closing_speed, c.relative_speed, c.is_prescribed);
+}
+template <class Archive>
+void fields(Archive& archive, Is<ShipLoads> auto& l) {
+  archive(l.ice, l.ships, l.peak, l.peak_moment);
+}
+template <class Archive>
+void fields(Archive& archive, Is<AreaLedger> auto& l) {
+  archive(l.initial_ice_area, l.submerged_area, l.brash_area, l.rounding_defect);  // the rest is derived
+}
+template <class Archive>
+void fields(Archive& archive, Is<Counts> auto& c) {
+  archive(c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
+          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.largest_left_over,
+          c.unpaired_stretches, c.peak_contacts, c.peak_awake);
+}
+template <class Archive>
+void fields(Archive& archive, Is<EnergyFlows> auto& e) {
+  archive(e.thrust, e.current, e.drag, e.friction, e.restitution, e.crushing, e.bending, e.splitting, e.rest);
+}
+template <class Archive>
+void fields(Archive& archive, Is<MomentumFlows> auto& m) {
+  archive(m.thrust, m.held, m.water, m.removed);
+}
+template <class Archive>
+void fields(Archive& archive, Is<AuditSums> auto& a) {
+  archive(a.initial_energy, a.initial_momentum, a.impulses, a.energy, a.momentum);
+}
+template <class Archive>
+void fields(Archive& archive, Is<dynamics::ContactRecord> auto& r) {
+  archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.owed_impulse,
+          r.given_impulse, r.most_to_give, r.last_impulse[0], r.last_impulse[1], r.start_impulse[0],
+          r.start_impulse[1], r.has_crushed, r.was_refused, r.is_continued);
+}
+/// Not its quiet_until: that is a cache, which may differ where the same bodies do the same.
+template <class Archive>
+void fields(Archive& archive, Is<dynamics::PairMemory> auto& p) {
+  archive(p.a, p.b, p.records);
+}
+
+/// What of the world is neither a body, a floe nor a pair.
+template <class Archive, Is<World> AnyWorld>
+void sums_of(Archive& archive, AnyWorld& world) {
+  archive(world.steps, world.ledger, world.audit, world.counts, world.loads, world.ship_contacts);
+}
+
+}  // namespace polynya::simulation

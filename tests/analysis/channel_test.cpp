@@ -1,0 +1,144 @@
+#include "analysis/channel.hpp"
+
+#include <gtest/gtest.h>
+
+#include "analysis/channel_text.hpp"
+#include "analysis/swept_band.hpp"
+#include "geometry/exact/measures.hpp"
+
+namespace polynya::tests {
+namespace {
+
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Vector;
+
+Polygon box(Point low, Point high) {
+  return {{low, {high.x, low.y}, high, {low.x, high.y}}, {}};
+}
+
+/// A run made by hand: a hull 20 m long and 8 m wide goes 100 m straight along `heading` in 50 s, over the
+/// water, through ice that goes with the water.
+struct HandMadeRun {
+  io::Run run;
+  double heading;
+  Vector drift;
+
+  explicit HandMadeRun(double turned_by = 0, Vector drifting = {}) : heading(turned_by), drift(drifting) {
+    simulation::Scene& scene = run.scene.scene;
+    scene.water.drift = drift;
+    scene.ships.push_back({});
+    scene.ships.back().name = "ship";
+    scene.ships.back().hull.waterline = box({-10, -4}, {10, 4}).outer;
+    for (int i = 0; i <= 10; ++i) {
+      const double t = 5.0 * i;
+      run.frames.push_back({t, {{world(Point{2 * t, 0}, t), heading, {}, 0}}, {}});
+    }
+  }
+  Point world(Point p, double time) const {
+    return Point{} + rotate(geometry::Rotation::by(heading), p - Point{}) + time * drift;
+  }
+  /// Ice along the track's axes.
+  void add(const Polygon& along_track) {
+    simulation::BirthRecord birth;
+    birth.floe = static_cast<simulation::FloeId>(run.floes.size());
+    Polygon polygon = along_track;
+    for (Point& p : polygon.outer) p = world(p, 0);
+    run.shapes.add(polygon);
+    const auto measures = geometry::measure(polygon);
+    birth.area = measures.area;
+    birth.centroid_in_body = measures.centroid;
+    run.scene.scene.floes.push_back({polygon, {}, 0});
+    run.frames.front().floes.push_back({birth.floe, {birth.centroid_in_body, 0, drift, 0}});
+    run.floes.push_back({.birth = birth, .death_event = {}});
+  }
+};
+
+analysis::Channel measured(const io::Run& run, analysis::ChannelOptions options = {}) {
+  auto channel = measure_channel(run, options);
+  EXPECT_TRUE(channel.has_value()) << channel.error();
+  return *channel;
+}
+
+TEST(Channel, IsAsWideAsItsWallsAreApartWhateverTheHeadingAndTheDrift) {
+  for (const double heading : {0.0, 0.7, -2.5}) {
+    for (const Vector drift : {Vector{0, 0}, Vector{-0.3, 0.11}}) {
+      HandMadeRun made(heading, drift);
+      made.add(box({-50, 14}, {200, 40}));
+      made.add(box({-50, -60}, {200, -19}));
+      made.add(box({41, 2}, {47, 6}));  // half of it in the band
+      const analysis::Channel channel = measured(made.run);
+      ASSERT_EQ(channel.stations.size(), 11U);  // 90 m behind the stern, 8 m each
+      for (const analysis::ChannelStation& s : channel.stations) {
+        EXPECT_NEAR(s.starboard, 19, 1e-9);
+        const bool has_floe = s.along > 40 && s.along < 48;
+        EXPECT_NEAR(s.port, has_floe ? 2 : 14, 1e-9);
+        EXPECT_NEAR(s.passed, s.along / 2, 1e-9);
+      }
+      EXPECT_NEAR(channel.swept_area, 120 * 8, 1e-8);
+      EXPECT_NEAR(channel.swept_ice_at_start, 12, 1e-9);
+      ASSERT_EQ(channel.floes.size(), 1U);
+      EXPECT_EQ(channel.floes[0].floe, 2);
+      EXPECT_NEAR(channel.floes[0].inside, 12, 1e-9);
+      // 88 m of cells between walls 33 m apart, without the floe.
+      EXPECT_NEAR(channel.open_area, 88 * 33 - 24, 1e-8);
+    }
+  }
+}
+
+TEST(Channel, WithoutIceInReachHasNoWidth) {
+  HandMadeRun made;
+  made.add(box({-50, 14}, {200, 40}));
+  const analysis::Channel channel = measured(made.run, analysis::ChannelOptions{0, {}, 0, 10});
+  EXPECT_EQ(widths(channel).count, 0U);
+  EXPECT_TRUE(channel.open_water.empty());
+  for (const analysis::ChannelStation& s : channel.stations) {
+    EXPECT_FALSE(s.has_port_ice);
+    EXPECT_EQ(s.width(), 20);
+  }
+  EXPECT_NE(to_table(channel).find(">20.00"), std::string::npos);
+}
+
+TEST(Channel, IceAcrossTheTrackClosesIt) {
+  HandMadeRun made;
+  made.add(box({30, -5}, {34, 5}));
+  const analysis::Channel channel = measured(made.run);
+  const analysis::ChannelStation& closed = channel.stations[3];  // 24 to 32 m
+  EXPECT_EQ(closed.width(), 0);
+  EXPECT_NEAR(closed.ice_across_beam, 0.25, 1e-12);
+  EXPECT_TRUE(closed.is_bounded());
+}
+
+TEST(Channel, LeftoverIceOfTheBandIsAccountedForFloeByFloe) {
+  HandMadeRun made(0.3);
+  made.add(box({10, -1}, {12, 1}));
+  made.add(box({20, -30}, {60, -3}));
+  const analysis::Channel channel = measured(made.run);
+  ASSERT_EQ(channel.floes.size(), 2U);
+  EXPECT_GT(channel.floes[0].size, channel.floes[1].size);
+  EXPECT_NEAR(channel.swept_ice(), 4 + 40, 1e-9);
+  EXPECT_NEAR(channel.swept_ice_at_start, 4 + 40, 1e-9);
+}
+
+TEST(Channel, WaterCarriesAffinelyAndBack) {
+  simulation::WaterSettings water;
+  water.drift = {0.2, -0.1};
+  water.shear = {0.01, 0.5, {3, 4}};
+  for (const Point p : {Point{0, 0}, Point{100, -20}, Point{-7, 55}}) {
+    const Point there = analysis::carried_by_water(water, p, 10, 200);
+    const Point back = analysis::carried_by_water(water, there, 200, 10);
+    EXPECT_NEAR(distance(p, back), 0, 1e-9);
+    const Point halfway =
+        analysis::carried_by_water(water, analysis::carried_by_water(water, p, 10, 80), 80, 200);
+    EXPECT_NEAR(distance(there, halfway), 0, 1e-9);
+  }
+}
+
+TEST(Channel, RefusesTimesAndShipsThatAreNotThere) {
+  const HandMadeRun made;
+  EXPECT_FALSE(measure_channel(made.run, analysis::ChannelOptions{1, {}, 0, 0}).has_value());
+  EXPECT_FALSE(measure_channel(made.run, analysis::ChannelOptions{0, 51, 0, 0}).has_value());
+}
+
+}  // namespace
+}  // namespace polynya::tests

@@ -1,0 +1,179 @@
+#include "analysis/run_check.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "geometry/cut/overlap.hpp"
+#include "geometry/cut/repair.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
+#include "io/text/near_part.hpp"
+
+namespace polynya::analysis {
+namespace {
+
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Pose;
+using geometry::Ring;
+
+/// A star-shaped ring with a random radius at each vertex.
+Ring star(std::mt19937& dice, int vertices, double radius) {
+  std::uniform_real_distribution<double> part(0.3, 1);
+  Ring ring;
+  for (int i = 0; i < vertices; ++i) {
+    const double angle = 2 * std::numbers::pi * i / vertices;
+    const double r = radius * part(dice);
+    ring.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  return ring;
+}
+
+/// The near part decides like the whole: exact overlaps of long jagged floes with small ones, in any pose,
+/// with and without a hole, agree to the last bit with those of the whole rings.
+TEST(NearPart, SharesTheSameAreaAsTheWhole) {
+  std::mt19937 dice(11);
+  std::uniform_real_distribution<double> place(-14, 14), turn(-4, 4);
+  int overlapping = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Polygon large{star(dice, 200, 10), {}};
+    if (trial % 2 == 0) {
+      Ring hole = star(dice, 40, 2.9);
+      large.holes.emplace_back(hole.rbegin(), hole.rend());
+    }
+    const Polygon small{star(dice, 8, trial % 3 == 0 ? 6 : 1.5), {}};
+    const Pose world_from_large{{place(dice), place(dice)}, geometry::Rotation::by(turn(dice))};
+    const Pose world_from_small{{place(dice), place(dice)}, geometry::Rotation::by(turn(dice))};
+    const auto whole = overlap({.polygon = large}, world_from_large, {.polygon = small}, world_from_small);
+    const auto near = io::shared_area(small, world_from_small, large, world_from_large);
+    ASSERT_TRUE(whole.has_value() && near.has_value());
+    EXPECT_EQ(*near, whole->area) << trial;
+    overlapping += whole->area > 0 ? 1 : 0;
+  }
+  EXPECT_GT(overlapping, 50);
+}
+
+/// What is drawn straight far from the box may cross the rest of the ring: geometry::overlap takes that.
+TEST(NearPart, MayCrossItselfAndSharesTheSame) {
+  std::mt19937 dice(29);
+  std::uniform_real_distribution<double> place(-9, 9);
+  int crossing = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Ring ring = star(dice, 120, 10);
+    const geometry::Box box{{place(dice), place(dice)}, {10, 10}};
+    const Polygon tile{{box.low, {10, box.low.y}, {10, 10}, {box.low.x, 10}}, {}};
+    const Ring near = io::near_part(ring, box);
+    if (near.size() > 2 && geometry::find_defect(geometry::normalised({near, {}}))) ++crossing;
+    const auto whole = geometry::overlap({.polygon = {ring, {}}}, {}, {.polygon = tile}, {});
+    const auto part = geometry::overlap({.polygon = {near, {}}}, {}, {.polygon = tile}, {});
+    ASSERT_TRUE(whole.has_value() && part.has_value());
+    EXPECT_EQ(part->exact_area, whole->exact_area) << trial;
+  }
+  EXPECT_GT(crossing, 10);
+}
+
+TEST(NearPart, LeavesFewVerticesOfALongRing) {
+  std::mt19937 dice(3);
+  const Ring ring = star(dice, 4000, 100);
+  const Ring near = io::near_part(ring, {{60, 0}, {62, 2}});
+  EXPECT_LT(near.size(), 200U);
+  EXPECT_GT(near.size(), 2U);
+}
+
+Ring square(double x, double y, double size) {
+  return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
+}
+
+void add_floe(io::Run& run, simulation::FloeId parent, double born, const Ring& ring) {
+  io::RunFloe floe;
+  floe.birth.floe = static_cast<simulation::FloeId>(run.floes.size());
+  floe.birth.parent = parent;
+  floe.birth.time = born;
+  const geometry::Measures measures = geometry::measure({ring, {}});
+  floe.birth.area = measures.area;
+  floe.birth.centroid_in_body = measures.centroid;
+  run.floes.push_back(floe);
+  run.shapes.add({ring, {}});
+}
+
+/// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards
+/// it.
+io::Run small_run(const Ring& drifting = square(5, 1, 2),
+              const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
+  io::Run run;
+  add_floe(run, simulation::kNoFloe, 0, square(0, 0, 4));
+  add_floe(run, simulation::kNoFloe, 0, drifting);
+  add_floe(run, 0, 1, {{0, 0}, {4, 0}, {4, 2}, {0, 2}});
+  add_floe(run, 0, 1, second_half);
+  run.floes[0].died = 1;
+  run.floes[0].death_event = 0;
+  simulation::Event event;
+  event.kind = simulation::EventKind::kSplit;
+  event.time = 1;
+  event.floe = 0;
+  event.children = {2, 3};
+  run.events.push_back(event);
+  for (int t = 0; t <= 3; ++t) {
+    io::Frame frame;
+    frame.time = t;
+    for (const io::RunFloe& one : run.floes) {
+      if (!run.is_alive(one.birth.floe, t)) continue;
+      io::Motion motion;
+      motion.position = one.birth.centroid_in_body;
+      if (one.birth.floe == 1) motion.position.x -= 0.5 * t;
+      frame.floes.push_back({one.birth.floe, motion});
+    }
+    run.frames.push_back(std::move(frame));
+  }
+  return run;
+}
+
+TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
+  const RunCheck check = check_run(small_run());
+  EXPECT_TRUE(check.is_sound());
+  EXPECT_EQ(check.shapes, 4U);
+  EXPECT_EQ(check.fractures, 1U);
+  EXPECT_EQ(check.siblings.area, 0);
+  EXPECT_EQ(check.moments, 4U);
+  // At 3 s floe 1 has come 0.5 m into both halves, over one metre of each.
+  EXPECT_EQ(check.overlapping_pairs, 2U);
+  EXPECT_EQ(check.most_shared, 1.0);
+  EXPECT_EQ(check.most_shared_time, 3);
+  EXPECT_EQ(check.ice_then, 20);
+  EXPECT_EQ(check.worst.area, 0.5);
+  EXPECT_EQ(check.worst.depth, 0.5);
+  EXPECT_EQ(check.deepest.depth, 0.5);
+  EXPECT_EQ(check_run(small_run(), 2).most_shared, 0) << "they touch at 2 s";
+}
+
+TEST(RunCheck, WhatIsWrongIsFound) {
+  Ring swapped = square(5, 1, 2);
+  std::swap(swapped[0], swapped[1]);
+  const auto crossed = small_run(swapped);
+  const RunCheck of_crossed = check_run(crossed, 0);
+  ASSERT_EQ(of_crossed.invalid.size(), 1U);
+  EXPECT_EQ(of_crossed.invalid.front().floe, 1);
+  EXPECT_EQ(of_crossed.invalid.front().defect, "self-crossing");
+
+  auto misprinted = small_run();
+  misprinted.floes[1].birth.area += 1e-6;
+  EXPECT_EQ(check_run(misprinted).recorded_area.wrong, 1U);
+  EXPECT_EQ(check_run(misprinted).recorded_area.floe, 1);
+
+  const auto leaking = small_run(square(5, 1, 2), {{0, 2}, {4, 2}, {4, 3.999}, {0, 4}});
+  const RunCheck of_leaking = check_run(leaking);
+  EXPECT_EQ(of_leaking.balance.wrong, 1U);
+  EXPECT_NEAR(of_leaking.balance.value, -0.002, 1e-12);
+
+  const auto doubled = small_run(square(5, 1, 2), {{0, 1}, {4, 1}, {4, 3}, {0, 3}});
+  const RunCheck of_doubled = check_run(doubled);
+  EXPECT_EQ(of_doubled.balance.wrong, 0U) << "the areas add up";
+  EXPECT_EQ(of_doubled.siblings.area, 4) << "but the pieces share a strip";
+  for (const RunCheck& check : {of_crossed, of_leaking, of_doubled}) EXPECT_FALSE(check.is_sound());
+}
+
+}  // namespace
+}  // namespace polynya::analysis

@@ -1,0 +1,225 @@
+#include "views/export/vtk_export.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "geometry/shape/triangulation.hpp"
+#include "io/run/moment.hpp"
+#include "io/text/output_file.hpp"
+#include "views/export/vtk_file.hpp"
+
+namespace polynya::views {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+using Column = VtkPolyData::Column;
+
+void add_vector(Column& column, geometry::Vector v) {
+  column.values.insert(column.values.end(), {v.x, v.y, 0.0});
+}
+
+/// The cells of one floe: its rings as lines, and its triangles.
+class IceExport {
+ public:
+  explicit IceExport(const io::Run& run) : run_(run), motions_(run) {}
+
+  VtkPolyData at(double time) {
+    VtkPolyData data;
+    data.time = time;
+    const std::vector<io::PlacedFloe> floes = floes_at(run_, motions_, time);
+    std::erase_if(triangles_, [&](const auto& of) { return !run_.is_alive(of.first, time); });
+    std::vector<std::int64_t> first_point;
+    for (const io::PlacedFloe& floe : floes) {
+      first_point.push_back(static_cast<std::int64_t>(data.points.size()));
+      add_rings(data, io::placed(floe.world_from_body, *floe.polygon_in_body));
+    }
+    data.cell_data = {
+        {"floe_id", {}, 1, true},        {"parent_id", {}, 1, true},         {"generation", {}, 1, true},
+        {"born_s", {}, 1, false},        {"area_m2", {}, 1, false},          {"mass_kg", {}, 1, false},
+        {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false}, {"is_outline", {}, 1, true}};
+    for (const io::PlacedFloe& floe : floes) {
+      for (std::size_t ring = 0; ring <= floe.polygon_in_body->holes.size(); ++ring)
+        add_row(data, floe, true);
+    }
+    for (std::size_t i = 0; i < floes.size(); ++i) {
+      for (const geometry::Triangle& triangle : triangles_of(floes[i])) {
+        data.polygons.push_back(
+            {first_point[i] + triangle[0], first_point[i] + triangle[1], first_point[i] + triangle[2]});
+        add_row(data, floes[i], false);
+      }
+    }
+    return data;
+  }
+
+  /// Floes whose rings bound no area; only their outlines are exported.
+  const std::set<simulation::FloeId>& without_triangles() const { return without_triangles_; }
+
+ private:
+  /// A shape is triangulated once, in its body frame, where it is exact.
+  const std::vector<geometry::Triangle>& triangles_of(const io::PlacedFloe& floe) {
+    auto& triangles = triangles_[floe.birth->floe];
+    if (triangles.empty()) triangles = geometry::triangulate(*floe.polygon_in_body);
+    if (triangles.empty()) without_triangles_.insert(floe.birth->floe);
+    return triangles;
+  }
+
+  static void add_rings(VtkPolyData& data, const geometry::Polygon& polygon) {
+    const auto add = [&](const geometry::Ring& ring) {
+      std::vector<std::int64_t> line;
+      for (const geometry::Point p : ring) {
+        line.push_back(static_cast<std::int64_t>(data.points.size()));
+        data.points.push_back(p);
+      }
+      line.push_back(line.front());
+      data.lines.push_back(std::move(line));
+    };
+    add(polygon.outer);
+    std::ranges::for_each(polygon.holes, add);
+  }
+
+  static void add_row(VtkPolyData& data, const io::PlacedFloe& floe, bool is_outline) {
+    const simulation::BirthRecord& birth = *floe.birth;
+    const geometry::Vector velocity = floe.motion ? floe.motion->velocity : geometry::Vector{kNan, kNan};
+    auto& columns = data.cell_data;
+    std::size_t i = 0;
+    for (const double value :
+         {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
+          static_cast<double>(birth.generation), birth.time, birth.area, birth.mass, length(velocity)})
+      columns[i++].values.push_back(value);
+    add_vector(columns[i++], velocity);
+    columns[i].values.push_back(is_outline ? 1 : 0);
+  }
+
+  const io::Run& run_;
+  io::MotionIndex motions_;
+  std::map<simulation::FloeId, std::vector<geometry::Triangle>> triangles_;
+  std::set<simulation::FloeId> without_triangles_;
+};
+
+/// Each ship's waterline as a polygon, with what forces.csv tells of it at the time.
+VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double time) {
+  VtkPolyData data;
+  data.time = time;
+  data.cell_data = {{"ship", {}, 1, true}, {"velocity_m_per_s", {}, 3, false}, {"heading_deg", {}, 1, false}};
+  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
+    const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
+    const geometry::Pose pose = ship_pose_at(run, motions, ship, time);
+    const auto first = static_cast<std::int64_t>(data.points.size());
+    const geometry::Ring ring = io::placed(pose, waterline);
+    data.points.insert(data.points.end(), ring.begin(), ring.end());
+    for (const geometry::Triangle& t : geometry::triangulate({waterline, {}})) {
+      data.polygons.push_back({first + t[0], first + t[1], first + t[2]});
+      data.cell_data[0].values.push_back(static_cast<double>(ship));
+      const auto motion = motions.ship_at(ship, time);
+      add_vector(data.cell_data[1], motion ? motion->velocity : geometry::Vector{kNan, kNan});
+      data.cell_data[2].values.push_back(motion ? motion->angle * 180 / std::numbers::pi : kNan);
+    }
+  }
+  return data;
+}
+
+/// The ice loads of the interval that ends at the time, a vertex a ship at its centre; and the fractures
+/// since the frame before, a vertex each where it happened.
+VtkPolyData loads_at(const io::Run& run, double after, double time) {
+  VtkPolyData data;
+  data.time = time;
+  data.cell_data = {{"kind", {}, 1, true},           {"ship", {}, 1, true},
+                    {"floe_id", {}, 1, true},        {"t_s", {}, 1, false},
+                    {"force_N", {}, 3, false},       {"yaw_moment_Nm", {}, 1, false},
+                    {"j_over_tau_c_N", {}, 3, false}};
+  const auto add = [&](geometry::Point at, int kind, int ship, simulation::FloeId floe, double t,
+                       geometry::Vector force, double moment, geometry::Vector peak) {
+    data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
+    data.points.push_back(at);
+    std::size_t i = 0;
+    for (const double value :
+         {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe), t})
+      data.cell_data[i++].values.push_back(value);
+    add_vector(data.cell_data[4], force);
+    data.cell_data[5].values.push_back(moment);
+    add_vector(data.cell_data[6], peak);
+  };
+  std::vector<const simulation::ShipSample*> last(run.scene.scene.ships.size(), nullptr);
+  const auto until = std::ranges::upper_bound(run.samples, time + 1e-9, {}, &simulation::ShipSample::time);
+  for (auto sample = until; sample != run.samples.begin();) {
+    --sample;
+    if (sample->time < time - run.scene.scene.record.forces_interval - 1e-9) break;
+    const auto ship = static_cast<std::size_t>(sample->ship);
+    if (ship < last.size() && !last[ship]) last[ship] = &*sample;
+  }
+  for (const simulation::ShipSample* s : last) {
+    if (!s) continue;
+    const auto world_from_ship = geometry::Rotation::by(s->heading);
+    add(s->position_in_world, 0, s->ship, simulation::kNoFloe, s->time,
+        rotate(world_from_ship, {s->surge_force, s->sway_force}), s->yaw_moment,
+        rotate(world_from_ship, {s->surge_peak, s->sway_peak}));
+  }
+  for (const simulation::Event& event : run.events) {
+    if (!(event.time > after && event.time <= time) || event.kind == simulation::EventKind::kRejectedCut)
+      continue;
+    add(event.point_in_world, event.kind == simulation::EventKind::kBend ? 1 : 2, event.ship, event.floe,
+        event.time, {kNan, kNan}, kNan, event.criteria.collision_force * event.normal_in_world);
+  }
+  return data;
+}
+
+/// The contacts recorded at a frame, a vertex each. Their columns are of points: glyphs stand on points.
+VtkPolyData contacts_at(const io::Run& run, double time) {
+  VtkPolyData data;
+  data.time = time;
+  data.point_data = {{"ship", {}, 1, true},       {"floe_id", {}, 1, true},  {"by_ship", {}, 1, true},
+                     {"by_floe_id", {}, 1, true}, {"force_N", {}, 3, false}, {"depth_m", {}, 1, false},
+                     {"is_crushing", {}, 1, true}};
+  auto& columns = data.point_data;
+  for (const io::RunContact& contact : run.contacts_at(time)) {
+    const simulation::ContactState& state = contact.state;
+    data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
+    data.points.push_back(state.point_in_world);
+    columns[0].values.push_back(state.on.ship);
+    columns[1].values.push_back(static_cast<double>(state.on.floe));
+    columns[2].values.push_back(state.by.ship);
+    columns[3].values.push_back(static_cast<double>(state.by.floe));
+    add_vector(columns[4], state.force);
+    columns[5].values.push_back(state.depth);
+    columns[6].values.push_back(state.is_crushing ? 1 : 0);
+  }
+  return data;
+}
+
+}  // namespace
+
+tl::expected<VtkExport, std::string> export_vtk(const io::Run& run, const io::FrameSelection& selection,
+                                                const std::filesystem::path& folder) {
+  IceExport ice(run);
+  const io::MotionIndex motions(run);
+  VtkTimeline timeline;
+  double before = -std::numeric_limits<double>::infinity();
+  std::size_t number = 0;
+  for (const io::Frame& frame : thinned_frames(run, selection)) {
+    const std::pair<const char*, VtkPolyData> parts[] = {{"ice", ice.at(frame.time)},
+                                                         {"ships", ships_at(run, motions, frame.time)},
+                                                         {"loads", loads_at(run, before, frame.time)},
+                                                         {"contacts", contacts_at(run, frame.time)}};
+    int part = 0;
+    for (const auto& [name, data] : parts) {
+      const std::string file = fmt::format("{}-{:05}.vtp", name, number);
+      if (std::string wrong = io::write_named_file(folder / file, to_vtp(data)); !wrong.empty())
+        return tl::unexpected(std::move(wrong));
+      timeline.entries.push_back({frame.time, part++, file});
+    }
+    before = frame.time;
+    ++number;
+  }
+  if (std::string wrong = io::write_named_file(folder / "run.pvd", to_pvd(timeline)); !wrong.empty())
+    return tl::unexpected(std::move(wrong));
+  return VtkExport{number, {ice.without_triangles().begin(), ice.without_triangles().end()}};
+}
+
+}  // namespace polynya::views

@@ -1,0 +1,68 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "analysis/channel.hpp"
+#include "io/run/moment.hpp"
+#include "views/map/figures.hpp"
+
+namespace polynya::views {
+
+Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double time) {
+  Picture picture;
+  const simulation::Scene& scene = run.scene.scene;
+  for (const auto& floe : scene.floes) picture.ice_at_start.push_back(floe.polygon_in_world);
+  for (const io::PlacedFloe& floe : floes_at(run, motions, time))
+    picture.floes.push_back(
+        {io::placed(floe.world_from_body, *floe.polygon_in_body), floe.birth->generation});
+  for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
+    Picture::Ship drawn{io::placed(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline),
+                        {}};
+    for (const double t : frame_times_until(run, time))
+      drawn.track.push_back(ship_pose_at(run, motions, ship, t).position);
+    picture.ships.push_back(std::move(drawn));
+  }
+  for (const simulation::Event& event : run.events) {
+    if (event.time <= time && event.kind != simulation::EventKind::kRejectedCut)
+      picture.fractures.push_back({event.point_in_world, event.kind});
+  }
+  return picture;
+}
+
+namespace {
+
+void add_channels(Picture& picture, const io::Run& run, double time) {
+  const simulation::Scene& scene = run.scene.scene;
+  for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
+    if (std::holds_alternative<simulation::FixedInPlace>(scene.ships[ship].propulsion)) continue;
+    if (const auto channel =
+            analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0}))
+      picture.channel.insert(picture.channel.end(), channel->open_water.begin(), channel->open_water.end());
+  }
+}
+
+}  // namespace
+
+PictureSheet map_figure(const std::vector<io::Run>& runs, const std::vector<double>& times) {
+  PictureSheet sheet;
+  for (const io::Run& run : runs) {
+    const io::MotionIndex motions(run);
+    for (const double wanted : times) {
+      const double time = std::clamp(wanted, run.start_time(), run.end_time());
+      Picture picture = picture_at(run, motions, time);
+      add_channels(picture, run, time);
+      const auto splits =
+          std::ranges::count(picture.fractures, simulation::EventKind::kSplit, &Picture::Fracture::kind);
+      picture.title = fmt::format("{}, {:.4g} s", run.label, time);
+      picture.caption = fmt::format("{} cusps, {} {}, {} floes", std::ssize(picture.fractures) - splits,
+                                    splits, splits == 1 ? "split" : "splits", picture.floes.size());
+      sheet.pictures.push_back(std::move(picture));
+    }
+  }
+  sheet.columns = sheet.pictures.size() > 1 ? 2 : 1;
+  sheet.title = runs.size() == 1 ? runs.front().label : "Floes and channels";
+  sheet.caption = "Fractures are marked where they happened; the ice has moved since.";
+  return sheet;
+}
+
+}  // namespace polynya::views

@@ -1,0 +1,65 @@
+#include "views/map/map_marks.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace polynya::views {
+
+using namespace map_colour;
+
+void draw_fracture_mark(SvgText& svg, simulation::EventKind kind, double x, double y, double size) {
+  if (kind == simulation::EventKind::kSplit)
+    svg.add(
+        "<path d='M{0:.2f} {1:.2f}l{2:.2f} {3:.2f}h{4:.2f}Z' fill='{5}' stroke='#ffffff' "
+        "stroke-width='1.5'/>\n",
+        x, y - 9 * size, 8 * size, 14 * size, -16 * size, kSplit);
+  else
+    svg.add("<circle cx='{:.2f}' cy='{:.2f}' r='{:.2f}' fill='{}' stroke='#ffffff' stroke-width='0.5'/>\n", x,
+            y, 2.8 * size, kBend, size < 0.8 ? "0" : "0.5");
+}
+
+namespace {
+
+MapKey area_key(const char* colour, const char* edge, const char* words) {
+  return {{words, 26}, [=](SvgText& svg, geometry::Point at) {
+            svg.add("<rect x='{:.2f}' y='{:.2f}' width='26' height='16' fill='{}' stroke='{}'/>\n", at.x,
+                    at.y - 13, colour, edge);
+          }};
+}
+
+MapKey mark_key(simulation::EventKind kind, const char* words) {
+  return {{words, 18},
+          [=](SvgText& svg, geometry::Point at) { draw_fracture_mark(svg, kind, at.x + 9, at.y - 6, 1); }};
+}
+
+MapKey scale_bar(double scale, double room_on_page) {
+  const double room = room_on_page / scale;
+  const double decade = std::pow(10, std::floor(std::log10(room)));
+  const double length = decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
+  return {{fmt::format("{:g} m", length), length * scale}, [=](SvgText& svg, geometry::Point at) {
+            svg.add("<path d='M{:.2f} {:.2f}v8h{:.2f}v-8' fill='none' stroke='#000000' stroke-width='2'/>\n",
+                    at.x, at.y - 10, length * scale);
+          }};
+}
+
+}  // namespace
+
+std::vector<MapKey> map_keys(double scale, double room, bool has_channel) {
+  std::vector<MapKey> keys{scale_bar(scale, room), area_key(kIce, kIceEdge, "floe as in the scene"),
+                           area_key(kBrokenIce, kIceEdge, "piece of a broken floe"),
+                           area_key(kIceAtStart, kIceAtStart, "ice at the start, open now"),
+                           area_key(kWater, kWater, "water")};
+  if (has_channel) keys.push_back(area_key(kChannel, kChannel, "channel: open water joined to the track"));
+  keys.push_back(area_key(kShip, kShip, "ship"));
+  keys.push_back({{"its track", 30}, [](SvgText& svg, geometry::Point at) {
+                    svg.add(
+                        "<path d='M{:.2f} {:.2f}h30' stroke='{}' stroke-width='2' stroke-dasharray='8 4'/>\n",
+                        at.x, at.y - 5, kTrack);
+                  }});
+  keys.push_back(mark_key(simulation::EventKind::kBend, "cusp broken by bending"));
+  keys.push_back(mark_key(simulation::EventKind::kSplit, "floe split"));
+  return keys;
+}
+
+}  // namespace polynya::views

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "simulation/journal.hpp"
+#include "views/map/svg_layout.hpp"
+
+namespace polynya::views {
+
+/// Light ice on mid water on paper: apart in greyscale. Marks in the Okabe–Ito palette.
+namespace map_colour {
+inline constexpr auto kWater = "#8fb8d0";
+inline constexpr auto kIceAtStart = "#a9cadd";
+inline constexpr auto kChannel = "#5e93b5";
+inline constexpr auto kIce = "#ffffff";
+inline constexpr auto kBrokenIce = "#fbeec2";
+inline constexpr auto kIceEdge = "#3d5261";
+inline constexpr auto kShip = "#2b2b2b";
+inline constexpr auto kTrack = "#d55e00";
+inline constexpr auto kBend = "#0072b2";
+inline constexpr auto kSplit = "#d55e00";
+}  // namespace map_colour
+
+/// The mark of a fracture; `size` of the one in the legend is 1.
+void draw_fracture_mark(SvgText& svg, simulation::EventKind kind, double x, double y, double size);
+
+/// An entry of a map's legend: its swatch is drawn with the lower left corner at a point.
+struct MapKey {
+  Legend::Entry entry;
+  std::function<void(SvgText&, geometry::Point)> draw;
+};
+
+/// The scale bar, the longest of 1, 2, 5 × 10ⁿ metres that fits into `room` [px] at `scale` [px/m], and the
+/// keys of all that a map shows.
+std::vector<MapKey> map_keys(double scale, double room, bool has_channel);
+
+}  // namespace polynya::views

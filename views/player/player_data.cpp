@@ -1,0 +1,154 @@
+#include "views/player/player_data.hpp"
+
+#include "io/run/force_columns.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/version.hpp"
+
+namespace polynya::views {
+namespace {
+
+void add_frames(ColumnWriter& columns, const std::vector<io::Frame>& frames) {
+  std::string bytes = io::FrameEncoder::header();
+  for (const io::Frame& frame : frames) bytes += frame_bytes(frame.time, frame.ships, frame.floes);
+  columns.add("frames", bytes);
+}
+
+void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
+  std::vector<double> time, x, y, force_x, force_y;
+  std::vector<std::int32_t> ship, floe, by_floe, is_crushing;
+  for (const io::Frame& frame : frames) {
+    for (const io::RunContact& contact : run.contacts_at(frame.time)) {
+      const simulation::ContactState& state = contact.state;
+      time.push_back(contact.time);
+      ship.push_back(state.on.ship);
+      floe.push_back(static_cast<std::int32_t>(state.on.floe));
+      by_floe.push_back(static_cast<std::int32_t>(state.by.floe));
+      x.push_back(state.point_in_world.x);
+      y.push_back(state.point_in_world.y);
+      force_x.push_back(state.force.x);
+      force_y.push_back(state.force.y);
+      is_crushing.push_back(state.is_crushing);
+    }
+  }
+  columns.add("contact_t_s", time);
+  columns.add("contact_ship", ship);
+  columns.add("contact_floe", floe);
+  columns.add("contact_by_floe", by_floe);
+  columns.add("contact_x_m", x);
+  columns.add("contact_y_m", y);
+  columns.add("contact_fx_N", force_x);
+  columns.add("contact_fy_N", force_y);
+  columns.add("contact_is_crushing", is_crushing);
+}
+
+/// Loads, of other ships where there are any, and the speed.
+bool is_plotted(const io::ForceColumn& column, const simulation::Scene& scene) {
+  const bool is_load = column.name.ends_with("_N") || column.name.ends_with("_Nm");
+  const bool is_from_ships = column.name.find("_from_ships") != std::string_view::npos;
+  return (is_load && (!is_from_ships || scene.ships.size() > 1)) || column.name == "speed_m_per_s";
+}
+
+void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelection& selection) {
+  std::vector<const simulation::ShipSample*> rows;
+  for (const simulation::ShipSample& s : run.samples) {
+    if (selection.has(s.time)) rows.push_back(&s);
+  }
+  std::vector<std::int32_t> ship, contacts;
+  std::vector<double> time;
+  for (const simulation::ShipSample* s : rows) {
+    ship.push_back(s->ship);
+    contacts.push_back(s->contacts);
+    time.push_back(s->time);
+  }
+  columns.add("force_ship", ship);
+  columns.add("force_contacts", contacts);
+  columns.add("force_t_s", time);
+  for (const io::ForceColumn& column : io::force_columns()) {
+    if (!is_plotted(column, run.scene.scene)) continue;
+    std::vector<double> values;
+    for (const simulation::ShipSample* s : rows) values.push_back(column.read(*s));
+    columns.add(std::string(column.name), values);
+  }
+}
+
+void write_events(io::JsonWriter& json, const io::Run& run) {
+  json.key("events").open('[');
+  for (const simulation::Event& event : run.events) {
+    json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
+    json.key("ship").value(event.ship).key("floe").value(event.floe).key("children").open('[');
+    for (const simulation::FloeId child : event.children) json.value(child);
+    json.close(']').key("point_m").value(event.point_in_world);
+    const auto& c = event.criteria;
+    const bool is_split = event.kind == simulation::EventKind::kSplit;
+    json.key("load_N").value(is_split ? c.collision_force : c.vertical_force);
+    json.key("capacity_N").value(is_split ? c.splitting_force : c.bending_capacity);
+    if (!event.reason.empty()) json.key("reason").value(event.reason);
+    json.close('}');
+  }
+  json.close(']');
+}
+
+void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
+  json.key("ships").open('[');
+  for (const simulation::ShipSpec& ship : scene.ships) {
+    json.open('{').key("name").value(ship.name);
+    json.key("waterline_m").value(ship.hull.waterline);
+    json.key("is_fixed").value(std::holds_alternative<simulation::FixedInPlace>(ship.propulsion)).close('}');
+  }
+  json.close(']');
+}
+
+void write_water(io::JsonWriter& json, const simulation::WaterSettings& water) {
+  json.key("water").open('{').key("drift_m_per_s").value(geometry::Point{water.drift.x, water.drift.y});
+  json.key("shear_per_s").value(water.shear.rate).key("shear_direction_rad").value(water.shear.direction);
+  json.key("shear_origin_m").value(water.shear.origin).close('}');
+}
+
+void write_summary(io::JsonWriter& json, const io::Run& run) {
+  const io::JsonValue* finished = run.summary.find("finished");
+  json.key("finished").value(finished && finished->is(io::JsonValue::Kind::kBoolean) && finished->boolean());
+  if (const io::JsonValue* by = run.summary.find("stopped_by"); by && by->is(io::JsonValue::Kind::kText))
+    json.key("stopped_by").value(by->text());
+}
+
+std::string info_of(const io::Run& run, const PlayerData& data) {
+  std::string text;
+  io::JsonWriter json(text);
+  const simulation::Scene& scene = run.scene.scene;
+  json.open('{').key("polynya").value(io::version()).key("scene").value(scene.name);
+  json.key("description").value(run.scene.description).key("scene_hash").value(run.scene.hash);
+  json.key("seed").value(static_cast<std::int64_t>(scene.seed)).key("until_s").value(scene.time.until);
+  json.key("frames").value(static_cast<std::int64_t>(data.frames));
+  json.key("frames_of_run").value(static_cast<std::int64_t>(run.frames.size()));
+  json.key("circle_radius_m").value(scene.contact.circle_radius);
+  json.key("forces_interval_s").value(recording_interval(scene));
+  json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene));
+  write_summary(json, run);
+  write_ships(json, scene);
+  write_events(json, run);
+  write_water(json, scene.water);
+  json.key("columns").open('[');
+  for (const ColumnWriter::Column& column : data.columns.table()) {
+    json.open('{').key("name").value(column.name).key("type").value(column.type);
+    json.key("offset").value(static_cast<std::int64_t>(column.offset));
+    json.key("count").value(static_cast<std::int64_t>(column.count)).close('}');
+  }
+  json.close(']').close('}');
+  return text;
+}
+
+}  // namespace
+
+PlayerData player_data(const io::Run& run, const io::FrameSelection& selection) {
+  PlayerData data;
+  add_floes(data.columns, run);
+  const std::vector<io::Frame> frames = thinned_frames(run, selection);
+  data.frames = frames.size();
+  add_frames(data.columns, frames);
+  add_forces(data.columns, run, selection);
+  add_contacts(data.columns, run, frames);
+  data.info = info_of(run, data);
+  return data;
+}
+
+}  // namespace polynya::views
