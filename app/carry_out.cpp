@@ -47,7 +47,7 @@ Stop no_memory() {
 /// Carries a run from where it is to its end, writing as it goes.
 class Carrier {
  public:
-  Carrier(RunInHand& run, const CarryOptions& options, Progress& progress)
+  Carrier(ActiveRun& run, const CarryOptions& options, Progress& progress)
       : run_(run),
         options_(options),
         progress_(progress),
@@ -156,7 +156,7 @@ class Carrier {
     return {};
   }
 
-  RunInHand& run_;
+  ActiveRun& run_;
   const CarryOptions& options_;
   Progress& progress_;
   LastWholeStep last_whole_step_;
@@ -179,7 +179,7 @@ void report_dump(const std::string& folder, const std::string& wrong) {
 }
 
 /// What the reader of stderr is to do about it.
-void report_stop(const RunInHand& run, const Stop& stop, double sim_time) {
+void report_stop(const ActiveRun& run, const Stop& stop, double sim_time) {
   const std::string folder = run.writer.folder().string();
   print_err("polynya: stopped at {:.6g} s: {}\n", sim_time, stop.reason);
   if (run.writer.is_displaced()) {
@@ -217,7 +217,7 @@ struct Ending {
   std::optional<std::string> dumped;
 };
 
-Ending finish(RunInHand& run, Stop stop, Progress& progress) {
+Ending finish(ActiveRun& run, Stop stop, Progress& progress) {
   io::RunSummary summary =
       summarise(run.simulation, run.writer, stop.reason, run.wall_time + progress.wall_time());
   progress.finish(summary.sim_time,
@@ -231,7 +231,7 @@ Ending finish(RunInHand& run, Stop stop, Progress& progress) {
   return {stop, std::move(summary), std::move(dumped)};
 }
 
-int report(RunInHand& run, const Ending& ending) {
+int report(ActiveRun& run, const Ending& ending) {
   Stop stop = ending.stop;
   { const Simulation freed = std::move(run.simulation); }  // makes room for the map
   const std::string picture = stop.code == kInputOutput ? "" : draw(run.writer.folder(), stop);
@@ -243,7 +243,7 @@ int report(RunInHand& run, const Ending& ending) {
 }
 
 /// Ends a run whose world is not to be relied on, since memory ran out in it; what it takes is freed first.
-int end_without_memory(RunInHand& run, const Stop& stop, const LastWholeStep& last, Progress& progress) {
+int end_without_memory(ActiveRun& run, const Stop& stop, const LastWholeStep& last, Progress& progress) {
   { const Simulation freed = std::move(run.simulation); }
   release_memory_reserve();
   io::RunSummary summary;
@@ -273,7 +273,7 @@ int end_without_memory(RunInHand& run, const Stop& stop, const LastWholeStep& la
 
 }  // namespace
 
-int carry_out(RunInHand run, const CarryOptions& options) {
+int carry_out(ActiveRun run, const CarryOptions& options) {
   keep_memory_reserve();
   run.simulation.set_threads(options.threads);
   Progress progress(options.progress, run.scene.scene.time.until);

@@ -10,7 +10,7 @@
 namespace polynya::app {
 
 /// A run somewhere between its start and its end.
-struct RunInHand {
+struct ActiveRun {
   const io::LoadedScene& scene;
   simulation::Simulation simulation;
   io::RunWriter writer;
@@ -18,7 +18,7 @@ struct RunInHand {
 };
 
 /// Takes a run to its end, or to what stops it; tells how it went. Returns an ExitCode.
-int carry_out(RunInHand run, const CarryOptions& options);
+int carry_out(ActiveRun run, const CarryOptions& options);
 
 /// Where a run stands between two steps, its journal having been written.
 io::Checkpoint checkpoint_of(const simulation::Simulation& simulation, const io::LoadedScene& scene,

@@ -13,7 +13,7 @@ namespace {
 using simulation::Simulation;
 
 /// The run at its newest checkpoint that can be read and is sound, or at its start.
-Simulation at_last_checkpoint(const RunInHand& run) {
+Simulation at_last_checkpoint(const ActiveRun& run) {
   for (const auto& path : io::checkpoints_in(run.writer.folder())) {
     const auto checkpoint = io::read_checkpoint_file(path, run.scene.hash);
     if (!checkpoint || checkpoint->steps >= run.simulation.steps()) continue;
@@ -39,7 +39,7 @@ std::optional<std::string> failure_after_step(const Simulation& simulation) {
 
 namespace {
 
-std::string find_and_dump(const RunInHand& run) {
+std::string find_and_dump(const ActiveRun& run) {
   Simulation ahead = at_last_checkpoint(run);
   Simulation before = at_last_checkpoint(run);
   std::optional<std::string> failure;
@@ -58,7 +58,7 @@ std::string find_and_dump(const RunInHand& run) {
 
 }  // namespace
 
-std::string dump_failure(const RunInHand& run) {
+std::string dump_failure(const ActiveRun& run) {
   try {
     return find_and_dump(run);
   } catch (const std::bad_alloc&) {

@@ -14,6 +14,6 @@ std::optional<std::string> failure_after_step(const simulation::Simulation& simu
 /// Writes the state before the first step after which something is wrong into the run folder, with what it
 /// is. It is found by going over the way from the newest sound checkpoint once more, which costs nothing
 /// where nothing fails. Returns what went wrong with that; empty where all is well.
-std::string dump_failure(const RunInHand& run);
+std::string dump_failure(const ActiveRun& run);
 
 }  // namespace polynya::app

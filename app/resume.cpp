@@ -35,7 +35,7 @@ tl::expected<Simulation, std::string> simulation_of(const io::LoadedScene& scene
   return simulation;
 }
 
-tl::expected<RunInHand, std::string> run_at(const fs::path& path, const io::LoadedScene& scene,
+tl::expected<ActiveRun, std::string> run_at(const fs::path& path, const io::LoadedScene& scene,
                                             io::RunLock lock) {
   auto checkpoint = io::read_checkpoint_file(path, scene.hash);
   if (!checkpoint) return tl::unexpected(checkpoint.error());
@@ -43,7 +43,7 @@ tl::expected<RunInHand, std::string> run_at(const fs::path& path, const io::Load
   if (!simulation) return tl::unexpected(fmt::format("{}: {}", path.string(), simulation.error()));
   auto writer = io::RunWriter::go_on(std::move(lock), scene, *checkpoint, path, *simulation);
   if (!writer) return tl::unexpected(writer.error());
-  return RunInHand{scene, std::move(*simulation), std::move(*writer), checkpoint->wall_time};
+  return ActiveRun{scene, std::move(*simulation), std::move(*writer), checkpoint->wall_time};
 }
 
 /// Names the checkpoints that are left, where one was refused.

@@ -36,7 +36,7 @@ PeerBody body_at(const simulation::World& world, simulation::BodyIndex i, const 
   body.angle = bodies.angle[i];
   body.velocity = bodies.velocity[i];
   body.angular_velocity = bodies.angular_velocity[i];
-  body.is_held = bodies.inverse_mass[i] == 0;
+  body.is_prescribed = bodies.inverse_mass[i] == 0;
   return body;
 }
 

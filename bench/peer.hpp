@@ -19,9 +19,9 @@ struct PeerBody {
   double angle = 0;  ///< [rad]
   geometry::Vector velocity;
   double angular_velocity = 0;
-  bool is_held = false;  ///< its velocity does not answer to impulses
-  double thrust = 0;     ///< along its x axis [N]
-  double drag = 0;       ///< ½ C_D ρ_w h [kg/m³]; 0: the water does not hold it back
+  bool is_prescribed = false;  ///< its velocity does not answer to impulses
+  double thrust = 0;           ///< along its x axis [N]
+  double drag = 0;             ///< ½ C_D ρ_w h [kg/m³]; 0: the water does not hold it back
   std::shared_ptr<const dynamics::DragShape> shape;
 };
 

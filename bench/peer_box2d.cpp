@@ -33,7 +33,7 @@ void add_shape(b2Body& body, const PeerBody& from, const PeerScene& scene) {
   mass.mass = static_cast<float>(from.mass);
   mass.center = {0, 0};
   mass.I = static_cast<float>(from.moment);
-  if (!from.is_held) body.SetMassData(&mass);
+  if (!from.is_prescribed) body.SetMassData(&mass);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ Box2dWorld::Box2dWorld(const PeerScene& scene) : parts_(std::make_unique<Parts>(
   parts_->world.SetContinuousPhysics(false);
   for (const PeerBody& from : parts_->scene.bodies) {
     b2BodyDef def;
-    def.type = from.is_held ? b2_kinematicBody : b2_dynamicBody;
+    def.type = from.is_prescribed ? b2_kinematicBody : b2_dynamicBody;
     def.position = to_b2(from.position - geometry::Point{});
     def.angle = static_cast<float>(from.angle);
     def.linearVelocity = to_b2(from.velocity);

@@ -52,15 +52,15 @@ ChipmunkWorld::ChipmunkWorld(const PeerScene& scene) : parts_(std::make_unique<P
   for (std::size_t i = 0; i < parts_->scene.bodies.size(); ++i) {
     const PeerBody& from = parts_->scene.bodies[i];
     cpBody* body =
-        cpSpaceAddBody(space, from.is_held ? cpBodyNewKinematic() : cpBodyNew(from.mass, from.moment));
+        cpSpaceAddBody(space, from.is_prescribed ? cpBodyNewKinematic() : cpBodyNew(from.mass, from.moment));
     parts_->tags[i] = {&from, &parts_->scene.current};
     cpBodySetUserData(body, &parts_->tags[i]);
     cpBodySetPosition(body, to_cp(from.position - geometry::Point{}));
     cpBodySetAngle(body, from.angle);
     cpBodySetVelocity(body, to_cp(from.velocity));
     cpBodySetAngularVelocity(body, from.angular_velocity);
-    parts_->held += from.is_held ? 1 : 0;
-    if (!from.is_held) cpBodySetVelocityUpdateFunc(body, push_and_brake);
+    parts_->held += from.is_prescribed ? 1 : 0;
+    if (!from.is_prescribed) cpBodySetVelocityUpdateFunc(body, push_and_brake);
     std::vector<cpVect> corners;
     for (const geometry::Point p : from.outline) corners.push_back(to_cp(p - geometry::Point{}));
     cpShape* shape = from.radius > 0
@@ -72,7 +72,7 @@ ChipmunkWorld::ChipmunkWorld(const PeerScene& scene) : parts_(std::make_unique<P
     parts_->bodies.push_back(body);
     parts_->shapes.push_back(shape);
     const bool moves = from.velocity != geometry::Vector{} || from.angular_velocity != 0 || from.thrust != 0;
-    if (!from.is_held && !moves) still.push_back(body);
+    if (!from.is_prescribed && !moves) still.push_back(body);
   }
   for (cpBody* body : still) cpBodySleep(body);
 }

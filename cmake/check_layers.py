@@ -27,7 +27,7 @@ FLOORS = {
 # Header of a package -> the only folders, or files, that include it.
 PACKAGES = {
     r"CGAL/": ["geometry/"],
-    r"gmpxx?\.h": ["geometry/exact/"],
+    r"gmp(xx)?\.h": ["geometry/exact/"],
     r"(tbb|oneapi)/": ["dynamics/"],
     r"Eigen/": ["fracture/bending/"],
     r"boost/container/": ["dynamics/"],

@@ -20,8 +20,8 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   bodies.rotation.push_back(geometry::Rotation::by(body.angle));
   bodies.velocity.push_back(body.velocity);
   bodies.angular_velocity.push_back(body.angular_velocity);
-  bodies.inverse_mass.push_back(body.is_held ? 0 : 1 / body.mass);
-  bodies.inverse_moment.push_back(body.is_held ? 0 : 1 / body.moment);
+  bodies.inverse_mass.push_back(body.is_prescribed ? 0 : 1 / body.mass);
+  bodies.inverse_moment.push_back(body.is_prescribed ? 0 : 1 / body.moment);
   bodies.travel.push_back(0);
   bodies.bounding_radius.push_back(radius);
   bodies.rim_speed.push_back(length(body.velocity) + std::abs(body.angular_velocity) * radius);

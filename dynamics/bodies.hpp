@@ -57,7 +57,7 @@ struct NewBody {
   double angular_velocity = 0;  ///< [rad/s]
   double mass = 0;              ///< [kg]
   double moment = 0;            ///< [kg m²]
-  bool is_held = false;         ///< its velocity does not answer to impulses
+  bool is_prescribed = false;   ///< its velocity does not answer to impulses
   geometry::Point centroid;     ///< in the body frame [m]
   double thickness = 0;         ///< [m]
   std::shared_ptr<geometry::Boundary> boundary;

@@ -8,7 +8,7 @@
 namespace polynya::dynamics {
 
 /// What is remembered of a contact from step to step.
-struct ContactRecord {
+struct PersistentContact {
   geometry::Point last_point_in_b;   ///< where it was at the last step, in b's frame [m]
   geometry::Point first_touch_in_b;  ///< the point of b that was touched first [m]
   double age = 0;                    ///< since first contact [s]
@@ -17,8 +17,9 @@ struct ContactRecord {
   double owed_impulse = 0;   ///< of restitution, that crushing ice could not give yet [N s]
   double given_impulse = 0;  ///< of restitution, since first contact [N s]
   double most_to_give = 0;   ///< bound of it, by the fastest approach yet of the two bodies alone [N s]
-  double last_impulse[2] = {0, 0};   ///< compression at the last step [N s]
-  double start_impulse[2] = {0, 0};  ///< where the solver starts, as the last two steps foretell it [N s]
+  double last_impulse[2] = {0, 0};  ///< compression at the last step [N s]
+  double warm_start_impulse[2] = {0,
+                                  0};  ///< where the solver starts, as the last two steps foretell it [N s]
   bool has_crushed = false;
   bool was_refused = false;   ///< a fracture here was refused by geometry: not tried again
   bool is_continued = false;  ///< taken over by a contact of the next step already
@@ -28,17 +29,17 @@ struct ContactRecord {
 struct Contact {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  geometry::Point ends[2];          ///< the ends of the contact line [m]
-  geometry::Point tip_of_b;         ///< the point of b farthest inside a [m]
-  geometry::Vector normal;          ///< unit
-  double width = 0;                 ///< of the contact line [m]
-  double depth = 0;                 ///< of the overlap along the normal [m]
-  double area = 0;                  ///< of the overlap [m²]
-  double approach_speed = 0;        ///< v_n at the middle, positive when approaching [m/s]
-  double slip_speed = 0;            ///< along the contact line [m/s]
-  std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
-  std::uint32_t place = 0;          ///< among the contacts of its two bodies
-  ContactRecord* record = nullptr;  ///< lives in its pair; valid during the step
+  geometry::Point ends[2];              ///< the ends of the contact line [m]
+  geometry::Point tip_of_b;             ///< the point of b farthest inside a [m]
+  geometry::Vector normal;              ///< unit
+  double width = 0;                     ///< of the contact line [m]
+  double depth = 0;                     ///< of the overlap along the normal [m]
+  double area = 0;                      ///< of the overlap [m²]
+  double approach_speed = 0;            ///< v_n at the middle, positive when approaching [m/s]
+  double slip_speed = 0;                ///< along the contact line [m/s]
+  std::uint32_t tip_edge_of_b = 0;      ///< the edge of b that starts at the tip, or that the tip is on
+  std::uint32_t place = 0;              ///< among the contacts of its two bodies
+  PersistentContact* record = nullptr;  ///< lives in its pair; valid during the step
 
   // Decided between finding and solving.
   double impulse_limit =
@@ -49,7 +50,7 @@ struct Contact {
   double normal_impulse[2] = {0, 0};  ///< on b along the normal, at each end [N s]
   double normal_work = 0;             ///< of the normal impulses on the two bodies together [J]
   double slip_work = 0;               ///< of the slip impulse [J]
-  double held_work = 0;               ///< by one of the two that is held, on the other [J]
+  double prescribed_work = 0;         ///< by one of the two that is held, on the other [J]
   double slip_impulse = 0;            ///< on b along perpendicular(normal), anywhere on the line [N s]
 
   geometry::Point middle() const { return midpoint(ends[0], ends[1]); }

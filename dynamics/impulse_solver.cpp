@@ -21,63 +21,67 @@ constexpr std::size_t kContactsPerChunk = 256;
 
 }  // namespace
 
-void ImpulseSolver::fill_rows(const Bodies& bodies, std::vector<Contact>& contacts,
-                              const SolverSettings& settings) {
-  movers_.clear();
+void ImpulseSolver::fill_constraints(const Bodies& bodies, std::vector<Contact>& contacts,
+                                     const SolverSettings& settings) {
+  solver_bodies_.clear();
   for (const BodyIndex body : islands_.bodies_touched()) {
-    movers_.push_back({bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
-                       bodies.inverse_moment[body]});
+    solver_bodies_.push_back({bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
+                              bodies.inverse_moment[body]});
   }
-  rows_.resize(contacts.size());
-  ways_.resize(contacts.size());
+  constraints_.resize(contacts.size());
+  directions_.resize(contacts.size());
   before_.resize(contacts.size());
-  for_chunks(
-      rows_.size(), kContactsPerChunk, settings.threads,
-      [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          const std::uint32_t i = islands_.order()[k];
-          rows_[k] = make_row(bodies, contacts[i], islands_.place_of_a(i), islands_.place_of_b(i), movers_);
-          before_[k] = speeds_at(rows_[k], movers_);
-          ContactRecord* record = contacts[i].record;
-          if (record == nullptr) continue;
-          record->most_to_give = std::max(record->most_to_give, kFrictionSlack * settings.restitution *
-                                                                    isolated_impulse(rows_[k], before_[k]));
-        }
-      });
+  for_chunks(constraints_.size(), kContactsPerChunk, settings.threads,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const std::uint32_t i = islands_.order()[k];
+                 constraints_[k] = make_constraint(bodies, contacts[i], islands_.place_of_a(i),
+                                                   islands_.place_of_b(i), solver_bodies_);
+                 before_[k] = speeds_at(constraints_[k], solver_bodies_);
+                 PersistentContact* record = contacts[i].record;
+                 if (record == nullptr) continue;
+                 record->most_to_give =
+                     std::max(record->most_to_give, kFrictionSlack * settings.restitution *
+                                                        isolated_impulse(constraints_[k], before_[k]));
+               }
+             });
 }
 
 /// Starts an island from the impulses that its last steps foretell.
-void ImpulseSolver::start(const Island& island, const std::vector<Contact>& contacts) {
+void ImpulseSolver::warm_start(const Island& island, const std::vector<Contact>& contacts) {
   for (std::uint32_t k = island.first; k < island.first + island.count; ++k) {
-    const ContactRecord* record = contacts[islands_.order()[k]].record;
-    if (record == nullptr || (record->start_impulse[0] == 0 && record->start_impulse[1] == 0)) continue;
-    ContactRow& row = rows_[k];
+    const PersistentContact* record = contacts[islands_.order()[k]].record;
+    if (record == nullptr || (record->warm_start_impulse[0] == 0 && record->warm_start_impulse[1] == 0))
+      continue;
+    ContactConstraint& constraint = constraints_[k];
     for (int end = 0; end < 2; ++end)
-      row.normal_impulse[end] = std::min(record->start_impulse[end], row.limit);
-    push(row, row.normal_impulse[0], row.normal_impulse[1], 0, movers_);
+      constraint.normal_impulse[end] = std::min(record->warm_start_impulse[end], constraint.limit);
+    apply_impulses(constraint, constraint.normal_impulse[0], constraint.normal_impulse[1], 0, solver_bodies_);
   }
 }
 
 /// Moves all impulses of an island on along the way they are taking, as far as the sweeps' shrinking steps
 /// tell: the nonsmooth nonlinear conjugate gradient of [Silcowitz2010]. Jammed floes want it, whose impulses
 /// grow by little in each sweep.
-void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
+void ImpulseSolver::accelerate(const Island& island, Momentum& momentum) {
   double now = 0;
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-    const ContactRow& row = rows_[i];
-    const Way& way = ways_[i];
-    const double change[3] = {row.normal_impulse[0] - way.before[0], row.normal_impulse[1] - way.before[1],
-                              row.slip_impulse - way.before[2]};
-    now += change[0] * change[0] * row.softness[0] + change[1] * change[1] * row.softness[1] +
-           change[2] * change[2] * row.slip_softness;
+    const ContactConstraint& constraint = constraints_[i];
+    const Direction& way = directions_[i];
+    const double change[3] = {constraint.normal_impulse[0] - way.before[0],
+                              constraint.normal_impulse[1] - way.before[1],
+                              constraint.slip_impulse - way.before[2]};
+    now += change[0] * change[0] * constraint.inverse_mass_at[0] +
+           change[1] * change[1] * constraint.inverse_mass_at[1] +
+           change[2] * change[2] * constraint.inverse_slip_mass;
   }
   const bool is_start = momentum.steps++ == 0;
   const double share = is_start || now > momentum.last * (1 + 1e-6) ? 0 : std::min(1.0, now / momentum.last);
   momentum.last = now;
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-    ContactRow& row = rows_[i];
-    Way& way = ways_[i];
-    const double p[3] = {row.normal_impulse[0], row.normal_impulse[1], row.slip_impulse};
+    ContactConstraint& constraint = constraints_[i];
+    Direction& way = directions_[i];
+    const double p[3] = {constraint.normal_impulse[0], constraint.normal_impulse[1], constraint.slip_impulse};
     double on[3];
     for (int k = 0; k < 3; ++k) {
       const double along = is_start ? 0 : share * way.along[k];
@@ -85,11 +89,12 @@ void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
       way.along[k] = along + (p[k] - way.before[k]);
     }
     if (share == 0) continue;
-    row.normal_impulse[0] = std::clamp(on[0], row.least[0], row.limit);
-    row.normal_impulse[1] = std::clamp(on[1], row.least[1], row.limit);
-    const double most = row.friction * (row.normal_impulse[0] + row.normal_impulse[1]);
-    row.slip_impulse = std::clamp(on[2], -most, most);
-    push(row, row.normal_impulse[0] - p[0], row.normal_impulse[1] - p[1], row.slip_impulse - p[2], movers_);
+    constraint.normal_impulse[0] = std::clamp(on[0], constraint.least[0], constraint.limit);
+    constraint.normal_impulse[1] = std::clamp(on[1], constraint.least[1], constraint.limit);
+    const double most = constraint.friction * (constraint.normal_impulse[0] + constraint.normal_impulse[1]);
+    constraint.slip_impulse = std::clamp(on[2], -most, most);
+    apply_impulses(constraint, constraint.normal_impulse[0] - p[0], constraint.normal_impulse[1] - p[1],
+                   constraint.slip_impulse - p[2], solver_bodies_);
   }
 }
 
@@ -97,35 +102,36 @@ void ImpulseSolver::go_on(const Island& island, Momentum& momentum) {
 /// changed a velocity by where it had not, 0 where it had [m/s].
 double ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) {
   constexpr int kPlainSweeps = 4;  // most islands need no more
-  const std::span<ContactRow> rows(rows_.data() + island.first, island.count);
-  const std::span<Mover> movers(movers_);
+  const std::span<ContactConstraint> constraints(constraints_.data() + island.first, island.count);
+  const std::span<SolverBody> solver_bodies(solver_bodies_);
   Momentum momentum;
   double largest_change = 0;
-  for (int sweep = 0; sweep < settings.most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < settings.max_iterations; ++sweep) {
     largest_change = 0;
     const bool is_plain = sweep < kPlainSweeps;
     if (!is_plain) {
       for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-        const ContactRow& row = rows_[i];
-        ways_[i].before[0] = row.normal_impulse[0];
-        ways_[i].before[1] = row.normal_impulse[1];
-        ways_[i].before[2] = row.slip_impulse;
+        const ContactConstraint& constraint = constraints_[i];
+        directions_[i].before[0] = constraint.normal_impulse[0];
+        directions_[i].before[1] = constraint.normal_impulse[1];
+        directions_[i].before[2] = constraint.slip_impulse;
       }
     }
-    for (ContactRow& row : rows) largest_change = std::max(largest_change, visit(row, movers));
+    for (ContactConstraint& constraint : constraints)
+      largest_change = std::max(largest_change, solve_constraint(constraint, solver_bodies));
     if (largest_change <= settings.tolerance) return 0;
-    if (!is_plain && sweep + 1 < settings.most_sweeps) go_on(island, momentum);
+    if (!is_plain && sweep + 1 < settings.max_iterations) accelerate(island, momentum);
   }
   return largest_change;
 }
 
-bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contacts, double restitution,
-                              bool is_converged) {
+bool ImpulseSolver::apply_restitution(const Island& island, std::vector<Contact>& contacts,
+                                      double restitution, bool is_converged) {
   bool gave = false;
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-    ContactRow& row = rows_[i];
-    ContactRecord* record = contacts[islands_.order()[i]].record;
-    const double compression = row.normal_impulse[0] + row.normal_impulse[1];
+    ContactConstraint& constraint = constraints_[i];
+    PersistentContact* record = contacts[islands_.order()[i]].record;
+    const double compression = constraint.normal_impulse[0] + constraint.normal_impulse[1];
     double owed = restitution * compression;
     if (record != nullptr) {
       owed = std::min(owed + record->owed_impulse, record->most_to_give - record->given_impulse);
@@ -133,9 +139,9 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
         // The next step's, as the last two foretell it: steady or falling in proportion, never more than
         // both.
         const double last = record->last_impulse[end];
-        const double now = row.normal_impulse[end];
-        const double start = now < last ? now * (now / last) : last;
-        record->start_impulse[end] = is_converged ? start : kTrustUnconverged * start;
+        const double now = constraint.normal_impulse[end];
+        const double warm_start = now < last ? now * (now / last) : last;
+        record->warm_start_impulse[end] = is_converged ? warm_start : kTrustUnconverged * warm_start;
         record->last_impulse[end] = now;
       }
     }
@@ -144,14 +150,15 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
     double still_owed = 0;
     const double owed_per_compression = compression > 0 ? owed / compression : 0;
     for (int end = 0; end < 2; ++end) {
-      const double share = compression > 0 ? owed_per_compression * row.normal_impulse[end] : 0.5 * owed;
-      row.least[end] = std::min(row.normal_impulse[end] + share, row.limit);
-      given[end] = row.least[end] - row.normal_impulse[end];
+      const double share =
+          compression > 0 ? owed_per_compression * constraint.normal_impulse[end] : 0.5 * owed;
+      constraint.least[end] = std::min(constraint.normal_impulse[end] + share, constraint.limit);
+      given[end] = constraint.least[end] - constraint.normal_impulse[end];
       still_owed += share - given[end];
-      row.normal_impulse[end] = row.least[end];
+      constraint.normal_impulse[end] = constraint.least[end];
       gave = gave || given[end] > 0;
     }
-    push(row, given[0], given[1], 0, movers_);
+    apply_impulses(constraint, given[0], given[1], 0, solver_bodies_);
     if (record != nullptr) {
       record->owed_impulse = still_owed;
       record->given_impulse += owed - still_owed;
@@ -161,48 +168,49 @@ bool ImpulseSolver::give_back(const Island& island, std::vector<Contact>& contac
 }
 
 void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const ContactRow& row = rows_[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const ContactConstraint& constraint = constraints_[i];
     Contact& c = contacts[islands_.order()[i]];
-    c.normal_impulse[0] = row.normal_impulse[0];
-    c.normal_impulse[1] = row.normal_impulse[1];
-    c.slip_impulse = row.slip_impulse;
+    c.normal_impulse[0] = constraint.normal_impulse[0];
+    c.normal_impulse[1] = constraint.normal_impulse[1];
+    c.slip_impulse = constraint.slip_impulse;
     // Impulses together change the kinetic energy by each one times the mean of the speeds before and after.
-    const RowSpeeds& before = before_[i];
-    const RowSpeeds after = speeds_at(row, movers_);
-    c.normal_work = 0.5 * (row.normal_impulse[0] * (before.apart[0] + after.apart[0]) +
-                           row.normal_impulse[1] * (before.apart[1] + after.apart[1]));
-    c.slip_work = 0.5 * row.slip_impulse * (before.slip + after.slip);
-    const bool is_held = movers_[row.a].inverse_mass == 0 || movers_[row.b].inverse_mass == 0;
-    c.held_work = is_held ? held_work(row, movers_, bodies, c) : 0;
+    const ConstraintSpeeds& before = before_[i];
+    const ConstraintSpeeds after = speeds_at(constraint, solver_bodies_);
+    c.normal_work = 0.5 * (constraint.normal_impulse[0] * (before.apart[0] + after.apart[0]) +
+                           constraint.normal_impulse[1] * (before.apart[1] + after.apart[1]));
+    c.slip_work = 0.5 * constraint.slip_impulse * (before.slip + after.slip);
+    const bool is_prescribed =
+        solver_bodies_[constraint.a].inverse_mass == 0 || solver_bodies_[constraint.b].inverse_mass == 0;
+    c.prescribed_work = is_prescribed ? prescribed_work(constraint, solver_bodies_, bodies, c) : 0;
   }
-  for (std::size_t place = 0; place < movers_.size(); ++place) {
+  for (std::size_t place = 0; place < solver_bodies_.size(); ++place) {
     const BodyIndex body = islands_.bodies_touched()[place];
-    bodies.velocity[body] = movers_[place].velocity;
-    bodies.angular_velocity[body] = movers_[place].angular_velocity;
+    bodies.velocity[body] = solver_bodies_[place].velocity;
+    bodies.angular_velocity[body] = solver_bodies_[place].angular_velocity;
   }
 }
 
 SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts,
                                   const SolverSettings& settings) {
   islands_.find(bodies, contacts);
-  fill_rows(bodies, contacts, settings);
-  left_over_.assign(islands_.islands().size(), 0);
+  fill_constraints(bodies, contacts, settings);
+  residuals_.assign(islands_.islands().size(), 0);
   const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
   for_chunks(islands_.islands().size(), 4, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Island& island = islands_.islands()[k];
-      start(island, contacts);
-      left_over_[k] = sweep(island, settings);
-      if (give_back(island, contacts, settings.restitution, left_over_[k] == 0))
-        left_over_[k] = std::max(left_over_[k], sweep(island, settings));
+      warm_start(island, contacts);
+      residuals_[k] = sweep(island, settings);
+      if (apply_restitution(island, contacts, settings.restitution, residuals_[k] == 0))
+        residuals_[k] = std::max(residuals_[k], sweep(island, settings));
     }
   });
   write_back(bodies, contacts);
   SolverResult result;
-  for (const double left_over : left_over_) {
-    result.unconverged += left_over > 0;
-    result.left_over = std::max(result.left_over, left_over);
+  for (const double residual : residuals_) {
+    result.unconverged += residual > 0;
+    result.residual = std::max(result.residual, residual);
   }
   return result;
 }

@@ -14,10 +14,10 @@ constexpr double kNearMargin = 0.75;  ///< pieces of boundary within this distan
 
 /// The records of a pair's contacts, brought up to date. A record goes on with the nearest contact that may
 /// be the same; one without a contact is over.
-class RecordKeeper {
+class ContactTracker {
  public:
-  RecordKeeper(std::vector<ContactRecord>& records, std::vector<ContactRecord>& scratch, double circle_radius,
-               double dt)
+  ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch,
+                 double circle_radius, double dt)
       : records_(records), renewed_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
 
   void renew(Contact* contacts, std::size_t count, const Bodies& bodies) {
@@ -39,35 +39,35 @@ class RecordKeeper {
   static Point point_in_b(const Bodies& bodies, const Contact& c, Point point_in_water) {
     return bodies.centroid[c.b] + rotate_back(bodies.rotation[c.b], point_in_water - bodies.position[c.b]);
   }
-  static ContactRecord new_record(const Bodies& bodies, const Contact& c) {
-    ContactRecord record;
+  static PersistentContact new_record(const Bodies& bodies, const Contact& c) {
+    PersistentContact record;
     record.first_touch_in_b = point_in_b(bodies, c, c.tip_of_b);
     return record;
   }
-  ContactRecord record_of(const Contact& c, const Bodies& bodies) {
+  PersistentContact record_of(const Contact& c, const Bodies& bodies) {
     const Point here = point_in_b(bodies, c, c.middle());
-    ContactRecord* old = nullptr;
+    PersistentContact* old = nullptr;
     double nearest = tolerance_ + 0.5 * c.width;
-    for (ContactRecord& record : records_) {
+    for (PersistentContact& record : records_) {
       const double d = distance(record.last_point_in_b, here);
       if (record.is_continued || d > nearest) continue;
       nearest = d;
       old = &record;
     }
-    ContactRecord record = old != nullptr ? *old : new_record(bodies, c);
+    PersistentContact record = old != nullptr ? *old : new_record(bodies, c);
     if (old != nullptr) old->is_continued = true;
     bring_up_to_date(record, c, here);
     return record;
   }
-  void bring_up_to_date(ContactRecord& record, const Contact& c, Point here) const {
+  void bring_up_to_date(PersistentContact& record, const Contact& c, Point here) const {
     record.last_point_in_b = here;
     record.age += dt_;
     record.approach += std::max(0.0, c.approach_speed) * dt_;
     record.crushed_depth = std::min(record.crushed_depth, c.depth);
   }
 
-  std::vector<ContactRecord>& records_;
-  std::vector<ContactRecord>& renewed_;
+  std::vector<PersistentContact>& records_;
+  std::vector<PersistentContact>& renewed_;
   double tolerance_;  // between a contact's places in two steps, beside half its width [m]
   double dt_;
 };
@@ -78,7 +78,7 @@ void refresh(const Bodies& bodies, Pair& pair, const Pose& place) {
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
   pair.covers.clear();
   pair.edges.clear();
-  const double apart = near_covers(a, b, a_from_b, kNearMargin, pair.covers);
+  const double apart = near_circles(a, b, a_from_b, kNearMargin, pair.covers);
   if (!pair.covers.empty()) edges_of(a, b, pair.covers, pair.edges);
   pair.known = {place, (pair.covers.empty() ? apart : kNearMargin) * (1 - 1e-9)};
 }
@@ -89,28 +89,28 @@ bool collect(const Bodies& bodies, const Pair& pair, const Pose& place, bool is_
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
-  scratch.patches.clear();
+  scratch.manifolds.clear();
   int unpaired = 0;
   if (is_circle_centres) {
-    find_circle_patches(a, b, a_from_b, pair.covers, scratch.patches);
+    find_circle_manifolds(a, b, a_from_b, pair.covers, scratch.manifolds);
   } else {
-    unpaired = find_patches(a, b, a_from_b, pair.edges, scratch.crossings, scratch.patches);
+    unpaired = find_manifolds(a, b, a_from_b, pair.edges, scratch.crossings, scratch.manifolds);
   }
   scratch.unpaired += unpaired;
-  if (scratch.patches.empty()) return unpaired == 0;
+  if (scratch.manifolds.empty()) return unpaired == 0;
   const Pose water_from_a = water_from_body(bodies, pair.a);
   std::uint32_t number = 0;
-  for (const geometry::ContactPatch& patch : scratch.patches) {
+  for (const geometry::ContactManifold& manifold : scratch.manifolds) {
     Contact& c = contacts.emplace_back();
     c.a = pair.a;
     c.b = pair.b;
-    for (int end = 0; end < 2; ++end) c.ends[end] = point_in_world(water_from_a, patch.ends[end]);
-    c.tip_of_b = point_in_world(water_from_a, patch.tip_of_b);
-    c.normal = rotate(water_from_a.rotation, patch.normal);
-    c.width = patch.width;
-    c.depth = patch.depth;
-    c.area = patch.area;
-    c.tip_edge_of_b = patch.tip_edge_of_b;
+    for (int end = 0; end < 2; ++end) c.ends[end] = point_in_world(water_from_a, manifold.ends[end]);
+    c.tip_of_b = point_in_world(water_from_a, manifold.tip_of_b);
+    c.normal = rotate(water_from_a.rotation, manifold.normal);
+    c.width = manifold.width;
+    c.depth = manifold.depth;
+    c.area = manifold.area;
+    c.tip_edge_of_b = manifold.tip_edge_of_b;
     c.place = number++;
     const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -
                             velocity_at(bodies, c.a, c.middle() - bodies.position[c.a]);
@@ -122,7 +122,7 @@ bool collect(const Bodies& bodies, const Pair& pair, const Pose& place, bool is_
 
 }  // namespace
 
-double way_left(const Bodies& bodies, BodyIndex b, const Pose& place, const KnownNear& known) {
+double clearance_left(const Bodies& bodies, BodyIndex b, const Pose& place, const KnownNear& known) {
   if (known.way < 0) return known.way;
   const Rotation was = known.a_from_b.rotation;
   const Vector turn{place.rotation.cosine - was.cosine, place.rotation.sine - was.sine};  // as a chord
@@ -130,22 +130,22 @@ double way_left(const Bodies& bodies, BodyIndex b, const Pose& place, const Know
          length(turn) * bodies.bounding_radius[b];
 }
 
-double examine_pair(const Bodies& bodies, Pair& pair, const Pose& place, const ContactRule& rule, double dt,
+double collide_pair(const Bodies& bodies, Pair& pair, const Pose& place, const ContactRule& rule, double dt,
                     PairScratch& scratch, std::vector<Contact>& contacts) {
   const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
-  if (travelled > pair.known_until) {
-    if (way_left(bodies, pair.b, place, pair.known) < kRounding) refresh(bodies, pair, place);
-    pair.known_until = travelled + way_left(bodies, pair.b, place, pair.known) - kRounding;
+  if (travelled > pair.near_bound) {
+    if (clearance_left(bodies, pair.b, place, pair.known) < kRounding) refresh(bodies, pair, place);
+    pair.near_bound = travelled + clearance_left(bodies, pair.b, place, pair.known) - kRounding;
   }
   if (pair.covers.empty()) {
     pair.records.clear();
     pair.quiet = pair.known;
-    return way_left(bodies, pair.b, place, pair.quiet);
+    return clearance_left(bodies, pair.b, place, pair.quiet);
   }
   const std::size_t first = contacts.size();
   const bool is_apart = collect(bodies, pair, place, rule.is_circle_centres, scratch, contacts);
   if (!is_apart) {
-    RecordKeeper(pair.records, scratch.records, rule.circle_radius, dt)
+    ContactTracker(pair.records, scratch.records, rule.circle_radius, dt)
         .renew(contacts.data() + first, contacts.size() - first, bodies);
     pair.quiet.way = -1;
     return -1;
@@ -154,7 +154,7 @@ double examine_pair(const Bodies& bodies, Pair& pair, const Pose& place, const C
   const double free_way = least_distance(*bodies.boundary[pair.a], *bodies.boundary[pair.b],
                                          a_from_b(bodies, pair.a, pair.b, place), pair.edges);
   pair.records.clear();
-  pair.quiet = {place, std::min(free_way, way_left(bodies, pair.b, place, pair.known)) - kRounding};
+  pair.quiet = {place, std::min(free_way, clearance_left(bodies, pair.b, place, pair.known)) - kRounding};
   return pair.quiet.way;
 }
 

@@ -4,12 +4,12 @@
 
 namespace polynya::dynamics {
 
-std::vector<PairMemory> PairFinder::memory() const {
+std::vector<PairMemory> BroadPhase::memory() const {
   std::vector<PairMemory> memory;
-  for (const std::vector<ActivePair>* list : {&active_, &young_, &new_}) {
+  for (const std::vector<ActivePair>* list : {&active_, &recent_, &new_}) {
     for (const ActivePair& active : *list) {
       const Pair& pair = pairs_[active.slot];
-      if (!pair.is_dropped) memory.push_back({active.a, active.b, active.quiet_until, pair.records});
+      if (!pair.is_dropped) memory.push_back({active.a, active.b, active.separation_bound, pair.records});
     }
   }
   std::sort(memory.begin(), memory.end(),
@@ -17,10 +17,10 @@ std::vector<PairMemory> PairFinder::memory() const {
   return memory;
 }
 
-void PairFinder::remember(const Bodies& bodies, const std::vector<PairMemory>& memory) {
+void BroadPhase::remember(const Bodies& bodies, const std::vector<PairMemory>& memory) {
   for (const PairMemory& pair : memory) {
     add_pair(bodies, pair.a, pair.b);
-    new_.back().quiet_until = pair.quiet_until;
+    new_.back().separation_bound = pair.separation_bound;
     pairs_[new_.back().slot].records = pair.records;
   }
   // The boxes are new, so some may meet that did not before.

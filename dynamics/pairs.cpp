@@ -30,14 +30,14 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
 
 }  // namespace
 
-PairFinder::PairFinder(const ContactRule& rule, double grid_cell) : rule_(rule), grid_(grid_cell) {}
+BroadPhase::BroadPhase(const ContactRule& rule, double grid_cell) : rule_(rule), grid_(grid_cell) {}
 
-void PairFinder::add(const Bodies& bodies, BodyIndex body) {
+void BroadPhase::add(const Bodies& bodies, BodyIndex body) {
   if (entries_.size() <= static_cast<std::size_t>(body)) entries_.resize(static_cast<std::size_t>(body) + 1);
   place(bodies, body);
 }
 
-void PairFinder::place(const Bodies& bodies, BodyIndex body) {
+void BroadPhase::place(const Bodies& bodies, BodyIndex body) {
   Entry& entry = entries_[body];
   if (entry.is_in) grid_.remove(body, entry.box);
   entry.box = geometry::grown(box_in_water(bodies, body), kBoxMargin);
@@ -46,18 +46,18 @@ void PairFinder::place(const Bodies& bodies, BodyIndex body) {
   entry.is_in = true;
 }
 
-void PairFinder::remove(BodyIndex body) {
+void BroadPhase::remove(BodyIndex body) {
   Entry& entry = entries_[body];
   while (!entry.pairs.empty()) drop_pair(entry.pairs.back());
   if (entry.is_in) grid_.remove(body, entry.box);
   entry.is_in = false;
 }
 
-void PairFinder::wake(const Bodies& bodies, BodyIndex body) {
+void BroadPhase::wake(const Bodies& bodies, BodyIndex body) {
   connect(bodies, body);
 }
 
-void PairFinder::sleep(const Bodies& bodies, BodyIndex body) {
+void BroadPhase::sleep(const Bodies& bodies, BodyIndex body) {
   own_pairs_ = entries_[body].pairs;
   for (const std::uint32_t pair : own_pairs_) {
     const BodyIndex other = pairs_[pair].a == body ? pairs_[pair].b : pairs_[pair].a;
@@ -65,7 +65,7 @@ void PairFinder::sleep(const Bodies& bodies, BodyIndex body) {
   }
 }
 
-void PairFinder::connect(const Bodies& bodies, BodyIndex body) {
+void BroadPhase::connect(const Bodies& bodies, BodyIndex body) {
   const Box box = entries_[body].box;
   const auto meet = [&](BodyIndex other) {
     if (other == body) return;
@@ -87,7 +87,7 @@ void PairFinder::connect(const Bodies& bodies, BodyIndex body) {
   }
 }
 
-void PairFinder::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+void BroadPhase::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
   for (const BodyIndex body : {a, b}) {
     geometry::Boundary& boundary = *bodies.boundary[body];
     if (!boundary.is_ready()) make_ready(boundary, {rule_.circle_radius, rule_.is_circle_centres});
@@ -104,7 +104,7 @@ void PairFinder::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
   pair.a = a;
   pair.b = b;
   pair.is_dropped = false;
-  pair.known.way = pair.quiet.way = pair.known_until = -1;
+  pair.known.way = pair.quiet.way = pair.near_bound = -1;
   pair.covers.clear();
   pair.edges.clear();
   pair.records.clear();
@@ -113,7 +113,7 @@ void PairFinder::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
   new_.push_back({a, b, -1, slot});
 }
 
-void PairFinder::drop_pair(std::uint32_t slot) {
+void BroadPhase::drop_pair(std::uint32_t slot) {
   Pair& pair = pairs_[slot];
   for (const BodyIndex body : {pair.a, pair.b}) {
     auto& own = entries_[body].pairs;
@@ -124,7 +124,7 @@ void PairFinder::drop_pair(std::uint32_t slot) {
 }
 
 /// Takes the dropped pairs out of a list.
-void PairFinder::settle(std::vector<ActivePair>& list) {
+void BroadPhase::settle(std::vector<ActivePair>& list) {
   std::erase_if(list, [&](const ActivePair& active) {
     if (!pairs_[active.slot].is_dropped) return false;
     free_pairs_.push_back(active.slot);
@@ -134,28 +134,28 @@ void PairFinder::settle(std::vector<ActivePair>& list) {
 
 /// Brings the lists of pairs up to date, in order. The long one is touched only when enough has come
 /// together.
-void PairFinder::merge_new() {
+void BroadPhase::merge_new() {
   const auto merge = [](std::vector<ActivePair>& list, const std::vector<ActivePair>& more) {
     const auto middle = static_cast<std::ptrdiff_t>(list.size());
     list.insert(list.end(), more.begin(), more.end());
     std::inplace_merge(list.begin(), list.begin() + middle, list.end());
   };
   std::sort(new_.begin(), new_.end());
-  merge(young_, new_);
+  merge(recent_, new_);
   new_.clear();
   const std::size_t many = 16 + active_.size() / 8;
   if (dropped_ > many) {
     settle(active_);
-    settle(young_);
+    settle(recent_);
     dropped_ = 0;
   }
-  if (young_.size() > many) {
-    merge(active_, young_);
-    young_.clear();
+  if (recent_.size() > many) {
+    merge(active_, recent_);
+    recent_.clear();
   }
 }
 
-void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
+void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
   for (const BodyIndex body : awake) {
     if (!rule_.is_culling) break;  // every pair is there already
     if (bodies.travel[body] <= entries_[body].travel_limit) continue;
@@ -170,53 +170,55 @@ void PairFinder::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
 }
 
 /// The pairs that may have come to touch since they were last looked at, by (a, b).
-void PairFinder::find_due(const Bodies& bodies) {
-  due_.clear();
+void BroadPhase::find_pending(const Bodies& bodies) {
+  pending_.clear();
   const auto consider = [&](ActivePair& active) {
-    const bool is_quiet = bodies.travel[active.a] + bodies.travel[active.b] <= active.quiet_until;
+    const bool is_quiet = bodies.travel[active.a] + bodies.travel[active.b] <= active.separation_bound;
     if ((is_quiet && rule_.is_culling) || pairs_[active.slot].is_dropped) return;
-    due_.push_back(&active);
+    pending_.push_back(&active);
   };
-  auto young = young_.begin();
+  auto young = recent_.begin();
   for (ActivePair& active : active_) {
-    while (young != young_.end() && *young < active) consider(*young++);
+    while (young != recent_.end() && *young < active) consider(*young++);
     consider(active);
   }
-  while (young != young_.end()) consider(*young++);
+  while (young != recent_.end()) consider(*young++);
 }
 
-void PairFinder::examine(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
+void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
                          std::vector<Contact>& contacts) {
   Pair& pair = pairs_[active.slot];
-  if (!rule_.is_culling) pair.known.way = pair.quiet.way = pair.known_until = -1;
+  if (!rule_.is_culling) pair.known.way = pair.quiet.way = pair.near_bound = -1;
   const Pose place = centre_a_from_b(bodies, active.a, active.b);
-  double way = way_left(bodies, active.b, place, pair.quiet);
-  if (way < kRounding) way = examine_pair(bodies, pair, place, rule_, dt, scratch, contacts);
+  double way = clearance_left(bodies, active.b, place, pair.quiet);
+  if (way < kRounding) way = collide_pair(bodies, pair, place, rule_, dt, scratch, contacts);
   const double travelled = bodies.travel[active.a] + bodies.travel[active.b];
-  active.quiet_until = travelled + std::max(0.0, way - kRounding);
+  active.separation_bound = travelled + std::max(0.0, way - kRounding);
 }
 
-void PairFinder::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
+void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
   constexpr std::size_t kPairsPerShare = 256;  // fewer are not worth another thread
   contacts.clear();
   if (!new_.empty() || dropped_ > 0) merge_new();
-  find_due(bodies);
-  if (shares_.size() < chunk_count(due_.size(), kPairsPerShare))
-    shares_.resize(chunk_count(due_.size(), kPairsPerShare));
-  if (due_.size() <= kPairsPerShare) {
-    for (ActivePair* active : due_) examine(bodies, *active, dt, shares_.front().scratch, contacts);
+  find_pending(bodies);
+  if (shares_.size() < chunk_count(pending_.size(), kPairsPerShare))
+    shares_.resize(chunk_count(pending_.size(), kPairsPerShare));
+  if (pending_.size() <= kPairsPerShare) {
+    for (ActivePair* active : pending_) collide(bodies, *active, dt, shares_.front().scratch, contacts);
     return;
   }
-  for_chunks(due_.size(), kPairsPerShare, threads, [&](std::size_t k, std::size_t begin, std::size_t end) {
-    Share& share = shares_[k];
-    share.contacts.clear();
-    for (std::size_t i = begin; i < end; ++i) examine(bodies, *due_[i], dt, share.scratch, share.contacts);
-  });
-  for (std::size_t k = 0; k < chunk_count(due_.size(), kPairsPerShare); ++k)
+  for_chunks(pending_.size(), kPairsPerShare, threads,
+             [&](std::size_t k, std::size_t begin, std::size_t end) {
+               Share& share = shares_[k];
+               share.contacts.clear();
+               for (std::size_t i = begin; i < end; ++i)
+                 collide(bodies, *pending_[i], dt, share.scratch, share.contacts);
+             });
+  for (std::size_t k = 0; k < chunk_count(pending_.size(), kPairsPerShare); ++k)
     contacts.insert(contacts.end(), shares_[k].contacts.begin(), shares_[k].contacts.end());
 }
 
-std::int64_t PairFinder::take_unpaired_stretches() {
+std::int64_t BroadPhase::take_unpaired_stretches() {
   std::int64_t unpaired = 0;
   for (Share& share : shares_) unpaired += std::exchange(share.scratch.unpaired, 0);
   return unpaired;

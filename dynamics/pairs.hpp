@@ -11,18 +11,18 @@ namespace polynya::dynamics {
 struct PairMemory {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  double quiet_until =
+  double separation_bound =
       -1;  ///< the two are not looked at until they have travelled farther than this together [m]
-  std::vector<ContactRecord> records;
+  std::vector<PersistentContact> records;
 };
 
 /// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the pieces of
 /// boundary that are near each other, one contact circle each, until the bodies have moved so far relative to
 /// each other that others might be. All bounds are conservative: what is culled cannot touch, so the contacts
 /// are those of a search over everything.
-class PairFinder {
+class BroadPhase {
  public:
-  PairFinder(const ContactRule& rule, double grid_cell);
+  BroadPhase(const ContactRule& rule, double grid_cell);
 
   /// Takes a new body in. Asleep; see wake.
   void add(const Bodies& bodies, BodyIndex body);
@@ -47,7 +47,7 @@ class PairFinder {
   /// anew.
   void remember(const Bodies& bodies, const std::vector<PairMemory>& memory);
 
-  /// Contact stretches whose crossings did not pair up (see geometry::find_patches), since the last call.
+  /// Contact stretches whose crossings did not pair up (see geometry::find_manifolds), since the last call.
   std::int64_t take_unpaired_stretches();
 
  private:
@@ -59,7 +59,7 @@ class PairFinder {
   };
   struct ActivePair {
     BodyIndex a, b;
-    double quiet_until;  // the two cannot touch until they have travelled farther than this together [m]
+    double separation_bound;  // the two cannot touch until they have travelled farther than this together [m]
     std::uint32_t slot;
     friend bool operator<(const ActivePair& p, const ActivePair& q) {
       return p.a != q.a ? p.a < q.a : p.b < q.b;
@@ -71,8 +71,8 @@ class PairFinder {
   void drop_pair(std::uint32_t pair);
   void merge_new();
   void settle(std::vector<ActivePair>& list);
-  void find_due(const Bodies& bodies);
-  void examine(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
+  void find_pending(const Bodies& bodies);
+  void collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
                std::vector<Contact>& contacts);
 
   ContactRule rule_;
@@ -80,12 +80,12 @@ class PairFinder {
   std::vector<Entry> entries_;
   std::vector<Pair> pairs_;  // slots
   std::vector<std::uint32_t> free_pairs_;
-  std::vector<ActivePair> active_;  // pairs in use, by (a, b), among them dropped ones
-  std::vector<ActivePair> young_;   // the same; taken over into active_ when there are many
-  std::vector<ActivePair> new_;     // in no order yet
-  std::size_t dropped_ = 0;         // of all three
-  std::vector<ActivePair*> due_;    // of the present step: those that may touch
-  struct Share {                    // of the pairs due, for one thread at a time
+  std::vector<ActivePair> active_;    // pairs in use, by (a, b), among them dropped ones
+  std::vector<ActivePair> recent_;    // the same; taken over into active_ when there are many
+  std::vector<ActivePair> new_;       // in no order yet
+  std::size_t dropped_ = 0;           // of all three
+  std::vector<ActivePair*> pending_;  // of the present step: those that may touch
+  struct Share {                      // of the pairs due, for one thread at a time
     PairScratch scratch;
     std::vector<Contact> contacts;
   };

@@ -149,7 +149,7 @@ struct Counts {
   std::int64_t snap_rounded = 0;  ///< pieces whose nearest doubles were not a valid polygon
   std::int64_t database_out_of_range = 0;
   std::int64_t unconverged_steps = 0;   ///< steps in which the impulse solver used all its sweeps
-  double largest_left_over = 0;         ///< of a velocity, what the last sweep of such a step changed [m/s]
+  double largest_residual = 0;          ///< of a velocity, what the last sweep of such a step changed [m/s]
   std::int64_t unpaired_stretches = 0;  ///< overlaps without a contact for a step: crossings not in pairs
   std::int64_t steps = 0;
   std::int64_t peak_contacts = 0;

@@ -52,7 +52,7 @@ void Simulation::set_threads(int threads) {
 namespace {
 
 /// Derives the world anew, in builds with assertions.
-void look_at([[maybe_unused]] const World& world) {
+void validate([[maybe_unused]] const World& world) {
 #ifndef NDEBUG
   if (world.failure) return;
   const auto wrong = validate_world(world);
@@ -82,7 +82,7 @@ void Simulation::step() {
   } else {
     thread_limit_->execute([&] { simulation::step(*world_); });
   }
-  look_at(*world_);
+  validate(*world_);
 }
 std::optional<std::string> Simulation::numerical_failure() const {
   return world_->failure;

@@ -16,9 +16,9 @@ Vector heading_of(const World& world, BodyIndex ship) {
 }
 
 /// Enters what a held body did to another through their contact.
-void note_held(World& world, const dynamics::Contact& c) {
+void enter_prescribed_work(World& world, const dynamics::Contact& c) {
   const Vector on_free = world.bodies.inverse_mass[c.a] == 0 ? c.impulse_on_b() : -c.impulse_on_b();
-  world.audit.energy.thrust += c.held_work;
+  world.audit.energy.thrust += c.prescribed_work;
   world.audit.momentum.held += on_free;
   world.audit.impulses += length(on_free);
 }
@@ -58,7 +58,8 @@ void note_crushing(World& world) {
     const bool is_at_limit = c.is_at_limit();
     (is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
     energy.friction -= c.slip_work;
-    if (world.bodies.inverse_mass[c.a] == 0 || world.bodies.inverse_mass[c.b] == 0) note_held(world, c);
+    if (world.bodies.inverse_mass[c.a] == 0 || world.bodies.inverse_mass[c.b] == 0)
+      enter_prescribed_work(world, c);
     if (!is_at_limit || c.approach_speed <= 0) continue;
     c.record->crushed_depth = c.depth;
     if (!c.record->has_crushed) ++world.counts.crush_contacts;
@@ -85,7 +86,7 @@ void solve_impulses(World& world) {
   const dynamics::SolverResult result =
       world.solver.solve(world.bodies, world.contacts, world.solver_settings);
   if (!result.is_converged()) ++world.counts.unconverged_steps;
-  world.counts.largest_left_over = std::max(world.counts.largest_left_over, result.left_over);
+  world.counts.largest_residual = std::max(world.counts.largest_residual, result.residual);
   note_crushing(world);
   for (const dynamics::Contact& c : world.contacts) {
     if (c.total_normal_impulse() == 0) continue;

@@ -63,11 +63,11 @@ dynamics::NewBody new_body_of(const World& world, const ShipSpec& ship) {
   double speed = ship.speed;
   if (const auto* held = std::get_if<ConstantSpeed>(&ship.propulsion)) {
     speed = held->speed;
-    body.is_held = true;
+    body.is_prescribed = true;
   }
   if (std::holds_alternative<FixedInPlace>(ship.propulsion)) {
     speed = 0;
-    body.is_held = true;
+    body.is_prescribed = true;
   }
   body.velocity = speed * ahead - world.scene.water.drift;
   body.mass = ship.mass;
@@ -99,7 +99,7 @@ World::World(Scene scene_of_run, Shortcuts shortcuts_of_run, Population populati
             grid_cell(scene)),
       loads(scene.ships.size()) {
   solver_settings.restitution = scene.contact.restitution;
-  solver_settings.most_sweeps = scene.contact.iterations;
+  solver_settings.max_iterations = scene.contact.iterations;
   separation_settings.time = scene.contact.separation_time;
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
   current = current_of(scene.water.shear);

@@ -59,7 +59,7 @@ struct PendingFracture {
   double cusp_radius = 0;               ///< [m]
   geometry::CrackPath crack_in_body;    ///< of a split
   fracture::FailureCriteria criteria;
-  dynamics::ContactRecord* record = nullptr;  ///< of the contact that broke it, valid during the step
+  dynamics::PersistentContact* record = nullptr;  ///< of the contact that broke it, valid during the step
 };
 
 /// What a new world has in it.
@@ -83,7 +83,7 @@ struct World {
   dynamics::Bodies bodies;  ///< the ships first, then floes by id
   std::vector<Floe> floes;  ///< by id
   std::vector<BodyIndex> awake;
-  dynamics::PairFinder pairs;
+  dynamics::BroadPhase pairs;
   dynamics::ImpulseSolver solver;
   dynamics::SolverSettings solver_settings;
   dynamics::SeparationSettings separation_settings;

@@ -19,7 +19,7 @@ std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t 
     box.low = {std::min(box.low.x, c->centre.x), std::min(box.low.y, c->centre.y)};
     box.high = {std::max(box.high.x, c->centre.x), std::max(box.high.y, c->centre.y)};
   }
-  CoverNode node{midpoint(box.low, box.high), 0, first, count, 0};
+  CircleNode node{midpoint(box.low, box.high), 0, first, count, 0};
   for (auto c = begin; c != begin + count; ++c) {
     node.reach = std::max(node.reach, distance(node.centre, c->centre) + c->reach);
   }
@@ -32,7 +32,7 @@ std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t 
   return index;
 }
 
-double gap(const CoverNode& a, const CoverNode& b, Point b_centre_in_a) {
+double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
   return distance(a.centre, b_centre_in_a) - a.reach - b.reach;
 }
 
@@ -44,7 +44,7 @@ Boundary make_outline(const Polygon& polygon) {
   return boundary;
 }
 
-void make_ready(Boundary& boundary, const CoverRule& rule) {
+void make_ready(Boundary& boundary, const CircleRule& rule) {
   boundary.pieces = boundary_pieces(boundary.edges, rule.circle_radius);
   boundary.covers.reserve(boundary.pieces.size());
   if (rule.has_circles) {
@@ -58,22 +58,22 @@ void make_ready(Boundary& boundary, const CoverRule& rule) {
   build_node(boundary, 0, static_cast<std::uint32_t>(boundary.covers.size()));
 }
 
-Boundary make_boundary(const Polygon& polygon, const CoverRule& rule) {
+Boundary make_boundary(const Polygon& polygon, const CircleRule& rule) {
   Boundary boundary = make_outline(polygon);
   make_ready(boundary, rule);
   return boundary;
 }
 
-double near_covers(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
-                   std::vector<NearPair>& cover_pairs) {
+double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
+                    std::vector<NearPair>& circle_pairs) {
   double bound = std::numeric_limits<double>::infinity();
   NearPair stack[128];  // depth of both trees: a boundary of 2^60 circles would fit
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
     const NearPair pair = stack[--top];
-    const CoverNode& na = a.tree[pair.a];
-    const CoverNode& nb = b.tree[pair.b];
+    const CircleNode& na = a.tree[pair.a];
+    const CircleNode& nb = b.tree[pair.b];
     const double d = gap(na, nb, point_in_world(a_from_b, nb.centre));
     if (d > margin) {
       bound = std::min(bound, d);
@@ -85,7 +85,7 @@ double near_covers(const Boundary& a, const Boundary& b, const Pose& a_from_b, d
         for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
           const double free = distance(a.covers[i].centre, centre) - a.covers[i].reach - b.covers[k].reach;
           bound = std::min(bound, free);
-          if (free <= margin) cover_pairs.push_back({i, k});
+          if (free <= margin) circle_pairs.push_back({i, k});
         }
       }
     } else if (nb.right == 0 || (na.right != 0 && na.reach >= nb.reach)) {
@@ -99,9 +99,9 @@ double near_covers(const Boundary& a, const Boundary& b, const Pose& a_from_b, d
   return bound;
 }
 
-void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& cover_pairs,
+void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
               std::vector<NearPair>& edge_pairs) {
-  for (const NearPair pair : cover_pairs) {
+  for (const NearPair pair : circle_pairs) {
     const BoundaryPiece& ca = a.pieces[pair.a];
     const BoundaryPiece& cb = b.pieces[pair.b];
     std::uint32_t ea = ca.first_edge;

@@ -9,13 +9,13 @@
 namespace polynya::geometry {
 
 /// A circle that covers a piece of boundary.
-struct Cover {
+struct BoundingCircle {
   Point centre;      ///< [m]
   double reach = 0;  ///< [m]
 };
 
 /// A node of the tree over a boundary's covers: a circle that covers all of its own.
-struct CoverNode {
+struct CircleNode {
   Point centre;             ///< [m]
   double reach = 0;         ///< [m]
   std::uint32_t first = 0;  ///< first cover
@@ -24,10 +24,10 @@ struct CoverNode {
 };
 
 /// How a boundary is covered.
-struct CoverRule {
+struct CircleRule {
   double circle_radius = 1.0;  ///< of contact circles, and the most length of a piece [m]
-  bool has_circles = false;    ///< contact circles touch the boundary from inside (find_circle_patches wants
-                               ///< them); without, covers stand on it and are tighter
+  bool has_circles = false;  ///< contact circles touch the boundary from inside (find_circle_manifolds wants
+                             ///< them); without, covers stand on it and are tighter
 };
 
 /// A body's boundary: its edges and, once it is ready for finding contacts, its pieces, covers of the pieces
@@ -36,8 +36,8 @@ struct Boundary {
   EdgeList edges;
   std::vector<BoundaryPiece> pieces;
   std::vector<ContactCircle> circles;  ///< of the pieces; empty where the rule has none
-  std::vector<Cover> covers;           ///< of the pieces: the circles' centres, or the pieces' middles
-  std::vector<CoverNode> tree;
+  std::vector<BoundingCircle> covers;  ///< of the pieces: the circles' centres, or the pieces' middles
+  std::vector<CircleNode> tree;
 
   bool is_ready() const { return !tree.empty(); }
 };
@@ -46,9 +46,9 @@ struct Boundary {
 Boundary make_outline(const Polygon& polygon);
 
 /// Makes a boundary ready for finding contacts.
-void make_ready(Boundary& boundary, const CoverRule& rule);
+void make_ready(Boundary& boundary, const CircleRule& rule);
 
-Boundary make_boundary(const Polygon& polygon, const CoverRule& rule);
+Boundary make_boundary(const Polygon& polygon, const CircleRule& rule);
 
 /// A pair of edges (or of covers) of two boundaries that are near each other.
 struct NearPair {
@@ -58,17 +58,17 @@ struct NearPair {
 };
 
 /// Finds what two boundaries have near each other: all pairs of covers within `margin` of each other [m], and
-/// so all pieces. Appends to `cover_pairs`. Returns a lower bound of the distance between the
+/// so all pieces. Appends to `circle_pairs`. Returns a lower bound of the distance between the
 /// boundaries [m], of use where nothing is within the margin.
-double near_covers(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
-                   std::vector<NearPair>& cover_pairs);
+double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
+                    std::vector<NearPair>& circle_pairs);
 
 /// The pairs of edges behind pairs of covers, each once, in order.
-void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& cover_pairs,
+void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
               std::vector<NearPair>& edge_pairs);
 
 /// Where two bodies overlap, seen as one contact. In the frame of a.
-struct ContactPatch {
+struct ContactManifold {
   Point ends[2];                    ///< the ends of the contact line [m]
   Vector normal;                    ///< unit, from a into b
   double width = 0;                 ///< length of the contact line [m]
@@ -78,8 +78,8 @@ struct ContactPatch {
   std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
 };
 
-/// Reusable memory of find_patches.
-struct PatchScratch {
+/// Reusable memory of find_manifolds.
+struct ManifoldScratch {
   struct Crossing {
     Point point;
     std::uint32_t edge_a, edge_b;
@@ -92,13 +92,13 @@ struct PatchScratch {
   std::vector<Point> side_a, side_b;  ///< the overlap's two sides, (along the line, off it) [m]
 };
 
-/// The contact patches of two overlapping bodies, from the edges near each other (edges_of). Each stretch of
-/// a's boundary inside b makes one: the contact line joins the points where the boundaries cross, the normal
-/// stands on it. Appends to `patches`. Returns how many stretches were left out because their crossings did
-/// not pair up (rounding at a touching vertex; they pair up one step later).
-int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                 const std::vector<NearPair>& edge_pairs, PatchScratch& scratch,
-                 std::vector<ContactPatch>& patches);
+/// The contact manifolds of two overlapping bodies, from the edges near each other (edges_of). Each stretch
+/// of a's boundary inside b makes one: the contact line joins the points where the boundaries cross, the
+/// normal stands on it. Appends to `manifolds`. Returns how many stretches were left out because their
+/// crossings did not pair up (rounding at a touching vertex; they pair up one step later).
+int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                   const std::vector<NearPair>& edge_pairs, ManifoldScratch& scratch,
+                   std::vector<ContactManifold>& manifolds);
 
 /// Least distance between the edges of the pairs, 0 where two cross or touch [m].
 double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b,
@@ -107,7 +107,8 @@ double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b
 /// The paper's own rule: every pair of overlapping contact circles is a contact with its normal along the
 /// line of centres and its contact point half-way into the overlap. [Sawamura2017], Fig. 1. Depth is the
 /// circles' overlap; width and area are those of the circles' lens.
-void find_circle_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                         const std::vector<NearPair>& circle_pairs, std::vector<ContactPatch>& patches);
+void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                           const std::vector<NearPair>& circle_pairs,
+                           std::vector<ContactManifold>& manifolds);
 
 }  // namespace polynya::geometry

@@ -6,7 +6,7 @@
 namespace polynya::geometry {
 namespace {
 
-using Crossing = PatchScratch::Crossing;
+using Crossing = ManifoldScratch::Crossing;
 
 // Which side of an edge along d a point is on, by the sign of its turn, true for left. A zero is decided as
 // if all of b were moved by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate
@@ -80,8 +80,8 @@ bool is_before_on_b(const Crossing& p, const Crossing& q) {
   return p.edge_b != q.edge_b ? p.edge_b < q.edge_b : p.along_b < q.along_b;
 }
 
-/// What a chain of vertices adds to a patch: area between chain and contact line, and how far it reaches off
-/// it.
+/// What a chain of vertices adds to a manifold: area between chain and contact line, and how far it reaches
+/// off it.
 struct ChainExtent {
   double area = 0;
   double depth = 0;
@@ -155,7 +155,7 @@ double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& 
 }
 
 /// The crossings of two boundaries, in their orders along both.
-void order_crossings(const Boundary& a, const Boundary& b, PatchScratch& scratch) {
+void order_crossings(const Boundary& a, const Boundary& b, ManifoldScratch& scratch) {
   std::vector<Crossing>& by_a = scratch.crossings;
   std::sort(by_a.begin(), by_a.end(), is_before_on_a);
   alternate_ties(
@@ -185,57 +185,58 @@ std::size_t next_on_ring(const std::vector<Crossing>& order, std::size_t i, Ring
   return i;
 }
 
-/// The patch of one stretch of a's boundary inside b, from its entering to its leaving crossing; false where
-/// its sides do not close.
-bool make_patch(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
-                const Crossing& leave, bool closes_on_b, PatchScratch& scratch, ContactPatch& patch) {
+/// The manifold of one stretch of a's boundary inside b, from its entering to its leaving crossing; false
+/// where its sides do not close.
+bool make_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
+                   const Crossing& leave, bool closes_on_b, ManifoldScratch& scratch,
+                   ContactManifold& manifold) {
   const Vector line = leave.point - enter.point;
-  patch.width = length(line);
-  if (patch.width < 1e-12) return false;
-  patch.normal = (-1 / patch.width) * perpendicular(line);
+  manifold.width = length(line);
+  if (manifold.width < 1e-12) return false;
+  manifold.normal = (-1 / manifold.width) * perpendicular(line);
   const auto as_is = [](Point p) { return p; };
   const auto from_b = [&](Point p) { return point_in_world(a_from_b, p); };
   const ChainExtent on_a =
-      walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, patch.width, patch.normal,
+      walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, manifold.width, manifold.normal,
            enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is, scratch.side_a);
-  patch.area = on_a.area;
-  patch.depth = on_a.depth;
-  patch.tip_of_b = midpoint(enter.point, leave.point);
-  patch.tip_edge_of_b = enter.edge_b;
+  manifold.area = on_a.area;
+  manifold.depth = on_a.depth;
+  manifold.tip_of_b = midpoint(enter.point, leave.point);
+  manifold.tip_edge_of_b = enter.edge_b;
   bool is_closed = on_a.is_closed;
   if (closes_on_b) {
     const ChainExtent on_b =
-        walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, patch.width, -patch.normal,
+        walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, manifold.width, -manifold.normal,
              leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b, scratch.side_b);
-    patch.area += on_b.area;
-    patch.depth = thickness_of(scratch.side_a, scratch.side_b, patch.width);
+    manifold.area += on_b.area;
+    manifold.depth = thickness_of(scratch.side_a, scratch.side_b, manifold.width);
     if (on_b.depth > 0) {
-      patch.tip_of_b = on_b.tip;
-      patch.tip_edge_of_b = on_b.tip_edge;
+      manifold.tip_of_b = on_b.tip;
+      manifold.tip_edge_of_b = on_b.tip_edge;
     }
     is_closed = is_closed && on_b.is_closed;
   }
-  patch.ends[0] = enter.point;
-  patch.ends[1] = leave.point;
-  patch.area = std::max(patch.area, 0.0);
+  manifold.ends[0] = enter.point;
+  manifold.ends[1] = leave.point;
+  manifold.area = std::max(manifold.area, 0.0);
   return is_closed;
 }
 
-/// Appends the patch of a stretch; returns 1 where there is none.
-int add_patch(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
-              const Crossing& leave, bool closes_on_b, PatchScratch& scratch,
-              std::vector<ContactPatch>& patches) {
-  patches.emplace_back();
-  if (make_patch(a, b, a_from_b, enter, leave, closes_on_b, scratch, patches.back())) return 0;
-  patches.pop_back();
+/// Appends the manifold of a stretch; returns 1 where there is none.
+int add_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
+                 const Crossing& leave, bool closes_on_b, ManifoldScratch& scratch,
+                 std::vector<ContactManifold>& manifolds) {
+  manifolds.emplace_back();
+  if (make_manifold(a, b, a_from_b, enter, leave, closes_on_b, scratch, manifolds.back())) return 0;
+  manifolds.pop_back();
   return 1;
 }
 
 }  // namespace
 
-int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                 const std::vector<NearPair>& edge_pairs, PatchScratch& scratch,
-                 std::vector<ContactPatch>& patches) {
+int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                   const std::vector<NearPair>& edge_pairs, ManifoldScratch& scratch,
+                   std::vector<ContactManifold>& manifolds) {
   const std::vector<Crossing>& by_a = scratch.crossings;
   const std::vector<Crossing>& by_b = scratch.by_b;
   scratch.crossings.clear();
@@ -244,7 +245,8 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
   if (by_a.size() == 2 &&
       by_a[0].is_entering != by_a[1].is_entering) {  // nearly all contacts: no order to find
     const bool is_first = by_a[0].is_entering;
-    return add_patch(a, b, a_from_b, by_a[is_first ? 0 : 1], by_a[is_first ? 1 : 0], true, scratch, patches);
+    return add_manifold(a, b, a_from_b, by_a[is_first ? 0 : 1], by_a[is_first ? 1 : 0], true, scratch,
+                        manifolds);
   }
   order_crossings(a, b, scratch);
   const auto ring_on_a = [&](const Crossing& p) { return a.edges.ring[p.edge_a]; };
@@ -257,14 +259,16 @@ int find_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
     std::size_t j_on_b = 0;
     while (by_b[j_on_b].place_on_a != j) ++j_on_b;
     const bool closes_on_b = by_b[next_on_ring(by_b, j_on_b, ring_on_b)].place_on_a == i;
-    left_out +=
-        by_a[j].is_entering ? 1 : add_patch(a, b, a_from_b, by_a[i], by_a[j], closes_on_b, scratch, patches);
+    left_out += by_a[j].is_entering
+                    ? 1
+                    : add_manifold(a, b, a_from_b, by_a[i], by_a[j], closes_on_b, scratch, manifolds);
   }
   return left_out;
 }
 
-void find_circle_patches(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                         const std::vector<NearPair>& circle_pairs, std::vector<ContactPatch>& patches) {
+void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                           const std::vector<NearPair>& circle_pairs,
+                           std::vector<ContactManifold>& manifolds) {
   for (const NearPair pair : circle_pairs) {
     const ContactCircle& ca = a.circles[pair.a];
     const ContactCircle& cb = b.circles[pair.b];
@@ -272,20 +276,20 @@ void find_circle_patches(const Boundary& a, const Boundary& b, const Pose& a_fro
     const double centres = length(line);
     const double depth = ca.radius + cb.radius - centres;
     if (depth <= 0 || centres == 0) continue;
-    ContactPatch patch;
-    patch.normal = line / centres;
-    patch.depth = depth;
+    ContactManifold manifold;
+    manifold.normal = line / centres;
+    manifold.depth = depth;
     // Half the lens's chord: c² = r_a² − x², with x the chord's distance from a's centre.
     const double x = (centres * centres + ca.radius * ca.radius - cb.radius * cb.radius) / (2 * centres);
     const double half_chord = std::sqrt(std::max(0.0, ca.radius * ca.radius - x * x));
-    const Point middle = ca.centre + (ca.radius - 0.5 * depth) * patch.normal;
-    patch.width = 2 * half_chord;
-    patch.area = 2.0 / 3.0 * depth * patch.width;  // of a thin lens
-    patch.ends[0] = middle - half_chord * perpendicular(patch.normal);
-    patch.ends[1] = middle + half_chord * perpendicular(patch.normal);
-    patch.tip_of_b = ca.centre + (centres - cb.radius) * patch.normal;
-    patch.tip_edge_of_b = b.pieces[pair.b].first_edge;
-    patches.push_back(patch);
+    const Point middle = ca.centre + (ca.radius - 0.5 * depth) * manifold.normal;
+    manifold.width = 2 * half_chord;
+    manifold.area = 2.0 / 3.0 * depth * manifold.width;  // of a thin lens
+    manifold.ends[0] = middle - half_chord * perpendicular(manifold.normal);
+    manifold.ends[1] = middle + half_chord * perpendicular(manifold.normal);
+    manifold.tip_of_b = ca.centre + (centres - cb.radius) * manifold.normal;
+    manifold.tip_edge_of_b = b.pieces[pair.b].first_edge;
+    manifolds.push_back(manifold);
   }
 }
 

@@ -24,7 +24,7 @@ std::vector<std::uint32_t> edges_near_line(const Boundary& boundary, Point point
   std::vector<std::uint32_t> nodes{0};
   while (!nodes.empty()) {
     const std::uint32_t index = nodes.back();
-    const CoverNode& node = boundary.tree[index];
+    const CircleNode& node = boundary.tree[index];
     nodes.pop_back();
     if (!is_near(node)) continue;
     if (node.right != 0) {

@@ -20,13 +20,13 @@ namespace {
 using simulation::FloeId;
 
 /// What is wrong with a file; told to the caller of read_run as its error value.
-struct Damage : std::runtime_error {
+struct ReadError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 std::string text_of(const std::filesystem::path& folder, std::string_view name) {
   auto text = read_text_file(folder / name, kLongestRunFile);
-  if (!text) throw Damage(fmt::format("{}: {}", (folder / name).string(), text.error()));
+  if (!text) throw ReadError(fmt::format("{}: {}", (folder / name).string(), text.error()));
   return std::move(*text);
 }
 
@@ -40,8 +40,8 @@ void for_lines(const std::filesystem::path& folder, std::string_view name, Use u
     if (end == std::string::npos) return;
     try {
       use(std::string_view(text).substr(start, end - start), number);
-    } catch (const Damage& damage) {
-      throw Damage(fmt::format("{}:{}: {}", (folder / name).string(), number, damage.what()));
+    } catch (const ReadError& damage) {
+      throw ReadError(fmt::format("{}:{}: {}", (folder / name).string(), number, damage.what()));
     }
     start = end + 1;
   }
@@ -49,13 +49,13 @@ void for_lines(const std::filesystem::path& folder, std::string_view name, Use u
 
 JsonValue json_of(std::string_view text) {
   JsonDocument document = parse_json(text);
-  if (!document.faults.empty()) throw Damage("not JSON: " + document.faults.front().found);
+  if (!document.faults.empty()) throw ReadError("not JSON: " + document.faults.front().found);
   return std::move(document.root);
 }
 
 const JsonValue& member(const JsonValue& value, std::string_view key, JsonValue::Kind kind) {
   const JsonValue* found = value.find(key);
-  if (!found || !found->is(kind)) throw Damage(fmt::format("\"{}\" is not {}", key, name_of(kind)));
+  if (!found || !found->is(kind)) throw ReadError(fmt::format("\"{}\" is not {}", key, name_of(kind)));
   return *found;
 }
 double number(const JsonValue& value, std::string_view key) {
@@ -67,18 +67,18 @@ double number_or(const JsonValue& value, std::string_view key, double otherwise)
 FloeId floe_id(const JsonValue& value) {
   if (value.is_null()) return simulation::kNoFloe;
   if (!value.is(JsonValue::Kind::kNumber) || !(value.number() >= 0 && value.number() < 1e9))
-    throw Damage("not a floe's id");
+    throw ReadError("not a floe's id");
   return static_cast<FloeId>(value.number());
 }
 FloeId floe_id(const JsonValue& value, std::string_view key) {
   const JsonValue* found = value.find(key);
-  if (!found) throw Damage(fmt::format("\"{}\" is missing", key));
+  if (!found) throw ReadError(fmt::format("\"{}\" is missing", key));
   return floe_id(*found);
 }
 geometry::Point point(const JsonValue& value) {
   if (!value.is(JsonValue::Kind::kArray) || value.items().size() != 2 ||
       !value.items()[0].is(JsonValue::Kind::kNumber) || !value.items()[1].is(JsonValue::Kind::kNumber))
-    throw Damage("not a point");
+    throw ReadError("not a point");
   return {value.items()[0].number(), value.items()[1].number()};
 }
 geometry::Point point(const JsonValue& value, std::string_view key) {
@@ -107,7 +107,7 @@ simulation::EventKind event_kind(std::string_view name) {
        {simulation::EventKind::kBend, simulation::EventKind::kSplit, simulation::EventKind::kRejectedCut}) {
     if (name_of(kind) == name) return kind;
   }
-  throw Damage(fmt::format("an unknown kind of event, \"{}\"", name));
+  throw ReadError(fmt::format("an unknown kind of event, \"{}\"", name));
 }
 
 simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene) {
@@ -144,7 +144,7 @@ simulation::ShipContact ship_contact_of(const JsonValue& line, const simulation:
   contact.time = number(line, "t_s");
   contact.ship = ship_index(scene, member(line, "ship", JsonValue::Kind::kText).text());
   contact.other = ship_index(scene, member(line, "by_ship", JsonValue::Kind::kText).text());
-  if (contact.ship < 0 || contact.other < 0) throw Damage("a contact of ships that are not in the scene");
+  if (contact.ship < 0 || contact.other < 0) throw ReadError("a contact of ships that are not in the scene");
   contact.point_in_world = point(line, "point_m");
   contact.closing_speed = number(line, "closing_speed_m_per_s");
   contact.relative_speed = number(line, "relative_speed_m_per_s");
@@ -155,7 +155,7 @@ simulation::ShipContact ship_contact_of(const JsonValue& line, const simulation:
 double take_number(std::string_view& row) {
   const std::string_view field = csv_field(row);
   const auto value = csv_number(field);
-  if (!value) throw Damage(fmt::format("\"{}\" is not a number", field));
+  if (!value) throw ReadError(fmt::format("\"{}\" is not a number", field));
   return *value;
 }
 
@@ -173,7 +173,7 @@ simulation::ContactState::Body body_of(std::string_view& line, const Run& run) {
   std::string_view floe = csv_field(line);
   simulation::ContactState::Body body{ship_index(run.scene.scene, ship), simulation::kNoFloe};
   if (ship.empty()) body.floe = static_cast<FloeId>(take_number(floe));
-  if (body.ship < 0 && !run.floe(body.floe)) throw Damage("a contact of what there is not");
+  if (body.ship < 0 && !run.floe(body.floe)) throw ReadError("a contact of what there is not");
   return body;
 }
 
@@ -197,7 +197,7 @@ void for_rows(const std::filesystem::path& folder, std::string_view name, std::s
     if (number > 1)
       use(line);
     else if (header.substr(0, line.size()) != line)
-      throw Damage("columns of another version");
+      throw ReadError("columns of another version");
   });
 }
 
@@ -206,8 +206,8 @@ void check_version(const Run& run) {
   if (!found) return;
   const double version = found->is(JsonValue::Kind::kNumber) ? found->number() : std::nan("");
   if (!(version <= kRunFolderVersion))
-    throw Damage(fmt::format("{}: a run folder of version {}; this program reads up to {}",
-                             (run.folder / run_file::kSummary).string(), version, kRunFolderVersion));
+    throw ReadError(fmt::format("{}: a run folder of version {}; this program reads up to {}",
+                                (run.folder / run_file::kSummary).string(), version, kRunFolderVersion));
 }
 
 void read_floes(Run& run) {
@@ -215,11 +215,11 @@ void read_floes(Run& run) {
     const JsonValue json = json_of(line);
     const simulation::BirthRecord birth = birth_of(json);
     if (birth.floe != static_cast<FloeId>(run.floes.size()))
-      throw Damage("floes are not in the order of their ids");
+      throw ReadError("floes are not in the order of their ids");
     auto shape = read_shape(json);
-    if (!shape) throw Damage(shape.error());
+    if (!shape) throw ReadError(shape.error());
     if (const std::string fault = run.shapes.add(std::move(*shape), birth.parent); !fault.empty())
-      throw Damage(fault);
+      throw ReadError(fault);
     run.floes.push_back({.birth = birth, .died = std::numeric_limits<double>::infinity(), .death_event = {}});
   });
 }
@@ -232,7 +232,7 @@ void read_events(Run& run) {
       return;
     }
     simulation::Event event = event_of(json, run.scene.scene);
-    if (!run.floe(event.floe)) throw Damage(fmt::format("floe {} was never born", event.floe));
+    if (!run.floe(event.floe)) throw ReadError(fmt::format("floe {} was never born", event.floe));
     if (event.kind != simulation::EventKind::kRejectedCut) {
       RunFloe& broken = run.floes[static_cast<std::size_t>(event.floe)];
       broken.died = event.time;
@@ -247,7 +247,7 @@ void read_forces(Run& run) {
   for_lines(run.folder, run_file::kForces, [&](std::string_view line, int number) {
     if (number > 1) return run.samples.push_back(sample_of(line, columns, run.scene.scene));
     auto found = force_columns_in(line);
-    if (!found) throw Damage(found.error());
+    if (!found) throw ReadError(found.error());
     columns = std::move(*found);
   });
 }
@@ -302,7 +302,7 @@ tl::expected<Run, std::string> read_run(const std::filesystem::path& folder) {
       return tl::unexpected(fmt::format("{}: {}", (folder / run_file::kFrames).string(), frames.error()));
     run.frames = std::move(*frames);
     return run;
-  } catch (const Damage& damage) {
+  } catch (const ReadError& damage) {
     return tl::unexpected(std::string(damage.what()));
   }
 }

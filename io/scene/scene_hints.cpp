@@ -43,7 +43,7 @@ Vector ahead_of(const ShipSpec& ship) {
 bool is_fixed(const ShipSpec& ship) {
   return std::holds_alternative<simulation::FixedInPlace>(ship.propulsion);
 }
-bool is_held(const ShipSpec& ship) {
+bool is_prescribed(const ShipSpec& ship) {
   return !std::holds_alternative<simulation::ConstantThrust>(ship.propulsion);
 }
 double thrust_of(const ShipSpec& ship) {
@@ -123,7 +123,7 @@ class Hinter {
     const ShipSpec& ship = scene_.ships[i];
     const auto too_fast = [&](double speed) { return std::abs(speed) > kFastestShip; };
     const std::string most = fmt::format("ships in ice stay below {:g} m/s", kFastestShip);
-    const std::string_view key = is_held(ship) ? "propulsion" : "speed_m_per_s";
+    const std::string_view key = is_prescribed(ship) ? "propulsion" : "speed_m_per_s";
     if (too_fast(ship.speed))
       return add(Severity::kHint, i, key,
                  fmt::format("{:.4g} m/s ({:.3g} kn): {}", ship.speed, ship.speed * kKnots, most));
@@ -162,7 +162,7 @@ class Hinter {
   /// Two whose motions are prescribed do not stop each other.
   void hint_at_crossing(std::size_t i, std::size_t k) {
     const ShipSpec &ship = scene_.ships[i], &other = scene_.ships[k];
-    if (!is_held(ship) || !is_held(other) || (is_fixed(ship) && is_fixed(other))) return;
+    if (!is_prescribed(ship) || !is_prescribed(other) || (is_fixed(ship) && is_fixed(other))) return;
     const Vector velocity = other.speed * ahead_of(other) - ship.speed * ahead_of(ship);
     const auto touch = geometry::first_touch(waterline_in_world(ship).outer, waterline_in_world(other).outer,
                                              velocity, 0, scene_.time.until);

@@ -20,8 +20,8 @@ using JsonKind = JsonValue::Kind;
 constexpr std::string_view kOwnProperties[] = {"floe_id", "parent_id", "area_m2", "part"};
 
 /// Ends the reading of one feature.
-struct Refusal : std::runtime_error {
-  Refusal(std::string_view why, const std::string& detail) : std::runtime_error(detail), reason(why) {}
+struct ParseError : std::runtime_error {
+  ParseError(std::string_view why, const std::string& detail) : std::runtime_error(detail), reason(why) {}
   std::string_view reason;
 };
 
@@ -89,7 +89,7 @@ class GeojsonEntries {
   void attempt(const JsonValue& value, Read read) {
     try {
       read();
-    } catch (const Refusal& refusal) {
+    } catch (const ParseError& refusal) {
       refuse(value, feature_, refusal.reason, refusal.what());
       ++member_;
     }
@@ -127,7 +127,7 @@ class GeojsonEntries {
   geometry::Polygon shape_of(const JsonValue& birth) {
     if (birth.find("ring_parts_m")) {
       auto assembled = births_.assemble(birth);
-      if (!assembled) throw Refusal("malformed", assembled.error());
+      if (!assembled) throw ParseError("malformed", assembled.error());
       return std::move(*assembled);
     }
     geometry::Polygon polygon{ring_of(*birth.find("ring_m")), {}};
@@ -140,23 +140,23 @@ class GeojsonEntries {
   void read_geometry(const JsonValue& value) {
     const JsonValue* type = value.find("type");
     if (!type || !type->is(JsonKind::kText))
-      throw Refusal("malformed", fmt::format("found {}, expected an object with a GeoJSON type",
-                                             value.is(JsonKind::kObject) ? "an object without one"
-                                                                         : name_of(value.kind())));
+      throw ParseError("malformed", fmt::format("found {}, expected an object with a GeoJSON type",
+                                                value.is(JsonKind::kObject) ? "an object without one"
+                                                                            : name_of(value.kind())));
     if (type->text() == "GeometryCollection") {
       const JsonValue* geometries = value.find("geometries");
-      if (!geometries) throw Refusal("malformed", "a GeometryCollection without geometries");
+      if (!geometries) throw ParseError("malformed", "a GeometryCollection without geometries");
       for (const JsonValue& item : list(*geometries, "a list of geometries"))
         attempt(item, [&] { read_geometry(item); });
       return;
     }
     if (type->text() != "Polygon" && type->text() != "MultiPolygon") {
-      throw Refusal("not-a-polygon",
-                    fmt::format("found {}, expected Polygon, MultiPolygon or GeometryCollection",
-                                type->text().substr(0, 40)));
+      throw ParseError("not-a-polygon",
+                       fmt::format("found {}, expected Polygon, MultiPolygon or GeometryCollection",
+                                   type->text().substr(0, 40)));
     }
     const JsonValue* coordinates = value.find("coordinates");
-    if (!coordinates) throw Refusal("malformed", "no coordinates");
+    if (!coordinates) throw ParseError("malformed", "no coordinates");
     if (type->text() == "Polygon") return add(value, polygon_of(*coordinates));
     for (const JsonValue& item : list(*coordinates, "a list of polygons"))
       attempt(item, [&] { add(item, polygon_of(item)); });
@@ -175,7 +175,7 @@ class GeojsonEntries {
 
   static const JsonValue::Array& list(const JsonValue& value, const char* expected) {
     if (!value.is(JsonKind::kArray))
-      throw Refusal("malformed", fmt::format("found {}, expected {}", name_of(value.kind()), expected));
+      throw ParseError("malformed", fmt::format("found {}, expected {}", name_of(value.kind()), expected));
     return value.items();
   }
 
@@ -196,7 +196,7 @@ class GeojsonEntries {
     for (const JsonValue& item : items) {
       const JsonValue::Array& numbers = list(item, "[x, y]");
       if (numbers.size() < 2 || numbers.size() > 4)
-        throw Refusal("malformed", fmt::format("found {} numbers, expected [x, y]", numbers.size()));
+        throw ParseError("malformed", fmt::format("found {} numbers, expected [x, y]", numbers.size()));
       if (numbers.size() > 2) floes_.has_more_coordinates = true;
       ring.push_back({coordinate(numbers[0]), coordinate(numbers[1])});
     }
@@ -208,7 +208,7 @@ class GeojsonEntries {
     // null and (after parse_lenient_json) empty texts stand for what JSON cannot write.
     if (value.is_null() || (value.is(JsonKind::kText) && value.text().empty()))
       return std::numeric_limits<double>::quiet_NaN();
-    throw Refusal("malformed", fmt::format("found {}, expected a coordinate", name_of(value.kind())));
+    throw ParseError("malformed", fmt::format("found {}, expected a coordinate", name_of(value.kind())));
   }
 
   FloeText& floes_;

@@ -28,7 +28,7 @@ concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
 /// Takes values apart into numbers and characters for a Sink: texts and lists behind their length.
 template <class Sink>
-class Dismantler {
+class Serializer {
  public:
   template <class... Values>
   void operator()(const Values&... values) {
@@ -57,12 +57,12 @@ class Dismantler {
 };
 
 /// Appends values to bytes: numbers as the machine holds them.
-class ByteWriter : public Dismantler<ByteWriter> {
+class ByteWriter : public Serializer<ByteWriter> {
  public:
   std::string take() { return std::move(bytes_); }
 
  private:
-  friend Dismantler<ByteWriter>;
+  friend Serializer<ByteWriter>;
   template <Number T>
   void put_number(const T& value) {
     std::array<char, sizeof value> raw;
@@ -147,12 +147,12 @@ class ByteReader {
 };
 
 /// A hash of values: FNV-1a over 64-bit words [Fowler2019], one for each number, folded once more after each.
-class HashWriter : public Dismantler<HashWriter> {
+class HashWriter : public Serializer<HashWriter> {
  public:
   std::uint64_t hash() const { return hash_; }
 
  private:
-  friend Dismantler<HashWriter>;
+  friend Serializer<HashWriter>;
   template <Number T>
   void put_number(const T& value) {
     std::uint64_t word = 0;

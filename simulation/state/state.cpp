@@ -83,7 +83,7 @@ class StateLoader {
           c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
           c.peak_contacts, c.peak_awake})
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
-    bytes_.require(c.largest_left_over >= 0, "a negative velocity left over");
+    bytes_.require(c.largest_residual >= 0, "a negative velocity left over");
     bytes_.require(world_.loads.size() == world_.scene.ships.size(), "loads of other ships");
     for (const ShipContact& contact : world_.ship_contacts)
       bytes_.require(contact.ship >= 0 && contact.ship < contact.other && contact.other < world_.ship_count(),
@@ -192,9 +192,9 @@ class StateLoader {
 
   void load_pairs() {
     std::vector<dynamics::PairMemory> pairs;
-    std::vector<double> quiet_until;
-    bytes_(pairs, quiet_until);
-    bytes_.require(pairs.size() == quiet_until.size(), "pairs that are not all told of");
+    std::vector<double> separation_bound;
+    bytes_(pairs, separation_bound);
+    bytes_.require(pairs.size() == separation_bound.size(), "pairs that are not all told of");
     const dynamics::Bodies& bodies = world_.bodies;
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {
       dynamics::PairMemory& pair = pairs[i];
@@ -207,7 +207,7 @@ class StateLoader {
                      "a pair of two held");
       const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
       bytes_.require(is_next, "pairs out of their order");
-      pair.quiet_until = quiet_until[i];
+      pair.separation_bound = separation_bound[i];
     }
     if (bytes_.is_well()) world_.pairs.remember(bodies, pairs);
   }
@@ -221,12 +221,12 @@ class StateLoader {
 
 std::string save_state(const World& world) {
   const std::vector<dynamics::PairMemory> pairs = world.pairs.memory();
-  std::vector<double> quiet_until;
-  quiet_until.reserve(pairs.size());
-  for (const dynamics::PairMemory& pair : pairs) quiet_until.push_back(pair.quiet_until);
+  std::vector<double> separation_bound;
+  separation_bound.reserve(pairs.size());
+  for (const dynamics::PairMemory& pair : pairs) separation_bound.push_back(pair.separation_bound);
   ByteWriter archive;
   write(archive, world, pairs);
-  archive(quiet_until);
+  archive(separation_bound);
   return archive.take();
 }
 

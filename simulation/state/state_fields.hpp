@@ -74,7 +74,7 @@ void fields(Archive& archive, Is<AreaLedger> auto& l) {
 template <class Archive>
 void fields(Archive& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
-          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.largest_left_over,
+          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.largest_residual,
           c.unpaired_stretches, c.peak_contacts, c.peak_awake);
 }
 template <class Archive>
@@ -90,12 +90,12 @@ void fields(Archive& archive, Is<AuditSums> auto& a) {
   archive(a.initial_energy, a.initial_momentum, a.impulses, a.energy, a.momentum);
 }
 template <class Archive>
-void fields(Archive& archive, Is<dynamics::ContactRecord> auto& r) {
+void fields(Archive& archive, Is<dynamics::PersistentContact> auto& r) {
   archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.owed_impulse,
-          r.given_impulse, r.most_to_give, r.last_impulse[0], r.last_impulse[1], r.start_impulse[0],
-          r.start_impulse[1], r.has_crushed, r.was_refused, r.is_continued);
+          r.given_impulse, r.most_to_give, r.last_impulse[0], r.last_impulse[1], r.warm_start_impulse[0],
+          r.warm_start_impulse[1], r.has_crushed, r.was_refused, r.is_continued);
 }
-/// Not its quiet_until: that is a cache, which may differ where the same bodies do the same.
+/// Not its separation_bound: that is a cache, which may differ where the same bodies do the same.
 template <class Archive>
 void fields(Archive& archive, Is<dynamics::PairMemory> auto& p) {
   archive(p.a, p.b, p.records);

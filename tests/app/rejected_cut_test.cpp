@@ -16,7 +16,7 @@ namespace {
 using namespace simulation;
 
 /// A fracture as no contact would ask for it: its cusp misses the floe, or its crack ends inside.
-PendingFracture misplaced(fracture::Failure failure, dynamics::ContactRecord& record) {
+PendingFracture misplaced(fracture::Failure failure, dynamics::PersistentContact& record) {
   PendingFracture pending;
   pending.failure = failure;
   pending.first_touch_in_body = {50, 5};
@@ -33,7 +33,7 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
   scene.floes = {scenes::floe(scenes::rectangle(0, 0, 10, 10))};
   World world(scene);
   world.journal.clear();
-  dynamics::ContactRecord record;
+  dynamics::PersistentContact record;
   world.fractures = {misplaced(fracture::Failure::kBend, record),
                      misplaced(fracture::Failure::kSplit, record)};
   apply_fractures(world);

@@ -125,7 +125,7 @@ TEST_F(RandomFloes, TheTreesNodesCoverTheirPieces) {
   for (int i = 0; i < 100; ++i) {
     const Boundary boundary = make_boundary(random_floe(random_), {1, i % 2 == 0});
     for (std::size_t n = 0; n < boundary.tree.size(); ++n) {
-      const CoverNode& node = boundary.tree[n];
+      const CircleNode& node = boundary.tree[n];
       for (std::uint32_t c = node.first; c < node.first + node.count; ++c) {
         ASSERT_LE(distance(node.centre, boundary.covers[c].centre) + boundary.covers[c].reach, node.reach);
       }
@@ -150,10 +150,10 @@ TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
     const double towards = random_.angle();
     const Pose a_from_b{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
     const double margin = i % 2 == 0 ? 0 : random_.between(0, 1);
-    std::vector<NearPair> cover_pairs;
+    std::vector<NearPair> circle_pairs;
     std::vector<NearPair> edge_pairs;
-    const double bound = near_covers(a, b, a_from_b, margin, cover_pairs);
-    edges_of(a, b, cover_pairs, edge_pairs);
+    const double bound = near_circles(a, b, a_from_b, margin, circle_pairs);
+    edges_of(a, b, circle_pairs, edge_pairs);
     ASSERT_TRUE(std::is_sorted(edge_pairs.begin(), edge_pairs.end()));
     ASSERT_TRUE(std::adjacent_find(edge_pairs.begin(), edge_pairs.end()) == edge_pairs.end());
     const std::set<NearPair> found(edge_pairs.begin(), edge_pairs.end());

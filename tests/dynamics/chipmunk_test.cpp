@@ -85,7 +85,7 @@ OurOutcome with_ours(const Scene& scene) {
   OurOutcome outcome;
   Bodies& bodies = outcome.bodies;
   for (const NewBody& body : scene.bodies) add_body(bodies, body);
-  PairFinder finder({}, 30);
+  BroadPhase finder({}, 30);
   for (const BodyIndex i : {0, 1}) finder.add(bodies, i);
   for (const BodyIndex i : {0, 1}) finder.wake(bodies, i);
   finder.update(bodies, {0, 1});
@@ -94,7 +94,7 @@ OurOutcome with_ours(const Scene& scene) {
   SolverSettings settings;
   settings.restitution = scene.restitution;
   settings.tolerance = 1e-13;
-  settings.most_sweeps = 20000;
+  settings.max_iterations = 20000;
   ImpulseSolver().solve(bodies, outcome.contacts, settings);
   for (BodyIndex i = 0; i < 2; ++i) {
     outcome.velocity[i] = bodies.velocity[i];

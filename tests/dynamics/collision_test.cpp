@@ -151,7 +151,7 @@ TEST_F(RandomContacts, WithFrictionMomentumIsKeptTheConeHoldsAndNoEnergyIsGained
     Trial t = random_plates(random_, shape_, width, random_.between(0, 1));
     SolverSettings settings;
     settings.restitution = random_.between(0, 1);
-    settings.most_sweeps = 200;
+    settings.max_iterations = 200;
     const double energy = kinetic_energy(t.bodies);
     const Vector p = momentum(t.bodies);
     const double turn = angular_momentum(t.bodies);
@@ -184,7 +184,7 @@ TEST_F(RandomContacts, FrictionStopsSlipOrIsAtItsConeAgainstIt) {
     SolverSettings settings;
     settings.restitution = 0;
     settings.tolerance = 1e-11;
-    settings.most_sweeps = 500;
+    settings.max_iterations = 500;
     ASSERT_TRUE(solver.solve(t.bodies, t.contacts, settings).is_converged());
     const Contact& c = t.contacts[0];
     const Vector relative = velocity_at(t.bodies, 1, c.middle() - t.bodies.position[1]) -
@@ -222,11 +222,11 @@ TEST(ContactsTogether, BodiesThatPartAreLeftAlone) {
 struct Pinch {
   Bodies bodies;
   std::vector<Contact> contacts;
-  ContactRecord records[2];
+  PersistentContact records[2];
 
   Pinch() {
     NewBody ship = floe_body(rectangle(120, 24), {-60, 0});
-    ship.is_held = true;
+    ship.is_prescribed = true;
     ship.velocity = {1, 0};
     add_body(bodies, ship);
     add_body(bodies, floe_body(rectangle(10, 10), {5, 0}));
@@ -240,7 +240,7 @@ TEST(ContactsTogether, AFloePinchedBetweenAHeldShipAndAHeavyPlateFeelsBoth) {
   Pinch pinch;
   SolverSettings settings;
   settings.restitution = 0;
-  settings.most_sweeps = 20000;
+  settings.max_iterations = 20000;
   ImpulseSolver().solve(pinch.bodies, pinch.contacts, settings);
   // Plastic: both move on with the ship, and each contact carries what is accelerated beyond it.
   const Bodies& bodies = pinch.bodies;
@@ -289,7 +289,7 @@ TEST(ContactsTogether, ARowOfTouchingFloesKeepsItsMomentumAndGainsNoEnergy) {
       double energy = kinetic_energy(bodies);
       SolverSettings settings;
       settings.restitution = restitution;
-      settings.most_sweeps = sweeps;
+      settings.max_iterations = sweeps;
       for (int step = 0; step < 20; ++step) {
         std::vector<Contact> contacts;
         for (BodyIndex i = 0; i + 1 < bodies.size(); ++i) {
@@ -316,7 +316,7 @@ TEST(ContactsTogether, APlasticRowMovesOnAsOne) {
   SolverSettings settings;
   settings.restitution = 0;
   settings.tolerance = 1e-12;
-  settings.most_sweeps = 5000;
+  settings.max_iterations = 5000;
   ASSERT_TRUE(ImpulseSolver().solve(bodies, contacts, settings).is_converged());
   for (BodyIndex i = 0; i < 6; ++i) EXPECT_NEAR(bodies.velocity[i].x, 2.0 / 6, 1e-9);
 }
@@ -325,7 +325,7 @@ TEST(ContactsTogether, MirroredScenesGiveMirroredResults) {
   // A held wall hit squarely by a floe over a wide contact: no turn, and v⁺ = −ε v⁻ all over the line.
   Bodies bodies;
   NewBody wall = floe_body(rectangle(10, 40), {-5, 0});
-  wall.is_held = true;
+  wall.is_prescribed = true;
   add_body(bodies, wall);
   NewBody floe = floe_body(rectangle(10, 10), {5, 0});
   floe.velocity = {-1, 0};
@@ -334,7 +334,7 @@ TEST(ContactsTogether, MirroredScenesGiveMirroredResults) {
   SolverSettings settings;
   settings.restitution = 0.4;
   settings.tolerance = 1e-12;
-  settings.most_sweeps = 500;
+  settings.max_iterations = 500;
   ASSERT_TRUE(ImpulseSolver().solve(bodies, contacts, settings).is_converged());
   EXPECT_NEAR(bodies.velocity[1].x, 0.4, 1e-10);
   EXPECT_NEAR(bodies.angular_velocity[1], 0, 1e-10);

@@ -35,7 +35,7 @@ TEST(CrushLimit, IsNeverExceededAtEitherEnd) {
     std::vector<Contact> contacts{
         contact_at(0, 1, {0, random.between(-4, 4)}, {1, 0}, random.between(0, 2), 0.3)};
     contacts[0].impulse_limit = std::pow(10.0, random.between(-2, 6));
-    ContactRecord record;
+    PersistentContact record;
     record.owed_impulse = random.between(0, 1e5);
     contacts[0].record = &record;
     SolverSettings settings;
@@ -70,7 +70,7 @@ TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
       for (const double steps_of_compression : {0.3, 3.7, 40.2}) {
         Bodies bodies = two_floes(1, offset);
         const double energy = kinetic_energy(bodies);
-        ContactRecord record;
+        PersistentContact record;
         Contact contact = contact_at(0, 1, {0, 0}, {1, 0});
         contact.record = &record;
         const double before = parting_speed(bodies, contact, {0, 0});
@@ -103,7 +103,7 @@ TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
 TEST(Separation, GivesNoSpeedMovesNoCentreOfMassAndDecaysAsItSays) {
   Bodies bodies = two_floes(0, 0);
   bodies.position[1].x -= 0.2;  // an overlap of 0.2 m, face to face
-  PairFinder finder({}, 20);
+  BroadPhase finder({}, 20);
   for (const BodyIndex i : all_of(bodies)) finder.add(bodies, i);
   for (const BodyIndex i : all_of(bodies)) finder.wake(bodies, i);
   SeparationSettings settings;
@@ -129,7 +129,7 @@ TEST(Separation, GivesNoSpeedMovesNoCentreOfMassAndDecaysAsItSays) {
 TEST(Separation, LeavesWhatCrushingMadeAndNeverMovesAHeldBody) {
   Bodies bodies = two_floes(0, 0);
   bodies.position[1].x -= 0.2;
-  ContactRecord record;
+  PersistentContact record;
   record.crushed_depth = 0.15;
   std::vector<Contact> contacts{contact_at(0, 1, {-0.1, 0}, {1, 0}, 10)};
   contacts[0].depth = 0.2;

@@ -28,7 +28,7 @@ struct Found {
 /// Every pair of which one at least is awake, from nothing.
 std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule) {
   std::vector<Found> found;
-  geometry::PatchScratch scratch;
+  geometry::ManifoldScratch scratch;
   for (BodyIndex a = 0; a < bodies.size(); ++a) {
     for (BodyIndex b = a + 1; b < bodies.size(); ++b) {
       if (!bodies.is_alive[a] || !bodies.is_alive[b] || (!bodies.is_awake[a] && !bodies.is_awake[b]))
@@ -39,16 +39,16 @@ std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule)
       const Pose a_from_b = dynamics::a_from_b(bodies, a, b, centre_a_from_b(bodies, a, b));
       std::vector<geometry::NearPair> circles;
       std::vector<geometry::NearPair> edges;
-      std::vector<geometry::ContactPatch> patches;
-      near_covers(*bodies.boundary[a], *bodies.boundary[b], a_from_b, 0, circles);
+      std::vector<geometry::ContactManifold> manifolds;
+      near_circles(*bodies.boundary[a], *bodies.boundary[b], a_from_b, 0, circles);
       if (rule.is_circle_centres) {
-        find_circle_patches(*bodies.boundary[a], *bodies.boundary[b], a_from_b, circles, patches);
+        find_circle_manifolds(*bodies.boundary[a], *bodies.boundary[b], a_from_b, circles, manifolds);
       } else {
         edges_of(*bodies.boundary[a], *bodies.boundary[b], circles, edges);
-        find_patches(*bodies.boundary[a], *bodies.boundary[b], a_from_b, edges, scratch, patches);
+        find_manifolds(*bodies.boundary[a], *bodies.boundary[b], a_from_b, edges, scratch, manifolds);
       }
-      for (const geometry::ContactPatch& patch : patches)
-        found.push_back({a, b, patch.width, patch.depth, patch.area});
+      for (const geometry::ContactManifold& manifold : manifolds)
+        found.push_back({a, b, manifold.width, manifold.depth, manifold.area});
     }
   }
   std::sort(found.begin(), found.end());
@@ -59,7 +59,7 @@ std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule)
 struct Pack {
   Bodies bodies;
   std::vector<BodyIndex> awake;
-  PairFinder finder;
+  BroadPhase finder;
   Random random{kSeed};
 
   Pack(const ContactRule& rule, int columns) : finder(rule, 15) {
@@ -149,22 +149,22 @@ void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
   EXPECT_GT(seen, 1000u);
 }
 
-TEST(PairFinder, FindsWhatASearchOverAllPairsFinds) {
+TEST(BroadPhase, FindsWhatASearchOverAllPairsFinds) {
   run_against_brute_force({}, 14, 400);
 }
 
-TEST(PairFinder, FindsWhatASearchOverAllPairsFindsByCircles) {
+TEST(BroadPhase, FindsWhatASearchOverAllPairsFindsByCircles) {
   run_against_brute_force({1.0, true}, 10, 200);
 }
 
-TEST(PairFinder, AFastFloeIsNotMissed) {
+TEST(BroadPhase, AFastFloeIsNotMissed) {
   // 40 m in a step: out of every margin at once.
   Bodies bodies;
   NewBody bullet = floe_body(rectangle(4, 4), {-221, 0.5});
   bullet.velocity = {800, 0};
   add_body(bodies, floe_body(rectangle(40, 40), {0, 0}));
   add_body(bodies, bullet);
-  PairFinder finder({}, 20);
+  BroadPhase finder({}, 20);
   for (const BodyIndex i : {0, 1}) finder.add(bodies, i);
   for (const BodyIndex i : {0, 1}) finder.wake(bodies, i);
   bodies.is_awake = {1, 1};
@@ -180,7 +180,7 @@ TEST(PairFinder, AFastFloeIsNotMissed) {
   EXPECT_GT(met, 0);
 }
 
-TEST(PairFinder, TurningEverythingTurnsTheContacts) {
+TEST(BroadPhase, TurningEverythingTurnsTheContacts) {
   Random random(5);
   int checked = 0;
   for (int i = 0; i < 400; ++i) {
@@ -202,7 +202,7 @@ TEST(PairFinder, TurningEverythingTurnsTheContacts) {
         }
         add_body(bodies, body);
       }
-      PairFinder finder({}, 20);
+      BroadPhase finder({}, 20);
       for (const BodyIndex k : {0, 1}) finder.add(bodies, k);
       for (const BodyIndex k : {0, 1}) finder.wake(bodies, k);
       std::vector<Contact> contacts;
@@ -229,13 +229,13 @@ TEST(PairFinder, TurningEverythingTurnsTheContacts) {
   EXPECT_GT(checked, 100);
 }
 
-TEST(PairFinder, AContactIsRememberedWhileItLastsAndForgottenAfter) {
+TEST(BroadPhase, AContactIsRememberedWhileItLastsAndForgottenAfter) {
   Bodies bodies;
   add_body(bodies, floe_body(rectangle(10, 40), {-5, 0}));
   NewBody floe = floe_body(rectangle(8, 8), {3.9, 0}, 0);
   floe.velocity = {-0.5, 0};
   add_body(bodies, floe);
-  PairFinder finder({}, 20);
+  BroadPhase finder({}, 20);
   for (const BodyIndex i : {0, 1}) finder.add(bodies, i);
   for (const BodyIndex i : {0, 1}) finder.wake(bodies, i);
   std::vector<Contact> contacts;

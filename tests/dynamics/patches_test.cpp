@@ -1,4 +1,4 @@
-// Contact patches against closed forms and against the exact area of the overlap.
+// Contact manifolds against closed forms and against the exact area of the overlap.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using namespace scenery;
 constexpr std::uint64_t kSeed = 77;
 
 struct Found {
-  std::vector<ContactPatch> patches;
+  std::vector<ContactManifold> manifolds;
   int left_out = 0;
 };
 
@@ -24,17 +24,17 @@ Found patches_of(const Polygon& a, const Polygon& b, const Pose& a_from_b, doubl
   const Boundary boundary_b = make_boundary(b, {radius});
   std::vector<NearPair> circles;
   std::vector<NearPair> edges;
-  near_covers(boundary_a, boundary_b, a_from_b, 0, circles);
+  near_circles(boundary_a, boundary_b, a_from_b, 0, circles);
   edges_of(boundary_a, boundary_b, circles, edges);
-  PatchScratch scratch;
+  ManifoldScratch scratch;
   Found found;
-  found.left_out = find_patches(boundary_a, boundary_b, a_from_b, edges, scratch, found.patches);
+  found.left_out = find_manifolds(boundary_a, boundary_b, a_from_b, edges, scratch, found.manifolds);
   return found;
 }
 
-void expect_points(const ContactPatch& patch, Point p, Point q, double tolerance) {
-  const double as_is = std::max(distance(patch.ends[0], p), distance(patch.ends[1], q));
-  const double swapped = std::max(distance(patch.ends[0], q), distance(patch.ends[1], p));
+void expect_points(const ContactManifold& manifold, Point p, Point q, double tolerance) {
+  const double as_is = std::max(distance(manifold.ends[0], p), distance(manifold.ends[1], q));
+  const double swapped = std::max(distance(manifold.ends[0], q), distance(manifold.ends[1], p));
   EXPECT_LT(std::min(as_is, swapped), tolerance);
 }
 
@@ -51,17 +51,17 @@ TEST(Patch, OfACornerInAFlatEdgeIsItsTriangle) {
       const Polygon square{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}};
       const Pose pose{{-depth, 3}, Rotation::by(tilt - std::numbers::pi / 2)};
       const Found found = patches_of(wall(), square, pose);
-      ASSERT_EQ(found.patches.size(), 1u);
-      const ContactPatch& patch = found.patches[0];
+      ASSERT_EQ(found.manifolds.size(), 1u);
+      const ContactManifold& manifold = found.manifolds[0];
       const double up = depth * std::tan(tilt);
       const double down = depth * std::tan(std::numbers::pi / 2 - tilt);
-      EXPECT_NEAR(patch.normal.x, 1, 1e-9);
-      EXPECT_NEAR(patch.width / (up + down), 1, 1e-6);
-      EXPECT_NEAR(patch.depth / depth, 1, 1e-6);
-      EXPECT_NEAR(patch.area / (0.5 * depth * (up + down)), 1, 1e-5);
-      EXPECT_LT(distance(patch.tip_of_b, {-depth, 3}), 1e-12);
-      EXPECT_EQ(patch.tip_edge_of_b, 0u);
-      expect_points(patch, {0, 3 + up}, {0, 3 - down}, 1e-9);
+      EXPECT_NEAR(manifold.normal.x, 1, 1e-9);
+      EXPECT_NEAR(manifold.width / (up + down), 1, 1e-6);
+      EXPECT_NEAR(manifold.depth / depth, 1, 1e-6);
+      EXPECT_NEAR(manifold.area / (0.5 * depth * (up + down)), 1, 1e-5);
+      EXPECT_LT(distance(manifold.tip_of_b, {-depth, 3}), 1e-12);
+      EXPECT_EQ(manifold.tip_edge_of_b, 0u);
+      expect_points(manifold, {0, 3 + up}, {0, 3 - down}, 1e-9);
       EXPECT_EQ(found.left_out, 0);
     }
   }
@@ -69,25 +69,25 @@ TEST(Patch, OfACornerInAFlatEdgeIsItsTriangle) {
 
 TEST(Patch, OfFaceToFaceIsTheSharedStripe) {
   const Found found = patches_of(wall(), rectangle(10, 8), {{5 - 0.25, 2}, {}});
-  ASSERT_EQ(found.patches.size(), 1u);
-  const ContactPatch& patch = found.patches[0];
-  EXPECT_EQ(patch.normal, (Vector{1, 0}));
-  EXPECT_NEAR(patch.width, 8, 1e-12);
-  EXPECT_NEAR(patch.depth, 0.25, 1e-12);
-  EXPECT_NEAR(patch.area, 2, 1e-12);
-  expect_points(patch, {0, -2}, {0, 6}, 1e-12);
+  ASSERT_EQ(found.manifolds.size(), 1u);
+  const ContactManifold& manifold = found.manifolds[0];
+  EXPECT_EQ(manifold.normal, (Vector{1, 0}));
+  EXPECT_NEAR(manifold.width, 8, 1e-12);
+  EXPECT_NEAR(manifold.depth, 0.25, 1e-12);
+  EXPECT_NEAR(manifold.area, 2, 1e-12);
+  expect_points(manifold, {0, -2}, {0, 6}, 1e-12);
 }
 
 TEST(Patch, OfOffsetFacesStandsBetweenWhereTheBoundariesCross) {
   // Two squares of 10 m, shifted by 3 m along the face and overlapping by 0.1 m: the line joins opposite
   // corners of the stripe of 7 × 0.1 m.
   const Found found = patches_of(rectangle(10, 10, {-5, 0}), rectangle(10, 10), {{5 - 0.1, 3}, {}});
-  ASSERT_EQ(found.patches.size(), 1u);
-  const ContactPatch& patch = found.patches[0];
-  EXPECT_NEAR(patch.width, std::hypot(7, 0.1), 1e-12);
-  EXPECT_NEAR(patch.area, 0.7, 1e-12);
-  EXPECT_NEAR(patch.normal.x, 7 / std::hypot(7, 0.1), 1e-12);
-  expect_points(patch, {0, -2}, {-0.1, 5}, 1e-12);
+  ASSERT_EQ(found.manifolds.size(), 1u);
+  const ContactManifold& manifold = found.manifolds[0];
+  EXPECT_NEAR(manifold.width, std::hypot(7, 0.1), 1e-12);
+  EXPECT_NEAR(manifold.area, 0.7, 1e-12);
+  EXPECT_NEAR(manifold.normal.x, 7 / std::hypot(7, 0.1), 1e-12);
+  expect_points(manifold, {0, -2}, {-0.1, 5}, 1e-12);
 }
 
 TEST(Patch, OfCornerToCornerIsTheRhombus) {
@@ -95,24 +95,24 @@ TEST(Patch, OfCornerToCornerIsTheRhombus) {
   const double d = 0.2;
   const Polygon diamond{{{5, 0}, {0, 5}, {-5, 0}, {0, -5}}, {}};
   const Found found = patches_of(diamond, diamond, {{10 - 2 * d, 0}, {}});
-  ASSERT_EQ(found.patches.size(), 1u);
-  EXPECT_NEAR(found.patches[0].normal.x, 1, 1e-12);
-  EXPECT_NEAR(found.patches[0].width, 2 * d, 1e-12);
-  EXPECT_NEAR(found.patches[0].depth, 2 * d, 1e-12);
-  EXPECT_NEAR(found.patches[0].area, 2 * d * d, 1e-12);
-  expect_points(found.patches[0], {5 - d, d}, {5 - d, -d}, 1e-12);
+  ASSERT_EQ(found.manifolds.size(), 1u);
+  EXPECT_NEAR(found.manifolds[0].normal.x, 1, 1e-12);
+  EXPECT_NEAR(found.manifolds[0].width, 2 * d, 1e-12);
+  EXPECT_NEAR(found.manifolds[0].depth, 2 * d, 1e-12);
+  EXPECT_NEAR(found.manifolds[0].area, 2 * d * d, 1e-12);
+  expect_points(found.manifolds[0], {5 - d, d}, {5 - d, -d}, 1e-12);
 }
 
 TEST(Patch, OfThreeTeethAreThree) {
   const Polygon teeth{{{0, 3}, {2, 2}, {0, 0}, {2, -2}, {0, -3}, {10, -5}, {10, 5}}, {}};
   const Found found = patches_of(wall(), teeth, {{-0.1, 0}, {}});
-  ASSERT_EQ(found.patches.size(), 3u);
-  for (const ContactPatch& patch : found.patches) EXPECT_NEAR(patch.normal.x, 1, 1e-12);
+  ASSERT_EQ(found.manifolds.size(), 3u);
+  for (const ContactManifold& manifold : found.manifolds) EXPECT_NEAR(manifold.normal.x, 1, 1e-12);
 }
 
 TEST(Patch, BodiesThatDoNotOverlapHaveNone) {
-  EXPECT_TRUE(patches_of(wall(), rectangle(10, 8), {{5 + 1e-12, 2}, {}}).patches.empty());
-  EXPECT_TRUE(patches_of(rectangle(30, 30), rectangle(4, 4), {{0, 0}, {}}).patches.empty())
+  EXPECT_TRUE(patches_of(wall(), rectangle(10, 8), {{5 + 1e-12, 2}, {}}).manifolds.empty());
+  EXPECT_TRUE(patches_of(rectangle(30, 30), rectangle(4, 4), {{0, 0}, {}}).manifolds.empty())
       << "one inside the other";
 }
 
@@ -130,11 +130,11 @@ TEST(Patch, OnAGridWhereEverythingTouchesConvexFloesHaveTheirExactOverlap) {
         const Found found = patches_of(fixed, moving, pose);
         const auto exact = overlap({fixed}, {}, {moving}, pose);
         ASSERT_TRUE(exact);
-        if (found.patches.size() > 1) continue;  // they stand in each other
+        if (found.manifolds.size() > 1) continue;  // they stand in each other
         ++checked;
         double area = 0;
-        for (const ContactPatch& patch : found.patches) area += patch.area;
-        const bool is_one_inside_the_other = exact->area == 8.5 && found.patches.empty();
+        for (const ContactManifold& manifold : found.manifolds) area += manifold.area;
+        const bool is_one_inside_the_other = exact->area == 8.5 && found.manifolds.empty();
         EXPECT_NEAR(area, is_one_inside_the_other ? 0 : exact->area, 1e-12) << x << ' ' << y << ' ' << turn;
       }
     }
@@ -166,11 +166,11 @@ TEST_F(RandomPatches, OfConvexFloesHaveTheOverlapsExactArea) {
     const Found found = patches_of(a, b, pose);
     const auto exact = overlap({a}, {}, {b}, pose);
     ASSERT_TRUE(exact);
-    if (found.patches.size() > 1) continue;  // they stand in each other
-    ASSERT_EQ(found.patches.empty(), exact->area == 0) << i;
-    if (found.patches.empty()) continue;
+    if (found.manifolds.size() > 1) continue;  // they stand in each other
+    ASSERT_EQ(found.manifolds.empty(), exact->area == 0) << i;
+    if (found.manifolds.empty()) continue;
     ++checked;
-    worst = std::max(worst, std::abs(found.patches[0].area - exact->area));
+    worst = std::max(worst, std::abs(found.manifolds[0].area - exact->area));
   }
   std::printf("areas off by up to %.2g m2 over %d overlaps\n", worst, checked);
   EXPECT_LT(worst, 1e-11);
@@ -190,12 +190,12 @@ TEST_F(RandomPatches, OfJaggedFloesSumToTheOverlapsExactArea) {
     const auto exact = overlap({a}, {}, {b}, pose);
     ASSERT_TRUE(exact);
     ASSERT_EQ(found.left_out, 0);
-    if (found.patches.empty()) continue;
+    if (found.manifolds.empty()) continue;
     ++checked;
     double area = 0;
-    for (const ContactPatch& patch : found.patches) area += patch.area;
+    for (const ContactManifold& manifold : found.manifolds) area += manifold.area;
     worst = std::max(worst, std::abs(area - exact->area));
-    ASSERT_LT(worst, 1e-11) << i << " with " << found.patches.size() << " patches";
+    ASSERT_LT(worst, 1e-11) << i << " with " << found.manifolds.size() << " manifolds";
   }
   std::printf("areas off by up to %.2g m2 over %d overlaps\n", worst, checked);
   EXPECT_GT(checked, 400);
@@ -210,20 +210,20 @@ TEST_F(RandomPatches, SwappingTheBodiesFlipsTheNormalAndChangesNothingElse) {
     const double towards = random_.angle();
     const Pose a_from_b{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
     const Pose b_from_a = relative_pose(a_from_b, {});
-    std::vector<ContactPatch> ab = patches_of(a, b, a_from_b).patches;
-    std::vector<ContactPatch> ba = patches_of(b, a, b_from_a).patches;
+    std::vector<ContactManifold> ab = patches_of(a, b, a_from_b).manifolds;
+    std::vector<ContactManifold> ba = patches_of(b, a, b_from_a).manifolds;
     ASSERT_EQ(ab.size(), ba.size()) << i;
-    for (const ContactPatch& patch : ab) {
-      const auto same = std::find_if(ba.begin(), ba.end(), [&](const ContactPatch& other) {
-        return distance(midpoint(patch.ends[0], patch.ends[1]),
+    for (const ContactManifold& manifold : ab) {
+      const auto same = std::find_if(ba.begin(), ba.end(), [&](const ContactManifold& other) {
+        return distance(midpoint(manifold.ends[0], manifold.ends[1]),
                         point_in_world(a_from_b, midpoint(other.ends[0], other.ends[1]))) < 1e-9;
       });
       ASSERT_NE(same, ba.end()) << i;
       ++checked;
-      EXPECT_NEAR(length(rotate(a_from_b.rotation, same->normal) + patch.normal), 0, 1e-6);
-      EXPECT_NEAR(same->width, patch.width, 1e-10);
-      EXPECT_NEAR(same->depth, patch.depth, 1e-9);
-      EXPECT_NEAR(same->area, patch.area, 1e-10);
+      EXPECT_NEAR(length(rotate(a_from_b.rotation, same->normal) + manifold.normal), 0, 1e-6);
+      EXPECT_NEAR(same->width, manifold.width, 1e-10);
+      EXPECT_NEAR(same->depth, manifold.depth, 1e-9);
+      EXPECT_NEAR(same->area, manifold.area, 1e-10);
     }
   }
   EXPECT_GT(checked, 500);
@@ -236,11 +236,11 @@ TEST_F(RandomPatches, TheCircleRadiusDoesNotMatterToThem) {
     const Pose pose{{random_.between(11, 16), random_.between(-3, 3)}, Rotation::by(random_.angle())};
     const Found coarse = patches_of(a, b, pose, 3);
     const Found fine = patches_of(a, b, pose, 0.11);
-    ASSERT_EQ(coarse.patches.size(), fine.patches.size());
-    for (std::size_t k = 0; k < coarse.patches.size(); ++k) {
-      EXPECT_EQ(coarse.patches[k].area, fine.patches[k].area);
-      EXPECT_EQ(coarse.patches[k].normal, fine.patches[k].normal);
-      EXPECT_EQ(coarse.patches[k].ends[0], fine.patches[k].ends[0]);
+    ASSERT_EQ(coarse.manifolds.size(), fine.manifolds.size());
+    for (std::size_t k = 0; k < coarse.manifolds.size(); ++k) {
+      EXPECT_EQ(coarse.manifolds[k].area, fine.manifolds[k].area);
+      EXPECT_EQ(coarse.manifolds[k].normal, fine.manifolds[k].normal);
+      EXPECT_EQ(coarse.manifolds[k].ends[0], fine.manifolds[k].ends[0]);
     }
   }
 }
@@ -252,17 +252,17 @@ TEST(CirclePatch, StandsOnTheLineOfCentresHalfWayIntoTheLens) {
   const double depth = 0.3;
   const Pose pose{{5 - depth, 0}, {}};
   std::vector<NearPair> circles;
-  near_covers(a, b, pose, 0.5, circles);
-  std::vector<ContactPatch> patches;
-  find_circle_patches(a, b, pose, circles, patches);
-  ASSERT_FALSE(patches.empty());
+  near_circles(a, b, pose, 0.5, circles);
+  std::vector<ContactManifold> manifolds;
+  find_circle_manifolds(a, b, pose, circles, manifolds);
+  ASSERT_FALSE(manifolds.empty());
   double deepest = 0;
-  for (const ContactPatch& patch : patches) {
-    EXPECT_NEAR(length(patch.normal), 1, 1e-12);
-    EXPECT_GT(patch.normal.x, 0);
-    EXPECT_NEAR(dot(patch.ends[1] - patch.ends[0], patch.normal), 0, 1e-12);
-    EXPECT_NEAR(distance(patch.ends[0], patch.ends[1]), patch.width, 1e-12);
-    deepest = std::max(deepest, patch.depth);
+  for (const ContactManifold& manifold : manifolds) {
+    EXPECT_NEAR(length(manifold.normal), 1, 1e-12);
+    EXPECT_GT(manifold.normal.x, 0);
+    EXPECT_NEAR(dot(manifold.ends[1] - manifold.ends[0], manifold.normal), 0, 1e-12);
+    EXPECT_NEAR(distance(manifold.ends[0], manifold.ends[1]), manifold.width, 1e-12);
+    deepest = std::max(deepest, manifold.depth);
   }
   EXPECT_NEAR(deepest, depth, 1e-9)
       << "circles touch their faces, so that they overlap as much as the floes do";

@@ -168,7 +168,7 @@ TEST(WaterDrag, ATurnedFloeWithATurnedVelocityFeelsTheSameDragTurned) {
 TEST(WaterDrag, HeldBodiesKeepTheirVelocity) {
   Bodies bodies;
   NewBody held = floe_body(rectangle(10, 6), {});
-  held.is_held = true;
+  held.is_prescribed = true;
   held.velocity = {1, 0};
   held.angular_velocity = 0.1;
   add_body(bodies, held);

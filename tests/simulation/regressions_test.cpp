@@ -16,9 +16,9 @@ TEST(Regression, AMovingFloeMeetsFloesThatTheSceneListsLater) {
   for (const bool is_mover_first : {true, false}) {
     Scene scene;
     scene.water.drag_coefficient = 0;
-    const FloeSpec mover = floe(rectangle(0, 0, 10, 10), {1, 0});
+    const FloeSpec solver_body = floe(rectangle(0, 0, 10, 10), {1, 0});
     const FloeSpec rester = floe(rectangle(10.5, 0, 20.5, 10));
-    scene.floes = is_mover_first ? std::vector{mover, rester} : std::vector{rester, mover};
+    scene.floes = is_mover_first ? std::vector{solver_body, rester} : std::vector{rester, solver_body};
     Simulation simulation(scene);
     while (simulation.world().contacts.empty() && simulation.time() < 3) simulation.step();
     EXPECT_NEAR(simulation.time(), 0.5, 3 * scene.time.step) << is_mover_first;

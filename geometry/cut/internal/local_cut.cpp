@@ -33,8 +33,8 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
 // in each direction, where its terms cancel; untouched rings are carried over. What is left is each split
 // edge against the sub-edges it became, and that is summed here in rationals: before rounding it must be
 // zero for every edge by itself. None where it is not.
-std::optional<Balance> balance_split_edges(const LocalCut& cut) {
-  Balance balance;
+std::optional<AreaCheck> balance_split_edges(const LocalCut& cut) {
+  AreaCheck balance;
   for (std::size_t begin = 0; begin < cut.nodes.size();) {
     const Place& place = cut.nodes[begin].on_shape;
     std::size_t end = begin;
@@ -188,7 +188,7 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   }
   std::optional<std::vector<PiecePlan>> plans = plan_pieces(cut);
   if (!plans || !uses_all_once(cut, *plans)) return {};
-  const std::optional<Balance> balance = balance_split_edges(cut);
+  const std::optional<AreaCheck> balance = balance_split_edges(cut);
   if (!balance) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
   CutOutcome outcome = is_cleanly_rounded(cut, *plans, tool_box, near_tool)
                            ? take_as_planned(std::move(*plans), area_of(shape), *balance)

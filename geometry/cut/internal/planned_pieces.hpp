@@ -12,14 +12,14 @@ namespace polynya::geometry {
 // out, and their areas.
 
 /// How a cut accounts for the edges it changed, in rationals.
-struct Balance {
+struct AreaCheck {
   exact::Rational defect = 0;    ///< twice what the pieces' edges differ by from those of the shape
   exact::Rational rounding = 0;  ///< twice what rounding their new vertices changed
 };
 
 /// The pieces as planned, where rounding broke none of them.
 template <typename Plan>
-CutResult take_as_planned(std::vector<Plan> plans, double area_before, const Balance& balance) {
+CutResult take_as_planned(std::vector<Plan> plans, double area_before, const AreaCheck& balance) {
   CutResult result;
   CutLedger& ledger = result.ledger;
   ledger.area_before = area_before;

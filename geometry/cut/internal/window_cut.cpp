@@ -24,8 +24,8 @@ tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
 
 // Far chains and far rings stand in the pieces once each, as they stand in the shape: what is left to sum is
 // what was arranged.
-Balance balance_window(const WindowCut& cut, const std::vector<WindowPiece>& pieces) {
-  Balance balance;
+AreaCheck balance_window(const WindowCut& cut, const std::vector<WindowPiece>& pieces) {
+  AreaCheck balance;
   for (const EdgeId e : cut.window.near)
     balance.defect -=
         shoelace_term(cut.shape.exact_point(e.ring, e.index), cut.shape.exact_point(e.ring, e.index + 1));
@@ -142,7 +142,7 @@ std::optional<CutOutcome> round_in_window(WindowCut& cut, const exact::Classifie
                                    "the crack ends inside the ice or only bridges its holes",
                                    cut.overlay.dangling_length});
   }
-  const Balance balance = balance_window(cut, *plans);
+  const AreaCheck balance = balance_window(cut, *plans);
   if (balance.defect != 0) return {};
   if (!is_cleanly_rounded(cut, *plans)) return round_exactly(cut, *plans, exact::area(cut.shape.polygon()));
   return take_as_planned(std::move(*plans), area_of(cut.shape.polygon()), balance);
