@@ -81,12 +81,12 @@ struct Placed {
 };
 
 Placed placed(const simulation::BirthRecord& birth, const Polygon& polygon_in_body,
-                  const io::Motion& motion) {
+              const io::Motion& motion) {
   Placed floe{birth.floe, motion, {{}, geometry::Rotation::by(motion.angle)}, {}};
   floe.world_from_body.position =
       motion.position - rotate(floe.world_from_body.rotation, birth.centroid_in_body - Point{});
   geometry::Ring ring;
-  for (const Point p : polygon_in_body.outer) ring.push_back(point_in_world(floe.world_from_body, p));
+  for (const Point p : polygon_in_body.outer) ring.push_back(transform(floe.world_from_body, p));
   const Box box = bounding_box(ring);
   floe.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
   return floe;
@@ -162,8 +162,7 @@ class OverlapCheck {
       if (!motion) continue;
       const auto known = before.find(floe.birth.floe);
       const bool is_still = known != before.end() && is_same_place(known->second.motion, *motion);
-      floes_.push_back(is_still ? known->second
-                                : placed(floe.birth, *run_.shape(floe.birth.floe), *motion));
+      floes_.push_back(is_still ? known->second : placed(floe.birth, *run_.shape(floe.birth.floe), *motion));
     }
     std::ranges::stable_sort(floes_, {}, [](const Placed& floe) { return floe.box_in_world.low.x; });
   }

@@ -29,7 +29,7 @@ Point on_outline(double s) {
 
 March march_of_cusps() {
   const geometry::Pose turned{{3.1, -2.7}, geometry::Rotation::by(0.3)};
-  const auto place = [&](Point p) { return geometry::point_in_world(turned, p); };
+  const auto place = [&](Point p) { return geometry::transform(turned, p); };
   March march;
   for (const Point p : {Point{0, 0}, Point{kWidth, 0}, Point{kWidth, kLength}, Point{0, kLength}}) {
     march.plate.push_back(place(p));

@@ -104,8 +104,8 @@ bool collect(const Bodies& bodies, const Pair& pair, const Pose& place, bool is_
     Contact& c = contacts.emplace_back();
     c.a = pair.a;
     c.b = pair.b;
-    for (int end = 0; end < 2; ++end) c.ends[end] = point_in_world(water_from_a, manifold.ends[end]);
-    c.tip_of_b = point_in_world(water_from_a, manifold.tip_of_b);
+    for (int end = 0; end < 2; ++end) c.ends[end] = transform(water_from_a, manifold.ends[end]);
+    c.tip_of_b = transform(water_from_a, manifold.tip_of_b);
     c.normal = rotate(water_from_a.rotation, manifold.normal);
     c.width = manifold.width;
     c.depth = manifold.depth;

@@ -18,10 +18,10 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
   const Pose pose = water_from_body(bodies, i);
   if (bodies.boundary[i]->edges.size() > 64)
     return geometry::grown({bodies.position[i], bodies.position[i]}, bodies.bounding_radius[i]);
-  Box box = {point_in_world(pose, bodies.boundary[i]->edges.vertices.front()), {}};
+  Box box = {transform(pose, bodies.boundary[i]->edges.vertices.front()), {}};
   box.high = box.low;
   for (const Point p : bodies.boundary[i]->edges.vertices) {
-    const Point q = point_in_world(pose, p);
+    const Point q = transform(pose, p);
     box.low = {std::min(box.low.x, q.x), std::min(box.low.y, q.y)};
     box.high = {std::max(box.high.x, q.x), std::max(box.high.y, q.y)};
   }

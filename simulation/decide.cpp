@@ -40,7 +40,7 @@ double hull_angle_at(const World& world, const Contact& c) {
   if (hull.angles_from_vertical.empty()) {
     return fracture::hull_angle_from_vertical(rotate_back(pose.rotation, c.normal).x, hull.stem_angle);
   }
-  const Point here = point_in_body(pose, c.middle());
+  const Point here = inverse_transform(pose, c.middle());
   double nearest = std::numeric_limits<double>::infinity();
   double angle = 0;
   for (std::size_t i = 0; i < hull.waterline.size(); ++i) {
@@ -77,7 +77,7 @@ geometry::WedgeAngles wedge_at(const World& world, const Contact& c) {
   const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
   const double l = fracture::characteristic_length(world.scene.ice, world.scene.water.water);
   return geometry::wedge_angles(world.bodies.boundary[c.b]->edges, c.tip_edge_of_b,
-                                point_in_body(water_from_floe, c.tip_of_b),
+                                inverse_transform(water_from_floe, c.tip_of_b),
                                 rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
 }
 
@@ -106,7 +106,7 @@ double least_splitting_force(const World& world) {
 void measure_crack(const World& world, const Contact& c, PendingFracture& pending) {
   const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
   pending.crack_in_body =
-      geometry::crack_path(*world.bodies.boundary[c.b], point_in_body(water_from_floe, c.middle()),
+      geometry::crack_path(*world.bodies.boundary[c.b], inverse_transform(water_from_floe, c.middle()),
                            rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
   const double length = pending.crack_in_body.length_in_ice;
   // At the corner that an earlier crack left, the next one would run along its face and pare it strip by

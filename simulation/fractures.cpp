@@ -54,7 +54,7 @@ void reject(World& world, const PendingFracture& pending, const geometry::CutErr
 void note_removed(World& world, double& sink, const NewFloe& moving, const geometry::Measures& measures) {
   const double mass_per_area = world.scene.ice.density * world.scene.ice.thickness;
   const geometry::Vector arm =
-      point_in_world(moving.water_from_body, measures.centroid) - moving.water_from_body.position;
+      transform(moving.water_from_body, measures.centroid) - moving.water_from_body.position;
   const geometry::Vector velocity = moving.velocity + cross(moving.angular_velocity, arm);
   const geometry::Vector carried = mass_per_area * measures.area * velocity;
   sink += 0.5 * (dot(carried, velocity) +

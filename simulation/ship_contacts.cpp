@@ -29,7 +29,7 @@ bool are_both_held(const dynamics::Bodies& bodies, BodyIndex ship, BodyIndex oth
 geometry::Ring waterline_in_water(const World& world, BodyIndex ship) {
   const geometry::Pose pose = dynamics::water_from_body(world.bodies, ship);
   geometry::Ring ring = world.scene.ships[static_cast<std::size_t>(ship)].hull.waterline;
-  for (Point& p : ring) p = point_in_world(pose, p);
+  for (Point& p : ring) p = transform(pose, p);
   return ring;
 }
 

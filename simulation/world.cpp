@@ -144,7 +144,7 @@ void populate(World& world) {
 FloeId add_floe(World& world, const NewFloe& floe, const geometry::Measures& measures) {
   const auto id = static_cast<FloeId>(world.floes.size());
   dynamics::NewBody body = new_body_of(world, floe.shape.polygon, measures);
-  body.position = point_in_world(floe.water_from_body, body.centroid);
+  body.position = transform(floe.water_from_body, body.centroid);
   body.angle = floe.angle;
   // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);

@@ -74,14 +74,14 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
     const NearPair pair = stack[--top];
     const CircleNode& na = a.tree[pair.a];
     const CircleNode& nb = b.tree[pair.b];
-    const double d = gap(na, nb, point_in_world(a_from_b, nb.centre));
+    const double d = gap(na, nb, transform(a_from_b, nb.centre));
     if (d > margin) {
       bound = std::min(bound, d);
       continue;
     }
     if (na.right == 0 && nb.right == 0) {
       for (std::uint32_t k = nb.first; k < nb.first + nb.count; ++k) {
-        const Point centre = point_in_world(a_from_b, b.covers[k].centre);
+        const Point centre = transform(a_from_b, b.covers[k].centre);
         for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
           const double free = distance(a.covers[i].centre, centre) - a.covers[i].reach - b.covers[k].reach;
           bound = std::min(bound, free);
@@ -127,8 +127,8 @@ double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b
   for (const NearPair pair : edge_pairs) {
     const Point a0 = a.edges.from(pair.a);
     const Point a1 = a.edges.to(pair.a);
-    const Point b0 = point_in_world(a_from_b, b.edges.from(pair.b));
-    const Point b1 = point_in_world(a_from_b, b.edges.to(pair.b));
+    const Point b0 = transform(a_from_b, b.edges.from(pair.b));
+    const Point b1 = transform(a_from_b, b.edges.to(pair.b));
     const double b_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0);
     const double a_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0);
     if (b_sides <= 0 && a_sides <= 0) return 0;

@@ -27,8 +27,8 @@ void find_crossings(const Boundary& a, const Boundary& b, const Pose& a_from_b,
   for (const NearPair pair : edge_pairs) {
     const Point a0 = a.edges.from(pair.a);
     const Point a1 = a.edges.to(pair.a);
-    const Point b0 = point_in_world(a_from_b, b.edges.from(pair.b));
-    const Point b1 = point_in_world(a_from_b, b.edges.to(pair.b));
+    const Point b0 = transform(a_from_b, b.edges.from(pair.b));
+    const Point b1 = transform(a_from_b, b.edges.to(pair.b));
     const Vector da = a1 - a0;
     const Vector db = b1 - b0;
     const Vector ab = b0 - a0;
@@ -195,7 +195,7 @@ bool make_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, c
   if (manifold.width < 1e-12) return false;
   manifold.normal = (-1 / manifold.width) * perpendicular(line);
   const auto as_is = [](Point p) { return p; };
-  const auto from_b = [&](Point p) { return point_in_world(a_from_b, p); };
+  const auto from_b = [&](Point p) { return transform(a_from_b, p); };
   const ChainExtent on_a =
       walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, manifold.width, manifold.normal,
            enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is, scratch.side_a);
@@ -272,7 +272,7 @@ void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_f
   for (const NearPair pair : circle_pairs) {
     const ContactCircle& ca = a.circles[pair.a];
     const ContactCircle& cb = b.circles[pair.b];
-    const Vector line = point_in_world(a_from_b, cb.centre) - ca.centre;
+    const Vector line = transform(a_from_b, cb.centre) - ca.centre;
     const double centres = length(line);
     const double depth = ca.radius + cb.radius - centres;
     if (depth <= 0 || centres == 0) continue;

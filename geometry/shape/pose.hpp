@@ -28,17 +28,19 @@ struct Pose {
   Rotation rotation;  ///< from the body's axes to the world's
 };
 
-constexpr Point point_in_world(const Pose& world_from_body, Point point_in_body) {
-  return world_from_body.position + rotate(world_from_body.rotation, point_in_body - Point{});
+/// The point of frame b, in frame a.
+constexpr Point transform(const Pose& a_from_b, Point point_in_b) {
+  return a_from_b.position + rotate(a_from_b.rotation, point_in_b - Point{});
 }
-constexpr Point point_in_body(const Pose& world_from_body, Point point_in_world) {
-  return Point{} + rotate_back(world_from_body.rotation, point_in_world - world_from_body.position);
+/// The point of frame a, in frame b.
+constexpr Point inverse_transform(const Pose& a_from_b, Point point_in_a) {
+  return Point{} + rotate_back(a_from_b.rotation, point_in_a - a_from_b.position);
 }
 /// The pose of frame b in frame a, from both in the world.
 constexpr Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) {
   const Rotation ra = world_from_a.rotation;
   const Rotation rb = world_from_b.rotation;
-  return {point_in_body(world_from_a, world_from_b.position),
+  return {inverse_transform(world_from_a, world_from_b.position),
           {ra.cosine * rb.cosine + ra.sine * rb.sine, ra.cosine * rb.sine - ra.sine * rb.cosine}};
 }
 

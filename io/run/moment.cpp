@@ -35,7 +35,7 @@ std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, dou
 geometry::Ring placed(const geometry::Pose& world_from_body, const geometry::Ring& ring) {
   geometry::Ring moved;
   moved.reserve(ring.size());
-  for (const geometry::Point p : ring) moved.push_back(point_in_world(world_from_body, p));
+  for (const geometry::Point p : ring) moved.push_back(transform(world_from_body, p));
   return moved;
 }
 

@@ -23,7 +23,7 @@ constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
-  return {point_in_world(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity,
+  return {transform(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity,
           floe.angular_velocity};
 }
 

@@ -44,7 +44,7 @@ std::vector<Polygon> floes_of(const FloeGroup& group) {
       Polygon floe = rectangle(group.origin, group.size);
       if (group.angle == 0) return {floe};
       const geometry::Pose turned{group.origin, geometry::Rotation::by(group.angle)};
-      for (Point& p : floe.outer) p = point_in_world(turned, Point{} + (p - group.origin));
+      for (Point& p : floe.outer) p = transform(turned, Point{} + (p - group.origin));
       return {floe};
     }
     case FloeGroup::Form::kPolygon:

@@ -21,7 +21,7 @@ unsigned sides_beyond(Point p, const Box& box) {
 Box box_in_frame(const Pose& world_from_a, const Polygon& b, const Pose& world_from_b) {
   Ring ring;
   ring.reserve(b.outer.size());
-  for (const Point p : b.outer) ring.push_back(point_in_body(world_from_a, point_in_world(world_from_b, p)));
+  for (const Point p : b.outer) ring.push_back(inverse_transform(world_from_a, transform(world_from_b, p)));
   const Box box = bounding_box(ring);
   const Point world = world_from_a.position;
   const double size = length(box.low - Point{}) + length(box.high - Point{}) + length(world - Point{}) +

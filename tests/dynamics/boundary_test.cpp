@@ -160,8 +160,8 @@ TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
 
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t eb = 0; eb < b.edges.size(); ++eb) {
-      const Point b0 = point_in_world(a_from_b, b.edges.from(eb));
-      const Point b1 = point_in_world(a_from_b, b.edges.to(eb));
+      const Point b0 = transform(a_from_b, b.edges.from(eb));
+      const Point b1 = transform(a_from_b, b.edges.to(eb));
       for (std::uint32_t ea = 0; ea < a.edges.size(); ++ea) {
         const double d = distance_of_segments(a.edges.from(ea), a.edges.to(ea), b0, b1);
         nearest = std::min(nearest, d);

@@ -164,8 +164,8 @@ TEST(Separation, CountsInWhatABodyHasTravelled) {
   separate(bodies, contacts, {}, 0.5);
   for (const BodyIndex i : all_of(bodies)) {
     for (const Point p : bodies.boundary[i]->edges.vertices) {
-      const double way = distance(point_in_world(water_from_body(before, i), p),
-                                  point_in_world(water_from_body(bodies, i), p));
+      const double way =
+          distance(transform(water_from_body(before, i), p), transform(water_from_body(bodies, i), p));
       EXPECT_LE(way, bodies.travel[i] - before.travel[i] + 1e-15);
       EXPECT_GT(way, 0);
     }

@@ -216,7 +216,7 @@ TEST_F(RandomPatches, SwappingTheBodiesFlipsTheNormalAndChangesNothingElse) {
     for (const ContactManifold& manifold : ab) {
       const auto same = std::find_if(ba.begin(), ba.end(), [&](const ContactManifold& other) {
         return distance(midpoint(manifold.ends[0], manifold.ends[1]),
-                        point_in_world(a_from_b, midpoint(other.ends[0], other.ends[1]))) < 1e-9;
+                        transform(a_from_b, midpoint(other.ends[0], other.ends[1]))) < 1e-9;
       });
       ASSERT_NE(same, ba.end()) << i;
       ++checked;

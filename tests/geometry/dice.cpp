@@ -90,7 +90,7 @@ Polygon moved(Dice& dice, const Polygon& polygon) {
   const bool is_turned = dice.below(2) == 1;
   const auto move = [&](Ring ring) {
     for (Point& p : ring) {
-      if (is_turned) p = point_in_world(turned, p);
+      if (is_turned) p = transform(turned, p);
       p = Point{p.x * scale, p.y * scale} + offset;
     }
     return ring;

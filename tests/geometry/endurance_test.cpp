@@ -89,7 +89,9 @@ class Trial {
     return best;
   }
 
-  Point to_body(const Floe& floe, Point in_world) { return point_in_body(floe.world_from_body, in_world); }
+  Point to_body(const Floe& floe, Point in_world) {
+    return inverse_transform(floe.world_from_body, in_world);
+  }
 
   CutOutcome cut(const Floe& floe) {
     const Ring& ring = floe.shape.polygon.outer;
@@ -99,7 +101,7 @@ class Trial {
     if (kind == 0)
       return cut_along(floe.shape, {vertex, ring[random_() % ring.size()]});  // in the body: vertex to vertex
     if (kind == 1) return cut_by_polygon(floe.shape, {disc_polygon(vertex, 0.2 * size, 0.01 * size), {}});
-    const Point in_world = point_in_world(floe.world_from_body, vertex);
+    const Point in_world = transform(floe.world_from_body, vertex);
     const double angle = 2 * std::numbers::pi * unit();
     const Vector direction{std::cos(angle), std::sin(angle)};
     if (kind < 5) {

@@ -25,7 +25,7 @@ using trials::is_sound;
 const Ring kSquare{{0, 0}, {6, 0}, {6, 6}, {0, 6}};
 
 Ring moved(Ring ring, const Pose& pose) {
-  for (Point& p : ring) p = point_in_world(pose, p);
+  for (Point& p : ring) p = transform(pose, p);
   return ring;
 }
 

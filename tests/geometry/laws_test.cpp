@@ -132,7 +132,7 @@ TEST(Laws, MotionLeavesGenericCutsCongruent) {
     const Ring disc = disc_polygon({dice.between(-10, 10), dice.between(-10, 10)}, dice.between(1, 6), 0.03);
     const Pose pose{{dice.between(-500, 500), dice.between(-500, 500)}, Rotation::by(dice.between(-3, 3))};
     const auto moved = [&](Ring ring) {
-      for (Point& p : ring) p = point_in_world(pose, p);
+      for (Point& p : ring) p = transform(pose, p);
       return ring;
     };
     const CutOutcome here = cut_by_polygon(Shape{{floe, {}}}, {disc, {}});

@@ -21,9 +21,9 @@ Polygon box(double x, double y, double w, double h) {
 
 Polygon turned(Polygon polygon, double angle) {
   const geometry::Pose pose{{3, 4}, geometry::Rotation::by(angle)};
-  for (Point& p : polygon.outer) p = point_in_world(pose, p);
+  for (Point& p : polygon.outer) p = transform(pose, p);
   for (Ring& hole : polygon.holes) {
-    for (Point& p : hole) p = point_in_world(pose, p);
+    for (Point& p : hole) p = transform(pose, p);
   }
   return polygon;
 }

@@ -65,8 +65,7 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
       recorded.contacts.push_back({simulation.time(), state});
     auto& points = recorded.centroids.emplace_back(simulation.time(), std::vector<geometry::Point>{}).second;
     for (const auto& state : recorded.frames.back().second) {
-      points.push_back(
-          point_in_world(state.world_from_body, geometry::measure(*state.polygon_in_body).centroid));
+      points.push_back(transform(state.world_from_body, geometry::measure(*state.polygon_in_body).centroid));
     }
   };
   take();
