@@ -51,7 +51,7 @@ double at_rest(const FloeSpec& floe) {
 /// Its pieces, one for each contact circle, with their covers and the tree over them.
 double contact_circles(const Polygon& polygon, const ContactSettings& contact) {
   constexpr double kPiece =
-      sizeof(geometry::BoundaryPiece) + sizeof(geometry::Cover) + sizeof(geometry::CoverNode);
+      sizeof(geometry::BoundaryPiece) + sizeof(geometry::BoundingCircle) + sizeof(geometry::CircleNode);
   const double own = contact.normal == ContactNormal::kCircleCentres ? sizeof(geometry::ContactCircle) : 0;
   double length = length_of(polygon.outer);
   for (const Ring& hole : polygon.holes) length += length_of(hole);
