@@ -42,7 +42,7 @@ void expect_stopped_run(const std::filesystem::path& folder) {
   ASSERT_TRUE(run.has_value()) << run.error();
   EXPECT_FALSE(run->summary.find("finished")->boolean());
   EXPECT_EQ(run->summary.find("stopped_by")->text(), "memory");
-  EXPECT_TRUE(io::check_run(*run).is_sound());
+  EXPECT_TRUE(analysis::check_run(*run).is_sound());
 }
 
 TEST(Memory, RunsOutAtAnyPointAndLeavesNothingOrAWholeFolder) {
