@@ -1,9 +1,64 @@
 #include "dynamics/thread_limit.hpp"
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <vector>
+
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 namespace polynya::dynamics {
+namespace {
+
+/// TBB aborts the program where a worker cannot be made (pthread_create), most often for want of memory for
+/// its stack. So all threads are made once beforehand, at the same time, where that is an exception.
+void require_threads(int count) {
+  std::mutex mutex;
+  std::condition_variable condition;
+  bool is_over = false;
+  std::vector<std::jthread> threads;
+  const auto end = [&] {
+    {
+      const std::lock_guard lock(mutex);
+      is_over = true;
+    }
+    condition.notify_all();
+  };
+  try {
+    for (int i = 0; i < count; ++i) {
+      threads.emplace_back([&] {
+        std::unique_lock lock(mutex);
+        condition.wait(lock, [&] { return is_over; });
+      });
+    }
+  } catch (const std::system_error&) {
+    end();
+    throw std::bad_alloc();
+  }
+  end();
+}
+
+/// Has TBB make its workers now, while there is room for them: each of the tasks waits for the others.
+void start_workers(int threads) {
+  constexpr auto kPatience = std::chrono::milliseconds(200);  ///< a busy machine may take longer
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  std::atomic<int> started = 0;
+  tbb::parallel_for(
+      0, threads,
+      [&](int) {
+        ++started;
+        while (started < threads && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace
 
 struct ThreadLimit::Arena {
   explicit Arena(int threads)
@@ -13,7 +68,11 @@ struct ThreadLimit::Arena {
   tbb::task_arena arena;
 };
 
-ThreadLimit::ThreadLimit(int threads) : arena_(std::make_unique<Arena>(threads)) {}
+ThreadLimit::ThreadLimit(int threads) {
+  require_threads(threads - 1);
+  arena_ = std::make_unique<Arena>(threads);
+  arena_->arena.execute([threads] { start_workers(threads); });
+}
 ThreadLimit::~ThreadLimit() = default;
 
 void ThreadLimit::execute(const std::function<void()>& function) {
