@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/run_options.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/run_writer.hpp"
 #include "io/scene/scene_reader.hpp"

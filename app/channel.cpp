@@ -2,29 +2,40 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include "analysis/channel_text.hpp"
+#include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
-#include "app/run_commands.hpp"
+#include "app/options.hpp"
 #include "app/write_output.hpp"
 #include "io/run/run_folder.hpp"
 
 namespace polynya::app {
 namespace {
 
-int fail(ExitCode code, const std::string& words) {
-  print_err("polynya: {}\n", words);
-  return code;
-}
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya channel runs/sawamura2017-fig4b                 also writes channel.csv and channel.geojson "
+    "there\n"
+    "  polynya channel runs/sawamura2017-fig4b --at 300 --out /tmp\n"
+    "  polynya channel runs/sawamura2017-fig4b --json | jq .mean_width_m\n"
+    "\n"
+    "Exit codes: 0 done, 2 usage, 5 input/output.\n";
 
-}  // namespace
+struct Options {
+  std::string run;
+  std::string out;  ///< folder for channel.csv and channel.geojson; empty: the run's
+  std::string ship;
+  analysis::ChannelOptions measure;
+  std::string format = "table";
+};
 
-int channel(const ChannelOptions& options) {
+int measure(const Options& options) {
   const auto run = io::read_run(options.run);
   if (!run) return fail(kInputOutput, run.error());
-  analysis::ChannelOptions wanted{
-      .ship = 0, .time = options.at, .spacing = options.spacing, .reach = options.reach};
+  analysis::ChannelOptions wanted = options.measure;
   const auto& ships = run->scene.scene.ships;
   if (!options.ship.empty()) {
     const auto found = std::ranges::find(ships, options.ship, &simulation::ShipSpec::name);
@@ -33,8 +44,8 @@ int channel(const ChannelOptions& options) {
   }
   const auto channel = analysis::measure_channel(*run, wanted);
   if (!channel) return fail(kUsage, channel.error());
-  std::error_code error;
-  if (!options.out.empty()) std::filesystem::create_directories(options.out, error);
+  std::error_code ignored;
+  if (!options.out.empty()) std::filesystem::create_directories(options.out, ignored);
   for (const auto& [name, text] : {std::pair{io::run_file::kChannelCsv, to_csv(*channel)},
                                    std::pair{io::run_file::kChannel, to_geojson(*channel)}}) {
     if (const std::string wrong = write_product(options.out, options.run, name, text); !wrong.empty())
@@ -44,6 +55,30 @@ int channel(const ChannelOptions& options) {
             : options.format == "csv" ? to_csv(*channel)
                                       : to_table(*channel));
   return kDone;
+}
+
+}  // namespace
+
+Command add_channel(CLI::App& app) {
+  auto* command = app.add_subcommand("channel", "Measure the channel behind a ship");
+  command->footer(kExamples);
+  auto options = std::make_shared<Options>();
+  add_run_folder(*command, options->run);
+  option(*command, "--at", options->measure.time, "S", "At that time instead of the end [s]", finite());
+  option(*command, "--ship", options->ship, "NAME", "Which ship; the first one if not given");
+  option(*command, "--spacing", options->measure.spacing, "M",
+         "Length of a station [m]; the beam if not given", between(0.1, 1e5));
+  option(*command, "--reach", options->measure.reach, "M",
+         "How far from the track ice is looked for [m]; four beams if not given", between(0.1, 1e5));
+  auto* format = command->add_option("--format", options->format, "What stdout gets; json: as --json");
+  set_choices(*format, {"table", "csv", "json"});
+  command
+      ->add_flag_callback(
+          "--json", [options] { options->format = "json"; }, "Print the sums as JSON instead of the table")
+      ->excludes(format);
+  option(*command, "--out", options->out, "DIR",
+         "Folder for channel.csv and channel.geojson; the run's if not given");
+  return {command, [options] { return measure(*options); }};
 }
 
 }  // namespace polynya::app

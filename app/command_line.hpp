@@ -1,32 +1,25 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "app/progress.hpp"
-
 namespace polynya::app {
 
-/// A subcommand: adds its options to the command line and returns what to do when it is chosen.
-using Command = std::function<int()>;
+/// A subcommand on the command line, and what it does; it returns an ExitCode. Data goes to stdout, messages
+/// to stderr.
+struct Command {
+  const CLI::App* app;
+  std::function<int()> run;
+};
 
-/// `polynya database`, with its own subcommands.
-Command add_database(CLI::App& app);
-
-/// `polynya cut` and `polynya inspect`.
-Command add_cut(CLI::App& app);
-Command add_inspect(CLI::App& app);
-
-/// `polynya view`.
-Command add_view(CLI::App& app);
-
-/// `polynya channel`, `figures` and `export`.
-Command add_channel(CLI::App& app);
-Command add_figures(CLI::App& app);
-Command add_export(CLI::App& app);
-
-/// --progress, as every long command has it.
-void add_progress(CLI::App& command, ProgressKind& kind);
+/// Runs the command that the parsed line chose.
+inline int run_chosen(const std::vector<Command>& commands) {
+  for (const Command& command : commands) {
+    if (command.app->parsed()) return command.run();
+  }
+  return 0;
+}
 
 }  // namespace polynya::app

@@ -1,57 +1,28 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-
-#include "app/progress.hpp"
+#include "app/command_line.hpp"
 
 namespace polynya::app {
 
-/// The subcommands, one file each. Each returns an ExitCode. Data goes to stdout, messages to stderr.
-
-/// How a run is carried out, whether it starts or goes on.
-struct CarryOptions {
-  int threads = 1;
-  double checkpoint_every = 0;        ///< simulated time between checkpoints [s]; 0: by the clock alone
-  double checkpoint_every_wall = 60;  ///< and by the clock [s]; 0: never by it
-  bool check = false;  ///< every cross-index and sum of the world is derived anew after every step
-  ProgressKind progress = ProgressKind::kAuto;
-};
-
-struct RunOptions {
-  std::string scene;
-  std::string out;              ///< empty: runs/<scene name>
-  std::optional<double> until;  ///< [s]
-  std::optional<std::uint64_t> seed;
-  bool overwrite = false;
-  CarryOptions carry;
-};
-int run(const RunOptions& options);
-
-struct ResumeOptions {
-  std::string folder;
-  std::string checkpoint;     ///< empty: the newest
-  bool from_failure = false;  ///< only repeats the step that a failure was dumped for
-  CarryOptions carry;
-};
-int resume(const ResumeOptions& options);
-
-struct ValidateOptions {
-  std::string scene;
-  bool resolved = false;  ///< print the scene with every default filled in
-  bool json = false;      ///< print its problems as a JSON array
-};
-int validate(const ValidateOptions& options);
-
-struct SchemaOptions {
-  bool markdown = false;  ///< the tables of docs/scene.md instead
-};
-int schema(const SchemaOptions& options);
-
-struct InitOptions {
-  std::string file;  ///< empty: stdout
-};
-int init(const InitOptions& options);
+/// Each adds one command to the command line: its help, its options and what it does, all in the file of its
+/// name (docs/architecture.md, "To add").
+Command add_channel(CLI::App& app);
+Command add_completion(CLI::App& app);
+Command add_cut(CLI::App& app);
+Command add_database(CLI::App& app);
+Command add_database_build(CLI::App& app);
+Command add_database_query(CLI::App& app);
+Command add_database_show(CLI::App& app);
+Command add_database_study(CLI::App& app);
+Command add_export(CLI::App& app);
+Command add_figures(CLI::App& app);
+Command add_init(CLI::App& app);
+Command add_inspect(CLI::App& app);
+Command add_man(CLI::App& app);
+Command add_resume(CLI::App& app);
+Command add_run(CLI::App& app);
+Command add_schema(CLI::App& app);
+Command add_validate(CLI::App& app);
+Command add_view(CLI::App& app);
 
 }  // namespace polynya::app

@@ -57,6 +57,11 @@ void write_err(std::string_view text) {
   write(stderr, text, err_error);
 }
 
+int fail(int code, std::string_view message) {
+  print_err("polynya: {}\n", message);
+  return code;
+}
+
 void show_progress(std::string_view text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
   std::fflush(stderr);

@@ -31,6 +31,9 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
+/// "polynya: " and the message on stderr; returns the code.
+int fail(int code, std::string_view message);
+
 /// Shows how far some work is, on stderr. It may be lost.
 void show_progress(std::string_view text);
 

@@ -1,14 +1,16 @@
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/cut_floes.hpp"
+#include "app/cut_messages.hpp"
 #include "app/exit_code.hpp"
-#include "app/geometry_commands.hpp"
+#include "app/options.hpp"
 #include "app/read_input.hpp"
 #include "app/write_output.hpp"
 #include "io/text/cut_ops.hpp"
@@ -20,8 +22,26 @@ namespace polynya::app {
 namespace {
 
 constexpr std::size_t kLongestOps = std::size_t{64} << 20;  ///< [bytes]
-constexpr std::size_t kMostReported = 100;                  ///< messages; the ledger has all
-constexpr std::size_t kMostVertices = 4;                    ///< in a message; likewise
+
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya cut floes.geojson --disc 10,5,3 --out pieces.geojson        ledger to stdout\n"
+    "  polynya cut floes.wkt --crack 0,0,30 --out - --ledger ledger.json   pieces to stdout\n"
+    "  polynya cut - --polygon channel.geojson --keep both --out pieces.ndjson < floes.ndjson\n"
+    "  polynya cut floes.geojson --ops cuts.json --repair even-odd --out pieces.geojson\n"
+    "\n"
+    "Exit codes: 0 all were cut, 2 usage, 4 some polygons were refused (the others are cut), 5 "
+    "input/output.\n";
+
+struct Options {
+  std::string floes;                            ///< a file, or "-" for stdin; so are the other files
+  std::string disc, crack, line, polygon, ops;  ///< the one that is given; the others empty
+  io::Keep keep = io::Keep::kOutside;
+  double sagitta = 0;  ///< [m]; 0: by the radius
+  std::string out;     ///< empty: none, or stdout where the ledger goes to a file
+  std::string ledger;  ///< empty: stdout, unless the pieces go there
+  std::optional<geometry::FillRule> repair;
+};
 
 /// Ends the command; the message has been made.
 struct Failure {
@@ -31,33 +51,33 @@ struct Failure {
 template <class Value>
 using Outcome = tl::expected<Value, Failure>;
 
-tl::unexpected<Failure> fail(ExitCode code, std::string words) {
+tl::unexpected<Failure> failure(ExitCode code, std::string words) {
   return tl::unexpected(Failure{code, std::move(words)});
 }
-tl::unexpected<Failure> fail(const std::string& where, const io::ToolError& error) {
+tl::unexpected<Failure> failure(const std::string& where, const io::ToolError& error) {
   const bool is_invalid = error.kind == io::ToolError::Kind::kInvalidPolygon;
-  return fail(is_invalid ? kRefused : kUsage, fmt::format("{}: {}", where, error.words));
+  return failure(is_invalid ? kRefused : kUsage, fmt::format("{}: {}", where, error.words));
 }
 
 Outcome<std::vector<double>> numbers(const char* option, const std::string& text, std::size_t wanted) {
   auto read = io::read_numbers(text, wanted);
-  if (!read) return fail(kUsage, fmt::format("{}: {}", option, read.error()));
+  if (!read) return failure(kUsage, fmt::format("{}: {}", option, read.error()));
   return *std::move(read);
 }
 
 template <class Tool>
 Outcome<std::vector<io::CutOp>> one_op(const char* where, io::ToolOutcome<Tool> tool, io::Keep keep) {
-  if (!tool) return fail(where, tool.error());
+  if (!tool) return failure(where, tool.error());
   return std::vector<io::CutOp>{{std::move(*tool), keep}};
 }
 
-Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
+Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
   const std::string* const tools[] = {&options.disc, &options.crack, &options.line, &options.polygon,
                                       &options.ops};
   const auto given = std::ranges::count_if(tools, [](const std::string* tool) { return !tool->empty(); });
   if (given != 1) {
-    return fail(kUsage, fmt::format("one of --disc, --crack, --line, --polygon, --ops is needed, {} given",
-                                    given == 0 ? "none is" : fmt::format("{} are", given)));
+    return failure(kUsage, fmt::format("one of --disc, --crack, --line, --polygon, --ops is needed, {} given",
+                                       given == 0 ? "none is" : fmt::format("{} are", given)));
   }
   if (!options.disc.empty()) {
     const auto n = numbers("--disc", options.disc, 3);
@@ -76,10 +96,10 @@ Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
   }
   const std::string& file = options.polygon.empty() ? options.ops : options.polygon;
   auto text = read_input(file, options.polygon.empty() ? kLongestOps : io::kLongestFloeText);
-  if (!text) return fail(kInputOutput, fmt::format("{}: {}", file, text.error()));
+  if (!text) return failure(kInputOutput, fmt::format("{}: {}", file, text.error()));
   if (!options.polygon.empty()) return one_op(file.c_str(), io::polygon_tool(std::move(*text)), options.keep);
   auto ops = io::read_cut_ops(std::move(*text), {options.keep, options.sagitta});
-  if (!ops) return fail(file, ops.error());
+  if (!ops) return failure(file, ops.error());
   return *std::move(ops);
 }
 
@@ -97,73 +117,21 @@ Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
                                        {".wkt", io::FloeFormat::kWkt}}) {
     if (extension == ending) return format;
   }
-  return fail(kUsage,
-              fmt::format("--out {}: no format has the extension {}; GeoJSON: .geojson, .json; NDJSON: "
-                          ".ndjson, .jsonl, .geojsonl; WKT: .wkt (others: ogr2ogr converts GeoJSON)",
-                          file, extension));
-}
-
-/// Told as "floes.geojson:3: feature 1: …"; past the hundredth only counted.
-void report_floes(const std::string& name, const io::CutReport& report) {
-  std::size_t told = 0;
-  const auto report_of = [&](const io::CutFloe& floe, const std::string& words) {
-    if (++told > kMostReported) return;
-    print_err("{}:{}: feature {}, polygon {}: {}\n", name, floe.line, floe.feature, floe.member, words);
-  };
-  for (const io::CutFloe& floe : report.floes) {
-    if (floe.rejected) {
-      std::string words = floe.rejected->reason;
-      if (!floe.rejected->detail.empty()) words += ": " + floe.rejected->detail;
-      const auto& vertices = floe.rejected->vertices;
-      for (std::size_t i = 0; i < std::min(vertices.size(), kMostVertices); ++i)
-        words += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", vertices[i].x, vertices[i].y);
-      if (vertices.size() > kMostVertices)
-        words += fmt::format(" and {} more", vertices.size() - kMostVertices);
-      report_of(floe, words);
-    }
-    if (floe.repair) {
-      report_of(floe, fmt::format("{}, repaired ({}): {} polygon{}, {:+} m2 to the {} m2 drawn",
-                                  floe.repair->defect, floe.repair->rule, floe.repair->shapes,
-                                  floe.repair->shapes == 1 ? "" : "s", floe.repair->area_changed,
-                                  floe.repair->area_drawn));
-    }
-    for (const io::Dangling& one : floe.dangling) {
-      report_of(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m",
-                                  one.from.x, one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
-    }
-  }
-  if (told > kMostReported) print_err("polynya: {} more; the ledger has all\n", told - kMostReported);
-}
-
-void report_totals(const io::CutReport& report) {
-  const io::CutTotals totals = io::totals_of(report);
-  const auto floes = std::ranges::count_if(
-      report.floes, [](const io::CutFloe& floe) { return !floe.rejected || !floe.pieces.empty(); });
-  print_err(
-      "polynya: {} floe{} -> {} piece{}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect "
-      "{}, rounding "
-      "{:.2e} m2)\n",
-      floes, floes == 1 ? "" : "s", totals.pieces, totals.pieces == 1 ? "" : "s", totals.area,
-      totals.area_of_pieces, totals.removed, totals.exact_defect, totals.rounding_defect);
-  if (totals.snap_rounded > 0) {
-    print_err("polynya: {} piece{} snap-rounded: nearest doubles did not make a valid polygon\n",
-              totals.snap_rounded, totals.snap_rounded == 1 ? " was" : "s were");
-  }
-  if (totals.rejected > 0) {
-    print_err("polynya: {} refused; {}\n", totals.rejected,
-              totals.rejected == totals.floes ? "nothing was cut" : "the others were cut");
-  }
+  return failure(kUsage,
+                 fmt::format("--out {}: no format has the extension {}; GeoJSON: .geojson, .json; NDJSON: "
+                             ".ndjson, .jsonl, .geojsonl; WKT: .wkt (others: ogr2ogr converts GeoJSON)",
+                             file, extension));
 }
 
 /// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
-std::string write_results(const CutOptions& options, const io::CutReport& report, io::FloeFormat format) {
+std::string write_results(const Options& options, const io::CutReport& report, io::FloeFormat format) {
   std::string ledger = options.ledger;
   std::string out = options.out;
   if (ledger.empty() && out != "-") ledger = "-";
   if (out.empty() && !ledger.empty() && ledger != "-") out = "-";
   if (!out.empty()) {
-    std::string failure = write_output(out, to_floe_text(report, format));
-    if (!failure.empty()) return failure;
+    std::string wrong = write_output(out, to_floe_text(report, format));
+    if (!wrong.empty()) return wrong;
   } else {
     print_err("polynya: the ledger is on stdout; name --out FILE for the pieces, or --ledger FILE\n");
   }
@@ -180,8 +148,8 @@ io::CoordinateEvidence evidence_of(const io::FloeText& floes) {
 Outcome<bool> check_units(const std::string& name, const io::FloeText& floes) {
   const std::string crs = floes.crs.empty() ? "" : io::geographic_crs(io::parse_json(floes.crs).root);
   if (!crs.empty()) {
-    return fail(kRefused, fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}", name,
-                                      crs, io::how_to_project(evidence_of(floes).box, name)));
+    return failure(kRefused, fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}",
+                                         name, crs, io::how_to_project(evidence_of(floes).box, name)));
   }
   if (floes.crs.empty() && floes.format != io::FloeFormat::kWkt && evidence_of(floes).look_polar()) {
     print_err("note: {}: these look like longitude and latitude; areas and lengths are then in degrees: {}\n",
@@ -190,52 +158,71 @@ Outcome<bool> check_units(const std::string& name, const io::FloeText& floes) {
   return true;
 }
 
-/// What of the text is not in the pieces.
-void report_losses(const std::string& name, const io::FloeText& floes, io::FloeFormat format) {
-  const auto note = [&name](const char* words) { print_err("note: {}: {}\n", name, words); };
-  if (floes.entries.empty()) note("no floes in it");
-  if (floes.has_more_coordinates) note("third coordinates are passed over");
-  if (floes.has_srid) note("SRID is passed over");
-  if (floes.has_other_crs) note("its crs members differ; the pieces get the first");
-  if (format != io::FloeFormat::kWkt) return;
-  if (!floes.crs.empty()) note("WKT has no room for its crs");
-  if (std::ranges::any_of(floes.entries, [](const io::FloeEntry& one) { return one.properties != nullptr; }))
-    note("WKT has no room for properties");
-}
-
-Outcome<bool> cut_all(const CutOptions& options) {
+Outcome<bool> cut_all(const Options& options) {
   if (!options.out.empty() && options.out == options.ledger)
-    return fail(kUsage, "--out and --ledger are one and the same");
+    return failure(kUsage, "--out and --ledger are one and the same");
   if (options.floes == "-" && (options.polygon == "-" || options.ops == "-"))
-    return fail(kUsage, "stdin can be read once");
+    return failure(kUsage, "stdin can be read once");
   const auto wanted_format = output_format(options.out);
   if (!wanted_format) return tl::unexpected(wanted_format.error());
   auto ops = read_ops(options);
   if (!ops) return tl::unexpected(ops.error());
   const std::string name = options.floes == "-" ? "stdin" : options.floes;
   auto text = read_input(options.floes, io::kLongestFloeText);
-  if (!text) return fail(kInputOutput, fmt::format("{}: {}", name, text.error()));
+  if (!text) return failure(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));
-  if (!floes) return fail(kInputOutput, fmt::format("{}:{}", name, floes.error()));
+  if (!floes) return failure(kInputOutput, fmt::format("{}:{}", name, floes.error()));
   if (auto units = check_units(name, *floes); !units) return units;
   const io::FloeFormat format = wanted_format->value_or(floes->format);
   report_losses(name, *floes, format);
   io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
   report.crs = floes->crs;
   report_floes(name, report);
-  if (const std::string failure = write_results(options, report, format); !failure.empty())
-    return fail(kInputOutput, failure);
+  if (const std::string wrong = write_results(options, report, format); !wrong.empty())
+    return failure(kInputOutput, wrong);
   report_totals(report);
   return io::totals_of(report).rejected == 0;
 }
 
+int cut(const Options& options) {
+  const auto all_cut = cut_all(options);
+  if (!all_cut) return fail(all_cut.error().code, all_cut.error().words);
+  return *all_cut ? kDone : kRefused;
+}
+
 }  // namespace
 
-int cut(const CutOptions& options) {
-  const auto all_cut = cut_all(options);
-  if (all_cut) return *all_cut ? kDone : kRefused;
-  print_err("polynya: {}\n", all_cut.error().words);
-  return all_cut.error().code;
+Command add_cut(CLI::App& app) {
+  auto* command = app.add_subcommand("cut", "Cut floes exactly, with every square metre accounted for");
+  command->footer(kExamples);
+  auto options = std::make_shared<Options>();
+  option(*command, "floes", options->floes, "FLOES",
+         "GeoJSON, NDJSON or WKT, told apart by content; - for stdin")
+      ->required();
+  const auto tool = [&](const char* name, std::string& value, const char* type, const char* meaning) {
+    option(*command, name, value, type, meaning)->group("Tools, one of them");
+  };
+  tool("--disc", options->disc, "X,Y,R", "The disc of that centre and radius [m]");
+  tool("--crack", options->crack, "X,Y,ANGLE_DEG", "The straight line through that point, across every floe");
+  tool("--line", options->line, "X0,Y0,X1,Y1", "From end to end; separates where it crosses ice fully");
+  tool("--polygon", options->polygon, "FILE", "Polygons, with holes or not, in any format of FLOES");
+  tool("--ops", options->ops, "FILE", "A JSON list of cuts, in order, each of all pieces");
+  set_choices<io::Keep>(
+      *command->add_option("--keep", options->keep,
+                           "Which side of a disc or polygon stays; outside if not given"),
+      {{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
+  option(*command, "--sagitta", options->sagitta, "M",
+         "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less",
+         between(1e-12, 1e6));
+  option(*command, "--out", options->out, "FILE",
+         "The pieces; format by extension, else that of FLOES; - for stdout");
+  option(*command, "--ledger", options->ledger, "FILE", "The ledger, JSON; stdout if not given");
+  set_choices<geometry::FillRule>(
+      *command->add_option("--repair", options->repair,
+                           "Make valid polygons of those that are not, exactly, by what the rule fills; else "
+                           "they are refused"),
+      {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
+  return {command, [options] { return cut(*options); }};
 }
 
 }  // namespace polynya::app

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
+#include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/exit_code.hpp"
 #include "app/stop_signal.hpp"
@@ -16,10 +17,19 @@ namespace {
 
 constexpr std::size_t kMostWedgeAngles = 64;  ///< what the file's reader takes
 
-int fail(ExitCode code, const std::string& problem) {
-  print_err("polynya: {}\n", problem);
-  return code;
-}
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya database build                     byte for byte the database that ships with Polynya\n"
+    "  polynya database build --fluid winkler --wedge-angles 30,60,90,120 --out winkler.txt\n";
+
+struct Options {
+  std::string out = "icebreaking-database.txt";
+  fracture::FluidModel fluid = fracture::FluidModel::kPotential;
+  std::vector<double> wedge_angles_deg;  ///< 2α; empty: the shipped database's
+  int threads = 0;                       ///< 0: as many as the machine runs at once
+  ProgressKind progress = ProgressKind::kAuto;
+  bool overwrite = false;
+};
 
 /// Why the file cannot be written there; empty where it can. Before the work this tries it, with the
 /// temporary file that the write begins with.
@@ -42,9 +52,7 @@ ProgressReport report(std::size_t done, std::size_t total, double wall) {
                       total, wall, left)};
 }
 
-}  // namespace
-
-int database_build(const DatabaseBuildOptions& options) {
+int build(const Options& options) {
   fracture::DatabaseGrid grid = fracture::default_grid();
   if (const auto& angles = options.wedge_angles_deg; !angles.empty()) {
     if (!fracture::is_grid_axis(angles) || angles.size() > kMostWedgeAngles)
@@ -81,6 +89,29 @@ int database_build(const DatabaseBuildOptions& options) {
   if (text == fracture::default_database_text())
     print_out("            byte for byte the database that ships with Polynya\n");
   return kDone;
+}
+
+}  // namespace
+
+Command add_database_build(CLI::App& app) {
+  auto* command = app.add_subcommand("build", "Solve the wedges and write a database");
+  command->footer(kExamples);
+  auto options = std::make_shared<Options>();
+  option(*command, "--out", options->out, "FILE", "The file to write", not_empty())->capture_default_str();
+  set_choices<fracture::FluidModel>(
+      *command->add_option("--fluid", options->fluid, "What the water does; potential if not given"),
+      {{"winkler", fracture::FluidModel::kWinkler},
+       {"local-mass", fracture::FluidModel::kLocalMass},
+       {"potential", fracture::FluidModel::kPotential},
+       {"free-surface", fracture::FluidModel::kFreeSurface}});
+  option(*command, "--wedge-angles", options->wedge_angles_deg, "DEG,DEG,...",
+         "Opening angles of the wedges, ascending; the shipped database's if not given [deg]",
+         between(5, 180))
+      ->delimiter(',');
+  add_threads(*command, options->threads);
+  add_progress(*command, options->progress);
+  command->add_flag("--overwrite", options->overwrite, "Replace the file");
+  return {command, [options] { return build(*options); }};
 }
 
 }  // namespace polynya::app

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <iterator>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -9,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/exit_code.hpp"
 #include "fracture/bending/database_text.hpp"
@@ -27,6 +26,18 @@ using fracture::BendingLoad;
 using fracture::SlicePoint;
 
 constexpr double kDegree = 180 / std::numbers::pi;
+
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya database query --thickness 0.5 --speed 0.89 --wedge-angle 90 --hull-angle 60\n"
+    "  polynya database query --thickness 1 --speed 2 --front-angle 30 --back-angle 70 --hull-angle 50 "
+    "--json\n";
+
+struct Options {
+  std::string file;  ///< empty: the shipped one
+  DatabaseLoadOptions load;
+  bool json = false;
+};
 
 /// Whether the hull presses the ice down at all; where it does not, the ice crushes and never bends.
 bool can_bend(const BendingLoad& load) {
@@ -92,7 +103,7 @@ void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled,
   json.key("characteristic_length_m").value(scaled.length_scale).close('}');
 }
 
-void print_json(const DatabaseQueryOptions& options, const BendingDatabase& database, const BendingLoad& load,
+void print_json(const Options& options, const BendingDatabase& database, const BendingLoad& load,
                 const SlicePoint& answer) {
   std::string text;
   io::JsonWriter json(text, io::JsonWriter::Layout::kIndented);
@@ -155,8 +166,8 @@ void print_table(const SlicePoint& answer) {
             in_range(kashtelyan.is_in_range));
 }
 
-void print_for_people(const DatabaseQueryOptions& options, const BendingDatabase& database,
-                      const BendingLoad& load, const SlicePoint& answer) {
+void print_for_people(const Options& options, const BendingDatabase& database, const BendingLoad& load,
+                      const SlicePoint& answer) {
   const fracture::ScaledLoad scaled = fracture::scaled(load);
   print_out("load      {}\n", describe(load));
   print_out("groups    2a {:g} deg, m {:.4g}, softness {:.4g}, Fr {:.4g}; l {:.4g} m\n",
@@ -183,13 +194,9 @@ std::string with_ranges(const std::vector<fracture::OutsideRange>& ranges) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-}  // namespace
-
-int database_query(const DatabaseQueryOptions& options) {
-  if (!options.load.wedge_angle_deg && !options.load.front_angle_deg && !options.load.back_angle_deg) {
-    print_err("polynya: the wedge needs --wedge-angle, or --front-angle and --back-angle\n");
-    return kUsage;
-  }
+int query(const Options& options) {
+  if (!options.load.wedge_angle_deg && !options.load.front_angle_deg && !options.load.back_angle_deg)
+    return fail(kUsage, "the wedge needs --wedge-angle, or --front-angle and --back-angle");
   const auto load = bending_load(options.load);
   if (!load) return load.error();
   const auto database = load_database(options.file);
@@ -206,6 +213,23 @@ int database_query(const DatabaseQueryOptions& options) {
     print_err("note: outside the database: {}; the answer is its nearest edge's\n",
               with_ranges(answer.database.outside));
   return kDone;
+}
+
+}  // namespace
+
+Command add_database_query(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("query", "What a wedge of ice bears, by the database and by published forms");
+  command->footer(kExamples);
+  auto options = std::make_shared<Options>();
+  add_point(*command, options->load, true);
+  add_load(*command, options->load);
+  option(*command, "--slip-speed", options->load.slip_speed, "M_PER_S", "along the hull's waterline",
+         between(-100, 100))
+      ->capture_default_str();
+  add_database_file(*command, options->file);
+  command->add_flag("--json", options->json, "Answer as JSON, in SI units");
+  return {command, [options] { return query(*options); }};
 }
 
 }  // namespace polynya::app

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <string>
@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/database_plots.hpp"
 #include "app/exit_code.hpp"
@@ -28,6 +28,12 @@ using fracture::SliceAxis;
 using fracture::SlicePoint;
 
 constexpr double kDegree = 180 / std::numbers::pi;
+
+struct Options {
+  std::string file;        ///< empty: the shipped one
+  std::string svg_folder;  ///< empty: no pictures
+  DatabaseLoadOptions load;
+};
 
 void print_parameters(const BendingDatabase& database, const std::string& file) {
   const fracture::SolverSettings& settings = database.settings();
@@ -111,16 +117,12 @@ std::string write_pictures(const std::vector<NamedChart>& charts, const std::fil
   return "";
 }
 
-}  // namespace
-
-int database_show(const DatabaseShowOptions& options) {
+int show(const Options& options) {
   const auto load = bending_load(options.load);
   if (!load) return load.error();
-  if (load->vertical_to_crushing <= 0) {
-    print_err("polynya: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
-              load->hull_angle * kDegree, load->ice.friction);
-    return kUsage;
-  }
+  if (load->vertical_to_crushing <= 0)
+    return fail(kUsage, fmt::format("a hull {:g} deg from the vertical only crushes ice of friction {:g}",
+                                    load->hull_angle * kDegree, load->ice.friction));
   const auto database = load_database(options.file);
   if (!database) return database.error();
   const FsiDatabaseModel model(*database);
@@ -131,9 +133,25 @@ int database_show(const DatabaseShowOptions& options) {
   const std::string title = fmt::format("{}, fluid {}", options.file.empty() ? "shipped" : options.file,
                                         fracture::fluid_name((*database)->settings().fluid));
   const std::string problem = write_pictures(database_charts(model, title, *load), options.svg_folder);
-  if (problem.empty()) return kDone;
-  print_err("polynya: {}\n", problem);
-  return kInputOutput;
+  return problem.empty() ? kDone : fail(kInputOutput, problem);
+}
+
+}  // namespace
+
+Command add_database_show(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("show", "Print a database's parameters, grids and slices, and plot them");
+  command->footer(
+      "Examples:\n"
+      "  polynya database show                      the database that ships with Polynya\n"
+      "  polynya database show winkler.txt --svg plots --thickness 1\n");
+  auto options = std::make_shared<Options>();
+  option(*command, "file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
+  option(*command, "--svg", options->svg_folder, "DIR",
+         "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg", not_empty());
+  add_point(*command, options->load, false);
+  add_load(*command, options->load);
+  return {command, [options] { return show(*options); }};
 }
 
 }  // namespace polynya::app

@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/database.hpp"
 #include "app/database_input.hpp"
 #include "app/exit_code.hpp"
 #include "fracture/bending/database_text.hpp"
@@ -20,6 +21,27 @@ using fracture::AccuracyRow;
 using fracture::BendingDatabase;
 using fracture::BendingForecast;
 using fracture::BendingLoad;
+
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya database study fluid               what each fluid model changes against speed\n"
+    "  polynya database study couple              what the ice's own deflection changes\n"
+    "  polynya database study accuracy            table against finer solutions at random points\n"
+    "  polynya database study accuracy --inner-radius 0.001 --elements 72\n";
+
+enum class Study { kFluid, kCouple, kAccuracy };
+
+struct Options {
+  Study study = Study::kFluid;
+  std::string file;  ///< empty: the shipped one
+  DatabaseLoadOptions load;
+  // The rest is for kAccuracy.
+  int points = 200;
+  std::uint64_t seed = 20170611;
+  std::optional<double> inner_radius;  ///< of the solution compared with [l]; a quarter of the table's
+  std::optional<int> elements;         ///< along its radius; as closely spaced as the table's
+  int threads = 0;                     ///< 0: as many as the machine runs at once
+};
 
 constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4};  // v_n [m/s]
 
@@ -80,7 +102,7 @@ std::string mesh_of(const fracture::SolverSettings& settings) {
   return fmt::format("{} elements from {:g} l", settings.radial_elements, settings.inner_radius);
 }
 
-void study_accuracy(const BendingDatabase& database, const DatabaseStudyOptions& options) {
+void study_accuracy(const BendingDatabase& database, const Options& options) {
   constexpr double kUsualRefinement = 4;
   const fracture::SolverSettings& own = database.settings();
   fracture::SolverSettings reference =
@@ -97,25 +119,49 @@ void study_accuracy(const BendingDatabase& database, const DatabaseStudyOptions&
   print_errors("radius", study.rows, &AccuracyRow::radius_error);
 }
 
-}  // namespace
-
-int database_study(const DatabaseStudyOptions& options) {
+int study(const Options& options) {
   const auto load = bending_load(options.load);
   if (!load) return load.error();
   const auto database = load_database(options.file);
   if (!database) return database.error();
   switch (options.study) {
-    case DatabaseStudy::kFluid:
+    case Study::kFluid:
       study_fluid(*load, (*database)->settings());
       break;
-    case DatabaseStudy::kCouple:
+    case Study::kCouple:
       study_couple(*load, (*database)->settings());
       break;
-    case DatabaseStudy::kAccuracy:
+    case Study::kAccuracy:
       study_accuracy(**database, options);
       break;
   }
   return kDone;
+}
+
+}  // namespace
+
+Command add_database_study(CLI::App& app) {
+  auto* command = app.add_subcommand("study", "Print the tables of docs/theory-bending.md");
+  command->footer(kExamples);
+  auto options = std::make_shared<Options>();
+  set_choices<Study>(*command->add_option("study", options->study, "Which one")->required(),
+                     {{"fluid", Study::kFluid}, {"couple", Study::kCouple}, {"accuracy", Study::kAccuracy}});
+  add_point(*command, options->load, false);
+  add_load(*command, options->load);
+  command->add_option("--points", options->points, "of accuracy")
+      ->check(whole(1, 100000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of accuracy's points")
+      ->check(whole(0, 9007199254740991))
+      ->capture_default_str();
+  option(*command, "--inner-radius", options->inner_radius, "L",
+         "of the solution that accuracy compares with; a quarter of the table's if not given",
+         between(1e-6, 0.1));
+  option(*command, "--elements", options->elements, "N",
+         "along its radius; as closely spaced as the table's if not given", whole(8, 400));
+  add_threads(*command, options->threads);
+  add_database_file(*command, options->file);
+  return {command, [options] { return study(*options); }};
 }
 
 }  // namespace polynya::app

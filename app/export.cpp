@@ -1,8 +1,10 @@
 #include <filesystem>
+#include <memory>
 
+#include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
-#include "app/run_commands.hpp"
+#include "app/options.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/geojson_export.hpp"
 #include "views/export/vtk_export.hpp"
@@ -12,10 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int fail(ExitCode code, const std::string& words) {
-  print_err("polynya: {}\n", words);
-  return code;
-}
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya export runs/sawamura2017-fig4b --vtk paraview         open paraview/run.pvd in ParaView\n"
+    "  polynya export runs/at-sea --geojson qgis --at 300            longitude, latitude from the scene's "
+    "origin\n"
+    "\n"
+    "Exit codes: 0 done, 2 usage, 5 input/output.\n";
+
+struct Options {
+  std::string run;
+  std::string vtk;            ///< folder; empty: none
+  std::string geojson;        ///< folder; empty: none
+  std::optional<double> at;   ///< instant of the GeoJSON [s]; the end if not given
+  int every = 1;              ///< of VTK: each N-th frame
+  bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
+};
 
 /// Makes a folder; what went wrong, or empty.
 std::string make_folder(const fs::path& folder) {
@@ -24,7 +38,7 @@ std::string make_folder(const fs::path& folder) {
   return error ? fmt::format("{}: {}", folder.string(), error.message()) : "";
 }
 
-int write_vtk(const io::Run& run, const ExportOptions& options) {
+int write_vtk(const io::Run& run, const Options& options) {
   if (const std::string wrong = make_folder(options.vtk); !wrong.empty()) return fail(kInputOutput, wrong);
   io::FrameSelection selection;
   selection.every = options.every;
@@ -41,7 +55,7 @@ int write_vtk(const io::Run& run, const ExportOptions& options) {
   return kDone;
 }
 
-int write_geojson(const io::Run& run, const ExportOptions& options) {
+int write_geojson(const io::Run& run, const Options& options) {
   const double time = options.at.value_or(run.end_time());
   if (!(time >= run.start_time() && time <= run.end_time()))
     return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run.start_time(),
@@ -61,9 +75,7 @@ int write_geojson(const io::Run& run, const ExportOptions& options) {
   return kDone;
 }
 
-}  // namespace
-
-int export_run(const ExportOptions& options) {
+int export_run(const Options& options) {
   if (options.vtk.empty() && options.geojson.empty())
     return fail(kUsage, "export what? --vtk DIR for ParaView, --geojson DIR for QGIS");
   const auto run = io::read_run(options.run);
@@ -72,6 +84,24 @@ int export_run(const ExportOptions& options) {
   if (!options.vtk.empty()) code = write_vtk(*run, options);
   if (code == kDone && !options.geojson.empty()) code = write_geojson(*run, options);
   return code;
+}
+
+}  // namespace
+
+Command add_export(CLI::App& app) {
+  auto* command = app.add_subcommand("export", "Write a run for ParaView or QGIS");
+  command->footer(kExamples);
+  auto options = std::make_shared<Options>();
+  add_run_folder(*command, options->run);
+  option(*command, "--vtk", options->vtk, "DIR", "Folder for run.pvd and its .vtp frames");
+  option(*command, "--every", options->every, "N", "Of VTK only each N-th frame, and the last",
+         CLI::Range(1, 1000000));
+  option(*command, "--geojson", options->geojson, "DIR",
+         "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
+         "scene has an origin, metres where not");
+  option(*command, "--at", options->at, "S", "Moment of the GeoJSON [s]; the end if not given", finite());
+  command->add_flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
+  return {command, [options] { return export_run(*options); }};
 }
 
 }  // namespace polynya::app

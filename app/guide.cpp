@@ -7,7 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "app/command_line.hpp"
+#include "app/commands.hpp"
+#include "app/console.hpp"
+#include "app/exit_code.hpp"
+#include "app/options.hpp"
+#include "app/write_output.hpp"
 #include "io/text/version.hpp"
 
 namespace polynya::app {
@@ -134,20 +138,6 @@ void append_paths(std::string& paths, const CLI::App& command, const std::string
   }
 }
 
-}  // namespace
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  std::vector<const CLI::App*> commands;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (!command->get_group().empty()) commands.push_back(command);
-  }
-  return commands;
-}
-
-void lead_with_examples(CLI::App& app) {
-  app.formatter(std::make_shared<ExamplesFirst>());
-}
-
 std::string man_page(const CLI::App& app) {
   std::string text = fmt::format(".TH POLYNYA 1 \"\" \"polynya {}\" \"User Commands\"\n", io::version());
   text += ".SH NAME\npolynya \\- simulate an icebreaker in pack ice\n";
@@ -194,6 +184,40 @@ _polynya() {{
 complete -o filenames -F _polynya polynya
 )",
                      paths, completions.values, completions.words);
+}
+
+/// A command for the installation, not in the help: writes a page made of the whole command line.
+Command add_page(CLI::App& app, const char* name, const char* meaning, std::string (*page)(const CLI::App&)) {
+  auto* command = app.add_subcommand(name, meaning);
+  command->group("");
+  auto file = std::make_shared<std::string>();
+  option(*command, "file", *file, "FILE", "Where to; stdout if not given");
+  return {command, [file, page, &app] {
+            const std::string wrong = write_output(file->empty() ? "-" : *file, page(app));
+            return wrong.empty() ? kDone : fail(kInputOutput, wrong);
+          }};
+}
+
+}  // namespace
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  std::vector<const CLI::App*> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!command->get_group().empty()) commands.push_back(command);
+  }
+  return commands;
+}
+
+void lead_with_examples(CLI::App& app) {
+  app.formatter(std::make_shared<ExamplesFirst>());
+}
+
+Command add_man(CLI::App& app) {
+  return add_page(app, "man", "Write the manual page", man_page);
+}
+
+Command add_completion(CLI::App& app) {
+  return add_page(app, "completion", "Write the completion for bash", bash_completion);
 }
 
 }  // namespace polynya::app

@@ -1,31 +1,42 @@
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
+#include "app/options.hpp"
 #include "io/scene/scene_schema.hpp"
 #include "io/text/output_file.hpp"
 
 namespace polynya::app {
+namespace {
 
-int init(const InitOptions& options) {
-  if (options.file.empty()) {
+int init(const std::string& file) {
+  if (file.empty()) {
     write_out(io::commented_scene());
     return kDone;
   }
-  std::string problem;
-  if (std::filesystem::exists(options.file))
-    problem = options.file + ": it exists already";
-  else
-    problem = io::write_named_file(options.file, io::commented_scene());
-  if (!problem.empty()) {
-    print_err("polynya: {}\n", problem);
-    return kInputOutput;
-  }
-  print_out("{}: a commented scene; run it with\n  polynya run {}\n", options.file, options.file);
+  const std::string problem = std::filesystem::exists(file)
+                                  ? file + ": it exists already"
+                                  : io::write_named_file(file, io::commented_scene());
+  if (!problem.empty()) return fail(kInputOutput, problem);
+  print_out("{}: a commented scene; run it with\n  polynya run {}\n", file, file);
   return kDone;
+}
+
+}  // namespace
+
+Command add_init(CLI::App& app) {
+  auto* command = app.add_subcommand("init", "Write a commented scene to start from");
+  command->footer(
+      "Examples:\n"
+      "  polynya init my-scene.json && polynya run my-scene.json\n"
+      "  polynya init                         to stdout\n");
+  auto file = std::make_shared<std::string>();
+  option(*command, "file", *file, "FILE", "Where to; stdout if not given");
+  return {command, [file] { return init(*file); }};
 }
 
 }  // namespace polynya::app

@@ -1,13 +1,13 @@
-#include <algorithm>
-#include <cstdio>
+#include <memory>
 
 #include <fmt/format.h>
 
+#include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
-#include "app/geometry_commands.hpp"
 #include "app/inspect_json.hpp"
 #include "app/inspect_views.hpp"
+#include "app/options.hpp"
 #include "io/run/motion_index.hpp"
 
 namespace polynya::app {
@@ -15,30 +15,48 @@ namespace {
 
 using simulation::FloeId;
 
-int usage_error(const std::string& words) {
-  print_err("polynya: {}\n", words);
-  return kUsage;
-}
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya inspect runs/level-plate                        the floes at the end, a line each\n"
+    "  polynya inspect runs/level-plate --at 30                at 30 s\n"
+    "  polynya inspect runs/level-plate --floe 17 --format svg > floe-17.svg\n"
+    "  polynya inspect runs/level-plate --lineage 17           the fractures that led to it\n"
+    "  polynya inspect runs/level-plate --check                validity, areas, overlaps, exactly\n"
+    "  polynya inspect runs/level-plate --fsd                  floe size distribution\n"
+    "  polynya inspect runs/level-plate --json                 each of these but a shape as JSON\n"
+    "\n"
+    "Exit codes: 0 done, 2 usage, 4 --check found a shape or an area wrong, 5 input/output.\n";
+
+struct Options {
+  std::string run;
+  std::optional<double> at;    ///< [s]; the end of the run if not given
+  std::optional<FloeId> floe;  ///< its shape
+  ShapeFormat format = ShapeFormat::kWkt;
+  std::optional<FloeId> lineage;  ///< the fractures that led to it
+  bool check = false;
+  bool fsd = false;
+  bool json = false;  ///< the report as JSON; a floe's shape has its own formats
+};
 
 std::string unknown_floe(const io::Run& run, FloeId id) {
   return fmt::format("there is no floe {}; they go from 0 to {}", id, std::ssize(run.floes) - 1);
 }
 
-int print_floe(const io::Run& run, const InspectOptions& options) {
+int print_floe(const io::Run& run, const Options& options) {
   const io::RunFloe* floe = run.floe(*options.floe);
-  if (!floe) return usage_error(unknown_floe(run, *options.floe));
+  if (!floe) return fail(kUsage, unknown_floe(run, *options.floe));
   ShapeView view{floe->birth, *run.shape(*options.floe), {}};
   if (options.at) {
     if (!run.is_alive(floe->birth.floe, *options.at)) {
       const std::string end =
           floe->death_event ? fmt::format("to {:g} s", floe->died) : std::string("to the end");
-      return usage_error(fmt::format("floe {} lived from {:g} s {}", *options.floe, floe->birth.time, end));
+      return fail(kUsage, fmt::format("floe {} lived from {:g} s {}", *options.floe, floe->birth.time, end));
     }
     const auto motion = io::MotionIndex(run).floe_at(floe->birth.floe, *options.at);
     if (!motion) {
-      return usage_error(
-          fmt::format("floe {} lived from {:g} to {:g} s, between two frames: where is not on record",
-                      *options.floe, floe->birth.time, floe->died));
+      return fail(kUsage,
+                  fmt::format("floe {} lived from {:g} to {:g} s, between two frames: where is not on record",
+                              *options.floe, floe->birth.time, floe->died));
     }
     view.polygon = polygon_in_world(view.polygon, floe->birth.centroid_in_body, *motion);
     view.time_in_world = options.at;
@@ -47,15 +65,15 @@ int print_floe(const io::Run& run, const InspectOptions& options) {
   return kDone;
 }
 
-int print(const io::Run& run, const InspectOptions& options) {
+int print(const io::Run& run, const Options& options) {
   if (options.at && !(*options.at >= run.start_time() && *options.at <= run.end_time())) {
-    return usage_error(fmt::format("--at {:g}: the run goes from {:g} to {:g} s", *options.at,
-                                   run.start_time(), run.end_time()));
+    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", *options.at,
+                                    run.start_time(), run.end_time()));
   }
   const double time = options.at.value_or(run.end_time());
   if (options.floe) return print_floe(run, options);
   if (options.lineage) {
-    if (!run.floe(*options.lineage)) return usage_error(unknown_floe(run, *options.lineage));
+    if (!run.floe(*options.lineage)) return fail(kUsage, unknown_floe(run, *options.lineage));
     write_out(options.json ? lineage_json(run, *options.lineage) : lineage_tree(run, *options.lineage));
     return kDone;
   }
@@ -74,15 +92,36 @@ int print(const io::Run& run, const InspectOptions& options) {
   return kDone;
 }
 
+int inspect(const Options& options) {
+  const auto run = io::read_run(options.run);
+  return run ? print(*run, options) : fail(kInputOutput, run.error());
+}
+
 }  // namespace
 
-int inspect(const InspectOptions& options) {
-  const auto run = io::read_run(options.run);
-  if (!run) {
-    print_err("polynya: {}\n", run.error());
-    return kInputOutput;
-  }
-  return print(*run, options);
+Command add_inspect(CLI::App& app) {
+  auto* command = app.add_subcommand("inspect", "Look at the floes of a run");
+  command->footer(kExamples);
+  auto options = std::make_shared<Options>();
+  add_run_folder(*command, options->run);
+  option(*command, "--at", options->at, "T", "At that time; the end of the run if not given [s]", finite());
+  auto* floe = option(*command, "--floe", options->floe, "N",
+                      "The shape of one floe: in its body frame, or with --at where it was in the world");
+  auto* lineage =
+      option(*command, "--lineage", options->lineage, "N", "The tree of fractures that led to a floe");
+  auto* check =
+      command->add_flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
+  auto* fsd = command->add_flag("--fsd", options->fsd, "The distribution of floe sizes");
+  auto* format = command->add_option("--format", options->format, "Of --floe; wkt if not given");
+  format->needs(floe);
+  set_choices<ShapeFormat>(
+      *format, {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}});
+  auto* json =
+      command->add_flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
+  floe->excludes(lineage)->excludes(check)->excludes(fsd)->excludes(json);
+  lineage->excludes(check)->excludes(fsd);
+  check->excludes(fsd);
+  return {command, [options] { return inspect(*options); }};
 }
 
 }  // namespace polynya::app

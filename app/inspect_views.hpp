@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "analysis/run_check.hpp"
-#include "app/geometry_commands.hpp"
 #include "io/run/run_reader.hpp"
 
 namespace polynya::app {
 
 /// What `polynya inspect` prints, made of a run.
+
+enum class ShapeFormat { kWkt, kGeojson, kSvg };
 
 /// A floe's shape in its body frame, or in the world at a time.
 struct ShapeView {

@@ -1,156 +1,28 @@
-#include <map>
-#include <memory>
 #include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <utility>
+#include <vector>
 
-#include "app/choice_option.hpp"
-#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/guide.hpp"
 #include "app/memory_check.hpp"
-#include "app/number_option.hpp"
 #include "app/usage.hpp"
-#include "app/write_output.hpp"
 #include "geometry/exact/exact_memory.hpp"
 #include "io/text/version.hpp"
 
 namespace polynya::app {
-
-void add_progress(CLI::App& command, ProgressKind& kind) {
-  set_choices<ProgressKind>(
-      *command.add_option("--progress", kind,
-                          "auto: a bar on a terminal, else a line every ten seconds; on stderr"),
-      {{"auto", ProgressKind::kAuto},
-       {"bar", ProgressKind::kBar},
-       {"json", ProgressKind::kJson},
-       {"none", ProgressKind::kNone}});
-}
-
 namespace {
 
-int write_page(const std::string& file, const std::string& text) {
-  const std::string wrong = write_output(file.empty() ? "-" : file, text);
-  if (!wrong.empty()) print_err("polynya: {}\n", wrong);
-  return wrong.empty() ? kDone : kInputOutput;
-}
+using AddCommand = Command (*)(CLI::App&);
 
-/// What starting a run and going on with one have in common.
-void add_carry(CLI::App& command, CarryOptions& options) {
-  command.add_option("--threads", options.threads, "Threads to step on; results do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
-  command
-      .add_option("--checkpoint-every", options.checkpoint_every,
-                  "Simulated time between checkpoints, beside those by the clock [s]")
-      ->type_name("S")
-      ->check(between(1e-5, 1e7));
-  command
-      .add_option("--checkpoint-every-wall", options.checkpoint_every_wall,
-                  "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]")
-      ->type_name("S")
-      ->check(between(0, 1e7));
-  command.add_flag("--check", options.check,
-                   "Derive every cross-index and sum anew after every step; stop if one is off");
-  add_progress(command, options.progress);
-}
-
-Command add_run(CLI::App& app) {
-  auto* command = app.add_subcommand("run", "Run a scene and write its run folder");
-  command->footer(
-      "Examples:\n"
-      "  polynya run scenes/sawamura2017-fig4b.json\n"
-      "  polynya run scenes/level-plate.json --until 60 --out /tmp/plate --overwrite\n");
-  auto options = std::make_shared<RunOptions>();
-  command->add_option("scene", options->scene, "The scene's JSON file; - for stdin")
-      ->required()
-      ->type_name("SCENE");
-  command->add_option("--out", options->out, "The run folder; runs/<scene name> if not given")
-      ->type_name("DIR");
-  command->add_option("--until", options->until, "Simulated time to run to, instead of the scene's [s]")
-      ->type_name("S")
-      ->check(between(1e-9, 1e7));
-  command->add_option("--seed", options->seed, "Seed instead of the scene's")
-      ->type_name("N")
-      ->check(CLI::Range(0.0, 9007199254740991.0));
-  add_carry(*command, options->carry);
-  command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
-  return [options] { return run(*options); };
-}
-
-Command add_resume(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("resume", "Go on with a run that was stopped, killed or ran out of disk");
-  command->footer(
-      "Examples:\n"
-      "  polynya resume runs/level-plate\n"
-      "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
-      "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
-  auto options = std::make_shared<ResumeOptions>();
-  command->add_option("folder", options->folder, "The run folder")->required()->type_name("RUN");
-  auto* checkpoint =
-      command->add_option("--checkpoint", options->checkpoint, "This one, instead of the newest");
-  checkpoint->type_name("FILE");
-  command
-      ->add_flag("--from-failure", options->from_failure,
-                 "Repeat the step for which failure.bin was dumped; nothing is written")
-      ->excludes(checkpoint);
-  add_carry(*command, options->carry);
-  return [options] { return resume(*options); };
-}
-
-Command add_validate(CLI::App& app) {
-  auto* command = app.add_subcommand("validate", "Check a scene, and tell everything that is wrong with it");
-  command->footer(
-      "Examples:\n"
-      "  polynya validate scene.json\n"
-      "  polynya validate scene.json --resolved   with every default filled in\n"
-      "  polynya validate scene.json --json       the problems as a JSON array, for editors\n"
-      "  make-scene | polynya validate -          a scene from stdin\n");
-  auto options = std::make_shared<ValidateOptions>();
-  command->add_option("scene", options->scene, "The scene's JSON file; - for stdin")
-      ->required()
-      ->type_name("SCENE");
-  auto* resolved =
-      command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
-  command->add_flag("--json", options->json, "Print the problems as a JSON array; [] for none")
-      ->excludes(resolved);
-  return [options] { return validate(*options); };
-}
-
-Command add_schema(CLI::App& app) {
-  auto* command = app.add_subcommand("schema", "Print the JSON Schema of scenes");
-  command->footer(
-      "Examples:\n  polynya schema > polynya.schema.json\n  polynya schema --markdown            the tables "
-      "of docs/scene.md\n");
-  auto options = std::make_shared<SchemaOptions>();
-  command->add_flag("--markdown", options->markdown, "Print the fields as Markdown tables");
-  return [options] { return schema(*options); };
-}
-
-Command add_init(CLI::App& app) {
-  auto* command = app.add_subcommand("init", "Write a commented scene to start from");
-  command->footer(
-      "Examples:\n  polynya init my-scene.json && polynya run my-scene.json\n  polynya init                  "
-      "       to stdout\n");
-  auto options = std::make_shared<InitOptions>();
-  command->add_option("file", options->file, "Where to; stdout if not given")->type_name("FILE");
-  return [options] { return init(*options); };
-}
-
-/// `polynya man` and `polynya completion`, for the installation: not in the help.
-Command add_page(CLI::App& app, const char* name, const char* words, std::string (*page)(const CLI::App&)) {
-  auto* command = app.add_subcommand(name, words);
-  command->group("");
-  auto file = std::make_shared<std::string>();
-  command->add_option("file", *file, "Where to; stdout if not given")->type_name("FILE");
-  return [file, page, &app] { return write_page(*file, page(app)); };
-}
+/// In the order of the help.
+constexpr AddCommand kCommands[] = {add_run,  add_resume,   add_validate, add_schema,    add_init,
+                                    add_view, add_channel,  add_figures,  add_export,    add_inspect,
+                                    add_cut,  add_database, add_man,      add_completion};
 
 constexpr auto kExamples =
     "Examples:\n"
@@ -187,17 +59,8 @@ int command_line(int count, char** words) {
   app.footer(kCodes);
   app.set_version_flag("--version", "polynya " + std::string(io::version()));
   app.require_subcommand(1);
-  std::map<std::string, Command> commands;
-  constexpr std::pair<const char*, Command (*)(CLI::App&)> kCommands[] = {
-      {"run", add_run},         {"resume", add_resume},   {"validate", add_validate},
-      {"schema", add_schema},   {"init", add_init},       {"view", add_view},
-      {"channel", add_channel}, {"figures", add_figures}, {"export", add_export},
-      {"inspect", add_inspect}, {"cut", add_cut},         {"database", add_database}};
-  for (const auto& [name, add] : kCommands) {
-    commands[name] = add(app);
-  }
-  commands["man"] = add_page(app, "man", "Write the manual page", man_page);
-  commands["completion"] = add_page(app, "completion", "Write the completion for bash", bash_completion);
+  std::vector<Command> commands;
+  for (const AddCommand add : kCommands) commands.push_back(add(app));
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
@@ -209,7 +72,7 @@ int command_line(int count, char** words) {
     write_out(out.str());  // what was asked for: help or version
     return kDone;
   }
-  return commands.at(app.get_subcommands().front()->get_name())();
+  return run_chosen(commands);
 }
 
 /// What the standard library throws, as an exit code.

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "app/exit_code.hpp"
 #include "app/failure_dump.hpp"
 #include "app/load_scene.hpp"
+#include "app/options.hpp"
 #include "app/stop_signal.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/run_folder.hpp"
@@ -19,6 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using simulation::Simulation;
+
+struct ResumeOptions {
+  std::string folder;
+  std::string checkpoint;     ///< empty: the newest
+  bool from_failure = false;  ///< only repeats the step that a failure was dumped for
+  CarryOptions carry;
+};
 
 int refuse(const std::string& reason) {
   print_err("polynya: {}\n", reason);
@@ -121,8 +130,6 @@ int go_on(const io::LoadedScene& scene, io::RunLock lock, const ResumeOptions& o
   return carry_out(std::move(*run), options.carry);
 }
 
-}  // namespace
-
 int resume(const ResumeOptions& options) {
   const fs::path folder = options.folder;
   const fs::path scene_file = folder / io::run_file::kScene;
@@ -138,6 +145,28 @@ int resume(const ResumeOptions& options) {
   watch_signals();
   const auto scene = load_scene(scene_file.string());
   return scene ? go_on(*scene, std::move(*lock), options) : scene.error();
+}
+
+}  // namespace
+
+Command add_resume(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("resume", "Go on with a run that was stopped, killed or ran out of disk");
+  command->footer(
+      "Examples:\n"
+      "  polynya resume runs/level-plate\n"
+      "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
+      "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
+  auto options = std::make_shared<ResumeOptions>();
+  option(*command, "folder", options->folder, "RUN", "The run folder")->required();
+  auto* checkpoint =
+      option(*command, "--checkpoint", options->checkpoint, "FILE", "This one, instead of the newest");
+  command
+      ->add_flag("--from-failure", options->from_failure,
+                 "Repeat the step for which failure.bin was dumped; nothing is written")
+      ->excludes(checkpoint);
+  add_run_options(*command, options->carry);
+  return {command, [options] { return resume(*options); }};
 }
 
 }  // namespace polynya::app

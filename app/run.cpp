@@ -10,12 +10,22 @@
 #include "app/console.hpp"
 #include "app/load_scene.hpp"
 #include "app/memory_check.hpp"
+#include "app/options.hpp"
 #include "app/stop_signal.hpp"
 #include "io/run/run_writer.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::app {
 namespace {
+
+struct RunOptions {
+  std::string scene;
+  std::string out;              ///< empty: runs/<scene name>
+  std::optional<double> until;  ///< [s]
+  std::optional<std::uint64_t> seed;
+  bool overwrite = false;
+  CarryOptions carry;
+};
 
 /// A run before its first step. That it fits into memory is known before anything is written.
 struct Start {
@@ -38,8 +48,6 @@ tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
   }
 }
 
-}  // namespace
-
 int run(const RunOptions& options) {
   const auto start = start_of(options);
   if (!start) return start.error();
@@ -53,6 +61,26 @@ int run(const RunOptions& options) {
     return kInputOutput;
   }
   return carry_out({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.carry);
+}
+
+}  // namespace
+
+Command add_run(CLI::App& app) {
+  auto* command = app.add_subcommand("run", "Run a scene and write its run folder");
+  command->footer(
+      "Examples:\n"
+      "  polynya run scenes/sawamura2017-fig4b.json\n"
+      "  polynya run scenes/level-plate.json --until 60 --out /tmp/plate --overwrite\n");
+  auto options = std::make_shared<RunOptions>();
+  add_scene(*command, options->scene);
+  option(*command, "--out", options->out, "DIR", "The run folder; runs/<scene name> if not given");
+  option(*command, "--until", options->until, "S", "Simulated time to run to, instead of the scene's [s]",
+         between(1e-9, 1e7));
+  option(*command, "--seed", options->seed, "N", "Seed instead of the scene's",
+         CLI::Range(0.0, 9007199254740991.0));
+  add_run_options(*command, options->carry);
+  command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
+  return {command, [options] { return run(*options); }};
 }
 
 }  // namespace polynya::app

@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
@@ -5,9 +7,18 @@
 
 namespace polynya::app {
 
-int schema(const SchemaOptions& options) {
-  write_out(options.markdown ? io::scene_tables() : io::scene_schema());
-  return kDone;
+Command add_schema(CLI::App& app) {
+  auto* command = app.add_subcommand("schema", "Print the JSON Schema of scenes");
+  command->footer(
+      "Examples:\n"
+      "  polynya schema > polynya.schema.json\n"
+      "  polynya schema --markdown            the tables of docs/scene.md\n");
+  auto is_markdown = std::make_shared<bool>(false);
+  command->add_flag("--markdown", *is_markdown, "Print the fields as Markdown tables");
+  return {command, [is_markdown] {
+            write_out(*is_markdown ? io::scene_tables() : io::scene_schema());
+            return kDone;
+          }};
 }
 
 }  // namespace polynya::app

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -6,10 +7,25 @@
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/load_scene.hpp"
+#include "app/options.hpp"
 
 namespace polynya::app {
+namespace {
 
-int validate(const ValidateOptions& options) {
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya validate scene.json\n"
+    "  polynya validate scene.json --resolved   with every default filled in\n"
+    "  polynya validate scene.json --json       the problems as a JSON array, for editors\n"
+    "  make-scene | polynya validate -          a scene from stdin\n";
+
+struct Options {
+  std::string scene;
+  bool resolved = false;  ///< print the scene with every default filled in
+  bool json = false;      ///< print its problems as a JSON array
+};
+
+int validate(const Options& options) {
   const auto loaded =
       load_scene(options.scene, {}, options.json ? ProblemFormat::kJson : ProblemFormat::kText);
   if (!loaded) return loaded.error();
@@ -42,6 +58,20 @@ int validate(const ValidateOptions& options) {
               100 * outcome.concentration(), outcome.region_area, outcome.left_out);
   }
   return kDone;
+}
+
+}  // namespace
+
+Command add_validate(CLI::App& app) {
+  auto* command = app.add_subcommand("validate", "Check a scene, and tell everything that is wrong with it");
+  command->footer(kExamples);
+  auto options = std::make_shared<Options>();
+  add_scene(*command, options->scene);
+  auto* resolved =
+      command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  command->add_flag("--json", options->json, "Print the problems as a JSON array; [] for none")
+      ->excludes(resolved);
+  return {command, [options] { return validate(*options); }};
 }
 
 }  // namespace polynya::app

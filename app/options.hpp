@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -10,16 +11,34 @@
 #include <fmt/ranges.h>
 
 #include "app/command_line.hpp"
-#include "io/text/problem.hpp"
+#include "app/progress.hpp"
 
 namespace polynya::app {
 
-/// '"all" is not one of: outside, inside, both'; with the one that was meant where one is near.
-inline std::string no_choice(const std::string& word, const std::vector<std::string_view>& names) {
-  const std::string meant = io::nearest(word, names);
-  return fmt::format("\"{}\" is not one of: {}{}", word, fmt::join(names, ", "),
-                     meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
+/// An option, or a positional where the name has no dashes.
+template <class Value>
+CLI::Option* option(CLI::App& command, const char* name, Value& value, const char* type, const char* meaning,
+                    const CLI::Validator& check = {}) {
+  return command.add_option(name, value, meaning)->type_name(type)->check(check);
 }
+
+/// The positionals SCENE and RUN.
+void add_scene(CLI::App& command, std::string& scene);
+void add_run_folder(CLI::App& command, std::string& folder);
+/// --progress, as every long command has it.
+void add_progress(CLI::App& command, ProgressKind& kind);
+
+/// As CLI::Range, which accepts "nan".
+CLI::Validator between(double least, double most);
+/// For counts and seeds: "1.5 is not a whole number from 1 to 1024".
+CLI::Validator whole(std::uint64_t least, std::uint64_t most);
+/// Every number but infinity and "nan".
+CLI::Validator finite();
+/// For files and folders: an empty name is a shell variable that is not set, not the default.
+CLI::Validator not_empty();
+
+/// '"all" is not one of: outside, inside, both'; with the nearest name where one is near.
+std::string no_choice(const std::string& word, const std::vector<std::string_view>& names);
 
 /// An option that takes one of these names. CLI::IsMember and CLI::CheckedTransformer put their maps into
 /// messages, in reverse, and accept an enum's numbers.
@@ -47,7 +66,6 @@ void set_choices(CLI::Option& option, std::vector<std::pair<std::string_view, En
 /// Likewise for an option that keeps the name.
 inline void set_choices(CLI::Option& option, const std::vector<std::string_view>& names) {
   std::vector<std::pair<std::string_view, std::string>> choices;
-  choices.reserve(names.size());
   for (const std::string_view name : names) choices.emplace_back(name, name);
   set_choices(option, std::move(choices));
 }
