@@ -100,12 +100,8 @@ double depth_in(const Polygon& polygon, Point point) {
   if (!contains(polygon, point)) return 0;
   double nearest = INFINITY;
   const auto see_ring = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point p = ring[i];
-      const geometry::Vector edge = ring[(i + 1) % ring.size()] - p;
-      const double part = std::clamp(dot(point - p, edge) / squared_length(edge), 0.0, 1.0);
-      nearest = std::min(nearest, distance(point, p + part * edge));
-    }
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      nearest = std::min(nearest, distance_to_segment(point, ring[i], ring[(i + 1) % ring.size()]));
   };
   see_ring(polygon.outer);
   std::ranges::for_each(polygon.holes, see_ring);

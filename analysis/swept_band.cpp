@@ -75,12 +75,6 @@ Ring hull_at(const io::Run& run, const io::MotionIndex& motions, std::size_t shi
   return carried_by_water(scene.water, std::move(hull), time, now).outer;
 }
 
-double distance_to_segment(Point p, Point a, Point b) {
-  const Vector ab = b - a;
-  const double part = squared_length(ab) > 0 ? std::clamp(dot(p - a, ab) / squared_length(ab), 0.0, 1.0) : 0;
-  return distance(p, a + part * ab);
-}
-
 bool is_straight(const std::vector<Ring>& hulls, std::size_t from, std::size_t to, double tolerance) {
   for (std::size_t k = from + 1; k < to; ++k) {
     for (std::size_t v = 0; v < hulls[k].size(); ++v) {

@@ -38,17 +38,11 @@ std::vector<double> crossings(Point a, Point b, const Polygon& polygon) {
   return at;
 }
 
-double distance_to_edge(Point point, Point p, Point q) {
-  const Vector edge = q - p;
-  const double part = std::clamp(dot(point - p, edge) / squared_length(edge), 0.0, 1.0);
-  return distance(point, p + part * edge);
-}
-
 bool is_on_an_edge(Point point, const std::vector<Polygon>& polygons, double tolerance) {
   bool found = false;
   for (const Polygon& polygon : polygons) {
     for_edges(polygon,
-              [&](Point p, Point q) { found = found || distance_to_edge(point, p, q) <= tolerance; });
+              [&](Point p, Point q) { found = found || distance_to_segment(point, p, q) <= tolerance; });
     if (found) return true;
   }
   return false;

@@ -38,11 +38,10 @@ Result march(const March& march);
 Result split(const Split& split);
 /// Seconds that the exact check of a valid floe of so many vertices takes.
 double seconds_to_validate(int vertices);
-/// Seconds for one crack across it and for two discs: by the overlay of the whole shape, and in a
-/// window, as the cuts do it by two discs; the crack the local path would cut.
+/// Seconds for one crack across it by the overlay of the whole shape and by the local path, and for two
+/// discs, which only the overlay cuts.
 double seconds_to_cut_generally(int vertices);
-double seconds_to_cut_in_window(int vertices);
-double seconds_to_cut_by_two_generally(int vertices);
+double seconds_to_cut_locally(int vertices);
 double seconds_to_cut_by_two(int vertices);
 }  // namespace polynya_cuts
 namespace boost_geometry {

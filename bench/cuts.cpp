@@ -67,9 +67,8 @@ int main(int argc, char** argv) {
   const std::vector<std::pair<const char*, Seconds>> columns{
       {"find_defect", polynya_cuts::seconds_to_validate},
       {"crack, whole", polynya_cuts::seconds_to_cut_generally},
-      {"crack, window", polynya_cuts::seconds_to_cut_in_window},
-      {"2 discs, whole", polynya_cuts::seconds_to_cut_by_two_generally},
-      {"2 discs, window", polynya_cuts::seconds_to_cut_by_two}};
+      {"crack", polynya_cuts::seconds_to_cut_locally},
+      {"2 discs, whole", polynya_cuts::seconds_to_cut_by_two}};
   std::printf("exact cost by size of the floe [ms], least of %d\n  %10s", rounds, "vertices");
   for (const auto& [name, run] : columns) std::printf(" %16s", name);
   for (const int vertices : {1250, 2500, 5000, 10000, 100000}) {

@@ -6,7 +6,6 @@
 #include "bench/cut_cases.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/cut/internal/general_cut.hpp"
-#include "geometry/cut/internal/window_cut.hpp"
 #include "geometry/exact/validity.hpp"
 
 namespace polynya::bench::polynya_cuts {
@@ -71,22 +70,16 @@ double seconds_to_cut_generally(int vertices) {
   return seconds_of([&] { return geometry::cut_along_generally(floe, {split.from, split.to}).has_value(); });
 }
 
-double seconds_to_cut_by_two_generally(int vertices) {
-  const Split split = split_of_floe(vertices);
-  const geometry::exact::Polygon floe = geometry::exact::exactly(geometry::Polygon{split.floe, {}});
-  return seconds_of([&] { return geometry::cut_by_polygons_generally(floe, two_discs(split)).has_value(); });
-}
-
 double seconds_to_cut_by_two(int vertices) {
   const Split split = split_of_floe(vertices);
   const Shape floe{{split.floe, {}}, true};
   return seconds_of([&] { return cut_by_polygons(floe, two_discs(split)).has_value(); });
 }
 
-double seconds_to_cut_in_window(int vertices) {
+double seconds_to_cut_locally(int vertices) {
   const Split split = split_of_floe(vertices);
   const Shape floe{{split.floe, {}}, true};
-  return seconds_of([&] { return cut_along_in_window(floe, {split.from, split.to}).has_value(); });
+  return seconds_of([&] { return cut_along(floe, {split.from, split.to}).has_value(); });
 }
 
 }  // namespace polynya::bench::polynya_cuts

@@ -20,11 +20,7 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
     return geometry::grown({bodies.position[i], bodies.position[i]}, bodies.bounding_radius[i]);
   Box box = {transform(pose, bodies.boundary[i]->edges.vertices.front()), {}};
   box.high = box.low;
-  for (const Point p : bodies.boundary[i]->edges.vertices) {
-    const Point q = transform(pose, p);
-    box.low = {std::min(box.low.x, q.x), std::min(box.low.y, q.y)};
-    box.high = {std::max(box.high.x, q.x), std::max(box.high.y, q.y)};
-  }
+  for (const Point p : bodies.boundary[i]->edges.vertices) extend(box, transform(pose, p));
   return box;
 }
 

@@ -45,9 +45,9 @@ double hull_angle_at(const World& world, const Contact& c) {
   double angle = 0;
   for (std::size_t i = 0; i < hull.waterline.size(); ++i) {
     const std::size_t next = (i + 1) % hull.waterline.size();
-    const Vector edge = hull.waterline[next] - hull.waterline[i];
-    const double along = std::clamp(dot(here - hull.waterline[i], edge) / squared_length(edge), 0.0, 1.0);
-    const double d = squared_length(here - (hull.waterline[i] + along * edge));
+    const double along = nearest_part(hull.waterline[i], hull.waterline[next], here);
+    const double d =
+        squared_length(here - (hull.waterline[i] + along * (hull.waterline[next] - hull.waterline[i])));
     if (d >= nearest) continue;
     nearest = d;
     angle = (1 - along) * hull.angles_from_vertical[i] + along * hull.angles_from_vertical[next];

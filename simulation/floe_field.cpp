@@ -198,9 +198,7 @@ double common_factor(const std::vector<Cell>& cells, double total) {
 }
 
 double squared_distance(Point p, Point from, Point to) {
-  const Vector edge = to - from;
-  const double along = std::clamp(dot(p - from, edge) / squared_length(edge), 0.0, 1.0);
-  return squared_length(p - (from + along * edge));
+  return squared_length(p - nearest_on_segment(from, to, p));
 }
 
 bool cross_each_other(Point a, Point b, Point c, Point d) {

@@ -15,10 +15,7 @@ std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t 
   boundary.tree.push_back({});
   const auto begin = boundary.covers.begin() + first;
   Box box{begin->centre, begin->centre};
-  for (auto c = begin; c != begin + count; ++c) {
-    box.low = {std::min(box.low.x, c->centre.x), std::min(box.low.y, c->centre.y)};
-    box.high = {std::max(box.high.x, c->centre.x), std::max(box.high.y, c->centre.y)};
-  }
+  for (auto c = begin; c != begin + count; ++c) extend(box, c->centre);
   CircleNode node{midpoint(box.low, box.high), 0, first, count, 0};
   for (auto c = begin; c != begin + count; ++c) {
     node.reach = std::max(node.reach, distance(node.centre, c->centre) + c->reach);
@@ -120,9 +117,7 @@ double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b
                       const std::vector<NearPair>& edge_pairs) {
   double least = std::numeric_limits<double>::infinity();  // squared
   const auto squared_to_segment = [](Point p, Point from, Point to) {
-    const Vector d = to - from;
-    const double along = std::clamp(dot(p - from, d) / squared_length(d), 0.0, 1.0);
-    return squared_length(from + along * d - p);
+    return squared_length(nearest_on_segment(from, to, p) - p);
   };
   for (const NearPair pair : edge_pairs) {
     const Point a0 = a.edges.from(pair.a);

@@ -11,13 +11,10 @@ namespace {
 class EdgeGrid {
  public:
   EdgeGrid(const EdgeList& edges, double cell) : cell_(cell) {
-    Box box{edges.vertices.front(), edges.vertices.front()};
+    const Box box = bounding_box(edges.vertices);
     double total = 0;
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      const Point p = edges.from(e);
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-      total += distance(p, edges.to(e));
+      total += distance(edges.from(e), edges.to(e));
     }
     // No more cells than a few per edge and circle, however large the floe is beside its circles.
     const double width = box.high.x - box.low.x;
@@ -89,12 +86,6 @@ class EdgeGrid {
   std::vector<std::uint32_t> begin_;
   std::vector<std::uint32_t> edge_;
 };
-
-Point nearest_on_segment(Point a, Point b, Point p) {
-  const Vector d = b - a;
-  const double t = std::clamp(dot(p - a, d) / std::max(squared_length(d), 1e-300), 0.0, 1.0);
-  return a + t * d;
-}
 
 /// The largest circle up to `radius` that touches the boundary at `touch` from inside and holds no boundary
 /// point: shrink the circle onto the nearest boundary point inside it until there is none.

@@ -8,7 +8,6 @@
 
 #include "geometry/cut/internal/general_cut.hpp"
 #include "geometry/cut/internal/local_cut.hpp"
-#include "geometry/cut/internal/window_cut.hpp"
 #include "geometry/exact/internal/edge_tree.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 #include "geometry/exact/internal/predicates.hpp"
@@ -35,8 +34,7 @@ bool is_convex(const Ring& ring) {
     const Point b = ring[(i + 1) % n];
     const Point c = ring[(i + 2) % n];
     if (orientation(a, b, c) <= 0) return false;
-    const auto rightward = [](Point p, Point q) { return p.x < q.x || (p.x == q.x && p.y < q.y); };
-    turns_back += rightward(a, b) != rightward(b, c) ? 1 : 0;
+    turns_back += precedes(a, b) != precedes(b, c) ? 1 : 0;
   }
   return turns_back == 2;
 }
@@ -71,19 +69,13 @@ std::optional<CutOutcome> guarded(Work work) {
   }
 }
 
-CutOutcome cut_by_polygons_exactly(const Shape& shape, const std::vector<Polygon>& tools) {
-  if (auto outcome = guarded([&] { return cut_by_polygons_in_window(shape, tools); }))
-    return *std::move(outcome);
-  return cut_by_polygons_generally(exact::exactly(shape.polygon), tools);
-}
-
 // Cuts a valid shape by valid tools: by the first path that covers the case.
 CutOutcome cut_by_valid(const Shape& shape, const std::vector<Polygon>& tools) {
   if (tools.size() == 1 && tools.front().holes.empty()) {
     if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tools.front().outer, true}); }))
       return *std::move(outcome);
   }
-  return cut_by_polygons_exactly(shape, tools);
+  return cut_by_polygons_generally(exact::exactly(shape.polygon), tools);
 }
 
 // A tool's rings that are nowhere near the shape cut nothing of it, and without them the local path may do.
@@ -152,7 +144,6 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
     if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {crack, false}); }))
       return *std::move(outcome);
   }
-  if (auto outcome = guarded([&] { return cut_along_in_window(shape, crack); })) return *std::move(outcome);
   return cut_along_generally(exact::exactly(shape.polygon), crack);
 }
 

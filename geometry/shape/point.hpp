@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace polynya::geometry {
@@ -80,8 +81,25 @@ inline double length(Vector a) {
 inline double distance(Point a, Point b) {
   return length(b - a);
 }
+/// Lexicographic order: by x, then by y.
+constexpr bool precedes(Point a, Point b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
 constexpr Point midpoint(Point a, Point b) {
   return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
+}
+/// How far along the segment from a (0) to b (1) its point nearest to p is; 0 where the segment has no
+/// length.
+constexpr double nearest_part(Point a, Point b, Point p) {
+  const Vector d = b - a;
+  const double squared = squared_length(d);
+  return squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
+}
+constexpr Point nearest_on_segment(Point a, Point b, Point p) {
+  return a + nearest_part(a, b, p) * (b - a);
+}
+inline double distance_to_segment(Point p, Point a, Point b) {
+  return distance(p, nearest_on_segment(a, b, p));
 }
 
 }  // namespace polynya::geometry

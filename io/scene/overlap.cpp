@@ -46,10 +46,7 @@ double shared_area(const Polygon& a, const Polygon& b) {
 class Grid {
  public:
   explicit Grid(const std::vector<Box>& boxes) : all_(boxes.front()) {
-    for (const Box& box : boxes) {
-      all_.low = {std::min(all_.low.x, box.low.x), std::min(all_.low.y, box.low.y)};
-      all_.high = {std::max(all_.high.x, box.high.x), std::max(all_.high.y, box.high.y)};
-    }
+    for (const Box& box : boxes) extend(all_, box);
     const Vector extent = all_.high - all_.low;
     const auto count = static_cast<double>(boxes.size());
     cell_ = std::max({std::sqrt(extent.x * extent.y / count), extent.x / count, extent.y / count, 1e-3});

@@ -169,6 +169,32 @@ TEST(Cut, SliversThinnerThanADoubleAreItemised) {
   EXPECT_GE(result.ledger.slivers + static_cast<int>(result.pieces.size()), 2);
 }
 
+// Rings that touch far from the cut: joining them by a cut there parts the floe here.
+TEST(Cut, PartsPiecesWhereTheirRingsTouchFarAway) {
+  const Shape shape{{{{0, 0}, {40, 0}, {40, 10}, {20, 10}, {0, 10}}, {{{20, 10}, {22, 6}, {18, 6}}}}};
+  ASSERT_FALSE(find_defect(shape.polygon));
+  const CutResult result = cut(shape, std::vector<Point>{{20, 7}, {20, -1}});
+  EXPECT_EQ(result.pieces.size(), 2u);
+}
+
+TEST(Cut, ToolsMayLieAroundTheFloeBesideItAndInItsHole) {
+  const Shape shape{{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{{1, 1}, {1, 2}, {2, 2}, {2, 1}}}}};
+  const Ring around{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
+  const Ring small{{20, 20}, {21, 20}, {21, 21}};
+  const auto inside = cut_by_polygons(shape, {{around, {}}, {small, {}}});
+  ASSERT_TRUE(inside);
+  ASSERT_EQ(inside->pieces.size(), 1u);
+  EXPECT_EQ(inside->pieces[0].part, Part::kInside);
+  EXPECT_EQ(inside->pieces[0].shape.polygon, shape.polygon);
+  EXPECT_EQ(cut_by_polygons(shape, {{small, {}}, {small, {}}}).error().reason, CutFailure::kMisses);
+  // In the hole of the tool, and a tool in the hole of the floe.
+  Ring moat{{-1, -1}, {5, -1}, {5, 5}, {-1, 5}};
+  std::reverse(moat.begin(), moat.end());
+  EXPECT_EQ(cut_by_polygons(shape, {{around, {moat}}}).error().reason, CutFailure::kMisses);
+  const Ring in_hole{{1.2, 1.2}, {1.5, 1.2}, {1.5, 1.5}};
+  EXPECT_EQ(cut_by_polygons(shape, {{in_hole, {}}, {small, {}}}).error().reason, CutFailure::kMisses);
+}
+
 TEST(Cut, ManyRandomCutsStaySound) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-2, 12);

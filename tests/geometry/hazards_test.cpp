@@ -8,7 +8,6 @@
 
 #include "geometry/cut/internal/general_cut.hpp"
 #include "geometry/cut/internal/local_cut.hpp"
-#include "geometry/cut/internal/window_cut.hpp"
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
@@ -184,9 +183,9 @@ TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
     static_cast<void>(cut_along_generally(exact::exactly(Polygon{shape, {}}), {{-1, 2}, {7, 3}}));
     static_cast<void>(cut_by_polygon(Shape{{shape, {}}, true}, {disc_polygon({2, 2}, 1.5, 0.1), {}}));
     static_cast<void>(cut_along(Shape{{shape, {}}, true}, {{-1, 2}, {7, 3}}));
-    static_cast<void>(cut_by_polygons_in_window(
-        Shape{{shape, {}}}, {{disc_polygon({2, 2}, 1.5, 0.1), {}}, {disc_polygon({4, 2}, 0.7, 0.1), {}}}));
-    static_cast<void>(cut_along_in_window(Shape{{shape, {kSquare}}}, {{-1, 2}, {3, 3}, {2, 1}, {2.5, 7}}));
+    static_cast<void>(cut_by_polygons(Shape{{shape, {}}, true}, {{disc_polygon({2, 2}, 1.5, 0.1), {}},
+                                                                 {disc_polygon({4, 2}, 0.7, 0.1), {}}}));
+    static_cast<void>(cut_along(Shape{{shape, {kSquare}}, true}, {{-1, 2}, {3, 3}, {2, 1}, {2.5, 7}}));
   }
   SUCCEED();
 }

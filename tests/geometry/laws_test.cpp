@@ -87,6 +87,22 @@ TEST(Laws, LocalEqualsGeneral) {
   EXPECT_GT(4 * local, cuts) << "the law would be empty if the local path seldom answered";
 }
 
+TEST(Laws, CutsByManyToolsEqualTheGeneral) {
+  ASSERT_TRUE(kSeeded);
+  EXPECT_TRUE(rc::check("several polygons with holes, cracks that cross themselves", [] {
+    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(150, rc::gen::arbitrary<std::uint8_t>()));
+    const Shape shape{roll_floe(dice)};
+    RC_PRE(!find_defect(shape.polygon));
+    const ManyKnives knives = roll_knives(dice, shape.polygon);
+    RC_PRE(knives.is_crack || !knives.polygons.empty());
+    const CutOutcome outcome = trials::cut(shape, knives);
+    RC_PRE(outcome || outcome.error().reason != CutFailure::kInvalidTool);
+    testing::AssertionResult held = is_sound(shape, outcome);
+    if (held) held = are_equal(outcome, trials::cut_generally(shape, knives));
+    if (!held) RC_FAIL(std::string(held.message()) + to_code(shape.polygon) + to_code(knives));
+  }));
+}
+
 // A quarter turn and a power of two are exact in doubles and commute with rounding: the result must follow to
 // the bit.
 bool has_subnormals(const Ring& ring) {

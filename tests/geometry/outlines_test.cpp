@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "geometry/cut/internal/general_cut.hpp"
-#include "geometry/cut/internal/window_cut.hpp"
 #include "geometry/exact/internal/predicates.hpp"
 #include "geometry/exact/validity.hpp"
 #include "tests/geometry/trials.hpp"
@@ -191,12 +190,8 @@ TEST_P(Outlines, AreCutSoundly) {
         knives.polygons = {{triangle, {}}};
       }
     }
-    const CutOutcome outcome =
-        knives.is_crack ? cut_along(shape, knives.crack) : cut_by_polygons(shape, knives.polygons);
+    const CutOutcome outcome = trials::cut(shape, knives);
     ASSERT_TRUE(is_sound(shape, outcome)) << "round " << i;
-    const auto window = trials::cut_in_window(shape, knives);
-    ASSERT_TRUE(window);
-    ASSERT_TRUE(are_equal(outcome, *window)) << "round " << i;
     if (i % 5 == 1) {
       ASSERT_TRUE(are_equal(outcome, trials::cut_generally(shape, knives)));
     }

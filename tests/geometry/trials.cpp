@@ -7,7 +7,6 @@
 
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/general_cut.hpp"
-#include "geometry/cut/internal/window_cut.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 
@@ -119,9 +118,8 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
   return failure;
 }
 
-std::optional<CutOutcome> cut_in_window(const Shape& shape, const ManyKnives& knives) {
-  return knives.is_crack ? cut_along_in_window(shape, knives.crack)
-                         : cut_by_polygons_in_window(shape, knives.polygons);
+CutOutcome cut(const Shape& shape, const ManyKnives& knives) {
+  return knives.is_crack ? cut_along(shape, knives.crack) : cut_by_polygons(shape, knives.polygons);
 }
 
 CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,8 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
 /// Same failure, or the same pieces with the very same vertices (rings may start elsewhere).
 testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& other);
 
-/// The same cut on the window around it, and on the whole shape.
-std::optional<CutOutcome> cut_in_window(const Shape& shape, const ManyKnives& knives);
+/// The same cut as the product makes it, and by CGAL's arrangement of the whole shape.
+CutOutcome cut(const Shape& shape, const ManyKnives& knives);
 CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives);
 
 /// Vertices as C++ that can be pasted into a fixture.

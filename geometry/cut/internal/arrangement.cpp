@@ -16,8 +16,6 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/assertions_behaviour.h>
 
-#include "geometry/cut/internal/plane_graph.hpp"
-
 namespace polynya::geometry::exact {
 namespace {
 
@@ -66,6 +64,10 @@ std::unique_ptr<const Arrangement> arrange(const std::vector<SourceSegment>& seg
     throw;
   }
   return arrangement;
+}
+
+bool runs_rightward(const SourceSegment& s) {
+  return s.from.x < s.to.x || (s.from.x == s.to.x && s.from.y < s.to.y);
 }
 
 // Faces, their windings and classes, and the regions they join into.
@@ -287,10 +289,6 @@ void append_segments(std::vector<SourceSegment>& segments, const Polygon& polygo
   for (const Ring& hole : polygon.holes) append_segments(segments, hole, source);
 }
 
-bool runs_rightward(const SourceSegment& s) {
-  return s.from.x < s.to.x || (s.from.x == s.to.x && s.from.y < s.to.y);
-}
-
 Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& classify, Seams seams) {
   const std::unique_ptr<const Arrangement> arranged = arrange(segments);
   const Arrangement& arrangement = *arranged;
@@ -298,31 +296,6 @@ Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& cl
   Overlay result{tracer.regions()};
   tracer.find_tool_inside(result);
   return result;
-}
-
-PlaneGraph plane_graph(const std::vector<SourceSegment>& segments) {
-  const std::unique_ptr<const Arrangement> arranged = arrange(segments);
-  const Arrangement& arrangement = *arranged;
-  PlaneGraph graph;
-  std::unordered_map<const void*, int> number;
-  for (auto v = arrangement.vertices_begin(); v != arrangement.vertices_end(); ++v) {
-    number.emplace(&*v, static_cast<int>(graph.points.size()));
-    graph.points.push_back(from_cgal(v->point()));
-  }
-  std::vector<Halfedge> half_edges;
-  for (auto e = arrangement.edges_begin(); e != arrangement.edges_end(); ++e) {
-    for (const Halfedge h : {Halfedge(e), Halfedge(e->twin())}) {
-      number.emplace(&*h, static_cast<int>(half_edges.size()));
-      half_edges.push_back(h);
-    }
-    graph.sources.emplace_back(e->curve().data().begin(), e->curve().data().end());
-  }
-  for (const Halfedge h : half_edges) {
-    graph.origin.push_back(number.at(&*h->source()));
-    graph.next.push_back(number.at(&*h->next()));
-    graph.is_rightward.push_back(h->direction() == CGAL::ARR_LEFT_TO_RIGHT ? 1 : 0);
-  }
-  return graph;
 }
 
 }  // namespace polynya::geometry::exact

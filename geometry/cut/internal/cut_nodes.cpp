@@ -39,10 +39,6 @@ class Sides {
 };
 #endif
 
-Box box_of(Point a, Point b) {
-  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
-}
-
 // a + t (b − a) with t = ((c − a) × (d − c)) / ((b − a) × (d − c)), in rationals.
 exact::Point crossing_point(Point a, Point b, Point c, Point d) {
   using exact::Rational;
@@ -184,10 +180,10 @@ std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool
   std::vector<Box> tool_boxes;
   const int tool_edges = tool.edge_count();
   tool_boxes.reserve(static_cast<std::size_t>(tool_edges));
-  for (int f = 0; f < tool_edges; ++f) tool_boxes.push_back(box_of(tool.point(f), tool.point(f + 1)));
+  for (int f = 0; f < tool_edges; ++f) tool_boxes.push_back(box_around(tool.point(f), tool.point(f + 1)));
   Collector collector(rings, tool);
   for (const EdgeId e : near) {
-    const Box box = box_of(rings.point(e.ring, e.index), rings.point(e.ring, e.index + 1));
+    const Box box = box_around(rings.point(e.ring, e.index), rings.point(e.ring, e.index + 1));
     for (int f = 0; f < tool_edges; ++f) {
       if (overlaps(box, tool_boxes[static_cast<std::size_t>(f)])) collector.add(e, f);
     }

@@ -131,14 +131,7 @@ double reach(const Segment& s) {
 
 // A box that holds the edge before and after its ends were rounded.
 Box swept_box(const Segment& s) {
-  return grown({{std::min(s.from.x, s.to.x), std::min(s.from.y, s.to.y)},
-                {std::max(s.from.x, s.to.x), std::max(s.from.y, s.to.y)}},
-               reach(s));
-}
-
-constexpr bool holds(const Box& outer, const Box& inner) {
-  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && inner.high.x <= outer.high.x &&
-         inner.high.y <= outer.high.y;
+  return grown(box_around(s.from, s.to), reach(s));
 }
 
 // Finds the shell of a hole by a vertex that no changed edge comes near, about which the rounded rings and
@@ -259,15 +252,12 @@ exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan) {
   return polygon;
 }
 
-bool may_have_swept(const std::vector<Segment>& changed, const Box& ring_box) {
-  return std::any_of(changed.begin(), changed.end(),
-                     [&](const Segment& s) { return holds(swept_box(s), ring_box); });
-}
-
 bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan) {
   if (plan.rings.size() < 2) return false;
   return std::any_of(plan.rings.begin(), plan.rings.end(), [&](const PieceRing& ring) {
-    return may_have_swept(cut.changed, bounding_box(ring.points));
+    const Box box = bounding_box(ring.points);
+    return std::any_of(cut.changed.begin(), cut.changed.end(),
+                       [&](const Segment& s) { return contains(swept_box(s), box); });
   });
 }
 

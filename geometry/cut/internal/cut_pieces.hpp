@@ -48,10 +48,7 @@ std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut);
 /// A piece before rounding.
 exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan);
 
-/// Could rounding the changed edges have carried one of them across all of a ring with this box?
-bool may_have_swept(const std::vector<Segment>& changed, const Box& ring_box);
-
-/// Could rounding the changed edges have carried one of the rings across another?
+/// Could rounding the changed edges have carried one of them across a whole ring of the piece?
 bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan);
 
 }  // namespace polynya::geometry

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/cut/internal/cut_pieces.hpp"
-#include "geometry/cut/internal/planned_pieces.hpp"
+#include "geometry/cut/internal/rounded_pieces.hpp"
 #include "geometry/cut/internal/subdivision_check.hpp"
 #include "geometry/exact/internal/edge_tree.hpp"
 
@@ -32,9 +32,10 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
 // Σ pieces − shape, in shoelace terms: every chain of the shape stands in the pieces once, every chord once
 // in each direction, where its terms cancel; untouched rings are carried over. What is left is each split
 // edge against the sub-edges it became, and that is summed here in rationals: before rounding it must be
-// zero for every edge by itself. None where it is not.
-std::optional<AreaCheck> balance_split_edges(const LocalCut& cut) {
-  AreaCheck balance;
+// zero for every edge by itself. Returns twice the area that rounding the nodes adds; none where a sum is not
+// zero.
+std::optional<Rational> check_split_edges(const LocalCut& cut) {
+  Rational rounding = 0;
   for (std::size_t begin = 0; begin < cut.nodes.size();) {
     const Place& place = cut.nodes[begin].on_shape;
     std::size_t end = begin;
@@ -53,9 +54,40 @@ std::optional<AreaCheck> balance_split_edges(const LocalCut& cut) {
     exactly.push_back(b);
     rounded.push_back(b);
     if (twice_area_between(a, exactly) != 0) return {};
-    balance.rounding += twice_area_between(a, rounded);
+    rounding += twice_area_between(a, rounded);
   }
-  return balance;
+  return rounding;
+}
+
+// The pieces as planned, where rounding broke none of them.
+CutResult take_as_planned(std::vector<PiecePlan> plans, double area_before, const Rational& rounding) {
+  CutResult result;
+  CutLedger& ledger = result.ledger;
+  ledger.area_before = area_before;
+  ledger.exact_balance = true;
+  ledger.exact_defect = "0";  // checked edge by edge
+  ledger.rounding_defect = exact::nearest_double(rounding / 2);
+  for (PiecePlan& plan : plans) {
+    Piece piece{Shape{{}, true}, plan.part};
+    std::vector<RingArea> areas;
+    Polygon& polygon = piece.shape.polygon;
+    for (PieceRing& ring : plan.rings) {
+      areas.push_back(ring.area);
+      (polygon.outer.empty() ? polygon.outer : polygon.holes.emplace_back()) = std::move(ring.points);
+    }
+    (plan.part == Part::kOutside ? ledger.area_outside : ledger.area_inside) += area_of(polygon, areas);
+    result.pieces.push_back(std::move(piece));
+  }
+  exact::sort_pieces(result.pieces);
+  return result;
+}
+
+// The pieces rounded from their exact shapes, where it did.
+CutOutcome round_exactly(const LocalCut& cut, const std::vector<PiecePlan>& plans, const Polygon& shape) {
+  std::vector<exact::ExactPiece> pieces;
+  pieces.reserve(plans.size());
+  for (const PiecePlan& plan : plans) pieces.push_back({write_exactly(cut, plan), plan.part});
+  return exact::rounded_pieces(exact::area(shape), pieces);
 }
 
 // Is every half-edge in the written pieces exactly once, and every ring of the shape?
@@ -188,11 +220,11 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   }
   std::optional<std::vector<PiecePlan>> plans = plan_pieces(cut);
   if (!plans || !uses_all_once(cut, *plans)) return {};
-  const std::optional<AreaCheck> balance = balance_split_edges(cut);
-  if (!balance) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
+  const std::optional<Rational> rounding = check_split_edges(cut);
+  if (!rounding) return refuse(CutFailure::kInternal, "a split edge does not sum to itself");
   CutOutcome outcome = is_cleanly_rounded(cut, *plans, tool_box, near_tool)
-                           ? take_as_planned(std::move(*plans), area_of(shape), *balance)
-                           : round_exactly(cut, *plans, exact::area(shape));
+                           ? take_as_planned(std::move(*plans), area_of(shape), *rounding)
+                           : round_exactly(cut, *plans, shape);
   if (outcome && !tool.is_closed) outcome->ledger.dangling_length = dangling_length(cut, shape);
   return outcome;
 }

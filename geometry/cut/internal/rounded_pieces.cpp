@@ -96,10 +96,7 @@ class Rounding {
 void sort_pieces(std::vector<Piece>& pieces) {
   const auto lowest = [](const Piece& piece) {
     const geometry::Ring& ring = piece.shape.polygon.outer;
-    const auto less = [](geometry::Point a, geometry::Point b) {
-      return std::tie(a.x, a.y) < std::tie(b.x, b.y);
-    };
-    return *std::min_element(ring.begin(), ring.end(), less);
+    return *std::min_element(ring.begin(), ring.end(), geometry::precedes);
   };
   if (pieces.size() == 2 &&
       pieces[0].part != pieces[1].part) {  // the common cut: no need to look for vertices

@@ -27,7 +27,6 @@ bool are_apart(const Segment& s, const Segment& t) {
 
 std::vector<Edge> edges_of(const std::vector<Segment>& segments) {
   std::vector<Edge> edges;
-  edges.reserve(segments.size());
   for (const Segment& s : segments) edges.push_back({s.from, s.to});
   return edges;
 }
@@ -52,20 +51,14 @@ bool is_split(const LocalCut& cut, EdgeId e) {
   return false;
 }
 
-bool holds(const Box& outer, const Box& inner) {
-  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && inner.high.x <= outer.high.x &&
-         inner.high.y <= outer.high.y;
-}
-
-}  // namespace
-
+// No point twice?
 bool are_distinct(std::vector<Point> points) {
-  const auto less = [](Point a, Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
-  std::sort(points.begin(), points.end(), less);
+  std::sort(points.begin(), points.end(), precedes);
   return std::adjacent_find(points.begin(), points.end()) == points.end();
 }
 
-bool changed_edges_are_apart(const std::vector<Segment>& changed) {
+// Has every edge a length, and do they meet in shared ends only?
+bool are_apart(const std::vector<Segment>& changed) {
   const auto has_no_length = [](const Segment& s) { return s.from == s.to; };
   if (std::any_of(changed.begin(), changed.end(), has_no_length)) return false;
   const std::vector<Edge> edges = edges_of(changed);
@@ -73,6 +66,7 @@ bool changed_edges_are_apart(const std::vector<Segment>& changed) {
       [&](std::size_t i, std::size_t j) { return are_apart(changed[i], changed[j]); });
 }
 
+// Do the changed edges meet these others in shared ends only?
 bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment>& others) {
   const std::vector<Edge> edges = edges_of(changed);
   const EdgeTree tree(edges);
@@ -82,11 +76,13 @@ bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment
   });
 }
 
+}  // namespace
+
 // Only edges that end in a rounded node can have come to meet another: all others lie as they did in the
 // exact subdivision, where edges meet in nodes only. So these few are held against all that is near them.
 bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
   if (cut.changed.empty()) return true;
-  if (!are_distinct(rounded_nodes(cut.nodes)) || !changed_edges_are_apart(cut.changed)) return false;
+  if (!are_distinct(rounded_nodes(cut.nodes)) || !are_apart(cut.changed)) return false;
   if (!are_clear_of(cut.changed, cut.placed)) return false;
   Ring ends;
   for (const Segment& s : cut.changed) {
@@ -95,7 +91,7 @@ bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std
   }
   const Box box = bounding_box(ends);
   std::vector<Segment> others;
-  for (const EdgeId e : holds(tool_box, box) ? near_tool : edges_near(cut.rings, box)) {
+  for (const EdgeId e : contains(tool_box, box) ? near_tool : edges_near(cut.rings, box)) {
     if (!is_split(cut, e))
       others.push_back({cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)});
   }

@@ -27,16 +27,9 @@ std::size_t EdgeTree::build(std::size_t first, std::size_t last) {
     const std::size_t right = build(middle, last);
     nodes_[n].left = left;
     nodes_[n].right = right;
-    const Box& l = nodes_[left].box;
-    const Box& r = nodes_[right].box;
-    box = {{std::min(l.low.x, r.low.x), std::min(l.low.y, r.low.y)},
-           {std::max(l.high.x, r.high.x), std::max(l.high.y, r.high.y)}};
+    box = united(nodes_[left].box, nodes_[right].box);
   } else {
-    for (std::size_t i = first + 1; i < last; ++i) {
-      const Box e = box_of(edges_[i]);
-      box = {{std::min(box.low.x, e.low.x), std::min(box.low.y, e.low.y)},
-             {std::max(box.high.x, e.high.x), std::max(box.high.y, e.high.y)}};
-    }
+    for (std::size_t i = first + 1; i < last; ++i) extend(box, box_of(edges_[i]));
   }
   nodes_[n].box = box;
   return n;

@@ -17,7 +17,7 @@ struct Edge {
 std::vector<Edge> edges_of(const Polygon& polygon);
 
 inline Box box_of(const Edge& e) {
-  return {{std::min(e.a.x, e.b.x), std::min(e.a.y, e.b.y)}, {std::max(e.a.x, e.b.x), std::max(e.a.y, e.b.y)}};
+  return box_around(e.a, e.b);
 }
 
 /// Boxes over runs of edges in ring order, halved down to a few edges: edges that follow each other along a
