@@ -135,7 +135,7 @@ class Carrier {
       return checkpoint();
     writer().flush_if_due();
     if (std::string failure = writer().failure(); !failure.empty()) return {kInputOutput, failure};
-    const simulation::Counts& counts = simulation().world().counts;
+    const simulation::Counts& counts = simulation().world().accounts.counts;
     progress_.show(simulation().time(), counts.bends + counts.splits + counts.rejected_cuts);
     return {};
   }

@@ -48,7 +48,7 @@ std::string force_lines(const io::RunSummary& summary, const simulation::Scene& 
 
 std::vector<std::string> ship_contact_warnings(const simulation::Simulation& simulation) {
   std::vector<std::string> warnings;
-  const auto& contacts = simulation.world().ship_contacts;
+  const auto& contacts = simulation.world().accounts.ship_contacts;
   const auto& ships = simulation.scene().ships;
   for (const simulation::ShipContact& c : contacts) {
     if (warnings.size() == kMostWarnings) {

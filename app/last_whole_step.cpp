@@ -12,12 +12,12 @@ LastWholeStep::LastWholeStep(const simulation::Simulation& simulation) {
 void LastWholeStep::take(const simulation::Simulation& simulation, std::int64_t more_floes) {
   const simulation::World& world = simulation.world();
   const std::int64_t floes = counts_.floes_final + more_floes;
-  counts_ = world.counts;
+  counts_ = world.accounts.counts;
   counts_.floes_final = floes;
-  counts_.steps = world.steps;
-  time_ = world.time();
-  ledger_ = world.ledger;
-  sums_ = world.audit;
+  counts_.steps = world.clock.steps;
+  time_ = world.clock.time();
+  ledger_ = world.accounts.ledger;
+  sums_ = world.accounts.audit;
 }
 
 void LastWholeStep::fill(io::RunSummary& summary) const {

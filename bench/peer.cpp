@@ -27,7 +27,7 @@ PeerBody body_at(const simulation::World& world, simulation::BodyIndex i, const 
     std::fprintf(stderr, "bench: a body is not convex, the peers could not take it as it is\n");
     std::exit(1);
   }
-  const dynamics::Bodies& bodies = world.bodies;
+  const dynamics::Bodies& bodies = world.population.bodies;
   PeerBody body;
   for (const Point p : outline) body.outline.push_back(Point{} + (p - bodies.centroid[i]));
   body.mass = bodies.mass[i];
@@ -45,12 +45,12 @@ PeerBody body_at(const simulation::World& world, simulation::BodyIndex i, const 
 PeerScene peer_scene(const simulation::Simulation& simulation) {
   const simulation::World& world = simulation.world();
   PeerScene scene;
-  scene.current = world.current;
-  scene.friction = world.scene.ice.friction;
-  scene.restitution = world.scene.contact.restitution;
-  scene.step = world.scene.time.step;
-  for (simulation::BodyIndex i = 0; i < world.ship_count(); ++i) {
-    const simulation::ShipSpec& ship = world.scene.ships[i];
+  scene.current = world.setup.current;
+  scene.friction = world.setup.scene.ice.friction;
+  scene.restitution = world.setup.scene.contact.restitution;
+  scene.step = world.setup.scene.time.step;
+  for (simulation::BodyIndex i = 0; i < world.population.ship_count; ++i) {
+    const simulation::ShipSpec& ship = world.setup.scene.ships[i];
     PeerBody body = body_at(world, i, ship.hull.waterline);
     if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&ship.propulsion))
       body.thrust = thrust->thrust;
@@ -58,11 +58,11 @@ PeerScene peer_scene(const simulation::Simulation& simulation) {
       body.radius = distance(ship.hull.waterline.front(), {});
     scene.bodies.push_back(std::move(body));
   }
-  for (std::size_t id = 0; id < world.scene.floes.size(); ++id) {
-    const auto i = world.body_of(static_cast<simulation::FloeId>(id));
-    PeerBody body = body_at(world, i, world.scene.floes[id].polygon_in_world.outer);
-    body.drag = 0.5 * world.scene.water.drag_coefficient * world.scene.water.water.density *
-                world.scene.ice.thickness;
+  for (std::size_t id = 0; id < world.setup.scene.floes.size(); ++id) {
+    const auto i = world.population.body_of(static_cast<simulation::FloeId>(id));
+    PeerBody body = body_at(world, i, world.setup.scene.floes[id].polygon_in_world.outer);
+    body.drag = 0.5 * world.setup.scene.water.drag_coefficient * world.setup.scene.water.water.density *
+                world.population.bodies.thickness[i];
     body.shape = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape({body.outline, {}}, {}));
     scene.bodies.push_back(std::move(body));
   }

@@ -93,8 +93,9 @@ RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
     simulation.step();
     simulation.journal().clear();
     report.seconds = seconds_since(before);
-    report.awake = static_cast<int>(simulation.world().awake.size()) - simulation.world().ship_count();
-    report.contacts = counts_contacts ? touching_pairs(simulation.world().contacts) : -1;
+    report.awake = static_cast<int>(simulation.world().population.awake.size()) -
+                   simulation.world().population.ship_count;
+    report.contacts = counts_contacts ? touching_pairs(simulation.world().step.contacts) : -1;
     return report;
   });
   cost.bends = static_cast<int>(simulation.counts().bends);

@@ -3,19 +3,25 @@
 #include <algorithm>
 
 namespace polynya::fracture {
+namespace {
+
+/// A hull angle from the vertical whose sine would overflow a quotient is taken as 0 [-].
+constexpr double kVertical = 1e-100;
+
+}  // namespace
 
 double hull_angle_from_vertical(double sine_waterline_angle, double stem_angle) {
   return std::atan(std::max(0.0, sine_waterline_angle) / std::tan(stem_angle));
 }
 
-double crushed_area(double tangent_sum, double penetration, double thickness, double hull_angle) {
-  if (penetration <= 0) return 0;
-  const double reach = thickness * std::tan(hull_angle);  // the facet spans the whole thickness from here on
-  // (ξ² − (ξ − r)²) / 2 sin θ = r (2ξ − r) / 2 sin θ with r = h tan θ: no cancellation, no division by zero.
-  if (penetration >= reach) {
-    return tangent_sum * thickness * (2 * penetration - reach) / (2 * std::cos(hull_angle));
-  }
-  return tangent_sum * penetration * penetration / (2 * std::sin(hull_angle));
+double crushed_overlap_area(const Overlap& overlap, double thickness, double hull_angle) {
+  if (overlap.area <= 0 || overlap.depth <= 0) return 0;
+  const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
+  const double reach = thickness * std::tan(hull_angle);
+  const double sine = std::sin(hull_angle);
+  if (sine < kVertical) return overlap.area * p / overlap.depth * thickness;
+  if (reach >= overlap.depth) return overlap.area / sine;
+  return overlap.area / sine * -std::expm1(p * std::log1p(-reach / overlap.depth));
 }
 
 CrushingShares crushing_shares(double hull_angle, double friction, double approach_speed, double slip_speed) {

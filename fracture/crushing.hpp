@@ -13,12 +13,19 @@ inline constexpr double kLargestHalfAngle =
 /// the centreline [rad]. Aft of midships (sin α < 0) the wall is taken as vertical.
 double hull_angle_from_vertical(double sine_waterline_angle, double stem_angle);
 
-/// Crushed contact area A_c [m²]. Eq. (2) of [Sawamura2017], both branches at once:
-///   A_c = T / (2 sin θ_s) · [ξ² − ⟨ξ − h tan θ_s⟩²],   ⟨x⟩ = max(0, x)
-/// T = tan θ_wf + tan θ_wb, ξ penetration along the plan normal [m], h thickness [m], θ_s hull angle from the
-/// vertical [rad], 0 ≤ θ_s < π/2. Its limit at the vertical wall, T ξ h, is used there: nothing divides by
-/// zero.
-double crushed_area(double tangent_sum, double penetration, double thickness, double hull_angle);
+/// The overlap of two bodies in plan, as one contact measures it.
+struct Overlap {
+  double width = 0;  ///< dS/dξ at the waterline: length of the contact line [m]
+  double depth = 0;  ///< ξ, penetration along the plan normal [m]
+  double area = 0;   ///< S(ξ) [m²]
+};
+
+/// Crushed contact area A_c = [S(ξ) − S(ξ − h tan θ_s)] / sin θ_s [m²], at a vertical wall h dS/dξ. The
+/// general form of Eq. (2) of [Sawamura2017] for any contact shape; h thickness [m], θ_s hull angle from the
+/// vertical [rad], 0 ≤ θ_s < π/2. The overlap's history is taken as the power law of its measures,
+/// S(ξ') = S (ξ'/ξ)^p with p = ξ (dS/dξ) / S: a wedge has p = 2 and gives Eq. (2) exactly, a straight edge
+/// along the hull p = 1, where Eq. (2)'s tan θ_w would diverge. p is held within [1, 3].
+double crushed_overlap_area(const Overlap& overlap, double thickness, double hull_angle);
 
 /// The forces between hull and ice while it crushes, per newton of the facet's normal force F_n.
 struct CrushingShares {

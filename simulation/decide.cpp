@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "dynamics/collision.hpp"
+#include "fracture/characteristic_length.hpp"
 #include "fracture/crushing.hpp"
 #include "fracture/splitting.hpp"
 #include "geometry/contact/crack_path.hpp"
 #include "geometry/contact/wedge.hpp"
-#include "simulation/crushed_overlap.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {
@@ -21,22 +21,21 @@ constexpr double kWedgeLengthOverL = 0.3;
 /// A crack starts and ends this far outside the ice, so that it separates [m].
 constexpr double kCrackMargin = 1e-3;
 
-/// Eq. (5) needs the masses of the bodies as they are, also of one whose speed is held.
+/// Eq. (5) needs the masses of the bodies as they are, also of one of prescribed motion.
 dynamics::Mobility true_mobility(const dynamics::Bodies& bodies, BodyIndex i, Point at) {
   return {1 / bodies.mass[i], 1 / bodies.moment[i], at - bodies.position[i]};
 }
 
-double eq5_impulse(const World& world, const Contact& c) {
-  const double mass = dynamics::effective_mass(true_mobility(world.bodies, c.a, c.middle()),
-                                               true_mobility(world.bodies, c.b, c.middle()), c.normal);
-  return dynamics::collision_impulse(c.approach_speed, world.scene.contact.restitution, mass);
+double eq5_impulse(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
+  const double mass = dynamics::effective_mass(true_mobility(bodies, c.a, c.middle()),
+                                               true_mobility(bodies, c.b, c.middle()), c.normal);
+  return dynamics::collision_impulse(c.approach_speed, setup.scene.contact.restitution, mass);
 }
 
 /// θ_s where the contact is: by the waterline's normal from the stem angle, or from the hull's own table
 /// [rad].
-double hull_angle_at(const World& world, const Contact& c) {
-  const Hull& hull = world.scene.ships[c.a].hull;
-  const geometry::Pose pose = dynamics::water_from_body(world.bodies, c.a);
+double hull_angle_at(const Hull& hull, const dynamics::Bodies& bodies, const Contact& c) {
+  const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
   if (hull.angles_from_vertical.empty()) {
     return fracture::hull_angle_from_vertical(rotate_back(pose.rotation, c.normal).x, hull.stem_angle);
   }
@@ -55,97 +54,119 @@ double hull_angle_at(const World& world, const Contact& c) {
   return angle;
 }
 
-/// The fracture load of one ship contact while ice crushes there.
-struct CrushingContact {
+/// One contact of a ship with ice, as the fracture laws see it.
+struct ShipContactLoad {
+  const Contact& contact;
+  fracture::Ice ice;        ///< of the floe
+  double impulse = 0;       ///< j of Eq. (5) [N s]
   double hull_angle = 0;    ///< θ_s [rad]
-  double normal_force = 0;  ///< F_n on the facet [N]
+  double normal_force = 0;  ///< F_n on the facet while ice crushes [N]
   fracture::CrushingShares shares;
 };
 
-CrushingContact crushing_at(const World& world, const Contact& c) {
-  CrushingContact crushing;
-  crushing.hull_angle = hull_angle_at(world, c);
-  const double area =
-      crushed_overlap_area({c.width, c.depth, c.area}, world.scene.ice.thickness, crushing.hull_angle);
-  crushing.normal_force = fracture::crushing_force(world.scene.ice, area);
-  crushing.shares = fracture::crushing_shares(crushing.hull_angle, world.scene.ice.friction, c.approach_speed,
-                                              c.slip_speed);
-  return crushing;
+double crushing_force(const fracture::Ice& ice, const Contact& c, double hull_angle) {
+  return fracture::crushing_force(
+      ice, fracture::crushed_overlap_area({c.width, c.depth, c.area}, ice.thickness, hull_angle));
 }
 
-geometry::WedgeAngles wedge_at(const World& world, const Contact& c) {
-  const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
-  const double l = fracture::characteristic_length(world.scene.ice, world.scene.water.water);
-  return geometry::wedge_angles(world.bodies.boundary[c.b]->edges, c.tip_edge_of_b,
+ShipContactLoad load_of(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
+  ShipContactLoad load{c, ice_of(setup, bodies, c.b), {}, {}, {}, {}};
+  load.impulse = eq5_impulse(setup, bodies, c);
+  load.hull_angle = hull_angle_at(setup.scene.ships[c.a].hull, bodies, c);
+  load.normal_force = crushing_force(load.ice, c, load.hull_angle);
+  load.shares = fracture::crushing_shares(load.hull_angle, load.ice.friction, c.approach_speed, c.slip_speed);
+  return load;
+}
+
+geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodies,
+                               const ShipContactLoad& load) {
+  const Contact& c = load.contact;
+  const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
+  const double l = fracture::characteristic_length(load.ice, setup.scene.water.water);
+  return geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b,
                                 inverse_transform(water_from_floe, c.tip_of_b),
                                 rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
 }
 
-fracture::BendingLoad bending_load(const World& world, const Contact& c, const CrushingContact& crushing) {
-  const geometry::WedgeAngles wedge = wedge_at(world, c);
-  fracture::BendingLoad load;
-  load.ice = world.scene.ice;
-  load.water = world.scene.water.water;
-  load.front_half_angle = std::clamp(wedge.front, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
-  load.back_half_angle = std::clamp(wedge.back, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
-  load.hull_angle = crushing.hull_angle;
-  load.mean_approach_speed = c.record->age > 0 ? c.record->approach / c.record->age : c.approach_speed;
-  load.penetration = c.depth;
-  load.vertical_to_crushing = crushing.shares.vertical;
-  return load;
+fracture::BendingLoad bending_load(const Setup& setup, const dynamics::Bodies& bodies,
+                                   const ShipContactLoad& load) {
+  const Contact& c = load.contact;
+  const geometry::WedgeAngles wedge = wedge_at(setup, bodies, load);
+  fracture::BendingLoad bending;
+  bending.ice = load.ice;
+  bending.water = setup.scene.water.water;
+  bending.front_half_angle =
+      std::clamp(wedge.front, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
+  bending.back_half_angle = std::clamp(wedge.back, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
+  bending.hull_angle = load.hull_angle;
+  bending.mean_approach_speed = c.record->age > 0 ? c.record->approach / c.record->age : c.approach_speed;
+  bending.penetration = c.depth;
+  bending.vertical_to_crushing = load.shares.vertical;
+  return bending;
 }
 
-/// The least force at which any crack that counts could split: cracks shorter than κ l do not.
-double least_splitting_force(const World& world) {
-  return fracture::splitting_force(world.scene.fracture.splitting, world.scene.ice, world.breakable_size,
-                                   world.scene.fracture.splitting_shape_factor);
+/// F_s along a crack of that length [m] in ice [N].
+double splitting_force(const Setup& setup, const fracture::Ice& ice, double length) {
+  const FractureSettings& fracture = setup.scene.fracture;
+  return fracture::splitting_force(fracture.splitting, ice, length, fracture.splitting_shape_factor);
 }
 
-/// The crack that would start at the contact, along the hull's normal through all ice ahead, and what it
-/// takes.
-void measure_crack(const World& world, const Contact& c, PendingFracture& pending) {
-  const geometry::Pose water_from_floe = dynamics::water_from_body(world.bodies, c.b);
+/// The crack that would start at the contact, along the hull's normal through all ice ahead, and the force
+/// that it takes.
+void measure_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+                   PendingFracture& pending) {
+  const Contact& c = load.contact;
+  const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
   pending.crack_in_body =
-      geometry::crack_path(*world.bodies.boundary[c.b], inverse_transform(water_from_floe, c.middle()),
+      geometry::crack_path(*bodies.boundary[c.b], inverse_transform(water_from_floe, c.middle()),
                            rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
-  const double length = pending.crack_in_body.length_in_ice;
   // At the corner that an earlier crack left, the next one would run along its face and pare it strip by
   // strip.
-  const geometry::WedgeAngles wedge = wedge_at(world, c);
+  const geometry::WedgeAngles wedge = wedge_at(setup, bodies, load);
   pending.criteria.has_ice_beside = std::min(wedge.front, wedge.back) >= fracture::kSmallestHalfAngle;
-  pending.criteria.crack_length = length;
-  pending.criteria.splitting_force = fracture::splitting_force(
-      world.scene.fracture.splitting, world.scene.ice, length, world.scene.fracture.splitting_shape_factor);
+  pending.criteria.crack_length = pending.crack_in_body.length_in_ice;
+  pending.criteria.splitting_force = splitting_force(setup, load.ice, pending.criteria.crack_length);
 }
 
-PendingFracture judge(World& world, const Contact& c, const CrushingContact& crushing, double impulse) {
+/// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
+bool measure_bending(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+                     PendingFracture& pending) {
+  // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
+  const double crushing_impulse = load.shares.horizontal * load.normal_force * setup.scene.time.step;
+  const double pressed = crushing_impulse > 0 ? std::min(1.0, load.impulse / crushing_impulse) : 0;
+  pending.criteria.vertical_force = pressed * load.shares.vertical * load.normal_force;
+  const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, bodies, load));
+  pending.criteria.bending_capacity = capacity.vertical_force;
+  pending.cusp_radius = capacity.cusp_radius;
+  return capacity.is_in_range;
+}
+
+PendingFracture judge(const Setup& setup, const Population& population, const ShipContactLoad& load,
+                      Counts& counts) {
+  const Contact& c = load.contact;
+  const FractureSettings& settings = setup.scene.fracture;
   PendingFracture pending;
   fracture::FailureCriteria& criteria = pending.criteria;
-  criteria.floe_size = std::sqrt(world.floes[world.floe_of(c.b)].area);
-  criteria.breakable_size = world.breakable_size;
-  criteria.collision_force = impulse / world.scene.contact.contact_time;
+  criteria.floe_size = std::sqrt(population.floes[population.floe_of(c.b)].area);
+  criteria.breakable_size =
+      settings.breakable_size_factor *
+      fracture::breakable_length(load.ice, setup.scene.water.water, settings.characteristic_length);
+  criteria.collision_force = load.impulse / setup.scene.contact.contact_time;
   if (criteria.floe_size < criteria.breakable_size || c.approach_speed <= 0) return pending;
 
-  if (criteria.collision_force > least_splitting_force(world)) measure_crack(world, c, pending);
-  if (crushing.shares.vertical > 0) {
-    // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
-    const double crushing_impulse =
-        crushing.shares.horizontal * crushing.normal_force * world.scene.time.step;
-    const double pressed = crushing_impulse > 0 ? std::min(1.0, impulse / crushing_impulse) : 0;
-    criteria.vertical_force = pressed * crushing.shares.vertical * crushing.normal_force;
-    const fracture::BendingCapacity capacity = world.bending->capacity(bending_load(world, c, crushing));
-    criteria.bending_capacity = capacity.vertical_force;
-    pending.cusp_radius = capacity.cusp_radius;
-    if (!capacity.is_in_range && criteria.vertical_force >= criteria.bending_capacity) {
-      ++world.counts.database_out_of_range;
-    }
+  // Cracks shorter than κ l do not count: below the force that such a crack takes, none can split.
+  if (criteria.collision_force > splitting_force(setup, load.ice, criteria.breakable_size))
+    measure_crack(setup, population.bodies, load, pending);
+  if (load.shares.vertical > 0) {
+    const bool is_in_range = measure_bending(setup, population.bodies, load, pending);
+    if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
   }
   pending.failure = fracture::decide(criteria);
   // Too weak for any crack, but the record of a bend states the other criterion's two sides as well.
   if (pending.failure == fracture::Failure::kBend && criteria.crack_length == 0)
-    measure_crack(world, c, pending);
+    measure_crack(setup, population.bodies, load, pending);
   pending.ship = c.a;
-  pending.floe = world.floe_of(c.b);
+  pending.floe = population.floe_of(c.b);
   pending.point_in_water = c.middle();
   pending.first_touch_in_body = c.record->first_touch_in_b;
   pending.normal = c.normal;
@@ -155,38 +176,37 @@ PendingFracture judge(World& world, const Contact& c, const CrushingContact& cru
 }
 
 /// Adds j/τ_c of a ship's contact with ice.
-void add_peak(World& world, const Contact& c, double impulse) {
-  const Vector force = -(impulse / world.scene.contact.contact_time) * c.normal;
-  ShipLoads& loads = world.step_loads[c.a];
-  loads.peak += rotate_back(world.bodies.rotation[c.a], force);
-  loads.peak_moment += cross(c.middle() - world.bodies.position[c.a], force);
+void add_peak(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+              ShipLoads& loads) {
+  const Contact& c = load.contact;
+  const Vector force = -(load.impulse / setup.scene.contact.contact_time) * c.normal;
+  loads.peak += rotate_back(bodies.rotation[c.a], force);
+  loads.peak_moment += cross(c.middle() - bodies.position[c.a], force);
 }
 
 }  // namespace
 
-void decide(World& world) {
-  world.fractures.clear();
-  world.step_loads.assign(world.loads.size(), {});
-  const double dt = world.scene.time.step;
-  for (Contact& c : world.contacts) {
-    c.friction = world.scene.ice.friction;
-    if (!world.is_ship(c.a)) {  // floe against floe: vertical walls, of the same ice
-      c.impulse_limit = fracture::crushing_force(
-                            world.scene.ice,
-                            crushed_overlap_area({c.width, c.depth, c.area}, world.scene.ice.thickness, 0)) *
-                        dt;
+void decide(const Setup& setup, const Population& population, StepData& step, Counts& counts) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double dt = setup.scene.time.step;
+  step.fractures.clear();
+  step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
+  for (Contact& c : step.contacts) {
+    c.friction = setup.scene.ice.friction;
+    if (!population.is_ship(c.a)) {  // floe against floe: vertical walls; the thinner one crushes
+      const BodyIndex thinner = bodies.thickness[c.b] < bodies.thickness[c.a] ? c.b : c.a;
+      c.impulse_limit = crushing_force(ice_of(setup, bodies, thinner), c, 0) * dt;
       continue;
     }
-    if (world.is_ship(c.b)) continue;  // steel against steel does not crush
-    const double impulse = eq5_impulse(world, c);
-    add_peak(world, c, impulse);
-    const CrushingContact crushing = crushing_at(world, c);
-    c.impulse_limit = crushing.shares.horizontal * crushing.normal_force * dt;
-    c.friction = crushing.shares.tangential / crushing.shares.horizontal;
-    const PendingFracture pending = judge(world, c, crushing, impulse);
+    if (population.is_ship(c.b)) continue;  // steel against steel does not crush
+    const ShipContactLoad load = load_of(setup, bodies, c);
+    add_peak(setup, bodies, load, step.loads[c.a]);
+    c.impulse_limit = load.shares.horizontal * load.normal_force * dt;
+    c.friction = load.shares.tangential / load.shares.horizontal;
+    const PendingFracture pending = judge(setup, population, load, counts);
     const bool breaks =
         pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
-    if (breaks && !c.record->was_refused) world.fractures.push_back(pending);
+    if (breaks && !c.record->was_refused) step.fractures.push_back(pending);
   }
 }
 

@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include "simulation/world.hpp"
-
 namespace polynya::simulation {
 
+using dynamics::BodyIndex;
 using geometry::Vector;
 
 namespace {
@@ -16,8 +15,7 @@ bool counts(const dynamics::Bodies& bodies, BodyIndex i) {
 
 }  // namespace
 
-double kinetic_energy(const World& world) {
-  const dynamics::Bodies& bodies = world.bodies;
+double kinetic_energy(const dynamics::Bodies& bodies) {
   double sum = 0;
   for (BodyIndex i = 0; i < bodies.size(); ++i) {
     if (!counts(bodies, i)) continue;
@@ -27,27 +25,23 @@ double kinetic_energy(const World& world) {
   return sum;
 }
 
-Vector momentum(const World& world) {
+Vector momentum(const dynamics::Bodies& bodies) {
   Vector sum;
-  for (BodyIndex i = 0; i < world.bodies.size(); ++i) {
-    if (counts(world.bodies, i)) sum += world.bodies.mass[i] * world.bodies.velocity[i];
+  for (BodyIndex i = 0; i < bodies.size(); ++i) {
+    if (counts(bodies, i)) sum += bodies.mass[i] * bodies.velocity[i];
   }
   return sum;
 }
 
-void open_accounts(World& world) {
-  world.audit = {};
-  world.audit.initial_energy = kinetic_energy(world);
-  world.audit.initial_momentum = momentum(world);
+void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums) {
+  sums = {};
+  sums.initial_energy = kinetic_energy(bodies);
+  sums.initial_momentum = momentum(bodies);
 }
 
 bool Audit::is_closed() const {
   return std::abs(energy_imbalance) <= kTolerance * turnover &&
          length(momentum_imbalance) <= kTolerance * momentum_turnover;
-}
-
-Audit audit(const World& world) {
-  return audit(world.audit, kinetic_energy(world), momentum(world));
 }
 
 Audit audit(const AuditSums& sums, double kinetic_energy, Vector momentum) {

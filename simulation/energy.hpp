@@ -1,30 +1,29 @@
 #pragma once
 
-#include "geometry/shape/point.hpp"
+#include "dynamics/bodies.hpp"
 
 namespace polynya::simulation {
 
-struct World;
-
 /// Where the energy of the bodies' motion in the plane came from and went, summed over all steps [J]. In the
-/// water frame, of everything that is not held. Each entry is measured where it happens; that they account
-/// for the kinetic energy is audited, not arranged (audit).
+/// water frame, of everything whose motion is not prescribed. Each entry is measured where it happens; that
+/// they account for the kinetic energy is audited, not arranged (audit).
 struct EnergyFlows {
-  double thrust = 0;    ///< in: by thrust, and by what holds a ship to its speed or a structure in its place
+  double thrust = 0;    ///< in: by thrust, and by bodies of prescribed motion
   double current = 0;   ///< in: by a sheared current carrying ice along
   double drag = 0;      ///< out: relative to the water around
   double friction = 0;  ///< out: along contact lines
-  double restitution = 0;  ///< out: across contact lines that did not crush, what they do not give back
-  double crushing = 0;     ///< out: across contact lines that pressed with all that crushing ice carries
-  double bending = 0;      ///< out: the motion of the cusps and crumbs that bending took out of the floe list
-  double splitting = 0;    ///< out: the same of splits
-  double rest = 0;         ///< out: what was left to floes that came to rest
+  double restitution =
+      0;                 ///< out: across contact lines that did not crush, which restitution does not return
+  double crushing = 0;   ///< out: across contact lines that pressed with all that crushing ice carries
+  double bending = 0;    ///< out: the motion of the cusps and brash that bending took out of the floe list
+  double splitting = 0;  ///< out: the same of splits
+  double rest = 0;       ///< out: what was left to floes that came to rest
 };
 
-/// Impulses from outside on everything that is not held, summed over all steps [N s]. In the water frame.
+/// Impulses from outside on everything free to move, summed over all steps [N s]. In the water frame.
 struct MomentumFlows {
   geometry::Vector thrust;   ///< of ships' propellers
-  geometry::Vector held;     ///< through contacts with what is held
+  geometry::Vector held;     ///< through contacts with bodies of prescribed motion
   geometry::Vector water;    ///< of drag and current
   geometry::Vector removed;  ///< with what left the floe list, and what rest took
 };
@@ -37,13 +36,13 @@ struct AuditSums {
   MomentumFlows momentum;
 };
 
-/// The accounts at one moment.
+/// The accounts at one instant.
 struct Audit {
   AuditSums sums;
-  double kinetic_energy = 0;            ///< at the moment [J]
+  double kinetic_energy = 0;            ///< at that instant [J]
   double turnover = 0;                  ///< all energy that flowed, and the initial [J]
   double energy_imbalance = 0;          ///< kinetic − initial − in + out [J]
-  geometry::Vector total_momentum;      ///< at the moment [N s]
+  geometry::Vector total_momentum;      ///< at that instant [N s]
   double momentum_turnover = 0;         ///< all impulses' sizes, and the initial [N s]
   geometry::Vector momentum_imbalance;  ///< [N s]
 
@@ -52,13 +51,13 @@ struct Audit {
   bool is_closed() const;
 };
 
-double kinetic_energy(const World& world);      ///< of all that is alive and not held [J]
-geometry::Vector momentum(const World& world);  ///< of the same [N s]
+double kinetic_energy(const dynamics::Bodies& bodies);      ///< of all that is alive and free to move [J]
+geometry::Vector momentum(const dynamics::Bodies& bodies);  ///< of the same [N s]
 
 /// Opens the accounts, before the first step.
-void open_accounts(World& world);
-Audit audit(const World& world);
-/// The same of what is known of a world: its sums, its kinetic energy [J] and its momentum [N s].
+void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums);
+
+/// Closes the sums against the bodies' kinetic energy [J] and momentum [N s].
 Audit audit(const AuditSums& sums, double kinetic_energy, geometry::Vector momentum);
 
 }  // namespace polynya::simulation

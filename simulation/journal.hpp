@@ -104,12 +104,12 @@ struct ShipSample {
   double heading = 0;                  ///< [rad]
   geometry::Vector velocity_in_world;  ///< over ground [m/s]
   double yaw_rate = 0;                 ///< [rad/s]
-  double thrust = 0;                   ///< along the heading; for a constant-speed ship what held it [N]
-  int contacts = 0;                    ///< with ice, at the sampled step
-  int contacts_with_ships = 0;         ///< with other ships and structures, at the sampled step
+  double thrust = 0;  ///< along the heading; for a constant-speed ship the force that kept its speed [N]
+  int contacts = 0;   ///< with ice, at the sampled step
+  int contacts_with_ships = 0;  ///< with other ships and structures, at the sampled step
 };
 
-/// What a step has to tell. The caller takes it and clears it; the vectors keep their capacity.
+/// What happened since the caller last cleared it; the vectors keep their capacity.
 struct Journal {
   std::vector<Event> events;
   std::vector<ShipContact> ship_contacts;
@@ -148,8 +148,8 @@ struct Counts {
   std::int64_t brash_pieces = 0;
   std::int64_t snap_rounded = 0;  ///< pieces whose nearest doubles were not a valid polygon
   std::int64_t database_out_of_range = 0;
-  std::int64_t unconverged_steps = 0;   ///< steps in which the impulse solver used all its sweeps
-  double largest_residual = 0;          ///< of a velocity, what the last sweep of such a step changed [m/s]
+  std::int64_t unconverged_steps = 0;  ///< steps in which the impulse solver used all its iterations
+  double largest_residual = 0;         ///< what the last iteration of such a step changed a velocity by [m/s]
   std::int64_t unpaired_stretches = 0;  ///< overlaps without a contact for a step: crossings not in pairs
   std::int64_t steps = 0;
   std::int64_t peak_contacts = 0;

@@ -14,13 +14,15 @@ Vector larger(Vector a, Vector b) {
   return {larger(a.x, b.x), larger(a.y, b.y)};
 }
 
-/// Adds what a contact's impulses did to the ship.
-void add_contact(World& world, const dynamics::Contact& c, BodyIndex ship, double sign) {
-  const bool is_with_ship = world.is_ship(ship == c.a ? c.b : c.a);
-  ContactLoads& loads = is_with_ship ? world.step_loads[ship].ships : world.step_loads[ship].ice;
+/// Adds what a contact's impulses did to one of its two bodies, a ship.
+void add_contact(const Population& population, const dynamics::Contact& c, BodyIndex ship, double sign,
+                 ShipLoads& ship_loads) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const bool is_with_ship = population.is_ship(ship == c.a ? c.b : c.a);
+  ContactLoads& loads = is_with_ship ? ship_loads.ships : ship_loads.ice;
   const auto add = [&](geometry::Point at, Vector impulse) {
-    loads.impulse += rotate_back(world.bodies.rotation[ship], impulse);
-    loads.angular_impulse += cross(at - world.bodies.position[ship], impulse);
+    loads.impulse += rotate_back(bodies.rotation[ship], impulse);
+    loads.angular_impulse += cross(at - bodies.position[ship], impulse);
   };
   for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal);
   add(c.middle(), sign * c.slip_impulse * perpendicular(c.normal));
@@ -42,11 +44,11 @@ void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
   sum.peak_moment = larger(sum.peak_moment, step.peak_moment);
 }
 
-ShipSample sample_of(const World& world, BodyIndex ship, double interval) {
-  const ShipLoads& loads = world.loads[ship];
-  const dynamics::Bodies& bodies = world.bodies;
+ShipSample sample_of(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies, BodyIndex ship,
+                     const ShipLoads& loads) {
+  const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
   ShipSample sample;
-  sample.time = world.time();
+  sample.time = clock.time();
   sample.ship = ship;
   sample.surge_force = loads.ice.impulse.x / interval;
   sample.sway_force = loads.ice.impulse.y / interval;
@@ -63,13 +65,13 @@ ShipSample sample_of(const World& world, BodyIndex ship, double interval) {
   sample.surge_from_ships_max = loads.ships.largest.x;
   sample.sway_from_ships_max = loads.ships.largest.y;
   sample.yaw_from_ships_max = loads.ships.largest_moment;
-  sample.position_in_world = bodies.position[ship] + world.drift();
+  sample.position_in_world = bodies.position[ship] + clock.drift();
   sample.heading = bodies.angle[ship];
-  sample.velocity_in_world = bodies.velocity[ship] + world.scene.water.drift;
+  sample.velocity_in_world = bodies.velocity[ship] + clock.water_drift;
   sample.yaw_rate = bodies.angular_velocity[ship];
-  const auto* thrust = std::get_if<ConstantThrust>(&world.scene.ships[ship].propulsion);
-  const double held_back = sample.surge_force + sample.surge_from_ships;
-  sample.thrust = thrust != nullptr ? thrust->thrust : -held_back;
+  const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion);
+  const double resisted = sample.surge_force + sample.surge_from_ships;
+  sample.thrust = thrust != nullptr ? thrust->thrust : -resisted;
   sample.contacts = loads.ice.contacts;
   sample.contacts_with_ships = loads.ships.contacts;
   return sample;
@@ -77,23 +79,24 @@ ShipSample sample_of(const World& world, BodyIndex ship, double interval) {
 
 }  // namespace
 
-void tally_loads(World& world) {
-  for (const dynamics::Contact& c : world.contacts) {
-    if (world.is_ship(c.a)) add_contact(world, c, c.a, -1);
-    if (world.is_ship(c.b)) add_contact(world, c, c.b, +1);
+void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
+                 std::vector<ShipLoads>& loads) {
+  for (const dynamics::Contact& c : contacts) {
+    if (population.is_ship(c.a)) add_contact(population, c, c.a, -1, loads[c.a]);
+    if (population.is_ship(c.b)) add_contact(population, c, c.b, +1, loads[c.b]);
   }
 }
 
-void record(World& world) {
-  for (std::size_t ship = 0; ship < world.loads.size(); ++ship) {
-    add_step(world.loads[ship], world.step_loads[ship], world.scene.time.step);
-  }
-  world.counts.peak_awake = std::max(world.counts.peak_awake, static_cast<std::int64_t>(world.awake.size()));
-  if (world.steps % world.steps_per_sample != 0) return;
-  const double interval = static_cast<double>(world.steps_per_sample) * world.scene.time.step;
-  for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
-    world.journal.samples.push_back(sample_of(world, ship, interval));
-    world.loads[ship] = {};
+void record(const Setup& setup, const Clock& clock, const Population& population,
+            const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal) {
+  for (std::size_t ship = 0; ship < step_loads.size(); ++ship)
+    add_step(accounts.loads[ship], step_loads[ship], setup.scene.time.step);
+  Counts& counts = accounts.counts;
+  counts.peak_awake = std::max(counts.peak_awake, static_cast<std::int64_t>(population.awake.size()));
+  if (clock.steps % setup.steps_per_sample != 0) return;
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+    journal.samples.push_back(sample_of(setup, clock, population.bodies, ship, accounts.loads[ship]));
+    accounts.loads[ship] = {};
   }
 }
 

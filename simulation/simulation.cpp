@@ -32,7 +32,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 tl::expected<Simulation, std::string> Simulation::resumed(Scene scene, std::string_view state) {
-  auto world = std::make_unique<World>(std::move(scene), Shortcuts{}, Population::kNone);
+  auto world = std::make_unique<World>(std::move(scene), Shortcuts{}, Start::kEmpty);
   if (std::string reason = load_state(*world, state); !reason.empty())
     return tl::unexpected(std::move(reason));
   return Simulation(std::move(world));
@@ -51,23 +51,24 @@ void Simulation::set_threads(int threads) {
 
 namespace {
 
-/// Derives the world anew, in builds with assertions.
+/// Validates the world, in builds with assertions.
 void validate([[maybe_unused]] const World& world) {
 #ifndef NDEBUG
   if (world.failure) return;
-  const auto wrong = validate_world(world);
-  if (!wrong) return;
-  std::fprintf(stderr, "step %lld: %s\n", static_cast<long long>(world.steps), wrong->c_str());
+  const auto defect = validate_world(world);
+  if (!defect) return;
+  std::fprintf(stderr, "step %lld: %s\n", static_cast<long long>(world.clock.steps), defect->c_str());
   std::abort();
 #endif
 }
 
 bool is_recorded(const World& world, const dynamics::Contact& contact) {
-  switch (world.scene.record.contacts) {
+  switch (world.setup.scene.record.contacts) {
     case RecordedContacts::kNone:
       return false;
     case RecordedContacts::kShips:
-      return world.is_ship(contact.a);  // ships come first, so a contact's first body is one if any is
+      return world.population.is_ship(
+          contact.a);  // ships come first, so a contact's first body is one if any is
     case RecordedContacts::kAll:
       return true;
   }
@@ -88,13 +89,13 @@ std::optional<std::string> Simulation::numerical_failure() const {
   return world_->failure;
 }
 double Simulation::time() const {
-  return world_->time();
+  return world_->clock.time();
 }
 std::int64_t Simulation::steps() const {
-  return world_->steps;
+  return world_->clock.steps;
 }
 const Scene& Simulation::scene() const {
-  return world_->scene;
+  return world_->setup.scene;
 }
 Journal& Simulation::journal() {
   return world_->journal;
@@ -104,13 +105,15 @@ const World& Simulation::world() const {
 }
 
 Audit Simulation::audit() const {
-  return simulation::audit(*world_);
+  const dynamics::Bodies& bodies = world_->population.bodies;
+  return simulation::audit(world_->accounts.audit, kinetic_energy(bodies), momentum(bodies));
 }
 
 AreaLedger Simulation::area_ledger() const {
-  AreaLedger ledger = world_->ledger;
-  for (FloeId id = 0; id < static_cast<FloeId>(world_->floes.size()); ++id) {
-    if (world_->is_alive(id)) ledger.floe_area += world_->floes[id].area;
+  const Population& population = world_->population;
+  AreaLedger ledger = world_->accounts.ledger;
+  for (FloeId id = 0; id < population.floe_count(); ++id) {
+    if (population.is_alive(id)) ledger.floe_area += population.floes[id].area;
   }
   ledger.imbalance = ledger.floe_area + ledger.submerged_area + ledger.brash_area - ledger.rounding_defect -
                      ledger.initial_ice_area;
@@ -118,32 +121,34 @@ AreaLedger Simulation::area_ledger() const {
 }
 
 Counts Simulation::counts() const {
-  Counts counts = world_->counts;
-  counts.steps = world_->steps;
-  for (FloeId id = 0; id < static_cast<FloeId>(world_->floes.size()); ++id)
-    counts.floes_final += world_->is_alive(id);
+  const Population& population = world_->population;
+  Counts counts = world_->accounts.counts;
+  counts.steps = world_->clock.steps;
+  for (FloeId id = 0; id < population.floe_count(); ++id) counts.floes_final += population.is_alive(id);
   return counts;
 }
 
 std::vector<FloeState> Simulation::floe_states() const {
-  const World& world = *world_;
+  const Population& population = world_->population;
+  const dynamics::Bodies& bodies = population.bodies;
   std::vector<FloeState> states;
-  for (FloeId id = 0; id < static_cast<FloeId>(world.floes.size()); ++id) {
-    if (!world.is_alive(id)) continue;
-    const BodyIndex body = world.body_of(id);
+  for (FloeId id = 0; id < population.floe_count(); ++id) {
+    if (!population.is_alive(id)) continue;
+    const BodyIndex body = population.body_of(id);
+    const Floe& floe = population.floes[id];
     FloeState state;
     state.floe = id;
-    state.parent = world.floes[id].parent;
-    state.born = world.floes[id].born;
-    state.generation = world.floes[id].generation;
-    state.world_from_body = dynamics::water_from_body(world.bodies, body);
-    state.world_from_body.position += world.drift();
-    state.angle = world.bodies.angle[body];
-    state.velocity = world.bodies.velocity[body] + world.scene.water.drift;
-    state.angular_velocity = world.bodies.angular_velocity[body];
-    state.area = world.floes[id].area;
-    state.mass = world.bodies.mass[body];
-    state.polygon_in_body = &world.floes[id].shape.polygon;
+    state.parent = floe.parent;
+    state.born = floe.born;
+    state.generation = floe.generation;
+    state.world_from_body = dynamics::water_from_body(bodies, body);
+    state.world_from_body.position += world_->clock.drift();
+    state.angle = bodies.angle[body];
+    state.velocity = bodies.velocity[body] + world_->clock.water_drift;
+    state.angular_velocity = bodies.angular_velocity[body];
+    state.area = floe.area;
+    state.mass = bodies.mass[body];
+    state.polygon_in_body = &floe.shape.polygon;
     states.push_back(state);
   }
   return states;
@@ -151,14 +156,14 @@ std::vector<FloeState> Simulation::floe_states() const {
 
 std::vector<ContactState> Simulation::contact_states() const {
   const World& world = *world_;
-  const double dt = world.scene.time.step;
-  const Vector drift_then = static_cast<double>(world.steps - 1) * dt * world.scene.water.drift;
+  const double dt = world.clock.step;
+  const Vector drift_then = static_cast<double>(world.clock.steps - 1) * dt * world.clock.water_drift;
   const auto body_of = [&](BodyIndex body) {
-    return world.is_ship(body) ? ContactState::Body{body, kNoFloe}
-                               : ContactState::Body{-1, world.floe_of(body)};
+    return world.population.is_ship(body) ? ContactState::Body{body, kNoFloe}
+                                          : ContactState::Body{-1, world.population.floe_of(body)};
   };
   std::vector<ContactState> states;
-  for (const dynamics::Contact& c : world.contacts) {
+  for (const dynamics::Contact& c : world.step.contacts) {
     if (!is_recorded(world, c)) continue;
     states.push_back({.on = body_of(c.a),
                       .by = body_of(c.b),
@@ -171,15 +176,15 @@ std::vector<ContactState> Simulation::contact_states() const {
 }
 
 std::vector<ShipState> Simulation::ship_states() const {
-  const World& world = *world_;
+  const dynamics::Bodies& bodies = world_->population.bodies;
   std::vector<ShipState> states;
-  for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
+  for (BodyIndex ship = 0; ship < world_->population.ship_count; ++ship) {
     ShipState state;
-    state.world_from_ship = dynamics::water_from_body(world.bodies, ship);
-    state.world_from_ship.position += world.drift();
-    state.heading = world.bodies.angle[ship];
-    state.velocity = world.bodies.velocity[ship] + world.scene.water.drift;
-    state.angular_velocity = world.bodies.angular_velocity[ship];
+    state.world_from_ship = dynamics::water_from_body(bodies, ship);
+    state.world_from_ship.position += world_->clock.drift();
+    state.heading = bodies.angle[ship];
+    state.velocity = bodies.velocity[ship] + world_->clock.water_drift;
+    state.angular_velocity = bodies.angular_velocity[ship];
     states.push_back(state);
   }
   return states;

@@ -20,7 +20,7 @@ namespace polynya::simulation {
 
 struct World;
 
-/// Where one living floe is. Frames and pictures are made of these.
+/// Where one floe is that has not broken. Frames and pictures are made of these.
 struct FloeState {
   FloeId floe = 0;
   FloeId parent = kNoFloe;
@@ -32,7 +32,7 @@ struct FloeState {
   double angular_velocity = 0;                         ///< [rad/s]
   double area = 0;                                     ///< [m²]
   double mass = 0;                                     ///< [kg]
-  const geometry::Polygon* polygon_in_body = nullptr;  ///< lives as long as the floe
+  const geometry::Polygon* polygon_in_body = nullptr;  ///< valid as long as the floe
 };
 
 struct ShipState {
@@ -54,7 +54,7 @@ struct ContactState {
   geometry::Point point_in_world;  ///< that the force acts at, where it was when the step began [m]
   geometry::Vector force;          ///< by `by` on `on`, over ground, mean of the step: impulse / time [N]
   double depth = 0;                ///< of the overlap along the normal [m]
-  bool is_crushing = false;        ///< it pressed with all that crushing ice carries
+  bool is_crushing = false;        ///< it presses with all that crushing ice carries
 };
 
 /// A run in progress: the scene's world, stepped.
@@ -65,22 +65,21 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Goes on from what state() told of a run of the same scene. The error says why those bytes are none.
+  /// Continues from the state() of a run of the same scene. The error states what is wrong with the bytes.
   static tl::expected<Simulation, std::string> resumed(Scene scene, std::string_view state);
 
-  /// All that decides how the run goes on, beside the scene. Taken between steps, the journal having been
-  /// taken.
+  /// All that decides how the run continues, beside the scene. Taken between steps, after the journal.
   std::string state() const;
   /// A hash of it, the same wherever the same bits were computed (docs/reliability.md).
   std::uint64_t state_hash() const;
 
-  /// Steps on so many threads from now on. Results do not depend on it.
+  /// The number of threads to step on from now on. Results do not depend on it.
   void set_threads(int threads);
 
-  /// One time step. What it has to tell stands in journal() afterwards, added to what is there.
+  /// One time step. Appends what happened in it to journal().
   void step();
 
-  /// A reason where the numbers have stopped being numbers (NaN, runaway speed); checked every step.
+  /// Why the run cannot continue (NaN, runaway speed); checked every step.
   std::optional<std::string> numerical_failure() const;
 
   double time() const;  ///< [s]
@@ -90,7 +89,7 @@ class Simulation {
   AreaLedger area_ledger() const;
   Audit audit() const;  ///< of energy and momentum
   Counts counts() const;
-  std::vector<FloeState> floe_states() const;  ///< living floes in id order
+  std::vector<FloeState> floe_states() const;  ///< of floes that have not broken, in id order
   std::vector<ShipState> ship_states() const;
   /// Those contacts of the last step that the scene wants recorded, ships' first, in the order of their
   /// bodies. None before the first step and right after a resume.

@@ -3,156 +3,171 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/runaway.hpp"
+#include "simulation/limits.hpp"
 
 namespace polynya::simulation {
 namespace {
 
 using geometry::Vector;
 
-Vector heading_of(const World& world, BodyIndex ship) {
-  const geometry::Rotation r = world.bodies.rotation[ship];
-  return {r.cosine, r.sine};
+/// Enters what a body of prescribed motion did to another through their contact.
+void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Contact& c, AuditSums& audit) {
+  const Vector on_free = bodies.inverse_mass[c.a] == 0 ? c.impulse_on_b() : -c.impulse_on_b();
+  audit.energy.thrust += c.prescribed_work;
+  audit.momentum.held += on_free;
+  audit.impulses += length(on_free);
 }
 
-/// Enters what a held body did to another through their contact.
-void enter_prescribed_work(World& world, const dynamics::Contact& c) {
-  const Vector on_free = world.bodies.inverse_mass[c.a] == 0 ? c.impulse_on_b() : -c.impulse_on_b();
-  world.audit.energy.thrust += c.prescribed_work;
-  world.audit.momentum.held += on_free;
-  world.audit.impulses += length(on_free);
-}
-
-void note_water(World& world, const dynamics::WaterWork& work) {
-  world.audit.energy.drag += work.lost;
-  world.audit.energy.current += work.by_current;
-  world.audit.momentum.water += work.impulse;
-  world.audit.impulses += work.impulses;
-}
-
-void push_ship(World& world, BodyIndex ship, double thrust) {
-  dynamics::Bodies& bodies = world.bodies;
-  const Vector impulse = world.scene.time.step * thrust * heading_of(world, ship);
-  const Vector change = bodies.inverse_mass[ship] * impulse;
-  world.audit.energy.thrust += dot(impulse, bodies.velocity[ship] + 0.5 * change);
-  world.audit.momentum.thrust += impulse;
-  world.audit.impulses += length(impulse);
-  bodies.velocity[ship] += change;
-}
-
-/// Enters what is left to a floe that is put to rest.
-void note_rest(World& world, BodyIndex i) {
-  const dynamics::Bodies& bodies = world.bodies;
-  const Vector left = bodies.mass[i] * bodies.velocity[i];
-  const double omega = bodies.angular_velocity[i];
-  world.audit.energy.rest += 0.5 * (dot(left, bodies.velocity[i]) + bodies.moment[i] * omega * omega);
-  world.audit.momentum.removed += left;
-  world.audit.impulses += length(left);
-}
-
-/// Marks what crushed, once the solver has told which contacts needed all that crushing ice could carry, and
-/// enters what all contacts did into the accounts.
-void note_crushing(World& world) {
-  EnergyFlows& energy = world.audit.energy;
-  for (dynamics::Contact& c : world.contacts) {
+/// Marks what crushed: contacts that needed all that crushing ice can carry. Enters what all contacts did
+/// into the accounts.
+void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts,
+                    Accounts& accounts) {
+  EnergyFlows& energy = accounts.audit.energy;
+  for (dynamics::Contact& c : contacts) {
     const bool is_at_limit = c.is_at_limit();
     (is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
     energy.friction -= c.slip_work;
-    if (world.bodies.inverse_mass[c.a] == 0 || world.bodies.inverse_mass[c.b] == 0)
-      enter_prescribed_work(world, c);
+    if (bodies.inverse_mass[c.a] == 0 || bodies.inverse_mass[c.b] == 0)
+      enter_prescribed_work(bodies, c, accounts.audit);
     if (!is_at_limit || c.approach_speed <= 0) continue;
     c.record->crushed_depth = c.depth;
-    if (!c.record->has_crushed) ++world.counts.crush_contacts;
+    if (!c.record->has_crushed) ++accounts.counts.crush_contacts;
     c.record->has_crushed = true;
   }
 }
 
+void enter_water(const dynamics::WaterWork& work, AuditSums& audit) {
+  audit.energy.drag += work.lost;
+  audit.energy.current += work.by_current;
+  audit.momentum.water += work.impulse;
+  audit.impulses += work.impulses;
+}
+
+void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, AuditSums& audit) {
+  const Vector heading{bodies.rotation[ship].cosine, bodies.rotation[ship].sine};
+  const Vector impulse = thrust_impulse * heading;
+  const Vector change = bodies.inverse_mass[ship] * impulse;
+  audit.energy.thrust += dot(impulse, bodies.velocity[ship] + 0.5 * change);
+  audit.momentum.thrust += impulse;
+  audit.impulses += length(impulse);
+  bodies.velocity[ship] += change;
+}
+
+/// Stops a floe and enters the motion that it had left.
+void stop(dynamics::Bodies& bodies, BodyIndex i, AuditSums& audit) {
+  const Vector left = bodies.mass[i] * bodies.velocity[i];
+  const double omega = bodies.angular_velocity[i];
+  audit.energy.rest += 0.5 * (dot(left, bodies.velocity[i]) + bodies.moment[i] * omega * omega);
+  audit.momentum.removed += left;
+  audit.impulses += length(left);
+  bodies.velocity[i] = {};
+  bodies.angular_velocity[i] = 0;
+}
+
 }  // namespace
 
-void find_pairs(World& world) {
-  world.pairs.update(world.bodies, world.awake);
+void find_pairs(Population& population) {
+  population.pairs.update(population.bodies, population.awake);
 }
 
-void find_contacts(World& world) {
-  world.pairs.find_contacts(world.bodies, world.scene.time.step, world.contacts, world.threads);
-  world.counts.unpaired_stretches += world.pairs.take_unpaired_stretches();
-  world.counts.peak_contacts =
-      std::max(world.counts.peak_contacts, static_cast<std::int64_t>(world.contacts.size()));
+void find_contacts(const Setup& setup, int threads, Population& population,
+                   std::vector<dynamics::Contact>& contacts, Counts& counts) {
+  population.pairs.find_contacts(population.bodies, setup.scene.time.step, contacts, threads);
+  counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
+  counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
 }
 
-void solve_impulses(World& world) {
-  if (world.contacts.empty()) return;
-  world.solver_settings.threads = world.threads;
-  const dynamics::SolverResult result =
-      world.solver.solve(world.bodies, world.contacts, world.solver_settings);
-  if (!result.is_converged()) ++world.counts.unconverged_steps;
-  world.counts.largest_residual = std::max(world.counts.largest_residual, result.residual);
-  note_crushing(world);
-  for (const dynamics::Contact& c : world.contacts) {
+void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
+                    Accounts& accounts) {
+  if (step.contacts.empty()) return;
+  dynamics::SolverSettings settings = setup.solver;
+  settings.threads = threads;
+  const dynamics::SolverResult result = step.solver.solve(population.bodies, step.contacts, settings);
+  if (!result.is_converged()) ++accounts.counts.unconverged_steps;
+  accounts.counts.largest_residual = std::max(accounts.counts.largest_residual, result.residual);
+  enter_contacts(population.bodies, step.contacts, accounts);
+  for (const dynamics::Contact& c : step.contacts) {
     if (c.total_normal_impulse() == 0) continue;
-    wake(world, c.a);
-    wake(world, c.b);
+    wake(c.a, population);
+    wake(c.b, population);
   }
 }
 
-void apply_forces(World& world) {
-  const double dt = world.scene.time.step;
-  const WaterSettings& water = world.scene.water;
-  note_water(world, apply_water_drag(world.bodies, world.awake,
-                                     {water.drag_coefficient, water.water.density, world.current}, dt,
-                                     world.threads));
-  for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) {
-    if (const auto* thrust = std::get_if<ConstantThrust>(&world.scene.ships[ship].propulsion)) {
-      push_ship(world, ship, thrust->thrust);
-    }
+void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit) {
+  const double dt = setup.scene.time.step;
+  const WaterSettings& water = setup.scene.water;
+  enter_water(apply_water_drag(population.bodies, population.awake,
+                               {water.drag_coefficient, water.water.density, setup.current}, dt, threads),
+              audit);
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+    if (const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion))
+      push_ship(population.bodies, ship, dt * thrust->thrust, audit);
   }
 }
 
-void integrate_motion(World& world) {
-  const double dt = world.scene.time.step;
-  separate(world.bodies, world.contacts, world.separation_settings, dt);
-  const double fastest = integrate(world.bodies, world.awake, dt, world.threads);
-  if (fastest < kRunawaySpeed || world.failure) return;
-  const auto runaway = std::find_if(world.awake.begin(), world.awake.end(), [&](BodyIndex i) {
-    return !(world.bodies.rim_speed[i] < kRunawaySpeed);
-  });
-  world.failure = "body " + std::to_string(*runaway) +
-                  " has no finite speed below 1000 m/s at t = " + std::to_string(world.time()) + " s";
+std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
+                                            const std::vector<dynamics::Contact>& contacts,
+                                            Population& population) {
+  const double dt = setup.scene.time.step;
+  separate(population.bodies, contacts, setup.separation, dt);
+  const double fastest = integrate(population.bodies, population.awake, dt, threads);
+  if (fastest < kRunawaySpeed) return std::nullopt;
+  const auto runaway = std::ranges::find_if(
+      population.awake, [&](BodyIndex i) { return !(population.bodies.rim_speed[i] < kRunawaySpeed); });
+  return "body " + std::to_string(*runaway) +
+         " has no finite speed below 1000 m/s at t = " + std::to_string(clock.time()) + " s";
 }
 
-void put_to_rest(World& world) {
-  if (!world.shortcuts.sleeps) return;
-  world.touched_at_step.resize(static_cast<std::size_t>(world.bodies.size()), -1);
-  for (const dynamics::Contact& c : world.contacts) {
-    world.touched_at_step[c.a] = world.steps;
-    world.touched_at_step[c.b] = world.steps;
+void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
+                 AuditSums& audit) {
+  if (!setup.shortcuts.sleeps) return;
+  dynamics::Bodies& bodies = population.bodies;
+  step.touched_at_step.resize(static_cast<std::size_t>(bodies.size()), -1);
+  for (const dynamics::Contact& c : step.contacts) {
+    step.touched_at_step[c.a] = clock.steps;
+    step.touched_at_step[c.b] = clock.steps;
   }
-  std::erase_if(world.awake, [&](BodyIndex i) {
-    if (world.is_ship(i) || world.touched_at_step[i] == world.steps) return false;
-    if (world.bodies.rim_speed[i] >= kRestSpeed) return false;
-    if (!world.is_current_still_at(i)) return false;  // for a moment only
-    note_rest(world, i);
-    world.bodies.velocity[i] = {};
-    world.bodies.angular_velocity[i] = 0;
-    world.bodies.is_awake[i] = 0;
-    world.pairs.sleep(world.bodies, i);
+  std::erase_if(population.awake, [&](BodyIndex i) {
+    if (population.is_ship(i) || step.touched_at_step[i] == clock.steps) return false;
+    if (bodies.rim_speed[i] >= kRestSpeed) return false;
+    if (!is_current_still_at(i, setup, bodies)) return false;  // it would not stay at rest
+    stop(bodies, i, audit);
+    bodies.is_awake[i] = 0;
+    population.pairs.sleep(bodies, i);
     return true;
   });
 }
 
+const std::array<Stage, 12> kStages = {{
+    {"find pairs", [](World& w) { find_pairs(w.population); }},
+    {"find contacts",
+     [](World& w) { find_contacts(w.setup, w.threads, w.population, w.step.contacts, w.accounts.counts); }},
+    {"decide", [](World& w) { decide(w.setup, w.population, w.step, w.accounts.counts); }},
+    {"solve impulses",
+     [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
+    {"tally loads", [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
+    {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
+    {"integrate",
+     [](World& w) {
+       auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);
+       if (failure && !w.failure) w.failure = std::move(failure);
+     }},
+    {"advance the clock", [](World& w) { ++w.clock.steps; }},
+    {"record ship contacts",
+     [](World& w) {
+       record_ship_contacts(w.setup, w.clock, w.population, w.step.contacts, w.accounts.ship_contacts,
+                            w.journal);
+     }},
+    {"apply fractures",
+     [](World& w) {
+       apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal);
+     }},
+    {"put to rest", [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
+    {"record", [](World& w) { record(w.setup, w.clock, w.population, w.step.loads, w.accounts, w.journal); }},
+}};
+
 void step(World& world) {
-  find_pairs(world);
-  find_contacts(world);
-  decide(world);
-  solve_impulses(world);
-  tally_loads(world);
-  apply_forces(world);
-  integrate_motion(world);
-  ++world.steps;
-  note_ship_contacts(world);
-  apply_fractures(world);
-  put_to_rest(world);
-  record(world);
+  for (const Stage& stage : kStages) stage.run(world);
 }
 
 }  // namespace polynya::simulation

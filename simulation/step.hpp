@@ -1,27 +1,62 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "simulation/world.hpp"
 
 namespace polynya::simulation {
 
-/// The stages of one time step, in their order. Each works on the world as the one before left it.
+// The stages of one time step. A stage reads what it takes as const and changes only what it takes as a
+// plain reference.
 
-void find_pairs(World& world);
-void find_contacts(World& world);
+void find_pairs(Population& population);
+
+void find_contacts(const Setup& setup, int threads, Population& population,
+                   std::vector<dynamics::Contact>& contacts, Counts& counts);
+
 /// What each contact can carry, and whether ice breaks there: impulse, crush, bend or split.
-void decide(World& world);
-void solve_impulses(World& world);
-/// What the impulses did to the ships.
-void tally_loads(World& world);
-void apply_forces(World& world);
-void integrate_motion(World& world);
-/// Enters the first contact of each two ships. After the motion, so that a contact has the step's time.
-void note_ship_contacts(World& world);
-/// The only stage that changes which floes there are: serially, in floe-id order.
-void apply_fractures(World& world);
-void put_to_rest(World& world);
-void record(World& world);
+void decide(const Setup& setup, const Population& population, StepData& step, Counts& counts);
 
+void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
+                    Accounts& accounts);
+
+/// Adds what the impulses did to the ships.
+void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
+                 std::vector<ShipLoads>& loads);
+
+void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit);
+
+/// Returns why the numbers cannot be trusted any more, where a body has no finite speed below kRunawaySpeed.
+std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
+                                            const std::vector<dynamics::Contact>& contacts,
+                                            Population& population);
+
+/// Records the first contact of each two ships. After the motion, so that a contact has the step's time.
+void record_ship_contacts(const Setup& setup, const Clock& clock, const Population& population,
+                          const std::vector<dynamics::Contact>& contacts,
+                          std::vector<ShipContact>& known_contacts, Journal& journal);
+
+/// The only stage that changes which floes there are: serially, in floe-id order.
+void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
+                     Population& population, Accounts& accounts, Journal& journal);
+
+void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
+                 AuditSums& audit);
+
+void record(const Setup& setup, const Clock& clock, const Population& population,
+            const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal);
+
+/// A stage with the parts of the world that it takes.
+struct Stage {
+  std::string_view name;
+  void (*run)(World& world);
+};
+
+/// All of them, in their order.
+extern const std::array<Stage, 12> kStages;
+
+/// One time step: all stages.
 void step(World& world);
 
 }  // namespace polynya::simulation

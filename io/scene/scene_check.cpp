@@ -11,7 +11,7 @@
 #include "geometry/shape/pose.hpp"
 #include "io/scene/overlap.hpp"
 #include "io/scene/speed_check.hpp"
-#include "simulation/floe_size.hpp"
+#include "simulation/limits.hpp"
 
 namespace polynya::io {
 namespace {

@@ -1,5 +1,5 @@
 #include "io/scene/scene_field_parts.hpp"
-#include "simulation/floe_size.hpp"
+#include "simulation/limits.hpp"
 
 namespace polynya::io {
 namespace {

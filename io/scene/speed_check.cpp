@@ -7,9 +7,8 @@
 
 #include "geometry/exact/measures.hpp"
 #include "io/scene/scene_check.hpp"
-#include "simulation/floe_size.hpp"
-#include "simulation/runaway.hpp"
-#include "simulation/world.hpp"
+#include "simulation/limits.hpp"
+#include "simulation/setup.hpp"
 
 namespace polynya::io {
 namespace {

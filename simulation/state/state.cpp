@@ -8,8 +8,7 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "simulation/floe_size.hpp"
-#include "simulation/runaway.hpp"
+#include "simulation/limits.hpp"
 #include "simulation/state/state_fields.hpp"
 #include "simulation/state/validate_world.hpp"
 
@@ -36,7 +35,7 @@ void set_motion(dynamics::Bodies& bodies, BodyIndex i, const BodyMotion& motion)
   bodies.rim_speed[i] = motion.rim_speed;
 }
 
-/// Pairs that touch: the others are but near, and found again.
+/// Pairs that touch: the others are only near, and found again.
 std::vector<dynamics::PairMemory> touching(std::vector<dynamics::PairMemory> pairs) {
   std::erase_if(pairs, [](const dynamics::PairMemory& pair) { return pair.records.empty(); });
   return pairs;
@@ -44,15 +43,15 @@ std::vector<dynamics::PairMemory> touching(std::vector<dynamics::PairMemory> pai
 
 template <class Archive>
 void write(Archive& archive, const World& world, const std::vector<dynamics::PairMemory>& pairs) {
-  sums_of(archive, world);
-  archive(std::uint64_t{world.floes.size()});
-  for (BodyIndex ship = 0; ship < world.ship_count(); ++ship) archive(motion_of(world.bodies, ship));
-  for (FloeId id = 0; id < static_cast<FloeId>(world.floes.size()); ++id) {
-    const Floe& floe = world.floes[id];
-    archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, world.is_alive(id)});
-    if (!world.is_alive(id)) continue;
+  const Population& population = world.population;
+  archive(world.clock.steps, world.accounts, std::uint64_t{population.floes.size()});
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) archive(motion_of(population.bodies, ship));
+  for (FloeId id = 0; id < population.floe_count(); ++id) {
+    const Floe& floe = population.floes[id];
+    archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, population.is_alive(id)});
+    if (!population.is_alive(id)) continue;
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
-    archive(motion_of(world.bodies, world.body_of(id)));
+    archive(motion_of(population.bodies, population.body_of(id)));
   }
   archive(pairs);
 }
@@ -69,36 +68,28 @@ geometry::Box ice_box(const Scene& scene) {
   return geometry::grown(box, kOutside);
 }
 
-/// Fills a bare world from bytes, checking as it goes.
+/// Fills an empty world from bytes, checking each value.
 class StateLoader {
  public:
   StateLoader(World& world, std::string_view bytes)
-      : world_(world), bytes_(bytes), ice_(ice_box(world.scene)) {}
+      : scene_(world.setup.scene),
+        world_(world),
+        population_(world.population),
+        bytes_(bytes),
+        ice_(ice_box(scene_)) {}
 
   std::string load() {
-    sums_of(bytes_, world_);
-    const Counts& c = world_.counts;
-    for (const std::int64_t count :
-         {c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
-          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
-          c.peak_contacts, c.peak_awake})
-      bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
-    bytes_.require(c.largest_residual >= 0, "a negative velocity left over");
-    bytes_.require(world_.loads.size() == world_.scene.ships.size(), "loads of other ships");
-    for (const ShipContact& contact : world_.ship_contacts)
-      bytes_.require(contact.ship >= 0 && contact.ship < contact.other && contact.other < world_.ship_count(),
-                     "a contact of no two ships");
-    bytes_.require(world_.steps >= 0 && world_.steps <= kMostSteps, "a number of steps that cannot be");
+    load_accounts();
     std::uint64_t floes = 0;
     bytes_(floes);
-    bytes_.require(floes >= world_.scene.floes.size() && floes <= bytes_.left(),
+    bytes_.require(floes >= scene_.floes.size() && floes <= bytes_.left(),
                    "a number of floes that cannot be");
-    for (BodyIndex ship = 0; ship < world_.ship_count() && bytes_.is_well(); ++ship) load_ship(ship);
+    for (BodyIndex ship = 0; ship < population_.ship_count && bytes_.is_well(); ++ship) load_ship(ship);
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_pairs();
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
     if (bytes_.is_well()) {
-      if (auto wrong = validate_world(world_)) bytes_.fail(*std::move(wrong));
+      if (auto defect = validate_world(world_)) bytes_.fail(*std::move(defect));
     }
     return bytes_.failure();
   }
@@ -106,6 +97,24 @@ class StateLoader {
  private:
   static constexpr std::int64_t kMostSteps = 1'000'000'000;
   static constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
+
+  void load_accounts() {
+    bytes_(world_.clock.steps, world_.accounts);
+    const Counts& c = world_.accounts.counts;
+    for (const std::int64_t count :
+         {c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
+          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
+          c.peak_contacts, c.peak_awake})
+      bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
+    bytes_.require(c.largest_residual >= 0, "a negative residual");
+    bytes_.require(world_.accounts.loads.size() == scene_.ships.size(), "loads of other ships");
+    for (const ShipContact& contact : world_.accounts.ship_contacts)
+      bytes_.require(
+          contact.ship >= 0 && contact.ship < contact.other && contact.other < population_.ship_count,
+          "a contact of no two ships");
+    const std::int64_t steps = world_.clock.steps;
+    bytes_.require(steps >= 0 && steps <= kMostSteps, "a number of steps that cannot be");
+  }
 
   BodyMotion load_motion(double radius) {
     BodyMotion motion;
@@ -119,23 +128,23 @@ class StateLoader {
     bytes_.require(std::abs(motion.angular_velocity) * radius <= kFastest,
                    "a body that spins faster than any");
     bytes_.require(std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6, "a rotation that is none");
-    bytes_.require(motion.travel >= 0, "a way of less than nothing");
+    bytes_.require(motion.travel >= 0, "a negative travel");
     return motion;
   }
 
   void place(BodyIndex body, const BodyMotion& motion) {
     if (!bytes_.is_well()) return;
-    set_motion(world_.bodies, body, motion);
-    world_.pairs.add(world_.bodies, body);
+    set_motion(population_.bodies, body, motion);
+    population_.pairs.add(population_.bodies, body);
     if (!motion.is_awake) return;
-    world_.bodies.is_awake[body] = 1;
-    world_.awake.push_back(body);
-    give_drag(world_, body);
+    population_.bodies.is_awake[body] = 1;
+    population_.awake.push_back(body);
+    add_drag(body, population_);
   }
 
   void load_ship(BodyIndex ship) {
-    add_body(world_.bodies, new_body_of(world_, world_.scene.ships[ship]));
-    const BodyMotion motion = load_motion(world_.bodies.bounding_radius[ship]);
+    add_body(population_.bodies, new_body_of(scene_.ships[ship], scene_.water.drift));
+    const BodyMotion motion = load_motion(population_.bodies.bounding_radius[ship]);
     bytes_.require(motion.is_awake, "a ship asleep");
     place(ship, motion);
   }
@@ -143,13 +152,13 @@ class StateLoader {
   FloeHead load_head(FloeId id) {
     FloeHead head;
     bytes_(head);
-    const bool is_of_scene = id < static_cast<FloeId>(world_.scene.floes.size());
+    const bool is_of_scene = id < static_cast<FloeId>(scene_.floes.size());
     bytes_.require(head.parent >= kNoFloe && head.parent < id, "a floe older than its parent");
     bytes_.require((head.parent == kNoFloe) == is_of_scene, "a floe without a parent");
     if (!bytes_.is_well()) return head;
-    const int generation = is_of_scene ? 0 : world_.floes[head.parent].generation + 1;
+    const int generation = is_of_scene ? 0 : population_.floes[head.parent].generation + 1;
     bytes_.require(head.generation == generation, "a generation that does not follow the parent's");
-    bytes_.require(is_of_scene || !world_.is_alive(head.parent), "a parent that still lives");
+    bytes_.require(is_of_scene || !population_.is_alive(head.parent), "a parent that still lives");
     return head;
   }
 
@@ -157,21 +166,26 @@ class StateLoader {
     const FloeHead head = load_head(id);
     if (!bytes_.is_well()) return;
     Floe floe{head.parent, head.born, head.generation, head.area, {}};
-    if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = world_.scene.floes[id].polygon_in_world;
+    if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = scene_.floes[id].polygon_in_world;
     if (head.is_alive && head.parent != kNoFloe) floe.shape = load_shape();
     if (!bytes_.is_well()) return;
+    const double thickness = head.parent == kNoFloe
+                                 ? scene_.ice.thickness
+                                 : population_.bodies.thickness[population_.body_of(head.parent)];
     dynamics::NewBody body;
     if (head.is_alive) {
-      body = new_body_of(world_, floe.shape.polygon, geometry::measure(floe.shape.polygon));
-    } else {  // its index stays, and nothing else of it
+      body = new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), scene_.ice.density,
+                         thickness);
+    } else {  // its index stays, and its thickness for its pieces
       body.mass = body.moment = 1;
+      body.thickness = thickness;
       body.boundary = std::make_shared<geometry::Boundary>();
     }
-    const BodyIndex index = add_body(world_.bodies, body);
-    world_.floes.push_back(std::move(floe));
-    if (head.is_alive) return place(index, load_motion(world_.bodies.bounding_radius[index]));
-    world_.bodies.is_alive[index] = 0;
-    world_.bodies.boundary[index].reset();
+    const BodyIndex index = add_body(population_.bodies, body);
+    population_.floes.push_back(std::move(floe));
+    if (head.is_alive) return place(index, load_motion(population_.bodies.bounding_radius[index]));
+    population_.bodies.is_alive[index] = 0;
+    population_.bodies.boundary[index].reset();
   }
 
   geometry::Shape load_shape() {
@@ -194,8 +208,9 @@ class StateLoader {
     std::vector<dynamics::PairMemory> pairs;
     std::vector<double> separation_bound;
     bytes_(pairs, separation_bound);
-    bytes_.require(pairs.size() == separation_bound.size(), "pairs that are not all told of");
-    const dynamics::Bodies& bodies = world_.bodies;
+    bytes_.require(pairs.size() == separation_bound.size(),
+                   "another number of separation bounds than of pairs");
+    const dynamics::Bodies& bodies = population_.bodies;
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {
       dynamics::PairMemory& pair = pairs[i];
       const bool is_there = pair.a >= 0 && pair.a < pair.b && pair.b < bodies.size();
@@ -209,10 +224,12 @@ class StateLoader {
       bytes_.require(is_next, "pairs out of their order");
       pair.separation_bound = separation_bound[i];
     }
-    if (bytes_.is_well()) world_.pairs.remember(bodies, pairs);
+    if (bytes_.is_well()) population_.pairs.remember(bodies, pairs);
   }
 
+  const Scene& scene_;
   World& world_;
+  Population& population_;
   ByteReader bytes_;
   geometry::Box ice_;
 };
@@ -220,7 +237,7 @@ class StateLoader {
 }  // namespace
 
 std::string save_state(const World& world) {
-  const std::vector<dynamics::PairMemory> pairs = world.pairs.memory();
+  const std::vector<dynamics::PairMemory> pairs = world.population.pairs.memory();
   std::vector<double> separation_bound;
   separation_bound.reserve(pairs.size());
   for (const dynamics::PairMemory& pair : pairs) separation_bound.push_back(pair.separation_bound);
@@ -230,13 +247,13 @@ std::string save_state(const World& world) {
   return archive.take();
 }
 
-std::string load_state(World& bare, std::string_view bytes) {
-  return StateLoader(bare, bytes).load();
+std::string load_state(World& empty, std::string_view bytes) {
+  return StateLoader(empty, bytes).load();
 }
 
 std::uint64_t state_hash(const World& world) {
   HashWriter archive;
-  write(archive, world, touching(world.pairs.memory()));
+  write(archive, world, touching(world.population.pairs.memory()));
   return archive.hash();
 }
 

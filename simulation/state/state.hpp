@@ -11,15 +11,15 @@ namespace polynya::simulation {
 /// Of the bytes of save_state. Raised when the field lists (state_fields.hpp) change.
 inline constexpr std::uint32_t kStateVersion = 3;
 
-/// All that decides how a run goes on, beside its scene, as bytes: doubles bit by bit, exact coordinates as
-/// rationals. Taken between two steps, the journal having been taken. What follows from shapes (masses,
-/// boundaries, drag) is left out, and so is what only culls.
+/// All that decides how a run continues, beside its scene, as bytes: doubles bit by bit. Taken between two
+/// steps, after the journal. What follows from shapes (masses, boundaries, drag) is left out, and so is what
+/// only culls.
 std::string save_state(const World& world);
 
-/// Brings a world that was made bare (Population::kNone) of the same scene to a saved state: its next steps
-/// are bit by bit those of the world that was saved. Returns why it cannot, and the world is of no use then;
-/// empty where all is well. The bytes may be anything: every index, number and shape is checked.
-std::string load_state(World& bare, std::string_view bytes);
+/// Brings a world made with Start::kEmpty from the same scene to a saved state: its next steps are bit by bit
+/// those of the world that was saved. Returns why it cannot, and the world is of no use then; empty where all
+/// is well. The bytes may be anything: every index, number and shape is checked.
+std::string load_state(World& empty, std::string_view bytes);
 
 /// A hash of the state, the same wherever the same bits were computed, however often the run was interrupted.
 std::uint64_t state_hash(const World& world);

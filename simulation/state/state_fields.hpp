@@ -10,7 +10,7 @@ namespace polynya::simulation {
 // What a run's state is made of, member by member. A member that is added here is kept, read back and hashed;
 // raise kStateVersion (state.hpp) with it.
 
-/// Where a body is and how it moves, and the way it has gone, which its neighbours' caches count by.
+/// Where a body is and how it moves, and how far it has travelled, which bounds its neighbours' caches.
 struct BodyMotion {
   geometry::Point position;
   double angle = 0;
@@ -101,10 +101,9 @@ void fields(Archive& archive, Is<dynamics::PairMemory> auto& p) {
   archive(p.a, p.b, p.records);
 }
 
-/// What of the world is neither a body, a floe nor a pair.
-template <class Archive, Is<World> AnyWorld>
-void sums_of(Archive& archive, AnyWorld& world) {
-  archive(world.steps, world.ledger, world.audit, world.counts, world.loads, world.ship_contacts);
+template <class Archive>
+void fields(Archive& archive, Is<Accounts> auto& a) {
+  archive(a.ledger, a.audit, a.counts, a.loads, a.ship_contacts);
 }
 
 }  // namespace polynya::simulation

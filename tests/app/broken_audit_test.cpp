@@ -28,7 +28,7 @@ constexpr auto kScene = R"({"time": {"step_s": 0.01, "until_s": 10}, "record": {
 /// first those 6 J are lost in a turnover of 7.2 MJ. Thrust goes on and brings it down by what it gives,
 /// below 6 MJ when it has given 2 MJ, at t = √40 s: from then on the accounts are off by more than 1e-6.
 void miskeep(Simulation& simulation) {
-  auto& sums = const_cast<simulation::World&>(simulation.world()).audit;
+  auto& sums = const_cast<simulation::World&>(simulation.world()).accounts.audit;
   sums.energy.thrust -= 4e6;
   sums.initial_energy += 4e6 - 6;
 }

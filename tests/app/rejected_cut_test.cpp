@@ -34,9 +34,10 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
   World world(scene);
   world.journal.clear();
   dynamics::PersistentContact record;
-  world.fractures = {misplaced(fracture::Failure::kBend, record),
-                     misplaced(fracture::Failure::kSplit, record)};
-  apply_fractures(world);
+  world.step.fractures = {misplaced(fracture::Failure::kBend, record),
+                          misplaced(fracture::Failure::kSplit, record)};
+  apply_fractures(world.setup, world.clock, world.step.fractures, world.population, world.accounts,
+                  world.journal);
   ASSERT_EQ(world.journal.rejected_cuts.size(), 2U);
   for (const RejectedCut& cut : world.journal.rejected_cuts) {
     ASSERT_EQ(io::write_rejected_cut(folder.path(), cut), "");
@@ -45,7 +46,7 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
         polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, {folder.path()});
     SCOPED_TRACE(cut.reason);
     SCOPED_TRACE(again.err + again.out);
-    EXPECT_EQ(world.counts.rejected_cuts, 2);
+    EXPECT_EQ(world.accounts.counts.rejected_cuts, 2);
     EXPECT_EQ(again.code, 4);
     const std::string kind = cut.reason.substr(0, cut.reason.find(':'));
     EXPECT_EQ(kind, cut.number == 1 ? "misses" : "does-not-separate");

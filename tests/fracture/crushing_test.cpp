@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/fracture/wedge_contact.hpp"
+
 namespace polynya::fracture {
 namespace {
 

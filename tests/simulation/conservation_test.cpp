@@ -34,7 +34,7 @@ struct Totals {
 };
 
 Totals totals(const Simulation& simulation) {
-  const dynamics::Bodies& bodies = simulation.world().bodies;
+  const dynamics::Bodies& bodies = simulation.world().population.bodies;
   Totals sum;
   for (dynamics::BodyIndex i = 0; i < bodies.size(); ++i) {
     if (!bodies.is_alive[i]) continue;
@@ -83,8 +83,8 @@ TEST(Fracture, PiecesMoveOnAsThePartsOfOneBody) {
           continue;  // broke again at once
         const FloeState& first = states[event.children.front()];
         const FloeState& state = states[child];
-        const Vector arm = world.bodies.position[world.body_of(child)] -
-                           world.bodies.position[world.body_of(event.children.front())];
+        const Vector arm = world.population.bodies.position[world.population.body_of(child)] -
+                           world.population.bodies.position[world.population.body_of(event.children.front())];
         EXPECT_EQ(state.angular_velocity, first.angular_velocity);
         EXPECT_NEAR(length(state.velocity - first.velocity - cross(first.angular_velocity, arm)), 0, 1e-13);
         EXPECT_EQ(state.angle, first.angle);

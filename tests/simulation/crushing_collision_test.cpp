@@ -38,7 +38,7 @@ double compression_time(const Scene& scene) {
   double start = -1;
   for (int step = 0; step < 200000; ++step) {
     simulation.step();
-    if (start < 0 && !simulation.world().contacts.empty()) start = simulation.time();
+    if (start < 0 && !simulation.world().step.contacts.empty()) start = simulation.time();
     if (start >= 0 && simulation.floe_states()[0].velocity.x >= -1e-9) return simulation.time() - start;
   }
   return -1;
@@ -76,7 +76,7 @@ TEST(CrushingCollision, CrushesAsDeepAsTheEnergyTakesIt) {
   double deepest = 0;
   for (int step = 0; step < 5000; ++step) {
     simulation.step();
-    for (const dynamics::Contact& c : simulation.world().contacts) deepest = std::max(deepest, c.depth);
+    for (const dynamics::Contact& c : simulation.world().step.contacts) deepest = std::max(deepest, c.depth);
   }
   const double mass = 900 * 0.5 * 2 * 7 * 7;
   EXPECT_NEAR(deepest / (kSpeed * std::sqrt(mass / (2.8e6 * 0.5 * 2))), 1, 0.01);
@@ -103,7 +103,7 @@ TEST(CrushingCollision, NoStepsImpulseExceedsWhatTheIceCarries) {
   int crushing = 0;
   for (int step = 0; step < 400; ++step) {
     simulation.step();
-    for (const dynamics::Contact& c : simulation.world().contacts) {
+    for (const dynamics::Contact& c : simulation.world().step.contacts) {
       ASSERT_LE(c.total_normal_impulse(), c.impulse_limit * (1 + 1e-12));
       crushing += c.total_normal_impulse() > 0;
     }
@@ -206,7 +206,7 @@ TEST(CrushingCollision, ByCircleCentresIsFeltLaterByAShareOfTheRadius) {
   // circles is as bumpy at any radius.
   const auto depth_at_touch = [](double radius) {
     Simulation simulation(corner_into_face(radius, ContactNormal::kCircleCentres));
-    while (simulation.world().contacts.empty() && simulation.time() < 20) simulation.step();
+    while (simulation.world().step.contacts.empty() && simulation.time() < 20) simulation.step();
     return 0.5 * simulation.time() - 0.003;
   };
   std::vector<double> lags;

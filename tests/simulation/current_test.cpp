@@ -51,8 +51,9 @@ TEST(Shear, AFloeThatDoesNotGoWithItIsBroughtToItAsTheClosedFormSays) {
   Simulation simulation(scene);
   const World& world = simulation.world();
   const double width = 16;
-  const double k = 0.5 * 1000 * 0.5 * width / (2 * world.bodies.mass[0]);
-  const double spin_k = 0.5 * 1000 * 0.5 * world.bodies.drag[0]->rotational / (2 * world.bodies.moment[0]);
+  const double k = 0.5 * 1000 * 0.5 * width / (2 * world.population.bodies.mass[0]);
+  const double spin_k = 0.5 * 1000 * 0.5 * world.population.bodies.drag[0]->rotational /
+                        (2 * world.population.bodies.moment[0]);
   for (const double t : {20.0, 200.0, 1500.0}) {
     run(simulation, t);
     const FloeState state = simulation.floe_states().front();
@@ -72,7 +73,7 @@ TEST(Shear, OnlyWhereTheWaterStandsStillDoesAFloeSleep) {
                    floe(rectangle(20, 20, 30, 30), {-rate * 25, 0}, 0.5 * rate)};
     Simulation simulation(scene);
     run(simulation, 1);
-    const auto is_awake = [&](FloeId id) { return simulation.world().bodies.is_awake[id] != 0; };
+    const auto is_awake = [&](FloeId id) { return simulation.world().population.bodies.is_awake[id] != 0; };
     EXPECT_EQ(is_awake(0), rate == 1e-2) << "it turns with the water, faster than the rest speed at its rim";
     EXPECT_TRUE(is_awake(1));
     EXPECT_TRUE(is_awake(2)) << "at rest in the frame, yet the water takes it along";

@@ -75,7 +75,7 @@ TEST(EnergyAudit, NoticesWhatNobodyEntered) {
   run(simulation, 5);
   ASSERT_TRUE(simulation.audit().is_closed());
   auto& world = const_cast<World&>(simulation.world());
-  world.bodies.velocity[0].y += 0.01;  // a ship pushed aside by nothing
+  world.population.bodies.velocity[0].y += 0.01;  // a ship pushed aside by nothing
   EXPECT_FALSE(simulation.audit().is_closed());
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/floe_size.hpp"
+#include "simulation/limits.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation::scenes {
@@ -20,9 +20,9 @@ TEST(Regression, AMovingFloeMeetsFloesThatTheSceneListsLater) {
     const FloeSpec rester = floe(rectangle(10.5, 0, 20.5, 10));
     scene.floes = is_mover_first ? std::vector{solver_body, rester} : std::vector{rester, solver_body};
     Simulation simulation(scene);
-    while (simulation.world().contacts.empty() && simulation.time() < 3) simulation.step();
+    while (simulation.world().step.contacts.empty() && simulation.time() < 3) simulation.step();
     EXPECT_NEAR(simulation.time(), 0.5, 3 * scene.time.step) << is_mover_first;
-    EXPECT_LT(simulation.world().contacts.front().depth, 2 * scene.time.step);
+    EXPECT_LT(simulation.world().step.contacts.front().depth, 2 * scene.time.step);
   }
 }
 

@@ -25,8 +25,8 @@ Scene broken_plate() {
 
 void expect_same_bits(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(a.state_hash(), b.state_hash()) << a.time();
-  const World& p = a.world();
-  const World& q = b.world();
+  const Population& p = a.world().population;
+  const Population& q = b.world().population;
   ASSERT_EQ(p.bodies.size(), q.bodies.size());
   EXPECT_EQ(p.awake, q.awake);
   for (BodyIndex i = 0; i < p.bodies.size(); ++i) {
@@ -65,7 +65,7 @@ TEST(State, AResumedRunGoesOnBitByBitFromAnyStep) {
     EXPECT_EQ(one.area_ledger().imbalance, whole.area_ledger().imbalance);
   }
   EXPECT_GT(whole.counts().bends, 20) << "the trial should have broken something";
-  EXPECT_GT(whole.counts().floes_final, static_cast<std::int64_t>(whole.world().awake.size()) - 1)
+  EXPECT_GT(whole.counts().floes_final, static_cast<std::int64_t>(whole.world().population.awake.size()) - 1)
       << "and something should sleep";
 }
 
@@ -136,7 +136,7 @@ TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
       simulation.step();
       simulation.journal().clear();
     }
-    EXPECT_GT(simulation.world().contacts.size(), 600U) << "too few to share out";
+    EXPECT_GT(simulation.world().step.contacts.size(), 600U) << "too few to share out";
     EXPECT_GT(simulation.counts().peak_awake, 2048);
     EXPECT_GT(simulation.counts().bends, 0);
     hashes.push_back(simulation.state_hash());

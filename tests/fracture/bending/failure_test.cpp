@@ -8,7 +8,7 @@
 #include "fracture/bending/direct_solution.hpp"
 #include "fracture/bending/studies.hpp"
 #include "fracture/bending/wedge_solver.hpp"
-#include "fracture/crushing.hpp"
+#include "tests/fracture/wedge_contact.hpp"
 
 namespace polynya::fracture {
 namespace {

@@ -1,32 +1,12 @@
-// The crushed area from the overlap itself, against Eq. (2) of [Sawamura2017] for shapes with a closed form.
-#include "simulation/crushed_overlap.hpp"
-
+// The crushed area of overlaps other than wedges (crushing_test.cpp), against closed forms.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "fracture/crushing.hpp"
 
-namespace polynya::simulation {
+namespace polynya::fracture {
 namespace {
-
-// A wedge of T = tan θ_wf + tan θ_wb at depth ξ: contact line T ξ, overlap T ξ² / 2.
-Overlap wedge(double tangent_sum, double depth) {
-  return {tangent_sum * depth, depth, 0.5 * tangent_sum * depth * depth};
-}
-
-TEST(CrushedOverlapArea, OfAWedgeIsEq2) {
-  for (const double angle : {0.0, 1e-9, 1e-5, 0.05, 0.67, 1.047, 1.4}) {
-    for (double depth = 1e-4; depth < 30; depth *= 2.3) {
-      const double eq2 = fracture::crushed_area(1.3, depth, 0.5, angle);
-      // Below an angle of 1e-6 the wall's form stands in for Eq. (2): off by half the facet's reach over the
-      // depth.
-      const double reach = angle < 1e-6 ? 0.5 * angle : 0;
-      EXPECT_NEAR(crushed_overlap_area(wedge(1.3, depth), 0.5, angle) / eq2, 1, 0.51 * reach / depth + 1e-9)
-          << angle << ' ' << depth;
-    }
-  }
-}
 
 TEST(CrushedOverlapArea, OfAStraightEdgeIsItsFlatForm) {
   // S = w ξ: A_c = w [ξ − ⟨ξ − h tan θ⟩] / sin θ, the facet's own area once it spans the thickness.
@@ -78,4 +58,4 @@ TEST(CrushedOverlapArea, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace polynya::simulation
+}  // namespace polynya::fracture

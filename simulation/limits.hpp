@@ -4,11 +4,15 @@
 
 namespace polynya::simulation {
 
+/// A run whose bodies reach this speed, rims included, ends as a numerical failure; a scene that starts so is
+/// refused [m/s].
+inline constexpr double kRunawaySpeed = 1e3;
+
 /// The least area of a floe [m²]: smaller ice of a scene is refused, of a fracture it is brash.
 inline constexpr double kLeastFloeArea = 1e-6;
 
-/// Can ice of these measures be a rigid body? Not where its area is too small, or where its second moment is
-/// lost in rounding, as of a sliver kilometres long.
+/// Whether ice of these measures can be a rigid body: not where its area is too small, or where its second
+/// moment is lost in rounding, as of a sliver kilometres long.
 inline bool can_be_floe(const geometry::Measures& measures) {
   return measures.area >= kLeastFloeArea && measures.second_moment > 0;
 }

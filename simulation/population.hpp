@@ -1,0 +1,88 @@
+#pragma once
+
+#include <vector>
+
+#include "dynamics/pairs.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/measures.hpp"
+#include "simulation/journal.hpp"
+#include "simulation/setup.hpp"
+
+namespace polynya::simulation {
+
+using dynamics::BodyIndex;
+
+/// A floe's cold data. Its body is at index ships + floe id; both are never reused.
+struct Floe {
+  FloeId parent = kNoFloe;
+  double born = 0;        ///< [s]
+  int generation = 0;     ///< fractures since the scene's floe
+  double area = 0;        ///< [m²]
+  geometry::Shape shape;  ///< body frame: the scene's coordinates of its oldest ancestor; empty once it broke
+};
+
+/// The ships and floes of a run, where they are and how they move.
+struct Population {
+  explicit Population(const Setup& setup);
+
+  int ship_count = 0;
+  dynamics::Bodies bodies;       ///< the ships first, then floes by id
+  std::vector<Floe> floes;       ///< by id
+  std::vector<BodyIndex> awake;  ///< ascending
+  dynamics::BroadPhase pairs;    ///< of bodies that may touch, with the memory of their contacts
+
+  FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
+  bool is_ship(BodyIndex body) const { return body < ship_count; }
+  BodyIndex body_of(FloeId floe) const { return static_cast<BodyIndex>(floe) + ship_count; }
+  FloeId floe_of(BodyIndex body) const { return body - ship_count; }
+  bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
+};
+
+/// What a floe is when it comes to be; the population gives it an id and a body.
+struct NewFloe {
+  geometry::Shape shape;
+  double thickness = 0;  ///< [m]
+  FloeId parent = kNoFloe;
+  int generation = 0;
+  geometry::Pose water_from_body;
+  double angle = 0;             ///< of water_from_body [rad]
+  geometry::Vector velocity;    ///< of the body frame's origin relative to the water [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
+};
+
+/// Adds the scene's ships and floes, asleep and awake.
+void add_scene(const Setup& setup, const Clock& clock, Population& population, Journal& journal);
+
+/// Adds a floe of these measures, at rest or moving as a part of a rigid body whose frame is the floe's;
+/// records its birth.
+FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
+                const geometry::Measures& measures, Population& population, Journal& journal);
+
+/// Removes a floe that broke; records its death.
+void retire_floe(FloeId floe, Population& population, Journal& journal);
+
+void wake(BodyIndex body, Population& population);
+
+/// Makes the drag table of a floe that is about to move.
+void add_drag(BodyIndex body, Population& population);
+
+/// Whether a body at rest in the water frame stays at rest, as far as the water goes: a sheared current
+/// carries it off.
+bool is_current_still_at(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies);
+
+/// The body of a ship where the scene has it.
+dynamics::NewBody new_body_of(const ShipSpec& ship, geometry::Vector water_drift);
+
+/// The body of a floe, without its place and motion. Its thickness [m] is kept there, in Bodies::thickness:
+/// drag and fracture read it from the body, and pieces inherit it.
+dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
+                              double ice_density, double thickness);
+
+/// The scene's ice, as thick as a floe.
+fracture::Ice ice_of(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe);
+
+/// Floes slower than this, all their points included, that touch nothing are at rest with the water [m/s].
+/// Quadratic drag alone never brings anything to rest.
+inline constexpr double kRestSpeed = 1e-4;
+
+}  // namespace polynya::simulation

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "dynamics/impulse_solver.hpp"
+#include "dynamics/separation.hpp"
+#include "dynamics/water_drag.hpp"
+#include "fracture/bending/bending_model.hpp"
+#include "simulation/scene.hpp"
+
+namespace polynya::simulation {
+
+/// What a run is computed with, the same from its first step to its last.
+struct Setup {
+  explicit Setup(Scene scene, Shortcuts shortcuts = {});
+
+  Scene scene;
+  Shortcuts shortcuts;
+  std::unique_ptr<const fracture::BendingModel> bending;
+  dynamics::ShearCurrent current;  ///< in the water frame
+  dynamics::SolverSettings solver;
+  dynamics::SeparationSettings separation;
+  std::int64_t steps_per_sample = 1;
+};
+
+/// The scene's sheared current, as the water drag takes it.
+dynamics::ShearCurrent current_of(const ShearSettings& shear);
+
+/// How far a run has come.
+struct Clock {
+  std::int64_t steps = 0;
+  double step = 0;               ///< Δt [s]
+  geometry::Vector water_drift;  ///< velocity of the water frame over ground [m/s]
+
+  double time() const { return static_cast<double>(steps) * step; }  ///< [s]
+  geometry::Vector drift() const { return time() * water_drift; }    ///< of the water frame over ground [m]
+};
+
+}  // namespace polynya::simulation
