@@ -97,7 +97,7 @@ class ChannelMeasure {
       if (auto done = add_ice(ice_at_start, nullptr, floe.polygon_in_world); !done) return done;
     }
     for (const Polygon& piece : channel_.swept) {
-      channel_.swept_area += measure_of(piece);
+      channel_.swept_area += geometry::measure(piece).area;
       const Polygon then = carried_by_water(run_.scene.scene.water, piece, time_, run_.start_time());
       const auto parted = part(then, near(ice_at_start, bounding_box(then.outer)));
       if (!parted) return tl::unexpected(parted.error());
@@ -119,20 +119,18 @@ class ChannelMeasure {
     return {};
   }
 
-  static double measure_of(const Polygon& polygon) { return geometry::measure(polygon).area; }
-
   /// Neighbouring cells share the corners between them: each joint stands on the mean of the directions
   /// beside it.
   Done find_stations() {
-    const double length = track_.back().along - behind_;
-    const auto count = static_cast<std::size_t>(std::max(0.0, std::floor(length / channel_.spacing)));
+    const double behind_ship = track_.back().along - behind_;
+    const auto count = static_cast<std::size_t>(std::max(0.0, std::floor(behind_ship / channel_.spacing)));
     std::vector<Waypoint> joints;
     for (std::size_t i = 0; i <= count; ++i)
       joints.push_back(at_way(track_, channel_.spacing * static_cast<double>(i)));
     std::vector<Vector> across;
     for (std::size_t i = 0; i <= count && count > 0; ++i) {
       const Vector chord = joints[std::min(i + 1, count)].point - joints[i == 0 ? 0 : i - 1].point;
-      across.push_back(perpendicular(length_of(chord) > 0 ? chord / length_of(chord) : Vector{1, 0}));
+      across.push_back(perpendicular(length(chord) > 0 ? chord / length(chord) : Vector{1, 0}));
     }
     for (std::size_t i = 0; i < count; ++i) {
       const auto cell = [&](double half) {
@@ -148,17 +146,15 @@ class ChannelMeasure {
     return {};
   }
 
-  static double length_of(Vector v) { return geometry::length(v); }
-
   Done add_station(const Waypoint& from, const Waypoint& to, const Polygon& cell,
                    const Polygon& within_beam) {
     const Vector chord = to.point - from.point;
-    if (cell.outer.size() < 3 || within_beam.outer.size() < 3 || !(length_of(chord) > 0)) return {};
+    if (cell.outer.size() < 3 || within_beam.outer.size() < 3 || !(length(chord) > 0)) return {};
     const Waypoint middle = at_way(track_, 0.5 * (from.along + to.along));
     ChannelStation station{.along = middle.along,
                            .passed = middle.passed,
                            .middle = midpoint(from.point, to.point),
-                           .forward = chord / length_of(chord),
+                           .forward = chord / length(chord),
                            .port = channel_.reach,
                            .starboard = channel_.reach};
     const std::vector<Polygon> ice = near(ice_, bounding_box(cell.outer));
@@ -167,7 +163,7 @@ class ChannelMeasure {
     for (const Polygon& piece : parted->inside) clear_up_to(piece, station);
     const auto beam = part(within_beam, ice);
     if (!beam) return tl::unexpected(beam.error());
-    station.ice_across_beam = beam->inside_area / measure_of(within_beam);
+    station.ice_across_beam = beam->inside_area / geometry::measure(within_beam).area;
     channel_.stations.push_back(station);
     cells_.push_back(cell);
     return {};
@@ -210,7 +206,7 @@ class ChannelMeasure {
       if (!parted) return tl::unexpected(parted.error());
       for (const Polygon& water : parted->outside) {
         if (!has_track(water)) continue;
-        channel_.open_area += measure_of(water);
+        channel_.open_area += geometry::measure(water).area;
         channel_.open_water.push_back(water);
       }
     }

@@ -11,14 +11,14 @@
 
 namespace polynya::analysis {
 
-/// The channel behind a ship at a moment of its run (docs/channel.md). The ship's track and the band its hull
-/// swept are carried with the water to that moment; floes are where the run has them.
+/// The channel behind a ship at an instant of its run (docs/channel.md). The ship's track and the band its
+/// hull swept are carried with the water to that instant; floes are where the run has them.
 
 struct ChannelOptions {
   std::size_t ship = 0;
   std::optional<double> time;  ///< [s]; the end of the run if not given
   double spacing = 0;          ///< of stations along the track [m]; 0: the ship's beam
-  double reach = 0;            ///< how far to either side ice is looked for [m]; 0: four beams
+  double reach = 0;            ///< how far to either side ice is searched [m]; 0: four beams
 };
 
 /// A cell of the channel: a stretch of the track as long as the spacing, as far as the reach to either side.

@@ -8,7 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "io/text/json_writer.hpp"
+#include "analysis/floe_sizes.hpp"
+#include "analysis/geojson_layer.hpp"
 
 namespace polynya::analysis {
 namespace {
@@ -21,31 +22,17 @@ std::string side(double width, bool has_ice) {
   return has_ice ? fmt::format("{:.2f}", width) : fmt::format(">{:.2f}", width);
 }
 
-/// Floes by size, in classes of 1, 2, 5 × 10ⁿ metres.
 std::string size_table(const Channel& channel) {
+  if (channel.floes.empty()) return "";
+  std::vector<SizedFloe> floes;
+  for (const ChannelFloe& floe : channel.floes) floes.push_back({floe.size, floe.inside});
+  std::ranges::reverse(floes);
   std::string text = fmt::format("{:>10} {:>10} {:>8} {:>16} {:>10}\n", "from_m", "below_m", "floes",
                                  "inside_area_m2", "from_on");
-  if (channel.floes.empty()) return "";
-  const double least = channel.floes.back().size;
-  const double most = channel.floes.front().size;
-  for (int step = 3 * static_cast<int>(std::floor(std::log10(least)));; ++step) {
-    const auto bound = [](int s) {
-      const int power = static_cast<int>(std::floor(s / 3.0));
-      return std::pow(10.0, power) * (s - 3 * power == 0 ? 1 : s - 3 * power == 1 ? 2 : 5);
-    };
-    const double low = bound(step), high = bound(step + 1);
-    if (high <= least) continue;
-    if (low > most) return text;
-    int count = 0, larger = 0;
-    double inside = 0;
-    for (const ChannelFloe& floe : channel.floes) {
-      larger += floe.size >= low ? 1 : 0;
-      if (floe.size < low || floe.size >= high) continue;
-      ++count;
-      inside += floe.inside;
-    }
-    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.4f} {:>10}\n", low, high, count, inside, larger);
-  }
+  for (const SizeClass& one : size_classes(floes))
+    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.4f} {:>10}\n", one.from, one.below, one.count, one.area,
+                        one.from_on);
+  return text;
 }
 
 std::string summary_lines(const Channel& channel) {
@@ -90,38 +77,14 @@ void append(io::JsonWriter& json, const Channel& channel) {
   json.key("open_area_m2").value(channel.open_area);
 }
 
-void append(io::JsonWriter& json, const std::vector<geometry::Polygon>& polygons) {
-  const auto ring = [&](geometry::Ring points) {
-    points.push_back(points.front());
-    json.value(points);
-  };
-  json.key("geometry").open('{').key("type").value("MultiPolygon").key("coordinates").open('[');
-  for (const geometry::Polygon& polygon : polygons) {
-    json.open('[');
-    ring(polygon.outer);
-    std::ranges::for_each(polygon.holes, ring);
-    json.close(']');
-  }
-  json.close(']').close('}');
-}
-
-void append_line(io::JsonWriter& json, const geometry::Ring& points) {
-  json.key("geometry").open('{').key("type").value("LineString").key("coordinates").value(points).close('}');
-}
-
-io::JsonWriter& start_feature(io::JsonWriter& json, const char* part) {
-  json.start_line();
-  return json.open('{').key("type").value("Feature").key("properties").open('{').key("part").value(part);
-}
-
-void append_station(io::JsonWriter& json, const ChannelStation& s, std::size_t number) {
-  start_feature(json, "station").key("station").value(static_cast<std::int64_t>(number));
+void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t number) {
+  io::JsonWriter& json = layer.start().key("part").value("station");
+  json.key("station").value(static_cast<std::int64_t>(number));
   json.key("along_m").value(s.along).key("passed_s").value(s.passed).key("port_m").value(s.port);
   json.key("starboard_m").value(s.starboard).key("width_m").value(s.width());
-  json.key("is_bounded").value(s.is_bounded()).key("ice_across_beam").value(s.ice_across_beam).close('}');
+  json.key("is_bounded").value(s.is_bounded()).key("ice_across_beam").value(s.ice_across_beam);
   const geometry::Vector to_port = perpendicular(s.forward);
-  append_line(json, {s.middle + s.port * to_port, s.middle - s.starboard * to_port});
-  json.close('}');
+  layer.end_with(geometry::Ring{s.middle + s.port * to_port, s.middle - s.starboard * to_port});
 }
 
 }  // namespace
@@ -175,31 +138,17 @@ std::string to_json_text(const Channel& channel) {
 }
 
 std::string to_geojson(const Channel& channel) {
-  std::string text;
-  io::JsonWriter json(text);
-  json.open('{')
-      .key("type")
-      .value("FeatureCollection")
-      .key("t_s")
-      .value(channel.time)
-      .key("features")
-      .open('[');
-  start_feature(json, "open water");
-  append(json, channel);
-  json.close('}');
-  append(json, channel.open_water);
-  json.close('}');
-  start_feature(json, "swept band").key("area_m2").value(channel.swept_area).close('}');
-  append(json, channel.swept);
-  json.close('}');
+  GeojsonLayer layer(channel.time);
+  append(layer.start().key("part").value("open water"), channel);
+  layer.end_with(channel.open_water);
+  layer.start().key("part").value("swept band").key("area_m2").value(channel.swept_area);
+  layer.end_with(channel.swept);
   if (channel.track.size() > 1) {
-    start_feature(json, "track").close('}');
-    append_line(json, channel.track);
-    json.close('}');
+    layer.start().key("part").value("track");
+    layer.end_with(geometry::Ring(channel.track));
   }
-  for (std::size_t i = 0; i < channel.stations.size(); ++i) append_station(json, channel.stations[i], i);
-  json.close(']').close('}');
-  return text + "\n";
+  for (std::size_t i = 0; i < channel.stations.size(); ++i) append_station(layer, channel.stations[i], i);
+  return layer.finish();
 }
 
 }  // namespace polynya::analysis

@@ -10,7 +10,7 @@
 
 namespace polynya::analysis {
 
-/// A valid polygon of ice at some moment, with its box.
+/// A valid polygon of ice at some instant, with its box.
 struct PlacedIce {
   const simulation::BirthRecord* birth = nullptr;  ///< of the floe; null: of the scene
   geometry::Polygon polygon;                       ///< in the world [m]

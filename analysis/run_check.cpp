@@ -72,7 +72,7 @@ void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck
   }
 }
 
-/// A floe at a moment.
+/// A floe at an instant.
 struct Placed {
   FloeId floe = 0;
   io::Motion motion;
@@ -122,8 +122,8 @@ class OverlapCheck {
  public:
   OverlapCheck(const io::Run& run, RunCheck& check) : run_(run), check_(check), motions_(run) {}
 
-  void look_at(double time) {
-    ++check_.moments;
+  void measure(double time) {
+    ++check_.instants;
     place_floes(time);
     double shared = 0;
     double ice = 0;
@@ -137,7 +137,7 @@ class OverlapCheck {
       if (pair.area > check_.worst.area) check_.worst = pair;
       if (pair.depth > check_.deepest.depth) check_.deepest = pair;
     });
-    if (shared > check_.most_shared || check_.moments == 1) {
+    if (shared > check_.most_shared || check_.instants == 1) {
       check_.most_shared = shared;
       check_.most_shared_time = time;
       check_.ice_then = ice;
@@ -175,7 +175,7 @@ class OverlapCheck {
     }
   }
 
-  /// What is known of a pair from the last moment it was looked at.
+  /// What is known of a pair from the last instant it was measured.
   struct Known {
     bool is_set = false;
     io::Motion a, b;
@@ -217,9 +217,9 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at) {
   }
   OverlapCheck overlaps(run, check);
   if (only_at) {
-    overlaps.look_at(*only_at);
+    overlaps.measure(*only_at);
   } else {
-    for (const io::Frame& frame : run.frames) overlaps.look_at(frame.time);
+    for (const io::Frame& frame : run.frames) overlaps.measure(frame.time);
   }
   return check;
 }

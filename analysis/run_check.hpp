@@ -43,12 +43,12 @@ struct RunCheck {
       0;               ///< pieces of one fracture sharing more than kAreaTolerance of their parent
   SharedIce siblings;  ///< the most that pieces of one fracture share in their body frame
 
-  std::size_t moments = 0;            ///< at which floes were looked at
-  std::size_t pairs = 0;              ///< whose boxes met, over all moments
-  std::size_t overlapping_pairs = 0;  ///< that shared more than kTouchingArea (overlap.hpp) at some moment
-  double most_shared = 0;             ///< Σ over all pairs at the moment it is most [m²]
+  std::size_t instants = 0;           ///< at which overlaps were measured
+  std::size_t pairs = 0;              ///< whose boxes met, over all instants
+  std::size_t overlapping_pairs = 0;  ///< that shared more than kTouchingArea (overlap.hpp) at some instant
+  double most_shared = 0;             ///< Σ over all pairs at the instant it is most [m²]
   double most_shared_time = 0;        ///< [s]
-  double ice_then = 0;                ///< area of all floes at that moment [m²]
+  double ice_then = 0;                ///< area of all floes at that instant [m²]
   SharedIce deepest;                  ///< the pair that goes deepest, of those that share so much
   SharedIce worst;                    ///< the pair that shares most
   std::size_t undecided = 0;          ///< pairs whose overlap geometry failed to find
@@ -59,10 +59,10 @@ struct RunCheck {
   }
 };
 
-/// Validity, areas, balances and shared areas are found exactly, for the doubles on record, and areas rounded
-/// once to be told. Overlaps are looked for at every frame, or at one moment only. What stands in frames is
-/// right to 1 mm (frames.hpp), and the contact model lets floes overlap by the depth they crush: neither is
-/// told apart here.
+/// Finds validity, areas, balances and shared areas exactly, for the doubles on record; areas are rounded
+/// once for the report. Measures overlaps at every frame, or at one instant only. Frames are right to 1 mm
+/// (frames.hpp), and the contact model lets floes overlap by the depth they crush: the check does not
+/// separate the two.
 RunCheck check_run(const io::Run& run, std::optional<double> only_at = {});
 
 }  // namespace polynya::analysis

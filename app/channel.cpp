@@ -69,7 +69,7 @@ Command add_channel(CLI::App& app) {
   option(*command, "--spacing", options->measure.spacing, "M",
          "Length of a station [m]; the beam if not given", between(0.1, 1e5));
   option(*command, "--reach", options->measure.reach, "M",
-         "How far from the track ice is looked for [m]; four beams if not given", between(0.1, 1e5));
+         "How far from the track ice is searched [m]; four beams if not given", between(0.1, 1e5));
   auto* format = command->add_option("--format", options->format, "What stdout gets; json: as --json");
   set_choices(*format, {"table", "csv", "json"});
   command

@@ -197,7 +197,7 @@ Command add_cut(CLI::App& app) {
   command->footer(kExamples);
   auto options = std::make_shared<Options>();
   option(*command, "floes", options->floes, "FLOES",
-         "GeoJSON, NDJSON or WKT, told apart by content; - for stdin")
+         "GeoJSON, NDJSON or WKT, recognised by content; - for stdin")
       ->required();
   const auto tool = [&](const char* name, std::string& value, const char* type, const char* meaning) {
     option(*command, name, value, type, meaning)->group("Tools, one of them");

@@ -14,7 +14,6 @@ constexpr std::size_t kMostVertices = 4;    ///< in a message; likewise
 
 }  // namespace
 
-/// As "floes.geojson:3: feature 1: …"; past kMostReported only counted.
 void report_floes(const std::string& name, const io::CutReport& report) {
   std::size_t reported = 0;
   const auto report_of = [&](const io::CutFloe& floe, const std::string& words) {
@@ -66,12 +65,11 @@ void report_totals(const io::CutReport& report) {
   }
 }
 
-/// What of the text is not in the pieces.
 void report_losses(const std::string& name, const io::FloeText& floes, io::FloeFormat format) {
   const auto note = [&name](const char* words) { print_err("note: {}: {}\n", name, words); };
   if (floes.entries.empty()) note("no floes in it");
-  if (floes.has_more_coordinates) note("third coordinates are passed over");
-  if (floes.has_srid) note("SRID is passed over");
+  if (floes.has_more_coordinates) note("third coordinates are ignored");
+  if (floes.has_srid) note("SRID is ignored");
   if (floes.has_other_crs) note("its crs members differ; the pieces get the first");
   if (format != io::FloeFormat::kWkt) return;
   if (!floes.crs.empty()) note("WKT has no room for its crs");

@@ -8,7 +8,7 @@
 namespace polynya::app {
 
 /// The parts of a path that lie in the ice of `before` and on no edge of the polygons it became: there the
-/// path ends inside the ice, or only leads from hole to hole. Found in doubles, for telling people.
+/// path ends inside the ice, or only leads from hole to hole. Found in doubles, for the report.
 std::vector<io::Dangling> find_dangling(const std::vector<geometry::Point>& path,
                                         const geometry::Polygon& before,
                                         const std::vector<geometry::Polygon>& after);

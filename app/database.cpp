@@ -5,7 +5,7 @@
 namespace polynya::app {
 
 Command add_database(CLI::App& app) {
-  auto* command = app.add_subcommand("database", "Build, show, ask and study the icebreaking database");
+  auto* command = app.add_subcommand("database", "Build, show, query and study the icebreaking database");
   command->footer(
       "Examples:\n"
       "  polynya database query --thickness 0.5 --speed 0.89 --wedge-angle 90 --hull-angle 60\n"

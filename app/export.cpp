@@ -77,7 +77,7 @@ int write_geojson(const io::Run& run, const Options& options) {
 
 int export_run(const Options& options) {
   if (options.vtk.empty() && options.geojson.empty())
-    return fail(kUsage, "export what? --vtk DIR for ParaView, --geojson DIR for QGIS");
+    return fail(kUsage, "--vtk DIR (for ParaView) or --geojson DIR (for QGIS) is needed");
   const auto run = io::read_run(options.run);
   if (!run) return fail(kInputOutput, run.error());
   int code = kDone;
@@ -99,7 +99,7 @@ Command add_export(CLI::App& app) {
   option(*command, "--geojson", options->geojson, "DIR",
          "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
          "scene has an origin, metres where not");
-  option(*command, "--at", options->at, "S", "Moment of the GeoJSON [s]; the end if not given", finite());
+  option(*command, "--at", options->at, "S", "Instant of the GeoJSON [s]; the end if not given", finite());
   command->add_flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
   return {command, [options] { return export_run(*options); }};
 }

@@ -143,7 +143,7 @@ Command add_figures(CLI::App& app) {
   command->footer(kExamples);
   auto options = std::make_shared<Options>();
   option(*command, "runs", options->runs, "RUN", "The run folders")->required();
-  option(*command, "--at", options->at, "S,S,...", "Moments of the maps [s]; chosen if not given", finite())
+  option(*command, "--at", options->at, "S,S,...", "Instants of the maps [s]; chosen if not given", finite())
       ->delimiter(',');
   set_choices(
       *command->add_option(

@@ -5,7 +5,6 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
-#include "app/inspect_json.hpp"
 #include "app/inspect_views.hpp"
 #include "app/options.hpp"
 #include "io/run/motion_index.hpp"
@@ -83,7 +82,7 @@ int print(const io::Run& run, const Options& options) {
     return check.is_sound() ? kDone : kRefused;
   }
   if (options.fsd) {
-    const SizeDistribution sizes = size_distribution(run, time);
+    const analysis::SizeDistribution sizes = analysis::size_distribution(run, time);
     write_out(options.json ? size_json(sizes) : size_text(sizes));
     return kDone;
   }
@@ -100,7 +99,7 @@ int inspect(const Options& options) {
 }  // namespace
 
 Command add_inspect(CLI::App& app) {
-  auto* command = app.add_subcommand("inspect", "Look at the floes of a run");
+  auto* command = app.add_subcommand("inspect", "Show the floes of a run");
   command->footer(kExamples);
   auto options = std::make_shared<Options>();
   add_run_folder(*command, options->run);

@@ -1,5 +1,4 @@
-#include "app/inspect_json.hpp"
-
+#include "app/inspect_views.hpp"
 #include "io/run/records.hpp"
 #include "io/text/json_writer.hpp"
 
@@ -72,7 +71,7 @@ std::string floes_json(const std::vector<FloeRow>& rows, double time) {
   return text + "\n";
 }
 
-std::string size_json(const SizeDistribution& sizes) {
+std::string size_json(const analysis::SizeDistribution& sizes) {
   std::string text;
   JsonWriter json(text);
   json.open('{').key("t_s").value(sizes.time);
@@ -80,7 +79,7 @@ std::string size_json(const SizeDistribution& sizes) {
   write_count(json, "left_out", sizes.without_size);
   json.key("area_m2").value(sizes.area).key("least_m").value(sizes.least).key("median_m").value(sizes.median);
   json.key("largest_m").value(sizes.largest).key("classes").open('[');
-  for (const SizeDistribution::Class& one : sizes.classes) {
+  for (const analysis::SizeClass& one : sizes.classes) {
     json.start_line();
     json.open('{').key("from_m").value(one.from).key("below_m").value(one.below);
     write_count(json, "floes", one.count);
@@ -130,7 +129,7 @@ std::string check_json(const analysis::RunCheck& check) {
   write_worst(json, "balance", check.balance);
   write_count(json, "overlapping_siblings", check.overlapping_siblings);
   json.key("most_shared_by_siblings_m2").value(check.siblings.area);
-  write_count(json, "moments", check.moments);
+  write_count(json, "moments", check.instants);
   write_count(json, "pairs", check.pairs);
   write_count(json, "undecided", check.undecided);
   write_count(json, "overlapping_pairs", check.overlapping_pairs);

@@ -1,7 +1,6 @@
 #include "app/inspect_views.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -71,7 +70,7 @@ std::string as_svg(const ShapeView& view) {
   return text;
 }
 
-std::string told(const io::Run& run, const simulation::Event& event) {
+std::string described(const io::Run& run, const simulation::Event& event) {
   const auto& ships = run.scene.scene.ships;
   const auto& c = event.criteria;
   const bool is_split = event.kind == simulation::EventKind::kSplit;
@@ -144,7 +143,7 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
     }
     if (!at.death_event) continue;
     const simulation::Event& event = run.events[*at.death_event];
-    text += fmt::format("|  {}\n", told(run, event));
+    text += fmt::format("|  {}\n", described(run, event));
     for (const FloeId child : event.children) {
       if (std::ranges::find(ids, child) == ids.end() && run.floe(child))
         text += fmt::format("|--floe {}  {:.6f} m2\n", child, run.floe(child)->birth.area);
@@ -153,40 +152,7 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
   return text;
 }
 
-SizeDistribution size_distribution(const io::Run& run, double time) {
-  std::vector<double> areas;
-  SizeDistribution sizes{.time = time, .classes = {}};
-  for (const io::RunFloe& floe : run.floes) {
-    if (!run.is_alive(floe.birth.floe, time)) continue;
-    const double area = floe.birth.area;
-    if (std::isnormal(area) && area > 0)
-      areas.push_back(area);
-    else
-      ++sizes.without_size;
-  }
-  std::ranges::sort(areas);
-  sizes.count = areas.size();
-  if (areas.empty()) return sizes;
-  for (const double area : areas) sizes.area += area;
-  sizes.least = std::sqrt(areas.front());
-  sizes.median = std::sqrt(areas[areas.size() / 2]);
-  sizes.largest = std::sqrt(areas.back());
-  const auto edge = [](int number) {  // …, 1, 2, 5, 10, 20, 50, …
-    static constexpr double kSteps[] = {1, 2, 5};
-    const int decade = static_cast<int>(std::floor(number / 3.0));
-    return kSteps[number - 3 * decade] * std::pow(10.0, decade);
-  };
-  int number = 3 * static_cast<int>(std::floor(std::log10(sizes.least))) - 1;
-  while (edge(number + 1) <= sizes.least) ++number;
-  for (std::size_t i = 0; i < areas.size(); ++number) {
-    SizeDistribution::Class one{.from = edge(number), .below = edge(number + 1), .from_on = areas.size() - i};
-    for (; i < areas.size() && std::sqrt(areas[i]) < one.below; ++i, ++one.count) one.area += areas[i];
-    sizes.classes.push_back(one);
-  }
-  return sizes;
-}
-
-std::string size_text(const SizeDistribution& sizes) {
+std::string size_text(const analysis::SizeDistribution& sizes) {
   std::string text = fmt::format("{} floes, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
                                  sizes.count, sizes.area, sizes.time);
   if (sizes.without_size > 0)
@@ -197,7 +163,7 @@ std::string size_text(const SizeDistribution& sizes) {
                       sizes.largest);
   text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2",
                       "area_%", "from_on");
-  for (const SizeDistribution::Class& one : sizes.classes)
+  for (const analysis::SizeClass& one : sizes.classes)
     text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", one.from, one.below, one.count,
                         one.area, 100 * one.area / sizes.area, one.from_on);
   return text;
@@ -230,10 +196,10 @@ std::string check_text(const analysis::RunCheck& check) {
                                             check.siblings.area, check.siblings.first, check.siblings.second)
                               : "           pieces of one fracture share 0 m2 in their body frame, exactly");
   add(
-      fmt::format("overlap    {} moments, {} pairs with boxes that meet, {} not decided; {} pairs of floes "
+      fmt::format("overlap    {} instants, {} pairs with boxes that meet, {} not decided; {} pairs of floes "
                   "share more than "
-                  "1e-6 m2 at some moment",
-                  check.moments, check.pairs, check.undecided, check.overlapping_pairs));
+                  "1e-6 m2 at some instant",
+                  check.instants, check.pairs, check.undecided, check.overlapping_pairs));
   add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice",
                   check.most_shared, check.most_shared_time,
                   check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/floe_sizes.hpp"
 #include "analysis/run_check.hpp"
 #include "io/run/run_reader.hpp"
 
@@ -40,25 +41,16 @@ std::string floe_table(const std::vector<FloeRow>& rows);
 /// beside.
 std::string lineage_tree(const io::Run& run, simulation::FloeId floe);
 
-/// Floes by size (√area, as the fracture criteria have it) in classes of 1, 2, 5 × 10ⁿ m.
-struct SizeDistribution {
-  struct Class {
-    double from = 0, below = 0;  ///< [m]
-    std::size_t count = 0;
-    double area = 0;          ///< [m²]
-    std::size_t from_on = 0;  ///< how many are in it or in larger classes
-  };
-  double time = 0;  ///< [s]
-  std::size_t count = 0;
-  std::size_t without_size = 0;               ///< left out: their recorded area is not a positive number
-  double area = 0;                            ///< of all [m²]
-  double least = 0, median = 0, largest = 0;  ///< [m]
-  std::vector<Class> classes;
-};
-SizeDistribution size_distribution(const io::Run& run, double time);
-std::string size_text(const SizeDistribution& sizes);
+std::string size_text(const analysis::SizeDistribution& sizes);
 
 /// What check_run found, in words.
 std::string check_text(const analysis::RunCheck& check);
+
+/// The same reports as JSON: one object each.
+std::string floes_json(const std::vector<FloeRow>& rows, double time);
+std::string size_json(const analysis::SizeDistribution& sizes);
+/// The floes from the scene's down to this one; of each the fracture that broke it, as in events.ndjson.
+std::string lineage_json(const io::Run& run, simulation::FloeId floe);
+std::string check_json(const analysis::RunCheck& check);
 
 }  // namespace polynya::app

@@ -12,7 +12,7 @@ namespace polynya::app {
 /// How problems are printed: a line each on stderr, or as one JSON array on stdout.
 enum class ProblemFormat { kText, kJson };
 
-/// The scene of that file, or of stdin where its name is "-" (floe files are then looked for in the working
+/// The scene of that file, or of stdin where its name is "-" (floe files are then searched in the working
 /// folder). Where it cannot be read or is wrong, every problem has been printed, and it is the code to exit
 /// with.
 tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,

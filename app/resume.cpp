@@ -101,7 +101,7 @@ int report_finished(const fs::path& folder) {
   const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg);
   if (is_drawn && io::checkpoints_in(folder).empty()) return kDone;
   const auto lock = io::RunLock::take(folder);
-  if (!lock) return kDone;  // whoever holds it does what is left
+  if (!lock) return kDone;  // another polynya holds it and does what is left
   io::remove_checkpoints(folder);
   if (is_drawn) return kDone;
   const auto run = io::read_run(folder);
@@ -150,8 +150,7 @@ int resume(const ResumeOptions& options) {
 }  // namespace
 
 Command add_resume(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("resume", "Go on with a run that was stopped, killed or ran out of disk");
+  auto* command = app.add_subcommand("resume", "Resume a run that was stopped, killed or ran out of disk");
   command->footer(
       "Examples:\n"
       "  polynya resume runs/level-plate\n"

@@ -12,7 +12,7 @@ void add_run_options(CLI::App& command, CarryOptions& options) {
   option(command, "--checkpoint-every-wall", options.checkpoint_every_wall, "S",
          "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
   command.add_flag("--check", options.check,
-                   "Derive every cross-index and sum anew after every step; stop if one is off");
+                   "Recompute every cross-index and sum after every step; stop if one differs");
   add_progress(command, options.progress);
 }
 

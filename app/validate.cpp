@@ -63,7 +63,7 @@ int validate(const Options& options) {
 }  // namespace
 
 Command add_validate(CLI::App& app) {
-  auto* command = app.add_subcommand("validate", "Check a scene, and tell everything that is wrong with it");
+  auto* command = app.add_subcommand("validate", "Check a scene and report everything that is wrong with it");
   command->footer(kExamples);
   auto options = std::make_shared<Options>();
   add_scene(*command, options->scene);

@@ -102,7 +102,7 @@ void add_floe(io::Run& run, simulation::FloeId parent, double born, const Ring& 
 /// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards
 /// it.
 io::Run small_run(const Ring& drifting = square(5, 1, 2),
-              const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
+                  const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
   io::Run run;
   add_floe(run, simulation::kNoFloe, 0, square(0, 0, 4));
   add_floe(run, simulation::kNoFloe, 0, drifting);
@@ -137,7 +137,7 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
   EXPECT_EQ(check.shapes, 4U);
   EXPECT_EQ(check.fractures, 1U);
   EXPECT_EQ(check.siblings.area, 0);
-  EXPECT_EQ(check.moments, 4U);
+  EXPECT_EQ(check.instants, 4U);
   // At 3 s floe 1 has come 0.5 m into both halves, over one metre of each.
   EXPECT_EQ(check.overlapping_pairs, 2U);
   EXPECT_EQ(check.most_shared, 1.0);

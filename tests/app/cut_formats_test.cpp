@@ -77,7 +77,7 @@ TEST_F(CutFormats, WhatAFormatCannotKeepIsReported) {
   EXPECT_NE(as_wkt.err.find("WKT has no room for its crs"), std::string::npos) << as_wkt.err;
   EXPECT_NE(as_wkt.err.find("WKT has no room for properties"), std::string::npos) << as_wkt.err;
   write_file(folder / "floes.wkt", "SRID=3413;POLYGON ((0 0, 1 0, 0 1))");
-  EXPECT_NE(cut("floes.wkt", {"--disc", "0,0,0.1"}).err.find("SRID is passed over"), std::string::npos);
+  EXPECT_NE(cut("floes.wkt", {"--disc", "0,0,0.1"}).err.find("SRID is ignored"), std::string::npos);
   const std::string other =
       R"({"type":"Feature","crs":null,"properties":{},"geometry":)" + std::string(kSquare) + "}\n";
   write_file(folder / "floes.ndjson",

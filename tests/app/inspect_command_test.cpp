@@ -98,7 +98,7 @@ TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
   EXPECT_EQ(all.front().find("validity   " + std::to_string(run->floes.size()) + " shapes, 0 invalid"), 0U)
       << outcome.out;
   EXPECT_EQ(all.back(), "sound");
-  EXPECT_NE(outcome.out.find(std::to_string(run->frames.size()) + " moments"), std::string::npos)
+  EXPECT_NE(outcome.out.find(std::to_string(run->frames.size()) + " instants"), std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("Overlap is part of the contact model"), std::string::npos);
 }

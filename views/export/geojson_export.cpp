@@ -1,75 +1,26 @@
 #include "views/export/geojson_export.hpp"
 
-#include <algorithm>
-#include <functional>
 #include <numbers>
 
+#include "analysis/geojson_layer.hpp"
 #include "io/run/moment.hpp"
 #include "io/scene/geographic.hpp"
-#include "io/text/json_writer.hpp"
 
 namespace polynya::views {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-using Project = std::function<geometry::Point(geometry::Point)>;
+using analysis::GeojsonLayer;
+using analysis::Project;
 
 Project projection(const std::optional<simulation::GeographicOrigin>& origin) {
-  if (!origin) return [](geometry::Point p) { return p; };
+  if (!origin) return {};
   return [place = *origin](geometry::Point p) {
     const io::Geographic at = io::geographic_of(place, p);
     return geometry::Point{kDegrees * at.longitude, kDegrees * at.latitude};
   };
 }
-
-/// A FeatureCollection while it is written.
-class Layer {
- public:
-  Layer(const Project& project, double time) : project_(project), json_(text_) {
-    json_.open('{').key("type").value("FeatureCollection").key("t_s").value(time).key("features").open('[');
-  }
-
-  io::JsonWriter& start() {
-    json_.start_line();
-    return json_.open('{').key("type").value("Feature").key("properties").open('{');
-  }
-  void end_with(const geometry::Polygon& polygon) {
-    geometry_of("Polygon").open('[');
-    ring(polygon.outer);
-    std::ranges::for_each(polygon.holes, [&](const geometry::Ring& hole) { ring(hole); });
-    json_.close(']').close('}').close('}');
-  }
-  void end_with(const geometry::Ring& line) {
-    geometry_of("LineString").value(projected(line));
-    json_.close('}').close('}');
-  }
-  void end_with(geometry::Point point) {
-    geometry_of("Point").value(project_(point));
-    json_.close('}').close('}');
-  }
-  std::string finish() {
-    json_.close(']').close('}');
-    return std::move(text_) + "\n";
-  }
-
- private:
-  io::JsonWriter& geometry_of(const char* type) {
-    return json_.close('}').key("geometry").open('{').key("type").value(type).key("coordinates");
-  }
-  geometry::Ring projected(geometry::Ring points) const {
-    for (geometry::Point& p : points) p = project_(p);
-    return points;
-  }
-  void ring(geometry::Ring points) {
-    points.push_back(points.front());
-    json_.value(projected(std::move(points)));
-  }
-
-  const Project& project_;
-  std::string text_;
-  io::JsonWriter json_;
-};
 
 void append_id(io::JsonWriter& json, simulation::FloeId id) {
   if (id == simulation::kNoFloe)
@@ -80,7 +31,7 @@ void append_id(io::JsonWriter& json, simulation::FloeId id) {
 
 std::string floes_layer(const io::Run& run, const io::MotionIndex& motions, double time,
                         const Project& project) {
-  Layer layer(project, time);
+  GeojsonLayer layer(time, project);
   for (const io::PlacedFloe& floe : floes_at(run, motions, time)) {
     const simulation::BirthRecord& birth = *floe.birth;
     io::JsonWriter& json = layer.start();
@@ -105,7 +56,7 @@ std::string_view ship_name(const io::Run& run, int ship) {
 }
 
 std::string fractures_layer(const io::Run& run, double time, const Project& project) {
-  Layer layer(project, time);
+  GeojsonLayer layer(time, project);
   for (const simulation::Event& event : run.events) {
     if (event.time > time || event.kind == simulation::EventKind::kRejectedCut) continue;
     io::JsonWriter& json = layer.start();
@@ -121,7 +72,7 @@ std::string fractures_layer(const io::Run& run, double time, const Project& proj
 
 std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, double time,
                          const Project& project) {
-  Layer layer(project, time);
+  GeojsonLayer layer(time, project);
   for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
     geometry::Ring track;
     for (const double t : frame_times_until(run, time))
@@ -135,7 +86,7 @@ std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, dou
 
 std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, double time,
                         const Project& project) {
-  Layer layer(project, time);
+  GeojsonLayer layer(time, project);
   for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
     layer.start().key("ship").value(ship_name(run, static_cast<int>(ship))).key("t_s").value(time);
     const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
@@ -145,17 +96,14 @@ std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, doub
 }
 
 std::string channel_layer(const io::Run& run, double time, const Project& project) {
-  Layer layer(project, time);
+  GeojsonLayer layer(time, project);
   for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
     const auto channel =
         analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0});
     if (!channel) continue;
     for (const geometry::Polygon& water : channel->open_water) {
-      layer.start()
-          .key("ship")
-          .value(std::string_view(channel->ship))
-          .key("mean_width_m")
-          .value(analysis::widths(*channel).mean);
+      io::JsonWriter& json = layer.start().key("ship").value(std::string_view(channel->ship));
+      json.key("mean_width_m").value(analysis::widths(*channel).mean);
       layer.end_with(water);
     }
   }

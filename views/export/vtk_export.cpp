@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -21,8 +22,13 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Column = VtkPolyData::Column;
 
-void add_vector(Column& column, geometry::Vector v) {
-  column.values.insert(column.values.end(), {v.x, v.y, 0.0});
+/// Adds a row to a table: the values of all columns, of a vector its three components.
+void add_row(std::vector<Column>& columns, std::initializer_list<double> values) {
+  const double* value = values.begin();
+  for (Column& column : columns) {
+    column.values.insert(column.values.end(), value, value + column.components);
+    value += column.components;
+  }
 }
 
 /// The cells of one floe: its rings as lines, and its triangles.
@@ -46,13 +52,13 @@ class IceExport {
         {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false}, {"is_outline", {}, 1, true}};
     for (const io::PlacedFloe& floe : floes) {
       for (std::size_t ring = 0; ring <= floe.polygon_in_body->holes.size(); ++ring)
-        add_row(data, floe, true);
+        add_cell(data, floe, true);
     }
     for (std::size_t i = 0; i < floes.size(); ++i) {
       for (const geometry::Triangle& triangle : triangles_of(floes[i])) {
         data.polygons.push_back(
             {first_point[i] + triangle[0], first_point[i] + triangle[1], first_point[i] + triangle[2]});
-        add_row(data, floes[i], false);
+        add_cell(data, floes[i], false);
       }
     }
     return data;
@@ -84,17 +90,12 @@ class IceExport {
     std::ranges::for_each(polygon.holes, add);
   }
 
-  static void add_row(VtkPolyData& data, const io::PlacedFloe& floe, bool is_outline) {
+  static void add_cell(VtkPolyData& data, const io::PlacedFloe& floe, bool is_outline) {
     const simulation::BirthRecord& birth = *floe.birth;
     const geometry::Vector velocity = floe.motion ? floe.motion->velocity : geometry::Vector{kNan, kNan};
-    auto& columns = data.cell_data;
-    std::size_t i = 0;
-    for (const double value :
-         {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
-          static_cast<double>(birth.generation), birth.time, birth.area, birth.mass, length(velocity)})
-      columns[i++].values.push_back(value);
-    add_vector(columns[i++], velocity);
-    columns[i].values.push_back(is_outline ? 1 : 0);
+    add_row(data.cell_data, {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
+                             static_cast<double>(birth.generation), birth.time, birth.area, birth.mass,
+                             length(velocity), velocity.x, velocity.y, 0.0, is_outline ? 1.0 : 0.0});
   }
 
   const io::Run& run_;
@@ -103,7 +104,7 @@ class IceExport {
   std::set<simulation::FloeId> without_triangles_;
 };
 
-/// Each ship's waterline as a polygon, with what forces.csv tells of it at the time.
+/// Each ship's waterline as a polygon, with its motion at the time.
 VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double time) {
   VtkPolyData data;
   data.time = time;
@@ -116,10 +117,10 @@ VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double 
     data.points.insert(data.points.end(), ring.begin(), ring.end());
     for (const geometry::Triangle& t : geometry::triangulate({waterline, {}})) {
       data.polygons.push_back({first + t[0], first + t[1], first + t[2]});
-      data.cell_data[0].values.push_back(static_cast<double>(ship));
       const auto motion = motions.ship_at(ship, time);
-      add_vector(data.cell_data[1], motion ? motion->velocity : geometry::Vector{kNan, kNan});
-      data.cell_data[2].values.push_back(motion ? motion->angle * 180 / std::numbers::pi : kNan);
+      const geometry::Vector velocity = motion ? motion->velocity : geometry::Vector{kNan, kNan};
+      add_row(data.cell_data, {static_cast<double>(ship), velocity.x, velocity.y, 0.0,
+                               motion ? motion->angle * 180 / std::numbers::pi : kNan});
     }
   }
   return data;
@@ -138,13 +139,8 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
                        geometry::Vector force, double moment, geometry::Vector peak) {
     data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
     data.points.push_back(at);
-    std::size_t i = 0;
-    for (const double value :
-         {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe), t})
-      data.cell_data[i++].values.push_back(value);
-    add_vector(data.cell_data[4], force);
-    data.cell_data[5].values.push_back(moment);
-    add_vector(data.cell_data[6], peak);
+    add_row(data.cell_data, {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe),
+                             t, force.x, force.y, 0.0, moment, peak.x, peak.y, 0.0});
   };
   std::vector<const simulation::ShipSample*> last(run.scene.scene.ships.size(), nullptr);
   const auto until = std::ranges::upper_bound(run.samples, time + 1e-9, {}, &simulation::ShipSample::time);
@@ -177,18 +173,13 @@ VtkPolyData contacts_at(const io::Run& run, double time) {
   data.point_data = {{"ship", {}, 1, true},       {"floe_id", {}, 1, true},  {"by_ship", {}, 1, true},
                      {"by_floe_id", {}, 1, true}, {"force_N", {}, 3, false}, {"depth_m", {}, 1, false},
                      {"is_crushing", {}, 1, true}};
-  auto& columns = data.point_data;
   for (const io::RunContact& contact : run.contacts_at(time)) {
     const simulation::ContactState& state = contact.state;
     data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
     data.points.push_back(state.point_in_world);
-    columns[0].values.push_back(state.on.ship);
-    columns[1].values.push_back(static_cast<double>(state.on.floe));
-    columns[2].values.push_back(state.by.ship);
-    columns[3].values.push_back(static_cast<double>(state.by.floe));
-    add_vector(columns[4], state.force);
-    columns[5].values.push_back(state.depth);
-    columns[6].values.push_back(state.is_crushing ? 1 : 0);
+    add_row(data.point_data, {static_cast<double>(state.on.ship), static_cast<double>(state.on.floe),
+                              static_cast<double>(state.by.ship), static_cast<double>(state.by.floe),
+                              state.force.x, state.force.y, 0.0, state.depth, state.is_crushing ? 1.0 : 0.0});
   }
   return data;
 }

@@ -126,7 +126,7 @@ std::string names(const std::vector<io::Run>& runs) {
   return text;
 }
 
-/// Where the direction of motion is not told by noise, near the heading (both count whole turns).
+/// The direction of motion, near the heading (both count whole turns); none where noise decides it.
 double course(const ShipSample& s) {
   if (length(s.velocity_in_world) < 0.02) return std::numeric_limits<double>::quiet_NaN();
   const double angle = std::atan2(s.velocity_in_world.y, s.velocity_in_world.x);

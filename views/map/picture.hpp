@@ -10,7 +10,7 @@
 
 namespace polynya::views {
 
-/// A moment of a run, drawn from above.
+/// A run at an instant, drawn from above.
 struct Picture {
   struct Floe {
     geometry::Polygon polygon_in_world;  ///< [m]
@@ -33,7 +33,7 @@ struct Picture {
   std::vector<geometry::Polygon> channel;  ///< open water along the track, drawn darker [m]
 };
 
-/// Several moments, or several runs, on one page and in one scale.
+/// Several instants, or several runs, on one page and in one scale.
 struct PictureSheet {
   std::string title;
   std::string caption;

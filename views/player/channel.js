@@ -1,4 +1,4 @@
-// The channel behind each ship at a moment, by the rules of docs/channel.md (and analysis/channel.cpp, analysis/swept_band.cpp):
+// The channel behind each ship at an instant, by the rules of docs/channel.md (and analysis/channel.cpp, analysis/swept_band.cpp):
 // its track and what its hull swept are carried with the water, its width goes from ice to ice.
 
 /** Where a point of the water at (x, y) at one time is at another. */

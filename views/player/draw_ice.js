@@ -163,7 +163,7 @@ function drawStartIce(context, view, run, start, places, time, colours) {
   drawChunks(context, seen, (id) => traceFloe(context, view, floes, start, id), false);
 }
 
-/** Where floes of the scene are at the run's first moment. */
+/** Where floes of the scene are at the run's start. */
 function startPlaces(run, motions, time) {
   const start = makePlaces(run, motions);
   start.setTime(time);

@@ -1,4 +1,4 @@
-// Mouse, pen and fingers on the map: drag to pan, wheel or two fingers to zoom, point to look, click to keep.
+// Mouse, pen and fingers on the map: drag to pan, wheel or two fingers to zoom, point to identify, click to keep.
 
 const clickSlop = 5; // [px]
 

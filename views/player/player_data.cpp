@@ -1,5 +1,8 @@
 #include "views/player/player_data.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "io/run/force_columns.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/version.hpp"
@@ -14,31 +17,24 @@ void add_frames(ColumnWriter& columns, const std::vector<io::Frame>& frames) {
 }
 
 void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
-  std::vector<double> time, x, y, force_x, force_y;
-  std::vector<std::int32_t> ship, floe, by_floe, is_crushing;
+  std::vector<io::RunContact> contacts;
   for (const io::Frame& frame : frames) {
-    for (const io::RunContact& contact : run.contacts_at(frame.time)) {
-      const simulation::ContactState& state = contact.state;
-      time.push_back(contact.time);
-      ship.push_back(state.on.ship);
-      floe.push_back(static_cast<std::int32_t>(state.on.floe));
-      by_floe.push_back(static_cast<std::int32_t>(state.by.floe));
-      x.push_back(state.point_in_world.x);
-      y.push_back(state.point_in_world.y);
-      force_x.push_back(state.force.x);
-      force_y.push_back(state.force.y);
-      is_crushing.push_back(state.is_crushing);
-    }
+    const auto at_frame = run.contacts_at(frame.time);
+    contacts.insert(contacts.end(), at_frame.begin(), at_frame.end());
   }
-  columns.add("contact_t_s", time);
-  columns.add("contact_ship", ship);
-  columns.add("contact_floe", floe);
-  columns.add("contact_by_floe", by_floe);
-  columns.add("contact_x_m", x);
-  columns.add("contact_y_m", y);
-  columns.add("contact_fx_N", force_x);
-  columns.add("contact_fy_N", force_y);
-  columns.add("contact_is_crushing", is_crushing);
+  const auto add = [&](const char* name, auto read) {
+    columns.add(name, contacts, [read](const io::RunContact& contact) { return read(contact.state); });
+  };
+  using simulation::ContactState;
+  columns.add("contact_t_s", contacts, &io::RunContact::time);
+  add("contact_ship", [](const ContactState& c) { return c.on.ship; });
+  add("contact_floe", [](const ContactState& c) { return c.on.floe; });
+  add("contact_by_floe", [](const ContactState& c) { return c.by.floe; });
+  add("contact_x_m", [](const ContactState& c) { return c.point_in_world.x; });
+  add("contact_y_m", [](const ContactState& c) { return c.point_in_world.y; });
+  add("contact_fx_N", [](const ContactState& c) { return c.force.x; });
+  add("contact_fy_N", [](const ContactState& c) { return c.force.y; });
+  add("contact_is_crushing", [](const ContactState& c) { return c.is_crushing; });
 }
 
 /// Loads, of other ships where there are any, and the speed.
@@ -49,25 +45,14 @@ bool is_plotted(const io::ForceColumn& column, const simulation::Scene& scene) {
 }
 
 void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelection& selection) {
-  std::vector<const simulation::ShipSample*> rows;
-  for (const simulation::ShipSample& s : run.samples) {
-    if (selection.has(s.time)) rows.push_back(&s);
-  }
-  std::vector<std::int32_t> ship, contacts;
-  std::vector<double> time;
-  for (const simulation::ShipSample* s : rows) {
-    ship.push_back(s->ship);
-    contacts.push_back(s->contacts);
-    time.push_back(s->time);
-  }
-  columns.add("force_ship", ship);
-  columns.add("force_contacts", contacts);
-  columns.add("force_t_s", time);
+  std::vector<simulation::ShipSample> rows;
+  std::ranges::copy_if(run.samples, std::back_inserter(rows),
+                       [&](const simulation::ShipSample& s) { return selection.has(s.time); });
+  columns.add("force_ship", rows, &simulation::ShipSample::ship);
+  columns.add("force_contacts", rows, &simulation::ShipSample::contacts);
+  columns.add("force_t_s", rows, &simulation::ShipSample::time);
   for (const io::ForceColumn& column : io::force_columns()) {
-    if (!is_plotted(column, run.scene.scene)) continue;
-    std::vector<double> values;
-    for (const simulation::ShipSample* s : rows) values.push_back(column.read(*s));
-    columns.add(std::string(column.name), values);
+    if (is_plotted(column, run.scene.scene)) columns.add(std::string(column.name), rows, column.read);
   }
 }
 

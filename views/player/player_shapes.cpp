@@ -32,6 +32,9 @@ class ShapeColumns {
   void add(const simulation::BirthRecord& birth) {
     const io::ShapeParts* parts = run_.shapes.parts_of(birth.floe);
     const auto polygon = run_.shape(birth.floe);
+    double reach = 0;  // no hole reaches farther than the outer ring
+    for (const Point p : polygon->outer) reach = std::max(reach, distance(p, birth.centroid_in_body));
+    reach_.push_back(reach);
     std::size_t end = 0;
     for (const std::size_t size : io::ring_sizes(parts ? *parts : io::whole(*polygon))) {
       end += size;
@@ -50,9 +53,6 @@ class ShapeColumns {
       part_first_.push_back(static_cast<std::int32_t>(part.first));
       part_count_.push_back(static_cast<std::int32_t>(part.count));
     }
-    double reach = 0;  // no hole reaches farther than the outer ring
-    for (const Point p : polygon->outer) reach = std::max(reach, distance(p, birth.centroid_in_body));
-    parts_reach_.push_back(reach);
   }
 
   void add_to(ColumnWriter& columns) const {
@@ -62,7 +62,7 @@ class ShapeColumns {
     columns.add("part_ring", part_ring_);
     columns.add("part_first", part_first_);
     columns.add("part_count", part_count_);
-    columns.add("parts_reach_m", parts_reach_);
+    columns.add("reach_m", reach_);
     columns.add("points_m", points_);
   }
 
@@ -73,35 +73,26 @@ class ShapeColumns {
 
   const io::Run& run_;
   std::vector<std::int32_t> rings_of_{0}, ring_ends_, part_floe_, part_ring_, part_first_, part_count_;
-  std::vector<double> points_, parts_reach_;
+  std::vector<double> points_, reach_;
 };
 
 }  // namespace
 
 void add_floes(ColumnWriter& columns, const io::Run& run) {
-  std::vector<std::int32_t> parent, generation;
-  std::vector<double> born, died, area, mass, centroid_x, centroid_y;
+  const auto add = [&](const char* name, auto read) {
+    columns.add(name, run.floes, [read](const io::RunFloe& floe) { return std::invoke(read, floe.birth); });
+  };
+  using simulation::BirthRecord;
+  add("parent", &BirthRecord::parent);
+  add("generation", &BirthRecord::generation);
+  add("born_s", &BirthRecord::time);
+  columns.add("died_s", run.floes, &io::RunFloe::died);
+  add("area_m2", &BirthRecord::area);
+  add("mass_kg", &BirthRecord::mass);
+  add("centroid_x_m", [](const BirthRecord& birth) { return birth.centroid_in_body.x; });
+  add("centroid_y_m", [](const BirthRecord& birth) { return birth.centroid_in_body.y; });
   ShapeColumns shapes(run);
-  for (const io::RunFloe& floe : run.floes) {
-    const simulation::BirthRecord& birth = floe.birth;
-    parent.push_back(static_cast<std::int32_t>(birth.parent));
-    generation.push_back(birth.generation);
-    born.push_back(birth.time);
-    died.push_back(floe.died);
-    area.push_back(birth.area);
-    mass.push_back(birth.mass);
-    centroid_x.push_back(birth.centroid_in_body.x);
-    centroid_y.push_back(birth.centroid_in_body.y);
-    shapes.add(birth);
-  }
-  columns.add("parent", parent);
-  columns.add("generation", generation);
-  columns.add("born_s", born);
-  columns.add("died_s", died);
-  columns.add("area_m2", area);
-  columns.add("mass_kg", mass);
-  columns.add("centroid_x_m", centroid_x);
-  columns.add("centroid_y_m", centroid_y);
+  for (const io::RunFloe& floe : run.floes) shapes.add(floe.birth);
   shapes.add_to(columns);
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "io/run/run_reader.hpp"
@@ -9,7 +12,7 @@
 namespace polynya::views {
 
 /// Columns of numbers one after the other, each at a multiple of 8 bytes, as the player reads them. `table`
-/// tells of each: name, type ("f64", "i32", "u8"), first byte, how many numbers.
+/// has of each: name, type ("f64", "i32", "u8"), first byte, how many numbers.
 class ColumnWriter {
  public:
   struct Column {
@@ -21,6 +24,16 @@ class ColumnWriter {
   void add(const std::string& name, const std::vector<double>& values);
   void add(const std::string& name, const std::vector<std::int32_t>& values);
   void add(const std::string& name, std::string_view bytes);
+  /// A number of each item: a double, or anything else as a 32-bit integer.
+  template <class Items, class Read>
+  void add(const std::string& name, const Items& items, Read read) {
+    using Found = std::remove_cvref_t<std::invoke_result_t<Read, const typename Items::value_type&>>;
+    std::vector<std::conditional_t<std::is_same_v<Found, double>, double, std::int32_t>> values;
+    values.reserve(items.size());
+    for (const auto& item : items)
+      values.push_back(static_cast<typename decltype(values)::value_type>(std::invoke(read, item)));
+    add(name, values);
+  }
   const std::vector<Column>& table() const { return table_; }
   const std::string& bytes() const { return bytes_; }
 
@@ -31,9 +44,9 @@ class ColumnWriter {
   std::string bytes_;
 };
 
-/// Every floe of the run: parent, generation, born_s, died_s, area_m2, mass_kg, centroid_m, and its shape:
-/// the ends of its rings, counted from its first vertex, and its vertices, or of one that is parts of its
-/// parent's the parts, its new vertices and its farthest vertex from its centroid.
+/// Every floe of the run: parent, generation, born_s, died_s, area_m2, mass_kg, centroid, reach_m (of its
+/// farthest vertex from its centroid), and its shape: the ends of its rings, counted from its first vertex,
+/// and its vertices, or of one that is parts of its parent's the parts and its new vertices.
 void add_floes(ColumnWriter& columns, const io::Run& run);
 
 }  // namespace polynya::views

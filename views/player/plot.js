@@ -1,4 +1,4 @@
-// The plot of loads against time, in step with the picture. Drawn by uPlot; the moment is a line laid over it.
+// The plot of loads against time, in step with the picture. Drawn by uPlot; the present time is a line laid over it.
 
 const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
 
@@ -158,7 +158,7 @@ function makePlot(run, host, range, { onTime, onPlaced, onSpan }) {
     now.style.transform = `translateX(${((plot.time - plot.span[0]) / (plot.span[1] - plot.span[0] || 1)) * width}px)`;
   }
 
-  /** Moves the moment; what is in view follows it. */
+  /** Sets the present time; what is in view follows it. */
   plot.setTime = (time) => {
     const hasMoved = plot.time !== undefined && time !== plot.time;
     plot.time = time;

@@ -1,4 +1,4 @@
-// What the plot shows in numbers: the values under the pointer, and the names and values of its curves at the moment.
+// What the plot shows in numbers: the values under the pointer, and the names and values of its curves at the present time.
 
 /** A line and a box that show the values of all curves at the time under the pointer. */
 function makePlotReading(run, plot) {

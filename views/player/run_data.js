@@ -36,30 +36,16 @@ function readFloes(columns) {
     ringsOf: columns.rings_of,
     ringEnds: columns.ring_ends,
     shape: makeShapes(columns),
-    reach: new Float64Array(count), // farthest vertex from the centroid [m]
+    reach: columns.reach_m, // farthest vertex from the centroid [m]
     oldest: new Int32Array(count), // the floe of the scene it comes from
     children: new Map(),
   };
-  const isParts = new Uint8Array(count); // of these the page has the reach, in their order
-  for (const floe of columns.part_floe) isParts[floe] = 1;
-  let reaches = 0;
   for (let i = 0; i < count; ++i) {
     const parent = floes.parent[i];
     floes.oldest[i] = parent >= 0 ? floes.oldest[parent] : i;
     if (parent >= 0) floes.children.set(parent, [...(floes.children.get(parent) ?? []), i]);
-    floes.reach[i] = isParts[i] ? columns.parts_reach_m[reaches++] : reachOf(floes, i);
   }
   return floes;
-}
-
-/** The distance of a floe's farthest vertex from its centroid [m]. */
-function reachOf(floes, floe) {
-  const { points, first } = floes.shape(floe);
-  const end = first + floes.ringEnds[floes.ringsOf[floe + 1] - 1];
-  let most = 0;
-  for (let k = first; k < end; ++k)
-    most = Math.max(most, (points[2 * k] - floes.cx[floe]) ** 2 + (points[2 * k + 1] - floes.cy[floe]) ** 2);
-  return Math.sqrt(most);
 }
 
 /** frames.bin (docs/run-folder.md), indexed by floe. */

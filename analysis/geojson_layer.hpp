@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace polynya::analysis {
+
+/// From the scene's plane to the coordinates of a layer.
+using Project = std::function<geometry::Point(geometry::Point)>;
+
+/// A GeoJSON FeatureCollection of one instant while it is written, a feature a line: start() opens the
+/// properties, end_with() closes them and writes the geometry.
+class GeojsonLayer {
+ public:
+  explicit GeojsonLayer(double time, Project project = {});
+
+  io::JsonWriter& start();
+  void end_with(const geometry::Polygon& polygon);
+  void end_with(const std::vector<geometry::Polygon>& polygons);
+  void end_with(const geometry::Ring& line);
+  void end_with(geometry::Point point);
+  std::string finish();
+
+ private:
+  io::JsonWriter& open_geometry(const char* type);
+  void write(const geometry::Polygon& polygon);
+  geometry::Ring projected(geometry::Ring points) const;
+
+  Project project_;
+  std::string text_;
+  io::JsonWriter json_;
+};
+
+}  // namespace polynya::analysis
