@@ -12,12 +12,11 @@ namespace polynya::dynamics {
 
 using BodyIndex = std::int32_t;
 
-/// How water holds a body back, by its shape alone. Made once per shape (water_drag.hpp).
+/// The drag of a shape, without speed and thickness. Made once per shape (water_drag.hpp).
 struct DragShape {
   static constexpr int kDirections = 128;
   double rotational = 0;  ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
-  std::array<double, kDirections + 1>
-      width{};  ///< across the directions of drag_direction(k) [m]; last = first
+  std::array<double, kDirections + 1> width{};  ///< across drag_direction(k) [m]; last = first
 };
 
 /// The rigid bodies of a world, ships and floes alike, as columns. Positions and velocities are in the water
@@ -30,26 +29,25 @@ struct Bodies {
   std::vector<geometry::Rotation> rotation;  ///< cosine and sine of angle
   std::vector<geometry::Vector> velocity;    ///< of the centre of mass relative to the water [m/s]
   std::vector<double> angular_velocity;      ///< [rad/s]
-  std::vector<double> inverse_mass;          ///< 0: held [1/kg]
-  std::vector<double> inverse_moment;        ///< 0: held [1/(kg m²)]
-  std::vector<double> travel;           ///< no point of the body has moved farther since it came to be [m]
-  std::vector<double> bounding_radius;  ///< about the centre of mass [m]
-  std::vector<double> rim_speed;        ///< no point of the body was faster at the last integration [m/s]
+  std::vector<double> inverse_mass;          ///< 0: prescribed motion [1/kg]
+  std::vector<double> inverse_moment;        ///< 0: prescribed motion [1/(kg m²)]
+  std::vector<double> travel;                ///< bound of how far any point of the body has moved so far [m]
+  std::vector<double> bounding_radius;       ///< about the centre of mass [m]
+  std::vector<double> rim_speed;             ///< bound of any point's speed at the last integration [m/s]
   std::vector<std::uint8_t> is_awake;
   // Cold.
   std::vector<std::uint8_t> is_alive;
-  std::vector<double> mass;               ///< [kg], also of held bodies
+  std::vector<double> mass;               ///< [kg], also of bodies of prescribed motion
   std::vector<double> moment;             ///< of inertia about the centre of mass [kg m²]
   std::vector<geometry::Point> centroid;  ///< centre of mass in the body frame [m]
   std::vector<double> thickness;          ///< of the ice, or the draught that meets water [m]
-  std::vector<std::shared_ptr<geometry::Boundary>> boundary;  ///< made ready when somebody comes near
-  std::vector<std::shared_ptr<const DragShape>>
-      drag;  ///< null: the water does not hold it back, or it sleeps
+  std::vector<std::shared_ptr<geometry::Boundary>> boundary;  ///< made ready when another body comes near
+  std::vector<std::shared_ptr<const DragShape>> drag;         ///< null: no drag, or it sleeps
 
   BodyIndex size() const { return static_cast<BodyIndex>(position.size()); }
 };
 
-/// What a body is when it comes to be.
+/// What a body is when it is added.
 struct NewBody {
   geometry::Point position;     ///< centre of mass, water frame [m]
   double angle = 0;             ///< [rad]
@@ -57,7 +55,7 @@ struct NewBody {
   double angular_velocity = 0;  ///< [rad/s]
   double mass = 0;              ///< [kg]
   double moment = 0;            ///< [kg m²]
-  bool is_prescribed = false;   ///< its velocity does not answer to impulses
+  bool is_prescribed = false;   ///< impulses do not change its velocity
   geometry::Point centroid;     ///< in the body frame [m]
   double thickness = 0;         ///< [m]
   std::shared_ptr<geometry::Boundary> boundary;

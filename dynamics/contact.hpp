@@ -7,22 +7,21 @@
 
 namespace polynya::dynamics {
 
-/// What is remembered of a contact from step to step.
+/// What is kept of a contact from step to step.
 struct PersistentContact {
   geometry::Point last_point_in_b;   ///< where it was at the last step, in b's frame [m]
   geometry::Point first_touch_in_b;  ///< the point of b that was touched first [m]
   double age = 0;                    ///< since first contact [s]
   double approach = 0;               ///< ∫ max(0, v_n) dt [m]
-  double crushed_depth = 0;  ///< overlap that crushing made: the ice is gone, nothing pushes it apart [m]
-  double owed_impulse = 0;   ///< of restitution, that crushing ice could not give yet [N s]
-  double given_impulse = 0;  ///< of restitution, since first contact [N s]
-  double most_to_give = 0;   ///< bound of it, by the fastest approach yet of the two bodies alone [N s]
+  double crushed_depth = 0;         ///< overlap that crushing made: the ice is gone, nothing separates it [m]
+  double owed_impulse = 0;          ///< of restitution, that crushing ice could not carry yet [N s]
+  double given_impulse = 0;         ///< of restitution, since first contact [N s]
+  double restitution_limit = 0;     ///< bound of it, by the fastest approach so far of the two alone [N s]
   double last_impulse[2] = {0, 0};  ///< compression at the last step [N s]
-  double warm_start_impulse[2] = {0,
-                                  0};  ///< where the solver starts, as the last two steps foretell it [N s]
+  double warm_start_impulse[2] = {0, 0};  ///< where the solver starts, predicted from two steps [N s]
   bool has_crushed = false;
-  bool was_refused = false;   ///< a fracture here was refused by geometry: not tried again
-  bool is_continued = false;  ///< taken over by a contact of the next step already
+  bool was_refused = false;   ///< a fracture here was rejected by geometry: not tried again
+  bool is_continued = false;  ///< already taken over by a contact of the next step
 };
 
 /// Two bodies that overlap, at one step. In the water frame; the normal points from a into b; a < b.
@@ -42,28 +41,28 @@ struct Contact {
   PersistentContact* record = nullptr;  ///< lives in its pair; valid during the step
 
   // Decided between finding and solving.
-  double impulse_limit =
-      std::numeric_limits<double>::infinity();  ///< what crushing ice carries in the step [N s]
-  double friction = 0;                          ///< most tangential per normal impulse [-]
+  /// What crushing ice carries in the step [N s].
+  double impulse_limit = std::numeric_limits<double>::infinity();
+  double friction = 0;  ///< most tangential per normal impulse [-]
 
   // Found by the solver.
   double normal_impulse[2] = {0, 0};  ///< on b along the normal, at each end [N s]
   double normal_work = 0;             ///< of the normal impulses on the two bodies together [J]
   double slip_work = 0;               ///< of the slip impulse [J]
-  double prescribed_work = 0;         ///< by one of the two that is held, on the other [J]
+  double prescribed_work = 0;         ///< by one of prescribed motion on the other [J]
   double slip_impulse = 0;            ///< on b along perpendicular(normal), anywhere on the line [N s]
 
   geometry::Point middle() const { return midpoint(ends[0], ends[1]); }
   double total_normal_impulse() const { return normal_impulse[0] + normal_impulse[1]; }
-  geometry::Vector impulse_on_b() const {
+  geometry::Vector impulse_on_b() const {  ///< [N s]
     return total_normal_impulse() * normal + slip_impulse * perpendicular(normal);
-  }  ///< [N s]
+  }
   /// The point of the contact line through which that impulse turns the bodies as its two ends do [m].
   geometry::Point centre_of_pressure() const {
     const double total = total_normal_impulse();
     return total > 0 ? ends[0] + (normal_impulse[1] / total) * (ends[1] - ends[0]) : middle();
   }
-  /// Did it press with all that crushing ice carries?
+  /// Whether it presses with all that crushing ice carries.
   bool is_at_limit() const { return total_normal_impulse() >= impulse_limit * (1 - 1e-9); }
 };
 

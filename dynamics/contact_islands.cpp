@@ -50,7 +50,7 @@ void ContactIslands::find(const Bodies& bodies, const std::vector<Contact>& cont
   for (Island& island : islands_) {
     island.first = first;
     first += island.count;
-    island.count = 0;  // counted anew while filling
+    island.count = 0;  // counted again while filling
   }
   order_.resize(contacts.size());
   for (std::uint32_t i = 0; i < contacts.size(); ++i) {

@@ -7,14 +7,13 @@
 
 namespace polynya::dynamics {
 
-/// Contacts `first` … `first + count` of the order: those of bodies that touch each other, directly or
-/// through others.
+/// Contacts [first, first + count) of the order: those of bodies that touch, directly or through others.
 struct Island {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };
 
-/// The contacts of one step, island by island. A held body joins nothing.
+/// The contacts of one step, island by island. A body of prescribed motion connects nothing.
 class ContactIslands {
  public:
   /// Islands come in the order of their first contact, and contacts keep their order within each.

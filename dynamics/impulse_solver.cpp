@@ -12,8 +12,7 @@ namespace {
 /// twice it.
 constexpr double kFrictionSlack = 2;
 
-/// How much of an unconverged step's impulses the next one starts from: a wrong guess must die out, not build
-/// up.
+/// How much of an unconverged step's impulses the next one starts from: a wrong start must decay, not grow.
 constexpr double kTrustUnconverged = 0.5;
 
 /// Contacts that one thread takes at a time: fewer are not worth another thread.
@@ -40,14 +39,14 @@ void ImpulseSolver::fill_constraints(const Bodies& bodies, std::vector<Contact>&
                  before_[k] = speeds_at(constraints_[k], solver_bodies_);
                  PersistentContact* record = contacts[i].record;
                  if (record == nullptr) continue;
-                 record->most_to_give =
-                     std::max(record->most_to_give, kFrictionSlack * settings.restitution *
-                                                        isolated_impulse(constraints_[k], before_[k]));
+                 record->restitution_limit =
+                     std::max(record->restitution_limit, kFrictionSlack * settings.restitution *
+                                                             isolated_impulse(constraints_[k], before_[k]));
                }
              });
 }
 
-/// Starts an island from the impulses that its last steps foretell.
+/// Starts an island from the impulses that its last two steps predict.
 void ImpulseSolver::warm_start(const Island& island, const std::vector<Contact>& contacts) {
   for (std::uint32_t k = island.first; k < island.first + island.count; ++k) {
     const PersistentContact* record = contacts[islands_.order()[k]].record;
@@ -60,55 +59,56 @@ void ImpulseSolver::warm_start(const Island& island, const std::vector<Contact>&
   }
 }
 
-/// Moves all impulses of an island on along the way they are taking, as far as the sweeps' shrinking steps
-/// tell: the nonsmooth nonlinear conjugate gradient of [Silcowitz2010]. Jammed floes want it, whose impulses
-/// grow by little in each sweep.
-void ImpulseSolver::accelerate(const Island& island, Momentum& momentum) {
-  double now = 0;
+/// Extrapolates all impulses of an island along their search direction: the nonsmooth nonlinear conjugate
+/// gradient of [Silcowitz2010]. Jammed floes need it, whose impulses grow by little in each iteration.
+void ImpulseSolver::accelerate(const Island& island, SearchState& search) {
+  double squared_change = 0;
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
     const ContactConstraint& constraint = constraints_[i];
-    const Direction& way = directions_[i];
-    const double change[3] = {constraint.normal_impulse[0] - way.before[0],
-                              constraint.normal_impulse[1] - way.before[1],
-                              constraint.slip_impulse - way.before[2]};
-    now += change[0] * change[0] * constraint.inverse_mass_at[0] +
-           change[1] * change[1] * constraint.inverse_mass_at[1] +
-           change[2] * change[2] * constraint.inverse_slip_mass;
+    const Direction& direction = directions_[i];
+    const double change[3] = {constraint.normal_impulse[0] - direction.before[0],
+                              constraint.normal_impulse[1] - direction.before[1],
+                              constraint.slip_impulse - direction.before[2]};
+    squared_change += change[0] * change[0] * constraint.inverse_mass_at[0] +
+                      change[1] * change[1] * constraint.inverse_mass_at[1] +
+                      change[2] * change[2] * constraint.inverse_slip_mass;
   }
-  const bool is_start = momentum.steps++ == 0;
-  const double share = is_start || now > momentum.last * (1 + 1e-6) ? 0 : std::min(1.0, now / momentum.last);
-  momentum.last = now;
+  const bool is_start = search.iterations++ == 0;
+  const bool has_grown = squared_change > search.last_change * (1 + 1e-6);
+  const double share = is_start || has_grown ? 0 : std::min(1.0, squared_change / search.last_change);
+  search.last_change = squared_change;
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
     ContactConstraint& constraint = constraints_[i];
-    Direction& way = directions_[i];
+    Direction& direction = directions_[i];
     const double p[3] = {constraint.normal_impulse[0], constraint.normal_impulse[1], constraint.slip_impulse};
-    double on[3];
+    double extrapolated[3];
     for (int k = 0; k < 3; ++k) {
-      const double along = is_start ? 0 : share * way.along[k];
-      on[k] = p[k] + along;
-      way.along[k] = along + (p[k] - way.before[k]);
+      const double along = is_start ? 0 : share * direction.along[k];
+      extrapolated[k] = p[k] + along;
+      direction.along[k] = along + (p[k] - direction.before[k]);
     }
     if (share == 0) continue;
-    constraint.normal_impulse[0] = std::clamp(on[0], constraint.least[0], constraint.limit);
-    constraint.normal_impulse[1] = std::clamp(on[1], constraint.least[1], constraint.limit);
+    constraint.normal_impulse[0] = std::clamp(extrapolated[0], constraint.least[0], constraint.limit);
+    constraint.normal_impulse[1] = std::clamp(extrapolated[1], constraint.least[1], constraint.limit);
     const double most = constraint.friction * (constraint.normal_impulse[0] + constraint.normal_impulse[1]);
-    constraint.slip_impulse = std::clamp(on[2], -most, most);
+    constraint.slip_impulse = std::clamp(extrapolated[2], -most, most);
     apply_impulses(constraint, constraint.normal_impulse[0] - p[0], constraint.normal_impulse[1] - p[1],
                    constraint.slip_impulse - p[2], solver_bodies_);
   }
 }
 
-/// Sweeps over an island until it has converged or the sweeps are used up. Returns the most that the last one
-/// changed a velocity by where it had not, 0 where it had [m/s].
-double ImpulseSolver::sweep(const Island& island, const SolverSettings& settings) {
-  constexpr int kPlainSweeps = 4;  // most islands need no more
+/// Solves the constraints of an island one after the other until it has converged or the iterations are used
+/// up. Returns the residual, the largest change of a velocity in the last iteration; 0 where it has converged
+/// [m/s].
+double ImpulseSolver::iterate(const Island& island, const SolverSettings& settings) {
+  constexpr int kPlainIterations = 4;  // most islands need no more
   const std::span<ContactConstraint> constraints(constraints_.data() + island.first, island.count);
   const std::span<SolverBody> solver_bodies(solver_bodies_);
-  Momentum momentum;
+  SearchState search;
   double largest_change = 0;
-  for (int sweep = 0; sweep < settings.max_iterations; ++sweep) {
+  for (int iteration = 0; iteration < settings.max_iterations; ++iteration) {
     largest_change = 0;
-    const bool is_plain = sweep < kPlainSweeps;
+    const bool is_plain = iteration < kPlainIterations;
     if (!is_plain) {
       for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
         const ContactConstraint& constraint = constraints_[i];
@@ -120,7 +120,7 @@ double ImpulseSolver::sweep(const Island& island, const SolverSettings& settings
     for (ContactConstraint& constraint : constraints)
       largest_change = std::max(largest_change, solve_constraint(constraint, solver_bodies));
     if (largest_change <= settings.tolerance) return 0;
-    if (!is_plain && sweep + 1 < settings.max_iterations) accelerate(island, momentum);
+    if (!is_plain && iteration + 1 < settings.max_iterations) accelerate(island, search);
   }
   return largest_change;
 }
@@ -134,10 +134,9 @@ bool ImpulseSolver::apply_restitution(const Island& island, std::vector<Contact>
     const double compression = constraint.normal_impulse[0] + constraint.normal_impulse[1];
     double owed = restitution * compression;
     if (record != nullptr) {
-      owed = std::min(owed + record->owed_impulse, record->most_to_give - record->given_impulse);
+      owed = std::min(owed + record->owed_impulse, record->restitution_limit - record->given_impulse);
       for (int end = 0; end < 2; ++end) {
-        // The next step's, as the last two foretell it: steady or falling in proportion, never more than
-        // both.
+        // The prediction for the next step: steady or falling in proportion, never more than the last two.
         const double last = record->last_impulse[end];
         const double now = constraint.normal_impulse[end];
         const double warm_start = now < last ? now * (now / last) : last;
@@ -201,9 +200,9 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
     for (std::size_t k = begin; k < end; ++k) {
       const Island& island = islands_.islands()[k];
       warm_start(island, contacts);
-      residuals_[k] = sweep(island, settings);
+      residuals_[k] = iterate(island, settings);
       if (apply_restitution(island, contacts, settings.restitution, residuals_[k] == 0))
-        residuals_[k] = std::max(residuals_[k], sweep(island, settings));
+        residuals_[k] = std::max(residuals_[k], iterate(island, settings));
     }
   });
   write_back(bodies, contacts);

@@ -11,7 +11,7 @@ using geometry::Vector;
 int separate(Bodies& bodies, const std::vector<Contact>& contacts, const SeparationSettings& settings,
              double dt) {
   // Each contact moves its own bodies by its own share, one after the other: a relaxation, not a solution,
-  // since left-over overlap is a few centimetres that may take a second to go.
+  // since this overlap is a few centimetres that may take a second to decay.
   int moved = 0;
   const double share = std::min(1.0, dt / settings.time);
   for (const Contact& c : contacts) {

@@ -7,8 +7,8 @@
 namespace polynya::dynamics {
 
 struct SeparationSettings {
-  double time = 1.0;   ///< over which left-over overlap decays [s]
-  double slop = 1e-4;  ///< overlap that is left alone [m]
+  double time = 1.0;   ///< decay time of overlap that nothing presses together any more [s]
+  double slop = 1e-4;  ///< overlap that is allowed [m]
 };
 
 /// Moves overlapping bodies apart without giving them speed (split impulse): along the normals, in

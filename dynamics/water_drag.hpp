@@ -10,7 +10,7 @@ namespace polynya::dynamics {
 DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid);
 
 /// The k-th of the 128 directions over half a turn at which widths are known: evenly around a diamond, since
-/// that needs no arctangent to find one's place among them. Not of unit length.
+/// that needs no arctangent to find a direction's place among them. Not of unit length.
 geometry::Vector drag_direction(int k);
 
 /// Width across a direction in the body frame (of any length > 0), interpolated between the known ones [m]:
@@ -29,9 +29,7 @@ struct ShearCurrent {
   geometry::Vector velocity_at(geometry::Point p) const {
     return rate * dot(perpendicular(along), p - origin) * along;
   }
-  double angular_velocity() const {
-    return -0.5 * rate;
-  }  ///< of the water itself, half its vorticity [rad/s]
+  double angular_velocity() const { return -0.5 * rate; }  ///< of the water, half its vorticity [rad/s]
 };
 
 struct WaterDrag {
@@ -43,20 +41,20 @@ struct WaterDrag {
 /// What the water did to the bodies over a step.
 struct WaterWork {
   double lost = 0;           ///< energy of the motion relative to the water around [J]
-  double by_current = 0;     ///< energy that a current gave them [J]
+  double by_current = 0;     ///< energy from a current [J]
   geometry::Vector impulse;  ///< on them all together [N s]
   double impulses = 0;       ///< sum of the impulses' sizes [N s]
 };
 
-/// Lets the water brake every awake body over dt. Eq. (6) of [Sawamura2017]:
+/// Applies the drag of the water to every awake body over dt [s]. Eq. (6) of [Sawamura2017]:
 ///   F = −½ C_D ρ_w A |u| u,   A = h × width across u,
 /// with u relative to the water at the centre of mass, and the same law for the rotation, ω relative to half
 /// the water's vorticity, each strip at distance s from the centre moving at ω s through the water:
-/// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions. What a current's strain
-/// does to a body's rotation is left out: a long floe would not turn evenly. Deviation: the paper prints the
-/// floe's own velocity for u; a drifting floe would be braked by its own current. Solved exactly over the
-/// step for constant A, v⁺ = v / (1 + c |v| dt): no step is too long for it. Returns what that came
-/// to: the bodies' kinetic energy changes by by_current − lost.
+/// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions. The effect
+/// of a current's strain on rotation is left out: a long floe would not turn evenly. Deviation: the paper
+/// prints the floe's own velocity for u; a drifting floe would be braked by its own current. Solved exactly
+/// over the step for constant A, v⁺ = v / (1 + c |v| dt): stable for any step. The bodies' kinetic energy
+/// changes by by_current − lost.
 WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
                            double dt, int threads = 1);
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dynamics/pairs.hpp"
+#include "dynamics/broad_phase.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/journal.hpp"

@@ -36,13 +36,13 @@ void set_motion(dynamics::Bodies& bodies, BodyIndex i, const BodyMotion& motion)
 }
 
 /// Pairs that touch: the others are only near, and found again.
-std::vector<dynamics::PairMemory> touching(std::vector<dynamics::PairMemory> pairs) {
-  std::erase_if(pairs, [](const dynamics::PairMemory& pair) { return pair.records.empty(); });
+std::vector<dynamics::PairState> touching(std::vector<dynamics::PairState> pairs) {
+  std::erase_if(pairs, [](const dynamics::PairState& pair) { return pair.records.empty(); });
   return pairs;
 }
 
 template <class Archive>
-void write(Archive& archive, const World& world, const std::vector<dynamics::PairMemory>& pairs) {
+void write(Archive& archive, const World& world, const std::vector<dynamics::PairState>& pairs) {
   const Population& population = world.population;
   archive(world.clock.steps, world.accounts, std::uint64_t{population.floes.size()});
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) archive(motion_of(population.bodies, ship));
@@ -205,14 +205,14 @@ class StateLoader {
   }
 
   void load_pairs() {
-    std::vector<dynamics::PairMemory> pairs;
+    std::vector<dynamics::PairState> pairs;
     std::vector<double> separation_bound;
     bytes_(pairs, separation_bound);
     bytes_.require(pairs.size() == separation_bound.size(),
                    "another number of separation bounds than of pairs");
     const dynamics::Bodies& bodies = population_.bodies;
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {
-      dynamics::PairMemory& pair = pairs[i];
+      dynamics::PairState& pair = pairs[i];
       const bool is_there = pair.a >= 0 && pair.a < pair.b && pair.b < bodies.size();
       bytes_.require(is_there && bodies.is_alive[pair.a] && bodies.is_alive[pair.b],
                      "a pair of no two bodies");
@@ -224,7 +224,7 @@ class StateLoader {
       bytes_.require(is_next, "pairs out of their order");
       pair.separation_bound = separation_bound[i];
     }
-    if (bytes_.is_well()) population_.pairs.remember(bodies, pairs);
+    if (bytes_.is_well()) population_.pairs.restore(bodies, pairs);
   }
 
   const Scene& scene_;
@@ -237,10 +237,10 @@ class StateLoader {
 }  // namespace
 
 std::string save_state(const World& world) {
-  const std::vector<dynamics::PairMemory> pairs = world.population.pairs.memory();
+  const std::vector<dynamics::PairState> pairs = world.population.pairs.pair_states();
   std::vector<double> separation_bound;
   separation_bound.reserve(pairs.size());
-  for (const dynamics::PairMemory& pair : pairs) separation_bound.push_back(pair.separation_bound);
+  for (const dynamics::PairState& pair : pairs) separation_bound.push_back(pair.separation_bound);
   ByteWriter archive;
   write(archive, world, pairs);
   archive(separation_bound);
@@ -253,7 +253,7 @@ std::string load_state(World& empty, std::string_view bytes) {
 
 std::uint64_t state_hash(const World& world) {
   HashWriter archive;
-  write(archive, world, touching(world.population.pairs.memory()));
+  write(archive, world, touching(world.population.pairs.pair_states()));
   return archive.hash();
 }
 

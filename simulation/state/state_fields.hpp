@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/pairs.hpp"
+#include "dynamics/broad_phase.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "simulation/state/archive.hpp"
 #include "simulation/world.hpp"
@@ -92,12 +92,12 @@ void fields(Archive& archive, Is<AuditSums> auto& a) {
 template <class Archive>
 void fields(Archive& archive, Is<dynamics::PersistentContact> auto& r) {
   archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.owed_impulse,
-          r.given_impulse, r.most_to_give, r.last_impulse[0], r.last_impulse[1], r.warm_start_impulse[0],
+          r.given_impulse, r.restitution_limit, r.last_impulse[0], r.last_impulse[1], r.warm_start_impulse[0],
           r.warm_start_impulse[1], r.has_crushed, r.was_refused, r.is_continued);
 }
 /// Not its separation_bound: that is a cache, which may differ where the same bodies do the same.
 template <class Archive>
-void fields(Archive& archive, Is<dynamics::PairMemory> auto& p) {
+void fields(Archive& archive, Is<dynamics::PairState> auto& p) {
   archive(p.a, p.b, p.records);
 }
 

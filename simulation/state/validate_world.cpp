@@ -88,7 +88,7 @@ Defect check_floe(const Population& population, const Setup& setup, FloeId id) {
 
 Defect check_pairs(const Population& population) {
   const dynamics::Bodies& b = population.bodies;
-  for (const dynamics::PairMemory& pair : population.pairs.memory()) {
+  for (const dynamics::PairState& pair : population.pairs.pair_states()) {
     if (b.is_alive[pair.a] == 0 || b.is_alive[pair.b] == 0)
       return fmt::format("a pair of {} and {}, one dead", pair.a, pair.b);
     if (b.is_awake[pair.a] == 0 && b.is_awake[pair.b] == 0)

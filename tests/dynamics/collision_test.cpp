@@ -217,7 +217,7 @@ TEST(ContactsTogether, BodiesThatPartAreLeftAlone) {
   EXPECT_EQ(contacts[0].total_normal_impulse(), 0);
 }
 
-// A ship whose speed is held, a floe before it, a plate of 220 times the floe's mass before that, all
+// A ship of prescribed speed, a floe before it, a plate of 220 times the floe's mass before that, all
 // touching.
 struct Pinch {
   Bodies bodies;
@@ -236,7 +236,7 @@ struct Pinch {
   }
 };
 
-TEST(ContactsTogether, AFloePinchedBetweenAHeldShipAndAHeavyPlateFeelsBoth) {
+TEST(ContactsTogether, AFloePinchedBetweenAPrescribedShipAndAHeavyPlateFeelsBoth) {
   Pinch pinch;
   SolverSettings settings;
   settings.restitution = 0;
@@ -253,7 +253,7 @@ TEST(ContactsTogether, AFloePinchedBetweenAHeldShipAndAHeavyPlateFeelsBoth) {
               1e-10);
 }
 
-TEST(ContactsTogether, PinchedOverManyCallsOfThirtySweepsThePlateComesToTheShipsSpeedFromBelow) {
+TEST(ContactsTogether, PinchedOverManyCallsOfThirtyIterationsThePlateComesToTheShipsSpeedFromBelow) {
   for (const double restitution : {0.0, 0.1}) {
     Pinch pinch;
     SolverSettings settings;
@@ -283,13 +283,13 @@ Bodies cradle(int count, double speed) {
 
 TEST(ContactsTogether, ARowOfTouchingFloesKeepsItsMomentumAndGainsNoEnergy) {
   for (const double restitution : {0.0, 0.1, 0.5, 1.0}) {
-    for (const int sweeps : {30, 3000}) {
+    for (const int iterations : {30, 3000}) {
       Bodies bodies = cradle(6, 2);
       const Vector p = momentum(bodies);
       double energy = kinetic_energy(bodies);
       SolverSettings settings;
       settings.restitution = restitution;
-      settings.max_iterations = sweeps;
+      settings.max_iterations = iterations;
       for (int step = 0; step < 20; ++step) {
         std::vector<Contact> contacts;
         for (BodyIndex i = 0; i + 1 < bodies.size(); ++i) {
@@ -303,7 +303,7 @@ TEST(ContactsTogether, ARowOfTouchingFloesKeepsItsMomentumAndGainsNoEnergy) {
       EXPECT_NEAR(momentum(bodies).x / p.x, 1, 1e-12);
       EXPECT_NEAR(momentum(bodies).y, 0, 1e-9);
       EXPECT_NEAR(angular_momentum(bodies) / (p.x * 50), 0, 1e-12);
-      if (sweeps < 3000) continue;  // in thirty the two ends of a line need not have evened out
+      if (iterations < 3000) continue;  // in thirty the two ends of a line need not have evened out
       for (BodyIndex i = 0; i < bodies.size(); ++i) EXPECT_NEAR(bodies.angular_velocity[i], 0, 1e-7);
     }
   }
@@ -322,7 +322,7 @@ TEST(ContactsTogether, APlasticRowMovesOnAsOne) {
 }
 
 TEST(ContactsTogether, MirroredScenesGiveMirroredResults) {
-  // A held wall hit squarely by a floe over a wide contact: no turn, and v⁺ = −ε v⁻ all over the line.
+  // A fixed wall hit squarely by a floe over a wide contact: no turn, and v⁺ = −ε v⁻ all over the line.
   Bodies bodies;
   NewBody wall = floe_body(rectangle(10, 40), {-5, 0});
   wall.is_prescribed = true;
@@ -341,7 +341,7 @@ TEST(ContactsTogether, MirroredScenesGiveMirroredResults) {
   EXPECT_NEAR(contacts[0].normal_impulse[0], contacts[0].normal_impulse[1], 1e-6);
 }
 
-TEST(ContactsTogether, PinchedOverManyStepsOfThirtySweepsThePlateComesToTheShipsSpeedFromBelow) {
+TEST(ContactsTogether, PinchedOverManyStepsOfThirtyIterationsThePlateComesToTheShipsSpeedFromBelow) {
   for (const double restitution : {0.0, 0.1}) {
     Pinch pinch;
     SolverSettings settings;

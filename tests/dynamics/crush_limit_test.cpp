@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/pairs.hpp"
+#include "dynamics/broad_phase.hpp"
 #include "dynamics/separation.hpp"
 #include "tests/dynamics/scenery.hpp"
 
@@ -126,7 +126,7 @@ TEST(Separation, GivesNoSpeedMovesNoCentreOfMassAndDecaysAsItSays) {
   EXPECT_NEAR(bodies.position[0].y, 0, 1e-12);
 }
 
-TEST(Separation, LeavesWhatCrushingMadeAndNeverMovesAHeldBody) {
+TEST(Separation, LeavesWhatCrushingMadeAndNeverMovesABodyOfPrescribedMotion) {
   Bodies bodies = two_floes(0, 0);
   bodies.position[1].x -= 0.2;
   PersistentContact record;

@@ -165,13 +165,13 @@ TEST(WaterDrag, ATurnedFloeWithATurnedVelocityFeelsTheSameDragTurned) {
   std::printf("drag of the same rectangle drawn turned differs by up to %.2g\n", worst);
 }
 
-TEST(WaterDrag, HeldBodiesKeepTheirVelocity) {
+TEST(WaterDrag, BodiesOfPrescribedMotionKeepTheirVelocity) {
   Bodies bodies;
-  NewBody held = floe_body(rectangle(10, 6), {});
-  held.is_prescribed = true;
-  held.velocity = {1, 0};
-  held.angular_velocity = 0.1;
-  add_body(bodies, held);
+  NewBody prescribed = floe_body(rectangle(10, 6), {});
+  prescribed.is_prescribed = true;
+  prescribed.velocity = {1, 0};
+  prescribed.angular_velocity = 0.1;
+  add_body(bodies, prescribed);
   apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 10);
   EXPECT_EQ(bodies.velocity[0], (Vector{1, 0}));
   EXPECT_EQ(bodies.angular_velocity[0], 0.1);

@@ -2,90 +2,87 @@
 
 #include <vector>
 
-#include "dynamics/pair_contacts.hpp"
-#include "dynamics/pair_grid.hpp"
+#include "dynamics/hash_grid.hpp"
+#include "dynamics/narrow_phase.hpp"
 
 namespace polynya::dynamics {
 
-/// What a pair of bodies has to remember when a run is interrupted. a < b.
-struct PairMemory {
+/// What a saved run keeps of a pair of bodies. a < b.
+struct PairState {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  double separation_bound =
-      -1;  ///< the two are not looked at until they have travelled farther than this together [m]
+  double separation_bound = -1;  ///< the two cannot touch until they have travelled this far together [m]
   std::vector<PersistentContact> records;
 };
 
-/// Finds which bodies overlap. A grid keeps the pairs whose grown boxes meet; each pair keeps the pieces of
-/// boundary that are near each other, one contact circle each, until the bodies have moved so far relative to
-/// each other that others might be. All bounds are conservative: what is culled cannot touch, so the contacts
-/// are those of a search over everything.
+/// Finds which bodies overlap. A grid finds the pairs whose grown boxes meet; each pair keeps the edges that
+/// are near each other until the bodies have moved so far relative to each other that others might be. All
+/// bounds are conservative: what is culled cannot touch, so the contacts are those of a search over
+/// everything.
 class BroadPhase {
  public:
   BroadPhase(const ContactRule& rule, double grid_cell);
 
-  /// Takes a new body in. Asleep; see wake.
+  /// Adds a body, asleep.
   void add(const Bodies& bodies, BodyIndex body);
-  /// Forgets a body and its pairs.
+  /// Removes a body and its pairs.
   void remove(BodyIndex body);
   /// Pairs are kept only where one of the two is awake.
   void wake(const Bodies& bodies, BodyIndex body);
   void sleep(const Bodies& bodies, BodyIndex body);
 
-  /// Renews boxes and pairs of the awake bodies that have travelled out of their grown boxes.
+  /// Updates boxes and pairs of the awake bodies that have travelled out of their grown boxes.
   void update(const Bodies& bodies, const std::vector<BodyIndex>& awake);
 
   /// All contacts of the present positions, ordered by (a, b, place), the same on any number of threads.
   /// Contact records are kept over the steps.
   void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1);
 
-  /// The pairs there are, by (a, b): with what is in the bodies, all that decides which contacts the next
-  /// steps find.
-  std::vector<PairMemory> memory() const;
+  /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
+  std::vector<PairState> pair_states() const;
 
-  /// Takes up such pairs, all bodies having been added again. What is not in the memory is a cache, and made
-  /// anew.
-  void remember(const Bodies& bodies, const std::vector<PairMemory>& memory);
+  /// Adds saved pairs, after all bodies have been added. Their caches are filled again as they are used.
+  void restore(const Bodies& bodies, const std::vector<PairState>& pairs);
 
   /// Contact stretches whose crossings did not pair up (see geometry::find_manifolds), since the last call.
   std::int64_t take_unpaired_stretches();
 
  private:
-  struct Entry {              // one body's place in the grid
+  struct Entry {              // one body
     geometry::Box box;        // grown
-    double travel_limit = 0;  // the box holds until the body has travelled this far
+    double travel_limit = 0;  // the box contains the body until it has travelled this far
     std::vector<std::uint32_t> pairs;
     bool is_in = false;
   };
   struct ActivePair {
     BodyIndex a, b;
-    double separation_bound;  // the two cannot touch until they have travelled farther than this together [m]
+    double separation_bound;  // the two cannot touch until they have travelled this far together [m]
     std::uint32_t slot;
     friend bool operator<(const ActivePair& p, const ActivePair& q) {
       return p.a != q.a ? p.a < q.a : p.b < q.b;
     }
   };
   void place(const Bodies& bodies, BodyIndex body);
-  void connect(const Bodies& bodies, BodyIndex body);
+  void add_pairs_of(const Bodies& bodies, BodyIndex body);
   void add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b);
   void drop_pair(std::uint32_t pair);
   void merge_new();
-  void settle(std::vector<ActivePair>& list);
+  void erase_dropped(std::vector<ActivePair>& list);
   void find_pending(const Bodies& bodies);
   void collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
                std::vector<Contact>& contacts);
 
   ContactRule rule_;
-  PairGrid grid_;
+  HashGrid grid_;
   std::vector<Entry> entries_;
   std::vector<Pair> pairs_;  // slots
   std::vector<std::uint32_t> free_pairs_;
-  std::vector<ActivePair> active_;    // pairs in use, by (a, b), among them dropped ones
-  std::vector<ActivePair> recent_;    // the same; taken over into active_ when there are many
-  std::vector<ActivePair> new_;       // in no order yet
+  std::vector<ActivePair> active_;    // pairs in use, by (a, b), dropped ones included
+  std::vector<ActivePair> recent_;    // the same; merged into active_ when there are many
+  std::vector<ActivePair> new_;       // not sorted yet
   std::size_t dropped_ = 0;           // of all three
-  std::vector<ActivePair*> pending_;  // of the present step: those that may touch
-  struct Share {                      // of the pairs due, for one thread at a time
+  std::vector<ActivePair*> pending_;  // those that may touch in this step
+  struct Share {                      // of the pending pairs, for one thread at a time
     PairScratch scratch;
     std::vector<Contact> contacts;
   };

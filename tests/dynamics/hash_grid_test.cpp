@@ -1,4 +1,4 @@
-#include "dynamics/pair_grid.hpp"
+#include "dynamics/hash_grid.hpp"
 
 #include <set>
 
@@ -7,15 +7,15 @@
 namespace polynya::dynamics {
 namespace {
 
-std::set<BodyIndex> near(const PairGrid& grid, const geometry::Box& box) {
+std::set<BodyIndex> near(const HashGrid& grid, const geometry::Box& box) {
   std::set<BodyIndex> found;
   grid.for_each_near(box, [&](BodyIndex other) { found.insert(other); });
   return found;
 }
 
 /// A plate of 100 km among floes of 4 m took a cell for every 5 m of it, and all the memory there was.
-TEST(PairGrid, AVastBodyIsNearEverybodyAndTakesNoCells) {
-  PairGrid grid(5);
+TEST(HashGrid, AVastBodyIsNearAllAndTakesNoCells) {
+  HashGrid grid(5);
   const geometry::Box plate{{0, 0}, {1e5, 1e5}};
   const geometry::Box floe{{10, 10}, {14, 14}};
   const geometry::Box far{{-1e4, 0}, {-1e4 + 4, 4}};

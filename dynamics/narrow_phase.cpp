@@ -1,4 +1,4 @@
-#include "dynamics/pair_contacts.hpp"
+#include "dynamics/narrow_phase.hpp"
 
 #include <algorithm>
 
@@ -10,27 +10,27 @@ using geometry::Pose;
 using geometry::Rotation;
 using geometry::Vector;
 
-constexpr double kNearMargin = 0.75;  ///< pieces of boundary within this distance are kept with a pair [m]
+constexpr double kNearMargin = 0.75;  ///< bounding circles within this distance are kept with a pair [m]
 
-/// The records of a pair's contacts, brought up to date. A record goes on with the nearest contact that may
-/// be the same; one without a contact is over.
+/// Updates the records of a pair's contacts. A record passes to the nearest contact that may be the same; one
+/// without a contact is dropped.
 class ContactTracker {
  public:
   ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch,
                  double circle_radius, double dt)
-      : records_(records), renewed_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
+      : records_(records), updated_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
 
-  void renew(Contact* contacts, std::size_t count, const Bodies& bodies) {
+  void update(Contact* contacts, std::size_t count, const Bodies& bodies) {
     if (count == 1 && records_.size() == 1) {  // nearly always, and then in place
       const Point here = point_in_b(bodies, contacts[0], contacts[0].middle());
       const double reach = tolerance_ + 0.5 * contacts[0].width;
       if (squared_length(here - records_[0].last_point_in_b) > reach * reach)
         records_[0] = new_record(bodies, contacts[0]);
-      bring_up_to_date(records_[0], contacts[0], here);
+      advance(records_[0], contacts[0], here);
     } else {
-      renewed_.clear();
-      for (std::size_t i = 0; i < count; ++i) renewed_.push_back(record_of(contacts[i], bodies));
-      std::swap(records_, renewed_);
+      updated_.clear();
+      for (std::size_t i = 0; i < count; ++i) updated_.push_back(record_of(contacts[i], bodies));
+      std::swap(records_, updated_);
     }
     for (std::size_t i = 0; i < count; ++i) contacts[i].record = &records_[i];
   }
@@ -56,10 +56,10 @@ class ContactTracker {
     }
     PersistentContact record = old != nullptr ? *old : new_record(bodies, c);
     if (old != nullptr) old->is_continued = true;
-    bring_up_to_date(record, c, here);
+    advance(record, c, here);
     return record;
   }
-  void bring_up_to_date(PersistentContact& record, const Contact& c, Point here) const {
+  void advance(PersistentContact& record, const Contact& c, Point here) const {
     record.last_point_in_b = here;
     record.age += dt_;
     record.approach += std::max(0.0, c.approach_speed) * dt_;
@@ -67,34 +67,35 @@ class ContactTracker {
   }
 
   std::vector<PersistentContact>& records_;
-  std::vector<PersistentContact>& renewed_;
-  double tolerance_;  // between a contact's places in two steps, beside half its width [m]
+  std::vector<PersistentContact>& updated_;
+  double tolerance_;  // of a contact's displacement in a step, beside half its width [m]
   double dt_;
 };
 
-void refresh(const Bodies& bodies, Pair& pair, const Pose& place) {
+/// Finds the circles and edges of a pair that are near each other.
+void find_near(const Bodies& bodies, Pair& pair, const Pose& pose) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
-  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
-  pair.covers.clear();
-  pair.edges.clear();
-  const double apart = near_circles(a, b, a_from_b, kNearMargin, pair.covers);
-  if (!pair.covers.empty()) edges_of(a, b, pair.covers, pair.edges);
-  pair.known = {place, (pair.covers.empty() ? apart : kNearMargin) * (1 - 1e-9)};
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
+  pair.near_circles.clear();
+  pair.near_edges.clear();
+  const double distance = near_circles(a, b, a_from_b, kNearMargin, pair.near_circles);
+  if (!pair.near_circles.empty()) edges_of(a, b, pair.near_circles, pair.near_edges);
+  pair.near = {pose, (pair.near_circles.empty() ? distance : kNearMargin) * (1 - 1e-9)};
 }
 
-/// Finds the contacts of a pair among the edges known to be near. Returns whether the two are apart.
-bool collect(const Bodies& bodies, const Pair& pair, const Pose& place, bool is_circle_centres,
+/// Appends the contacts of a pair among its near edges. Returns whether the two are apart.
+bool collect(const Bodies& bodies, const Pair& pair, const Pose& pose, bool is_circle_centres,
              PairScratch& scratch, std::vector<Contact>& contacts) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
-  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, place);
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
   scratch.manifolds.clear();
   int unpaired = 0;
   if (is_circle_centres) {
-    find_circle_manifolds(a, b, a_from_b, pair.covers, scratch.manifolds);
+    find_circle_manifolds(a, b, a_from_b, pair.near_circles, scratch.manifolds);
   } else {
-    unpaired = find_manifolds(a, b, a_from_b, pair.edges, scratch.crossings, scratch.manifolds);
+    unpaired = find_manifolds(a, b, a_from_b, pair.near_edges, scratch.crossings, scratch.manifolds);
   }
   scratch.unpaired += unpaired;
   if (scratch.manifolds.empty()) return unpaired == 0;
@@ -122,40 +123,40 @@ bool collect(const Bodies& bodies, const Pair& pair, const Pose& place, bool is_
 
 }  // namespace
 
-double clearance_left(const Bodies& bodies, BodyIndex b, const Pose& place, const KnownNear& known) {
-  if (known.way < 0) return known.way;
-  const Rotation was = known.a_from_b.rotation;
-  const Vector turn{place.rotation.cosine - was.cosine, place.rotation.sine - was.sine};  // as a chord
-  return known.way - distance(place.position, known.a_from_b.position) -
+double clearance_left(const Bodies& bodies, BodyIndex b, const Pose& pose, const Clearance& clearance) {
+  if (clearance.distance < 0) return clearance.distance;
+  const Rotation before = clearance.a_from_b.rotation;
+  const Vector turn{pose.rotation.cosine - before.cosine, pose.rotation.sine - before.sine};  // as a chord
+  return clearance.distance - distance(pose.position, clearance.a_from_b.position) -
          length(turn) * bodies.bounding_radius[b];
 }
 
-double collide_pair(const Bodies& bodies, Pair& pair, const Pose& place, const ContactRule& rule, double dt,
+double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, double dt,
                     PairScratch& scratch, std::vector<Contact>& contacts) {
   const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
   if (travelled > pair.near_bound) {
-    if (clearance_left(bodies, pair.b, place, pair.known) < kRounding) refresh(bodies, pair, place);
-    pair.near_bound = travelled + clearance_left(bodies, pair.b, place, pair.known) - kRounding;
+    if (clearance_left(bodies, pair.b, pose, pair.near) < kRounding) find_near(bodies, pair, pose);
+    pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
   }
-  if (pair.covers.empty()) {
+  if (pair.near_circles.empty()) {
     pair.records.clear();
-    pair.quiet = pair.known;
-    return clearance_left(bodies, pair.b, place, pair.quiet);
+    pair.apart = pair.near;
+    return clearance_left(bodies, pair.b, pose, pair.apart);
   }
   const std::size_t first = contacts.size();
-  const bool is_apart = collect(bodies, pair, place, rule.is_circle_centres, scratch, contacts);
+  const bool is_apart = collect(bodies, pair, pose, rule.is_circle_centres, scratch, contacts);
   if (!is_apart) {
     ContactTracker(pair.records, scratch.records, rule.circle_radius, dt)
-        .renew(contacts.data() + first, contacts.size() - first, bodies);
-    pair.quiet.way = -1;
+        .update(contacts.data() + first, contacts.size() - first, bodies);
+    pair.apart.distance = -1;
     return -1;
   }
   // Circles lie inside the ice: no two can overlap while the boundaries are apart.
-  const double free_way = least_distance(*bodies.boundary[pair.a], *bodies.boundary[pair.b],
-                                         a_from_b(bodies, pair.a, pair.b, place), pair.edges);
+  const double gap = least_distance(*bodies.boundary[pair.a], *bodies.boundary[pair.b],
+                                    a_from_b(bodies, pair.a, pair.b, pose), pair.near_edges);
   pair.records.clear();
-  pair.quiet = {place, std::min(free_way, clearance_left(bodies, pair.b, place, pair.known)) - kRounding};
-  return pair.quiet.way;
+  pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};
+  return pair.apart.distance;
 }
 
 }  // namespace polynya::dynamics

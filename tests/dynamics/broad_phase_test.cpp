@@ -1,10 +1,11 @@
 // The pair finder against a search over all pairs, while a pack of floes moves, collides, sleeps, breaks up
 // and grows.
+#include "dynamics/broad_phase.hpp"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/pairs.hpp"
 #include "dynamics/separation.hpp"
 #include "tests/dynamics/scenery.hpp"
 
@@ -229,7 +230,7 @@ TEST(BroadPhase, TurningEverythingTurnsTheContacts) {
   EXPECT_GT(checked, 100);
 }
 
-TEST(BroadPhase, AContactIsRememberedWhileItLastsAndForgottenAfter) {
+TEST(BroadPhase, ARecordIsKeptWhileItsContactLastsAndDroppedAfter) {
   Bodies bodies;
   add_body(bodies, floe_body(rectangle(10, 40), {-5, 0}));
   NewBody floe = floe_body(rectangle(8, 8), {3.9, 0}, 0);

@@ -1,4 +1,4 @@
-#include "dynamics/pairs.hpp"
+#include "dynamics/broad_phase.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -12,7 +12,8 @@ using geometry::Box;
 using geometry::Point;
 using geometry::Pose;
 
-constexpr double kBoxMargin = 2.0;  ///< boxes are grown by this much, and renewed after that much travel [m]
+constexpr double kBoxMargin =
+    2.0;  ///< boxes are grown by this much, and computed again after that much travel [m]
 
 Box box_in_water(const Bodies& bodies, BodyIndex i) {
   const Pose pose = water_from_body(bodies, i);
@@ -50,7 +51,7 @@ void BroadPhase::remove(BodyIndex body) {
 }
 
 void BroadPhase::wake(const Bodies& bodies, BodyIndex body) {
-  connect(bodies, body);
+  add_pairs_of(bodies, body);
 }
 
 void BroadPhase::sleep(const Bodies& bodies, BodyIndex body) {
@@ -61,13 +62,12 @@ void BroadPhase::sleep(const Bodies& bodies, BodyIndex body) {
   }
 }
 
-void BroadPhase::connect(const Bodies& bodies, BodyIndex body) {
+void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
   const Box box = entries_[body].box;
-  const auto meet = [&](BodyIndex other) {
+  const auto consider = [&](BodyIndex other) {
     if (other == body) return;
     if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
-    if (bodies.inverse_mass[body] == 0 && bodies.inverse_mass[other] == 0)
-      return;  // nothing could come of it
+    if (bodies.inverse_mass[body] == 0 && bodies.inverse_mass[other] == 0) return;  // no impulse moves them
     const auto& smaller = entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs
                                                                                      : entries_[other].pairs;
     const BodyIndex a = std::min(body, other);
@@ -77,9 +77,9 @@ void BroadPhase::connect(const Bodies& bodies, BodyIndex body) {
     }
     add_pair(bodies, a, b);
   };
-  if (rule_.is_culling) return grid_.for_each_near(box, meet);
+  if (rule_.is_culling) return grid_.for_each_near(box, consider);
   for (BodyIndex other = 0; other < bodies.size(); ++other) {
-    if (entries_[other].is_in) meet(other);
+    if (entries_[other].is_in) consider(other);
   }
 }
 
@@ -100,9 +100,9 @@ void BroadPhase::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
   pair.a = a;
   pair.b = b;
   pair.is_dropped = false;
-  pair.known.way = pair.quiet.way = pair.near_bound = -1;
-  pair.covers.clear();
-  pair.edges.clear();
+  pair.near.distance = pair.apart.distance = pair.near_bound = -1;
+  pair.near_circles.clear();
+  pair.near_edges.clear();
   pair.records.clear();
   entries_[a].pairs.push_back(slot);
   entries_[b].pairs.push_back(slot);
@@ -119,8 +119,7 @@ void BroadPhase::drop_pair(std::uint32_t slot) {
   ++dropped_;
 }
 
-/// Takes the dropped pairs out of a list.
-void BroadPhase::settle(std::vector<ActivePair>& list) {
+void BroadPhase::erase_dropped(std::vector<ActivePair>& list) {
   std::erase_if(list, [&](const ActivePair& active) {
     if (!pairs_[active.slot].is_dropped) return false;
     free_pairs_.push_back(active.slot);
@@ -128,8 +127,7 @@ void BroadPhase::settle(std::vector<ActivePair>& list) {
   });
 }
 
-/// Brings the lists of pairs up to date, in order. The long one is touched only when enough has come
-/// together.
+/// Sorts new pairs into the lists. The long list is changed only when enough pairs have accumulated.
 void BroadPhase::merge_new() {
   const auto merge = [](std::vector<ActivePair>& list, const std::vector<ActivePair>& more) {
     const auto middle = static_cast<std::ptrdiff_t>(list.size());
@@ -141,8 +139,8 @@ void BroadPhase::merge_new() {
   new_.clear();
   const std::size_t many = 16 + active_.size() / 8;
   if (dropped_ > many) {
-    settle(active_);
-    settle(recent_);
+    erase_dropped(active_);
+    erase_dropped(recent_);
     dropped_ = 0;
   }
   if (recent_.size() > many) {
@@ -160,36 +158,36 @@ void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
     for (const std::uint32_t pair : own_pairs_) {
       if (!overlaps(entries_[pairs_[pair].a].box, entries_[pairs_[pair].b].box)) drop_pair(pair);
     }
-    connect(bodies, body);
+    add_pairs_of(bodies, body);
   }
   if (!new_.empty() || dropped_ > 0) merge_new();
 }
 
-/// The pairs that may have come to touch since they were last looked at, by (a, b).
+/// The pairs that may touch by now, by (a, b).
 void BroadPhase::find_pending(const Bodies& bodies) {
   pending_.clear();
   const auto consider = [&](ActivePair& active) {
-    const bool is_quiet = bodies.travel[active.a] + bodies.travel[active.b] <= active.separation_bound;
-    if ((is_quiet && rule_.is_culling) || pairs_[active.slot].is_dropped) return;
+    const bool is_apart = bodies.travel[active.a] + bodies.travel[active.b] <= active.separation_bound;
+    if ((is_apart && rule_.is_culling) || pairs_[active.slot].is_dropped) return;
     pending_.push_back(&active);
   };
-  auto young = recent_.begin();
+  auto recent = recent_.begin();
   for (ActivePair& active : active_) {
-    while (young != recent_.end() && *young < active) consider(*young++);
+    while (recent != recent_.end() && *recent < active) consider(*recent++);
     consider(active);
   }
-  while (young != recent_.end()) consider(*young++);
+  while (recent != recent_.end()) consider(*recent++);
 }
 
 void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
                          std::vector<Contact>& contacts) {
   Pair& pair = pairs_[active.slot];
-  if (!rule_.is_culling) pair.known.way = pair.quiet.way = pair.near_bound = -1;
-  const Pose place = centre_a_from_b(bodies, active.a, active.b);
-  double way = clearance_left(bodies, active.b, place, pair.quiet);
-  if (way < kRounding) way = collide_pair(bodies, pair, place, rule_, dt, scratch, contacts);
+  if (!rule_.is_culling) pair.near.distance = pair.apart.distance = pair.near_bound = -1;
+  const Pose pose = centre_a_from_b(bodies, active.a, active.b);
+  double clearance = clearance_left(bodies, active.b, pose, pair.apart);
+  if (clearance < kRounding) clearance = collide_pair(bodies, pair, pose, rule_, dt, scratch, contacts);
   const double travelled = bodies.travel[active.a] + bodies.travel[active.b];
-  active.separation_bound = travelled + std::max(0.0, way - kRounding);
+  active.separation_bound = travelled + std::max(0.0, clearance - kRounding);
 }
 
 void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
@@ -218,6 +216,31 @@ std::int64_t BroadPhase::take_unpaired_stretches() {
   std::int64_t unpaired = 0;
   for (Share& share : shares_) unpaired += std::exchange(share.scratch.unpaired, 0);
   return unpaired;
+}
+
+std::vector<PairState> BroadPhase::pair_states() const {
+  std::vector<PairState> states;
+  for (const std::vector<ActivePair>* list : {&active_, &recent_, &new_}) {
+    for (const ActivePair& active : *list) {
+      const Pair& pair = pairs_[active.slot];
+      if (!pair.is_dropped) states.push_back({active.a, active.b, active.separation_bound, pair.records});
+    }
+  }
+  std::sort(states.begin(), states.end(),
+            [](const PairState& p, const PairState& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  return states;
+}
+
+void BroadPhase::restore(const Bodies& bodies, const std::vector<PairState>& pairs) {
+  for (const PairState& pair : pairs) {
+    add_pair(bodies, pair.a, pair.b);
+    new_.back().separation_bound = pair.separation_bound;
+    pairs_[new_.back().slot].records = pair.records;
+  }
+  // The boxes are new, so some may meet that did not before.
+  for (BodyIndex body = 0; body < bodies.size(); ++body) {
+    if (bodies.is_awake[body] != 0) add_pairs_of(bodies, body);
+  }
 }
 
 }  // namespace polynya::dynamics

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "dynamics/contact.hpp"
+#include "geometry/contact/boundary.hpp"
+
+namespace polynya::dynamics {
+
+/// How far two bodies can move from a relative pose before a statement about them may fail: it holds while no
+/// point of one has moved farther than `distance` in the frame of the other.
+struct Clearance {
+  geometry::Pose a_from_b;  ///< of b's centre of mass and axes in a's, where the statement was found
+  double distance = -1;     ///< [m]; negative: the statement does not hold
+};
+
+/// Two bodies whose grown boxes meet, with what is known of their distance. a < b.
+struct Pair {
+  BodyIndex a = 0;
+  BodyIndex b = 0;
+  bool is_dropped = false;  ///< its slot is freed when the lists of pairs are cleaned up
+  Clearance near;           ///< statement: only the near circles and edges can meet
+  double near_bound = -1;   ///< it holds at least until the two have travelled this far together [m]
+  Clearance apart;          ///< statement: they do not touch
+  std::vector<geometry::NearPair> near_circles;  ///< bounding circles of boundary pieces near each other
+  std::vector<geometry::NearPair> near_edges;    ///< the edges behind them
+  std::vector<PersistentContact> records;
+};
+
+/// How contacts are found.
+struct ContactRule {
+  double circle_radius = 1.0;      ///< [m]
+  bool is_circle_centres = false;  ///< the paper's own normals, instead of those of the boundary
+  bool is_culling = true;          ///< false: every step collides all pairs with one awake (tests)
+};
+
+/// Reusable memory of collide_pair.
+struct PairScratch {
+  std::vector<geometry::ContactManifold> manifolds;
+  geometry::ManifoldScratch crossings;
+  std::vector<PersistentContact> records;  ///< of the pair at hand, being updated
+  std::int64_t unpaired = 0;               ///< contact stretches whose crossings did not pair up, counted on
+};
+
+/// How far the two can still move within a clearance [m]; `pose` is that of b's centre of mass in a's frame.
+double clearance_left(const Bodies& bodies, BodyIndex b, const geometry::Pose& pose,
+                      const Clearance& clearance);
+
+/// Appends the contacts of a pair and updates their records. Returns how far the two can move from here
+/// without touching, negative where they touch [m].
+double collide_pair(const Bodies& bodies, Pair& pair, const geometry::Pose& pose, const ContactRule& rule,
+                    double dt, PairScratch& scratch, std::vector<Contact>& contacts);
+
+/// Far more than the rounding errors of positions and distances [m].
+inline constexpr double kRounding = 1e-9;
+
+}  // namespace polynya::dynamics
