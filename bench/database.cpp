@@ -8,9 +8,9 @@
 #include <benchmark/benchmark.h>
 
 #include "fracture/bending/database_text.hpp"
-#include "fracture/bending/direct_solution.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/scaled_load.hpp"
+#include "fracture/bending/studies.hpp"
 #include "fracture/crushing.hpp"
 
 namespace polynya::bench {

@@ -21,11 +21,10 @@ struct BendingCapacity {
   double vertical_force = 0;        ///< V_b [N]
   double cusp_radius = 0;           ///< R [m]
   bool is_in_range = true;          ///< false where a tabulated model had to clamp the load to its table
-  bool radial_crack_first = false;  ///< a radial crack opens before the cusp breaks, where the model tells
+  bool radial_crack_first = false;  ///< a radial crack opens before the cusp breaks, where the model knows
 };
 
-/// When a plate breaks by bending, and how large the cusp is. Implementations are values without state of a
-/// run.
+/// When a plate breaks by bending, and how large the cusp is. Without state of a run.
 class BendingModel {
  public:
   virtual ~BendingModel() = default;

@@ -40,14 +40,14 @@ struct DatabaseGrid {
   friend bool operator==(const DatabaseGrid&, const DatabaseGrid&) = default;
 };
 
-/// What one list of a grid must be: two values at least, from 1e-12 to 1e12, ascending by more than a
+/// Whether a list can be an axis of a grid: two values at least, from 1e-12 to 1e12, ascending by more than a
 /// billionth each, so that their logarithms differ too.
 bool is_grid_axis(const std::vector<double>& values);
 
 /// The grid of the database that ships with Polynya.
 DatabaseGrid default_grid();
 
-/// What the table says at one point of its grid.
+/// The table at one point of its grid.
 struct DatabaseEntry {
   double force = 0;        ///< V̂_b = V_b / (σ_f h²)
   double cusp_radius = 0;  ///< R / l
@@ -56,7 +56,7 @@ struct DatabaseEntry {
   friend bool operator==(const DatabaseEntry&, const DatabaseEntry&) = default;
 };
 
-/// An answer of the table, and which groups had to be brought back to its edge for it.
+/// An answer of the table, and which groups were clamped to its edge for it.
 struct DatabaseAnswer : DatabaseEntry {
   std::uint8_t outside = 0;  ///< one bit per Group
 
@@ -85,7 +85,7 @@ class BendingDatabase {
   /// Froude number the wedge is at rest on its water, and the edge's answer is the answer.
   DatabaseAnswer look_up(const WedgeGroups& groups) const;
 
-  /// The groups that look_up() takes back to an edge; empty in range.
+  /// The groups that look_up() clamps to an edge; empty in range.
   std::vector<OutsideRange> outside(const WedgeGroups& groups) const;
 
   const SolverSettings& settings() const { return settings_; }

@@ -1,14 +1,13 @@
 #include <array>
-#include <atomic>
 #include <charconv>
 #include <mutex>
 #include <numbers>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "fracture/bending/database.hpp"
+#include "fracture/bending/internal/for_each_index.hpp"
 #include "fracture/bending/wedge_solver.hpp"
 
 namespace polynya::fracture {
@@ -62,21 +61,14 @@ tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings
   for (const double angle : grid.opening_angles_deg)
     for (const double mass : grid.mass_ratios) wedges.push_back({angle, mass});
   std::vector<std::optional<std::vector<DatabaseEntry>>> solved(wedges.size());
-  std::atomic<std::size_t> next = 0;
   std::size_t done = 0;
   std::mutex progress_mutex;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < wedges.size(); i = next++) {
-      solved[i] = solve_wedge(wedges[i], settings, grid);
-      const std::lock_guard lock(progress_mutex);
-      ++done;
-      if (progress) progress(done, wedges.size());
-    }
-  };
-  std::vector<std::thread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
+  for_each_index(wedges.size(), threads, [&](std::size_t i) {
+    solved[i] = solve_wedge(wedges[i], settings, grid);
+    const std::lock_guard lock(progress_mutex);
+    ++done;
+    if (progress) progress(done, wedges.size());
+  });
 
   std::vector<DatabaseEntry> entries;
   for (std::size_t i = 0; i < wedges.size(); ++i) {

@@ -17,14 +17,15 @@ inline constexpr double kWidestNevelWedge = std::numbers::pi / 3;
 
 /// Force that breaks a narrow floating wedge under a tip load of length a [N]:
 ///   6 P / (b0 σ_f h²) = 1.05 + 2 (a/l) + ½ (a/l)³
-/// (*recall*: after [Nevel1961]; checked here against the wedge as a beam, see solve_floating_beam). b0 = 2
-/// tan α is the growth of the wedge's width with the distance from its tip, 2α its opening angle [rad]; σ_f
-/// [Pa], h [m]. Meant for narrow wedges: tan α diverges towards a straight edge.
+/// (*recall*: after [Nevel1961]; checked here against the wedge as a beam,
+/// tests/fracture/bending/floating_beam.hpp). b0 = 2 tan α is the growth of the wedge's width with the
+/// distance from its tip, 2α its opening angle [rad]; σ_f [Pa], h [m]. Meant for narrow wedges: tan α
+/// diverges towards a straight edge.
 double nevel_force(double opening_angle, double load_length_over_l, const Ice& ice);
 
 /// Where that wedge breaks: distance from its tip to the greatest bending stress, in l [-].
-/// From a table of our own solution of (x w'')'' + x w = q (solve_floating_beam, BeamShape::kWedge), since
-/// Nevel's force form tells no radius. Within 0.1 % of that solution for 0 ≤ a/l ≤ 3.375; beyond, grows as
+/// From a table of our own solution of (x w'')'' + x w = q (tests/fracture/bending/floating_beam.hpp), since
+/// Nevel's force form gives no radius. Within 0.1 % of that solution for 0 ≤ a/l ≤ 3.375; beyond, grows as
 /// (a/l)^⅓.
 double nevel_cusp_radius_over_l(double load_length_over_l);
 

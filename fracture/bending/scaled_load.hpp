@@ -2,7 +2,7 @@
 
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/bending/database.hpp"
-#include "fracture/bending/wedge_push.hpp"
+#include "fracture/bending/wedge_solver.hpp"
 
 namespace polynya::fracture {
 

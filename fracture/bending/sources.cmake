@@ -10,10 +10,7 @@ set(POLYNYA_BENDING_SOURCES
   bending/database.cpp
   bending/database_build.cpp
   bending/database_text.cpp
-  bending/direct_solution.cpp
-  bending/floating_beam.cpp
   bending/fsi_database_model.cpp
-  bending/internal/failure.cpp
   bending/internal/fluid.cpp
   bending/internal/march.cpp
   bending/internal/modes.cpp
@@ -24,6 +21,5 @@ set(POLYNYA_BENDING_SOURCES
   bending/scaled_load.cpp
   bending/solver_settings.cpp
   bending/studies.cpp
-  bending/wedge_push.cpp
   bending/wedge_solver.cpp
 )

@@ -1,12 +1,11 @@
 #include "fracture/bending/studies.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <thread>
 
+#include "fracture/bending/internal/for_each_index.hpp"
 #include "fracture/bending/kashtelyan.hpp"
 #include "fracture/bending/nevel.hpp"
 
@@ -48,6 +47,28 @@ AccuracyRow compared(const BendingDatabase& database, const SolverSettings& refe
 }
 
 }  // namespace
+
+WedgeSolver wedge_of(const BendingLoad& load, SolverSettings settings) {
+  const WedgeGroups groups = scaled(load).groups;
+  settings.poisson_ratio = load.ice.poisson_ratio;
+  return {groups.opening_angle, groups.mass_ratio, settings};
+}
+
+std::optional<BendingForecast> direct_forecast(const WedgeSolver& solver, const BendingLoad& load,
+                                               Feedback feedback) {
+  const ScaledLoad scaled_load = scaled(load);
+  if (!(scaled_load.groups.froude > 0) || !std::isfinite(scaled_load.groups.softness)) return std::nullopt;
+  const std::optional<WedgeFailure> failure = solver.failure(push_of(scaled_load, feedback));
+  if (!failure) return std::nullopt;
+  BendingForecast forecast;
+  forecast.capacity.vertical_force = failure->force * scaled_load.force_scale;
+  forecast.capacity.cusp_radius = failure->cusp_radius * scaled_load.length_scale;
+  forecast.capacity.radial_crack_first = failure->crack_time.has_value();
+  forecast.normal_force = forecast.capacity.vertical_force / load.vertical_to_crushing;
+  forecast.penetration = failure->penetration * scaled_load.length_scale;
+  forecast.time = failure->time * scaled_load.time_scale;
+  return forecast;
+}
 
 SlicePoint compare_models(const FsiDatabaseModel& model, const BendingLoad& load) {
   SlicePoint point;
@@ -114,15 +135,8 @@ AccuracyStudy accuracy_study(const BendingDatabase& database, const SolverSettin
   }
   AccuracyStudy study;
   study.rows.resize(groups.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < groups.size(); i = next++)
-      study.rows[i] = compared(database, reference, groups[i]);
-  };
-  std::vector<std::thread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
+  for_each_index(groups.size(), threads,
+                 [&](std::size_t i) { study.rows[i] = compared(database, reference, groups[i]); });
   for (const AccuracyRow& row : study.rows) {
     study.worst_force_error = std::max(study.worst_force_error, std::abs(row.force_error));
     study.worst_radius_error = std::max(study.worst_radius_error, std::abs(row.radius_error));

@@ -4,13 +4,39 @@
 #include <optional>
 
 #include "fracture/bending/solver_settings.hpp"
-#include "fracture/bending/wedge_push.hpp"
 
 namespace polynya::fracture {
 
+/// The hull's push on a wedge in dimensionless form: with the penetration ξ in l and the time τ in t0,
+///   ξ = Fr τ − χ w_tip,   V̂ = [ξ² − ⟨ξ − ξ_full⟩²] / Π
+/// V̂ = V / σ_f h². ξ never falls back: what is crushed stays crushed, and where bending ice
+/// recedes from the hull for a moment the force is held.
+struct WedgePush {
+  double froude = 0;      ///< Fr = v_n / √(g l)
+  double softness = 0;    ///< Π = σ_f h² / (κ l²): how little force the crushing edge gives per depth²
+  double full_depth = 0;  ///< ξ_full = h tan θ_s / l, where the contact spans the thickness; 0: never
+  double feedback = 0;    ///< χ = σ_f h² tan θ_s / (ρ_w g l³): the ice yields to the hull; 0: ignored
+};
+
+/// When a push breaks its wedge.
+struct WedgeFailure {
+  double time = 0;                   ///< τ_b
+  double penetration = 0;            ///< ξ_b / l
+  double force = 0;                  ///< V̂_b
+  double cusp_radius = 0;            ///< R / l
+  double crack_ratio = 0;            ///< greatest bottom-fibre hoop stress until τ_b, in σ_f
+  std::optional<double> crack_time;  ///< when that reached σ_f and a radial crack opened, if it did
+};
+
+/// V̂ at a penetration ξ in l.
+double push_force(const WedgePush& push, double penetration);
+
+/// The penetration at which the push has grown to a force: the inverse of push_force().
+double push_depth(const WedgePush& push, double force);
+
 struct WedgeModes;
 
-/// One wedge of floating ice, taken apart into its modes once (tenths of a second), then marched under any
+/// One wedge of floating ice, decomposed into its modes once (tenths of a second), then marched under any
 /// push (milliseconds). Safe to use from several threads.
 class WedgeSolver {
  public:

@@ -38,7 +38,7 @@ Eigen::MatrixXd surface_flux(const PanelMesh& mesh);
 
 /// Added mass of the water under the panels: the kinetic energy of the flow that moves each panel's water
 /// surface at the velocity u_i is ½ uᵀ S N⁻¹ S u. One-sided, potential flow, φ = 0 on z = 0 outside the
-/// panels. In ρ_w l³. Empty when N is not positive definite, which tells of an unusable mesh.
+/// panels. In ρ_w l³. Empty when N is not positive definite, as of an unusable mesh.
 Eigen::MatrixXd added_mass(const PanelMesh& mesh);
 
 }  // namespace polynya::fracture

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fracture/bending/internal/failure.hpp"
+#include "fracture/bending/peak.hpp"
 
 namespace polynya::fracture {
 namespace {
@@ -100,13 +100,13 @@ std::optional<double> static_failure_depth(const WedgeModes& modes, const WedgeP
   return broken;
 }
 
-/// The moment within a step when a peak that grows linearly from `before` to `after` reaches the strength.
+/// The part of a step after which a peak that grows linearly from `before` to `after` reaches the strength.
 double crossing(double before, double after) {
   return after > before ? std::clamp((kBreakingMoment - before) / (after - before), 0.0, 1.0) : 1.0;
 }
 
-/// A march at one moment, with what it does to the bisector.
-struct Moment {
+/// A march at one instant, with the state of the bisector.
+struct Instant {
   MarchState state;
   BisectorState bisector;
 };
@@ -116,9 +116,9 @@ BisectorState between(const BisectorState& a, const BisectorState& b, double sha
   return {a.radial + share * (b.radial - a.radial), a.hoop + share * (b.hoop - a.hoop)};
 }
 
-/// The break between two moments, by linear interpolation of the bisector's state.
-WedgeFailure failure_between(const WedgeModes& modes, const WedgePush& push, const Moment& whole,
-                             const Moment& broken) {
+/// The break between two instants, by linear interpolation of the bisector's state.
+WedgeFailure failure_between(const WedgeModes& modes, const WedgePush& push, const Instant& whole,
+                             const Instant& broken) {
   const double s = crossing(peak_radial(modes, whole.bisector), peak_radial(modes, broken.bisector));
   const BisectorState at_break = between(whole.bisector, broken.bisector, s);
   WedgeFailure failure;
@@ -130,8 +130,8 @@ WedgeFailure failure_between(const WedgeModes& modes, const WedgePush& push, con
   return failure;
 }
 
-/// When the hoop moment passed the strength between two moments.
-double crack_between(const WedgeModes& modes, const Moment& before, const Moment& after) {
+/// When the hoop moment passed the strength between two instants.
+double crack_between(const WedgeModes& modes, const Instant& before, const Instant& after) {
   const double s = crossing(peak_hoop(modes, before.bisector), peak_hoop(modes, after.bisector));
   return before.state.time + s * (after.state.time - before.state.time);
 }
@@ -141,11 +141,11 @@ std::optional<WedgeFailure> march(const WedgeModes& modes, const WedgePush& push
                                   int steps) {
   const ModalStep step(modes.inertia, duration / steps);
   const Eigen::ArrayXd rest = Eigen::ArrayXd::Zero(modes.inertia.size());
-  Moment now{{0, 0, rest, rest, rest}, bisector_state(modes, rest.matrix())};
+  Instant now{{0, 0, rest, rest, rest}, bisector_state(modes, rest.matrix())};
   std::optional<double> crack_time;
   double greatest_hoop = 0;
   for (int i = 1; i <= kMostSteps && now.state.penetration <= kDeepest; ++i) {
-    Moment next;
+    Instant next;
     next.state = next_state(modes, push, step, duration * i / steps, now.state);
     next.bisector = bisector_state(modes, next.state.amplitude.matrix());
     const double hoop = peak_hoop(modes, next.bisector);
@@ -163,6 +163,22 @@ std::optional<WedgeFailure> march(const WedgeModes& modes, const WedgePush& push
 }
 
 }  // namespace
+
+BisectorState bisector_state(const WedgeModes& modes, const Eigen::VectorXd& amplitudes) {
+  return {modes.radial_moment * amplitudes, modes.hoop_moment * amplitudes};
+}
+
+double peak_radial(const WedgeModes& modes, const BisectorState& state) {
+  return find_peak(modes.radii, {state.radial.data(), modes.radii.size()}).value;
+}
+
+double peak_hoop(const WedgeModes& modes, const BisectorState& state) {
+  return find_peak(modes.hoop_radii, {state.hoop.data(), modes.hoop_radii.size()}).value;
+}
+
+double cusp_radius(const WedgeModes& modes, const BisectorState& state) {
+  return find_flat_peak(modes.radii, {state.radial.data(), modes.radii.size()});
+}
 
 std::optional<WedgeFailure> march_to_failure(const WedgeModes& modes, const WedgePush& push,
                                              const SolverSettings& settings) {

@@ -85,10 +85,10 @@ WedgeModes wedge_modes(double half_angle, double mass_ratio, const SolverSetting
   assert(solver.info() == Eigen::Success);
   modes.inertia = solver.eigenvalues().cwiseMax(0);
   const auto moments_from = [&](double first) {
-    return bisector_moments(modes.mesh, settings.poisson_ratio, first, kLastJudgedRadius);
+    return bisector_moments(modes.mesh, settings.poisson_ratio, first, kLastRadius);
   };
-  const BisectorMoments top = moments_from(kFirstJudgedRadius * settings.inner_radius);
-  const BisectorMoments bottom = moments_from(kFirstJudgedHoopRadius);
+  const BisectorMoments top = moments_from(kFirstTopRadius * settings.inner_radius);
+  const BisectorMoments bottom = moments_from(kFirstBottomRadius);
   const auto shapes = solver.eigenvectors().topRows(modes.mesh.unknowns());
   modes.load_shapes = shapes.topRows(modes.mesh.radial_unknowns()).transpose();
   modes.radii = top.radii;

@@ -9,16 +9,16 @@
 
 namespace polynya::fracture {
 
-/// Top fibres nearer the tip than this many inner radii are not judged: the mesh's free inner edge disturbs
-/// them.
-inline constexpr double kFirstJudgedRadius = 5;
+/// Top fibres nearer the tip than this many inner radii are not evaluated: the mesh's free inner edge
+/// disturbs them.
+inline constexpr double kFirstTopRadius = 5;
 
 /// Nor are bottom fibres nearer than this many l. The hoop stress under the tip's load grows without bound as
 /// the loaded patch shrinks; within a fraction of the thickness a plate's bending stress is not the ice's.
-inline constexpr double kFirstJudgedHoopRadius = 0.01;
+inline constexpr double kFirstBottomRadius = 0.01;
 
-/// Nor are those beyond this many l, which see only ripples.
-inline constexpr double kLastJudgedRadius = 4;
+/// Nor are those beyond this many l, where there are only ripples.
+inline constexpr double kLastRadius = 4;
 
 /// A wedge of ice on its water as independent oscillators: with x = Σ X_k q_k,
 ///   (m̂ A + F) ẍ + (B + A) x = load   becomes   μ_k q̈_k + q_k = X_kᵀ load,   X_jᵀ (B + A) X_k = δ_jk
@@ -28,14 +28,14 @@ struct WedgeModes {
   PlateMesh mesh;
   Eigen::VectorXd inertia;         ///< μ ≥ 0, ascending
   Eigen::MatrixXd load_shapes;     ///< modal loads = leading columns · tip_load(mesh, ξ)
-  std::vector<double> radii;       ///< points on the bisector where the top fibre is judged, ascending
+  std::vector<double> radii;       ///< points on the bisector where the top fibre is evaluated, ascending
   Eigen::MatrixXd radial_moment;   ///< top-fibre tension at those points per unit of each mode
-  std::vector<double> hoop_radii;  ///< points on the bisector where the bottom fibre is judged, ascending
+  std::vector<double> hoop_radii;  ///< points on the bisector where the bottom fibre is evaluated, ascending
   Eigen::MatrixXd hoop_moment;     ///< bottom-fibre hoop tension at those points per unit of each mode
   Eigen::VectorXd tip;             ///< deflection of the tip per unit of each mode
 };
 
-/// What a wedge weighs and stands on, before it is taken apart into modes. The unknowns are the plate's,
+/// Mass and stiffness of a wedge on its water. The unknowns are the plate's,
 /// then, with FluidModel::kFreeSurface, the elevations of the panels of open water.
 struct WedgeMatrices {
   Eigen::MatrixXd mass;

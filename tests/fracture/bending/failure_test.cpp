@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/bending/direct_solution.hpp"
 #include "fracture/bending/studies.hpp"
 #include "fracture/bending/wedge_solver.hpp"
 #include "tests/fracture/wedge_contact.hpp"

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/bending/floating_beam.hpp"
 #include "fracture/bending/kashtelyan.hpp"
 #include "fracture/bending/nevel.hpp"
 #include "fracture/bending/wedge_solver.hpp"
 #include "fracture/characteristic_length.hpp"
+#include "tests/fracture/bending/floating_beam.hpp"
 
 namespace polynya::fracture {
 namespace {

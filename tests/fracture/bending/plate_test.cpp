@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/bending/floating_beam.hpp"
-#include "fracture/bending/internal/failure.hpp"
+#include "fracture/bending/internal/march.hpp"
 #include "fracture/bending/peak.hpp"
+#include "tests/fracture/bending/floating_beam.hpp"
 
 namespace polynya::fracture {
 namespace {

@@ -1,4 +1,4 @@
-#include "fracture/bending/floating_beam.hpp"
+#include "tests/fracture/bending/floating_beam.hpp"
 
 #include <array>
 #include <cassert>
