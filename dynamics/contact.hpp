@@ -38,7 +38,7 @@ struct Contact {
   double slip_speed = 0;                ///< along the contact line [m/s]
   std::uint32_t tip_edge_of_b = 0;      ///< the edge of b that starts at the tip, or that the tip is on
   std::uint32_t place = 0;              ///< among the contacts of its two bodies
-  PersistentContact* record = nullptr;  ///< lives in its pair; valid during the step
+  PersistentContact* record = nullptr;  ///< in its pair; valid during the step
 
   // Decided between finding and solving.
   /// What crushing ice carries in the step [N s].

@@ -24,7 +24,7 @@ struct Overlap {
 /// general form of Eq. (2) of [Sawamura2017] for any contact shape; h thickness [m], θ_s hull angle from the
 /// vertical [rad], 0 ≤ θ_s < π/2. The overlap's history is taken as the power law of its measures,
 /// S(ξ') = S (ξ'/ξ)^p with p = ξ (dS/dξ) / S: a wedge has p = 2 and gives Eq. (2) exactly, a straight edge
-/// along the hull p = 1, where Eq. (2)'s tan θ_w would diverge. p is held within [1, 3].
+/// along the hull p = 1, where Eq. (2)'s tan θ_w would diverge. p is clamped to [1, 3].
 double crushed_overlap_area(const Overlap& overlap, double thickness, double hull_angle);
 
 /// The forces between hull and ice while it crushes, per newton of the facet's normal force F_n.

@@ -141,8 +141,8 @@ bool measure_bending(const Setup& setup, const dynamics::Bodies& bodies, const S
   return capacity.is_in_range;
 }
 
-PendingFracture judge(const Setup& setup, const Population& population, const ShipContactLoad& load,
-                      Counts& counts) {
+PendingFracture evaluate(const Setup& setup, const Population& population, const ShipContactLoad& load,
+                         Counts& counts) {
   const Contact& c = load.contact;
   const FractureSettings& settings = setup.scene.fracture;
   PendingFracture pending;
@@ -203,7 +203,7 @@ void decide(const Setup& setup, const Population& population, StepData& step, Co
     add_peak(setup, bodies, load, step.loads[c.a]);
     c.impulse_limit = load.shares.horizontal * load.normal_force * dt;
     c.friction = load.shares.tangential / load.shares.horizontal;
-    const PendingFracture pending = judge(setup, population, load, counts);
+    const PendingFracture pending = evaluate(setup, population, load, counts);
     const bool breaks =
         pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
     if (breaks && !c.record->was_refused) step.fractures.push_back(pending);

@@ -91,8 +91,8 @@ CellMeasures measure_cell(const Ring& ring) {
   return {0.5 * twice_area, ring[0] + moment / (3 * twice_area)};
 }
 
-/// Cells whose areas go with `targets` [m²], nearly: sites move to their centroids while weights follow the
-/// areas' errors.
+/// Cells whose areas approach `targets` [m²]: sites move to their centroids while weights follow the areas'
+/// errors.
 std::vector<Ring> relaxed_cells(std::vector<Site> sites, const std::vector<double>& targets, const Box& box) {
   std::vector<Ring> cells = power_diagram(sites, box);
   for (int pass = 0; pass < kRelaxations; ++pass) {
@@ -113,8 +113,8 @@ double corner_area(const Ring& ring, std::size_t i) {
   return 0.5 * cross(ring[i] - ring[(i + n - 1) % n], ring[(i + 1) % n] - ring[i]);
 }
 
-/// Takes corners off a convex ring, those that cost least area first, until it has few enough and none of its
-/// edges is very short. What is left lies within what was.
+/// Removes corners of a convex ring, those of least area first, until it has few enough and none of its edges
+/// is very short. The result lies within the ring.
 void reduce_corners(Ring& ring, int most, double shortest) {
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
@@ -154,7 +154,7 @@ double least_distance_to_edges(const Ring& ring, Point inside) {
 }
 
 std::vector<Cell> make_cells(const FloeField& field, const Box& box) {
-  // Seeds that follow one another must not give sequences that follow one another.
+  // Consecutive seeds must not give shifted copies of one sequence.
   Random random(Random(field.seed).next());
   const auto count = static_cast<std::size_t>(std::max(1.0, floe_count(field)));
   std::vector<double> areas = draw_areas(field, count, random);
@@ -184,7 +184,7 @@ std::vector<Cell> make_cells(const FloeField& field, const Box& box) {
   return cells;
 }
 
-/// λ with Σ min(λ wanted, most) = total, or as near as it gets.
+/// λ with Σ min(λ wanted, most) = total, by bisection.
 double common_factor(const std::vector<Cell>& cells, double total) {
   double low = 0;
   double high = 64;
@@ -206,7 +206,7 @@ bool cross_each_other(Point a, Point b, Point c, Point d) {
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
-bool comes_near_ring(const Ring& floe, const Ring& ring, double gap) {
+bool is_near_ring(const Ring& floe, const Ring& ring, double gap) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point a = ring[i];
     const Point b = ring[(i + 1) % ring.size()];
@@ -231,13 +231,13 @@ class Obstacles {
 
   bool forbid(const Ring& floe) const {
     if (!field_.is_rectangle &&
-        (comes_near_ring(floe, field_.region, 0) || !geometry::contains({field_.region, {}}, floe.front())))
+        (is_near_ring(floe, field_.region, 0) || !geometry::contains({field_.region, {}}, floe.front())))
       return true;
     const Box box = bounding_box(floe);
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       if (!overlaps(box, boxes_[i])) continue;
       const Polygon& polygon = field_.kept_clear[i];
-      if (comes_near_ring(floe, polygon.outer, field_.gap) || geometry::contains(polygon, floe.front()) ||
+      if (is_near_ring(floe, polygon.outer, field_.gap) || geometry::contains(polygon, floe.front()) ||
           geometry::contains({floe, {}}, polygon.outer.front()))
         return true;
     }

@@ -20,7 +20,7 @@ struct FloeField {
   std::vector<geometry::Polygon> kept_clear;  ///< no floe comes nearer to these than the gap [m]
 };
 
-/// A field as it came out.
+/// The field that was made, and its measures.
 struct FloeFieldOutcome {
   std::vector<geometry::Polygon> floes;  ///< valid and at least the gap apart [m]
   int count = 0;                         ///< of the floes
@@ -41,10 +41,10 @@ double floe_count(const FloeField& field);
 /// Fills the region with floes: sizes are drawn from a lognormal distribution (cut off at 2.5 deviations of
 /// the logarithm); a power diagram of as many sites, relaxed so that each cell's area goes with its floe's
 /// [Balzer2009, deGoes2012], tiles the region; each cell, its corners reduced, is shrunk about its centroid
-/// to its floe's area, or to where the gap is reached, and the others then make up for it. Floes so are at
-/// least the gap apart by construction, at any concentration up to what the gap leaves. Sites that
-/// stronger ones outweigh altogether are lost: none in 1000 up to a spread of 0.3, 4 in 100 at 0.5, and the
-/// smallest floes come out smaller than drawn there. The same numbers on every machine.
+/// to its floe's area, or to where the gap is reached, and the others then make up for it. Floes are at
+/// least the gap apart by construction, at any concentration up to what the gap leaves. Sites without
+/// a cell are lost: none in 1000 up to a spread of 0.3, 4 in 100 at 0.5, where the smallest floes are
+/// smaller than drawn. The same numbers on every machine.
 FloeFieldOutcome make_floe_field(const FloeField& field);
 
 }  // namespace polynya::simulation

@@ -127,7 +127,7 @@ void apply_fractures(const Setup& setup, const Clock& clock, std::vector<Pending
   std::ranges::stable_sort(fractures, {}, &PendingFracture::floe);
   for (const PendingFracture& pending : fractures) {
     if (!population.is_alive(pending.floe))
-      continue;  // it broke in this step already; its pieces are judged in the next
+      continue;  // it broke in this step already; its pieces may break in the next
     const geometry::Shape& shape = population.floes[pending.floe].shape;
     const geometry::CutOutcome outcome = cut(setup, shape, pending);
     if (outcome) {

@@ -45,7 +45,7 @@ struct ShipContact {
   bool is_prescribed = false;      ///< the motion of both is: they pass through each other without a force
 };
 
-/// A floe when it came to be, without its shape.
+/// A floe at its birth, without its shape.
 struct BirthRecord {
   FloeId floe = 0;
   FloeId parent = kNoFloe;

@@ -11,7 +11,7 @@ namespace {
 using geometry::Polygon;
 using geometry::Ring;
 
-/// Of a block on the heap [bytes].
+/// Size of a heap block [bytes].
 double block(double bytes) {
   constexpr double kHeader = 8;
   return bytes > 0 ? bytes + kHeader : 0;
@@ -23,7 +23,7 @@ double vertices_of(const Polygon& polygon) {
   return count;
 }
 
-/// What a polygon's vector of rings points to.
+/// Of a polygon's rings [bytes].
 double heap_of(const Polygon& polygon) {
   return block(sizeof(geometry::Point) * vertices_of(polygon)) +
          block(sizeof(Ring) * static_cast<double>(polygon.holes.size()));
@@ -35,7 +35,7 @@ double length_of(const Ring& ring) {
   return sum;
 }
 
-/// What dynamics::Bodies has of a body in its columns.
+/// A body's share of the columns of dynamics::Bodies.
 constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + 2;
 
 /// A floe as the scene, its copy in the world, the floe, its birth in the journal and its outline.
@@ -58,7 +58,7 @@ double contact_circles(const Polygon& polygon, const ContactSettings& contact) {
   return (kPiece + own) * std::max(1.0, length / contact.circle_radius);
 }
 
-/// Pairs, contacts and what the heap leaves unused, beside what is counted: measured on lattices that drift
+/// Factor for pairs, contacts and the heap's unused part: measured on drifting lattices
 /// (tests/app/memory_test.cpp).
 constexpr double kBesides = 1.8;
 

@@ -38,7 +38,7 @@ struct Population {
   bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
 };
 
-/// What a floe is when it comes to be; the population gives it an id and a body.
+/// A floe to be added; the population gives it an id and a body.
 struct NewFloe {
   geometry::Shape shape;
   double thickness = 0;  ///< [m]

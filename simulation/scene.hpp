@@ -13,8 +13,8 @@
 
 namespace polynya::simulation {
 
-/// A scene as the simulation needs it: every default filled in, every floe spelled out. SI units, angles in
-/// radians. The JSON form and its field table are io's (docs/scene.md).
+/// A scene as the simulation needs it: all defaults and all floes explicit. SI units, angles in radians. The
+/// JSON form and its field table are io's (docs/scene.md).
 
 struct StepSettings {
   double step = 0.005;  ///< Δt [s]
@@ -47,8 +47,8 @@ struct ContactSettings {
   ContactNormal normal = ContactNormal::kBoundary;
   double restitution = 0.1;      ///< ε of Eq. (5) [-]; friction is the ice's μ
   double contact_time = 0.5;     ///< τ_c, only for the paper's peak force j/τ_c [s]
-  double separation_time = 1.0;  ///< overlap that nothing presses together any more decays over this time [s]
-  int iterations = 30;           ///< most sweeps of the impulse solver over the contacts of a step
+  double separation_time = 1.0;  ///< decay time of overlap that nothing presses together any more [s]
+  int iterations = 30;           ///< most iterations of the impulse solver in a step
 };
 
 enum class BendingModelKind { kNevel, kKashtelyan, kFsiDatabase };
@@ -76,11 +76,11 @@ struct Hull {
 struct ConstantThrust {
   double thrust = 0;
 };
-/// Velocity over ground and heading are held; the forces reported are what it takes to hold them.
+/// Velocity over ground and heading are prescribed; the forces reported are what that takes.
 struct ConstantSpeed {
   double speed = 0;  ///< [m/s]
 };
-/// Stands on the ground and does not give: a structure. Its mass is infinite.
+/// A structure that stands on the ground. Its mass is infinite.
 struct FixedInPlace {};
 using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace>;
 
@@ -142,10 +142,10 @@ double recording_interval(const Scene& scene);
 /// Does the paper's collision force j/τ_c decide splits? Views show it beside the true force only then.
 bool splits_by_j_over_tau_c(const Scene& scene);
 
-/// What a run leaves out because it would change nothing. Not part of a scene: tests switch it off and
+/// Work that a run skips because it would change nothing. Not part of a scene: tests switch it off and
 /// compare.
 struct Shortcuts {
-  bool culls = true;   ///< pairs of bodies are not looked at while they cannot have met
+  bool culls = true;   ///< pairs of bodies are not collided while they cannot touch
   bool sleeps = true;  ///< floes at rest that touch nothing are not stepped
 };
 

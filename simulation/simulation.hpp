@@ -91,7 +91,7 @@ class Simulation {
   Counts counts() const;
   std::vector<FloeState> floe_states() const;  ///< of floes that have not broken, in id order
   std::vector<ShipState> ship_states() const;
-  /// Those contacts of the last step that the scene wants recorded, ships' first, in the order of their
+  /// Those contacts of the last step that the scene has recorded, ships' first, in the order of their
   /// bodies. None before the first step and right after a resume.
   std::vector<ContactState> contact_states() const;
   const World& world() const;

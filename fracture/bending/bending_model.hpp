@@ -21,7 +21,7 @@ struct BendingCapacity {
   double vertical_force = 0;        ///< V_b [N]
   double cusp_radius = 0;           ///< R [m]
   bool is_in_range = true;          ///< false where a tabulated model had to clamp the load to its table
-  bool radial_crack_first = false;  ///< a radial crack opens before the cusp breaks, where the model knows
+  bool radial_crack_first = false;  ///< a radial crack opens before the cusp breaks, where the model has one
 };
 
 /// When a plate breaks by bending, and how large the cusp is. Without state of a run.

@@ -22,7 +22,7 @@ struct BendingForecast {
 };
 
 /// The paper's bending model: the icebreaking database of a fluid–structure solution, looked up with the
-/// load's dimensionless groups. [Sawamura2017, "Plate Ice Breaking"] The table knows contacts that have not
+/// load's dimensionless groups. [Sawamura2017, "Plate Ice Breaking"] The table covers contacts that have not
 /// crushed through the thickness, V = κ ξ². Where the load's penetration is deeper than h tan θ_s, the Π of
 /// the κ ξ² push with the same force at the same penetration is taken instead. Deviation: none known; the
 /// paper does not print its database. Its speed is the mean v_n since first contact.

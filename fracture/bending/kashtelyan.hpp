@@ -20,7 +20,7 @@ inline constexpr double kSmallestKashtelyanRadiusFactor =
 double kashtelyan_force(double opening_angle, const Ice& ice,
                         const KashtelyanCoefficients& coefficients = {});
 
-/// Cusp radius R = C_l l (1 + C_v v) [m]; the factor is held at its floor beyond its range of speed.
+/// Cusp radius R = C_l l (1 + C_v v) [m]; the factor is clamped to its floor beyond its range of speed.
 /// l characteristic length [m], v normal approach speed [m/s].
 double kashtelyan_radius(double characteristic_length, double approach_speed,
                          const KashtelyanCoefficients& coefficients = {});

@@ -6,8 +6,8 @@
 
 namespace polynya::fracture {
 
-/// A physical load as the dimensionless problem that the wedge solver knows, and the scales that bring its
-/// answer back. With l = (D / ρ_w g)^¼ and t0 = √(l/g):
+/// A physical load as the dimensionless problem of the wedge solver, and the scales of its answer. With l =
+/// (D / ρ_w g)^¼ and t0 = √(l/g):
 ///   2α = θ_wf + θ_wb, m̂ = ρ_i h / (ρ_w l), Fr = v_n / √(g l), Π = σ_f h² / (κ l²)
 ///   κ = σ_c c_V T / (2 sin θ_s), T = tan θ_wf + tan θ_wb: V = κ [ξ² − ⟨ξ − h tan θ_s⟩²], Eqs. (1), (2) of
 ///   [Sawamura2017]

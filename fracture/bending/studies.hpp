@@ -11,8 +11,8 @@
 
 namespace polynya::fracture {
 
-/// The wedge of a load, ready to be marched: depends on its angles, ice and water, not on its speed. The
-/// settings' Poisson ratio gives way to the ice's own.
+/// The wedge of a load, depends on its angles, ice and water, not on its speed. The
+/// settings' Poisson ratio is replaced by the ice's own.
 WedgeSolver wedge_of(const BendingLoad& load, SolverSettings settings);
 
 /// The fluid–structure solution for one physical load, without any table: both branches of Eq. (2) and,

@@ -10,7 +10,7 @@ namespace polynya::fracture {
 /// The hull's push on a wedge in dimensionless form: with the penetration ξ in l and the time τ in t0,
 ///   ξ = Fr τ − χ w_tip,   V̂ = [ξ² − ⟨ξ − ξ_full⟩²] / Π
 /// V̂ = V / σ_f h². ξ never falls back: what is crushed stays crushed, and where bending ice
-/// recedes from the hull for a moment the force is held.
+/// recedes from the hull the force stays as it is.
 struct WedgePush {
   double froude = 0;      ///< Fr = v_n / √(g l)
   double softness = 0;    ///< Π = σ_f h² / (κ l²): how little force the crushing edge gives per depth²

@@ -13,7 +13,7 @@
 
 namespace polynya::simulation {
 
-static_assert(std::endian::native == std::endian::little, "states are kept as the machine holds numbers");
+static_assert(std::endian::native == std::endian::little, "a state has the machine's number format");
 
 /// T, const or not: what a field list is written for.
 template <class T, class Value>
@@ -23,10 +23,10 @@ concept Is = std::same_as<std::remove_const_t<T>, Value>;
 template <class T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-// A type is kept by its field list, fields(archive, value), which names each of its members once: adding a
-// member to a state is adding it to its list. The archives below take any number of values at a time.
+// A type is saved by its field list, fields(archive, value), which names each of its members once. The
+// archives below take any number of values at a time.
 
-/// Takes values apart into numbers and characters for a Sink: texts and lists behind their length.
+/// Splits values into numbers and characters for a Sink; the length of a text or list precedes it.
 template <class Sink>
 class Serializer {
  public:
@@ -56,7 +56,7 @@ class Serializer {
   }
 };
 
-/// Appends values to bytes: numbers as the machine holds them.
+/// Appends values to bytes: numbers in the machine's format.
 class ByteWriter : public Serializer<ByteWriter> {
  public:
   std::string take() { return std::move(bytes_); }
@@ -73,9 +73,8 @@ class ByteWriter : public Serializer<ByteWriter> {
   std::string bytes_;
 };
 
-/// Reads what ByteWriter wrote. Whatever the bytes are, it reads no farther than they go and makes no list
-/// longer than they could hold; the first thing that is wrong is kept, and everything after it reads as
-/// nothing.
+/// Reads what ByteWriter wrote. The bytes may be anything: it reads no farther than they go and makes no list
+/// longer than they could hold. The first defect is kept, and everything after it reads as zero.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -84,7 +83,7 @@ class ByteReader {
   void operator()(Values&... values) {
     (get(values), ...);
   }
-  /// Notes what is wrong, unless something was before.
+  /// Keeps the reason, unless there was one before.
   void fail(std::string reason) {
     if (failure_.empty()) failure_ = std::move(reason);
     bytes_ = {};

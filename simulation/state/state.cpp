@@ -158,7 +158,7 @@ class StateLoader {
     if (!bytes_.is_well()) return head;
     const int generation = is_of_scene ? 0 : population_.floes[head.parent].generation + 1;
     bytes_.require(head.generation == generation, "a generation that does not follow the parent's");
-    bytes_.require(is_of_scene || !population_.is_alive(head.parent), "a parent that still lives");
+    bytes_.require(is_of_scene || !population_.is_alive(head.parent), "a parent that has not broken");
     return head;
   }
 
@@ -219,7 +219,7 @@ class StateLoader {
       if (!bytes_.is_well()) return;
       bytes_.require(bodies.is_awake[pair.a] || bodies.is_awake[pair.b], "a pair of two asleep");
       bytes_.require(bodies.inverse_mass[pair.a] > 0 || bodies.inverse_mass[pair.b] > 0,
-                     "a pair of two held");
+                     "a pair of two of prescribed motion");
       const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
       bytes_.require(is_next, "pairs out of their order");
       pair.separation_bound = separation_bound[i];

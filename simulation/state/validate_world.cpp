@@ -67,7 +67,7 @@ Defect check_floe(const Population& population, const Setup& setup, FloeId id) {
   if (!is_of_scene && (floe.parent < 0 || floe.parent >= id))
     return fmt::format("floe {} is older than its parent", id);
   if (!is_of_scene && population.is_alive(floe.parent))
-    return fmt::format("floe {} has a parent that lives", id);
+    return fmt::format("floe {} has a parent that has not broken", id);
   if (floe.generation != (is_of_scene ? 0 : population.floes[floe.parent].generation + 1))
     return fmt::format("floe {} has the generation {}", id, floe.generation);
   if (!population.is_alive(id)) {
@@ -90,7 +90,7 @@ Defect check_pairs(const Population& population) {
   const dynamics::Bodies& b = population.bodies;
   for (const dynamics::PairState& pair : population.pairs.pair_states()) {
     if (b.is_alive[pair.a] == 0 || b.is_alive[pair.b] == 0)
-      return fmt::format("a pair of {} and {}, one dead", pair.a, pair.b);
+      return fmt::format("a pair of {} and {}, one broken", pair.a, pair.b);
     if (b.is_awake[pair.a] == 0 && b.is_awake[pair.b] == 0)
       return fmt::format("a pair of {} and {}, both asleep", pair.a, pair.b);
   }

@@ -55,7 +55,7 @@ TEST(Fracture, KeepsMassMomentumAndAngularMomentumWhereNothingIsRemoved) {
     const double scale = 60 * length(before.momentum);
     for (int step = 0; step < 3000; ++step) {
       simulation.step();
-      if (simulation.counts().splits > 20) break;  // the LEFM criterion goes on slicing
+      if (simulation.counts().splits > 20) break;  // the LEFM criterion continues to split
       const Totals now = totals(simulation);
       ASSERT_NEAR(now.mass / before.mass, 1, 1e-12);
       ASSERT_NEAR(length(now.momentum - before.momentum) / length(before.momentum), 0, 1e-11) << step;
@@ -149,7 +149,7 @@ TEST(Fracture, EveryFloeKnowsItsParentAndTheEventThatMadeIt) {
   }
 }
 
-TEST(Fracture, TheAreaLedgerBalancesAtEveryMoment) {
+TEST(Fracture, TheAreaLedgerBalancesAtEveryStep) {
   for (const CuspFate fate : {CuspFate::kSubmerge, CuspFate::kFloat}) {
     Simulation simulation(breaking_scene(fate));
     for (int step = 0; step < 3000; ++step) {
@@ -169,13 +169,13 @@ TEST(Fracture, TheAreaLedgerBalancesAtEveryMoment) {
   }
 }
 
-TEST(Fracture, TheSameSceneTellsTheSameStoryToTheLastBit) {
-  const auto tell = [] {
+TEST(Fracture, TheSameSceneGivesTheSameRecordsToTheLastBit) {
+  const auto story = [] {
     Simulation simulation(breaking_scene(CuspFate::kFloat));
     return run(simulation, 10);
   };
-  const Story first = tell();
-  const Story second = tell();
+  const Story first = story();
+  const Story second = story();
   ASSERT_EQ(first.samples.size(), second.samples.size());
   for (std::size_t i = 0; i < first.samples.size(); ++i) {
     const ShipSample& p = first.samples[i];

@@ -1,4 +1,4 @@
-// What is told of contacts: that it explains the loads on ships and the motion of floes.
+// Recorded contacts explain the loads on ships and the motion of floes.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST(Contacts, BetweenFloesTooExplainHowEachFloeMoves) {
   EXPECT_GT(between_floes, 500);
 }
 
-TEST(Contacts, AreThoseTheSceneWants) {
+TEST(Contacts, AreThoseTheSceneAsksFor) {
   Simulation all(pack(RecordedContacts::kAll));
   Simulation ships(pack(RecordedContacts::kShips));
   Simulation none(pack(RecordedContacts::kNone));

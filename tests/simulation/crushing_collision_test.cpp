@@ -19,7 +19,7 @@ geometry::Polygon diamond(geometry::Point tip, double half_diagonal) {
   return {{tip, {tip.x + d, tip.y - d}, {tip.x + 2 * d, tip.y}, {tip.x + d, tip.y + d}}, {}};
 }
 
-/// A floe's corner runs into a ship that is held still, along the normal of its flat bow.
+/// A floe's corner runs into a fixed ship, along the normal of its flat bow.
 Scene corner_into_bow(double hull_angle, double speed, double density, double step) {
   Scene scene = without_drag();
   scene.time.step = step;
@@ -190,7 +190,7 @@ double mean_resistance(double radius) {
 }
 
 TEST(CrushingCollision, LevelIceDependsOnTheRadiusALittle) {
-  // The overlap does not, but the memory of a contact goes on within a quarter of the radius
+  // The overlap does not, but a contact keeps its record within a quarter of the radius
   // (docs/theory.md).
   const double fine = mean_resistance(0.5);
   const double coarse = mean_resistance(2);

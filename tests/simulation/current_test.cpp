@@ -113,7 +113,7 @@ ShipSpec pile(Point at, double radius, double wall_angle) {
   return structure;
 }
 
-TEST(Structure, InADriftFeelsWhatAHeldShipFeelsThatMovesThroughStillIce) {
+TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
   for (const double wall_angle : {0.0, 50 * kDegree}) {
     Scene drifting;
     drifting.water.drift = {-0.7, 0};

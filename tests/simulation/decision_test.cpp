@@ -140,7 +140,7 @@ TEST(Decision, CuspsSubmergeOrFloat) {
   EXPECT_EQ(first[0].children.size() + 1, first[1].children.size());
 }
 
-TEST(Decision, ACutThatGeometryRefusesIsToldCountedAndLeavesTheFloe) {
+TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
   // A plate whose far edge crosses itself: no valid floe, and so no cut of it is either.
   const geometry::Polygon crossed{{{0.5, -30}, {60, -30}, {60, 30}, {40, 30}, {45, 35}, {45, 29}, {0.5, 30}},
                                   {}};

@@ -47,13 +47,13 @@ TEST(EnergyAudit, ClosesWhereAShipUnderThrustBreaksIce) {
   EXPECT_EQ(e.current, 0);
 }
 
-TEST(EnergyAudit, ClosesWithAHeldShipInADriftAndWithStructuresInAShearedCurrent) {
-  Scene held = busy_scene(ConstantSpeed{2});
-  held.water.drift = {0.3, -0.1};
-  const Audit audit_held = after(held, 30);
-  expect_closed(audit_held);
-  EXPECT_GT(audit_held.sums.energy.thrust, 0) << "what holds the speed works";
-  EXPECT_GT(length(audit_held.sums.momentum.held), 0);
+TEST(EnergyAudit, ClosesWithAPrescribedShipInADriftAndWithStructuresInAShearedCurrent) {
+  Scene prescribed = busy_scene(ConstantSpeed{2});
+  prescribed.water.drift = {0.3, -0.1};
+  const Audit audit_prescribed = after(prescribed, 30);
+  expect_closed(audit_prescribed);
+  EXPECT_GT(audit_prescribed.sums.energy.thrust, 0) << "what holds the speed works";
+  EXPECT_GT(length(audit_prescribed.sums.momentum.held), 0);
 
   Scene sheared = busy_scene(FixedInPlace{});
   sheared.water.drift = {-0.5, 0};
@@ -70,7 +70,7 @@ TEST(EnergyAudit, ClosesWhereCuspsFloatAndPlatesSplit) {
   expect_closed(after(scene, 20));
 }
 
-TEST(EnergyAudit, NoticesWhatNobodyEntered) {
+TEST(EnergyAudit, NoticesAChangeWithoutAnEntry) {
   Simulation simulation(busy_scene(ConstantThrust{2e5}));
   run(simulation, 5);
   ASSERT_TRUE(simulation.audit().is_closed());

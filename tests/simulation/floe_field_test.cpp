@@ -59,7 +59,8 @@ TEST(FloeField, CoversWhatIsAskedForWithoutOverlap) {
         const Polygon& b = outcome.floes[k];
         if (!overlaps(grown(bounding_box(a.outer), 0.2), bounding_box(b.outer))) continue;
         ASSERT_GE(least_distance(a, b), 0.1 - 1e-9);
-        if (++pairs % 5 != 0) continue;  // exactly, for some: the distance tells no overlap from a gap
+        if (++pairs % 5 != 0)
+          continue;  // exactly, for some: the distance cannot distinguish overlap from gap
         ASSERT_EQ(geometry::overlap({a}, {}, {b}, {})->exact_area, "0");
       }
     }
@@ -95,7 +96,7 @@ TEST(FloeField, SizesAreLognormalAsAskedFor) {
   }
 }
 
-TEST(FloeField, KeepsClearWhatItIsTold) {
+TEST(FloeField, KeepsObstaclesClear) {
   FloeField field = field_of(400, 0.7, 0.25);
   field.gap = 0.5;
   // Not convex, and a small one inside a single floe's cell.
@@ -131,7 +132,7 @@ TEST(FloeField, StaysInsideAnOutline) {
   EXPECT_NEAR(inside, outcome.floe_area, 1e-6);
 }
 
-TEST(FloeField, TellsWhatTheGapLeaves) {
+TEST(FloeField, ReportsTheReachableConcentration) {
   FloeField field = field_of(400, 0.95, 0.25);
   field.gap = 2;
   const FloeFieldOutcome outcome = make_floe_field(field);

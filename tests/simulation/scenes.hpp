@@ -43,7 +43,7 @@ inline ShipSpec barge(geometry::Point middle_of_bow, const Propulsion& propulsio
   return ship;
 }
 
-/// Everything a run told.
+/// Everything a run recorded.
 struct Story {
   std::vector<Event> events;
   std::vector<Birth> births;

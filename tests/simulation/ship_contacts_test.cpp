@@ -77,7 +77,7 @@ TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
   EXPECT_NEAR((by_ice.x + by_pile.x) / (1e7 * (end.velocity.x - 1)), 1, 1e-2);
 }
 
-TEST(ShipContacts, OfPrescribedMotionsAreNoted) {
+TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
   // The pile stands off the course by this much: every step length and place finds the touch, none beside it.
   for (const double step : {0.005, 0.013, 0.05}) {
     for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
@@ -106,7 +106,7 @@ TEST(ShipContacts, OfPrescribedMotionsAreNoted) {
   }
 }
 
-TEST(ShipContacts, AreNotedOnceAlsoAfterAResume) {
+TEST(ShipContacts, AreRecordedOnceAlsoAfterAResume) {
   Scene scene;
   scene.ships = {barge({0, 0}, ConstantThrust{1e5}), pile({1, 0}, 5), barge({0, 100}, ConstantSpeed{1}),
                  pile({6, 100}, 5)};

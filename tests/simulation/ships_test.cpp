@@ -1,4 +1,4 @@
-// Ships: held speeds and what they take, several in one scene, drift and moving frames.
+// Ships: prescribed speeds and what they take, several in one scene, drift and moving frames.
 #include <algorithm>
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ using namespace scenes;
 using geometry::Point;
 using geometry::Vector;
 
-/// Everything a run told and where it ended, as numbers.
+/// Everything a run recorded and where it ended, as numbers.
 class Record {
  public:
   void add(double value) { numbers_.push_back(value); }

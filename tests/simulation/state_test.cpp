@@ -1,4 +1,4 @@
-// A run that is interrupted and resumed goes on as if it had not been.
+// A run that is interrupted and resumed continues as if it had not been.
 
 #include "simulation/state/state.hpp"
 
@@ -19,7 +19,7 @@ Scene broken_plate() {
   scene.floes = {floe(rectangle(0, -40, 60, 40)), floe(rectangle(60.5, -40, 140, 40))};
   for (int i = 0; i < 6; ++i)
     scene.floes.push_back(floe(rectangle(2 + 16 * i, 41, 12 + 16 * i, 51), {0, -0.2}));
-  scene.floes.push_back(floe(rectangle(300, 0, 310, 10)));  // nobody comes near
+  scene.floes.push_back(floe(rectangle(300, 0, 310, 10)));  // far from all others
   return scene;
 }
 
@@ -39,7 +39,7 @@ void expect_same_bits(const Simulation& a, const Simulation& b) {
   }
 }
 
-TEST(State, AResumedRunGoesOnBitByBitFromAnyStep) {
+TEST(State, AResumedRunContinuesBitByBitFromAnyStep) {
   const Scene scene = broken_plate();
   Simulation whole(scene);
   std::vector<Simulation> resumed;
@@ -69,7 +69,7 @@ TEST(State, AResumedRunGoesOnBitByBitFromAnyStep) {
       << "and something should sleep";
 }
 
-TEST(State, TheHashTellsStatesApart) {
+TEST(State, TheHashDiffersBetweenStates) {
   Simulation a(broken_plate());
   Simulation b(broken_plate());
   EXPECT_EQ(a.state_hash(), b.state_hash());

@@ -1,4 +1,4 @@
-// The icebreaking database: its text, its accuracy, its trends, what it refuses and where it says it is
+// The icebreaking database: its text, its accuracy, its trends, what it refuses and where it reports it is
 // outside.
 #include <cmath>
 #include <cstdio>

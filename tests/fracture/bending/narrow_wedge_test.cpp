@@ -144,7 +144,7 @@ TEST(Kashtelyan, ForceAndRadius) {
   EXPECT_NEAR(kashtelyan_radius(8.909, 0), 2.851, 1e-3);
   EXPECT_GT(kashtelyan_radius(8.909, 1), kashtelyan_radius(8.909, 2));
   BendingLoad load;
-  load.mean_approach_speed = 20;  // past its range the radius keeps its floor and the answer says so
+  load.mean_approach_speed = 20;  // past its range the radius keeps its floor and the answer is out of range
   EXPECT_FALSE(KashtelyanModel().capacity(load).is_in_range);
   EXPECT_GT(KashtelyanModel().capacity(load).cusp_radius, 0);
 }
