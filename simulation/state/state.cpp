@@ -60,11 +60,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
 geometry::Box ice_box(const Scene& scene) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   geometry::Box box{{kFar, kFar}, {-kFar, -kFar}};
-  for (const FloeSpec& floe : scene.floes) {
-    const geometry::Box own = geometry::bounding_box(floe.polygon_in_world.outer);
-    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
-    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
-  }
+  for (const FloeSpec& floe : scene.floes) extend(box, bounding_box(floe.polygon_in_world.outer));
   return geometry::grown(box, kOutside);
 }
 

@@ -15,12 +15,6 @@ using namespace scenery;
 
 constexpr std::uint64_t kSeed = 31;
 
-double distance_to_segment(Point p, Point a, Point b) {
-  const Vector d = b - a;
-  const double t = std::clamp(dot(p - a, d) / squared_length(d), 0.0, 1.0);
-  return distance(p, a + t * d);
-}
-
 bool crosses(Point a, Point b, Point c, Point d) {
   const auto side = [](Point p, Point q, Point r) { return cross(q - p, r - p) > 0; };
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
