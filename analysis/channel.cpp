@@ -10,7 +10,9 @@
 
 #include "analysis/placed_ice.hpp"
 #include "analysis/swept_band.hpp"
+#include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
+#include "geometry/shape/convex_hull.hpp"
 #include "io/run/moment.hpp"
 
 namespace polynya::analysis {
@@ -20,6 +22,10 @@ using geometry::Box;
 using geometry::Point;
 using geometry::Polygon;
 using geometry::Vector;
+
+std::string describe(const geometry::CutError& error) {
+  return fmt::format("{}: {}", name_of(error.reason), error.detail);
+}
 
 constexpr double kTrackTolerance = 0.05;  ///< [m]
 
@@ -90,7 +96,7 @@ class ChannelMeasure {
 
   Done find_band() {
     auto band = union_of(swept_pieces(run_, motions_, ship_, time_, kTrackTolerance));
-    if (!band) return tl::unexpected(band.error());
+    if (!band) return tl::unexpected(describe(band.error()));
     channel_.swept = std::move(*band);
     std::vector<PlacedIce> ice_at_start;
     for (const auto& floe : run_.scene.scene.floes) {
@@ -134,10 +140,11 @@ class ChannelMeasure {
     }
     for (std::size_t i = 0; i < count; ++i) {
       const auto cell = [&](double half) {
-        return Polygon{convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
-                                    joints[i + 1].point + half * across[i + 1],
-                                    joints[i + 1].point - half * across[i + 1]}),
-                       {}};
+        return Polygon{
+            geometry::convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
+                                   joints[i + 1].point + half * across[i + 1],
+                                   joints[i + 1].point - half * across[i + 1]}),
+            {}};
       };
       if (auto done = add_station(joints[i], joints[i + 1], cell(channel_.reach), cell(0.5 * channel_.beam));
           !done)
@@ -197,7 +204,7 @@ class ChannelMeasure {
         cells.push_back(cells_[i]);
     }
     const auto corridor = union_of(cells);
-    if (!corridor) return tl::unexpected(corridor.error());
+    if (!corridor) return tl::unexpected(describe(corridor.error()));
     const auto& waterline = run_.scene.scene.ships[ship_].hull.waterline;
     for (const Polygon& piece : *corridor) {
       std::vector<Polygon> taken = near(ice_, bounding_box(piece.outer));

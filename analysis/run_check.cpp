@@ -7,12 +7,11 @@
 #include <set>
 
 #include "geometry/cut/overlap.hpp"
+#include "geometry/cut/overlapping_pairs.hpp"
 #include "geometry/exact/exact_area.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/run/motion_index.hpp"
-#include "io/scene/overlap.hpp"
-#include "io/text/near_part.hpp"
 
 namespace polynya::analysis {
 namespace {
@@ -63,7 +62,7 @@ void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck
   see(check.balance, geometry::exact_balance(after, parents, terms), before, event.floe);
   for (std::size_t i = 0; i < children.size(); ++i) {
     for (std::size_t j = i + 1; j < children.size(); ++j) {
-      const auto shared = io::shared_area(*pieces[i], {}, *pieces[j], {});
+      const auto shared = shared_area(*pieces[i], {}, *pieces[j], {});
       if (!shared) ++check.undecided;
       if (shared && *shared > kAreaTolerance * before) ++check.overlapping_siblings;
       if (shared && *shared > check.siblings.area)
@@ -132,7 +131,7 @@ class OverlapCheck {
       ++check_.pairs;
       const Known& known = shared_by(a, b);
       shared += known.area;
-      if (known.area > io::kTouchingArea) overlapping_.insert({a.floe, b.floe});
+      if (known.area > geometry::kTouchingArea) overlapping_.insert({a.floe, b.floe});
       const SharedIce pair{a.floe, b.floe, time, known.area, known.depth};
       if (pair.area > check_.worst.area) check_.worst = pair;
       if (pair.depth > check_.deepest.depth) check_.deepest = pair;
@@ -188,10 +187,10 @@ class OverlapCheck {
     if (known.is_set && is_same_place(known.a, a.motion) && is_same_place(known.b, b.motion)) return known;
     const auto polygon_a = run_.shape(a.floe);
     const auto polygon_b = run_.shape(b.floe);
-    const auto area = io::shared_area(*polygon_a, a.world_from_body, *polygon_b, b.world_from_body);
+    const auto area = shared_area(*polygon_a, a.world_from_body, *polygon_b, b.world_from_body);
     if (!area) ++check_.undecided;
     known = {true, a.motion, b.motion, area.value_or(0), 0};
-    if (known.area > io::kTouchingArea) {
+    if (known.area > geometry::kTouchingArea) {
       const Polygon first = polygon_in_world(*polygon_a, birth(a.floe).centroid_in_body, a.motion);
       const Polygon second = polygon_in_world(*polygon_b, birth(b.floe).centroid_in_body, b.motion);
       known.depth = std::max(deepest_vertex(first, second), deepest_vertex(second, first));

@@ -43,15 +43,16 @@ struct RunCheck {
       0;               ///< pieces of one fracture sharing more than kAreaTolerance of their parent
   SharedIce siblings;  ///< the most that pieces of one fracture share in their body frame
 
-  std::size_t instants = 0;           ///< at which overlaps were measured
-  std::size_t pairs = 0;              ///< whose boxes met, over all instants
-  std::size_t overlapping_pairs = 0;  ///< that shared more than kTouchingArea (overlap.hpp) at some instant
-  double most_shared = 0;             ///< Σ over all pairs at the instant it is most [m²]
-  double most_shared_time = 0;        ///< [s]
-  double ice_then = 0;                ///< area of all floes at that instant [m²]
-  SharedIce deepest;                  ///< the pair that goes deepest, of those that share so much
-  SharedIce worst;                    ///< the pair that shares most
-  std::size_t undecided = 0;          ///< pairs whose overlap geometry failed to find
+  std::size_t instants = 0;  ///< at which overlaps were measured
+  std::size_t pairs = 0;     ///< whose boxes met, over all instants
+  std::size_t overlapping_pairs =
+      0;                   ///< that shared more than kTouchingArea (overlapping_pairs.hpp) at some instant
+  double most_shared = 0;  ///< Σ over all pairs at the instant it is most [m²]
+  double most_shared_time = 0;  ///< [s]
+  double ice_then = 0;          ///< area of all floes at that instant [m²]
+  SharedIce deepest;            ///< the pair that goes deepest, of those that share so much
+  SharedIce worst;              ///< the pair that shares most
+  std::size_t undecided = 0;    ///< pairs whose overlap geometry failed to find
 
   bool is_sound() const {
     return invalid.empty() && recorded_area.wrong == 0 && balance.wrong == 0 && overlapping_siblings == 0 &&

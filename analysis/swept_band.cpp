@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/cut/cut.hpp"
+#include "geometry/shape/convex_hull.hpp"
 #include "io/run/moment.hpp"
 
 namespace polynya::analysis {
@@ -28,43 +28,6 @@ Polygon carried_by_water(const simulation::WaterSettings& water, Polygon polygon
   carry(polygon.outer);
   std::ranges::for_each(polygon.holes, carry);
   return polygon;
-}
-
-Ring convex_hull(std::vector<Point> points) {
-  std::ranges::sort(points, [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  Ring hull;
-  const auto add_chain = [&](auto begin, auto end) {
-    const std::size_t base = hull.size();
-    for (auto p = begin; p != end; ++p) {
-      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(*p);
-    }
-    hull.pop_back();  // the other chain begins with it
-  };
-  add_chain(points.begin(), points.end());
-  add_chain(points.rbegin(), points.rend());
-  return hull;
-}
-
-tl::expected<std::vector<Polygon>, std::string> union_of(const std::vector<Polygon>& polygons) {
-  if (polygons.empty()) return std::vector<Polygon>{};
-  std::vector<Point> corners;
-  for (const Polygon& polygon : polygons) {
-    const geometry::Box box = bounding_box(polygon.outer);
-    corners.insert(corners.end(), {box.low, box.high});
-  }
-  const geometry::Box all = grown(geometry::bounding_box(corners), 1);
-  const Polygon sheet{{all.low, {all.high.x, all.low.y}, all.high, {all.low.x, all.high.y}}, {}};
-  auto cut = geometry::cut_by_polygons({sheet}, polygons);
-  if (!cut) return tl::unexpected(std::string(name_of(cut.error().reason)) + ": " + cut.error().detail);
-  std::vector<Polygon> pieces;
-  for (geometry::Piece& piece : cut->pieces) {
-    if (piece.part == geometry::Part::kInside) pieces.push_back(std::move(piece.shape.polygon));
-  }
-  return pieces;
 }
 
 namespace {

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "geometry/shape/polygon.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
@@ -16,13 +14,6 @@ geometry::Point carried_by_water(const simulation::WaterSettings& water, geometr
                                  double to);
 geometry::Polygon carried_by_water(const simulation::WaterSettings& water, geometry::Polygon polygon,
                                    double from, double to);
-
-/// The convex hull of points, counter-clockwise, without points on its edges.
-geometry::Ring convex_hull(std::vector<geometry::Point> points);
-
-/// The union of valid polygons, which may touch and overlap, exact but for one rounding of its vertices.
-tl::expected<std::vector<geometry::Polygon>, std::string> union_of(
-    const std::vector<geometry::Polygon>& polygons);
 
 /// The longest pieces of time from the run's start to `time` over which no corner of the hull, carried by the
 /// water to `time`, leaves the straight line between its ends by more than `tolerance` [m]: their ends [s].

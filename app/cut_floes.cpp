@@ -110,8 +110,7 @@ class FloeCutter {
   void add(Piece piece) {
     const geometry::Box box = bounding_box(piece.shape.polygon.outer);
     if (pieces_.empty()) box_ = box;
-    box_.low = {std::min(box_.low.x, box.low.x), std::min(box_.low.y, box.low.y)};
-    box_.high = {std::max(box_.high.x, box.high.x), std::max(box_.high.y, box.high.y)};
+    extend(box_, box);
     pieces_.push_back(std::move(piece));
   }
 

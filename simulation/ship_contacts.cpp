@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/contact/first_touch.hpp"
+#include "geometry/contact/first_contact.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {
@@ -33,8 +33,8 @@ std::optional<ShipContact> prescribed_contact(const Setup& setup, const Clock& c
   const double earliest = -2 * setup.scene.time.step;
   const double reach = bodies.bounding_radius[ship] + bodies.bounding_radius[other] - earliest * speed;
   if (speed == 0 || distance(bodies.position[ship], bodies.position[other]) > reach) return std::nullopt;
-  const auto touch = geometry::first_touch(waterline_in_water(setup, bodies, ship),
-                                           waterline_in_water(setup, bodies, other), velocity, earliest, 0);
+  const auto touch = geometry::first_contact(waterline_in_water(setup, bodies, ship),
+                                             waterline_in_water(setup, bodies, other), velocity, earliest, 0);
   if (!touch) return std::nullopt;
   return ShipContact{.time = clock.time(),
                      .ship = ship,

@@ -7,9 +7,9 @@
 namespace polynya::geometry {
 namespace {
 
-constexpr std::uint32_t kLeafCovers = 4;
+constexpr std::uint32_t kLeafCircles = 4;
 
-/// Builds the node over covers [first, first + count) and everything below it; returns its index.
+/// Builds the node over bounding circles [first, first + count) and everything below it; returns its index.
 std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t count) {
   const auto index = static_cast<std::uint32_t>(boundary.tree.size());
   boundary.tree.push_back({});
@@ -21,7 +21,7 @@ std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t 
     node.reach = std::max(node.reach, distance(node.centre, c->centre) + c->reach);
   }
   node.reach *= 1 + 1e-12;
-  if (count > kLeafCovers) {
+  if (count > kLeafCircles) {
     build_node(boundary, first, count / 2);
     node.right = build_node(boundary, first + count / 2, count - count / 2);
   }

@@ -13,7 +13,7 @@ struct CrackPath {
 
 /// The path from `point` along the unit `direction` through all ice ahead of it. `margin` [m] is how far
 /// outside the ice its ends lie, so that a cut along it separates. Measured in doubles; the cut itself is
-/// exact. Only the edges near the line are looked at where the boundary is ready.
+/// exact. Tests only edges near the line where the boundary is ready.
 CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin);
 
 }  // namespace polynya::geometry

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
 #include <numbers>
 
 #include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/guarded.hpp"
 #include "geometry/cut/internal/local_cut.hpp"
 #include "geometry/exact/internal/edge_tree.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
@@ -17,7 +16,7 @@ namespace polynya::geometry {
 namespace {
 
 tl::unexpected<CutError> refuse(CutFailure reason, const DefectAt& found) {
-  return tl::unexpected(CutError{reason, std::string(name_of(found.defect))});
+  return refuse(reason, std::string(name_of(found.defect)));
 }
 
 bool are_usable(const std::vector<Point>& points) {
@@ -57,11 +56,10 @@ bool is_simple(const std::vector<Point>& polyline) {
   });
 }
 
-// What fails here is left to the general path. Out of memory is no failed cut: the caller has to know.
-template <typename Work>
-std::optional<CutOutcome> guarded(Work work) {
+// None where the local path does not cover the case: then the general path does. Out of memory is thrown on.
+std::optional<CutOutcome> try_locally(const Shape& shape, const Tool& tool) {
   try {
-    return work();
+    return cut_locally(shape.polygon, tool);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -72,8 +70,7 @@ std::optional<CutOutcome> guarded(Work work) {
 // Cuts a valid shape by valid tools: by the first path that covers the case.
 CutOutcome cut_by_valid(const Shape& shape, const std::vector<Polygon>& tools) {
   if (tools.size() == 1 && tools.front().holes.empty()) {
-    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {tools.front().outer, true}); }))
-      return *std::move(outcome);
+    if (auto outcome = try_locally(shape, {tools.front().outer, true})) return *std::move(outcome);
   }
   return cut_by_polygons_generally(exact::exactly(shape.polygon), tools);
 }
@@ -100,19 +97,9 @@ std::optional<DefectAt> find_shape_defect(const Shape& shape) {
 }  // namespace
 
 std::string_view name_of(CutFailure reason) {
-  switch (reason) {
-    case CutFailure::kInvalidShape:
-      return "invalid-shape";
-    case CutFailure::kInvalidTool:
-      return "invalid-tool";
-    case CutFailure::kMisses:
-      return "misses";
-    case CutFailure::kDoesNotSeparate:
-      return "does-not-separate";
-    case CutFailure::kInternal:
-      return "internal";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[]{"invalid-shape", "invalid-tool", "misses", "does-not-separate",
+                                      "internal"};
+  return kNames[static_cast<std::size_t>(reason)];
 }
 
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
@@ -129,7 +116,7 @@ CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools
   }
   const std::vector<Polygon> near = near_tools(shape, tools_in_body);
   if (near.empty()) {
-    return tl::unexpected(CutError{CutFailure::kMisses, "the polygon does not meet the shape's interior"});
+    return refuse(CutFailure::kMisses, "the polygon does not meet the shape's interior");
   }
   return cut_by_valid(shape, near);
 }
@@ -141,8 +128,7 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
   crack.erase(std::unique(crack.begin(), crack.end()), crack.end());
   if (crack.size() < 2) return refuse(CutFailure::kInvalidTool, {Defect::kTooFewPoints, {}});
   if (is_simple(crack)) {
-    if (auto outcome = guarded([&] { return cut_locally(shape.polygon, {crack, false}); }))
-      return *std::move(outcome);
+    if (auto outcome = try_locally(shape, {crack, false})) return *std::move(outcome);
   }
   return cut_along_generally(exact::exactly(shape.polygon), crack);
 }

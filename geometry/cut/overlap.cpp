@@ -1,9 +1,7 @@
 #include "geometry/cut/overlap.hpp"
 
-#include <exception>
-#include <new>
-
 #include "geometry/cut/internal/arrangement.hpp"
+#include "geometry/cut/internal/guarded.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -37,26 +35,75 @@ Box box_in_world(const Shape& shape, const Pose& world_from_body) {
   return grown(box, 1e-12 * size);
 }
 
+// The box of b in a's frame, with room for the rounding of its own arithmetic.
+Box box_in_frame(const Pose& world_from_a, const Polygon& b, const Pose& world_from_b) {
+  Ring ring;
+  for (const Point p : b.outer) ring.push_back(inverse_transform(world_from_a, transform(world_from_b, p)));
+  const Box box = bounding_box(ring);
+  const double size = length(box.low - Point{}) + length(box.high - Point{}) +
+                      length(world_from_a.position - Point{}) + length(world_from_b.position - Point{});
+  return grown(box, 1e-12 * size);
+}
+
+// Beyond which sides of the box a point is, a bit each.
+unsigned sides_beyond(Point p, const Box& box) {
+  return (p.x < box.low.x ? 1U : 0U) | (p.x > box.high.x ? 2U : 0U) | (p.y < box.low.y ? 4U : 0U) |
+         (p.y > box.high.y ? 8U : 0U);
+}
+
 }  // namespace
 
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b) {
   if (!overlaps(box_in_world(a, world_from_a), box_in_world(b, world_from_b))) return Overlap{0, "0"};
-  try {
+  return guarded([&]() -> tl::expected<Overlap, CutError> {
     std::vector<exact::SourceSegment> segments;
     append_segments(segments, placed(a, world_from_a), 0);
     append_segments(segments, placed(b, world_from_b), 1);
     const auto shared = [](exact::Winding w) { return w.shape > 0 && w.tool > 0 ? 0 : -1; };
     exact::Rational sum = 0;
-    for (const exact::Region& region : exact::overlay(segments, shared, exact::Seams::kDissolve).regions) {
+    for (const exact::Region& region : exact::overlay(segments, shared, exact::Seams::kDissolve).regions)
       sum += exact::area(region.polygon);
-    }
     return Overlap{exact::nearest_double(sum), sum.get_str()};
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& failure) {
-    return tl::unexpected(CutError{CutFailure::kInternal, failure.what()});
+  });
+}
+
+tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_from_a, const Polygon& b,
+                                           const Pose& world_from_b) {
+  if (vertex_count(a) < vertex_count(b)) return shared_area(b, world_from_b, a, world_from_a);
+  const Box box = box_in_frame(world_from_a, b, world_from_b);
+  Polygon near{near_part(a.outer, box), {}};
+  if (near.outer.size() < 3) return 0;
+  for (const Ring& hole : a.holes) {
+    if (Ring part = near_part(hole, box); part.size() > 2) near.holes.push_back(std::move(part));
   }
+  // The near part may cross itself, as overlap allows. Where it winds differently from the whole, b does not
+  // wind at all.
+  return overlap({.polygon = std::move(near)}, world_from_a, {.polygon = b}, world_from_b)
+      .map(&Overlap::area);
+}
+
+Ring near_part(const Ring& ring, const Box& box) {
+  if (ring.empty()) return {};
+  Ring kept{ring.front()};
+  Point last = ring.front();  // of the run that starts at kept.back()
+  unsigned run = sides_beyond(last, box);
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const unsigned sides = sides_beyond(ring[i], box);
+    if ((run & sides) == 0 && last != kept.back()) {
+      kept.push_back(last);
+      run = sides_beyond(last, box);
+    }
+    if ((run & sides) == 0) {
+      kept.push_back(ring[i]);
+      run = sides;
+    } else {
+      run &= sides;
+    }
+    last = ring[i];
+  }
+  if (last != kept.back()) kept.push_back(last);
+  return kept;
 }
 
 }  // namespace polynya::geometry

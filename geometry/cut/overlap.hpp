@@ -20,4 +20,14 @@ struct Overlap {
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b);
 
+/// The area of overlap() of two valid polygons [m²], found from the near part of the longer one and all of
+/// the other.
+tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_from_a, const Polygon& b,
+                                           const Pose& world_from_b);
+
+/// The ring with vertices left out such that it winds around every point of the box as before. A run of
+/// vertices that all lie beyond one side of the box may be drawn straight without passing over it. Elsewhere
+/// the result may cross itself. Few vertices are left of a long ring beside a small box.
+Ring near_part(const Ring& ring, const Box& box);
+
 }  // namespace polynya::geometry

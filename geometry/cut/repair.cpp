@@ -1,10 +1,10 @@
 #include "geometry/cut/repair.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <new>
+#include <iterator>
 
 #include "geometry/cut/internal/arrangement.hpp"
+#include "geometry/cut/internal/guarded.hpp"
 #include "geometry/cut/internal/rounded_pieces.hpp"
 #include "geometry/exact/internal/predicates.hpp"
 
@@ -49,20 +49,24 @@ Ring oriented(Ring ring, int turn) {
 tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule) {
   std::vector<Ring> usable;
   for (const Ring& ring : rings) {
-    if (!std::all_of(ring.begin(), ring.end(), is_usable)) {
-      return tl::unexpected(CutError{CutFailure::kInvalidShape, "not-finite"});
-    }
+    if (!std::all_of(ring.begin(), ring.end(), is_usable))
+      return refuse(CutFailure::kInvalidShape, "not-finite");
     if (Ring kept = without_repeats(ring); kept.size() > 2) usable.push_back(std::move(kept));
   }
-  try {
-    tl::expected<Repaired, CutError> repaired = repair_exactly(usable, rule);
-    if (!repaired || !repaired->shapes.empty()) return repaired;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& failure) {
-    return tl::unexpected(CutError{CutFailure::kInternal, failure.what()});
-  }
-  return tl::unexpected(CutError{CutFailure::kMisses, "the rings enclose nothing"});
+  tl::expected<Repaired, CutError> repaired = guarded([&] { return repair_exactly(usable, rule); });
+  if (!repaired || !repaired->shapes.empty()) return repaired;
+  return refuse(CutFailure::kMisses, "the rings enclose nothing");
+}
+
+tl::expected<std::vector<Polygon>, CutError> union_of(const std::vector<Polygon>& polygons) {
+  std::vector<Polygon> united;
+  if (polygons.empty()) return united;
+  std::vector<Ring> rings;
+  for (const Polygon& polygon : polygons) std::ranges::copy(rings_of(polygon), std::back_inserter(rings));
+  tl::expected<Repaired, CutError> repaired = repair(rings, FillRule::kNonZero);
+  if (!repaired) return tl::unexpected(std::move(repaired.error()));
+  for (Shape& shape : repaired->shapes) united.push_back(std::move(shape.polygon));
+  return united;
 }
 
 std::vector<Ring> rings_of(const Polygon& polygon) {

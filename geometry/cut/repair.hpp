@@ -25,6 +25,9 @@ struct Repaired {
 /// coordinate is not finite (kInvalidShape) or where nothing is enclosed (kMisses).
 tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule);
 
+/// The union of valid polygons, which may touch and overlap, exact but for one rounding of its vertices.
+tl::expected<std::vector<Polygon>, CutError> union_of(const std::vector<Polygon>& polygons);
+
 /// All rings of a polygon, the outer one first.
 std::vector<Ring> rings_of(const Polygon& polygon);
 

@@ -11,11 +11,9 @@ namespace polynya::geometry {
 namespace {
 
 bool is_finite(const Polygon& polygon) {
-  const auto all_finite = [](const Ring& ring) {
-    return std::all_of(ring.begin(), ring.end(),
-                       [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
-  };
-  return all_finite(polygon.outer) && std::all_of(polygon.holes.begin(), polygon.holes.end(), all_finite);
+  const auto is_finite = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+  const auto all_finite = [&](const Ring& ring) { return std::ranges::all_of(ring, is_finite); };
+  return all_finite(polygon.outer) && std::ranges::all_of(polygon.holes, all_finite);
 }
 
 }  // namespace
@@ -28,9 +26,8 @@ double exact_area(const Polygon& polygon) {
 double exact_balance(std::span<const Polygon* const> after, std::span<const Polygon* const> before,
                      std::span<const double> terms) {
   const auto finite = [](const Polygon* polygon) { return is_finite(*polygon); };
-  if (!std::all_of(after.begin(), after.end(), finite) ||
-      !std::all_of(before.begin(), before.end(), finite) ||
-      !std::all_of(terms.begin(), terms.end(), [](double term) { return std::isfinite(term); }))
+  if (!std::ranges::all_of(after, finite) || !std::ranges::all_of(before, finite) ||
+      !std::ranges::all_of(terms, [](double term) { return std::isfinite(term); }))
     return std::numeric_limits<double>::quiet_NaN();
   exact::Rational sum = 0;
   for (const Polygon* polygon : after) sum += exact::area(*polygon);

@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include "geometry/exact/internal/exact_moments.hpp"
-#include "geometry/exact/internal/nearest_area.hpp"
+#include "geometry/exact/internal/areas.hpp"
+#include "geometry/exact/internal/error_free.hpp"
 #include "geometry/exact/internal/predicates.hpp"
-#include "geometry/shape/internal/compensated_sum.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -79,18 +78,13 @@ double perimeter(const Polygon& polygon) {
 
 bool contains(const Polygon& polygon, Point point) {
   if (polygon.outer.empty()) return false;
-  bool inside = false;
-  const auto toggles = [&](const Ring& ring, bool& on_boundary) {
-    const int side = ring.empty() ? -1 : side_of_ring(ring, point);
-    on_boundary = side == 0;
-    if (side > 0) inside = !inside;
-  };
-  bool on_boundary = false;
-  toggles(polygon.outer, on_boundary);
-  if (on_boundary) return true;
+  const int side = side_of_ring(polygon.outer, point);
+  bool inside = side > 0;
+  if (side == 0) return true;
   for (const Ring& hole : polygon.holes) {
-    toggles(hole, on_boundary);
-    if (on_boundary) return true;
+    const int of_hole = hole.empty() ? -1 : side_of_ring(hole, point);
+    if (of_hole == 0) return true;
+    if (of_hole > 0) inside = !inside;
   }
   return inside;
 }

@@ -102,7 +102,7 @@ Found find_crossing_touch(const Polygon& polygon, const std::vector<Edge>& edges
   return {};
 }
 
-// Which side of `ring` the other ring is on, told by its first vertex that is off it; 0 if it has none.
+// Which side of `ring` the other ring is on: that of its first vertex off it, 0 if it has none.
 int side_of(const Ring& other, const Ring& ring) {
   for (const Point p : other) {
     if (const int side = side_of_ring(ring, p); side != 0) return side;
@@ -178,31 +178,11 @@ Found find_wrong_orientation(const Polygon& polygon) {
 }  // namespace
 
 std::string_view name_of(Defect defect) {
-  switch (defect) {
-    case Defect::kTooFewPoints:
-      return "too-few-points";
-    case Defect::kNotFinite:
-      return "not-finite";
-    case Defect::kRepeatedPoint:
-      return "repeated-point";
-    case Defect::kZeroArea:
-      return "zero-area";
-    case Defect::kSelfCrossing:
-      return "self-crossing";
-    case Defect::kOverlappingEdges:
-      return "overlapping-edges";
-    case Defect::kWrongOrientation:
-      return "wrong-orientation";
-    case Defect::kHoleOutside:
-      return "hole-outside";
-    case Defect::kHolesOverlap:
-      return "holes-overlap";
-    case Defect::kRingsCross:
-      return "rings-cross";
-    case Defect::kDisconnected:
-      return "disconnected";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[]{"too-few-points",    "not-finite",    "repeated-point",
+                                      "zero-area",         "self-crossing", "overlapping-edges",
+                                      "wrong-orientation", "hole-outside",  "holes-overlap",
+                                      "rings-cross",       "disconnected"};
+  return kNames[static_cast<std::size_t>(defect)];
 }
 
 std::optional<DefectAt> find_defect(const Polygon& polygon) {

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "geometry/cut/overlapping_pairs.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
-#include "io/scene/overlap.hpp"
 #include "io/scene/speed_check.hpp"
 #include "simulation/limits.hpp"
 
@@ -131,13 +131,13 @@ void report_run_overlaps(std::size_t source, double time, const RunOverlaps& ove
 
 void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
                     const std::vector<Polygon>& outlines, ProblemCollector& problems) {
-  const auto overlaps = find_overlaps(outlines, kMostOverlaps);
+  const auto overlaps = geometry::find_overlapping_pairs(outlines, kMostOverlaps);
   std::map<std::size_t, RunOverlaps> of_runs;
-  const auto run_of = [&](const Overlap& overlap) -> RunOverlaps* {
+  const auto run_of = [&](const geometry::OverlappingPair& overlap) -> RunOverlaps* {
     const std::size_t source = named[overlap.second].origin->source;  // floes come behind ships
     return draft.run_times.contains(source) ? &of_runs[source] : nullptr;
   };
-  for (const Overlap& overlap : overlaps) {
+  for (const geometry::OverlappingPair& overlap : overlaps) {
     RunOverlaps* run = run_of(overlap);
     if (!run) continue;
     const bool is_among_them = named[overlap.first].origin->source == named[overlap.second].origin->source;
@@ -148,7 +148,7 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
   for (const auto& [source, run] : of_runs) {
     if (run.among_them > 0) report_run_overlaps(source, draft.run_times.at(source), run, problems);
   }
-  for (const Overlap& overlap : overlaps) {
+  for (const geometry::OverlappingPair& overlap : overlaps) {
     if (const RunOverlaps* run = run_of(overlap); run && run->among_them > 0) continue;
     const Named& first = named[overlap.first];
     const Named& second = named[overlap.second];

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/contact/first_touch.hpp"
+#include "geometry/contact/first_contact.hpp"
 #include "io/scene/scene_check.hpp"
 
 namespace polynya::io {
@@ -164,8 +164,8 @@ class Hinter {
     const ShipSpec &ship = scene_.ships[i], &other = scene_.ships[k];
     if (!is_prescribed(ship) || !is_prescribed(other) || (is_fixed(ship) && is_fixed(other))) return;
     const Vector velocity = other.speed * ahead_of(other) - ship.speed * ahead_of(ship);
-    const auto touch = geometry::first_touch(waterline_in_world(ship).outer, waterline_in_world(other).outer,
-                                             velocity, 0, scene_.time.until);
+    const auto touch = geometry::first_contact(
+        waterline_in_world(ship).outer, waterline_in_world(other).outer, velocity, 0, scene_.time.until);
     if (!touch) return;
     const Point at = touch->point + touch->time * ship.speed * ahead_of(ship);
     add(Severity::kWarning, i, "propulsion",

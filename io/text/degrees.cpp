@@ -49,8 +49,7 @@ void CoordinateEvidence::add(const geometry::Polygon& polygon) {
   const geometry::Box of_polygon = bounding_box(polygon.outer);
   if (is_empty) box = of_polygon;
   is_empty = false;
-  box.low = {std::min(box.low.x, of_polygon.low.x), std::min(box.low.y, of_polygon.low.y)};
-  box.high = {std::max(box.high.x, of_polygon.high.x), std::max(box.high.y, of_polygon.high.y)};
+  extend(box, of_polygon);
   area += std::abs(geometry::signed_area(polygon.outer));
 }
 

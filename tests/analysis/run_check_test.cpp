@@ -10,7 +10,6 @@
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "io/text/near_part.hpp"
 
 namespace polynya::analysis {
 namespace {
@@ -48,7 +47,7 @@ TEST(NearPart, SharesTheSameAreaAsTheWhole) {
     const Pose world_from_large{{place(dice), place(dice)}, geometry::Rotation::by(turn(dice))};
     const Pose world_from_small{{place(dice), place(dice)}, geometry::Rotation::by(turn(dice))};
     const auto whole = overlap({.polygon = large}, world_from_large, {.polygon = small}, world_from_small);
-    const auto near = io::shared_area(small, world_from_small, large, world_from_large);
+    const auto near = shared_area(small, world_from_small, large, world_from_large);
     ASSERT_TRUE(whole.has_value() && near.has_value());
     EXPECT_EQ(*near, whole->area) << trial;
     overlapping += whole->area > 0 ? 1 : 0;
@@ -65,7 +64,7 @@ TEST(NearPart, MayCrossItselfAndSharesTheSame) {
     const Ring ring = star(dice, 120, 10);
     const geometry::Box box{{place(dice), place(dice)}, {10, 10}};
     const Polygon tile{{box.low, {10, box.low.y}, {10, 10}, {box.low.x, 10}}, {}};
-    const Ring near = io::near_part(ring, box);
+    const Ring near = geometry::near_part(ring, box);
     if (near.size() > 2 && geometry::find_defect(geometry::normalised({near, {}}))) ++crossing;
     const auto whole = geometry::overlap({.polygon = {ring, {}}}, {}, {.polygon = tile}, {});
     const auto part = geometry::overlap({.polygon = {near, {}}}, {}, {.polygon = tile}, {});
@@ -78,7 +77,7 @@ TEST(NearPart, MayCrossItselfAndSharesTheSame) {
 TEST(NearPart, LeavesFewVerticesOfALongRing) {
   std::mt19937 dice(3);
   const Ring ring = star(dice, 4000, 100);
-  const Ring near = io::near_part(ring, {{60, 0}, {62, 2}});
+  const Ring near = geometry::near_part(ring, {{60, 0}, {62, 2}});
   EXPECT_LT(near.size(), 200U);
   EXPECT_GT(near.size(), 2U);
 }

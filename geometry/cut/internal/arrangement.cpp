@@ -47,8 +47,7 @@ Point from_cgal(const Kernel::Point_2& p) {
   return {p.x().exact(), p.y().exact()};
 }
 
-// Where memory runs out in it, CGAL leaves an arrangement behind whose destructor never ends: that one is
-// kept.
+// Where memory runs out, CGAL leaves an arrangement whose destructor never ends: that one is leaked.
 std::unique_ptr<const Arrangement> arrange(const std::vector<SourceSegment>& segments) {
   make_cgal_throw_quietly();
   std::vector<Traits::Curve_2> curves;
@@ -198,7 +197,7 @@ class Tracer {
   }
 
   // Only where one segment passes straight through a point that bounds no third region is that point no
-  // corner. Where the tool runs along the shape, the shape's segments tell: its own vertices stay.
+  // corner. Where the tool runs along the shape, the shape's segments decide: its own vertices stay.
   bool is_corner(Halfedge in, Halfedge out) const {
     const int source = std::min(first_source(in), first_source(out));
     for (const std::size_t s : in->curve().data()) {
@@ -290,9 +289,8 @@ void append_segments(std::vector<SourceSegment>& segments, const Polygon& polygo
 }
 
 Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& classify, Seams seams) {
-  const std::unique_ptr<const Arrangement> arranged = arrange(segments);
-  const Arrangement& arrangement = *arranged;
-  Tracer tracer(arrangement, segments, classify, seams);
+  const std::unique_ptr<const Arrangement> arrangement = arrange(segments);
+  Tracer tracer(*arrangement, segments, classify, seams);
   Overlay result{tracer.regions()};
   tracer.find_tool_inside(result);
   return result;

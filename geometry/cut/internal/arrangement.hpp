@@ -26,7 +26,7 @@ struct Winding {
 /// A maximal connected region of one class: a valid polygon by OGC (pinches retraced), not yet rounded.
 struct Region {
   Polygon polygon;
-  int label = 0;  ///< what the classifier said
+  int label = 0;  ///< the classifier's
 };
 
 /// Gives a face its class; faces of a negative class are left out.

@@ -162,7 +162,7 @@ class Faces {
     }
   }
 
-  // In which direction a half-edge leaves its first node, and in which one sees it coming from its last.
+  // The directions of a half-edge at its first node, and back along it at its last.
   Ray leaving(const HalfEdge& e) {
     if (!e.is_chord) return shape_at(e.from).on;
     return e.is_forward ? tool_at(e.from).on : tool_at(e.from).back;
@@ -172,8 +172,8 @@ class Faces {
     return e.is_forward ? tool_at(e.to).back : tool_at(e.to).on;
   }
 
-  // The face on the left of an arriving half-edge lies clockwise of it: it goes on along the first half-edge
-  // met clockwise, which is the last one met counter-clockwise.
+  // The face on the left of an arriving half-edge lies clockwise of it: its boundary continues along the
+  // first half-edge met clockwise, which is the last one met counter-clockwise.
   void link() {
     const int count = static_cast<int>(graph_.half_edges.size());
     std::vector<std::vector<int>> leaving_node(nodes_.size());

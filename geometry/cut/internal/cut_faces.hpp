@@ -40,7 +40,7 @@ struct CutGraph {
   std::vector<HalfEdge> bridges;  ///< stretches of the tool from ring to ring that separate nothing
   int rings_met = 0;              ///< how many rings of the shape chords and bridges end on
   std::vector<char> ring_is_cut;  ///< per ring of the shape: has it active nodes?
-  bool is_consistent = true;      ///< false only if the shape or the tool was not what it was said to be
+  bool is_consistent = true;      ///< false only if the shape or the tool is not valid
   int first_node = -1;            ///< along the tool
   int last_node = -1;
   bool starts_inside = false;  ///< an open tool comes to its first node through the shape's interior

@@ -130,14 +130,12 @@ class Collector {
 // Does p come before q along the directed edge a→b, on which both lie? Rounding keeps order, so the rounded
 // points decide wherever they differ.
 bool comes_before(Point a, Point b, const Node& p, const Node& q) {
-  if (a.x != b.x) {
-    const bool ascending = a.x < b.x;
-    if (p.at.x != q.at.x) return (p.at.x < q.at.x) == ascending;
-    return ascending ? exact_point(p).x < exact_point(q).x : exact_point(q).x < exact_point(p).x;
-  }
-  const bool ascending = a.y < b.y;
-  if (p.at.y != q.at.y) return (p.at.y < q.at.y) == ascending;
-  return ascending ? exact_point(p).y < exact_point(q).y : exact_point(q).y < exact_point(p).y;
+  const bool by_x = a.x != b.x;
+  const Node& low = precedes(a, b) ? p : q;
+  const Node& high = precedes(a, b) ? q : p;
+  if (by_x && low.at.x != high.at.x) return low.at.x < high.at.x;
+  if (!by_x && low.at.y != high.at.y) return low.at.y < high.at.y;
+  return by_x ? exact_point(low).x < exact_point(high).x : exact_point(low).y < exact_point(high).y;
 }
 
 // Order of places along a ring; `from` and `to` give the ends of an edge.

@@ -99,7 +99,6 @@ void write(LocalCut& cut, PieceRing& ring) {
       break;
     case Source::kToolReversed:
       ring.points = {cut.tool.points.rbegin(), cut.tool.points.rend()};
-      break;
   }
   ring.area = ring_area(ring.points);
 }
@@ -115,7 +114,7 @@ exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
   return points;
 }
 
-// Which way the exact loop turns: told by the rounded one wherever its area is clear of all errors.
+// Which way the exact loop turns: as the rounded one wherever its area is clear of all errors.
 int turn_of(const LocalCut& cut, const PieceRing& ring) {
   const double clear = ring.area.doubt + 2 * ring.area.step_area;
   if (ring.area.area > clear) return 1;
@@ -134,15 +133,14 @@ Box swept_box(const Segment& s) {
   return grown(box_around(s.from, s.to), reach(s));
 }
 
-// Finds the shell of a hole by a vertex that no changed edge comes near, about which the rounded rings and
-// the exact ones agree.
+// Finds the shell of a hole by a vertex far from all changed edges: the rounded and the exact rings agree
+// there.
 class Placer {
  public:
   Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans), changed_(cut.changed) {
     for (std::size_t i = 0; i < plans.size(); ++i) by_area_.push_back(i);
     const auto area = [&](std::size_t i) { return plans[i].rings.front().area.area; };
-    std::sort(by_area_.begin(), by_area_.end(),
-              [&](std::size_t i, std::size_t j) { return area(i) < area(j); });
+    std::ranges::sort(by_area_, {}, area);
   }
 
   bool place(PieceRing hole) {
@@ -187,7 +185,7 @@ class Placer {
 
 // The loops of one walk: one outer ring and its touching holes, or holes only.
 bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans,
-               std::vector<PieceRing>& homeless) {
+               std::vector<PieceRing>& free_holes) {
   PiecePlan plan{{}, walk.part};
   std::vector<PieceRing> holes;
   for (const Loop& loop : walk.loops) {
@@ -197,8 +195,7 @@ bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans,
     if (turn == 0 || (turn > 0 && !plan.rings.empty())) return false;
     (turn > 0 ? plan.rings : holes).push_back(std::move(ring));
   }
-  std::vector<PieceRing>& home = plan.rings.empty() ? homeless : plan.rings;
-  std::move(holes.begin(), holes.end(), std::back_inserter(home));
+  std::ranges::move(holes, std::back_inserter(plan.rings.empty() ? free_holes : plan.rings));
   if (!plan.rings.empty()) plans.push_back(std::move(plan));
   return true;
 }
@@ -207,9 +204,9 @@ bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans,
 
 std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
   std::vector<PiecePlan> plans;
-  std::vector<PieceRing> homeless;  // holes whose shell is yet to be found
+  std::vector<PieceRing> free_holes;  // holes whose shell is not known yet
   for (const Walk& walk : cut.graph.walks) {
-    if (!plan_walk(cut, walk, plans, homeless)) return {};
+    if (!plan_walk(cut, walk, plans, free_holes)) return {};
   }
   const auto whole = [&](Source source, int shape_ring) {
     PieceRing ring{source, {}, shape_ring, {}, {}};
@@ -222,19 +219,20 @@ std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
   };
   if (cut.graph.walks.empty()) {  // the tool lies within the ice
     add_shell(whole(Source::kTool, 0), Part::kInside);
-    homeless.push_back(whole(Source::kToolReversed, 0));
+    free_holes.push_back(whole(Source::kToolReversed, 0));
   }
   for (int r = 0; r < cut.rings.count(); ++r) {
     if (cut.graph.ring_is_cut[static_cast<std::size_t>(r)] != 0) continue;
+    PieceRing ring = whole(Source::kShapeRing, r);
     if (r == 0) {
-      add_shell(whole(Source::kShapeRing, r), Part::kOutside);
+      add_shell(std::move(ring), Part::kOutside);
     } else {
-      homeless.push_back(whole(Source::kShapeRing, r));
+      free_holes.push_back(std::move(ring));
     }
   }
-  if (homeless.empty()) return plans;
+  if (free_holes.empty()) return plans;
   Placer placer(cut, plans);
-  for (PieceRing& hole : homeless) {
+  for (PieceRing& hole : free_holes) {
     if (!placer.place(std::move(hole))) return {};
   }
   return plans;
@@ -242,13 +240,8 @@ std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
 
 exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan) {
   exact::Polygon polygon;
-  for (const PieceRing& ring : plan.rings) {
-    if (polygon.outer.empty()) {
-      polygon.outer = write_exactly(cut, ring);
-    } else {
-      polygon.holes.push_back(write_exactly(cut, ring));
-    }
-  }
+  for (const PieceRing& ring : plan.rings)
+    (polygon.outer.empty() ? polygon.outer : polygon.holes.emplace_back()) = write_exactly(cut, ring);
   return polygon;
 }
 

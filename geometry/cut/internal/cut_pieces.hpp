@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "geometry/cut/internal/cut_faces.hpp"
+#include "geometry/exact/internal/areas.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
-#include "geometry/exact/internal/ring_area.hpp"
 
 namespace polynya::geometry {
 
@@ -32,7 +32,7 @@ struct PiecePlan {
   Part part = Part::kOutside;
 };
 
-/// Everything a local cut has found out.
+/// The state of a local cut.
 struct LocalCut {
   const Rings& rings;
   const Tool& tool;
@@ -42,7 +42,7 @@ struct LocalCut {
   std::vector<Segment> placed;   ///< the other new edges: along the tool, and parts of the shape's edges
 };
 
-/// Writes out all rings and finds which bound which piece. None where that cannot be told safely.
+/// Writes out all rings and finds which bound which piece. None where that is in doubt.
 std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut);
 
 /// A piece before rounding.
@@ -50,5 +50,9 @@ exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan);
 
 /// Could rounding the changed edges have carried one of them across a whole ring of the piece?
 bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan);
+
+/// After rounding, do the edges of the cut shape still meet in shared ends only? `near_tool` are the shape's
+/// edges that overlap `tool_box`. Exact.
+bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool);
 
 }  // namespace polynya::geometry

@@ -1,20 +1,15 @@
 #include "geometry/cut/internal/general_cut.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <new>
 
 #include "geometry/cut/internal/arrangement.hpp"
+#include "geometry/cut/internal/guarded.hpp"
 #include "geometry/cut/internal/rounded_pieces.hpp"
 
 namespace polynya::geometry {
 namespace {
 
 using exact::Winding;
-
-tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
-  return tl::unexpected(CutError{reason, std::move(detail)});
-}
 
 CutOutcome round_regions(const exact::Polygon& shape, std::vector<exact::Region> regions) {
   std::vector<exact::ExactPiece> pieces;
@@ -23,19 +18,6 @@ CutOutcome round_regions(const exact::Polygon& shape, std::vector<exact::Region>
     pieces.push_back({std::move(region.polygon), region.label == 1 ? Part::kInside : Part::kOutside});
   }
   return exact::rounded_pieces(exact::area(shape), pieces);
-}
-
-// A geometric failure is a value: whatever CGAL throws becomes one, and the shape is as it was. Out of memory
-// is no such failure.
-template <typename Work>
-CutOutcome guarded(Work work) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& failure) {
-    return refuse(CutFailure::kInternal, failure.what());
-  }
 }
 
 }  // namespace
@@ -47,9 +29,8 @@ CutOutcome cut_by_polygons_generally(const exact::Polygon& shape, const std::vec
     for (const Polygon& tool : tools_in_body) append_segments(segments, exact::exactly(tool), 1);
     const auto classify = [](Winding w) { return w.shape <= 0 ? -1 : (w.tool > 0 ? 1 : 0); };
     exact::Overlay overlay = exact::overlay(segments, classify, exact::Seams::kDissolve);
-    const bool touched =
-        std::any_of(overlay.regions.begin(), overlay.regions.end(), [](auto& r) { return r.label == 1; });
-    if (!touched) return refuse(CutFailure::kMisses, "the polygon does not meet the shape's interior");
+    if (std::ranges::none_of(overlay.regions, [](auto& r) { return r.label == 1; }))
+      return refuse(CutFailure::kMisses, "the polygon does not meet the shape's interior");
     return round_regions(shape, std::move(overlay.regions));
   });
 }
@@ -65,9 +46,8 @@ CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<Po
     }
     const auto classify = [](Winding w) { return w.shape <= 0 ? -1 : 0; };
     exact::Overlay overlay = exact::overlay(segments, classify, exact::Seams::kKeep);
-    if (!overlay.tool_meets_interior) {
+    if (!overlay.tool_meets_interior)
       return refuse(CutFailure::kMisses, "the crack does not meet the shape's interior");
-    }
     if (overlay.regions.size() < 2) {
       return tl::unexpected(CutError{CutFailure::kDoesNotSeparate,
                                      "the crack ends inside the ice or only bridges its holes",

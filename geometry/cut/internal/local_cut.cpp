@@ -4,18 +4,14 @@
 #include <cmath>
 
 #include "geometry/cut/internal/cut_pieces.hpp"
+#include "geometry/cut/internal/guarded.hpp"
 #include "geometry/cut/internal/rounded_pieces.hpp"
-#include "geometry/cut/internal/subdivision_check.hpp"
 #include "geometry/exact/internal/edge_tree.hpp"
 
 namespace polynya::geometry {
 namespace {
 
 using exact::Rational;
-
-tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
-  return tl::unexpected(CutError{reason, std::move(detail)});
-}
 
 // Twice the area between the straight edge that starts at `a` and the chain of points it was split into, with
 // the edge's own end last: zero where all points lie on it.
@@ -155,8 +151,7 @@ Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
     if (contains_strictly(shape, cut.tool.points.front())) return Apart::kToolInShape;
     return side_of_ring(cut.tool.points, shape.outer.front()) > 0 ? Apart::kShapeInTool : Apart::kMisses;
   }
-  // Touching: a vertex of the shape that is off the tool's boundary tells; if there is none the general path
-  // does.
+  // Touching: a vertex of the shape that is off the tool's boundary decides; without one, the general path.
   for (const Point p : shape.outer) {
     const int side = side_of_ring(cut.tool.points, p);
     if (side != 0) return side > 0 ? Apart::kShapeInTool : Apart::kMisses;

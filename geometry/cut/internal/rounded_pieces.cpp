@@ -4,9 +4,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "geometry/cut/internal/guarded.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
-#include "geometry/cut/internal/weld.hpp"
-#include "geometry/exact/internal/nearest_area.hpp"
+#include "geometry/exact/internal/areas.hpp"
 #include "geometry/exact/validity.hpp"
 
 namespace polynya::geometry::exact {
@@ -94,20 +94,16 @@ class Rounding {
 }  // namespace
 
 void sort_pieces(std::vector<Piece>& pieces) {
-  const auto lowest = [](const Piece& piece) {
-    const geometry::Ring& ring = piece.shape.polygon.outer;
-    return *std::min_element(ring.begin(), ring.end(), geometry::precedes);
-  };
-  if (pieces.size() == 2 &&
-      pieces[0].part != pieces[1].part) {  // the common cut: no need to look for vertices
+  if (pieces.size() == 2 && pieces[0].part != pieces[1].part) {  // the common cut: the parts decide
     if (pieces[1].part < pieces[0].part) std::swap(pieces[0], pieces[1]);
     return;
   }
   using Key = std::tuple<Part, double, double, std::size_t, std::size_t>;
   std::vector<Key> order;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const geometry::Point p = lowest(pieces[i]);
-    order.emplace_back(pieces[i].part, p.x, p.y, pieces[i].shape.polygon.outer.size(), i);
+    const geometry::Ring& ring = pieces[i].shape.polygon.outer;
+    const geometry::Point lowest = *std::ranges::min_element(ring, geometry::precedes);
+    order.emplace_back(pieces[i].part, lowest.x, lowest.y, ring.size(), i);
   }
   std::sort(order.begin(), order.end());
   std::vector<Piece> sorted;
@@ -120,15 +116,11 @@ CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPi
   Rational sum = 0;
   for (const ExactPiece& piece : pieces) sum += area(piece.polygon);
   const Rational defect = sum - area_before;
-  if (defect != 0) {
-    return tl::unexpected(
-        CutError{CutFailure::kInternal, "exact piece areas are off by " + defect.get_str()});
-  }
+  if (defect != 0) return refuse(CutFailure::kInternal, "exact piece areas are off by " + defect.get_str());
   Rounding rounding;
   for (const ExactPiece& piece : pieces) {
     if (!rounding.add(piece))
-      return tl::unexpected(
-          CutError{CutFailure::kInternal, "a piece is not a valid polygon before it is rounded"});
+      return refuse(CutFailure::kInternal, "a piece is not a valid polygon before it is rounded");
   }
   CutResult result = std::move(rounding).result();
   result.ledger.area_before = nearest_double(area_before);

@@ -1,16 +1,42 @@
 #include "geometry/cut/internal/snap_rounding.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <tuple>
 
 #include "geometry/cut/internal/arrangement.hpp"
-#include "geometry/cut/internal/weld.hpp"
 #include "geometry/exact/internal/edge_tree.hpp"
 #include "geometry/exact/validity.hpp"
 
 namespace polynya::geometry::exact {
 namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+// value · 2^exponent
+Rational scaled(const Rational& value, int exponent) {
+  Rational result;
+  if (exponent < 0) {
+    mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  } else {
+    mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  }
+  return result;
+}
+
+double farthest(const Polygon& polygon) {
+  double size = 0;
+  const auto include = [&size](const Ring& ring) {
+    for (const Point& p : ring)
+      size = std::max({size, std::abs(nearest_double(p.x)), std::abs(nearest_double(p.y))});
+  };
+  include(polygon.outer);
+  std::ranges::for_each(polygon.holes, include);
+  return size;
+}
 
 // The part of an edge that lies in a cell: from `first` to `last` along it, of 0 to 1.
 struct Stretch {
@@ -81,10 +107,7 @@ class Snapping {
       geometry::Ring& ring = result.holes.empty() ? result.outer : result.holes.back();
       ring.push_back(edges_[i].a);
       std::vector<Bend>& bends = bends_[i];
-      const auto precedes = [](const Bend& p, const Bend& q) {
-        return std::tie(p.stretch.first, p.stretch.last) < std::tie(q.stretch.first, q.stretch.last);
-      };
-      std::sort(bends.begin(), bends.end(), precedes);
+      std::ranges::sort(bends, {}, [](const Bend& b) { return std::tie(b.stretch.first, b.stretch.last); });
       for (const Bend& bend : bends) ring.push_back(bend.at);
     }
     return result;
@@ -106,10 +129,7 @@ class Snapping {
   void find_bends() {
     geometry::Ring centres;
     for (const Edge& e : edges_) centres.push_back(e.a);
-    const auto precedes = [](geometry::Point p, geometry::Point q) {
-      return std::tie(p.x, p.y) < std::tie(q.x, q.y);
-    };
-    std::sort(centres.begin(), centres.end(), precedes);
+    std::sort(centres.begin(), centres.end(), geometry::precedes);
     centres.erase(std::unique(centres.begin(), centres.end()), centres.end());
     const EdgeTree tree(edges_);
     for (const geometry::Point p : centres) {
@@ -136,6 +156,29 @@ class Snapping {
   std::vector<std::vector<Bend>> bends_;
 };
 
+geometry::Ring welded(const geometry::Ring& ring) {
+  geometry::Ring kept;
+  for (const geometry::Point p : ring) {
+    if (!kept.empty() && kept.back() == p) continue;
+    if (kept.size() > 1 && kept[kept.size() - 2] == p) {
+      kept.pop_back();
+    } else {
+      kept.push_back(p);
+    }
+  }
+  while (kept.size() > 1) {  // the same where the ring closes
+    if (kept.front() == kept.back() || kept[kept.size() - 2] == kept.front()) {
+      kept.pop_back();
+    } else if (kept[1] == kept.back()) {
+      kept.erase(kept.begin());
+    } else {
+      break;
+    }
+  }
+  if (kept.size() < 3) kept.clear();
+  return kept;
+}
+
 std::vector<Region> enclosed_regions(const geometry::Polygon& rings) {
   std::vector<SourceSegment> segments;
   append_segments(segments, exactly(rings), 0);
@@ -144,6 +187,44 @@ std::vector<Region> enclosed_regions(const geometry::Polygon& rings) {
 }
 
 }  // namespace
+
+Lattice Lattice::spanning(const Polygon& polygon) {
+  constexpr int kFinest = std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits;
+  const double size = farthest(polygon);
+  if (size == 0) return Lattice(false, kFinest);
+  return Lattice(false, std::max(std::ilogb(size) + 1 - std::numeric_limits<double>::digits, kFinest));
+}
+
+double Lattice::nearest(const Rational& value) const {
+  if (is_of_doubles_) return nearest_double(value);
+  const Rational shifted = scaled(value, -exponent_) + Rational(1, 2);
+  mpz_class steps;
+  mpz_fdiv_q(steps.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
+  return std::ldexp(steps.get_d(), exponent_);
+}
+
+Cell Lattice::cell(double centre) const {
+  const Rational middle(centre);
+  if (!is_of_doubles_) {
+    const Rational half = scaled(1, exponent_ - 1);
+    return {middle - half, middle + half, true, false};
+  }
+  const bool is_even = std::bit_cast<std::uint64_t>(centre) % 2 == 0;
+  return {(middle + Rational(std::nextafter(centre, -kFar))) / 2,
+          (middle + Rational(std::nextafter(centre, kFar))) / 2, is_even, is_even};
+}
+
+double Lattice::width(double size) const {
+  return is_of_doubles_ ? std::nextafter(size, kFar) - size : std::ldexp(1.0, exponent_);
+}
+
+geometry::Polygon welded(const geometry::Polygon& polygon) {
+  geometry::Polygon result{welded(polygon.outer), {}};
+  for (const geometry::Ring& hole : polygon.holes) {
+    if (geometry::Ring kept = welded(hole); !kept.empty()) result.holes.push_back(std::move(kept));
+  }
+  return result;
+}
 
 std::optional<std::vector<geometry::Polygon>> snapped(const Polygon& polygon, const Lattice& lattice) {
   const geometry::Polygon rings = welded(Snapping(polygon, lattice).polygon());

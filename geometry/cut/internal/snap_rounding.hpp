@@ -3,9 +3,39 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/cut/internal/lattice.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
 
 namespace polynya::geometry::exact {
+
+/// The numbers that round to one double.
+struct Cell {
+  Rational low;
+  Rational high;
+  bool has_low = true;  ///< are the ends themselves among them?
+  bool has_high = true;
+};
+
+/// Doubles to which coordinates are rounded: all of them, or evenly spaced ones. Cells are disjoint and cover
+/// the line.
+class Lattice {
+ public:
+  /// All doubles: the nearest, ties to even. Steps shrink towards zero.
+  static Lattice of_doubles() { return Lattice(true, 0); }
+  /// Multiples of the step between doubles at the farthest coordinate of the polygon, all of which are
+  /// doubles.
+  static Lattice spanning(const Polygon& polygon);
+
+  double nearest(const Rational& value) const;
+  geometry::Point nearest(const Point& p) const { return {nearest(p.x), nearest(p.y)}; }
+  Cell cell(double centre) const;
+  /// At least the width of the cells as far out as `size`.
+  double width(double size) const;
+
+ private:
+  Lattice(bool is_of_doubles, int exponent) : is_of_doubles_(is_of_doubles), exponent_(exponent) {}
+  bool is_of_doubles_;
+  int exponent_;  // of the even step, 2^exponent
+};
 
 /// Snap rounding [Hobby1999; GuibasMarimont1998]: every vertex of a valid polygon moves to the point of the
 /// lattice whose cell it lies in, and every edge that passes through such a cell bends to its point too. What
@@ -15,5 +45,10 @@ namespace polynya::geometry::exact {
 /// Returns what the rings then enclose, as valid polygons: several where a neck closed, none where nothing is
 /// left. No value where they are not valid.
 std::optional<std::vector<geometry::Polygon>> snapped(const Polygon& polygon, const Lattice& lattice);
+
+/// The polygon without what rounding can leave in a ring and encloses nothing: equal neighbours and spikes,
+/// edges folded back on the one before. Rings that enclose nothing at all are dropped; an outer one leaves an
+/// empty ring.
+geometry::Polygon welded(const geometry::Polygon& polygon);
 
 }  // namespace polynya::geometry::exact

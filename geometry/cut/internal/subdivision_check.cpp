@@ -1,8 +1,7 @@
-#include "geometry/cut/internal/subdivision_check.hpp"
-
 #include <algorithm>
 #include <tuple>
 
+#include "geometry/cut/internal/cut_pieces.hpp"
 #include "geometry/exact/internal/edge_tree.hpp"
 
 namespace polynya::geometry {
@@ -79,7 +78,7 @@ bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment
 }  // namespace
 
 // Only edges that end in a rounded node can have come to meet another: all others lie as they did in the
-// exact subdivision, where edges meet in nodes only. So these few are held against all that is near them.
+// exact subdivision, where edges meet in nodes only. So only these are checked, against all edges near them.
 bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
   if (cut.changed.empty()) return true;
   if (!are_distinct(rounded_nodes(cut.nodes)) || !are_apart(cut.changed)) return false;

@@ -1,7 +1,9 @@
 #include "geometry/exact/internal/exact_polygon.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 
@@ -32,6 +34,22 @@ Rational shoelace_sum(const Ring& ring, std::size_t first, std::size_t last) {
 
 }  // namespace
 
+double nearest_double(const Rational& value) {
+  const double truncated = value.get_d();
+  if (!std::isfinite(truncated)) return truncated;
+  const Rational remainder = value - Rational(truncated);
+  const int side = sgn(remainder);
+  if (side == 0) return truncated;
+  const double next = std::nextafter(truncated, side > 0 ? std::numeric_limits<double>::infinity()
+                                                         : -std::numeric_limits<double>::infinity());
+  if (!std::isfinite(next)) return truncated;
+  const Rational gap = Rational(next) - Rational(truncated);
+  const int nearer = cmp(abs(Rational(2 * remainder)), abs(gap));
+  if (nearer != 0) return nearer < 0 ? truncated : next;
+  const bool is_even = std::bit_cast<std::uint64_t>(truncated) % 2 == 0;
+  return is_even ? truncated : next;
+}
+
 Ring exactly(const geometry::Ring& ring) {
   return convert_ring(ring, [](geometry::Point p) { return exactly(p); });
 }
@@ -58,14 +76,14 @@ Rational area(const Polygon& polygon) {
 Rational area(const geometry::Ring& ring) {
   constexpr int kDigits = std::numeric_limits<double>::digits;
   int unit = std::numeric_limits<int>::max();  // the power of two of which all coordinates are multiples
-  const auto see = [&unit](double value) {
+  const auto include = [&unit](double value) {
     int exponent = 0;
     std::frexp(value, &exponent);
     if (value != 0) unit = std::min(unit, exponent - kDigits);
   };
   for (const geometry::Point p : ring) {
-    see(p.x);
-    see(p.y);
+    include(p.x);
+    include(p.y);
   }
   if (ring.size() < 3 || unit == std::numeric_limits<int>::max()) return 0;
   const auto in_units = [unit](double value) {

@@ -42,8 +42,7 @@ enum class Meeting {
 };
 struct SegmentMeeting {
   Meeting kind = Meeting::kNone;
-  Point at;  ///< the point of a touch (exact), a point of an overlap (exact), the nearest-ish point of a
-             ///< crossing
+  Point at;  ///< the point of a touch (exact), a point of an overlap (exact), a crossing (rounded)
 };
 SegmentMeeting meet(Point a, Point b, Point c, Point d);
 

@@ -1,4 +1,4 @@
-#include "io/scene/overlap.hpp"
+#include "geometry/cut/overlapping_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,8 @@
 
 #include "geometry/cut/cut.hpp"
 
-namespace polynya::io {
+namespace polynya::geometry {
 namespace {
-
-using geometry::Box;
-using geometry::Point;
-using geometry::Polygon;
-using geometry::Ring;
-using geometry::Vector;
 
 bool overlap_deeply(const Box& a, const Box& b) {
   return std::min(a.high.x, b.high.x) - std::max(a.low.x, b.low.x) > kTouchingDepth &&
@@ -26,8 +20,8 @@ bool has_separating_edge(const Ring& a, const Ring& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Point from = a[i];
     const Vector edge = a[(i + 1) % a.size()] - from;
-    const double tolerance = kTouchingDepth * geometry::length(edge);
-    const auto side = [&](Point p) { return geometry::cross(edge, p - from); };
+    const double tolerance = kTouchingDepth * length(edge);
+    const auto side = [&](Point p) { return cross(edge, p - from); };
     if (std::ranges::all_of(b, [&](Point p) { return side(p) <= tolerance; }) &&
         std::ranges::all_of(a, [&](Point p) { return side(p) >= -tolerance; }))
       return true;
@@ -36,10 +30,10 @@ bool has_separating_edge(const Ring& a, const Ring& b) {
 }
 
 /// Shared area of two valid polygons [m²], found exactly.
-double shared_area(const Polygon& a, const Polygon& b) {
-  const auto cut = geometry::cut_by_polygon({a}, b);
+double area_in_common(const Polygon& a, const Polygon& b) {
+  const auto cut = cut_by_polygon({a}, b);
   if (cut) return cut->ledger.area_inside;
-  return cut.error().reason == geometry::CutFailure::kMisses ? 0 : std::numeric_limits<double>::quiet_NaN();
+  return cut.error().reason == CutFailure::kMisses ? 0 : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Square cells over all boxes, about as many as there are boxes; each lists the boxes that reach into it.
@@ -84,12 +78,12 @@ class Grid {
 
 }  // namespace
 
-std::vector<Overlap> find_overlaps(const std::vector<Polygon>& polygons, std::size_t most) {
-  std::vector<Overlap> found;
+std::vector<OverlappingPair> find_overlapping_pairs(const std::vector<Polygon>& polygons, std::size_t most) {
+  std::vector<OverlappingPair> found;
   if (polygons.empty()) return found;
   std::vector<Box> boxes;
   boxes.reserve(polygons.size());
-  for (const Polygon& polygon : polygons) boxes.push_back(geometry::bounding_box(polygon.outer));
+  for (const Polygon& polygon : polygons) boxes.push_back(bounding_box(polygon.outer));
   const Grid grid(boxes);
   for (std::size_t cell = 0; cell < grid.cells().size() && found.size() < most; ++cell) {
     const auto& here = grid.cells()[cell];
@@ -98,18 +92,18 @@ std::vector<Overlap> find_overlaps(const std::vector<Polygon>& polygons, std::si
         const Box& a = boxes[here[i]];
         const Box& b = boxes[here[j]];
         if (!overlap_deeply(a, b)) continue;
-        // A pair is looked at once, in the cell that holds the corner of what their boxes share.
+        // A pair is tested once, in the cell that holds the corner of what their boxes share.
         if (grid.cell_at({std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}) != cell) continue;
         const Polygon& p = polygons[here[i]];
         const Polygon& q = polygons[here[j]];
         if (has_separating_edge(p.outer, q.outer) || has_separating_edge(q.outer, p.outer)) continue;
-        const double area = shared_area(p, q);
+        const double area = area_in_common(p, q);
         if (!(area <= kTouchingArea)) found.push_back({here[i], here[j], area});
       }
     }
   }
-  std::ranges::sort(found, {}, [](const Overlap& o) { return std::tuple(o.first, o.second); });
+  std::ranges::sort(found, {}, [](const OverlappingPair& o) { return std::tuple(o.first, o.second); });
   return found;
 }
 
-}  // namespace polynya::io
+}  // namespace polynya::geometry

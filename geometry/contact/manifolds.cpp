@@ -34,7 +34,7 @@ void find_crossings(const Boundary& a, const Boundary& b, const Pose& a_from_b,
     const Vector ab = b0 - a0;
     const double b_turns[2] = {cross(da, ab), cross(da, b1 - a0)};
     const double a_turns[2] = {-cross(db, ab), cross(db, a1 - b0)};
-    // Side by side, not one after the other: which of the four decides cannot be foretold.
+    // Side by side, not one after the other: which of the four decides is unpredictable.
     const bool is_a_crossed = is_left_of_a_edge(da, b_turns[0]) != is_left_of_a_edge(da, b_turns[1]);
     const bool starts_inside = is_left_of_b_edge(db, a_turns[0]);
     const bool is_b_crossed = starts_inside != is_left_of_b_edge(db, a_turns[1]);

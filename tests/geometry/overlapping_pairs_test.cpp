@@ -1,4 +1,4 @@
-#include "io/scene/overlap.hpp"
+#include "geometry/cut/overlapping_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,19 +8,15 @@
 
 #include "geometry/shape/pose.hpp"
 
-namespace polynya::io {
+namespace polynya::geometry {
 namespace {
-
-using geometry::Point;
-using geometry::Polygon;
-using geometry::Ring;
 
 Polygon box(double x, double y, double w, double h) {
   return {{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}, {}};
 }
 
 Polygon turned(Polygon polygon, double angle) {
-  const geometry::Pose pose{{3, 4}, geometry::Rotation::by(angle)};
+  const Pose pose{{3, 4}, Rotation::by(angle)};
   for (Point& p : polygon.outer) p = transform(pose, p);
   for (Ring& hole : polygon.holes) {
     for (Point& p : hole) p = transform(pose, p);
@@ -28,20 +24,21 @@ Polygon turned(Polygon polygon, double angle) {
   return polygon;
 }
 
-TEST(Overlap, SharedEdgesAndCornersAreNone) {
+TEST(OverlappingPairs, SharedEdgesAndCornersAreNone) {
   for (const double angle : {0.0, 0.3, 1.0, 2.5}) {
-    EXPECT_TRUE(find_overlaps({turned(box(0, 0, 10, 10), angle), turned(box(10, 0, 10, 10), angle),
-                               turned(box(10, 10, 5, 5), angle), turned(box(-7, -7, 7, 7), angle)},
-                              100)
+    EXPECT_TRUE(find_overlapping_pairs({turned(box(0, 0, 10, 10), angle), turned(box(10, 0, 10, 10), angle),
+                                        turned(box(10, 10, 5, 5), angle), turned(box(-7, -7, 7, 7), angle)},
+                                       100)
                     .empty());
   }
 }
 
-TEST(Overlap, TellsPairsWithTheirArea) {
+TEST(OverlappingPairs, TellsPairsWithTheirArea) {
   for (const double angle : {0.0, 0.3, 1.0}) {
-    const auto found = find_overlaps({turned(box(0, 0, 10, 10), angle), turned(box(20, 0, 4, 4), angle),
-                                      turned(box(9, 2, 3, 3), angle), turned(box(2, 2, 1, 1), angle)},
-                                     100);
+    const auto found =
+        find_overlapping_pairs({turned(box(0, 0, 10, 10), angle), turned(box(20, 0, 4, 4), angle),
+                                turned(box(9, 2, 3, 3), angle), turned(box(2, 2, 1, 1), angle)},
+                               100);
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0].first, 0U);
     EXPECT_EQ(found[0].second, 2U);
@@ -51,19 +48,19 @@ TEST(Overlap, TellsPairsWithTheirArea) {
   }
 }
 
-TEST(Overlap, AFloeMayLieInAnothersHoleOrBay) {
+TEST(OverlappingPairs, AFloeMayLieInAnothersHoleOrBay) {
   Polygon ring = box(0, 0, 10, 10);
   ring.holes.push_back({{2, 2}, {2, 8}, {8, 8}, {8, 2}});
-  EXPECT_TRUE(find_overlaps({ring, box(3, 3, 4, 4)}, 100).empty());
-  EXPECT_TRUE(find_overlaps({ring, box(2, 2, 6, 6)}, 100).empty());  // fills it
-  EXPECT_EQ(find_overlaps({ring, box(3, 3, 6, 4)}, 100).size(), 1U);
+  EXPECT_TRUE(find_overlapping_pairs({ring, box(3, 3, 4, 4)}, 100).empty());
+  EXPECT_TRUE(find_overlapping_pairs({ring, box(2, 2, 6, 6)}, 100).empty());  // fills it
+  EXPECT_EQ(find_overlapping_pairs({ring, box(3, 3, 6, 4)}, 100).size(), 1U);
   const Polygon bay{{{0, 0}, {10, 0}, {10, 10}, {8, 10}, {8, 2}, {2, 2}, {2, 10}, {0, 10}}, {}};
-  EXPECT_TRUE(find_overlaps({bay, box(3, 3, 4, 4)}, 100).empty());
-  EXPECT_EQ(find_overlaps({bay, box(3, 1, 4, 4)}, 100).size(), 1U);
+  EXPECT_TRUE(find_overlapping_pairs({bay, box(3, 3, 4, 4)}, 100).empty());
+  EXPECT_EQ(find_overlapping_pairs({bay, box(3, 1, 4, 4)}, 100).size(), 1U);
 }
 
 /// The grid finds the pairs that looking at all pairs finds.
-TEST(Overlap, AgreesWithAllPairs) {
+TEST(OverlappingPairs, AgreesWithAllPairs) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> place(0, 100);
   std::uniform_real_distribution<double> size(0.5, 12);
@@ -82,11 +79,12 @@ TEST(Overlap, AgreesWithAllPairs) {
     }
   }
   std::vector<std::pair<std::size_t, std::size_t>> found;
-  for (const Overlap& o : find_overlaps(boxes, 100'000)) found.emplace_back(o.first, o.second);
+  for (const OverlappingPair& o : find_overlapping_pairs(boxes, 100'000))
+    found.emplace_back(o.first, o.second);
   EXPECT_GT(expected.size(), 20U);
   EXPECT_EQ(found, expected);
-  EXPECT_EQ(find_overlaps(boxes, 3).size(), 3U);
+  EXPECT_EQ(find_overlapping_pairs(boxes, 3).size(), 3U);
 }
 
 }  // namespace
-}  // namespace polynya::io
+}  // namespace polynya::geometry

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "geometry/shape/polygon.hpp"
+#include "geometry/exact/measures.hpp"
 
 namespace polynya::geometry {
 
-/// A ring's signed area with bounds on its errors, generous ones: whoever finds an area within them looks
-/// exactly.
+/// A ring's signed area with generous bounds on its errors: within them, decide in rationals.
 struct RingArea {
   double area = 0;       ///< compensated sum about the ring's first vertex [m²]
   double doubt = 0;      ///< |area − exact area of these vertices| is below this [m²]
@@ -16,8 +15,18 @@ struct RingArea {
 RingArea ring_area(const Ring& ring);
 
 /// The polygon's area by its rings' [m²]: within 1e-6 of the exact one as a bound, within some 1e-15 as a
-/// rule; the nearest double where that cannot be told from the bounds.
+/// rule; the nearest double where the bounds leave that open.
 double area_of(const Polygon& polygon, const std::vector<RingArea>& rings);
 double area_of(const Polygon& polygon);
+
+/// The double nearest to the exact signed area of the ring [m²]: positive where it runs counter-clockwise.
+/// NaN where a coordinate is not finite.
+double nearest_area(const Ring& ring);
+/// The same of a polygon, its holes (which run clockwise) taken off.
+double nearest_area(const Polygon& polygon);
+
+/// Measures of a valid polygon computed in rationals and rounded once: for slivers, whose moments in doubles
+/// are noise.
+Measures exact_measures(const Polygon& polygon);
 
 }  // namespace polynya::geometry

@@ -1,4 +1,4 @@
-#include "geometry/contact/first_touch.hpp"
+#include "geometry/contact/first_contact.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -31,8 +31,8 @@ std::optional<double> entry_time(Point vertex, Vector velocity, const Ring& ring
 }
 
 /// Every vertex of one ring on every edge of the other.
-std::vector<FirstTouch> meetings(const Ring& a, const Ring& b, Vector velocity, double from, double until) {
-  std::vector<FirstTouch> found;
+std::vector<FirstContact> meetings(const Ring& a, const Ring& b, Vector velocity, double from, double until) {
+  std::vector<FirstContact> found;
   const auto collect = [&](const Ring& moving, const Ring& resting, Vector relative, bool is_b_resting) {
     for (std::size_t i = 0; i < resting.size(); ++i) {
       for (const Point vertex : moving) {
@@ -47,7 +47,7 @@ std::vector<FirstTouch> meetings(const Ring& a, const Ring& b, Vector velocity, 
   };
   collect(b, a, velocity, false);
   collect(a, b, -velocity, true);
-  std::ranges::stable_sort(found, {}, &FirstTouch::time);
+  std::ranges::stable_sort(found, {}, &FirstContact::time);
   return found;
 }
 
@@ -58,10 +58,10 @@ bool overlap_at(const Ring& a, const Ring& b, Vector shift_of_b) {
 
 }  // namespace
 
-std::optional<FirstTouch> first_touch(const Ring& a, const Ring& b, Vector velocity, double from,
-                                      double until) {
+std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector velocity, double from,
+                                          double until) {
   if (velocity == Vector{}) return {};
-  for (const FirstTouch& touch : meetings(a, b, velocity, from, until)) {
+  for (const FirstContact& touch : meetings(a, b, velocity, from, until)) {
     const double later = touch.time + kFurtherOn / length(velocity);
     if (overlap_at(a, b, later * velocity)) return touch;
   }
