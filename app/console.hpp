@@ -31,6 +31,11 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
+/// "1 floe", "2 floes".
+inline std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 /// "polynya: " and the message on stderr; returns the code.
 int fail(int code, std::string_view message);
 

@@ -32,10 +32,9 @@ void report_floes(const std::string& name, const io::CutReport& report) {
       report_of(floe, words);
     }
     if (floe.repair) {
-      report_of(floe, fmt::format("{}, repaired ({}): {} polygon{}, {:+} m2 to the {} m2 drawn",
-                                  floe.repair->defect, floe.repair->rule, floe.repair->shapes,
-                                  floe.repair->shapes == 1 ? "" : "s", floe.repair->area_changed,
-                                  floe.repair->area_drawn));
+      report_of(floe, fmt::format("{}, repaired ({}): {}, {:+} m2 to the {} m2 drawn", floe.repair->defect,
+                                  floe.repair->rule, counted(floe.repair->shapes, "polygon"),
+                                  floe.repair->area_changed, floe.repair->area_drawn));
     }
     for (const io::Dangling& one : floe.dangling) {
       report_of(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m",
@@ -50,10 +49,9 @@ void report_totals(const io::CutReport& report) {
   const auto floes = std::ranges::count_if(
       report.floes, [](const io::CutFloe& floe) { return !floe.rejected || !floe.pieces.empty(); });
   print_err(
-      "polynya: {} floe{} -> {} piece{}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect "
-      "{}, rounding "
-      "{:.2e} m2)\n",
-      floes, floes == 1 ? "" : "s", totals.pieces, totals.pieces == 1 ? "" : "s", totals.area,
+      "polynya: {} -> {}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect {}, rounding {:.2e} "
+      "m2)\n",
+      counted(static_cast<std::size_t>(floes), "floe"), counted(totals.pieces, "piece"), totals.area,
       totals.area_of_pieces, totals.removed, totals.exact_defect, totals.rounding_defect);
   if (totals.snap_rounded > 0) {
     print_err("polynya: {} piece{} snap-rounded: nearest doubles did not make a valid polygon\n",

@@ -82,9 +82,9 @@ int build(const Options& options) {
   if (problem.empty()) problem = io::write_named_file(options.out, text);
   if (!problem.empty()) return fail(kInputOutput, problem);
   print_out("database    {}, {} bytes\n", options.out, text.size());
-  print_out("solved      {} wedges, {} pushes, fluid {}, in {:.3g} s on {} thread{}\n", wedges,
-            built->entries().size(), fracture::fluid_name(options.fluid), wall, threads,
-            threads == 1 ? "" : "s");
+  print_out("solved      {} wedges, {} pushes, fluid {}, in {:.3g} s on {}\n", wedges,
+            built->entries().size(), fracture::fluid_name(options.fluid), wall,
+            counted(static_cast<std::size_t>(threads), "thread"));
   print_out("hash        fnv1a64 {}\n", fracture::database_hash(*built));
   if (text == fracture::default_database_text())
     print_out("            byte for byte the database that ships with Polynya\n");

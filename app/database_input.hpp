@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,7 @@ namespace polynya::app {
 
 /// What the commands of `polynya database` share: the wedge of ice, the database, threads.
 
+inline constexpr double kDegree = 180 / std::numbers::pi;
 inline constexpr double kUsualWedgeAngle = 90;  ///< where none is given [deg]
 
 /// A wedge of floating ice and the hull that meets it, by the command line.
@@ -52,7 +54,7 @@ tl::expected<fracture::BendingLoad, ExitCode> bending_load(const DatabaseLoadOpt
 /// One line: "0.5 m of ice, 90 deg wedge, hull 60 deg from the vertical, v_n 1 m/s".
 std::string describe(const fracture::BendingLoad& load);
 
-/// As many threads as asked, or for 0 as many as the machine runs at once.
+/// As many threads as given, or for 0 as many as the machine runs at once.
 int thread_count(int asked);
 
 }  // namespace polynya::app

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -19,7 +18,6 @@ using fracture::FsiDatabaseModel;
 using fracture::SliceAxis;
 using fracture::SlicePoint;
 
-constexpr double kDegree = 180 / std::numbers::pi;
 constexpr int kPoints = 161;
 constexpr double kWidestWedge = 170;  ///< towards 180 the crushed area grows without bound [deg]
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +23,6 @@ using fracture::BendingCapacity;
 using fracture::BendingDatabase;
 using fracture::BendingLoad;
 using fracture::SlicePoint;
-
-constexpr double kDegree = 180 / std::numbers::pi;
 
 constexpr auto kExamples =
     "Examples:\n"

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,8 +25,6 @@ using fracture::BendingLoad;
 using fracture::FsiDatabaseModel;
 using fracture::SliceAxis;
 using fracture::SlicePoint;
-
-constexpr double kDegree = 180 / std::numbers::pi;
 
 struct Options {
   std::string file;        ///< empty: the shipped one

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -94,8 +93,8 @@ void print_errors(const char* name, const std::vector<AccuracyRow>& rows, double
       *std::ranges::max_element(rows, {}, [error](const AccuracyRow& row) { return std::abs(row.*error); });
   print_out("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} deg, {:.4f}, {:.3g}, {:.3g} |\n", name,
             quantile(sizes, 0.5), quantile(sizes, 0.9), quantile(sizes, 0.99), quantile(sizes, 1),
-            worst.groups.opening_angle * (180 / std::numbers::pi), worst.groups.mass_ratio,
-            worst.groups.softness, worst.groups.froude);
+            worst.groups.opening_angle * kDegree, worst.groups.mass_ratio, worst.groups.softness,
+            worst.groups.froude);
 }
 
 std::string mesh_of(const fracture::SolverSettings& settings) {

@@ -46,10 +46,9 @@ int write_vtk(const io::Run& run, const Options& options) {
   if (!written) return fail(kInputOutput, written.error());
   if (const std::size_t count = written->only_outlines.size(); count > 0)
     print_err(
-        "note: {} floe{} without triangles, only with outlines, since the rings bound no valid area; the "
-        "first is "
+        "note: {} without triangles, only with outlines, since the rings bound no valid area; the first is "
         "floe {}; polynya inspect {} --check lists what is wrong\n",
-        count, count == 1 ? "" : "s", written->only_outlines.front(), options.run);
+        counted(count, "floe"), written->only_outlines.front(), options.run);
   print_out("{}  {} frames; open it in ParaView\n", (fs::path(options.vtk) / "run.pvd").string(),
             written->frames);
   return kDone;

@@ -91,7 +91,7 @@ void append_command(std::string& text, const CLI::App& command, const std::strin
   for (const CLI::App* sub : commands_of(command)) append_command(text, *sub, path + " " + sub->get_name());
 }
 
-/// What may stand for a type of value in bash's completion.
+/// How bash completes a type of value.
 std::string_view completed_by(std::string_view type) {
   type = type.substr(0, type.find(':'));  // a range may follow
   if (type == "FILE" || type == "SCENE" || type == "FLOES") return "-f";

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/console.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/run/motion_index.hpp"
@@ -156,8 +157,8 @@ std::string size_text(const analysis::SizeDistribution& sizes) {
   std::string text = fmt::format("{} floes, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
                                  sizes.count, sizes.area, sizes.time);
   if (sizes.without_size > 0)
-    text += fmt::format("left out: {} floe{} whose recorded area is not a positive number\n",
-                        sizes.without_size, sizes.without_size == 1 ? "" : "s");
+    text += fmt::format("left out: {} whose recorded area is not a positive number\n",
+                        counted(sizes.without_size, "floe"));
   if (sizes.count == 0) return text;
   text += fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", sizes.least, sizes.median,
                       sizes.largest);

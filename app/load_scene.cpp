@@ -14,8 +14,7 @@ namespace {
 
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems) {
   for (const io::Problem& problem : problems) print_err("{}\n", to_string(problem));
-  print_err("polynya: {} problem{} in {}; nothing was written\n", problems.size(),
-            problems.size() == 1 ? "" : "s", name);
+  print_err("polynya: {} in {}; nothing was written\n", counted(problems.size(), "problem"), name);
 }
 
 }  // namespace

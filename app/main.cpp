@@ -69,7 +69,7 @@ int command_line(int count, char** words) {
       write_err(usage_message(app, error));
       return kUsage;
     }
-    write_out(out.str());  // what was asked for: help or version
+    write_out(out.str());  // help or version
     return kDone;
   }
   return run_chosen(commands);

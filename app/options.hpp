@@ -66,6 +66,7 @@ void set_choices(CLI::Option& option, std::vector<std::pair<std::string_view, En
 /// Likewise for an option that keeps the name.
 inline void set_choices(CLI::Option& option, const std::vector<std::string_view>& names) {
   std::vector<std::pair<std::string_view, std::string>> choices;
+  choices.reserve(names.size());
   for (const std::string_view name : names) choices.emplace_back(name, name);
   set_choices(option, std::move(choices));
 }

@@ -42,7 +42,7 @@ std::string unexpected(const CLI::App& command, const std::vector<std::string>& 
                      option == rest.end() ? "" : meant_by(option->substr(0, option->find('=')), names));
 }
 
-/// A positional by what it stands for: "SCENE is missing" in place of "scene is required".
+/// A positional by its type: "SCENE is missing" in place of "scene is required".
 std::string missing(const CLI::App& command, const std::string& words) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_positional() && words == option->get_name() + " is required")

@@ -43,9 +43,6 @@ int validate(const Options& options) {
       static_cast<std::size_t>(std::ranges::count_if(scene.ships, [](const simulation::ShipSpec& ship) {
         return std::holds_alternative<simulation::FixedInPlace>(ship.propulsion);
       }));
-  const auto counted = [](std::size_t count, std::string_view noun) {
-    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-  };
   print_out("{}: valid; \"{}\" with {}{} and {}, {:g} s in steps of {:g} s, hash {}\n",
             options.scene == "-" ? "stdin" : options.scene, scene.name,
             counted(scene.ships.size() - structures, "ship"),

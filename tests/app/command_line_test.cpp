@@ -129,11 +129,11 @@ TEST(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
     EXPECT_TRUE(outcome.out.empty());
     EXPECT_FALSE(std::filesystem::exists(folder / "runs"));
   }
-  const std::string told = polynya({"run", "wrong.json"}, {folder.path()}).err;
-  EXPECT_NE(told.find("wrong.json:1:10: ice.thicknes_m: "), std::string::npos) << told;
-  EXPECT_NE(told.find("did you mean \"thickness_m\"?"), std::string::npos);
-  EXPECT_NE(told.find("wrong.json:1:47: time.step_s: found 0"), std::string::npos) << told;
-  EXPECT_NE(told.find("3 problems in wrong.json"), std::string::npos);
+  const std::string err = polynya({"run", "wrong.json"}, {folder.path()}).err;
+  EXPECT_NE(err.find("wrong.json:1:10: ice.thicknes_m: "), std::string::npos) << err;
+  EXPECT_NE(err.find("did you mean \"thickness_m\"?"), std::string::npos);
+  EXPECT_NE(err.find("wrong.json:1:47: time.step_s: found 0"), std::string::npos) << err;
+  EXPECT_NE(err.find("3 problems in wrong.json"), std::string::npos);
 }
 
 TEST(CommandLine, ASceneThatCannotBeReadIsFive) {

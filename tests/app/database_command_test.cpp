@@ -393,25 +393,25 @@ TEST(DatabaseCommand, RefusesFilesThatAreNoDatabase) {
   write_file(folder / "escape.txt", "polynya-bending-database 1\nfluid \x1b[31mred\n");
   write_file(folder / "huge.txt", std::string(fracture::kLargestFile + 1, '7'));
   struct Row {
-    std::string file, told;
+    std::string file, message;
   };
-  for (const auto& [file, told] : {Row{"missing.txt", "missing.txt: "},
-                                   {"/dev/zero", "/dev/zero: "},
-                                   {folder.path().string(), folder.path().string() + ": "},
-                                   {"huge.txt", "huge.txt: "},
-                                   {"empty.txt", "empty.txt:1: "},
-                                   {"zeros.txt", "zeros.txt:1: "},
-                                   {"half.txt", "half.txt:"},
-                                   {"digit.txt", "digit.txt:"},
-                                   {"later.txt", "later.txt:1: expected 'polynya-bending-database 1'"},
-                                   {"escape.txt", "escape.txt:2: no such fluid model"}}) {
+  for (const auto& [file, message] : {Row{"missing.txt", "missing.txt: "},
+                                      {"/dev/zero", "/dev/zero: "},
+                                      {folder.path().string(), folder.path().string() + ": "},
+                                      {"huge.txt", "huge.txt: "},
+                                      {"empty.txt", "empty.txt:1: "},
+                                      {"zeros.txt", "zeros.txt:1: "},
+                                      {"half.txt", "half.txt:"},
+                                      {"digit.txt", "digit.txt:"},
+                                      {"later.txt", "later.txt:1: expected 'polynya-bending-database 1'"},
+                                      {"escape.txt", "escape.txt:2: no such fluid model"}}) {
     for (const Words& words :
          {Words{"show", file}, Words{"query", "--speed", "1", "--database", file} + kPaperWedge,
           Words{"study", "accuracy", "--database", file}}) {
       const Outcome outcome = database(words, folder);
       EXPECT_EQ(outcome.code, 5) << file;
       EXPECT_TRUE(outcome.out.empty());
-      EXPECT_TRUE(contains(outcome.err, "polynya: " + told)) << outcome.err;
+      EXPECT_TRUE(contains(outcome.err, "polynya: " + message)) << outcome.err;
       EXPECT_FALSE(contains(outcome.err, "\x1b"));
     }
   }

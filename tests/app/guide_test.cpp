@@ -1,4 +1,4 @@
-// Help, manual page and completion tell of every command and option there is.
+// Help, manual page and completion list every command and option.
 #include <regex>
 #include <set>
 

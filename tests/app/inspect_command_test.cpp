@@ -151,7 +151,7 @@ TEST_F(InspectCommand, WhatCannotBeWrittenIsNoCrash) {
   }
 }
 
-/// A ring with two vertices exchanged, or an area that is not its ring's: the check tells which floe.
+/// A ring with two vertices exchanged, or an area that is not its ring's: the check names the floe.
 TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {
   for (const bool is_ring : {true, false}) {
     std::filesystem::remove_all(folder->path() / "damaged");

@@ -29,7 +29,7 @@ inline constexpr std::array kComparedFiles{
     io::run_file::kScene,  io::run_file::kForces,   io::run_file::kEvents, io::run_file::kFloes,
     io::run_file::kFrames, io::run_file::kContacts, io::run_file::kStates, io::run_file::kFinalGeojson};
 
-/// A summary.json without the lines that tell how long the run took by the clock.
+/// A summary.json without the lines that record how long the run took by the clock.
 inline std::string without_wall_time(const std::string& summary) {
   std::istringstream lines(summary);
   std::string kept;
@@ -64,7 +64,7 @@ inline bool kill_after(pid_t child, const Start& start, std::chrono::microsecond
   return wait_for(child, start).code == -SIGKILL;
 }
 
-/// Starts polynya and kills it when the run folder has so many checkpoints. False where it ended before.
+/// Starts polynya and kills it when the run folder has that many checkpoints. False where it ended before.
 inline bool kill_at_checkpoints(const std::vector<std::string>& words, const Start& start,
                                 const std::filesystem::path& run, std::size_t count) {
   const pid_t child = start_polynya(words, start);

@@ -25,12 +25,12 @@ struct Start {
   std::filesystem::path folder;         ///< its working folder, where its output is kept too
   rlim_t largest_file = RLIM_INFINITY;  ///< [bytes]
   std::filesystem::path input = {};     ///< its stdin; none if empty
-  /// Replaces a descriptor at the last moment; the others go to files, or come from /dev/null.
+  /// Replaces a descriptor last; the others go to files, or come from /dev/null.
   std::function<void()> arrange_streams = [] {};
   std::vector<std::string> under = {};  ///< a program, and its options, that starts polynya
 };
 
-/// With stdout or stderr a pipe that nobody reads.
+/// With stdout or stderr a pipe without a reader.
 inline void close_pipe_behind(int descriptor) {
   int ends[2];
   if (pipe(ends) != 0 || close(ends[0]) != 0 || dup2(ends[1], descriptor) < 0) _exit(126);

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A run that was killed when it had two checkpoints, beside the same one that nobody killed.
+/// A run that was killed when it had two checkpoints, beside the same run uninterrupted.
 class Resume : public testing::Test {
  protected:
   void interrupt() {

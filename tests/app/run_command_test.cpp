@@ -181,7 +181,7 @@ TEST(RunCommand, AnExistingRunIsKeptUnlessTold) {
 TEST(RunCommand, ASignalLeavesAWholeFolder) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
-    // Two floes that never stop: the run lasts as long as nobody ends it.
+    // Two floes that never stop: the run lasts until it is stopped.
     const Start start{folder.path()};
     const pid_t child =
         start_polynya({"run", scene_path("sawamura2017-fig4c"), "--until", "1e6", "--out", "run"}, start);

@@ -2,7 +2,7 @@
 
 namespace polynya::tests {
 
-/// A ship that breaks cusps from a plate, in a moment.
+/// A ship that breaks cusps from a plate within a second.
 inline constexpr auto kTinyScene =
     R"({"name": "tiny", "time": {"step_s": 0.01, "until_s": 1}, "record": {"frames_interval_s": 0.5},
         "ships": [{"hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30}, "mass_kg": 3e6,

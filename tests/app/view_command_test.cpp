@@ -189,7 +189,7 @@ TEST(LevelIce, TakesAFewMegabytesOverSevenHundredMetres) {
   EXPECT_LT(std::filesystem::file_size(folder / "run/view.html"), 5'000'000U);
 }
 
-/// At every frame that stays, a thinned page tells of every floe what the run tells.
+/// At every frame that stays, a thinned page has each floe as the run has it.
 TEST_F(ViewCommand, AThinnedPageTellsTheSameAtItsFrames) {
   const Page held = page({"--every", "4", "--from", "5", "--until", "27"});
   io::Run thin = *run;

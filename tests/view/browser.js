@@ -1,4 +1,4 @@
-// Debian's Chromium, driven by playwright-core, which is looked for in NODE_PATH.
+// Debian's Chromium, driven by playwright-core, which is found by NODE_PATH.
 "use strict";
 const { chromium } = require("playwright-core");
 

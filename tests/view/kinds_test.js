@@ -87,7 +87,7 @@ const rowsOf = (text) => {
   return lines.map((fields) => Object.fromEntries(header.map((name, k) => [name, fields[k]])));
 };
 
-test("the channel is that of `polynya channel` at every moment, carried with drifting and shearing water", async (t) => {
+test("the channel is that of `polynya channel` at every time, carried with drifting and shearing water", async (t) => {
   const water = { drift_m_per_s: [0.05, 0.1], shear: { rate_per_s: 1e-4, direction_deg: 20, origin_m: [0, 40] } };
   const floes = [{ field: { corner_m: [0, -60], extent_m: [260, 120], floe_size_m: 9, concentration: 0.6 } }];
   const run = makeRun(folder, smallScene("channelled", { water, floes, time: { step_s: 0.02, until_s: 120 }, ships: [ship("a", 0)],

@@ -24,7 +24,7 @@ after(async () => {
 
 const text = (id) => page.locator(`#${id}`).textContent();
 const timeShown = async () => parseFloat(await text("now"));
-/** Waits until what was asked for is drawn. */
+/** Waits until the request is drawn. */
 const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const act = async (name, ...words) => {
   await page.evaluate(([action, list]) => window.polynyaPlayer.actions[action](...list), [name, words]);
@@ -255,7 +255,7 @@ test("the contact forces shown are those of contacts.csv, at the hull, and go wi
   await act("fit");
 });
 
-test("the plot's moment and the timeline's stand in one line with the time", async () => {
+test("the present time of plot and timeline is at one place with the time", async () => {
   for (const time of [0, 137, 550]) {
     await act("goTo", time);
     const [line, thumb, over] = await Promise.all([".now-line", ".thumb", "#plot .u-over"].map((css) => page.locator(css).boundingBox()));

@@ -56,7 +56,7 @@ test("true loads lead: the interval's mean, then the step maximum, then the pape
   assert.ok(close(zero(await scale("y")), zero(await scale("paper")), 1e-9), "0 is at one height on both axes");
 });
 
-test("j/\u03c4c is shown unasked where it decides splits, elsewhere where it is asked for", async () => {
+test("j/\u03c4c is shown by default where it decides splits, elsewhere on request", async () => {
   assert.ok(await page.locator("#curve-paper").isChecked());
   const other = await openPage(browser, makePage(runWithSpike("true-only", { splitting: { model: "lefm" } })));
   assert.ok(!(await other.locator("#curve-paper").isChecked()));
@@ -129,7 +129,7 @@ test("the wheel zooms about the pointer, a part can be chosen, a double click sh
   await page.keyboard.up("Shift");
   const chosen = await span();
   assert.ok(close(chosen[0], 2, 0.05) && close(chosen[1], 6, 0.05), `${chosen}`);
-  // In the part a drag goes to its times, and what is in view follows the moment.
+  // In the part a drag goes to its times, and what is in view follows the present time.
   await page.mouse.click(box.x + 0.5 * box.width, box.y + 30);
   assert.ok(close(await page.evaluate(() => window.polynyaPlayer.state.time), 4, 0.05));
   await page.evaluate(() => window.polynyaPlayer.actions.goTo(9));

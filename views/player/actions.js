@@ -102,7 +102,7 @@ function makeActions(player) {
       state.marksDirty = true;
       player.cardIsStale = true;
     },
-    /** Chooses a floe and goes to where it lives, if that is not now. */
+    /** Chooses a floe, and moves to its time if it does not live now. */
     visit(id) {
       if (!places.isAlive(id, state.time)) {
         actions.play(false);

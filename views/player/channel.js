@@ -1,5 +1,5 @@
 // The channel behind each ship at an instant, by the rules of docs/channel.md (and analysis/channel.cpp, analysis/swept_band.cpp):
-// its track and what its hull swept are carried with the water, its width goes from ice to ice.
+// its track and what its hull swept are carried with the water, its width is from ice to ice.
 
 /** Where a point of the water at (x, y) at one time is at another. */
 function makeCarrier({ drift_m_per_s: [ux, uy], shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {

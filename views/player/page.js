@@ -22,22 +22,19 @@ function fillPage({ run, range, state, plot, actions }) {
   };
   byId("facts").replaceChildren(...Object.entries(facts).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, String(value))]));
 
-  byId("play").addEventListener("click", actions.togglePlay);
-  byId("event-before").addEventListener("click", () => actions.stepEvent(-1));
-  byId("event-after").addEventListener("click", () => actions.stepEvent(1));
+  const onClick = {
+    play: actions.togglePlay, "event-before": () => actions.stepEvent(-1), "event-after": () => actions.stepEvent(1),
+    "zoom-in": () => actions.zoomCentre(1.4), "zoom-out": () => actions.zoomCentre(1 / 1.4), fit: actions.fit, follow: actions.follow,
+    theme: actions.toggleTheme, "help-button": actions.toggleHelp, "help-close": actions.toggleHelp,
+    "full-scale": actions.toggleFullScale, "whole-run": () => actions.zoomPlot(),
+  };
+  for (const [id, act] of Object.entries(onClick)) byId(id).addEventListener("click", act);
   byId("event-before").disabled = byId("event-after").disabled = info.events.length === 0;
   byId("play").disabled = frames.times.length < 2;
   byId("rate").replaceChildren(...rates.map((rate) => make("option", { value: String(rate) }, `${rate}\u00d7`)));
   byId("rate").value = String(state.rate);
   byId("rate").addEventListener("change", (event) => actions.setRate(Number(event.target.value)));
-  byId("zoom-in").addEventListener("click", () => actions.zoomCentre(1.4));
-  byId("zoom-out").addEventListener("click", () => actions.zoomCentre(1 / 1.4));
-  byId("fit").addEventListener("click", actions.fit);
-  byId("follow").addEventListener("click", actions.follow);
   byId("follow").disabled = info.ships.length === 0;
-  byId("theme").addEventListener("click", actions.toggleTheme);
-  byId("help-button").addEventListener("click", actions.toggleHelp);
-  byId("help-close").addEventListener("click", actions.toggleHelp);
   for (const what of ["breakage", "generation", "speed", "size"]) byId(`by-${what}`).addEventListener("change", () => actions.colourBy(what));
   for (const name of Object.keys(state.layers)) {
     byId(`layer-${name}`).checked = state.layers[name];
@@ -45,10 +42,7 @@ function fillPage({ run, range, state, plot, actions }) {
   }
   byId("track").setAttribute("aria-valuemin", String(range[0]));
   byId("track").setAttribute("aria-valuemax", String(range[1]));
-  if (info.ships.length === 0) return document.body.classList.add("no-ships");
+  document.body.classList.toggle("no-ships", info.ships.length === 0);
   byId("quantity").replaceChildren(...Object.entries(plot.quantities).map(([name, { label }]) => make("option", { value: name }, label)));
   byId("quantity").addEventListener("change", (event) => actions.plotQuantity(event.target.value));
-  byId("full-scale").addEventListener("click", actions.toggleFullScale);
-  byId("whole-run").addEventListener("click", () => actions.zoomPlot());
-  return undefined;
 }

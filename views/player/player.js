@@ -20,7 +20,7 @@ function startPlayer() {
     layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, circles: false, velocities: false, forces: false, fractures: false },
     iceDirty: true, marksDirty: true,
   };
-  // What tests and measurements ask for is here too; none of it is needed to watch a run.
+  // Includes what tests and measurements read.
   const player = {
     run, range, state, view, places, motions, box: extentOf(run, motions, places, range), colours: themeColours(),
     colourings: makeColourings(run, places), circlesOf: makeCircleSampler(run), cardIsStale: false, drawn: 0, drawTimes: [],

@@ -2,7 +2,7 @@
 
 const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
 
-/** `onTime` is called with a time that was asked for, `onPlaced` with the left end and the width of the axis of times [px],
+/** `onTime` is called with the requested time, `onPlaced` with the left end and the width of the axis of times [px],
  * `onSpan` with the part of the run that is in view [s]. */
 function makePlot(run, host, range, { onTime, onPlaced, onSpan }) {
   const { forces, info } = run;
@@ -81,7 +81,7 @@ function makePlot(run, host, range, { onTime, onPlaced, onSpan }) {
     }));
   }
 
-  /** Curves of all ships over one axis of times, as uPlot wants them. */
+  /** Curves of all ships over one axis of times, in the form uPlot takes. */
   function table(curves) {
     const tables = forces.map((rows) => [rows.force_t_s, ...curves.map((curve) => rows[curve.column])]);
     if (tables.every(([times]) => times.length === 0)) return [[], ...forces.flatMap(() => curves.map(() => []))];

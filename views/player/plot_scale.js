@@ -34,7 +34,7 @@ function loadRange(columns, isFull) {
   return [Math.max(low, -limit), Math.min(high, limit)];
 }
 
-/** The ranges with some room, grown so that 0 stands at one height in all of them. */
+/** The ranges with some room, grown so that 0 is at one height in all of them. */
 function alignedRanges(ranges) {
   const size = ([low, high]) => Math.max(high, -low) || 1;
   const below = Math.max(...ranges.map((range) => -range[0] / size(range)));

@@ -1,4 +1,4 @@
-// The run as it stands in the page: words and lists as JSON, numbers as columns (docs/view.md).
+// The run in the page: words and lists as JSON, numbers as columns (docs/view.md).
 
 function bytesOfBase64(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
