@@ -125,7 +125,7 @@ class ChannelMeasure {
     return {};
   }
 
-  /// Neighbouring cells share the corners between them: each joint stands on the mean of the directions
+  /// Neighbouring cells share the corners between them: each joint has the mean of the directions
   /// beside it.
   Done find_stations() {
     const double behind_ship = track_.back().along - behind_;

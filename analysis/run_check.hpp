@@ -50,7 +50,7 @@ struct RunCheck {
   double most_shared = 0;  ///< Σ over all pairs at the instant it is most [m²]
   double most_shared_time = 0;  ///< [s]
   double ice_then = 0;          ///< area of all floes at that instant [m²]
-  SharedIce deepest;            ///< the pair that goes deepest, of those that share so much
+  SharedIce deepest;            ///< the deepest pair of those that share more than kTouchingArea
   SharedIce worst;              ///< the pair that shares most
   std::size_t undecided = 0;    ///< pairs whose overlap geometry failed to find
 

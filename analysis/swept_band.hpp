@@ -8,8 +8,8 @@
 
 namespace polynya::analysis {
 
-/// A point that goes with the water (the scene's drift and shear), from one time to another [s]. The map is
-/// affine in the plane; no floe is asked where it really went.
+/// A point that moves with the water (the scene's drift and shear), from one time to another [s]. The map is
+/// affine in the plane; the motion of floes does not enter.
 geometry::Point carried_by_water(const simulation::WaterSettings& water, geometry::Point point, double from,
                                  double to);
 geometry::Polygon carried_by_water(const simulation::WaterSettings& water, geometry::Polygon polygon,
