@@ -37,9 +37,9 @@ std::string obstacle(const std::filesystem::path& path, bool overwrite) {
   std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, ignored)) return folder.string() + ": no such folder";
-  if (!std::filesystem::exists(path, ignored)) return io::trial_of_named_file(path);
+  if (!std::filesystem::exists(path, ignored)) return io::problem_of(io::trial_of_named_file(path));
   if (!std::filesystem::is_regular_file(path, ignored)) return path.string() + ": it is not a file";
-  return overwrite ? io::trial_of_named_file(path)
+  return overwrite ? io::problem_of(io::trial_of_named_file(path))
                    : path.string() + ": it exists already; --overwrite replaces it";
 }
 
@@ -79,7 +79,7 @@ int build(const Options& options) {
   const std::string text = fracture::write_database(*built);
   watch_signals();  // a signal waits for the write
   std::string problem = obstacle(options.out, options.overwrite);
-  if (problem.empty()) problem = io::write_named_file(options.out, text);
+  if (problem.empty()) problem = io::problem_of(io::write_named_file(options.out, text));
   if (!problem.empty()) return fail(kInputOutput, problem);
   print_out("database    {}, {} bytes\n", options.out, text.size());
   print_out("solved      {} wedges, {} pushes, fluid {}, in {:.3g} s on {}\n", wedges,

@@ -107,8 +107,8 @@ std::string write_pictures(const std::vector<NamedChart>& charts, const std::fil
   std::filesystem::create_directories(folder, error);
   if (error) return folder.string() + ": " + error.message();
   for (const auto& [file, chart] : charts) {
-    if (std::string problem = io::write_named_file(folder / file, views::to_svg(chart)); !problem.empty())
-      return problem;
+    if (const auto written = io::write_named_file(folder / file, views::to_svg(chart)); !written)
+      return written.error();
     print_out("{}picture         {}\n", &file == &charts.front().file ? "\n" : "", (folder / file).string());
   }
   return "";

@@ -67,8 +67,8 @@ int write_geojson(const io::Run& run, const Options& options) {
     print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
   for (const auto& [name, text] : views::geojson_layers(run, time, origin)) {
     const fs::path file = fs::path(options.geojson) / name;
-    if (const std::string wrong = io::write_named_file(file, text); !wrong.empty())
-      return fail(kInputOutput, wrong);
+    if (const auto written = io::write_named_file(file, text); !written)
+      return fail(kInputOutput, written.error());
     write_out(file.string() + "\n");
   }
   return kDone;

@@ -5,12 +5,9 @@
 #include <fmt/format.h>
 
 #include "io/run/shown_loads.hpp"
-#include "simulation/world.hpp"
 
 namespace polynya::app {
 namespace {
-
-constexpr std::size_t kMostWarnings = 5;
 
 /// "-1.89 MN"
 std::string with_unit(double newtons) {
@@ -44,28 +41,6 @@ std::string force_lines(const io::RunSummary& summary, const simulation::Scene& 
     if (is_free) text += fmt::format("ice force   {}: none\n", peaks.ship);
   }
   return text;
-}
-
-std::vector<std::string> ship_contact_warnings(const simulation::Simulation& simulation) {
-  std::vector<std::string> warnings;
-  const auto& contacts = simulation.world().accounts.ship_contacts;
-  const auto& ships = simulation.scene().ships;
-  for (const simulation::ShipContact& c : contacts) {
-    if (warnings.size() == kMostWarnings) {
-      warnings.push_back(
-          fmt::format("{} more pairs of ships and structures came into contact (events.ndjson)",
-                      contacts.size() - kMostWarnings));
-      break;
-    }
-    warnings.push_back(fmt::format(
-        "{} and {} came into contact at {:.6g} s, closing at {:.3g} m/s; {}",
-        ships[static_cast<std::size_t>(c.ship)].name, ships[static_cast<std::size_t>(c.other)].name, c.time,
-        c.closing_speed,
-        c.is_prescribed ? "the motion of both is prescribed, so they pass through each other and no force is "
-                          "computed: give the ship thrust_N"
-                        : "forces.csv has these loads apart from those of ice, in its *_from_ships columns"));
-  }
-  return warnings;
 }
 
 }  // namespace polynya::app

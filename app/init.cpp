@@ -20,7 +20,7 @@ int init(const std::string& file) {
   }
   const std::string problem = std::filesystem::exists(file)
                                   ? file + ": it exists already"
-                                  : io::write_named_file(file, io::commented_scene());
+                                  : io::problem_of(io::write_named_file(file, io::commented_scene()));
   if (!problem.empty()) return fail(kInputOutput, problem);
   print_out("{}: a commented scene; run it with\n  polynya run {}\n", file, file);
   return kDone;

@@ -7,12 +7,13 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
-#include "app/failure_dump.hpp"
 #include "app/load_scene.hpp"
 #include "app/options.hpp"
 #include "app/stop_signal.hpp"
-#include "io/run/checkpoint.hpp"
+#include "io/run/active_run.hpp"
+#include "io/run/failure_dump.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/run/summary.hpp"
 #include "views/map/final_map.hpp"
 
@@ -34,27 +35,6 @@ int refuse(const std::string& reason) {
   return kInputOutput;
 }
 
-/// The simulation of a checkpoint, checked against the hash it was saved with.
-tl::expected<Simulation, std::string> simulation_of(const io::LoadedScene& scene,
-                                                    const io::Checkpoint& checkpoint) {
-  auto simulation = Simulation::resumed(scene.scene, checkpoint.state);
-  if (!simulation) return tl::unexpected("damaged: " + simulation.error());
-  if (simulation->steps() != checkpoint.steps || simulation->state_hash() != checkpoint.state_hash)
-    return tl::unexpected(std::string("damaged: its state is not the one that was saved"));
-  return simulation;
-}
-
-tl::expected<ActiveRun, std::string> run_at(const fs::path& path, const io::LoadedScene& scene,
-                                            io::RunLock lock) {
-  auto checkpoint = io::read_checkpoint_file(path, scene.hash);
-  if (!checkpoint) return tl::unexpected(checkpoint.error());
-  auto simulation = simulation_of(scene, *checkpoint);
-  if (!simulation) return tl::unexpected(fmt::format("{}: {}", path.string(), simulation.error()));
-  auto writer = io::RunWriter::go_on(std::move(lock), scene, *checkpoint, path, *simulation);
-  if (!writer) return tl::unexpected(writer.error());
-  return ActiveRun{scene, std::move(*simulation), std::move(*writer), checkpoint->wall_time};
-}
-
 /// Names the checkpoints that are left, where one was refused.
 void offer_others(const fs::path& folder, const fs::path& refused) {
   for (const fs::path& other : io::checkpoints_in(folder)) {
@@ -71,13 +51,13 @@ int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
   const fs::path path = folder / io::run_file::kFailure;
   const auto dump = io::read_checkpoint_file(path, scene.hash);
   if (!dump) return refuse(dump.error());
-  auto simulation = simulation_of(scene, *dump);
+  auto simulation = io::simulation_at(scene, *dump);
   if (!simulation) return refuse(fmt::format("{}: {}", path.string(), simulation.error()));
   print_out("state       step {}, t = {:.9g} s, hash {:016x}\n", simulation->steps(), simulation->time(),
             simulation->state_hash());
   print_out("then        {}\n", dump->failure);
   simulation->step();
-  const std::string now = failure_after_step(*simulation).value_or("nothing went wrong");
+  const std::string now = io::failure_after_step(*simulation).value_or("nothing went wrong");
   print_out("now         {}\n", now);
   print_out("{}\n", now == dump->failure ? "reproduced" : "not reproduced");
   return now == dump->failure ? kNumericalFailure : kDone;
@@ -101,8 +81,8 @@ int report_finished(const fs::path& folder) {
   const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg);
   if (is_drawn && io::checkpoints_in(folder).empty()) return kDone;
   const auto lock = io::RunLock::take(folder);
-  if (!lock) return kDone;  // another polynya holds it and does what is left
-  io::remove_checkpoints(folder);
+  if (!lock) return kDone;                            // another polynya holds it and does what is left
+  static_cast<void>(io::remove_checkpoints(folder));  // a later command tries again
   if (is_drawn) return kDone;
   const auto run = io::read_run(folder);
   if (!run) return refuse(run.error());
@@ -110,7 +90,7 @@ int report_finished(const fs::path& folder) {
   return drawn ? kDone : refuse(drawn.error());
 }
 
-int go_on(const io::LoadedScene& scene, io::RunLock lock, const ResumeOptions& options) {
+int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const ResumeOptions& options) {
   const fs::path folder = lock.folder();
   const std::vector<fs::path> checkpoints = io::checkpoints_in(folder);
   if (checkpoints.empty() && options.checkpoint.empty()) {
@@ -120,7 +100,7 @@ int go_on(const io::LoadedScene& scene, io::RunLock lock, const ResumeOptions& o
     return carry_out({scene, Simulation(scene.scene), std::move(*writer)}, options.carry);
   }
   const fs::path chosen = options.checkpoint.empty() ? checkpoints.front() : fs::path(options.checkpoint);
-  auto run = run_at(chosen, scene, std::move(lock));
+  auto run = io::resume_run(std::move(lock), scene, chosen);
   if (!run) {
     refuse(run.error());
     offer_others(folder, chosen);
@@ -144,7 +124,7 @@ int resume(const ResumeOptions& options) {
   if (io::is_finished_run(folder)) return report_finished(folder);  // by another polynya meanwhile
   watch_signals();
   const auto scene = load_scene(scene_file.string());
-  return scene ? go_on(*scene, std::move(*lock), options) : scene.error();
+  return scene ? resume_from_checkpoint(*scene, std::move(*lock), options) : scene.error();
 }
 
 }  // namespace

@@ -31,13 +31,13 @@ std::string write_output(const std::string& file, const std::string& text) {
   else if (is_open_as(file, STDERR_FILENO))
     write_err(text);
   else
-    return io::write_named_file(file, text);
+    return io::problem_of(io::write_named_file(file, text));
   return "";
 }
 
 std::string write_product(const std::string& out, const std::string& run, std::string_view name,
                           const std::string& text) {
-  if (out.empty()) return io::write_whole_file(std::filesystem::path(run) / name, text);
+  if (out.empty()) return io::problem_of(io::write_whole_file(std::filesystem::path(run) / name, text));
   return write_output((std::filesystem::path(out) / name).string(), text);
 }
 

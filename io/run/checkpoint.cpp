@@ -40,14 +40,15 @@ std::filesystem::path path_of(const std::filesystem::path& folder, const Checkpo
   return folder / fmt::format("{}{:012}{}", kPrefix, checkpoint.steps, kSuffix);
 }
 
-std::string put(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+Result<> put(const std::filesystem::path& path, const Checkpoint& checkpoint) {
   return write_whole_file(path, checkpoint_bytes(checkpoint), Durability::kSynced);
 }
 
-std::string remove_file(const std::filesystem::path& path) {
+Result<> remove_file(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::remove(path, error);
-  return error ? fmt::format("{}: {}", path.string(), error.message()) : "";
+  if (error) return fail(fmt::format("{}: {}", path.string(), error.message()));
+  return {};
 }
 
 template <class Archive>
@@ -71,12 +72,12 @@ void fields(Archive& archive, Is<Motion> auto& m) {
   archive(m.position, m.angle, m.velocity, m.angular_velocity);
 }
 template <class Archive>
-void fields(Archive& archive, Is<FrameEncoder::Told> auto& t) {
-  archive(t.time, t.motion);
+void fields(Archive& archive, Is<RecordedMotion> auto& r) {
+  archive(r.time, r.motion);
 }
 template <class Archive>
 void fields(Archive& archive, Is<RunProgress> auto& p) {
-  archive(p.file_sizes, p.told, p.peaks);
+  archive(p.file_sizes, p.recorded, p.peaks);
 }
 
 std::string checkpoint_file_of(std::string_view payload) {
@@ -91,8 +92,7 @@ std::string checkpoint_bytes(const Checkpoint& checkpoint) {
   return checkpoint_file_of(payload.take());
 }
 
-tl::expected<Checkpoint, std::string> read_checkpoint(std::string_view bytes) {
-  const auto fail = [](std::string reason) { return tl::unexpected(std::move(reason)); };
+Result<Checkpoint> read_checkpoint(std::string_view bytes) {
   if (bytes.size() < kHeadSize || !bytes.starts_with(kMark)) return fail("not a checkpoint");
   simulation::ByteReader head(bytes.substr(kMark.size()));
   std::uint32_t version = 0;
@@ -124,55 +124,54 @@ std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& f
   return found;
 }
 
-std::string write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
-  if (std::string failure = put(path_of(folder, checkpoint), checkpoint); !failure.empty()) return failure;
+Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
+  if (auto written = put(path_of(folder, checkpoint), checkpoint); !written) return written;
   const std::vector<std::filesystem::path> found = checkpoints_in(folder);
   const auto is_older = [&](const auto& path) { return steps_of(path) < checkpoint.steps; };
   const auto kept = std::ranges::find_if(found, is_older);
   std::error_code ignored;  // one too many does no harm
   for (auto path = found.begin(); path != found.end(); ++path)
     if (path != kept && steps_of(*path) != checkpoint.steps) std::filesystem::remove(*path, ignored);
-  return "";
+  return {};
 }
 
-std::string rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
-                      const std::filesystem::path& file) {
+Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
+                   const std::filesystem::path& file) {
   const auto own = path_of(folder, checkpoint);
   std::error_code ignored;  // where there is no such file yet
-  std::string failure = std::filesystem::equivalent(file, own, ignored) ? "" : put(own, checkpoint);
+  if (!std::filesystem::equivalent(file, own, ignored))
+    if (auto written = put(own, checkpoint); !written) return written;
   for (const auto& path : checkpoints_in(folder)) {
-    if (!failure.empty() || steps_of(path) <= checkpoint.steps) break;
-    failure = remove_file(path);
+    if (steps_of(path) <= checkpoint.steps) break;
+    if (auto removed = remove_file(path); !removed) return removed;
   }
-  return failure.empty() ? sync_folder(folder) : failure;
+  return sync_folder(folder);
 }
 
-tl::expected<Checkpoint, std::string> read_checkpoint_file(const std::filesystem::path& path,
-                                                           std::string_view scene_hash) {
-  auto text = read_text_file(path, std::numeric_limits<std::size_t>::max());
-  const auto fail = [&](const std::string& reason) {
-    return tl::unexpected(fmt::format("{}: {}", path.string(), reason));
+Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view scene_hash) {
+  const auto problem = [&](const std::string& reason) {
+    return fail(fmt::format("{}: {}", path.string(), reason));
   };
-  if (!text) return fail(text.error());
+  auto text = read_text_file(path, std::numeric_limits<std::size_t>::max());
+  if (!text) return problem(text.error());
   auto checkpoint = read_checkpoint(*text);
-  if (!checkpoint) return fail(checkpoint.error());
+  if (!checkpoint) return problem(checkpoint.error());
   if (checkpoint->scene_hash != scene_hash)
-    return fail(fmt::format("of another run: its scene's hash is {}, that of this folder's scene.json {}",
-                            checkpoint->scene_hash, scene_hash));
+    return problem(fmt::format("of another run: its scene's hash is {}, that of this folder's scene.json {}",
+                               checkpoint->scene_hash, scene_hash));
   return checkpoint;
 }
 
-std::string remove_checkpoints(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> gone = checkpoints_in(folder);
+Result<> remove_checkpoints(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files = checkpoints_in(folder);
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(kPrefix) && name.ends_with(".bin.part")) gone.push_back(entry.path());
+    if (name.starts_with(kPrefix) && name.ends_with(".bin.part")) files.push_back(entry.path());
   }
-  std::string failure;
-  for (const auto& path : gone)
-    if (failure.empty()) failure = remove_file(path);
-  return failure;
+  for (const auto& file : files)
+    if (auto removed = remove_file(file); !removed) return removed;
+  return {};
 }
 
 }  // namespace polynya::io

@@ -6,13 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "io/run/run_writer.hpp"
+#include "io/text/result.hpp"
 
 namespace polynya::io {
 
-/// A moment of a run from which it can go on, and what was on disk then.
+/// An instant of a run from which it can be resumed, and what was on disk then.
 ///
 ///   file = "PLYNYCKP" u32:version u32:crc u64:length payload{length}
 ///
@@ -35,29 +34,25 @@ inline constexpr std::uint32_t kCheckpointVersion = 5;
 std::string checkpoint_file_of(std::string_view payload);
 std::string checkpoint_bytes(const Checkpoint& checkpoint);
 
-/// The error says why the bytes are no checkpoint, or a damaged one, or one of another version.
-tl::expected<Checkpoint, std::string> read_checkpoint(std::string_view bytes);
+/// The error is why the bytes are no checkpoint, or a damaged one, or one of another version.
+Result<Checkpoint> read_checkpoint(std::string_view bytes);
 
-/// The checkpoints in a run folder, the newest first: "checkpoint-000000012000.bin" after so many steps.
+/// The checkpoints in a run folder, the newest first: "checkpoint-000000012000.bin" after 12 000 steps.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
 
-/// Writes a checkpoint into a run folder, to a temporary name, synced and renamed; only then all others go
-/// but the newest that is older. Returns what went wrong; empty where all is well.
-std::string write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
+/// Writes a checkpoint into a run folder, to a temporary name, synced and renamed; only then all others are
+/// removed but the newest that is older.
+Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
-/// Makes a checkpoint, read from a file in the folder or elsewhere, the newest of a run folder that is to go
-/// on from it: newer ones are of a course of the run that is now cut off. Returns what went wrong; empty
-/// where all is well.
-std::string rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
-                      const std::filesystem::path& file);
+/// Makes a checkpoint, read from a file in the folder or elsewhere, the newest of a run folder that is to be
+/// resumed from it: newer ones are of a course of the run that is now cut off.
+Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
+                   const std::filesystem::path& file);
 
-/// Reads a checkpoint of the folder whose scene has that hash. The error names the file and says what is
-/// wrong.
-tl::expected<Checkpoint, std::string> read_checkpoint_file(const std::filesystem::path& path,
-                                                           std::string_view scene_hash);
+/// Reads a checkpoint of the folder whose scene has that hash.
+Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view scene_hash);
 
-/// Removes the checkpoints, and what a crash left of one, from a folder. Returns what went wrong; empty where
-/// all is well.
-std::string remove_checkpoints(const std::filesystem::path& folder);
+/// Removes the checkpoints, and what a crash left of one, from a folder.
+Result<> remove_checkpoints(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

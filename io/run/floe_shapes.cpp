@@ -13,29 +13,28 @@ namespace {
 constexpr std::size_t kMostKept = std::size_t{4} << 20;  ///< vertices of assembled shapes, 64 MB
 }  // namespace
 
-std::string FloeShapes::add(ShapeParts shape, FloeId parent) {
+Result<> FloeShapes::add(ShapeParts shape, FloeId parent) {
   Floe floe;
   floe.ring_sizes = ring_sizes(shape);
   if (shape.has_parent()) {
     if (parent < 0 || static_cast<std::size_t>(parent) >= floes_.size())
-      return "parts of a parent that is not on a line before";
-    if (std::string fault = find_fault(shape, floes_[static_cast<std::size_t>(parent)].ring_sizes);
-        !fault.empty())
-      return fault;
+      return fail("parts of a parent that is not on a line before");
+    if (auto checked = check_parts(shape, floes_[static_cast<std::size_t>(parent)].ring_sizes); !checked)
+      return checked;
     floe.parent = parent;
     floe.parts = std::move(shape);
   } else {
     floe.whole = std::make_shared<const Polygon>(assembled(shape, {}));
   }
   floes_.push_back(std::move(floe));
-  return "";
+  return {};
 }
 
 const ShapeParts* FloeShapes::parts_of(FloeId id) const {
   return floe(id).whole ? nullptr : &floe(id).parts;
 }
 
-std::shared_ptr<const Polygon> FloeShapes::known(FloeId id) const {
+std::shared_ptr<const Polygon> FloeShapes::find(FloeId id) const {
   if (floe(id).whole) return floe(id).whole;
   const auto found = kept_.find(id);
   return found != kept_.end() ? found->second : nullptr;
@@ -55,8 +54,8 @@ void FloeShapes::keep(FloeId id, std::shared_ptr<const Polygon> shape) const {
 
 std::shared_ptr<const Polygon> FloeShapes::of(FloeId id) const {
   std::vector<FloeId> missing;
-  std::shared_ptr<const Polygon> shape = known(id);
-  for (FloeId at = id; !shape; shape = known(at)) {
+  std::shared_ptr<const Polygon> shape = find(id);
+  for (FloeId at = id; !shape; shape = find(at)) {
     missing.push_back(at);
     at = floe(at).parent;
   }

@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <memory>
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -16,10 +15,9 @@ namespace polynya::io {
 /// threads at once.
 class FloeShapes {
  public:
-  /// The next floe, by id. Returns why the parts cannot be of that parent; empty where all is well. Nothing
-  /// is added where it is not.
-  std::string add(ShapeParts shape, simulation::FloeId parent);
-  void add(const geometry::Polygon& shape) { add(whole(shape), simulation::kNoFloe); }
+  /// The next floe, by id. The error is why the parts cannot be of that parent; nothing is added then.
+  Result<> add(ShapeParts shape, simulation::FloeId parent);
+  void add(const geometry::Polygon& shape) { static_cast<void>(add(whole(shape), simulation::kNoFloe)); }
 
   std::size_t size() const { return floes_.size(); }
 
@@ -37,7 +35,7 @@ class FloeShapes {
     std::vector<std::size_t> ring_sizes;
   };
   const Floe& floe(simulation::FloeId id) const { return floes_.at(static_cast<std::size_t>(id)); }
-  std::shared_ptr<const geometry::Polygon> known(simulation::FloeId id) const;
+  std::shared_ptr<const geometry::Polygon> find(simulation::FloeId id) const;
   void keep(simulation::FloeId id, std::shared_ptr<const geometry::Polygon> shape) const;
 
   std::vector<Floe> floes_;  ///< by id

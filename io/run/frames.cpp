@@ -93,24 +93,23 @@ std::string FrameEncoder::encode(double time, std::span<const Motion> ships,
   std::vector<FloeMotion> written;
   for (const FloeMotion& floe : floes) {
     const auto id = static_cast<std::size_t>(floe.floe);
-    if (id >= told_.size()) told_.resize(id + 1);
-    Told& told = told_[id];
-    if (told.time >= 0 && is_close(carried_on(told.motion, time - told.time), floe.motion)) continue;
-    told = {time, floe.motion};
+    if (id >= recorded_.size()) recorded_.resize(id + 1);
+    RecordedMotion& last = recorded_[id];
+    if (last.time >= 0 && is_close(carried_on(last.motion, time - last.time), floe.motion)) continue;
+    last = {time, floe.motion};
     written.push_back(floe);
   }
   return frame_bytes(time, ships, written);
 }
 
-tl::expected<std::vector<Frame>, std::string> decode_frames(std::string_view bytes) {
-  if (bytes.size() < kHeaderSize || !bytes.starts_with(kFileMark))
-    return tl::unexpected(std::string("not a file of frames"));
+Result<std::vector<Frame>> decode_frames(std::string_view bytes) {
+  if (bytes.size() < kHeaderSize || !bytes.starts_with(kFileMark)) return fail("not a file of frames");
   bytes.remove_prefix(kFileMark.size());
-  if (take<std::uint32_t>(bytes) != kVersion) return tl::unexpected(std::string("frames of another version"));
+  if (take<std::uint32_t>(bytes) != kVersion) return fail("frames of another version");
   bytes.remove_prefix(4);
   std::vector<Frame> frames;
   while (bytes.size() >= kFrameHeadSize) {
-    if (!bytes.starts_with(kFrameMark)) return tl::unexpected(std::string("a damaged frame"));
+    if (!bytes.starts_with(kFrameMark)) return fail("a damaged frame");
     bytes.remove_prefix(kFrameMark.size());
     const std::size_t ships = take<std::uint32_t>(bytes);
     const std::size_t floes = take<std::uint32_t>(bytes);

@@ -6,9 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "geometry/shape/point.hpp"
+#include "io/text/result.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::io {
@@ -21,14 +20,14 @@ namespace polynya::io {
 ///   floe   = i64:floe_id f64:x_m f64:y_m f64:angle_rad f64:vx f64:vy f64:angular_velocity
 ///
 /// x, y of a floe are its centre of mass. A frame lists a floe only where its last record, carried on by its
-/// velocity, no longer tells where it is within the tolerances below.
+/// velocity, no longer gives its place within the tolerances below.
 
 inline constexpr double kFramePositionTolerance = 1e-3;  ///< [m]
 inline constexpr double kFrameAngleTolerance = 1e-5;     ///< [rad]
 inline constexpr double kFrameSpeedTolerance = 1e-3;     ///< [m/s]
 inline constexpr double kFrameSpinTolerance = 1e-5;      ///< [rad/s]
 
-/// A body's motion at one moment. Angles count whole turns.
+/// A body's motion at one instant. Angles count whole turns.
 struct Motion {
   geometry::Point position;     ///< of the centre of mass in the world [m]
   double angle = 0;             ///< [rad]
@@ -44,27 +43,29 @@ struct FloeMotion {
   Motion motion;
 };
 
+/// A motion as a frame has it.
+struct RecordedMotion {
+  double time = -1;  ///< of the frame [s]; < 0: not recorded yet
+  Motion motion;
+};
+
 /// A frame's bytes, of exactly these ships and floes.
 std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
 
-/// Makes frames' bytes; remembers what was told last of each floe.
+/// Encodes frames; keeps the last record of each floe.
 class FrameEncoder {
  public:
-  struct Told {
-    double time = -1;  ///< < 0: never told
-    Motion motion;
-  };
   FrameEncoder() = default;
-  /// One that goes on where another was.
-  explicit FrameEncoder(std::vector<Told> told) : told_(std::move(told)) {}
+  /// Continues where another was.
+  explicit FrameEncoder(std::vector<RecordedMotion> recorded) : recorded_(std::move(recorded)) {}
 
   static std::string header();
   /// One frame. All living floes are given; those that need it are written.
   std::string encode(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
-  const std::vector<Told>& told() const { return told_; }
+  const std::vector<RecordedMotion>& recorded() const { return recorded_; }
 
  private:
-  std::vector<Told> told_;  ///< by floe id
+  std::vector<RecordedMotion> recorded_;  ///< by floe id
 };
 
 struct Frame {
@@ -74,6 +75,6 @@ struct Frame {
 };
 
 /// Reads frames; a last one that is cut short is left out.
-tl::expected<std::vector<Frame>, std::string> decode_frames(std::string_view bytes);
+Result<std::vector<Frame>> decode_frames(std::string_view bytes);
 
 }  // namespace polynya::io

@@ -32,11 +32,11 @@ MotionIndex::MotionIndex(const Run& run) : floes_(run.floes.size()), ships_(run.
   }
 }
 
-const MotionIndex::Told* MotionIndex::last_told(FloeId floe, double time) const {
-  const auto& told = floes_[static_cast<std::size_t>(floe)];
-  if (told.empty()) return nullptr;
-  const auto after = std::ranges::upper_bound(told, time, {}, &Told::time);
-  return after == told.begin() ? &told.front() : &*(after - 1);
+const RecordedMotion* MotionIndex::last_record(FloeId floe, double time) const {
+  const auto& records = floes_[static_cast<std::size_t>(floe)];
+  if (records.empty()) return nullptr;
+  const auto after = std::ranges::upper_bound(records, time, {}, &RecordedMotion::time);
+  return after == records.begin() ? &records.front() : &*(after - 1);
 }
 
 namespace {
@@ -53,17 +53,17 @@ Motion between(const Motion& a, const Motion& b, double part) {
 
 std::optional<Motion> MotionIndex::floe_at(FloeId floe, double time) const {
   if (floe < 0 || static_cast<std::size_t>(floe) >= floes_.size()) return std::nullopt;
-  const Told* told = last_told(floe, time);
-  if (!told) return std::nullopt;
-  const Motion carried = carried_on(told->motion, time - told->time);
+  const RecordedMotion* last = last_record(floe, time);
+  if (!last) return std::nullopt;
+  const Motion carried = carried_on(last->motion, time - last->time);
   const auto next_frame = std::ranges::upper_bound(frame_times_, time);
-  if (next_frame == frame_times_.end() || next_frame == frame_times_.begin() || told->time > time)
+  if (next_frame == frame_times_.end() || next_frame == frame_times_.begin() || last->time > time)
     return carried;
-  const Told* next = last_told(floe, *next_frame);
-  if (next == told) return carried;
+  const RecordedMotion* next = last_record(floe, *next_frame);
+  if (next == last) return carried;
   const double start = *(next_frame - 1);
   const double part = (time - start) / (*next_frame - start);
-  return between(carried_on(told->motion, start - told->time), next->motion, part);
+  return between(carried_on(last->motion, start - last->time), next->motion, part);
 }
 
 std::optional<Motion> MotionIndex::ship_at(std::size_t ship, double time) const {

@@ -9,25 +9,21 @@
 
 namespace polynya::io {
 
-/// Where the floes of a run are, by time. Keeps what frames tell of each floe.
+/// Where the floes of a run are, by time: the frames' records, by floe.
 class MotionIndex {
  public:
   explicit MotionIndex(const Run& run);
 
-  /// Motion of a floe's centre of mass at a time: between two frames, linear between what they tell. Nothing
-  /// where no frame ever told of the floe.
+  /// Motion of a floe's centre of mass at a time: between two frames, linear between their records. Nothing
+  /// where no frame has the floe.
   std::optional<Motion> floe_at(simulation::FloeId floe, double time) const;
   std::optional<Motion> ship_at(std::size_t ship, double time) const;
 
  private:
-  struct Told {
-    double time = 0;  ///< [s]
-    Motion motion;
-  };
-  const Told* last_told(simulation::FloeId floe, double time) const;
+  const RecordedMotion* last_record(simulation::FloeId floe, double time) const;
   std::vector<double> frame_times_;
-  std::vector<std::vector<Told>> floes_;    ///< by floe id, in time order
-  std::vector<std::vector<Motion>> ships_;  ///< by ship, one a frame
+  std::vector<std::vector<RecordedMotion>> floes_;  ///< by floe id, in time order
+  std::vector<std::vector<Motion>> ships_;          ///< by ship, one a frame
 };
 
 /// A floe's polygon in the world for a motion of its centre of mass.

@@ -60,45 +60,44 @@ bool is_name_of_ours(std::string_view name) {
   return is_numbered && (name.substr(kDigits) == kFloeEnding || name.substr(kDigits) == kOpsEnding);
 }
 
-bool is_link(const std::filesystem::path& path) {
+/// The folder for rejected cuts, which may be missing.
+Result<std::filesystem::path> folder_in(const std::filesystem::path& run_folder) {
+  std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
   std::error_code ignored;
-  return std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored));
-}
-
-std::string link_problem(const std::filesystem::path& folder) {
-  return fmt::format("{}: a link; polynya writes through no link in a run folder; remove it",
-                     folder.string());
+  if (!std::filesystem::is_symlink(std::filesystem::symlink_status(folder, ignored))) return folder;
+  return fail(
+      fmt::format("{}: a link; polynya writes through no link in a run folder; remove it", folder.string()));
 }
 
 }  // namespace
 
-std::string write_rejected_cut(const std::filesystem::path& run_folder, const simulation::RejectedCut& cut) {
-  if (cut.number > kMostRejectedCuts) return "";
-  const std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
-  if (is_link(folder)) return link_problem(folder);
+Result<> write_rejected_cut(const std::filesystem::path& run_folder, const simulation::RejectedCut& cut) {
+  if (cut.number > kMostRejectedCuts) return {};
+  const auto folder = folder_in(run_folder);
+  if (!folder) return fail(folder.error());
   std::error_code error;
-  std::filesystem::create_directory(folder, error);
-  if (error) return fmt::format("{}: {}", folder.string(), error.message());
+  std::filesystem::create_directory(*folder, error);
+  if (error) return fail(fmt::format("{}: {}", folder->string(), error.message()));
   const auto write = [&](std::string_view ending, const std::string& text) {
-    return write_whole_file(folder / fmt::format("{:06}{}", cut.number, ending), text, Durability::kSynced);
+    return write_whole_file(*folder / fmt::format("{:06}{}", cut.number, ending), text, Durability::kSynced);
   };
-  const std::string wrong = write(kFloeEnding, floe_text(cut));
-  return wrong.empty() ? write(kOpsEnding, ops_text(cut)) : wrong;
+  if (auto written = write(kFloeEnding, floe_text(cut)); !written) return written;
+  return write(kOpsEnding, ops_text(cut));
 }
 
-std::string remove_rejected_cuts(const std::filesystem::path& run_folder) {
-  const std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
-  if (is_link(folder)) return link_problem(folder);
+Result<> remove_rejected_cuts(const std::filesystem::path& run_folder) {
+  const auto folder = folder_in(run_folder);
+  if (!folder) return fail(folder.error());
   std::error_code error;
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+  for (const auto& entry : std::filesystem::directory_iterator(*folder, error))
     if (is_name_of_ours(entry.path().filename().string())) files.push_back(entry.path());
   for (const auto& file : files) {
     std::filesystem::remove(file, error);
-    if (error) return fmt::format("{}: {}", file.string(), error.message());
+    if (error) return fail(fmt::format("{}: {}", file.string(), error.message()));
   }
-  std::filesystem::remove(folder, error);  // unless something else is in it
-  return "";
+  std::filesystem::remove(*folder, error);  // unless something else is in it
+  return {};
 }
 
 }  // namespace polynya::io

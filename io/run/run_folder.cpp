@@ -26,9 +26,9 @@ enum class Contents {
   kForeign,
 };
 
-tl::expected<Contents, std::string> contents_of(const fs::path& folder) {
+Result<Contents> contents_of(const fs::path& folder) {
   std::error_code error;
-  if (!fs::is_directory(folder, error)) return tl::unexpected(folder.string() + ": not a folder");
+  if (!fs::is_directory(folder, error)) return fail(folder.string() + ": not a folder");
   const bool is_marked = is_marked_run_folder(folder);
   const auto is_beginning = [&](const fs::path& entry) {
     const std::string name = entry.filename().string();
@@ -38,7 +38,7 @@ tl::expected<Contents, std::string> contents_of(const fs::path& folder) {
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error))
     is_empty = is_empty && is_beginning(entry->path());
-  if (error) return tl::unexpected(fmt::format("{}: {}", folder.string(), error.message()));
+  if (error) return fail(fmt::format("{}: {}", folder.string(), error.message()));
   if (is_empty) return Contents::kNothing;
   const bool has_scene = fs::is_regular_file(folder / run_file::kScene, error);
   if (has_scene && (is_marked || fs::is_regular_file(folder / run_file::kSummary, error)))
@@ -46,31 +46,31 @@ tl::expected<Contents, std::string> contents_of(const fs::path& folder) {
   return is_marked && !has_scene ? Contents::kRemains : Contents::kForeign;
 }
 
-/// Why a new run cannot have a folder with such contents; empty where it can.
-std::string refusal(const fs::path& folder, Contents contents, bool overwrite) {
+/// Whether a new run can have a folder with such contents.
+Result<> check_claim(const fs::path& folder, Contents contents, bool overwrite) {
   const std::string name = folder.string();
   if (contents == Contents::kForeign)
-    return fmt::format("{}: it is not empty and not a run folder; name another folder with --out{}", name,
-                       overwrite ? ", since --overwrite replaces only runs" : "");
-  if (overwrite || contents == Contents::kNothing) return "";
+    return fail(fmt::format("{}: it is not empty and not a run folder; name another folder with --out{}",
+                            name, overwrite ? ", since --overwrite replaces only runs" : ""));
+  if (overwrite || contents == Contents::kNothing) return {};
   if (contents == Contents::kRemains)
-    return fmt::format(
+    return fail(fmt::format(
         "{}: there are parts of a run in it, without its scene; name another folder with --out, or replace "
         "them with --overwrite",
-        name);
+        name));
   if (is_finished_run(folder))
-    return fmt::format(
+    return fail(fmt::format(
         "{}: there is a run in it already; name another folder with --out, or replace the run with "
         "--overwrite",
-        name);
-  return fmt::format(
+        name));
+  return fail(fmt::format(
       "{0}: there is a run in it that is not finished; go on with: polynya resume {0}, or replace it with "
       "--overwrite, or name another folder with --out",
-      name);
+      name));
 }
 
 /// Makes a folder and what is missing above it, so that all of it is on the disk.
-std::string make_folder(const fs::path& folder) {
+Result<> make_folder(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> missing;
   for (fs::path path = fs::absolute(folder, error); !fs::exists(path, error); path = path.parent_path()) {
@@ -79,42 +79,41 @@ std::string make_folder(const fs::path& folder) {
   }
   for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
     fs::create_directory(*path, error);
-    if (error) return fmt::format("{}: {}", folder.string(), error.message());
-    if (std::string problem = sync_folder(path->parent_path()); !problem.empty()) return problem;
+    if (error) return fail(fmt::format("{}: {}", folder.string(), error.message()));
+    if (auto synced = sync_folder(path->parent_path()); !synced) return synced;
   }
-  return "";
+  return {};
 }
 
 /// Removes one file, or the link of that name, and what a crash left of writing it.
-std::string remove_file(const fs::path& path) {
+Result<> remove_file(const fs::path& path) {
   fs::path part = path;
   part += ".part";
   for (const fs::path& each : {part, path})
     if (::unlink(each.c_str()) != 0 && errno != ENOENT)
-      return fmt::format("{}: {}", each.string(), std::strerror(errno));
-  return "";
+      return fail(fmt::format("{}: {}", each.string(), std::strerror(errno)));
+  return {};
 }
 
 /// Removes what polynya writes into a run folder. Whenever it is killed, what is left is a run that `resume`
 /// takes from the start, or the remains that --overwrite replaces: summary.json, which may call the run
 /// finished, goes first, and for good, and scene.json last.
-std::string remove_run(const fs::path& folder) {
-  std::string problem = remove_file(folder / run_file::kSummary);
-  if (problem.empty()) problem = sync_folder(folder);
-  if (problem.empty()) problem = remove_checkpoints(folder);
-  if (problem.empty()) problem = remove_rejected_cuts(folder);
-  const auto remove_named = [&](const fs::path& name) {
-    if (problem.empty()) problem = remove_file(folder / name);
-  };
-  remove_named(run_file::kFailure);
+Result<> remove_run(const fs::path& folder) {
+  std::vector<fs::path> names{run_file::kFailure};
   for (const fs::path figure : run_file::kFigures) {
-    remove_named(figure);
-    for (const char* suffix : {".png", ".pdf"}) remove_named(fs::path(figure).replace_extension(suffix));
+    names.push_back(figure);
+    for (const char* suffix : {".png", ".pdf"}) names.push_back(fs::path(figure).replace_extension(suffix));
   }
   for (const auto name : run_file::kAll)
-    if (name != run_file::kScene) remove_named(name);
-  remove_named(run_file::kScene);
-  return problem;
+    if (name != run_file::kScene) names.emplace_back(name);
+  names.emplace_back(run_file::kScene);
+  Result<> removed = remove_file(folder / run_file::kSummary);
+  if (removed) removed = sync_folder(folder);
+  if (removed) removed = remove_checkpoints(folder);
+  if (removed) removed = remove_rejected_cuts(folder);
+  for (const fs::path& name : names)
+    if (removed) removed = remove_file(folder / name);
+  return removed;
 }
 
 }  // namespace
@@ -124,24 +123,23 @@ bool is_marked_run_folder(const fs::path& folder) {
   return fs::is_regular_file(fs::symlink_status(folder / run_file::kLock, error));
 }
 
-tl::expected<RunLock, std::string> claim_run_folder(const fs::path& folder, bool overwrite) {
-  if (std::string problem = make_folder(folder); !problem.empty()) return tl::unexpected(problem);
+Result<RunLock> claim_run_folder(const fs::path& folder, bool overwrite) {
+  if (const auto made = make_folder(folder); !made) return fail(made.error());
   // Before the lock, which writes into the folder, and again behind it: it may have become a run meanwhile.
-  const auto look = [&]() -> tl::expected<Contents, std::string> {
+  const auto check = [&]() -> Result<Contents> {
     auto contents = contents_of(folder);
     if (!contents) return contents;
-    if (std::string reason = refusal(folder, *contents, overwrite); !reason.empty())
-      return tl::unexpected(std::move(reason));
+    if (const auto claimed = check_claim(folder, *contents, overwrite); !claimed)
+      return fail(claimed.error());
     return contents;
   };
-  if (const auto before = look(); !before) return tl::unexpected(before.error());
+  if (const auto before = check(); !before) return fail(before.error());
   auto lock = RunLock::take(folder);
   if (!lock) return lock;
-  const auto contents = look();
-  if (!contents) return tl::unexpected(contents.error());
-  if (*contents != Contents::kNothing) {
-    if (std::string problem = remove_run(folder); !problem.empty()) return tl::unexpected(problem);
-  }
+  const auto contents = check();
+  if (!contents) return fail(contents.error());
+  if (*contents == Contents::kNothing) return lock;
+  if (const auto removed = remove_run(folder); !removed) return fail(removed.error());
   return lock;
 }
 

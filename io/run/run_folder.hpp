@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
-
 #include "io/run/run_lock.hpp"
 
 namespace polynya::io {
@@ -55,7 +53,7 @@ inline constexpr std::uint64_t kLongestRunFile = std::uint64_t{4} << 30;
 /// killed before it had its scene. With `overwrite`, a run folder (finished or not, or in part removed) loses
 /// the files that polynya writes there, and nothing else; any other folder is refused even then, and nothing
 /// is written into it. The error names the folder, what is in it and what to do.
-tl::expected<RunLock, std::string> claim_run_folder(const std::filesystem::path& folder, bool overwrite);
+Result<RunLock> claim_run_folder(const std::filesystem::path& folder, bool overwrite);
 
 /// Whether polynya marked the folder as a run's.
 bool is_marked_run_folder(const std::filesystem::path& folder);

@@ -13,21 +13,21 @@
 
 namespace polynya::io {
 
-tl::expected<RunLock, std::string> RunLock::take(const std::filesystem::path& folder) {
+Result<RunLock> RunLock::take(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / run_file::kLock;
-  const auto fail = [&](const std::string& reason) {
-    return tl::unexpected(fmt::format("{}: {}", file.string(), reason));
+  const auto refuse = [&](const std::string& reason) {
+    return fail(fmt::format("{}: {}", file.string(), reason));
   };
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0)
-    return fail(errno == ELOOP ? "a link; remove it if the folder is a run's" : std::strerror(errno));
+    return refuse(errno == ELOOP ? "a link; remove it if the folder is a run's" : std::strerror(errno));
   RunLock lock(descriptor, folder);
   struct stat status {};
-  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return fail("not a regular file");
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return refuse("not a regular file");
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    return tl::unexpected(fmt::format("{}: another polynya is writing this run", folder.string()));
+    return fail(fmt::format("{}: another polynya is writing this run", folder.string()));
   // File systems without locks go without.
-  if (!lock.is_in_place()) return fail("removed by another program meanwhile; try again");
+  if (!lock.is_in_place()) return refuse("removed by another program meanwhile; try again");
   return lock;
 }
 

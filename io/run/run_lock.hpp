@@ -1,10 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <utility>
 
-#include <tl/expected.hpp>
+#include "io/text/result.hpp"
 
 namespace polynya::io {
 
@@ -14,7 +13,7 @@ namespace polynya::io {
 class RunLock {
  public:
   /// Makes the file where there is none. The error names what is in the way.
-  static tl::expected<RunLock, std::string> take(const std::filesystem::path& folder);
+  static Result<RunLock> take(const std::filesystem::path& folder);
   RunLock(RunLock&& other) noexcept
       : descriptor_(std::exchange(other.descriptor_, -1)), folder_(std::move(other.folder_)) {}
   RunLock& operator=(RunLock&& other) noexcept {

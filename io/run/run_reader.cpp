@@ -218,8 +218,8 @@ void read_floes(Run& run) {
       throw ReadError("floes are not in the order of their ids");
     auto shape = read_shape(json);
     if (!shape) throw ReadError(shape.error());
-    if (const std::string fault = run.shapes.add(std::move(*shape), birth.parent); !fault.empty())
-      throw ReadError(fault);
+    if (const auto added = run.shapes.add(std::move(*shape), birth.parent); !added)
+      throw ReadError(added.error());
     run.floes.push_back({.birth = birth, .died = std::numeric_limits<double>::infinity(), .death_event = {}});
   });
 }

@@ -29,24 +29,21 @@ Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_
 
 }  // namespace
 
-tl::expected<RunWriter, std::string> RunWriter::create(const std::filesystem::path& folder, bool overwrite,
-                                                       const LoadedScene& scene) {
+Result<RunWriter> RunWriter::create(const std::filesystem::path& folder, bool overwrite,
+                                    const LoadedScene& scene) {
   auto lock = claim_run_folder(folder, overwrite);
-  if (!lock) return tl::unexpected(lock.error());
-  if (std::string problem =
-          write_whole_file(folder / run_file::kScene, scene.resolved_text, Durability::kSynced);
-      !problem.empty())
-    return tl::unexpected(problem);
+  if (!lock) return fail(lock.error());
+  const auto written = write_whole_file(folder / run_file::kScene, scene.resolved_text, Durability::kSynced);
+  if (!written) return fail(written.error());
   return begin(std::move(*lock), scene);
 }
 
-tl::expected<RunWriter, std::string> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
-  if (std::string problem = remove_checkpoints(lock.folder()); !problem.empty())
-    return tl::unexpected(problem);
+Result<RunWriter> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
+  if (const auto removed = remove_checkpoints(lock.folder()); !removed) return fail(removed.error());
   std::vector<OutputFile> files;
   for (const auto name : kGrowing) {
     auto file = OutputFile::create(lock.folder() / name);
-    if (!file) return tl::unexpected(file.error());
+    if (!file) return fail(file.error());
     files.push_back(std::move(*file));
   }
   RunWriter writer(scene, std::move(files), std::move(lock));
@@ -55,66 +52,69 @@ tl::expected<RunWriter, std::string> RunWriter::begin(RunLock lock, const Loaded
   writer.file(kContacts).append(contacts_header());
   writer.file(kStates).append(states_header());
   writer.flush();  // the headers
-  if (std::string problem = writer.failure(); !problem.empty()) return tl::unexpected(problem);
+  if (const auto status = writer.status(); !status) return fail(status.error());
   RunSummary first;
   first.stopped_by = "still running, or killed";
   first.peaks = writer.peaks_;
-  if (std::string problem = write_whole_file(writer.folder() / run_file::kSummary, to_json_text(first, scene),
-                                             Durability::kSynced);
-      !problem.empty())
-    return tl::unexpected(problem);
+  const auto written =
+      write_whole_file(writer.folder() / run_file::kSummary, to_json_text(first, scene), Durability::kSynced);
+  if (!written) return fail(written.error());
   return writer;
 }
 
 namespace {
 
-/// Why a file that grows cannot be cut back to its size at a checkpoint; empty where it can.
-std::string shortcoming(const std::filesystem::path& file, std::uint64_t size_then) {
+/// Whether a file that grows can be cut back to its size at a checkpoint.
+Result<> check_size(const std::filesystem::path& file, std::uint64_t size_then) {
   std::error_code error;
   const auto status = std::filesystem::symlink_status(file, error);
-  if (exists(status) && !is_regular_file(status)) return file.string() + ": not a regular file";
+  if (exists(status) && !is_regular_file(status)) return fail(file.string() + ": not a regular file");
   const auto size = std::filesystem::file_size(file, error);
-  if (error) return fmt::format("{}: {}", file.string(), error.message());
-  return size >= size_then
-             ? ""
-             : fmt::format("{}: {} bytes; at the checkpoint there were {}", file.string(), size, size_then);
+  if (error) return fail(fmt::format("{}: {}", file.string(), error.message()));
+  if (size >= size_then) return {};
+  return fail(fmt::format("{}: {} bytes; at the checkpoint there were {}", file.string(), size, size_then));
+}
+
+/// Whether the folder can be cut back to a checkpoint, before any of its files is.
+Result<> check_progress(const RunProgress& progress, const std::filesystem::path& folder,
+                        const simulation::Scene& scene) {
+  const auto is_of_scene = [columns = peak_columns(scene).size()](const ShipPeaks& peaks) {
+    return peaks.of_column.size() == columns;
+  };
+  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != scene.ships.size() ||
+      !std::ranges::all_of(progress.peaks, is_of_scene))
+    return fail(fmt::format("{}: the checkpoint is of another run", folder.string()));
+  for (std::size_t i = 0; i < kGrowing.size(); ++i)
+    if (auto checked = check_size(folder / kGrowing[i], progress.file_sizes[i]); !checked) return checked;
+  return {};
 }
 
 }  // namespace
 
-tl::expected<RunWriter, std::string> RunWriter::go_on(RunLock lock, const LoadedScene& scene,
-                                                      const Checkpoint& checkpoint,
-                                                      const std::filesystem::path& file,
-                                                      const simulation::Simulation& simulation) {
+Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, const Checkpoint& checkpoint,
+                                    const std::filesystem::path& file,
+                                    const simulation::Simulation& simulation) {
   const RunProgress& progress = checkpoint.progress;
   const std::filesystem::path folder = lock.folder();
-  const std::size_t ships = scene.scene.ships.size();
-  const auto is_of_scene = [columns = peak_columns(scene.scene).size()](const ShipPeaks& peaks) {
-    return peaks.of_column.size() == columns;
-  };
-  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != ships ||
-      !std::ranges::all_of(progress.peaks, is_of_scene))
-    return tl::unexpected(fmt::format("{}: the checkpoint is of another run", folder.string()));
-  for (std::size_t i = 0; i < kGrowing.size(); ++i)  // before any is cut back
-    if (std::string problem = shortcoming(folder / kGrowing[i], progress.file_sizes[i]); !problem.empty())
-      return tl::unexpected(std::move(problem));
-  if (std::string problem = rewind_to(folder, checkpoint, file); !problem.empty())
-    return tl::unexpected(std::move(problem));
+  auto ready = check_progress(progress, folder, scene.scene);
+  if (ready) ready = rewind_to(folder, checkpoint, file);
+  if (!ready) return fail(ready.error());
   std::vector<OutputFile> files;
   for (std::size_t i = 0; i < kGrowing.size(); ++i) {
-    auto grown = OutputFile::go_on(folder / kGrowing[i], progress.file_sizes[i]);
-    if (!grown) return tl::unexpected(grown.error());
+    auto grown = OutputFile::reopen(folder / kGrowing[i], progress.file_sizes[i]);
+    if (!grown) return fail(grown.error());
     files.push_back(std::move(*grown));
   }
   RunWriter writer(scene, std::move(files), std::move(lock));
-  writer.frames_ = FrameEncoder(progress.told);
+  writer.frames_ = FrameEncoder(progress.recorded);
   writer.peaks_ = progress.peaks;
   for (const simulation::FloeState& floe : simulation.floe_states())
-    writer.know(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
+    writer.add_floe(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
   return writer;
 }
 
-void RunWriter::know(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body) {
+void RunWriter::add_floe(simulation::FloeId floe, simulation::FloeId parent,
+                         geometry::Point centroid_in_body) {
   const auto id = static_cast<std::size_t>(floe);
   if (id >= parents_.size()) {
     parents_.resize(id + 1, simulation::kNoFloe);
@@ -153,7 +153,7 @@ void RunWriter::record(simulation::Journal& journal) {
   std::unordered_map<simulation::FloeId, const geometry::Polygon*> broken;
   for (const simulation::Death& death : journal.deaths) broken[death.floe] = &death.polygon_in_body;
   for (const simulation::Birth& birth : journal.births) {
-    know(birth.floe, birth.parent, birth.centroid_in_body);
+    add_floe(birth.floe, birth.parent, birth.centroid_in_body);
     const auto parent = broken.find(birth.parent);
     append_line(kFloes, [&](std::string& line) {
       append_birth(line, birth, parent != broken.end() ? parent->second : nullptr);
@@ -173,11 +173,12 @@ void RunWriter::record(simulation::Journal& journal) {
     append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, ship_name(sample.ship)); });
   }
   for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
-    if (std::string wrong = write_rejected_cut(folder(), cut); !wrong.empty()) failure_ = std::move(wrong);
+    if (auto written = write_rejected_cut(folder(), cut); !written) status_ = std::move(written);
   }
   for (const simulation::ShipSample& sample : journal.samples) {
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
-    for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].see(peak_columns_[i]->read(sample), sample.time);
+    for (std::size_t i = 0; i < peaks.size(); ++i)
+      peaks[i].include(peak_columns_[i]->read(sample), sample.time);
   }
   journal.clear();
   keep();
@@ -197,7 +198,7 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
     floes.push_back({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
   }
   file(kFrames).append(frames_.encode(simulation.time(), ships, floes));
-  line_.clear();  // a moment's contacts are one record: no file holds a part of them
+  line_.clear();  // an instant's contacts are one record: no file holds a part of them
   for (const simulation::ContactState& contact : simulation.contact_states())
     append_contact(line_, simulation.time(), contact, ship_name(contact.on.ship), ship_name(contact.by.ship));
   if (!line_.empty()) file(kContacts).append(line_);
@@ -207,26 +208,27 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
   keep();
 }
 
-bool RunWriter::sync_files() {
+Result<> RunWriter::sync_files() {
   flush();
-  return std::ranges::all_of(files_, &OutputFile::sync);
+  static_cast<void>(std::ranges::all_of(files_, &OutputFile::sync));
+  return status();
 }
 
-RunProgress RunWriter::sync() {
-  sync_files();
+Result<RunProgress> RunWriter::sync() {
+  if (const auto synced = sync_files(); !synced) return fail(synced.error());
   RunProgress progress;
   for (const OutputFile& file : files_) progress.file_sizes.push_back(file.size());
-  progress.told = frames_.told();
+  progress.recorded = frames_.recorded();
   progress.peaks = peaks_;
   return progress;
 }
 
 void RunWriter::flush() {
   check_place();
-  bool all_well = !is_displaced_;
+  bool is_sound = !is_displaced_;
   for (OutputFile& file : files_) {
-    if (!all_well) file.drop();  // nothing may be named that is not there
-    all_well = all_well && file.flush();
+    if (!is_sound) file.drop();  // nothing may be named that is not there
+    is_sound = is_sound && file.flush();
   }
   last_flush_ = std::chrono::steady_clock::now();
 }
@@ -235,9 +237,9 @@ void RunWriter::check_place() {
   if (is_displaced_) return;
   const auto lost = std::ranges::find_if_not(files_, &OutputFile::is_in_place);
   is_displaced_ = !lock_.is_in_place() || lost != files_.end();
-  if (!is_displaced_ || !failure_.empty()) return;
-  failure_ = fmt::format("{}: removed, moved or replaced by another program during the run",
-                         lock_.is_in_place() ? lost->name() : folder().string());
+  if (!is_displaced_ || !status_) return;
+  status_ = fail(fmt::format("{}: removed, moved or replaced by another program during the run",
+                             lock_.is_in_place() ? lost->name() : folder().string()));
 }
 
 void RunWriter::flush_if_due() {
@@ -246,12 +248,11 @@ void RunWriter::flush_if_due() {
   if (buffered > kMuchBuffered || std::chrono::steady_clock::now() - last_flush_ > kLongestWait) flush();
 }
 
-std::string RunWriter::failure() const {
-  if (!failure_.empty()) return failure_;
-  for (const OutputFile& file : files_) {
-    if (!file.failure().empty()) return file.failure();
-  }
-  return "";
+Result<> RunWriter::status() const {
+  Result<> status = status_;
+  for (const OutputFile& file : files_)
+    if (status) status = file.status();
+  return status;
 }
 
 std::vector<std::string> RunWriter::overlong() const {

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "io/run/frames.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/shown_loads.hpp"
@@ -21,49 +19,47 @@ namespace polynya::io {
 
 struct Checkpoint;
 
-/// What of a run's folder is written, and what the writer has to remember of it to go on.
+/// What of a run's folder is written, and what the writer needs to continue it.
 struct RunProgress {
   std::vector<std::uint64_t> file_sizes;  ///< of the files that grow, on disk [bytes]
-  std::vector<FrameEncoder::Told> told;   ///< by floe id
+  std::vector<RecordedMotion> recorded;   ///< by floe id
   std::vector<ShipPeaks> peaks;
 };
 
 /// Writes a run's folder while it runs (docs/run-folder.md). What is on disk is whole lines and whole frames
 /// at all times, and summary.json says from the start that the run is not finished: a killed run leaves a
-/// usable folder. Disk errors are kept: the caller asks failure() now and then and stops.
+/// usable folder. Disk errors are kept: the caller asks for status() now and then and stops.
 class RunWriter {
  public:
   /// Prepares the folder (run_folder.hpp) and writes scene.json and a first summary.json. `scene` must
   /// outlive this.
-  static tl::expected<RunWriter, std::string> create(const std::filesystem::path& folder, bool overwrite,
-                                                     const LoadedScene& scene);
+  static Result<RunWriter> create(const std::filesystem::path& folder, bool overwrite,
+                                  const LoadedScene& scene);
 
   /// The same for a folder that has its scene.json already: everything else of the run is written from the
   /// start.
-  static tl::expected<RunWriter, std::string> begin(RunLock lock, const LoadedScene& scene);
+  static Result<RunWriter> begin(RunLock lock, const LoadedScene& scene);
 
-  /// Goes on with the folder of a run that was interrupted: what its files have beyond the checkpoint is cut
+  /// Continues the folder of a run that was interrupted: what its files have beyond the checkpoint is cut
   /// off, newer checkpoints too. `file` is where the checkpoint was read.
-  static tl::expected<RunWriter, std::string> go_on(RunLock lock, const LoadedScene& scene,
-                                                    const Checkpoint& checkpoint,
-                                                    const std::filesystem::path& file,
-                                                    const simulation::Simulation& simulation);
+  static Result<RunWriter> resume(RunLock lock, const LoadedScene& scene, const Checkpoint& checkpoint,
+                                  const std::filesystem::path& file,
+                                  const simulation::Simulation& simulation);
 
-  /// Takes down what the journal tells and clears it.
+  /// Records the journal and clears it.
   void record(simulation::Journal& journal);
 
-  /// Takes down a frame: where everything is now.
+  /// Records a frame: where everything is now.
   void frame(const simulation::Simulation& simulation);
 
   /// Writes what is buffered if a second has passed or much has gathered. Cheap to call after every step.
   void flush_if_due();
 
-  /// Brings everything to the disk, for a checkpoint, and returns where the folder stands. Where failure() is
-  /// not empty it could not, and the folder stands nowhere.
-  RunProgress sync();
+  /// Brings everything to the disk, for a checkpoint, and returns how far the folder is.
+  Result<RunProgress> sync();
 
-  /// What went wrong with a file; empty where all is well.
-  std::string failure() const;
+  /// The first failure to write a file of the folder.
+  Result<> status() const;
 
   /// The files that have become too long to be read back (kLongestRunFile).
   std::vector<std::string> overlong() const;
@@ -72,14 +68,12 @@ class RunWriter {
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
   /// Ends the run: everything buffered, final.geojson, and last summary.json. All of it is on the disk before
-  /// a summary that says "finished" is, and that one before the checkpoints go. Returns what went wrong;
-  /// empty where all is well.
-  std::string finish(const RunSummary& summary, const simulation::Simulation& simulation);
+  /// a summary with "finished": true is, and that one before the checkpoints are removed.
+  Result<> finish(const RunSummary& summary, const simulation::Simulation& simulation);
 
   /// Ends a run that ran out of memory, which perhaps was in the middle of record() or frame(): what these
-  /// took down in part is left out. No pictures, which take memory; checkpoints stay. Returns what went
-  /// wrong; empty where all is well.
-  std::string cut_off(const RunSummary& summary);
+  /// recorded in part is left out. No final.geojson, which takes memory; checkpoints stay.
+  Result<> cut_off(const RunSummary& summary);
 
   const std::filesystem::path& folder() const { return lock_.folder(); }
   /// Whether the folder and its files were removed, moved or replaced by another program.
@@ -87,13 +81,13 @@ class RunWriter {
 
  private:
   RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock);
-  /// What events and frames will say of a floe.
-  void know(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
+  /// Keeps what events and frames need of a floe.
+  void add_floe(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
   OutputFile& file(std::size_t which) { return files_[which]; }
   void flush();
-  bool sync_files();
+  Result<> sync_files();
   void keep();
-  /// Notes it as the failure if the folder or a file in it has lost its name.
+  /// Keeps it as the failure if the folder or a file in it has lost its name.
   void check_place();
   std::string_view ship_name(int ship) const;
 
@@ -106,7 +100,7 @@ class RunWriter {
   std::vector<ShipPeaks> peaks_;
   RunLock lock_;
   std::string line_;
-  std::string failure_;  ///< of what is written at once
+  Result<> status_;  ///< of what is written at once
   std::chrono::steady_clock::time_point last_flush_;
   bool is_displaced_ = false;
 };

@@ -15,7 +15,7 @@ namespace polynya::io {
 struct Peak {
   double value = 0;
   double time = 0;  ///< [s]
-  void see(double candidate, double at) {
+  void include(double candidate, double at) {
     if (std::abs(candidate) > std::abs(value)) *this = {candidate, at};
   }
 };
@@ -26,7 +26,12 @@ struct ShipPeaks {
   std::vector<Peak> of_column;  ///< of each of peak_columns()
 };
 
-/// What summary.json says.
+/// Bends, splits and rejected cuts.
+inline std::int64_t fractures_of(const simulation::Counts& counts) {
+  return counts.bends + counts.splits + counts.rejected_cuts;
+}
+
+/// What summary.json holds.
 struct RunSummary {
   bool finished = false;
   std::string stopped_by;  ///< why it did not finish; empty while it runs and when it finished
@@ -44,7 +49,7 @@ struct RunSummary {
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
 
-/// Whether a run folder has a summary.json that says so.
+/// Whether a run folder has a summary.json with "finished": true.
 bool is_finished_run(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

@@ -6,28 +6,24 @@ namespace polynya::io {
 
 std::vector<Frame> thinned_frames(const Run& run, const FrameSelection& selection) {
   if (selection.is_all()) return run.frames;
-  struct Told {
-    double time = 0;  ///< [s]
-    Motion motion;
-  };
-  std::map<simulation::FloeId, Told> told;  // since the last frame that stayed
+  std::map<simulation::FloeId, RecordedMotion> skipped;  // since the last frame that stayed
   std::vector<Frame> frames;
   std::size_t last = 0;  // one past the last selected frame
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     if (selection.has(run.frames[i].time)) last = i + 1;
   }
-  int seen = 0;
+  int selected = 0;
   for (std::size_t i = 0; i < last; ++i) {
     const Frame& frame = run.frames[i];
-    for (const FloeMotion& floe : frame.floes) told[floe.floe] = {frame.time, floe.motion};
+    for (const FloeMotion& floe : frame.floes) skipped[floe.floe] = {frame.time, floe.motion};
     if (!selection.has(frame.time)) continue;
-    if (seen++ % selection.every != 0 && i + 1 != last) continue;
+    if (selected++ % selection.every != 0 && i + 1 != last) continue;
     Frame kept{.time = frame.time, .ships = frame.ships, .floes = {}};
-    for (const auto& [floe, at] : told) {
+    for (const auto& [floe, at] : skipped) {
       if (run.is_alive(floe, frame.time))
         kept.floes.push_back({floe, carried_on(at.motion, frame.time - at.time)});
     }
-    told.clear();
+    skipped.clear();
     frames.push_back(std::move(kept));
   }
   return frames;

@@ -34,8 +34,8 @@ tl::expected<geometry::Polygon, std::string> BirthShapes::assemble(const JsonVal
                     "--floe ID` prints a floe's shape whole)",
                     *id));
   const geometry::Polygon& parent = floes_.entries[found->second].polygon;
-  if (std::string fault = find_fault(*shape, ring_sizes(whole(parent))); !fault.empty())
-    return tl::unexpected(std::move(fault));
+  if (const auto checked = check_parts(*shape, ring_sizes(whole(parent))); !checked)
+    return fail(checked.error());
   assembled_ += vertex_count(parent);
   if (assembled_ > kMostAssembled)
     return tl::unexpected(fmt::format("more than {} vertices in the shapes of parents", kMostAssembled));

@@ -13,9 +13,13 @@
 namespace polynya::io {
 namespace {
 
-std::string words_for(const std::string& name, int error) {
-  if (error == ELOOP) return fmt::format("{}: a link; polynya writes through no link in a run folder", name);
-  return fmt::format("{}: {}", name, std::strerror(error));
+tl::unexpected<std::string> failed(const std::filesystem::path& path, int error) {
+  return fail(fmt::format("{}: {}", path.string(), std::strerror(error)));
+}
+
+tl::unexpected<std::string> failed_in_run_folder(const std::filesystem::path& path, int error) {
+  if (error != ELOOP) return failed(path, error);
+  return fail(fmt::format("{}: a link; polynya writes through no link in a run folder", path.string()));
 }
 
 /// A new file of that name in place of what had it. Negative, and errno, where there can be none.
@@ -24,7 +28,7 @@ int open_new(const char* path) {
   return ::open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-/// Writes as much as goes; errno tells why it is not all.
+/// Writes as much as goes; errno is why it is not all.
 std::size_t write_all(int descriptor, std::string_view bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
@@ -38,29 +42,28 @@ std::size_t write_all(int descriptor, std::string_view bytes) {
 
 }  // namespace
 
-tl::expected<OutputFile, std::string> OutputFile::create(const std::filesystem::path& path) {
+Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
   const int descriptor = open_new(path.c_str());
-  if (descriptor < 0) return tl::unexpected(words_for(path.string(), errno));
+  if (descriptor < 0) return failed_in_run_folder(path, errno);
   return OutputFile(descriptor, path.string());
 }
 
-tl::expected<OutputFile, std::string> OutputFile::go_on(const std::filesystem::path& path,
-                                                        std::uint64_t size) {
+Result<OutputFile> OutputFile::reopen(const std::filesystem::path& path, std::uint64_t size) {
   // Not blocking: a pipe without a reader is refused instead of waited for.
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  const auto fail = [&](const std::string& reason) {
-    if (descriptor >= 0) ::close(descriptor);
-    return tl::unexpected(fmt::format("{}: {}", path.string(), reason));
+  if (descriptor < 0) return failed_in_run_folder(path, errno);
+  const auto refuse = [&](const std::string& reason) {
+    ::close(descriptor);
+    return fail(fmt::format("{}: {}", path.string(), reason));
   };
-  if (descriptor < 0) return tl::unexpected(words_for(path.string(), errno));
   struct stat status {};
-  if (::fstat(descriptor, &status) != 0) return fail(std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) return fail("not a regular file");
+  if (::fstat(descriptor, &status) != 0) return refuse(std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) return refuse("not a regular file");
   if (static_cast<std::uint64_t>(status.st_size) < size)
-    return fail(fmt::format("{} bytes; there were {}", status.st_size, size));
+    return refuse(fmt::format("{} bytes; there were {}", status.st_size, size));
   const auto end = static_cast<off_t>(size);
   if (::ftruncate(descriptor, end) != 0 || ::lseek(descriptor, end, SEEK_SET) != end)
-    return fail(std::strerror(errno));
+    return refuse(std::strerror(errno));
   OutputFile file(descriptor, path.string());
   file.size_ = size;
   return file;
@@ -74,7 +77,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       kept_(other.kept_),
       kept_records_(other.kept_records_),
       size_(other.size_),
-      failure_(std::move(other.failure_)) {}
+      status_(std::move(other.status_)) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
@@ -84,7 +87,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   std::swap(kept_, other.kept_);
   std::swap(kept_records_, other.kept_records_);
   std::swap(size_, other.size_);
-  std::swap(failure_, other.failure_);
+  std::swap(status_, other.status_);
   return *this;
 }
 
@@ -95,24 +98,24 @@ OutputFile::~OutputFile() {
 }
 
 bool OutputFile::flush() {
-  if (!failure_.empty()) return false;
+  if (!status_) return false;
   const std::size_t written = write_all(descriptor_, buffer_);
   std::size_t whole = written;
   if (written < buffer_.size()) {
-    failure_ = fmt::format("{}: {}", name_, std::strerror(errno));
+    status_ = failed(name_, errno);
     const auto beyond = std::ranges::upper_bound(record_ends_, written);
     whole = beyond == record_ends_.begin() ? 0 : *(beyond - 1);
     if (::ftruncate(descriptor_, static_cast<off_t>(size_ + whole)) != 0)
-      failure_ += "; its last record is cut short";
+      status_.error() += "; its last record is cut short";
   }
   size_ += whole;
   drop();
-  return failure_.empty();
+  return status_.has_value();
 }
 
 bool OutputFile::sync() {
-  if (flush() && ::fsync(descriptor_) != 0) failure_ = fmt::format("{}: {}", name_, std::strerror(errno));
-  return failure_.empty();
+  if (flush() && ::fsync(descriptor_) != 0) status_ = failed(name_, errno);
+  return status_.has_value();
 }
 
 bool OutputFile::is_in_place() const {
@@ -124,33 +127,34 @@ bool OutputFile::is_in_place() const {
 
 namespace {
 
-std::string sync_opened(const std::filesystem::path& path, int flags) {
+Result<> sync_opened(const std::filesystem::path& path, int flags) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
-  if (descriptor < 0) return errno == EACCES ? "" : words_for(path.string(), errno);
-  const bool is_synced = ::fsync(descriptor) == 0 || errno == EINVAL;
-  const std::string problem = is_synced ? "" : words_for(path.string(), errno);
+  if (descriptor < 0 && errno == EACCES) return {};
+  if (descriptor < 0) return failed_in_run_folder(path, errno);
+  Result<> synced;
+  if (::fsync(descriptor) != 0 && errno != EINVAL) synced = failed_in_run_folder(path, errno);
   ::close(descriptor);
-  return problem;
+  return synced;
 }
 
 }  // namespace
 
-std::string sync_file(const std::filesystem::path& path) {
+Result<> sync_file(const std::filesystem::path& path) {
   return sync_opened(path, O_NOFOLLOW);
 }
 
-std::string sync_folder(const std::filesystem::path& folder) {
+Result<> sync_folder(const std::filesystem::path& folder) {
   return sync_opened(folder.empty() ? "." : folder, O_DIRECTORY);
 }
 
 namespace {
 
-/// Why `path` must not be replaced; empty where it may be.
-std::string obstacle(const std::filesystem::path& path) {
+/// Whether `path` may be replaced.
+Result<> check_replaceable(const std::filesystem::path& path) {
   struct stat status {};
-  if (::lstat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISLNK(status.st_mode)) return "";
-  return fmt::format("{}: {}; it stays as it is", path.string(),
-                     S_ISDIR(status.st_mode) ? "a folder" : "not a regular file");
+  if (::lstat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISLNK(status.st_mode)) return {};
+  return fail(fmt::format("{}: {}; it stays as it is", path.string(),
+                          S_ISDIR(status.st_mode) ? "a folder" : "not a regular file"));
 }
 
 /// Where a chain of links ends, whether or not there is a file. No chain is longer than the kernel follows.
@@ -161,13 +165,12 @@ std::filesystem::path end_of_links(std::filesystem::path path) {
   return path;
 }
 
-/// What keeps the links of that name from being followed; empty where nothing does.
-std::string fault_of_links(const std::filesystem::path& path) {
+/// Whether the links of that name can be followed.
+Result<> check_links(const std::filesystem::path& path) {
   std::error_code error;
   static_cast<void>(std::filesystem::status(path, error));
-  return error == std::errc::too_many_symbolic_link_levels
-             ? fmt::format("{}: {}", path.string(), error.message())
-             : "";
+  if (error != std::errc::too_many_symbolic_link_levels) return {};
+  return fail(fmt::format("{}: {}", path.string(), error.message()));
 }
 
 /// Whether that name is a file to be replaced at once, rather than a pipe or a device to write to.
@@ -182,54 +185,56 @@ std::filesystem::path temporary_of(std::filesystem::path path) {
   return path;
 }
 
-std::string write_through(const std::filesystem::path& path, std::string_view text) {
-  const auto failure = [&] { return fmt::format("{}: {}", path.string(), std::strerror(errno)); };
+Result<> write_through(const std::filesystem::path& path, std::string_view text) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) return failure();
-  std::string problem = write_all(descriptor, text) == text.size() ? "" : failure();
-  if (::close(descriptor) != 0 && problem.empty()) problem = failure();
-  return problem;
+  if (descriptor < 0) return failed(path, errno);
+  Result<> written;
+  if (write_all(descriptor, text) != text.size()) written = failed(path, errno);
+  if (::close(descriptor) != 0 && written) written = failed(path, errno);
+  return written;
 }
 
 }  // namespace
 
-std::string write_named_file(const std::filesystem::path& path, std::string_view text) {
-  if (std::string problem = fault_of_links(path); !problem.empty()) return problem;
+Result<> write_named_file(const std::filesystem::path& path, std::string_view text) {
+  if (auto followed = check_links(path); !followed) return followed;
   return is_replaced(path) ? write_whole_file(end_of_links(path), text) : write_through(path, text);
 }
 
-std::string trial_of_named_file(const std::filesystem::path& path) {
-  const auto failure = [&] { return fmt::format("{}: {}", path.string(), std::strerror(errno)); };
-  if (std::string problem = fault_of_links(path); !problem.empty()) return problem;
-  if (!is_replaced(path)) return ::access(path.c_str(), W_OK) == 0 ? "" : failure();
+Result<> trial_of_named_file(const std::filesystem::path& path) {
+  if (auto followed = check_links(path); !followed) return followed;
+  if (!is_replaced(path)) {
+    if (::access(path.c_str(), W_OK) != 0) return failed(path, errno);
+    return {};
+  }
   const std::filesystem::path target = end_of_links(path);
-  if (std::string problem = obstacle(target); !problem.empty()) return problem;
+  if (auto replaceable = check_replaceable(target); !replaceable) return replaceable;
   const std::filesystem::path temporary = temporary_of(target);
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) return failure();
+  if (descriptor < 0) return failed(path, errno);
   ::close(descriptor);
   ::unlink(temporary.c_str());
-  return "";
+  return {};
 }
 
-std::string write_whole_file(const std::filesystem::path& path, std::string_view text,
-                             Durability durability) {
-  if (std::string problem = obstacle(path); !problem.empty()) return problem;
+Result<> write_whole_file(const std::filesystem::path& path, std::string_view text, Durability durability) {
+  if (auto replaceable = check_replaceable(path); !replaceable) return replaceable;
   const std::filesystem::path temporary = temporary_of(path);
-  const auto fail = [&](int error) {
+  const auto abandon = [&](int error) {
     ::unlink(temporary.c_str());
-    return fmt::format("{}: {}", path.string(), std::strerror(error));
+    return failed(path, error);
   };
   const int descriptor = open_new(temporary.c_str());
-  if (descriptor < 0) return fail(errno);
+  if (descriptor < 0) return abandon(errno);
   const bool is_synced = durability == Durability::kSynced;
   const bool is_whole =
       write_all(descriptor, text) == text.size() && (!is_synced || ::fsync(descriptor) == 0);
   const int error = errno;
   const bool is_closed = ::close(descriptor) == 0;
-  if (!is_whole) return fail(error);
-  if (!is_closed || ::rename(temporary.c_str(), path.c_str()) != 0) return fail(errno);
-  return is_synced ? sync_folder(path.parent_path()) : "";
+  if (!is_whole) return abandon(error);
+  if (!is_closed || ::rename(temporary.c_str(), path.c_str()) != 0) return abandon(errno);
+  if (is_synced) return sync_folder(path.parent_path());
+  return {};
 }
 
 }  // namespace polynya::io

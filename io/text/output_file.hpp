@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "io/text/result.hpp"
 
 namespace polynya::io {
 
@@ -16,10 +16,10 @@ namespace polynya::io {
 class OutputFile {
  public:
   /// A new file; what had its name before, a link for example, is removed.
-  static tl::expected<OutputFile, std::string> create(const std::filesystem::path& path);
-  /// Goes on with a file that had that size [bytes] when it was last known to be whole: what is beyond is cut
-  /// off. A shorter file, and what is no regular file, is refused and left as it is.
-  static tl::expected<OutputFile, std::string> go_on(const std::filesystem::path& path, std::uint64_t size);
+  static Result<OutputFile> create(const std::filesystem::path& path);
+  /// Opens a file that had that size [bytes] when it was last known to be whole: what is beyond is cut off. A
+  /// shorter file, and what is no regular file, is refused and left as it is.
+  static Result<OutputFile> reopen(const std::filesystem::path& path, std::uint64_t size);
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;
   ~OutputFile();
@@ -54,8 +54,8 @@ class OutputFile {
     record_ends_.clear();
     keep();
   }
-  /// What went wrong, with the file's name; empty where all is well.
-  const std::string& failure() const { return failure_; }
+  /// The failure that flush() or sync() met, with the file's name.
+  const Result<>& status() const { return status_; }
 
  private:
   OutputFile(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
@@ -66,7 +66,7 @@ class OutputFile {
   std::size_t kept_ = 0;                  ///< of the buffer [bytes]
   std::size_t kept_records_ = 0;
   std::uint64_t size_ = 0;  ///< on disk [bytes]
-  std::string failure_;
+  Result<> status_;
 };
 
 enum class Durability {
@@ -75,22 +75,22 @@ enum class Durability {
 };
 
 /// Waits until a file's content is on the disk, or a folder's names. File systems that cannot, and folders
-/// that cannot be read, are taken at their word. Returns what went wrong; empty where all is well.
-std::string sync_file(const std::filesystem::path& path);
-std::string sync_folder(const std::filesystem::path& folder);
+/// that cannot be read, are taken at their word.
+Result<> sync_file(const std::filesystem::path& path);
+Result<> sync_folder(const std::filesystem::path& folder);
 
 /// Writes a file of a run folder at once: to a temporary name beside it, then renamed, so that a reader sees
 /// the old or the new one. A link of that name is replaced, not followed: run folders come from elsewhere
-/// too. A pipe, a device or a folder is refused and stays. Returns what went wrong; empty where all is well.
-std::string write_whole_file(const std::filesystem::path& path, std::string_view text,
-                             Durability durability = Durability::kRenamed);
+/// too. A pipe, a device or a folder is refused and stays.
+Result<> write_whole_file(const std::filesystem::path& path, std::string_view text,
+                          Durability durability = Durability::kRenamed);
 
 /// Writes to a name that a user gave. A regular file is replaced at once, and behind a link its target; a
-/// pipe or a device is written to. Returns what went wrong; empty where all is well.
-std::string write_named_file(const std::filesystem::path& path, std::string_view text);
+/// pipe or a device is written to.
+Result<> write_named_file(const std::filesystem::path& path, std::string_view text);
 
 /// Whether write_named_file() can begin: its temporary file, or the pipe or device, is opened and nothing
-/// written. For long work that ends in a file. Returns what is in the way; empty where nothing is.
-std::string trial_of_named_file(const std::filesystem::path& path);
+/// written. For long work that ends in a file.
+Result<> trial_of_named_file(const std::filesystem::path& path);
 
 }  // namespace polynya::io

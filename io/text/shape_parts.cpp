@@ -140,7 +140,7 @@ std::vector<std::size_t> ring_sizes(const ShapeParts& shape) {
   return sizes;
 }
 
-std::string find_fault(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes) {
+Result<> check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes) {
   const std::size_t most =
       std::accumulate(parent_ring_sizes.begin(), parent_ring_sizes.end(), std::size_t{0});
   std::size_t taken = 0;
@@ -148,15 +148,15 @@ std::string find_fault(const ShapeParts& shape, const std::vector<std::size_t>& 
     if (part.ring == ShapePart::kNew) continue;
     const auto ring = static_cast<std::size_t>(part.ring);
     if (ring >= parent_ring_sizes.size())
-      return fmt::format("ring {} of a parent that has {}", ring, parent_ring_sizes.size());
+      return fail(fmt::format("ring {} of a parent that has {}", ring, parent_ring_sizes.size()));
     const std::size_t size = parent_ring_sizes[ring];
     if (part.first >= size || part.count > size)
-      return fmt::format("{} vertices from vertex {} of the parent's ring {}, which has {}", part.count,
-                         part.first, ring, size);
+      return fail(fmt::format("{} vertices from vertex {} of the parent's ring {}, which has {}", part.count,
+                              part.first, ring, size));
     taken += part.count;
   }
-  if (taken > most) return fmt::format("{} vertices of a parent that has {}", taken, most);
-  return "";
+  if (taken > most) return fail(fmt::format("{} vertices of a parent that has {}", taken, most));
+  return {};
 }
 
 Polygon assembled(const ShapeParts& shape, const Polygon& parent) {

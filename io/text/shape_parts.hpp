@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
-
-#include <tl/expected.hpp>
 
 #include "geometry/shape/polygon.hpp"
 #include "io/text/json_value.hpp"
 #include "io/text/json_writer.hpp"
+#include "io/text/result.hpp"
 
 namespace polynya::io {
 
@@ -18,7 +16,7 @@ struct ShapePart {
   std::int32_t ring =
       kNew;                 ///< of the parent, 0 the outer one, then its holes; kNew: of ShapeParts::vertices
   std::uint32_t first = 0;  ///< vertex
-  std::uint32_t count = 0;  ///< of vertices; around a ring they go on from its last to its first
+  std::uint32_t count = 0;  ///< of vertices; around a ring they continue from its last to its first
 };
 
 /// A floe's shape as floes.ndjson has it (docs/run-folder.md): what it has of the floe that it broke from,
@@ -41,8 +39,8 @@ ShapeParts parts_of(const geometry::Polygon& shape, const geometry::Polygon& par
 /// How many vertices each ring has.
 std::vector<std::size_t> ring_sizes(const ShapeParts& shape);
 
-/// Why parts cannot be of a parent with rings of these sizes; empty where they can.
-std::string find_fault(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes);
+/// Whether parts can be of a parent with rings of these sizes.
+Result<> check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes);
 
 /// The shape itself, to the bit. `parent` is not used by parts that are all new. Needs parts without fault.
 geometry::Polygon assembled(const ShapeParts& shape, const geometry::Polygon& parent);
@@ -50,7 +48,7 @@ geometry::Polygon assembled(const ShapeParts& shape, const geometry::Polygon& pa
 /// Adds the members of a line of floes.ndjson that hold the shape.
 void append_shape(JsonWriter& json, const ShapeParts& shape);
 
-/// The shape of a line of floes.ndjson. The error says what in it is no shape.
-tl::expected<ShapeParts, std::string> read_shape(const JsonValue& line);
+/// The shape of a line of floes.ndjson. The error is what in it is no shape.
+Result<ShapeParts> read_shape(const JsonValue& line);
 
 }  // namespace polynya::io

@@ -131,7 +131,7 @@ void append_shape(JsonWriter& json, const ShapeParts& shape) {
   json.close(']');
 }
 
-tl::expected<ShapeParts, std::string> read_shape(const JsonValue& line) {
+Result<ShapeParts> read_shape(const JsonValue& line) {
   try {
     return ShapeReader().read(line);
   } catch (const NoShape& wrong) {

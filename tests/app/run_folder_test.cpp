@@ -70,10 +70,10 @@ void RunFolderTrial::leave_run(const std::string& name, std::int64_t end,
       io::Checkpoint checkpoint;
       checkpoint.scene_hash = scene->hash;
       checkpoint.steps = step;
-      checkpoint.progress = writer->sync();
+      checkpoint.progress = writer->sync().value();
       checkpoint.state = simulation.state();
       checkpoint.state_hash = simulation.state_hash();
-      ASSERT_EQ(io::write_checkpoint(folder_ / name, checkpoint), "");
+      ASSERT_TRUE(io::write_checkpoint(folder_ / name, checkpoint).has_value());
     }
     if (step == end) return;
     simulation.step();
@@ -281,7 +281,7 @@ TEST_F(RunFolderTrial, AFileTooLongToBeReadIsReported) {
   *std::ranges::find(sizes, fs::file_size(contacts)) =
       io::kLongestRunFile + 1;  // a hole, which takes no space
   fs::resize_file(contacts, io::kLongestRunFile + 1);
-  ASSERT_EQ(io::write_checkpoint(folder_ / "run", *longer), "");
+  ASSERT_TRUE(io::write_checkpoint(folder_ / "run", *longer).has_value());
   const Outcome resumed = call({"resume", "run"});
   EXPECT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_NE(resumed.err.find("note: contacts.csv has more than the 4294967296 bytes"), std::string::npos)

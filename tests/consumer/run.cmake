@@ -21,7 +21,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/consumer ${WORK}/prefix/share/polynya/scenes/two-floes.json)
+run(${WORK}/build/consumer ${WORK}/prefix/share/polynya/scenes/two-floes.json ${WORK}/run)
 message(STATUS "${output}")
 run(${WORK}/prefix/bin/polynya validate ${WORK}/prefix/share/polynya/scenes/sawamura2017-fig4b.json)
 message(STATUS "${output}")

@@ -59,6 +59,13 @@ def problems_of_output(root, polynya, text):
             yield f"`polynya validate {scene}` prints\n{run.stdout}and not\n{shown}"
 
 
+def problems_of_example(root):
+    """The example of docs/architecture.md is what tests/consumer compiles and runs."""
+    example = re.search(r"// begin\n(.*?)// end\n", (root / "tests/consumer/main.cpp").read_text(), re.DOTALL)
+    if not example or f"```cpp\n{example[1]}```" not in (root / "docs/architecture.md").read_text():
+        yield "docs/architecture.md: its example of a run is not the one in tests/consumer/main.cpp"
+
+
 def sources(root):
     for folder in ("geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "bench", "scenes"):
         for path in sorted((root / folder).rglob("*")):
@@ -75,6 +82,7 @@ def main(root, polynya):
             found.append(f"{page.relative_to(root)}: {problem}")
         for problem in problems_of_output(root, polynya, text):
             found.append(f"{page.relative_to(root)}: {problem}")
+    found.extend(problems_of_example(root))
     for path in sources(root):
         for key in KEY.findall(path.read_text()):
             if key not in keys:

@@ -28,7 +28,7 @@ int main(int count, char** words) {
     checkpoint.scene_hash = "0123456789abcdef";
     checkpoint.steps = until;
     checkpoint.progress.file_sizes = {1, 2, 3, 4, 5, 6};
-    checkpoint.progress.told = {{0, {}}, {}};
+    checkpoint.progress.recorded = {{0, {}}, {}};
     checkpoint.progress.peaks = {{.ship = "ship"}};
     checkpoint.state = simulation.state();
     checkpoint.state_hash = simulation.state_hash();

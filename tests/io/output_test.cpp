@@ -29,8 +29,8 @@ TEST(OutputFile, EndsWithAWholeRecordWhereTheDiskIsFull) {
       if (i % 7 == 0) file->flush();
     }
     file->flush();
-    const bool is_told = file->failure().find("lines.txt: File too large") != std::string::npos;
-    _exit(is_told && !file->flush() ? 0 : 1);
+    const bool is_named = file->status().error().find("lines.txt: File too large") != std::string::npos;
+    _exit(is_named && !file->flush() ? 0 : 1);
   }
   int status = 1;
   waitpid(child, &status, 0);
@@ -42,17 +42,17 @@ TEST(OutputFile, EndsWithAWholeRecordWhereTheDiskIsFull) {
 
 TEST(OutputFile, TellsAFileItCannotMake) {
   EXPECT_FALSE(OutputFile::create("/no/such/folder/file").has_value());
-  EXPECT_NE(write_whole_file("/no/such/folder/file", "x"), "");
+  EXPECT_FALSE(write_whole_file("/no/such/folder/file", "x").has_value());
 }
 
 TEST(OutputFile, ReplacesALinkOfARunFolderAndFollowsOneThatAUserNamed) {
   const TemporaryFolder folder;
   write_file(folder / "target", "old");
   std::filesystem::create_symlink("target", folder / "link");
-  EXPECT_EQ(write_named_file(folder / "link", "named"), "");
+  EXPECT_TRUE(write_named_file(folder / "link", "named").has_value());
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
   EXPECT_EQ(read_file(folder / "target"), "named");
-  EXPECT_EQ(write_whole_file(folder / "link", "whole"), "");
+  EXPECT_TRUE(write_whole_file(folder / "link", "whole").has_value());
   EXPECT_FALSE(std::filesystem::is_symlink(folder / "link"));
   EXPECT_EQ(read_file(folder / "link"), "whole");
   EXPECT_EQ(read_file(folder / "target"), "named");
@@ -63,19 +63,19 @@ TEST(OutputFile, FollowsLinksToAFileThatIsNotThereYet) {
   write_file(folder / "elsewhere/other", "");
   std::filesystem::create_symlink("elsewhere/second", folder / "first");
   std::filesystem::create_symlink("target", folder / "elsewhere/second");
-  EXPECT_EQ(write_named_file(folder / "first", "text"), "");
+  EXPECT_TRUE(write_named_file(folder / "first", "text").has_value());
   EXPECT_EQ(read_file(folder / "elsewhere/target"), "text");
   std::filesystem::create_symlink("circle", folder / "circle");
-  EXPECT_NE(write_named_file(folder / "circle", "text"), "");
+  EXPECT_FALSE(write_named_file(folder / "circle", "text").has_value());
 }
 
 TEST(OutputFile, ReplacesNoPipeNoDeviceAndNoFolder) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-  EXPECT_NE(write_whole_file(folder / "pipe", "x").find("not a regular file"), std::string::npos);
+  EXPECT_NE(write_whole_file(folder / "pipe", "x").error().find("not a regular file"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
-  EXPECT_NE(write_whole_file(folder.path(), "x").find("a folder"), std::string::npos);
-  EXPECT_NE(write_named_file("/dev/full", "x").find("No space left"), std::string::npos);
+  EXPECT_NE(write_whole_file(folder.path(), "x").error().find("a folder"), std::string::npos);
+  EXPECT_NE(write_named_file("/dev/full", "x").error().find("No space left"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
@@ -84,14 +84,14 @@ TEST(OutputFile, WritesThroughNoLinkThatWasPutInItsWay) {
   write_file(folder / "precious", "years of work");
   for (const char* name : {"grown", "cut", "whole.part"})
     std::filesystem::create_symlink("precious", folder / name);
-  EXPECT_EQ(write_whole_file(folder / "whole", "text"), "");
+  EXPECT_TRUE(write_whole_file(folder / "whole", "text").has_value());
   EXPECT_EQ(read_file(folder / "whole"), "text");
   auto grown = OutputFile::create(folder / "grown");
   ASSERT_TRUE(grown.has_value());
   grown->append("text\n");
   EXPECT_TRUE(grown->flush() && grown->is_in_place());
   EXPECT_EQ(read_file(folder / "grown"), "text\n");
-  const auto cut = OutputFile::go_on(folder / "cut", 0);
+  const auto cut = OutputFile::reopen(folder / "cut", 0);
   ASSERT_FALSE(cut.has_value());
   EXPECT_NE(cut.error().find("cut: a link"), std::string::npos) << cut.error();
   EXPECT_EQ(read_file(folder / "precious"), "years of work");

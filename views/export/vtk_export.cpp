@@ -201,15 +201,15 @@ tl::expected<VtkExport, std::string> export_vtk(const io::Run& run, const io::Fr
     int part = 0;
     for (const auto& [name, data] : parts) {
       const std::string file = fmt::format("{}-{:05}.vtp", name, number);
-      if (std::string wrong = io::write_named_file(folder / file, to_vtp(data)); !wrong.empty())
-        return tl::unexpected(std::move(wrong));
+      if (const auto written = io::write_named_file(folder / file, to_vtp(data)); !written)
+        return io::fail(written.error());
       timeline.entries.push_back({frame.time, part++, file});
     }
     before = frame.time;
     ++number;
   }
-  if (std::string wrong = io::write_named_file(folder / "run.pvd", to_pvd(timeline)); !wrong.empty())
-    return tl::unexpected(std::move(wrong));
+  if (const auto written = io::write_named_file(folder / "run.pvd", to_pvd(timeline)); !written)
+    return io::fail(written.error());
   return VtkExport{number, {ice.without_triangles().begin(), ice.without_triangles().end()}};
 }
 

@@ -32,11 +32,11 @@ Picture final_picture(const io::Run& run) {
 tl::expected<std::string, std::string> draw_final_map(const io::Run& run) {
   const std::string svg = to_svg(final_picture(run));
   const auto file = run.folder / io::run_file::kFinalSvg;
-  if (std::string wrong = io::write_whole_file(file, svg, io::Durability::kSynced); !wrong.empty())
-    return tl::unexpected(std::move(wrong));
+  if (const auto written = io::write_whole_file(file, svg, io::Durability::kSynced); !written)
+    return io::fail(written.error());
   const auto png = run.folder / io::run_file::kFinalPng;
   if (svg.size() > kLargestConverted || !convert_svg(file, png)) return std::string(io::run_file::kFinalSvg);
-  if (std::string wrong = io::sync_file(png); !wrong.empty()) return tl::unexpected(std::move(wrong));
+  if (const auto synced = io::sync_file(png); !synced) return io::fail(synced.error());
   return std::string(io::run_file::kFinalPng);
 }
 

@@ -1,9 +1,9 @@
-#include "app/memory_reserve.hpp"
+#include "io/run/memory_reserve.hpp"
 
 #include <atomic>
 #include <new>
 
-namespace polynya::app {
+namespace polynya::io {
 namespace {
 
 constexpr std::size_t kReserve = std::size_t{16} << 20;  ///< never touched, so it costs no pages [bytes]
@@ -39,4 +39,4 @@ void release_memory_reserve() {
   release();
 }
 
-}  // namespace polynya::app
+}  // namespace polynya::io

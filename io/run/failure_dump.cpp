@@ -1,21 +1,21 @@
-#include "app/failure_dump.hpp"
+#include "io/run/failure_dump.hpp"
 
 #include <new>
 
-#include "app/memory_check.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/run/run_loop.hpp"
 #include "io/text/output_file.hpp"
 #include "simulation/state/validate_world.hpp"
 
-namespace polynya::app {
+namespace polynya::io {
 namespace {
 
 using simulation::Simulation;
 
 /// The run at its newest checkpoint that can be read and is sound, or at its start.
 Simulation at_last_checkpoint(const ActiveRun& run) {
-  for (const auto& path : io::checkpoints_in(run.writer.folder())) {
-    const auto checkpoint = io::read_checkpoint_file(path, run.scene.hash);
+  for (const auto& path : checkpoints_in(run.writer.folder())) {
+    const auto checkpoint = read_checkpoint_file(path, run.scene.hash);
     if (!checkpoint || checkpoint->steps >= run.simulation.steps()) continue;
     auto there = Simulation::resumed(run.scene.scene, checkpoint->state);
     if (there && !failure_after_step(*there)) return std::move(*there);
@@ -39,7 +39,7 @@ std::optional<std::string> failure_after_step(const Simulation& simulation) {
 
 namespace {
 
-std::string find_and_dump(const ActiveRun& run) {
+Result<> find_and_dump(const ActiveRun& run) {
   Simulation ahead = at_last_checkpoint(run);
   Simulation before = at_last_checkpoint(run);
   std::optional<std::string> failure;
@@ -47,23 +47,23 @@ std::string find_and_dump(const ActiveRun& run) {
     step(ahead);
     failure = failure_after_step(ahead);
   }
-  if (!failure) return "it did not come again";
+  if (!failure) return fail("it did not come again");
   while (before.steps() + 1 < ahead.steps()) step(before);
   before.journal().clear();
-  io::Checkpoint dump = checkpoint_of(before, run.scene, {}, 0);
+  Checkpoint dump = checkpoint_of(before, run.scene, {}, 0);
   dump.failure = *failure;
-  return write_whole_file(run.writer.folder() / io::run_file::kFailure, checkpoint_bytes(dump),
-                          io::Durability::kSynced);
+  return write_whole_file(run.writer.folder() / run_file::kFailure, checkpoint_bytes(dump),
+                          Durability::kSynced);
 }
 
 }  // namespace
 
-std::string dump_failure(const ActiveRun& run) {
+Result<> dump_failure(const ActiveRun& run) {
   try {
     return find_and_dump(run);
   } catch (const std::bad_alloc&) {
-    return out_of_memory();
+    return fail(std::string(kMemoryRanOut));
   }
 }
 
-}  // namespace polynya::app
+}  // namespace polynya::io

@@ -1,8 +1,8 @@
-#include "app/last_whole_step.hpp"
+#include "io/run/last_whole_step.hpp"
 
 #include "simulation/world.hpp"
 
-namespace polynya::app {
+namespace polynya::io {
 
 LastWholeStep::LastWholeStep(const simulation::Simulation& simulation) {
   counts_.floes_final = simulation.counts().floes_final;
@@ -20,7 +20,7 @@ void LastWholeStep::take(const simulation::Simulation& simulation, std::int64_t 
   sums_ = world.accounts.audit;
 }
 
-void LastWholeStep::fill(io::RunSummary& summary) const {
+void LastWholeStep::fill(RunSummary& summary) const {
   summary.counts = counts_;
   summary.steps = counts_.steps;
   summary.sim_time = time_;
@@ -32,4 +32,4 @@ void LastWholeStep::fill(io::RunSummary& summary) const {
   summary.audit = audit(sums_, -at_rest.energy_imbalance, -at_rest.momentum_imbalance);
 }
 
-}  // namespace polynya::app
+}  // namespace polynya::io

@@ -3,7 +3,7 @@
 #include "io/run/summary.hpp"
 #include "simulation/simulation.hpp"
 
-namespace polynya::app {
+namespace polynya::io {
 
 /// What a run's summary needs of the last step that was whole: where memory runs out within a step, the world
 /// is no longer to be relied on. Takes no memory, and little time.
@@ -16,7 +16,7 @@ class LastWholeStep {
 
   /// Steps, time, counts and accounts. The area of the floes and what moves are not measured, but what the
   /// accounts leave: the imbalances are 0.
-  void fill(io::RunSummary& summary) const;
+  void fill(RunSummary& summary) const;
 
  private:
   double time_ = 0;  ///< [s]
@@ -25,4 +25,4 @@ class LastWholeStep {
   simulation::AuditSums sums_;
 };
 
-}  // namespace polynya::app
+}  // namespace polynya::io

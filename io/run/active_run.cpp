@@ -1,0 +1,48 @@
+#include "io/run/active_run.hpp"
+
+#include <fmt/format.h>
+
+#include "io/text/version.hpp"
+
+namespace polynya::io {
+
+using simulation::Simulation;
+
+Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene, bool overwrite) {
+  Simulation simulation(scene.scene);
+  auto writer = RunWriter::create(folder, overwrite, scene);
+  if (!writer) return fail(writer.error());
+  return ActiveRun{scene, std::move(simulation), std::move(*writer)};
+}
+
+Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::filesystem::path& file) {
+  auto checkpoint = read_checkpoint_file(file, scene.hash);
+  if (!checkpoint) return fail(checkpoint.error());
+  auto simulation = simulation_at(scene, *checkpoint);
+  if (!simulation) return fail(fmt::format("{}: {}", file.string(), simulation.error()));
+  auto writer = RunWriter::resume(std::move(lock), scene, *checkpoint, file, *simulation);
+  if (!writer) return fail(writer.error());
+  return ActiveRun{scene, std::move(*simulation), std::move(*writer), checkpoint->wall_time};
+}
+
+Result<Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint) {
+  auto simulation = Simulation::resumed(scene.scene, checkpoint.state);
+  if (!simulation) return fail("damaged: " + simulation.error());
+  if (simulation->steps() != checkpoint.steps || simulation->state_hash() != checkpoint.state_hash)
+    return fail("damaged: its state is not the one that was saved");
+  return simulation;
+}
+
+Checkpoint checkpoint_of(const Simulation& simulation, const LoadedScene& scene, RunProgress progress,
+                         double wall_time) {
+  return {.program_version = std::string(version()),
+          .scene_hash = scene.hash,
+          .steps = simulation.steps(),
+          .wall_time = wall_time,
+          .progress = std::move(progress),
+          .state = simulation.state(),
+          .state_hash = simulation.state_hash(),
+          .failure = ""};
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+
+#include "io/run/checkpoint.hpp"
+#include "io/run/run_writer.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/result.hpp"
+#include "simulation/simulation.hpp"
+
+namespace polynya::io {
+
+/// A run somewhere between its start and its end, and its folder.
+struct ActiveRun {
+  const LoadedScene& scene;  ///< outlives this
+  simulation::Simulation simulation;
+  RunWriter writer;
+  double wall_time = 0;  ///< that it has taken before [s]
+};
+
+/// A run before its first step. The error says what is wrong with the folder (RunWriter::create).
+Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene,
+                            bool overwrite = false);
+
+/// A run at a checkpoint of its folder, read from `file`: the folder is cut back to it (RunWriter::resume).
+Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::filesystem::path& file);
+
+/// The simulation of a checkpoint, checked against the hash it was saved with.
+Result<simulation::Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint);
+
+/// Where a run stands between two steps, its journal having been written.
+Checkpoint checkpoint_of(const simulation::Simulation& simulation, const LoadedScene& scene,
+                         RunProgress progress, double wall_time);
+
+}  // namespace polynya::io

@@ -1,0 +1,216 @@
+#include "io/run/run_loop.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include "io/run/failure_dump.hpp"
+#include "io/run/last_whole_step.hpp"
+#include "io/run/memory_reserve.hpp"
+#include "io/run/summarise.hpp"
+#include "simulation/world.hpp"
+
+namespace polynya::io {
+namespace {
+
+using simulation::Simulation;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t kStepsBetweenReports = 16;  ///< looking at the clock costs as much as a small step
+
+struct Stop {
+  RunEnd end = RunEnd::kFinished;
+  std::string reason;
+};
+
+Stop memory_ran_out() {
+  return {RunEnd::kOutOfMemory, std::string(kMemoryRanOut)};
+}
+
+double seconds_since(Clock::time_point then) {
+  return std::chrono::duration<double>(Clock::now() - then).count();
+}
+
+/// Steps in a time [s], at least 1.
+std::int64_t steps_in(double duration, double step) {
+  return std::max<std::int64_t>(1, std::llround(duration / step));
+}
+
+class RunLoop {
+ public:
+  RunLoop(ActiveRun& run, const RunControl& control)
+      : run_(run), control_(control), last_whole_step_(run.simulation) {
+    const simulation::StepSettings& time = simulation().scene().time;
+    last_step_ = static_cast<std::int64_t>(std::ceil(time.until / time.step - 1e-9));
+    steps_per_frame_ = steps_in(simulation().scene().record.frames_interval, time.step);
+    if (control.checkpoint_every > 0) steps_per_checkpoint_ = steps_in(control.checkpoint_every, time.step);
+  }
+
+  Stop advance();
+  RunResult finish(Stop stop);
+  RunResult cut_off(Stop stop);
+  Stop stop_without_memory();
+
+ private:
+  std::optional<Stop> advance_to_end();
+  std::optional<Stop> advance_step();
+  std::optional<Stop> stop_on_request();
+  std::optional<Stop> work_between_steps();
+  void record_step();
+  std::optional<std::string> failure_of_step() const;
+  Result<> checkpoint();
+
+  Simulation& simulation() { return run_.simulation; }
+  RunWriter& writer() { return run_.writer; }
+  double wall_time() const { return run_.wall_time + seconds_since(start_); }
+
+  ActiveRun& run_;
+  const RunControl& control_;
+  LastWholeStep last_whole_step_;
+  std::int64_t last_step_ = 0;
+  std::int64_t steps_per_frame_ = 1;
+  std::int64_t steps_per_checkpoint_ = 0;  ///< 0: by the clock alone
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_checkpoint_ = start_;
+};
+
+Stop RunLoop::advance() {
+  try {
+    return advance_to_end().value_or(Stop{});
+  } catch (const std::bad_alloc&) {
+    return memory_ran_out();
+  } catch (const std::system_error&) {
+    throw;
+  } catch (const std::runtime_error& no_thread) {  // TBB's, which starts threads when it needs them
+    if (control_.threads == 1) throw;
+    return {RunEnd::kOutOfMemory, no_thread.what()};
+  }
+}
+
+std::optional<Stop> RunLoop::advance_to_end() {
+  if (simulation().steps() == 0) {
+    writer().record(simulation().journal());
+    writer().frame(simulation());
+  }
+  while (simulation().steps() < last_step_)
+    if (auto stop = advance_step()) return stop;
+  return {};
+}
+
+std::optional<Stop> RunLoop::advance_step() {
+  simulation().step();
+  record_step();
+  if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
+  const std::int64_t step = simulation().steps();
+  if (step % steps_per_frame_ == 0 || step == last_step_) writer().frame(simulation());
+  if (is_memory_reserve_used()) return stop_without_memory();
+  if (auto stop = stop_on_request()) return stop;
+  return work_between_steps();
+}
+
+void RunLoop::record_step() {
+  simulation::Journal& journal = simulation().journal();
+  const auto more_floes = std::ssize(journal.births) - std::ssize(journal.deaths);
+  writer().record(journal);
+  last_whole_step_.take(simulation(), more_floes);
+}
+
+std::optional<std::string> RunLoop::failure_of_step() const {
+  if (control_.check) return failure_after_step(run_.simulation);
+  if (auto failure = run_.simulation.numerical_failure()) return "numerical failure: " + *failure;
+  return {};
+}
+
+/// Between two steps: there may be memory for a checkpoint still.
+Stop RunLoop::stop_without_memory() {
+  try {
+    if (const auto written = checkpoint(); !written) return {RunEnd::kFolderFailure, written.error()};
+  } catch (const std::bad_alloc&) {
+  }  // an older one, or the start, has to do
+  return memory_ran_out();
+}
+
+std::optional<Stop> RunLoop::stop_on_request() {
+  auto reason = control_.stop ? control_.stop() : std::nullopt;
+  if (!reason) return {};
+  if (const auto written = checkpoint(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
+  return Stop{RunEnd::kStopped, *reason};
+}
+
+/// Checkpoints, flushing and progress, each where it is due.
+std::optional<Stop> RunLoop::work_between_steps() {
+  const std::int64_t step = simulation().steps();
+  const bool is_report_due = step % kStepsBetweenReports == 0;
+  const bool is_checkpoint_due = (steps_per_checkpoint_ > 0 && step % steps_per_checkpoint_ == 0) ||
+                                 (is_report_due && control_.checkpoint_every_wall > 0 &&
+                                  seconds_since(last_checkpoint_) >= control_.checkpoint_every_wall);
+  if (!is_checkpoint_due && !is_report_due) return {};
+  if (!is_checkpoint_due) writer().flush_if_due();
+  if (const auto written = is_checkpoint_due ? checkpoint() : writer().status(); !written)
+    return Stop{RunEnd::kFolderFailure, written.error()};
+  if (!is_checkpoint_due && control_.progress)
+    control_.progress({simulation().time(), fractures_of(simulation().world().accounts.counts)});
+  return {};
+}
+
+Result<> RunLoop::checkpoint() {
+  auto progress = writer().sync();
+  if (!progress) return fail(progress.error());
+  auto written = write_checkpoint(writer().folder(),
+                                  checkpoint_of(simulation(), run_.scene, std::move(*progress), wall_time()));
+  last_checkpoint_ = Clock::now();
+  return written;
+}
+
+RunResult RunLoop::finish(Stop stop) {
+  RunResult result{stop.end, stop.reason, summarise(simulation(), writer(), stop.reason, wall_time())};
+  // Before the run is finished: that takes away the checkpoints from which the failure is sought.
+  const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
+  if (is_failure && !writer().is_displaced()) result.dump = dump_failure(run_);
+  if (const auto written = writer().finish(result.summary, simulation()); !written) {
+    result.end = RunEnd::kFolderFailure;
+    result.reason = written.error();
+  }
+  return result;
+}
+
+/// Ends a run whose world is not to be relied on, since memory ran out in it; what it takes is freed first.
+RunResult RunLoop::cut_off(Stop stop) {
+  { const Simulation freed = std::move(run_.simulation); }
+  release_memory_reserve();
+  RunResult result{stop.end, stop.reason, {}, true};
+  RunSummary& summary = result.summary;
+  last_whole_step_.fill(summary);
+  summary.stopped_by = stop.reason;
+  summary.wall_time = wall_time();
+  summary.peaks = writer().peaks();
+  summary.warnings.emplace_back(
+      "memory ran out: floe area, kinetic energy and momentum are what the accounts leave, not measured");
+  if (const auto written = writer().cut_off(summary); !written) {
+    result.end = RunEnd::kFolderFailure;
+    result.reason = written.error();
+  }
+  return result;
+}
+
+}  // namespace
+
+RunResult run_to_end(ActiveRun& run, const RunControl& control) {
+  keep_memory_reserve();
+  run.simulation.set_threads(control.threads);
+  RunLoop loop(run, control);
+  Stop stop = loop.advance();
+  try {
+    if (stop.end != RunEnd::kOutOfMemory) return loop.finish(stop);
+  } catch (const std::bad_alloc&) {  // in final.geojson
+    if (stop.end == RunEnd::kFinished) loop.stop_without_memory();
+    stop = memory_ran_out();
+  }
+  return loop.cut_off(stop);
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/run/active_run.hpp"
+#include "io/run/summary.hpp"
+
+namespace polynya::io {
+
+/// How far a run is.
+struct RunStatus {
+  double time = 0;             ///< simulated [s]
+  std::int64_t fractures = 0;  ///< bends, splits and rejected cuts
+};
+
+/// How a run is carried to its end.
+struct RunControl {
+  int threads = 1;                    ///< results do not depend on it
+  double checkpoint_every = 0;        ///< simulated time between checkpoints [s]; 0: by the clock alone
+  double checkpoint_every_wall = 60;  ///< and by the clock [s]; 0: never by it
+  bool check = false;  ///< validate all of the world, and derive its sums again, after every step
+  /// Called every 16th step.
+  std::function<void(const RunStatus&)> progress = {};
+  /// Called after every step: a reason stops the run there, with a checkpoint to resume from.
+  std::function<std::optional<std::string>()> stop = {};
+};
+
+enum class RunEnd {
+  kFinished,
+  kStopped,           ///< by RunControl::stop
+  kNumericalFailure,  ///< numbers that are none, or what RunControl::check found
+  kOutOfMemory,
+  kFolderFailure,  ///< a file of the folder could not be written
+};
+
+/// The reason where memory ran out.
+inline constexpr std::string_view kMemoryRanOut = "memory";
+
+struct RunResult {
+  RunEnd end = RunEnd::kFinished;
+  std::string reason;  ///< of any other end
+  RunSummary summary;  ///< as in summary.json
+  /// Memory ran out within a step: the folder ends with the last whole one, without final.geojson, and the
+  /// simulation is gone.
+  bool is_cut_off = false;
+  /// Where a failure was to be dumped (failure_dump.hpp): whether that went well.
+  std::optional<Result<>> dump = {};
+};
+
+/// Steps a run to the end of its scene, or to what stops it, and writes its folder; docs/architecture.md
+/// shows an example. Memory is kept in reserve (memory_reserve.hpp), so that a run which needs more ends with
+/// a usable folder.
+RunResult run_to_end(ActiveRun& run, const RunControl& control = {});
+
+}  // namespace polynya::io
