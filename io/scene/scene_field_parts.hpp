@@ -1,6 +1,7 @@
 #pragma once
 
 #include <numbers>
+#include <utility>
 
 #include "io/scene/scene_fields.hpp"
 
@@ -22,6 +23,21 @@ inline Range below(double low, double high) {
 }
 inline Range coordinate() {
   return {-kLargestCoordinate, kLargestCoordinate, false, false};
+}
+
+/// A line of a table. An aggregate's braces would be set one member a line.
+inline Field field(std::string_view key, FieldKind kind, std::string_view unit, Range range,
+                   std::string_view default_json, std::string_view meaning,
+                   void (*set)(SceneDraft&, const JsonValue&), std::vector<std::string_view> choices = {},
+                   std::string_view alternative = {}, const Object* object = nullptr) {
+  return {key, kind, unit, range, default_json, meaning, set, std::move(choices), alternative, object};
+}
+/// A part of the scene that may be left out: its fields have defaults.
+inline Field section(std::string_view key, const Object& object) {
+  return field(key, FieldKind::kObject, "", {}, "{}", "", nullptr, {}, "", &object);
+}
+inline Field list(std::string_view key, double longest, std::string_view meaning, const Object& items) {
+  return field(key, FieldKind::kList, "", {0, longest}, "[]", meaning, nullptr, {}, "", &items);
 }
 
 inline double radians(const JsonValue& v) {

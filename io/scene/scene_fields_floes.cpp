@@ -8,139 +8,105 @@ using Value = JsonValue;
 using Kind = FieldKind;
 
 const Object kField{
-    {{"corner_m",
-      Kind::kVector,
-      "m",
-      coordinate(),
-      "",
-      "corner of its region with the least x and y",
-      [](Draft& d, const Value& v) { d.group.origin = point_of(v); },
-      {},
-      "rectangle"},
-     {"extent_m",
-      Kind::kNumberOrVector,
-      "m",
-      from(0.1, 1e6),
-      "",
-      "sides of its region",
-      [](Draft& d, const Value& v) { d.group.extent = vector_of(v); },
-      {},
-      "rectangle"},
-     {"outline_m",
-      Kind::kRing,
-      "m",
-      coordinate(),
-      "",
-      "its region point by point; floes that would cross it are left out",
-      [](Draft& d, const Value& v) { d.group.field.region = ring_of(v); },
-      {},
-      "outline"},
-     {"floe_size_m", Kind::kNumber, "m", from(0.1, 1e4), "", "mean of the floes' √area",
-      [](Draft& d, const Value& v) {
-        d.group.form = FloeGroup::Form::kField;
-        d.group.field.floe_size = v.number();
-      }},
-     {"size_spread", Kind::kNumber, "", from(0, 0.5), "0.25",
-      "standard deviation of the floes' √area / its mean; they are lognormal, cut off at 2.5 deviations",
-      [](Draft& d, const Value& v) { d.group.field.size_spread = v.number(); }},
-     {"concentration", Kind::kNumber, "", above(0, 0.99), "", "share of the region that ice covers",
-      [](Draft& d, const Value& v) { d.group.field.concentration = v.number(); }},
-     {"gap_m", Kind::kNumber, "m", from(1e-6, 1000), "0.05",
-      "least distance between floes, and of floes from what is kept clear",
-      [](Draft& d, const Value& v) { d.group.field.gap = v.number(); }},
-     {"most_corners", Kind::kInteger, "", from(3, 32), "8", "of a floe; floes are convex",
-      [](Draft& d, const Value& v) { d.group.field.most_corners = static_cast<int>(v.number()); }},
-     {"keep_clear_m", Kind::kRings, "m", coordinate(), "[]",
-      "regions no floe may reach into; ships and structures are kept clear without being asked for",
-      [](Draft& d, const Value& v) {
-        for (const Value& ring : v.items()) d.group.field.kept_clear.push_back({ring_of(ring), {}});
-      }},
-     {"seed", Kind::kInteger, "", from(0, 9007199254740991), "0",
-      "another one gives another field; the scene's seed is added",
-      [](Draft& d, const Value& v) { d.group.field.seed = static_cast<std::uint64_t>(v.number()); }}},
+    {field(
+         "corner_m", Kind::kVector, "m", coordinate(), "", "corner of its region with the least x and y",
+         [](Draft& d, const Value& v) { d.group.origin = point_of(v); }, {}, "rectangle"),
+     field(
+         "extent_m", Kind::kNumberOrVector, "m", from(0.1, 1e6), "", "sides of its region",
+         [](Draft& d, const Value& v) { d.group.extent = vector_of(v); }, {}, "rectangle"),
+     field(
+         "outline_m", Kind::kRing, "m", coordinate(), "",
+         "its region point by point; floes that would cross it are left out",
+         [](Draft& d, const Value& v) { d.group.field.region = ring_of(v); }, {}, "outline"),
+     field("floe_size_m", Kind::kNumber, "m", from(0.1, 1e4), "", "mean of the floes' √area",
+           [](Draft& d, const Value& v) {
+             d.group.form = FloeGroup::Form::kField;
+             d.group.field.floe_size = v.number();
+           }),
+     field("size_spread", Kind::kNumber, "", from(0, 0.5), "0.25",
+           "standard deviation of the floes' √area / its mean; they are lognormal, cut off at 2.5 deviations",
+           [](Draft& d, const Value& v) { d.group.field.size_spread = v.number(); }),
+     field("concentration", Kind::kNumber, "", above(0, 0.99), "", "share of the region that ice covers",
+           [](Draft& d, const Value& v) { d.group.field.concentration = v.number(); }),
+     field("gap_m", Kind::kNumber, "m", from(1e-6, 1000), "0.05",
+           "least distance between floes, and of floes from what is kept clear",
+           [](Draft& d, const Value& v) { d.group.field.gap = v.number(); }),
+     field("most_corners", Kind::kInteger, "", from(3, 32), "8", "of a floe; floes are convex",
+           [](Draft& d, const Value& v) { d.group.field.most_corners = static_cast<int>(v.number()); }),
+     field("keep_clear_m", Kind::kRings, "m", coordinate(), "[]",
+           "regions no floe may reach into; ships and structures are kept clear without being asked for",
+           [](Draft& d, const Value& v) {
+             for (const Value& ring : v.items()) d.group.field.kept_clear.push_back({ring_of(ring), {}});
+           }),
+     field("seed", Kind::kInteger, "", from(0, 9007199254740991), "0",
+           "another one gives another field; the scene's seed is added",
+           [](Draft& d, const Value& v) { d.group.field.seed = static_cast<std::uint64_t>(v.number()); })},
     {"rectangle", "outline"}};
 
 const Object kLattice{
-    {{"origin_m", Kind::kVector, "m", coordinate(), "[0, 0]",
-      "corner of the lattice's area with the least x and y",
-      [](Draft& d, const Value& v) {
-        d.group.form = FloeGroup::Form::kLattice;
-        d.group.origin = point_of(v);
-      }},
-     {"columns", Kind::kInteger, "", from(1, kLargestCount), "", "floes along x",
-      [](Draft& d, const Value& v) { d.group.columns = static_cast<int>(v.number()); }},
-     {"rows", Kind::kInteger, "", from(1, kLargestCount), "", "floes along y",
-      [](Draft& d, const Value& v) { d.group.rows = static_cast<int>(v.number()); }},
-     {"pitch_m", Kind::kNumberOrVector, "m", from(0.01, 1e5), "",
-      "from one floe's centre to the next; each floe stands in the middle of its cell",
-      [](Draft& d, const Value& v) { d.group.pitch = vector_of(v); }},
-     {"size_m", Kind::kNumberOrVector, "m", from(0.01, 1e5), "", "sides of a floe, at most the pitch",
-      [](Draft& d, const Value& v) { d.group.size = vector_of(v); }}}};
+    {field("origin_m", Kind::kVector, "m", coordinate(), "[0, 0]",
+           "corner of the lattice's area with the least x and y",
+           [](Draft& d, const Value& v) {
+             d.group.form = FloeGroup::Form::kLattice;
+             d.group.origin = point_of(v);
+           }),
+     field("columns", Kind::kInteger, "", from(1, kLargestCount), "", "floes along x",
+           [](Draft& d, const Value& v) { d.group.columns = static_cast<int>(v.number()); }),
+     field("rows", Kind::kInteger, "", from(1, kLargestCount), "", "floes along y",
+           [](Draft& d, const Value& v) { d.group.rows = static_cast<int>(v.number()); }),
+     field("pitch_m", Kind::kNumberOrVector, "m", from(0.01, 1e5), "",
+           "from one floe's centre to the next; each floe stands in the middle of its cell",
+           [](Draft& d, const Value& v) { d.group.pitch = vector_of(v); }),
+     field("size_m", Kind::kNumberOrVector, "m", from(0.01, 1e5), "", "sides of a floe, at most the pitch",
+           [](Draft& d, const Value& v) { d.group.size = vector_of(v); })}};
 
-const Object kRectangle{
-    {{"corner_m", Kind::kVector, "m", coordinate(), "", "corner with the least x and y before it is turned",
-      [](Draft& d, const Value& v) {
-        d.group.form = FloeGroup::Form::kRectangle;
-        d.group.origin = point_of(v);
-      }},
-     {"size_m", Kind::kNumberOrVector, "m", from(0.01, 1e5), "", "sides",
-      [](Draft& d, const Value& v) { d.group.size = vector_of(v); }},
-     {"angle_deg", Kind::kNumber, "°", from(-360, 360), "0", "turned about that corner, counter-clockwise",
-      [](Draft& d, const Value& v) { d.group.angle = radians(v); }}}};
+const Object kRectangle{{field("corner_m", Kind::kVector, "m", coordinate(), "",
+                               "corner with the least x and y before it is turned",
+                               [](Draft& d, const Value& v) {
+                                 d.group.form = FloeGroup::Form::kRectangle;
+                                 d.group.origin = point_of(v);
+                               }),
+                         field("size_m", Kind::kNumberOrVector, "m", from(0.01, 1e5), "", "sides",
+                               [](Draft& d, const Value& v) { d.group.size = vector_of(v); }),
+                         field("angle_deg", Kind::kNumber, "°", from(-360, 360), "0",
+                               "turned about that corner, counter-clockwise",
+                               [](Draft& d, const Value& v) { d.group.angle = radians(v); })}};
 
-const Object kPolygon{{{"outer_m", Kind::kRing, "m", coordinate(), "",
-                        "outer boundary; it may run either way and may be closed",
-                        [](Draft& d, const Value& v) {
-                          d.group.form = FloeGroup::Form::kPolygon;
-                          d.group.polygon.outer = ring_of(v);
-                        }},
-                       {"holes_m", Kind::kRings, "m", coordinate(), "[]", "boundaries of its holes",
-                        [](Draft& d, const Value& v) {
-                          for (const Value& hole : v.items()) d.group.polygon.holes.push_back(ring_of(hole));
-                        }}}};
+const Object kPolygon{{field("outer_m", Kind::kRing, "m", coordinate(), "",
+                             "outer boundary; it may run either way and may be closed",
+                             [](Draft& d, const Value& v) {
+                               d.group.form = FloeGroup::Form::kPolygon;
+                               d.group.polygon.outer = ring_of(v);
+                             }),
+                       field("holes_m", Kind::kRings, "m", coordinate(), "[]", "boundaries of its holes",
+                             [](Draft& d, const Value& v) {
+                               for (const Value& hole : v.items())
+                                 d.group.polygon.holes.push_back(ring_of(hole));
+                             })}};
 
 const Object kFloes{
-    {{"lattice",
-      Kind::kObject,
-      "",
-      {},
-      "",
-      "rows and columns of equal rectangles",
-      nullptr,
-      {},
-      "lattice",
-      &kLattice},
-     {"rectangle", Kind::kObject, "", {}, "", "one rectangle", nullptr, {}, "rectangle", &kRectangle},
-     {"polygon", Kind::kObject, "", {}, "", "one polygon, with holes", nullptr, {}, "polygon", &kPolygon},
-     {"field",
-      Kind::kObject,
-      "",
-      {},
-      "",
-      "random convex floes at a concentration",
-      nullptr,
-      {},
-      "field",
-      &kField},
-     {"file",
-      Kind::kText,
-      "",
-      {},
-      "",
-      "a GeoJSON file (Polygon, MultiPolygon, FeatureCollection; coordinates in metres) in the scene's "
-      "folder or below",
-      [](Draft& d, const Value& v) {
-        d.group.form = FloeGroup::Form::kFile;
-        d.group.file = v.text();
-      },
-      {},
-      "file"},
-     {"velocity_m_per_s", Kind::kVector, "m/s", from(-20, 20), "[0, 0]",
-      "of the centre of mass relative to the water there, at the start",
-      [](Draft& d, const Value& v) { d.group.velocity = vector_of(v); }},
-     {"angular_velocity_deg_per_s", Kind::kNumber, "°/s", from(-360, 360), "0",
-      "counter-clockwise, at the start; a shear's own turning comes on top",
-      [](Draft& d, const Value& v) { d.group.angular_velocity = radians(v); }}},
+    {field("lattice", Kind::kObject, "", {}, "", "rows and columns of equal rectangles", nullptr, {},
+           "lattice", &kLattice),
+     field("rectangle", Kind::kObject, "", {}, "", "one rectangle", nullptr, {}, "rectangle", &kRectangle),
+     field("polygon", Kind::kObject, "", {}, "", "one polygon, with holes", nullptr, {}, "polygon",
+           &kPolygon),
+     field("field", Kind::kObject, "", {}, "", "random convex floes at a concentration", nullptr, {}, "field",
+           &kField),
+     field(
+         "file", Kind::kText, "", {}, "",
+         "a GeoJSON file (Polygon, MultiPolygon, FeatureCollection; coordinates in metres) in the scene's "
+         "folder or below",
+         [](Draft& d, const Value& v) {
+           d.group.form = FloeGroup::Form::kFile;
+           d.group.file = v.text();
+         },
+         {}, "file"),
+     field("velocity_m_per_s", Kind::kVector, "m/s", from(-20, 20), "[0, 0]",
+           "of the centre of mass relative to the water there, at the start",
+           [](Draft& d, const Value& v) { d.group.velocity = vector_of(v); }),
+     field("angular_velocity_deg_per_s", Kind::kNumber, "°/s", from(-360, 360), "0",
+           "counter-clockwise, at the start; a shear's own turning comes on top",
+           [](Draft& d, const Value& v) { d.group.angular_velocity = radians(v); })},
     {"lattice", "rectangle", "polygon", "field", "file"},
     [](Draft& d) { d.group = {}; }};
 

@@ -19,184 +19,161 @@ simulation::GeographicOrigin& origin(Draft& d) {
   return *d.scene.origin;
 }
 
-const Object kOrigin{
-    {{"latitude_deg", Kind::kNumber, "°", from(-90, 90), "", "of the scene's origin, WGS 84, north positive",
-      [](Draft& d, const Value& v) { origin(d).latitude = radians(v); }},
-     {"longitude_deg", Kind::kNumber, "°", from(-180, 180), "", "east positive",
-      [](Draft& d, const Value& v) { origin(d).longitude = radians(v); }},
-     {"heading_deg", Kind::kNumber, "°", from(-360, 360), "90",
-      "of the scene's x axis from true north, clockwise; 90: x is east, y north",
-      [](Draft& d, const Value& v) { origin(d).heading = radians(v); }}}};
+const Object kOrigin{{field("latitude_deg", Kind::kNumber, "°", from(-90, 90), "",
+                            "of the scene's origin, WGS 84, north positive",
+                            [](Draft& d, const Value& v) { origin(d).latitude = radians(v); }),
+                      field("longitude_deg", Kind::kNumber, "°", from(-180, 180), "", "east positive",
+                            [](Draft& d, const Value& v) { origin(d).longitude = radians(v); }),
+                      field("heading_deg", Kind::kNumber, "°", from(-360, 360), "90",
+                            "of the scene's x axis from true north, clockwise; 90: x is east, y north",
+                            [](Draft& d, const Value& v) { origin(d).heading = radians(v); })}};
 
-const Object kTime{{{"step_s", Kind::kNumber, "s", from(1e-5, 1), "0.005", "time step Δt",
-                     [](Draft& d, const Value& v) { d.scene.time.step = v.number(); }},
-                    {"until_s", Kind::kNumber, "s", above(0, 1e7), "550", "simulated time to run to",
-                     [](Draft& d, const Value& v) { d.scene.time.until = v.number(); }}}};
+const Object kTime{{field("step_s", Kind::kNumber, "s", from(1e-5, 1), "0.005", "time step Δt",
+                          [](Draft& d, const Value& v) { d.scene.time.step = v.number(); }),
+                    field("until_s", Kind::kNumber, "s", above(0, 1e7), "550", "simulated time to run to",
+                          [](Draft& d, const Value& v) { d.scene.time.until = v.number(); })}};
 
 const Object kShear{
-    {{"rate_per_s", Kind::kNumber, "1/s", from(-1, 1), "0",
-      "how much faster the current runs along its direction, per metre to port of the origin",
-      [](Draft& d, const Value& v) { d.scene.water.shear.rate = v.number(); }},
-     {"direction_deg", Kind::kNumber, "°", from(-360, 360), "0",
-      "of the current, from the x axis, counter-clockwise",
-      [](Draft& d, const Value& v) { d.scene.water.shear.direction = radians(v); }},
-     {"origin_m", Kind::kVector, "m", coordinate(), "[0, 0]",
-      "a point where the water has the drift alone, at the start; it is carried along by the drift",
-      [](Draft& d, const Value& v) { d.scene.water.shear.origin = point_of(v); }}}};
+    {field("rate_per_s", Kind::kNumber, "1/s", from(-1, 1), "0",
+           "how much faster the current runs along its direction, per metre to port of the origin",
+           [](Draft& d, const Value& v) { d.scene.water.shear.rate = v.number(); }),
+     field("direction_deg", Kind::kNumber, "°", from(-360, 360), "0",
+           "of the current, from the x axis, counter-clockwise",
+           [](Draft& d, const Value& v) { d.scene.water.shear.direction = radians(v); }),
+     field("origin_m", Kind::kVector, "m", coordinate(), "[0, 0]",
+           "a point where the water has the drift alone, at the start; it is carried along by the drift",
+           [](Draft& d, const Value& v) { d.scene.water.shear.origin = point_of(v); })}};
 
 const Object kWater{
-    {{"density_kg_per_m3", Kind::kNumber, "kg/m³", from(500, 2000), "1000", "density ρ_w",
-      [](Draft& d, const Value& v) { d.scene.water.water.density = v.number(); }},
-     {"drag_coefficient", Kind::kNumber, "", from(0, 100), "0.5", "C_D of Eq. (6), on a floe's edge",
-      [](Draft& d, const Value& v) { d.scene.water.drag_coefficient = v.number(); }},
-     {"drift_m_per_s", Kind::kVector, "m/s", from(-10, 10), "[0, 0]",
-      "velocity of the water, and of all ice with it",
-      [](Draft& d, const Value& v) { d.scene.water.drift = vector_of(v); }},
-     {"shear",
-      Kind::kObject,
-      "",
-      {},
-      "{}",
-      "a current that changes linearly across its direction, on top of the drift",
-      nullptr,
-      {},
-      "",
-      &kShear}}};
+    {field("density_kg_per_m3", Kind::kNumber, "kg/m³", from(500, 2000), "1000", "density ρ_w",
+           [](Draft& d, const Value& v) { d.scene.water.water.density = v.number(); }),
+     field("drag_coefficient", Kind::kNumber, "", from(0, 100), "0.5", "C_D of Eq. (6), on a floe's edge",
+           [](Draft& d, const Value& v) { d.scene.water.drag_coefficient = v.number(); }),
+     field("drift_m_per_s", Kind::kVector, "m/s", from(-10, 10), "[0, 0]",
+           "velocity of the water, and of all ice with it",
+           [](Draft& d, const Value& v) { d.scene.water.drift = vector_of(v); }),
+     field("shear", Kind::kObject, "", {}, "{}",
+           "a current that changes linearly across its direction, on top of the drift", nullptr, {}, "",
+           &kShear)}};
 
 const Object kIce{
-    {{"thickness_m", Kind::kNumber, "m", from(1e-3, 20), "0.5", "thickness h of every floe",
-      [](Draft& d, const Value& v) { d.scene.ice.thickness = v.number(); }},
-     {"density_kg_per_m3", Kind::kNumber, "kg/m³", from(100, 1100), "900",
-      "density ρ_i, less than the water's",
-      [](Draft& d, const Value& v) { d.scene.ice.density = v.number(); }},
-     {"youngs_modulus_Pa", Kind::kNumber, "Pa", from(1e6, 1e12), "5.4e9", "Young's modulus E",
-      [](Draft& d, const Value& v) { d.scene.ice.youngs_modulus = v.number(); }},
-     {"poisson_ratio", Kind::kNumber, "", below(0, 0.5), "0.3", "Poisson's ratio ν (the paper gives none)",
-      [](Draft& d, const Value& v) { d.scene.ice.poisson_ratio = v.number(); }},
-     {"flexural_strength_Pa", Kind::kNumber, "Pa", from(1, 1e9), "0.8e6", "flexural strength σ_f",
-      [](Draft& d, const Value& v) { d.scene.ice.flexural_strength = v.number(); }},
-     {"compressive_strength_Pa", Kind::kNumber, "Pa", from(1, 1e10), "2.8e6", "compressive strength σ_c",
-      [](Draft& d, const Value& v) { d.scene.ice.compressive_strength = v.number(); }},
-     {"tensile_strength_Pa", Kind::kNumber, "Pa", from(1, 1e9), "0.8e6", "tensile strength σ_t",
-      [](Draft& d, const Value& v) { d.scene.ice.tensile_strength = v.number(); }},
-     {"fracture_toughness_Pa_sqrt_m", Kind::kNumber, "Pa √m", from(1, 1e9), "150e3",
-      "fracture toughness K_IC, for splitting by lefm",
-      [](Draft& d, const Value& v) { d.scene.ice.fracture_toughness = v.number(); }},
-     {"friction", Kind::kNumber, "", from(0, 2), "0.2", "friction coefficient μ, hull on ice and ice on ice",
-      [](Draft& d, const Value& v) { d.scene.ice.friction = v.number(); }}}};
+    {field("thickness_m", Kind::kNumber, "m", from(1e-3, 20), "0.5", "thickness h of every floe",
+           [](Draft& d, const Value& v) { d.scene.ice.thickness = v.number(); }),
+     field("density_kg_per_m3", Kind::kNumber, "kg/m³", from(100, 1100), "900",
+           "density ρ_i, less than the water's",
+           [](Draft& d, const Value& v) { d.scene.ice.density = v.number(); }),
+     field("youngs_modulus_Pa", Kind::kNumber, "Pa", from(1e6, 1e12), "5.4e9", "Young's modulus E",
+           [](Draft& d, const Value& v) { d.scene.ice.youngs_modulus = v.number(); }),
+     field("poisson_ratio", Kind::kNumber, "", below(0, 0.5), "0.3",
+           "Poisson's ratio ν (the paper gives none)",
+           [](Draft& d, const Value& v) { d.scene.ice.poisson_ratio = v.number(); }),
+     field("flexural_strength_Pa", Kind::kNumber, "Pa", from(1, 1e9), "0.8e6", "flexural strength σ_f",
+           [](Draft& d, const Value& v) { d.scene.ice.flexural_strength = v.number(); }),
+     field("compressive_strength_Pa", Kind::kNumber, "Pa", from(1, 1e10), "2.8e6", "compressive strength σ_c",
+           [](Draft& d, const Value& v) { d.scene.ice.compressive_strength = v.number(); }),
+     field("tensile_strength_Pa", Kind::kNumber, "Pa", from(1, 1e9), "0.8e6", "tensile strength σ_t",
+           [](Draft& d, const Value& v) { d.scene.ice.tensile_strength = v.number(); }),
+     field("fracture_toughness_Pa_sqrt_m", Kind::kNumber, "Pa √m", from(1, 1e9), "150e3",
+           "fracture toughness K_IC, for splitting by lefm",
+           [](Draft& d, const Value& v) { d.scene.ice.fracture_toughness = v.number(); }),
+     field("friction", Kind::kNumber, "", from(0, 2), "0.2",
+           "friction coefficient μ, hull on ice and ice on ice",
+           [](Draft& d, const Value& v) { d.scene.ice.friction = v.number(); })}};
 
 const Object kContact{
-    {{"circle_radius_m", Kind::kNumber, "m", from(0.01, 100), "1", "radius of the contact circles",
-      [](Draft& d, const Value& v) { d.scene.contact.circle_radius = v.number(); }},
-     {"normal",
-      Kind::kChoice,
-      "",
-      {},
-      "\"boundary\"",
-      "how a contact's normal is found: from the boundary pieces the touching circles stand for, or along "
-      "the line "
-      "between the circles' centres (the paper's rule)",
-      [](Draft& d, const Value& v) {
-        d.scene.contact.normal =
-            v.text() == "boundary" ? ContactNormal::kBoundary : ContactNormal::kCircleCentres;
-      },
-      {"boundary", "circle-centres"}},
-     {"restitution", Kind::kNumber, "", from(0, 1), "0.1", "ε of Eq. (5)",
-      [](Draft& d, const Value& v) { d.scene.contact.restitution = v.number(); }},
-     {"contact_time_s", Kind::kNumber, "s", from(1e-4, 100), "0.5",
-      "τ_c, which turns an impulse j into the paper's peak force j/τ_c (it decides splits and is reported; "
-      "the motion "
-      "does not depend on it otherwise)",
-      [](Draft& d, const Value& v) { d.scene.contact.contact_time = v.number(); }},
-     {"separation_time_s", Kind::kNumber, "s", from(1e-3, 1e4), "1",
-      "time over which overlap that nothing presses together any more decays",
-      [](Draft& d, const Value& v) { d.scene.contact.separation_time = v.number(); }},
-     {"iterations", Kind::kInteger, "", from(1, 10000), "30", "most sweeps of the impulse solver in a step",
-      [](Draft& d, const Value& v) { d.scene.contact.iterations = static_cast<int>(v.number()); }}}};
+    {field("circle_radius_m", Kind::kNumber, "m", from(0.01, 100), "1", "radius of the contact circles",
+           [](Draft& d, const Value& v) { d.scene.contact.circle_radius = v.number(); }),
+     field(
+         "normal", Kind::kChoice, "", {}, "\"boundary\"",
+         "how a contact's normal is found: from the boundary pieces the touching circles stand for, or along "
+         "the line "
+         "between the circles' centres (the paper's rule)",
+         [](Draft& d, const Value& v) {
+           d.scene.contact.normal =
+               v.text() == "boundary" ? ContactNormal::kBoundary : ContactNormal::kCircleCentres;
+         },
+         {"boundary", "circle-centres"}),
+     field("restitution", Kind::kNumber, "", from(0, 1), "0.1", "ε of Eq. (5)",
+           [](Draft& d, const Value& v) { d.scene.contact.restitution = v.number(); }),
+     field("contact_time_s", Kind::kNumber, "s", from(1e-4, 100), "0.5",
+           "τ_c, which turns an impulse j into the paper's peak force j/τ_c (it decides splits and is "
+           "reported; "
+           "the motion "
+           "does not depend on it otherwise)",
+           [](Draft& d, const Value& v) { d.scene.contact.contact_time = v.number(); }),
+     field("separation_time_s", Kind::kNumber, "s", from(1e-3, 1e4), "1",
+           "time over which overlap that nothing presses together any more decays",
+           [](Draft& d, const Value& v) { d.scene.contact.separation_time = v.number(); }),
+     field("iterations", Kind::kInteger, "", from(1, 10000), "30",
+           "most sweeps of the impulse solver in a step",
+           [](Draft& d, const Value& v) { d.scene.contact.iterations = static_cast<int>(v.number()); })}};
 
-const Object kBending{{{"model",
-                        Kind::kChoice,
-                        "",
-                        {},
-                        "\"fsi-database\"",
-                        "what a wedge of ice bears before its cusp breaks off",
-                        [](Draft& d, const Value& v) {
-                          d.scene.fracture.bending = v.text() == "nevel" ? BendingModelKind::kNevel
-                                                     : v.text() == "kashtelyan"
-                                                         ? BendingModelKind::kKashtelyan
-                                                         : BendingModelKind::kFsiDatabase;
-                        },
-                        {"fsi-database", "nevel", "kashtelyan"}}}};
+const Object kBending{{field("model", Kind::kChoice, "", {}, "\"fsi-database\"",
+                             "what a wedge of ice bears before its cusp breaks off",
+                             [](Draft& d, const Value& v) {
+                               d.scene.fracture.bending = v.text() == "nevel" ? BendingModelKind::kNevel
+                                                          : v.text() == "kashtelyan"
+                                                              ? BendingModelKind::kKashtelyan
+                                                              : BendingModelKind::kFsiDatabase;
+                             },
+                             {"fsi-database", "nevel", "kashtelyan"})}};
 
 const Object kSplitting{
-    {{"model",
-      Kind::kChoice,
-      "",
-      {},
-      "\"michel\"",
-      "force that splits a floe: Eq. (4), F_s = n L h σ_t, or linear elastic fracture mechanics",
-      [](Draft& d, const Value& v) {
-        d.scene.fracture.splitting = v.text() == "michel" ? SplittingModel::kMichel : SplittingModel::kLefm;
-      },
-      {"michel", "lefm"}},
-     {"shape_factor", Kind::kNumber, "", above(0, 100), "0.25", "n of Eq. (4)",
-      [](Draft& d, const Value& v) { d.scene.fracture.splitting_shape_factor = v.number(); }}}};
+    {field("model", Kind::kChoice, "", {}, "\"michel\"",
+           "force that splits a floe: Eq. (4), F_s = n L h σ_t, or linear elastic fracture mechanics",
+           [](Draft& d, const Value& v) {
+             d.scene.fracture.splitting =
+                 v.text() == "michel" ? SplittingModel::kMichel : SplittingModel::kLefm;
+           },
+           {"michel", "lefm"}),
+     field("shape_factor", Kind::kNumber, "", above(0, 100), "0.25", "n of Eq. (4)",
+           [](Draft& d, const Value& v) { d.scene.fracture.splitting_shape_factor = v.number(); })}};
 
 const Object kFracture{
-    {{"characteristic_length",
-      Kind::kChoice,
-      "",
-      {},
-      "\"fourth_root\"",
-      "how Eq. (7) is read: (D/ρ_w g)^¼, a length, or as the paper prints it, (D/ρ_w g)^½, whose unit is m² "
-      "(the "
-      "paper's story needs that number: docs/paper-comparison.md)",
-      [](Draft& d, const Value& v) {
-        d.scene.fracture.characteristic_length =
-            v.text() == "fourth_root" ? CharacteristicLength::kFourthRoot : CharacteristicLength::kAsPrinted;
-      },
-      {"fourth_root", "as_printed"}},
-     {"breakable_size_factor", Kind::kNumber, "", from(0, 1000), "1",
-      "κ: floes with √area < κ l are pushed away, never broken",
-      [](Draft& d, const Value& v) { d.scene.fracture.breakable_size_factor = v.number(); }},
-     {"bending", Kind::kObject, "", {}, "{}", "failure by bending", nullptr, {}, "", &kBending},
-     {"splitting", Kind::kObject, "", {}, "{}", "failure by splitting", nullptr, {}, "", &kSplitting},
-     {"cusp_fate",
-      Kind::kChoice,
-      "",
-      {},
-      "\"submerge\"",
-      "what becomes of a broken cusp: it is gone under the hull (the paper), or it floats as a floe",
-      [](Draft& d, const Value& v) {
-        d.scene.fracture.cusp_fate = v.text() == "submerge" ? CuspFate::kSubmerge : CuspFate::kFloat;
-      },
-      {"submerge", "float"}},
-     {"cusp_sagitta_m", Kind::kNumber, "m", from(1e-4, 1), "0.02",
-      "a cusp's polygon stays this close to its circle",
-      [](Draft& d, const Value& v) { d.scene.fracture.cusp_sagitta = v.number(); }},
-     {"smallest_floe_m2", Kind::kNumber, "m²", from(simulation::kLeastFloeArea, 1e6), "0.1",
-      "smaller pieces leave the floe list and are counted as brash",
-      [](Draft& d, const Value& v) { d.scene.fracture.smallest_floe_area = v.number(); }}}};
+    {field("characteristic_length", Kind::kChoice, "", {}, "\"fourth_root\"",
+           "how Eq. (7) is read: (D/ρ_w g)^¼, a length, or as the paper prints it, (D/ρ_w g)^½, whose unit "
+           "is m² "
+           "(the "
+           "paper's story needs that number: docs/paper-comparison.md)",
+           [](Draft& d, const Value& v) {
+             d.scene.fracture.characteristic_length = v.text() == "fourth_root"
+                                                          ? CharacteristicLength::kFourthRoot
+                                                          : CharacteristicLength::kAsPrinted;
+           },
+           {"fourth_root", "as_printed"}),
+     field("breakable_size_factor", Kind::kNumber, "", from(0, 1000), "1",
+           "κ: floes with √area < κ l are pushed away, never broken",
+           [](Draft& d, const Value& v) { d.scene.fracture.breakable_size_factor = v.number(); }),
+     field("bending", Kind::kObject, "", {}, "{}", "failure by bending", nullptr, {}, "", &kBending),
+     field("splitting", Kind::kObject, "", {}, "{}", "failure by splitting", nullptr, {}, "", &kSplitting),
+     field("cusp_fate", Kind::kChoice, "", {}, "\"submerge\"",
+           "what becomes of a broken cusp: it is gone under the hull (the paper), or it floats as a floe",
+           [](Draft& d, const Value& v) {
+             d.scene.fracture.cusp_fate = v.text() == "submerge" ? CuspFate::kSubmerge : CuspFate::kFloat;
+           },
+           {"submerge", "float"}),
+     field("cusp_sagitta_m", Kind::kNumber, "m", from(1e-4, 1), "0.02",
+           "a cusp's polygon stays this close to its circle",
+           [](Draft& d, const Value& v) { d.scene.fracture.cusp_sagitta = v.number(); }),
+     field("smallest_floe_m2", Kind::kNumber, "m²", from(simulation::kLeastFloeArea, 1e6), "0.1",
+           "smaller pieces leave the floe list and are counted as brash",
+           [](Draft& d, const Value& v) { d.scene.fracture.smallest_floe_area = v.number(); })}};
 
 const Object kRecord{
-    {{"forces_interval_s", Kind::kNumber, "s", above(0, 1e6), "0.1", "between rows of forces.csv",
-      [](Draft& d, const Value& v) { d.scene.record.forces_interval = v.number(); }},
-     {"frames_interval_s", Kind::kNumber, "s", above(0, 1e6), "2", "between frames of frames.bin",
-      [](Draft& d, const Value& v) { d.scene.record.frames_interval = v.number(); }},
-     {"contacts",
-      Kind::kChoice,
-      "",
-      {},
-      "\"ships\"",
-      "which contacts contacts.csv tells at every frame: those with ships and structures, those between "
-      "floes "
-      "too, none",
-      [](Draft& d, const Value& v) {
-        d.scene.record.contacts = v.text() == "ships" ? RecordedContacts::kShips
-                                  : v.text() == "all" ? RecordedContacts::kAll
-                                                      : RecordedContacts::kNone;
-      },
-      {"ships", "all", "none"}}}};
+    {field("forces_interval_s", Kind::kNumber, "s", above(0, 1e6), "0.1", "between rows of forces.csv",
+           [](Draft& d, const Value& v) { d.scene.record.forces_interval = v.number(); }),
+     field("frames_interval_s", Kind::kNumber, "s", above(0, 1e6), "2", "between frames of frames.bin",
+           [](Draft& d, const Value& v) { d.scene.record.frames_interval = v.number(); }),
+     field("contacts", Kind::kChoice, "", {}, "\"ships\"",
+           "which contacts contacts.csv tells at every frame: those with ships and structures, those between "
+           "floes "
+           "too, none",
+           [](Draft& d, const Value& v) {
+             d.scene.record.contacts = v.text() == "ships" ? RecordedContacts::kShips
+                                       : v.text() == "all" ? RecordedContacts::kAll
+                                                           : RecordedContacts::kNone;
+           },
+           {"ships", "all", "none"})}};
 
 }  // namespace
 
