@@ -1,5 +1,6 @@
 #include "app/force_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -27,16 +28,21 @@ std::string with_time(const io::Peak& peak) {
 std::string force_lines(const io::RunSummary& summary, const simulation::Scene& scene) {
   std::string text;
   const std::vector<io::ShownLoad> loads = io::shown_loads(scene);
+  const std::vector<const io::ForceColumn*> columns = io::peak_columns(scene);
   for (const io::ShipPeaks& peaks : summary.peaks) {
+    const auto peak_of = [&](const io::ForceColumn& column) -> const io::Peak& {
+      return peaks.of_column.at(
+          static_cast<std::size_t>(std::ranges::find(columns, &column) - columns.begin()));
+    };
     bool is_free = true;
-    for (std::size_t i = 0; i < loads.size(); ++i) {
-      const io::Peak& surge = peaks.of_column[3 * i];
-      const io::Peak& sway = peaks.of_column[3 * i + 1];
+    for (const io::ShownLoad& load : loads) {
+      const io::Peak& surge = peak_of(*load.columns[0]);
+      const io::Peak& sway = peak_of(*load.columns[1]);
       if (surge.value == 0 && sway.value == 0) continue;
       is_free = false;
       text += fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n",
-                          loads[i].is_by_ice ? "ice force" : "ship force", peaks.ship, with_time(surge),
-                          with_time(sway), loads[i].measure);
+                          load.is_by_ice ? "ice force" : "ship force", peaks.ship, with_time(surge),
+                          with_time(sway), load.measure);
     }
     if (is_free) text += fmt::format("ice force   {}: none\n", peaks.ship);
   }

@@ -18,69 +18,139 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kRadians = std::numbers::pi / 180;
 
 template <auto Member>
-constexpr ForceColumn column(std::string_view name, std::string_view meaning) {
-  return {name, meaning, [](const ShipSample& s) { return static_cast<double>(s.*Member); },
+constexpr ForceColumn column(std::string_view name, std::string_view unit, std::string_view meaning) {
+  return {name, unit, meaning, [](const ShipSample& s) { return static_cast<double>(s.*Member); },
           [](ShipSample& s, double value) {
             s.*Member = static_cast<std::remove_reference_t<decltype(s.*Member)>>(value);
           }};
 }
 
 template <double ShipSample::*Member>
-constexpr ForceColumn in_degrees(std::string_view name, std::string_view meaning) {
-  return {name, meaning, [](const ShipSample& s) { return kDegrees * s.*Member; },
+constexpr ForceColumn in_degrees(std::string_view name, std::string_view unit, std::string_view meaning) {
+  return {name, unit, meaning, [](const ShipSample& s) { return kDegrees * s.*Member; },
           [](ShipSample& s, double value) { s.*Member = kRadians * value; }};
 }
 
-constexpr ForceColumn optional(ForceColumn column) {
-  column.is_optional = true;
-  return column;
+template <auto Pair, auto Component>
+constexpr ForceColumn component(std::string_view name, std::string_view unit, std::string_view meaning) {
+  return {name, unit, meaning, [](const ShipSample& s) { return s.*Pair.*Component; },
+          [](ShipSample& s, double value) { s.*Pair.*Component = value; }};
 }
 
+constexpr std::string_view kSurge = "Surge force of the ice", kSurgeOfShips = "Surge force of ships";
+constexpr std::string_view kSway = "Sway force of the ice", kSwayOfShips = "Sway force of ships";
+constexpr std::string_view kYaw = "Yaw moment of the ice", kYawOfShips = "Yaw moment of ships";
+
 using S = ShipSample;
+using geometry::Point;
+using geometry::Vector;
+using enum ShownWhere;
+using enum CurveKind;
 constexpr ForceColumn kColumns[] = {
-    column<&S::surge_force>("surge_N",
-                            "force of the ice forward, mean of the interval: momentum given / time"),
-    column<&S::sway_force>("sway_N", "to port, likewise"),
-    column<&S::yaw_moment>("yaw_Nm", "moment counter-clockwise, likewise"),
-    column<&S::surge_max>("surge_max_N",
-                          "force of the ice forward in the single step where it is largest by magnitude"),
-    column<&S::sway_max>("sway_max_N", "to port, likewise"),
-    column<&S::yaw_max>("yaw_max_Nm", "moment counter-clockwise, likewise"),
-    optional(column<&S::surge_from_ships>(
-        "surge_from_ships_N", "force of other ships and structures forward, mean of the interval")),
-    optional(column<&S::sway_from_ships>("sway_from_ships_N", "to port, likewise")),
-    optional(column<&S::yaw_from_ships>("yaw_from_ships_Nm", "moment counter-clockwise, likewise")),
-    optional(column<&S::surge_from_ships_max>(
-        "surge_from_ships_max_N",
-        "force of other ships and structures forward in the single step where it is largest by magnitude")),
-    optional(column<&S::sway_from_ships_max>("sway_from_ships_max_N", "to port, likewise")),
-    optional(column<&S::yaw_from_ships_max>("yaw_from_ships_max_Nm", "moment counter-clockwise, likewise")),
-    column<&S::surge_peak>("surge_j_over_tau_c_N",
-                           "the paper's collision force j/τ_c of the ice forward, largest by magnitude"),
-    column<&S::sway_peak>("sway_j_over_tau_c_N", "to port, likewise"),
-    column<&S::yaw_peak>("yaw_j_over_tau_c_Nm", "its moment counter-clockwise, likewise"),
-    {"x_m", "centre of gravity, over ground", [](const S& s) { return s.position_in_world.x; },
-     [](S& s, double value) { s.position_in_world.x = value; }},
-    {"y_m", "centre of gravity, over ground", [](const S& s) { return s.position_in_world.y; },
-     [](S& s, double value) { s.position_in_world.y = value; }},
-    in_degrees<&S::heading>("heading_deg", "from the x axis, counter-clockwise"),
-    {"speed_m_per_s", "over ground", [](const S& s) { return length(s.velocity_in_world); },
-     [](S&, double) {}},  // it follows from the velocity
-    {"vx_m_per_s", "velocity over ground", [](const S& s) { return s.velocity_in_world.x; },
-     [](S& s, double value) { s.velocity_in_world.x = value; }},
-    {"vy_m_per_s", "velocity over ground", [](const S& s) { return s.velocity_in_world.y; },
-     [](S& s, double value) { s.velocity_in_world.y = value; }},
-    in_degrees<&S::yaw_rate>("yaw_rate_deg_per_s", "counter-clockwise"),
-    column<&S::thrust>("thrust_N", "along the heading; of a ship at constant speed what it takes to hold it"),
-    column<&S::contacts>("contacts", "with ice, at the end of the interval"),
-    optional(column<&S::contacts_with_ships>("contacts_with_ships",
-                                             "with other ships and structures, at the end of the interval")),
+    column<&S::surge_force>("surge_N", "N",
+                            "force of the ice forward, mean of the interval: momentum given / time")
+        .with_peak(kAlways)
+        .plotted(kSurge),
+    column<&S::sway_force>("sway_N", "N", "to port, likewise").with_peak(kAlways).plotted(kSway),
+    column<&S::yaw_moment>("yaw_Nm", "N·m", "moment counter-clockwise, likewise")
+        .with_peak(kAlways)
+        .plotted(kYaw),
+    column<&S::surge_max>("surge_max_N", "N",
+                          "force of the ice forward in the single step where it is largest by magnitude")
+        .with_peak(kAlways)
+        .plotted(kSurge, kMax),
+    column<&S::sway_max>("sway_max_N", "N", "to port, likewise").with_peak(kAlways).plotted(kSway, kMax),
+    column<&S::yaw_max>("yaw_max_Nm", "N·m", "moment counter-clockwise, likewise")
+        .with_peak(kAlways)
+        .plotted(kYaw, kMax),
+    column<&S::surge_from_ships>("surge_from_ships_N", "N",
+                                 "force of other ships and structures forward, mean of the interval")
+        .optional()
+        .with_peak(kAmongShips)
+        .plotted(kSurgeOfShips),
+    column<&S::sway_from_ships>("sway_from_ships_N", "N", "to port, likewise")
+        .optional()
+        .with_peak(kAmongShips)
+        .plotted(kSwayOfShips),
+    column<&S::yaw_from_ships>("yaw_from_ships_Nm", "N·m", "moment counter-clockwise, likewise")
+        .optional()
+        .with_peak(kAmongShips)
+        .plotted(kYawOfShips),
+    column<&S::surge_from_ships_max>(
+        "surge_from_ships_max_N", "N",
+        "force of other ships and structures forward in the single step where it is largest by magnitude")
+        .optional()
+        .with_peak(kAmongShips)
+        .plotted(kSurgeOfShips, kMax),
+    column<&S::sway_from_ships_max>("sway_from_ships_max_N", "N", "to port, likewise")
+        .optional()
+        .with_peak(kAmongShips)
+        .plotted(kSwayOfShips, kMax),
+    column<&S::yaw_from_ships_max>("yaw_from_ships_max_Nm", "N·m", "moment counter-clockwise, likewise")
+        .optional()
+        .with_peak(kAmongShips)
+        .plotted(kYawOfShips, kMax),
+    column<&S::surge_peak>("surge_j_over_tau_c_N", "N",
+                           "the paper's collision force j/τ_c of the ice forward, largest by magnitude")
+        .with_peak(kWhereItSplits)
+        .plotted(kSurge, kPaper),
+    column<&S::sway_peak>("sway_j_over_tau_c_N", "N", "to port, likewise")
+        .with_peak(kWhereItSplits)
+        .plotted(kSway, kPaper),
+    column<&S::yaw_peak>("yaw_j_over_tau_c_Nm", "N·m", "its moment counter-clockwise, likewise")
+        .with_peak(kWhereItSplits)
+        .plotted(kYaw, kPaper),
+    component<&S::position_in_world, &Point::x>("x_m", "m", "centre of gravity, over ground"),
+    component<&S::position_in_world, &Point::y>("y_m", "m", "centre of gravity, over ground"),
+    in_degrees<&S::heading>("heading_deg", "°", "from the x axis, counter-clockwise"),
+    ForceColumn{"speed_m_per_s", "m/s", "over ground", [](const S& s) { return length(s.velocity_in_world); },
+                [](S&, double) {}}  // it follows from the velocity
+        .with_peak(kAlways)
+        .plotted("Speed over ground"),
+    component<&S::velocity_in_world, &Vector::x>("vx_m_per_s", "m/s", "velocity over ground"),
+    component<&S::velocity_in_world, &Vector::y>("vy_m_per_s", "m/s", "velocity over ground"),
+    in_degrees<&S::yaw_rate>("yaw_rate_deg_per_s", "°/s", "counter-clockwise"),
+    column<&S::thrust>("thrust_N", "N",
+                       "along the heading; of a ship at constant speed what it takes to hold it")
+        .plotted("Thrust"),
+    column<&S::contacts>("contacts", "", "with ice, at the end of the interval")
+        .plotted("Contacts at the hull"),
+    column<&S::contacts_with_ships>("contacts_with_ships", "",
+                                    "with other ships and structures, at the end of the interval")
+        .optional(),
 };
+
+template <class Condition>
+std::vector<const ForceColumn*> columns_where(Condition condition) {
+  std::vector<const ForceColumn*> columns;
+  for (const ForceColumn& column : kColumns)
+    if (condition(column)) columns.push_back(&column);
+  return columns;
+}
 
 }  // namespace
 
 std::span<const ForceColumn> force_columns() {
   return kColumns;
+}
+
+std::string_view name_of(CurveKind kind) {
+  return kind == kMean ? "mean" : kind == kMax ? "max" : "paper";
+}
+
+bool is_shown(ShownWhere where, const simulation::Scene& scene) {
+  if (where == kAmongShips) return scene.ships.size() > 1;
+  return where == kAlways || splits_by_j_over_tau_c(scene);
+}
+
+std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene) {
+  return columns_where([&](const ForceColumn& c) { return c.peak && is_shown(*c.peak, scene); });
+}
+
+std::vector<const ForceColumn*> plotted_columns(const simulation::Scene& scene) {
+  return columns_where([&](const ForceColumn& c) {
+    return !c.plot.empty() && (c.peak != kAmongShips || is_shown(kAmongShips, scene));
+  });
 }
 
 const ForceColumn& force_column(std::string_view name) {
@@ -89,21 +159,19 @@ const ForceColumn& force_column(std::string_view name) {
   return *found;
 }
 
-tl::expected<std::vector<const ForceColumn*>, std::string> force_columns_in(std::string_view header) {
-  if (csv_field(header) != "t_s" || csv_field(header) != "ship")
-    return tl::unexpected(std::string("columns of another version"));
+Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header) {
+  if (csv_field(header) != "t_s" || csv_field(header) != "ship") return fail("columns of another version");
   std::vector<const ForceColumn*> columns;
   while (!header.empty()) {
     const std::string_view name = csv_field(header);
     const auto* found = std::ranges::find(kColumns, name, &ForceColumn::name);
     if (found == std::end(kColumns) || std::ranges::count(columns, found) > 0)
-      return tl::unexpected(
-          fmt::format("a column \"{}\" that this version does not know, or a second one", name));
+      return fail(fmt::format("a column \"{}\" that this version does not know, or a second one", name));
     columns.push_back(found);
   }
   for (const ForceColumn& column : kColumns) {
     if (!column.is_optional && std::ranges::count(columns, &column) == 0)
-      return tl::unexpected(fmt::format("no column \"{}\"", column.name));
+      return fail(fmt::format("no column \"{}\"", column.name));
   }
   return columns;
 }

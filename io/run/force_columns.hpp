@@ -1,25 +1,54 @@
 #pragma once
 
+#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
-
+#include "io/text/result.hpp"
 #include "simulation/journal.hpp"
+#include "simulation/scene.hpp"
 
 namespace polynya::io {
 
-/// A number that forces.csv records of each ship and structure: its column, which names the unit, and how it
-/// is read from a row and put back into one. The writer, the reader, summary.json and the views follow this
-/// table; docs/run-folder.md has its names and meanings.
+/// Where the views show a load.
+enum class ShownWhere {
+  kAlways,
+  kAmongShips,    ///< in scenes of several ships and structures
+  kWhereItSplits  ///< in scenes where j/τ_c decides splits
+};
+
+/// Which curve of its plot a column is.
+enum class CurveKind { kMean, kMax, kPaper };
+std::string_view name_of(CurveKind kind);
+
+/// A number that forces.csv records of each ship and structure. The writer, the reader, the checkpoint's
+/// peaks, summary.json and the player follow this table, a test compares docs/run-folder.md with it: to add a
+/// column, add a line to force_columns.cpp and to that page.
 struct ForceColumn {
   std::string_view name;     ///< with its unit: "surge_N"
+  std::string_view unit;     ///< as people read it: "N·m"; empty of a count
   std::string_view meaning;  ///< as docs/run-folder.md has it
   double (*read)(const simulation::ShipSample& row);
   void (*store)(simulation::ShipSample& row, double value);
-  bool is_optional = false;  ///< older runs do not have it
+  bool is_optional = false;             ///< older runs do not have it
+  std::optional<ShownWhere> peak = {};  ///< where summary.json has its largest value by magnitude
+  std::string_view plot = {};           ///< title of its plot in the player; empty: none
+  CurveKind curve = CurveKind::kMean;   ///< in that plot
+
+  constexpr ForceColumn optional() const { return with(&ForceColumn::is_optional, true); }
+  constexpr ForceColumn with_peak(ShownWhere where) const { return with(&ForceColumn::peak, where); }
+  constexpr ForceColumn plotted(std::string_view title, CurveKind kind = CurveKind::kMean) const {
+    return with(&ForceColumn::plot, title).with(&ForceColumn::curve, kind);
+  }
+
+ private:
+  template <class Member, class Value>
+  constexpr ForceColumn with(Member ForceColumn::*member, Value value) const {
+    ForceColumn changed = *this;
+    changed.*member = value;
+    return changed;
+  }
 };
 
 /// All of them, as they follow the columns t_s and ship.
@@ -28,8 +57,17 @@ std::span<const ForceColumn> force_columns();
 /// The one of that name, which must be in the table.
 const ForceColumn& force_column(std::string_view name);
 
+/// Whether views of a scene show what is shown there.
+bool is_shown(ShownWhere where, const simulation::Scene& scene);
+
+/// The columns of which a scene's summary.json has the peak.
+std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene);
+
+/// The columns that the player plots of a scene's runs.
+std::vector<const ForceColumn*> plotted_columns(const simulation::Scene& scene);
+
 /// The columns that the first line of a forces.csv names, after t_s and ship. The error names the column that
 /// is unknown, there twice or missing.
-tl::expected<std::vector<const ForceColumn*>, std::string> force_columns_in(std::string_view header);
+Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header);
 
 }  // namespace polynya::io

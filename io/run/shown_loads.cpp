@@ -16,21 +16,13 @@ std::vector<ShownLoad> shown_loads(const simulation::Scene& scene) {
   const std::string mean = fmt::format("mean over {:.6g} s", recording_interval(scene));
   const std::string step = fmt::format("single step of {:.6g} s", scene.time.step);
   std::vector<ShownLoad> loads{{"mean", mean, true, columns_of("")}, {"max", step, true, columns_of("_max")}};
-  if (scene.ships.size() > 1) {
+  if (is_shown(ShownWhere::kAmongShips, scene)) {
     loads.push_back({"ships", mean, false, columns_of("_from_ships")});
     loads.push_back({"ships", step, false, columns_of("_from_ships_max")});
   }
-  if (splits_by_j_over_tau_c(scene))
+  if (is_shown(ShownWhere::kWhereItSplits, scene))
     loads.push_back({"j-over-tau-c", "j/τ_c of the paper", true, columns_of("_j_over_tau_c")});
   return loads;
-}
-
-std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene) {
-  std::vector<const ForceColumn*> columns;
-  for (const ShownLoad& load : shown_loads(scene))
-    columns.insert(columns.end(), load.columns.begin(), load.columns.end());
-  columns.push_back(&force_column("speed_m_per_s"));
-  return columns;
 }
 
 }  // namespace polynya::io

@@ -25,8 +25,4 @@ struct ShownLoad {
 /// are any; last the paper's j/τ_c where it decides splits.
 std::vector<ShownLoad> shown_loads(const simulation::Scene& scene);
 
-/// The columns of which summary.json has the largest value: those of shown_loads, three of each, then the
-/// speed.
-std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene);
-
 }  // namespace polynya::io

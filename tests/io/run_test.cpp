@@ -1,5 +1,7 @@
 #include <cmath>
+#include <map>
 #include <regex>
+#include <set>
 
 #include "temporary_folder.hpp"
 #include <fmt/format.h>
@@ -164,6 +166,18 @@ TEST(Run, ForcesAreReadByTheirColumnsNames) {
   EXPECT_NE(refusal(",sway_N,", ",").find("no column \"sway_N\""), std::string::npos);
   EXPECT_NE(refusal(",sway_N,", ",sway_kN,").find("\"sway_kN\""), std::string::npos);
   EXPECT_NE(refusal(",sway_N,", ",surge_N,").find("\"surge_N\""), std::string::npos);
+}
+
+TEST(Run, ColumnsOfForcesNameTheirUnitsOnce) {
+  const std::map<std::string_view, std::string_view> suffixes{
+      {"N", "_N"},         {"N·m", "_Nm"},        {"m", "_m"}, {"°", "_deg"},
+      {"m/s", "_m_per_s"}, {"°/s", "_deg_per_s"}, {"", ""}};
+  std::set<std::string_view> names;
+  for (const ForceColumn& column : force_columns()) {
+    ASSERT_TRUE(suffixes.contains(column.unit)) << column.name;
+    EXPECT_TRUE(column.name.ends_with(suffixes.at(column.unit))) << column.name;
+    EXPECT_TRUE(names.insert(column.name).second) << column.name;
+  }
 }
 
 TEST(Run, DocumentationHasEveryColumnOfForces) {

@@ -37,23 +37,24 @@ void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<i
   add("contact_is_crushing", [](const ContactState& c) { return c.is_crushing; });
 }
 
-/// Loads, of other ships where there are any, and the speed.
-bool is_plotted(const io::ForceColumn& column, const simulation::Scene& scene) {
-  const bool is_load = column.name.ends_with("_N") || column.name.ends_with("_Nm");
-  const bool is_from_ships = column.name.find("_from_ships") != std::string_view::npos;
-  return (is_load && (!is_from_ships || scene.ships.size() > 1)) || column.name == "speed_m_per_s";
-}
-
 void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelection& selection) {
   std::vector<simulation::ShipSample> rows;
   std::ranges::copy_if(run.samples, std::back_inserter(rows),
                        [&](const simulation::ShipSample& s) { return selection.has(s.time); });
   columns.add("force_ship", rows, &simulation::ShipSample::ship);
-  columns.add("force_contacts", rows, &simulation::ShipSample::contacts);
   columns.add("force_t_s", rows, &simulation::ShipSample::time);
-  for (const io::ForceColumn& column : io::force_columns()) {
-    if (is_plotted(column, run.scene.scene)) columns.add(std::string(column.name), rows, column.read);
+  for (const io::ForceColumn* column : io::plotted_columns(run.scene.scene))
+    columns.add(std::string(column->name), rows, column->read);
+}
+
+void write_force_columns(io::JsonWriter& json, const simulation::Scene& scene) {
+  json.key("force_columns").open('[');
+  for (const io::ForceColumn* column : plotted_columns(scene)) {
+    json.open('{').key("name").value(column->name).key("unit").value(column->unit);
+    json.key("plot").value(column->plot).key("curve").value(name_of(column->curve));
+    json.key("is_optional").value(column->is_optional).close('}');
   }
+  json.close(']');
 }
 
 void write_events(io::JsonWriter& json, const io::Run& run) {
@@ -112,6 +113,7 @@ std::string info_of(const io::Run& run, const PlayerData& data) {
   write_ships(json, scene);
   write_events(json, run);
   write_water(json, scene.water);
+  write_force_columns(json, scene);
   json.key("columns").open('[');
   for (const ColumnWriter::Column& column : data.columns.table()) {
     json.open('{').key("name").value(column.name).key("type").value(column.type);

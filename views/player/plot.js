@@ -7,7 +7,7 @@ const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
 function makePlot(run, host, range, { onTime, onPlaced, onSpan }) {
   const { forces, info } = run;
   const quantities = plotQuantities(run);
-  const plot = { quantities, quantity: "surge", chart: null, span: range, isFull: false, off: null,
+  const plot = { quantities, quantity: Object.keys(quantities)[0], chart: null, span: range, isFull: false, off: null,
     hidden: new Set(info.splits_by_j_over_tau_c ? [] : ["paper"]) };
   const now = make("div", { class: "now-line" });
   const offScale = make("div", { class: "off-scale", id: "off-scale" });

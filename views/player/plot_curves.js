@@ -1,36 +1,16 @@
 // What the plot shows: quantities, each with its curves, which are columns of forces.csv. True loads lead; the paper's
 // j/τ_c, which is larger by far, has its own name and its own axis.
 
-const loads = { surge: ["Surge", "N"], sway: ["Sway", "N"], yaw: ["Yaw", "Nm"] };
-
-function curvesOfLoad(load, unit, interval, hasShips) {
-  const base = unit === "N" ? "N" : "N\u00b7m";
-  const curve = (kind, label, infix, scale = "y") => ({ kind, label, column: `${load}${infix}_${unit}`, base, scale });
-  const source = hasShips ? "_from_ships" : "";
-  const curves = [curve("mean", `${interval} s mean`, source), curve("max", "step maximum", `${source}_max`)];
-  if (!hasShips) curves.push(curve("paper", "j/\u03c4c (paper)", "_j_over_tau_c", "paper"));
-  return curves;
-}
-
-/** The quantities a run can show. */
-function plotQuantities(run) {
-  const { info, forces } = run;
-  const quantities = {};
-  for (const [load, [word, unit]] of Object.entries(loads)) {
-    const what = load === "yaw" ? "moment" : "force";
-    const curves = curvesOfLoad(load, unit, info.forces_interval_s, false).filter(({ column }) => forces.every((rows) => rows[column]));
-    quantities[load] = { label: `${word} ${what} of the ice`, curves };
-  }
-  const single = (column, label, base) => ({ label, curves: [{ kind: "mean", label: "", column, base, scale: "y" }] });
-  quantities.speed = single("speed_m_per_s", "Speed over ground", "m/s");
-  quantities.thrust = single("thrust_N", "Thrust", "N");
-  quantities.contacts = single("force_contacts", "Contacts at the hull", "");
-  for (const [load, [word, unit]] of Object.entries(loads)) {
-    const curves = curvesOfLoad(load, unit, info.forces_interval_s, true);
-    const isFelt = forces.some((rows) => curves.some(({ column }) => rows[column]?.some((value) => value !== 0)));
-    if (isFelt) quantities[`${load}_from_ships`] = { label: `${word} ${load === "yaw" ? "moment" : "force"} of ships`, curves };
-  }
-  return quantities;
+/** The quantities a run can show, by the first of their columns; those that not every run has come last, where they are not 0. */
+function plotQuantities({ info, forces }) {
+  const labels = { mean: `${info.forces_interval_s} s mean`, max: "step maximum", paper: "j/\u03c4c (paper)" };
+  const plots = new Map();
+  for (const column of info.force_columns) plots.set(column.plot, [...(plots.get(column.plot) ?? []), column]);
+  const isShown = ({ name, is_optional }) => !is_optional || forces.some((rows) => rows[name].some((value) => value !== 0));
+  const isOptional = ([, columns]) => Number(columns[0].is_optional);
+  return Object.fromEntries([...plots].filter(([, columns]) => columns.some(isShown)).sort((a, b) => isOptional(a) - isOptional(b))
+    .map(([label, columns]) => [columns[0].name, { label, curves: columns.map(({ name, unit, curve }) =>
+      ({ kind: curve, label: columns.length > 1 ? labels[curve] : "", column: name, base: unit, scale: curve === "paper" ? "paper" : "y" })) }]));
 }
 
 const isLoad = (curve) => curve.base.startsWith("N");

@@ -18,7 +18,7 @@ function readRun() {
   for (const c of info.columns) columns[c.name] = new columnTypes[c.type](bytes.buffer, c.offset, c.count);
   const floes = readFloes(columns);
   const frames = readFrames(columns.frames, floes.count, info.ships.length);
-  return { info, columns, floes, frames, forces: readForces(columns, info.ships.length) };
+  return { info, columns, floes, frames, forces: readForces(info, columns) };
 }
 
 function readFloes(columns) {
@@ -81,15 +81,12 @@ function readFrames(bytes, floeCount, shipCount) {
   return { times: Float64Array.from(times), shipAt, shipCount, doubles, recordsOf, recordFrame, recordAt };
 }
 
-/** The rows of forces.csv, by ship; a column that the page does not hold is left out. */
-function readForces(columns, shipCount) {
-  const names = ["force_t_s", "speed_m_per_s", "thrust_N", "force_contacts"];
-  for (const load of ["surge#_N", "sway#_N", "yaw#_Nm"])
-    for (const kind of ["", "_max", "_j_over_tau_c", "_from_ships", "_from_ships_max"]) names.push(load.replace("#", kind));
-  const held = names.filter((name) => columns[name]);
-  return Array.from({ length: shipCount }, (_, ship) => {
+/** The rows of forces.csv, by ship: the columns that the page names. */
+function readForces(info, columns) {
+  const names = ["force_t_s", ...info.force_columns.map(({ name }) => name)];
+  return info.ships.map((_, ship) => {
     const rows = [];
     columns.force_ship.forEach((s, row) => { if (s === ship) rows.push(row); });
-    return Object.fromEntries(held.map((name) => [name, Float64Array.from(rows, (row) => columns[name][row])]));
+    return Object.fromEntries(names.map((name) => [name, Float64Array.from(rows, (row) => columns[name][row])]));
   });
 }
