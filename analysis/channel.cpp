@@ -13,7 +13,7 @@
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/convex_hull.hpp"
-#include "io/run/moment.hpp"
+#include "io/run/placed_floes.hpp"
 
 namespace polynya::analysis {
 namespace {

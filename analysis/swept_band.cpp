@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/shape/convex_hull.hpp"
-#include "io/run/moment.hpp"
+#include "io/run/placed_floes.hpp"
 
 namespace polynya::analysis {
 

@@ -57,9 +57,9 @@ void report_stop(const io::ActiveRun& run, const io::RunResult& result) {
   else if (result.end == RunEnd::kNumericalFailure)
     print_err("polynya: {} holds the run up to there\n", folder);
   else if (result.end == RunEnd::kFolderFailure)
-    print_err("polynya: once that is put right, go on with: polynya resume {}\n", folder);
+    print_err("polynya: once that is fixed, continue with: polynya resume {}\n", folder);
   else
-    print_err("polynya: go on with: polynya resume {}\n", folder);
+    print_err("polynya: continue with: polynya resume {}\n", folder);
 }
 
 void report_dump(const std::string& folder, const io::Result<>& dump) {
@@ -111,7 +111,7 @@ ExitCode report_cut_off(const io::ActiveRun& run, const io::RunResult& result) {
   const auto checkpoints = io::checkpoints_in(folder);
   print_err("polynya: stopped at {:.6g} s: {}\n", result.summary.sim_time, in_words(result.reason));
   print_err("polynya: {} holds the run up to there, without the final map; {}\n", folder, kToNeedLessMemory);
-  print_err("polynya: with more memory, go on {} with: polynya resume {}\n",
+  print_err("polynya: with more memory, continue {} with: polynya resume {}\n",
             checkpoints.empty() ? "from the start" : "from " + checkpoints.front().filename().string(),
             folder);
   return kOutOfMemory;

@@ -58,7 +58,7 @@ struct GroupFiles {
   const char* folder;
   const char* limit;
   const char* used;
-  const char* cache;  ///< key in memory.stat of what is given back when it is wanted
+  const char* cache;  ///< key in memory.stat of what is given back on demand
 };
 
 /// A group and those it is in, up to the root of groups: each has its limit.

@@ -11,7 +11,7 @@ namespace polynya::app {
 /// it does only while most of the ice rests, a note is. `name` stands in messages.
 bool may_fit(const simulation::Scene& scene, const std::string& name, const MemoryAvailable& available);
 
-/// What a message says of memory that ran out, with how much there is.
+/// The message where memory ran out, with how much there is.
 std::string out_of_memory();
 
 /// What there is to be done about it.

@@ -22,12 +22,12 @@ struct ProgressReport {
   std::string json;  ///< one object, without its newline
 };
 
-/// Tells reports on stderr, at the pace of their kind.
+/// Prints reports on stderr, at the pace of their kind.
 class ProgressOutput {
  public:
   explicit ProgressOutput(ProgressKind kind);
 
-  /// Whether it is time for a report; cheap to call often: it looks at the clock and mostly says no.
+  /// Whether it is time for a report; cheap to call often.
   bool is_due();
   void show(const ProgressReport& report) const;
   /// The last report: completes a bar, or is one object more.
@@ -44,7 +44,7 @@ class ProgressOutput {
 /// "1:05", "2:03:04".
 std::string clock_time(double seconds);
 
-/// Tells on stderr how far a run is.
+/// Prints on stderr how far a run is.
 class Progress {
  public:
   Progress(ProgressKind kind, double until) : output_(kind), until_(until) {}

@@ -63,7 +63,7 @@ int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
   return now == dump->failure ? kNumericalFailure : kDone;
 }
 
-/// Why there is nothing in a folder to go on with.
+/// Why there is nothing in a folder to resume.
 std::string no_run_in(const fs::path& folder) {
   const std::string name = folder.string();
   if (io::is_marked_run_folder(folder))

@@ -27,7 +27,7 @@ struct RunOptions {
   CarryOptions carry;
 };
 
-/// A run before its first step. That it fits into memory is known before anything is written.
+/// A run before its first step. Whether it fits into memory is checked before anything is written.
 struct Start {
   std::unique_ptr<io::LoadedScene> scene;
   std::unique_ptr<simulation::Simulation> simulation;

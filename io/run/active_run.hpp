@@ -18,7 +18,7 @@ struct ActiveRun {
   double wall_time = 0;  ///< that it has taken before [s]
 };
 
-/// A run before its first step. The error says what is wrong with the folder (RunWriter::create).
+/// A run before its first step. The error is what is wrong with the folder (RunWriter::create).
 Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene,
                             bool overwrite = false);
 

@@ -166,7 +166,7 @@ Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header
     const std::string_view name = csv_field(header);
     const auto* found = std::ranges::find(kColumns, name, &ForceColumn::name);
     if (found == std::end(kColumns) || std::ranges::count(columns, found) > 0)
-      return fail(fmt::format("a column \"{}\" that this version does not know, or a second one", name));
+      return fail(fmt::format("a column \"{}\" of another version, or a second one", name));
     columns.push_back(found);
   }
   for (const ForceColumn& column : kColumns) {

@@ -11,7 +11,7 @@ class LastWholeStep {
  public:
   explicit LastWholeStep(const simulation::Simulation& simulation);
 
-  /// After a step in which so many floes came to be, less those that broke or left.
+  /// After a step; `more_floes` came to be in it, less those that broke or left.
   void take(const simulation::Simulation& simulation, std::int64_t more_floes);
 
   /// Steps, time, counts and accounts. The area of the floes and what moves are not measured, but what the

@@ -63,10 +63,11 @@ Result<> check_claim(const fs::path& folder, Contents contents, bool overwrite) 
         "{}: there is a run in it already; name another folder with --out, or replace the run with "
         "--overwrite",
         name));
-  return fail(fmt::format(
-      "{0}: there is a run in it that is not finished; go on with: polynya resume {0}, or replace it with "
-      "--overwrite, or name another folder with --out",
-      name));
+  return fail(
+      fmt::format("{0}: there is a run in it that is not finished; continue it with: polynya resume {0}, or "
+                  "replace it with "
+                  "--overwrite, or name another folder with --out",
+                  name));
 }
 
 /// Makes a folder and what is missing above it, so that all of it is on the disk.

@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "geometry/shape/polygon.hpp"
 #include "io/run/floe_shapes.hpp"
 #include "io/run/frames.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_value.hpp"
+#include "io/text/result.hpp"
 #include "simulation/journal.hpp"
 
 namespace polynya::io {
@@ -32,10 +31,10 @@ struct RunContact {
   simulation::ContactState state;
 };
 
-/// A run folder read back (docs/run-folder.md): what every tool that looks at runs starts from.
+/// A run folder read back (docs/run-folder.md): what every tool for runs starts from.
 struct Run {
   std::filesystem::path folder;
-  std::string label;  ///< names the run in figures: its scene's name, if nothing else is wanted
+  std::string label;  ///< names the run in figures: its scene's name unless another is given
   LoadedScene scene;
   JsonValue summary;
   std::vector<RunFloe> floes;  ///< by floe id
@@ -57,14 +56,14 @@ struct Run {
   bool is_alive(simulation::FloeId id, double time) const {
     return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died;
   }
-  /// Those recorded at the moment of a frame.
+  /// Those recorded at the time of a frame.
   std::span<const RunContact> contacts_at(double time) const;
   /// The floes that broke to make this one, oldest first, itself last.
   std::vector<simulation::FloeId> lineage(simulation::FloeId id) const;
 };
 
 /// Reads a run folder, finished or not; a last line or frame that is cut short is left out.
-/// What is wrong is told with its file and line.
-tl::expected<Run, std::string> read_run(const std::filesystem::path& folder);
+/// The error has the file and the line.
+Result<Run> read_run(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

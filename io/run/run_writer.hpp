@@ -27,7 +27,7 @@ struct RunProgress {
 };
 
 /// Writes a run's folder while it runs (docs/run-folder.md). What is on disk is whole lines and whole frames
-/// at all times, and summary.json says from the start that the run is not finished: a killed run leaves a
+/// at all times, and summary.json has "finished": false from the start: a killed run leaves a
 /// usable folder. Disk errors are kept: the caller asks for status() now and then and stops.
 class RunWriter {
  public:

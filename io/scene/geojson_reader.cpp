@@ -24,14 +24,14 @@ class GeojsonReader {
   void read(const JsonValue& value, const std::string& path) {
     const JsonValue* type = value.find("type");
     if (!type || !type->is(JsonKind::kText))
-      return tell(value, path, show(value), "an object with a GeoJSON type");
+      return report(value, path, show(value), "an object with a GeoJSON type");
     const std::string& name = type->text();
     if (name == "FeatureCollection") return each(value, path, "features");
     if (name == "GeometryCollection") return each(value, path, "geometries");
     if (name == "Feature") return read_feature(value, path);
     const JsonValue* coordinates = value.find("coordinates");
     if (!coordinates || !coordinates->is(JsonKind::kArray))
-      return tell(value, path, "no coordinates", "a list");
+      return report(value, path, "no coordinates", "a list");
     if (name == "Polygon") return read_polygon(*coordinates, path + ".coordinates");
     if (name == "MultiPolygon") {
       for (std::size_t i = 0; i < coordinates->items().size(); ++i) {
@@ -39,19 +39,19 @@ class GeojsonReader {
       }
       return;
     }
-    tell(*type, path + ".type", show(*type),
-         "Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection");
+    report(*type, path + ".type", show(*type),
+           "Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection");
   }
 
   /// What is wrong with the coordinates as a whole.
-  void judge(const JsonValue& root) {
+  void check_coordinates(const JsonValue& root) {
     const JsonValue* crs = root.find("crs");
     const std::string& name = problems_.source(source_).name;
     const std::string geographic = crs ? geographic_crs(*crs) : "";
     if (!geographic.empty()) {
-      report(*crs, "crs",
-             fmt::format("longitude and latitude ({}): Polynya needs metres and does not project yet: {}",
-                         geographic, how_to_project(evidence_.box, name)));
+      refuse_all(*crs, "crs",
+                 fmt::format("longitude and latitude ({}): Polynya needs metres and does not project yet: {}",
+                             geographic, how_to_project(evidence_.box, name)));
     } else if (large_count_ > 0) {
       const std::size_t others = large_count_ - 1;
       const std::string more =
@@ -64,12 +64,13 @@ class GeojsonReader {
                                   "-t_srs \"+proj=aeqd +lat_0=LATITUDE +lon_0=LONGITUDE\" does",
                                   -kLargestCoordinate, kLargestCoordinate)});
     } else if (!crs && evidence_.look_like_degrees() && !has_own_areas()) {
-      report(root, "",
-             fmt::format(
-                 "these look like longitude and latitude, which GeoJSON without a crs member has [RFC 7946]: "
-                 "all within ±180, ±90, and as metres {:.4g} m² of ice in all; Polynya needs metres and does "
-                 "not project yet: {}; a crs member that names a projected system keeps them as metres",
-                 evidence_.area, how_to_project(evidence_.box, name)));
+      refuse_all(
+          root, "",
+          fmt::format(
+              "these look like longitude and latitude, which GeoJSON without a crs member has [RFC 7946]: "
+              "all within ±180, ±90, and as metres {:.4g} m² of ice in all; Polynya needs metres and does "
+              "not project yet: {}; a crs member that names a projected system keeps them as metres",
+              evidence_.area, how_to_project(evidence_.box, name)));
     } else {
       return;
     }
@@ -79,7 +80,7 @@ class GeojsonReader {
   GeojsonFloes floes;
 
  private:
-  void report(const JsonValue& value, const std::string& path, std::string sentence) {
+  void refuse_all(const JsonValue& value, const std::string& path, std::string sentence) {
     problems_.add(source_, value.offset, {.path = path, .sentence = std::move(sentence)});
   }
 
@@ -88,15 +89,14 @@ class GeojsonReader {
     return own_area_ > 0 && std::abs(own_area_ - evidence_.area) <= 1e-3 * evidence_.area;
   }
 
-  void tell(const JsonValue& value, const std::string& path, std::string found, std::string allowed) {
-    problems_.add(source_, value.offset,
-                  {.path = path, .found = std::move(found), .allowed = std::move(allowed)});
+  void report(const JsonValue& value, const std::string& path, std::string found, std::string allowed) {
+    problems_.report(source_, value.offset, path, std::move(found), std::move(allowed));
   }
 
   void each(const JsonValue& value, const std::string& path, std::string_view key) {
     const JsonValue* list = value.find(key);
     if (!list || !list->is(JsonKind::kArray))
-      return tell(value, path, fmt::format("no {}", key), "a list of them");
+      return report(value, path, fmt::format("no {}", key), "a list of them");
     for (std::size_t i = 0; i < list->items().size(); ++i) {
       read(list->items()[i], fmt::format("{}{}{}[{}]", path, path.empty() ? "" : ".", key, i));
     }
@@ -108,13 +108,13 @@ class GeojsonReader {
     const JsonValue* area = properties ? properties->find("area_m2") : nullptr;
     if (area && area->is(JsonKind::kNumber)) own_area_ += area->number();
     if (!geometry || geometry->is_null())
-      return tell(value, path, "a feature without geometry", "a Polygon or MultiPolygon");
+      return report(value, path, "a feature without geometry", "a Polygon or MultiPolygon");
     read(*geometry, path + ".geometry");
   }
 
   void read_polygon(const JsonValue& value, const std::string& path) {
     if (!value.is(JsonKind::kArray) || value.items().empty())
-      return tell(value, path, show(value), "a list of rings");
+      return report(value, path, show(value), "a list of rings");
     geometry::Polygon polygon;
     for (const JsonValue& item : value.items()) {
       auto ring = read_ring(item, path);
@@ -127,7 +127,7 @@ class GeojsonReader {
 
   std::optional<geometry::Ring> read_ring(const JsonValue& value, const std::string& path) {
     if (!value.is(JsonKind::kArray) || value.items().size() < 4) {
-      tell(value, path, show(value), "a ring: four or more [x, y], the last one equal to the first");
+      report(value, path, show(value), "a ring: four or more [x, y], the last one equal to the first");
       return std::nullopt;
     }
     geometry::Ring ring;
@@ -135,7 +135,7 @@ class GeojsonReader {
       const auto point = read_position(item, path);
       if (!point) return std::nullopt;
       if (std::max(std::abs(point->x), std::abs(point->y)) > kLargestCoordinate) {
-        note_large(item, *point, path);
+        add_large(item, *point, path);
         return std::nullopt;
       }
       ring.push_back(*point);
@@ -145,18 +145,18 @@ class GeojsonReader {
 
   std::optional<geometry::Point> read_position(const JsonValue& value, const std::string& path) {
     if (!value.is(JsonKind::kArray) || value.items().size() < 2 || value.items().size() > 3) {
-      tell(value, path, show(value), "[x, y]");
+      report(value, path, show(value), "[x, y]");
       return std::nullopt;
     }
     for (const JsonValue& item : value.items()) {
       if (item.is(JsonKind::kNumber)) continue;
-      tell(item, path, show(item), "a coordinate [m]");
+      report(item, path, show(item), "a coordinate [m]");
       return std::nullopt;
     }
     return geometry::Point{value.items()[0].number(), value.items()[1].number()};
   }
 
-  void note_large(const JsonValue& value, geometry::Point point, const std::string& path) {
+  void add_large(const JsonValue& value, geometry::Point point, const std::string& path) {
     if (large_count_++ > 0) return;
     large_offset_ = value.offset;
     large_path_ = path;
@@ -189,15 +189,11 @@ std::optional<double> run_time_of(const JsonValue& root) {
 
 GeojsonFloes read_geojson(std::size_t source, ProblemCollector& problems) {
   const JsonDocument document = parse_json(problems.source(source).text);
-  for (const JsonFault& fault : document.faults) {
-    problems.add(
-        source, fault.offset,
-        {.path = fault.path, .found = fault.found, .allowed = fault.allowed, .sentence = fault.sentence});
-  }
+  problems.add_faults(source, document.faults);
   if (!document.faults.empty()) return {};
   GeojsonReader reader(source, problems);
   reader.read(document.root, "");
-  reader.judge(document.root);
+  reader.check_coordinates(document.root);
   reader.floes.run_time = run_time_of(document.root);
   return std::move(reader.floes);
 }

@@ -11,7 +11,7 @@
 namespace polynya::io {
 
 struct GeojsonPolygon {
-  geometry::Polygon polygon;  ///< in house notation (floe_group.hpp), not yet known to be valid
+  geometry::Polygon polygon;  ///< in house notation (floe_group.hpp), not checked for validity
   std::uint32_t offset = 0;   ///< of its coordinates in the text
 };
 

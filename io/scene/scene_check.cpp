@@ -23,19 +23,18 @@ constexpr std::size_t kMostOverlaps = 200;
 
 void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
   const auto& scene = draft.scene;
-  const auto tell = [&](const std::string& path, std::string found, std::string allowed) {
-    problems.add(0, nearest_offset(resolved, path),
-                 {.path = path, .found = std::move(found), .allowed = std::move(allowed)});
+  const auto report = [&](const std::string& path, std::string found, std::string allowed) {
+    problems.report(0, nearest_offset(resolved, path), path, std::move(found), std::move(allowed));
   };
   if (scene.ice.density >= scene.water.water.density)
-    tell("ice.density_kg_per_m3", fmt::format("{}: this ice sinks", scene.ice.density),
-         fmt::format("a number < the water's density, {} [kg/m³]", scene.water.water.density));
+    report("ice.density_kg_per_m3", fmt::format("{}: this ice sinks", scene.ice.density),
+           fmt::format("a number < the water's density, {} [kg/m³]", scene.water.water.density));
   if (scene.time.until < scene.time.step)
-    tell("time.until_s", fmt::format("{}, less than one step", scene.time.until),
-         fmt::format("a number ≥ step_s, {} [s]", scene.time.step));
+    report("time.until_s", fmt::format("{}, less than one step", scene.time.until),
+           fmt::format("a number ≥ step_s, {} [s]", scene.time.step));
   if (scene.time.until / scene.time.step > kMostSteps)
-    tell("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
-         fmt::format("at most {:g} steps", kMostSteps));
+    report("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
+           fmt::format("at most {:g} steps", kMostSteps));
   if (scene.ships.empty() && scene.floes.empty() && problems.count() == 0)
     problems.add(0, resolved.offset,
                  {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
@@ -54,24 +53,23 @@ void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vecto
     const auto& ship = draft.scene.ships[i];
     const Origin& origin = draft.ship_origins[i];
     const std::string path = ship_path(draft, i);
-    const auto tell = [&](std::string_view key, std::string found, std::string allowed) {
-      problems.add(origin.source, origin.offset,
-                   {.path = fmt::format("{}.{}", path, key),
-                    .found = std::move(found),
-                    .allowed = std::move(allowed)});
+    const auto report = [&](std::string_view key, std::string found, std::string allowed) {
+      problems.report(origin.source, origin.offset, fmt::format("{}.{}", path, key), std::move(found),
+                      std::move(allowed));
     };
     for (std::size_t k = 0; k < i; ++k) {
       if (draft.scene.ships[k].name == ship.name)
-        tell("name", fmt::format("\"{}\" a second time", ship.name), "each ship and structure its own name");
+        report("name", fmt::format("\"{}\" a second time", ship.name),
+               "each ship and structure its own name");
     }
     const auto& hull = ship.hull;
     if (!hull.angles_from_vertical.empty() && hull.angles_from_vertical.size() != hull.waterline.size())
-      tell("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
-           fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
+      report("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
+             fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
     if (const auto defect = geometry::find_defect({hull.waterline, {}})) {
-      tell(origin.is_structure ? "waterline_m" : "hull", "an invalid waterline: " + describe(*defect),
-           origin.is_structure ? "a simple ring with an area"
-                               : "a simple ring with an area; a wedge bow must end before the stern");
+      report(origin.is_structure ? "waterline_m" : "hull", "an invalid waterline: " + describe(*defect),
+             origin.is_structure ? "a simple ring with an area"
+                                 : "a simple ring with an area; a wedge bow must end before the stern");
       continue;
     }
     outlines.push_back(waterline_in_world(ship));
@@ -86,21 +84,18 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
     const Origin& origin = draft.floe_origins[i];
     if (!origin.is_known_valid) {
       if (const auto defect = geometry::find_defect(polygon)) {
-        problems.add(origin.source, origin.offset,
-                     {.path = floe_path(draft, i),
-                      .found = "an invalid polygon: " + describe(*defect),
-                      .allowed = "simple rings with an area, holes inside and apart"});
+        problems.report(origin.source, origin.offset, floe_path(draft, i),
+                        "an invalid polygon: " + describe(*defect),
+                        "simple rings with an area, holes inside and apart");
         continue;
       }
     }
     const geometry::Measures measures = geometry::measure(polygon);
     if (!simulation::can_be_floe(measures)) {
-      problems.add(origin.source, origin.offset,
-                   {.path = floe_path(draft, i),
-                    .found = fmt::format("a floe of {:.3g} m², second moment {:.3g} m⁴", measures.area,
-                                         measures.second_moment),
-                    .allowed = fmt::format("at least {:g} m², and a second moment above 0",
-                                           simulation::kLeastFloeArea)});
+      problems.report(
+          origin.source, origin.offset, floe_path(draft, i),
+          fmt::format("a floe of {:.3g} m², second moment {:.3g} m⁴", measures.area, measures.second_moment),
+          fmt::format("at least {:g} m², and a second moment above 0", simulation::kLeastFloeArea));
       continue;
     }
     outlines.push_back(polygon);

@@ -17,8 +17,8 @@ geometry::Polygon waterline_in_world(const simulation::ShipSpec& ship);
 /// "self-crossing at (5, 5), (0, 0)".
 std::string describe(const geometry::DefectAt& defect);
 
-/// What no single field can tell: ice that would sink, a step too long for the speeds, invalid outlines,
-/// floes that overlap each other or lie in a ship. Tells every problem with its place.
+/// What no single field shows: ice that would sink, a step too long for the speeds, invalid outlines,
+/// floes that overlap each other or lie in a ship. Reports every problem with its place.
 void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems);
 
 }  // namespace polynya::io

@@ -10,7 +10,7 @@
 
 namespace polynya::io {
 
-/// The one table of everything a scene may say. It drives the reader (scene_resolve.cpp), the JSON Schema,
+/// The one table of everything a scene may hold. It drives the reader (scene_resolve.cpp), the JSON Schema,
 /// the tables in docs/scene.md and the commented scene of `polynya init` (scene_schema.cpp).
 
 enum class FieldKind {
@@ -37,7 +37,7 @@ struct Range {
 
 struct Object;
 
-inline constexpr std::string_view kLeftOut = "null";  ///< as a field's default: see there
+inline constexpr std::string_view kLeftOut = "null";  ///< as a field's default
 
 struct Field {
   std::string_view key;

@@ -47,7 +47,7 @@ using SceneOutcome = tl::expected<LoadedScene, std::vector<Problem>>;
 /// Reads a scene: JSON, comments allowed. All problems at once, each with its place (docs/scene.md).
 SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides = {});
 
-/// The same for a text at hand. `name` stands in messages; floe files are looked for in `folder`. A scene
+/// The same for a text at hand. `name` stands in messages; floe files are searched for in `folder`. A scene
 /// whose resolved text is longer than `longest` [bytes] could not be read back, and is refused.
 SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
                         const SceneOverrides& overrides = {}, std::size_t longest = kLongestScene);

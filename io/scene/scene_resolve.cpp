@@ -37,10 +37,10 @@ class Resolver {
   /// Nothing where a field that has no default is missing or wrong.
   std::optional<JsonValue> object(const Object& table, const JsonValue& value, const std::string& path) {
     if (!value.is(JsonKind::kObject)) {
-      tell(value.offset, path, show(value), "an object");
+      report(value.offset, path, show(value), "an object");
       return std::nullopt;
     }
-    tell_unknown_keys(table, value, path);
+    report_unknown_keys(table, value, path);
     bool is_whole = true;
     const auto alternative = chosen_alternative(table, value, path, is_whole);
     JsonValue resolved{JsonValue::Object{}, value.offset};
@@ -62,23 +62,19 @@ class Resolver {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
   }
 
-  void tell(std::uint32_t offset, const std::string& path, std::string found, std::string allowed,
-            std::string suggestion = {}) {
-    problems_.add(0, offset,
-                  {.path = path,
-                   .found = std::move(found),
-                   .allowed = std::move(allowed),
-                   .suggestion = std::move(suggestion)});
+  void report(std::uint32_t offset, const std::string& path, std::string found, std::string allowed,
+              std::string suggestion = {}) {
+    problems_.report(0, offset, path, std::move(found), std::move(allowed), std::move(suggestion));
   }
 
-  void tell_unknown_keys(const Object& table, const JsonValue& value, const std::string& path) {
+  void report_unknown_keys(const Object& table, const JsonValue& value, const std::string& path) {
     std::vector<std::string_view> known;
     for (const Field& field : table.fields) known.push_back(field.key);
     for (const JsonMember& member : value.members()) {
       if (std::ranges::find(known, member.key) != known.end()) continue;
       if (path.empty() && member.key == "$schema") continue;
-      tell(member.key_offset, join(path, member.key), "an unknown key",
-           fmt::format("{}", fmt::join(known, ", ")), nearest(member.key, known));
+      report(member.key_offset, join(path, member.key), "an unknown key",
+             fmt::format("{}", fmt::join(known, ", ")), nearest(member.key, known));
     }
   }
 
@@ -100,9 +96,9 @@ class Resolver {
       }
       forms.push_back(fmt::format("{}", fmt::join(keys, " and ")));
     }
-    tell(value.offset, path,
-         chosen.empty() ? "none of them" : fmt::format("{} together", fmt::join(chosen, " and ")),
-         fmt::format("either {}", fmt::join(forms, ", or ")));
+    report(value.offset, path,
+           chosen.empty() ? "none of them" : fmt::format("{} together", fmt::join(chosen, " and ")),
+           fmt::format("either {}", fmt::join(forms, ", or ")));
     is_whole = false;
     return chosen.empty() ? "" : chosen.front();
   }
@@ -113,7 +109,7 @@ class Resolver {
     const JsonValue* given = parent.find(field.key);
     if (!given) {
       if (!field.default_json.empty()) return default_of(field, parent.offset, path);
-      tell(parent.offset, path, "nothing", describe_allowed(field));
+      report(parent.offset, path, "nothing", describe_allowed(field));
       return std::nullopt;
     }
     std::optional<JsonValue> resolved = checked(field, *given, path);
@@ -143,11 +139,11 @@ class Resolver {
 
   std::optional<JsonValue> list(const Field& field, const JsonValue& value, const std::string& path) {
     if (!value.is(JsonKind::kArray)) {
-      tell(value.offset, path, show(value), describe_allowed(field));
+      report(value.offset, path, show(value), describe_allowed(field));
       return std::nullopt;
     }
     if (!is_in(field.range, static_cast<double>(value.items().size()))) {
-      tell(value.offset, path, show(value), describe_allowed(field));
+      report(value.offset, path, show(value), describe_allowed(field));
       return std::nullopt;
     }
     JsonValue resolved{JsonValue::Array{}, value.offset};
@@ -159,11 +155,11 @@ class Resolver {
     return resolved;
   }
 
-  /// Checks values that are not made of fields; the innermost wrong one is told.
+  /// Checks values that are not made of fields; the innermost wrong one is reported.
   std::optional<JsonValue> checked_deep(const Field& field, const JsonValue& value, const std::string& path) {
     if (const JsonValue* wrong = first_wrong(field, value)) {
-      tell(wrong->offset, path, show(*wrong), describe_allowed(field),
-           wrong->is(JsonKind::kText) ? nearest(wrong->text(), field.choices) : "");
+      report(wrong->offset, path, show(*wrong), describe_allowed(field),
+             wrong->is(JsonKind::kText) ? nearest(wrong->text(), field.choices) : "");
       return std::nullopt;
     }
     return value;

@@ -22,14 +22,14 @@ std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view
   return static_cast<std::int64_t>(number);
 }
 
-tl::expected<geometry::Polygon, std::string> BirthShapes::assemble(const JsonValue& line) {
+Result<geometry::Polygon> BirthShapes::assemble(const JsonValue& line) {
   const auto shape = read_shape(line);
-  if (!shape) return tl::unexpected(shape.error());
+  if (!shape) return fail(shape.error());
   const auto id = floe_id_in(line, "parent_id");
-  if (!id) return tl::unexpected(std::string("parts of a parent's shape, without a \"parent_id\""));
+  if (!id) return fail("parts of a parent's shape, without a \"parent_id\"");
   const auto found = entry_of_.find(*id);
   if (found == entry_of_.end())
-    return tl::unexpected(
+    return fail(
         fmt::format("parts of the shape of floe {}, of which no line stands before (`polynya inspect RUN "
                     "--floe ID` prints a floe's shape whole)",
                     *id));
@@ -38,7 +38,7 @@ tl::expected<geometry::Polygon, std::string> BirthShapes::assemble(const JsonVal
     return fail(checked.error());
   assembled_ += vertex_count(parent);
   if (assembled_ > kMostAssembled)
-    return tl::unexpected(fmt::format("more than {} vertices in the shapes of parents", kMostAssembled));
+    return fail(fmt::format("more than {} vertices in the shapes of parents", kMostAssembled));
   return assembled(*shape, parent);
 }
 

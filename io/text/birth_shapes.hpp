@@ -4,9 +4,8 @@
 #include <string>
 #include <unordered_map>
 
-#include <tl/expected.hpp>
-
 #include "io/text/floe_text.hpp"
+#include "io/text/result.hpp"
 
 namespace polynya::io {
 
@@ -16,11 +15,11 @@ class BirthShapes {
  public:
   explicit BirthShapes(const FloeText& floes) : floes_(floes) {}
 
-  /// Notes that the next entry is this floe's.
-  void note_next(std::int64_t floe) { entry_of_[floe] = floes_.entries.size(); }
+  /// The next entry is this floe's.
+  void add_next(std::int64_t floe) { entry_of_[floe] = floes_.entries.size(); }
 
-  /// The shape of a line that has parts of its parent's. The error says what is wrong with it or missing.
-  tl::expected<geometry::Polygon, std::string> assemble(const JsonValue& line);
+  /// The shape of a line that has parts of its parent's. The error is what is wrong with it or missing.
+  Result<geometry::Polygon> assemble(const JsonValue& line);
 
  private:
   const FloeText& floes_;

@@ -47,12 +47,11 @@ ToolOutcome<PolygonTool> tool_of(const FloeText& text) {
   return tool;
 }
 
-tl::expected<std::vector<double>, std::string> numbers_of(const JsonValue& value, std::size_t wanted,
-                                                          const char* form) {
+Result<std::vector<double>> numbers_of(const JsonValue& value, std::size_t count, const char* form) {
   const auto is_number = [](const JsonValue& item) { return item.is(JsonKind::kNumber); };
-  if (!value.is(JsonKind::kArray) || value.items().size() != wanted ||
+  if (!value.is(JsonKind::kArray) || value.items().size() != count ||
       !std::ranges::all_of(value.items(), is_number))
-    return tl::unexpected(fmt::format("expected {}", form));
+    return fail(fmt::format("expected {}", form));
   std::vector<double> numbers;
   for (const JsonValue& item : value.items()) numbers.push_back(item.number());
   return numbers;
@@ -154,7 +153,7 @@ double default_sagitta(double radius) {
   return std::min(0.02, radius / 250);
 }
 
-tl::expected<std::vector<double>, std::string> read_numbers(std::string_view text, std::size_t wanted) {
+Result<std::vector<double>> read_numbers(std::string_view text, std::size_t count) {
   std::vector<double> numbers;
   const auto skip_blanks = [&] {
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -165,17 +164,17 @@ tl::expected<std::vector<double>, std::string> read_numbers(std::string_view tex
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || !std::isfinite(value))
-      return tl::unexpected(fmt::format("\"{}\" is not a finite number", text.substr(0, text.find(','))));
+      return fail(fmt::format("\"{}\" is not a finite number", text.substr(0, text.find(','))));
     numbers.push_back(value);
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     skip_blanks();
     if (text.empty()) break;
-    if (text.front() != ',') return tl::unexpected(fmt::format("\"{}\" where a comma is expected", text));
+    if (text.front() != ',') return fail(fmt::format("\"{}\" where a comma is expected", text));
     text.remove_prefix(1);
   }
-  if (numbers.size() != wanted)
-    return tl::unexpected(
-        fmt::format("{} number{}, expected {}", numbers.size(), numbers.size() == 1 ? "" : "s", wanted));
+  if (numbers.size() != count)
+    return fail(
+        fmt::format("{} number{}, expected {}", numbers.size(), numbers.size() == 1 ? "" : "s", count));
   return numbers;
 }
 

@@ -5,9 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "geometry/shape/polygon.hpp"
+#include "io/text/result.hpp"
 
 namespace polynya::io {
 
@@ -42,7 +41,7 @@ struct CutOp {
   bool must_cut = false;  ///< refuses a floe of which it leaves a piece whole, else that is no fault
 };
 
-/// What all cuts have in common unless they say otherwise.
+/// Defaults of all cuts.
 struct CutDefaults {
   Keep keep = Keep::kOutside;
   double sagitta = 0;  ///< [m]; 0: default_sagitta() of the radius
@@ -60,8 +59,8 @@ using ToolOutcome = tl::expected<Value, ToolError>;
 /// 0.02 m, or 1/250 of the radius of discs smaller than 5 m: those have 36 vertices.
 double default_sagitta(double radius);
 
-/// Exactly as many finite numbers as wanted, between commas; nothing else beside blanks.
-tl::expected<std::vector<double>, std::string> read_numbers(std::string_view text, std::size_t wanted);
+/// Exactly `count` finite numbers, between commas; nothing else beside blanks.
+Result<std::vector<double>> read_numbers(std::string_view text, std::size_t count);
 
 ToolOutcome<DiscTool> disc_tool(const std::vector<double>& centre_and_radius, double sagitta);
 ToolOutcome<LineTool> line_tool(std::vector<geometry::Point> path);

@@ -12,7 +12,7 @@ namespace polynya::io {
 /// every other: those are taken to be metres.
 std::string geographic_crs(const JsonValue& crs);
 
-/// What can be known of a file's coordinates without its crs.
+/// What a file's coordinates show without its crs.
 struct CoordinateEvidence {
   geometry::Box box{};
   double area = 0;  ///< Σ of the floes, in squares of the unit they are in

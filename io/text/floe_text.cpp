@@ -13,7 +13,7 @@
 namespace polynya::io {
 namespace {
 
-/// Where lines start, so that many places in a long text are told quickly.
+/// Where lines start, so that many places in a long text are found quickly.
 class LineIndex {
  public:
   explicit LineIndex(std::string_view text) {
@@ -39,7 +39,7 @@ void for_lines(std::string_view text, Use use) {
   }
 }
 
-/// Blanks for comments that begin a line with '#', which JSON's parser does not know.
+/// Blanks for comments that begin a line with '#', which JSON's parser refuses.
 void blank_hash_comments(std::string& text) {
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
@@ -116,14 +116,14 @@ std::string unknown_text(std::string_view first_line) {
 }
 
 /// Decides by the lines what the text is, and reads it.
-tl::expected<FloeText, std::string> read_kind(std::string& text) {
-  const LinesSeen seen = lines_seen(text);
+Result<FloeText> read_kind(std::string& text) {
+  const LineCounts lines = count_lines(text);
   FloeText floes;
   floes.format = FloeFormat::kWkt;
-  if (seen.lines == 0) return floes;
-  if (seen.are_all_objects()) return read_ndjson(text);
+  if (lines.lines == 0) return floes;
+  if (lines.are_all_objects()) return read_ndjson(text);
   std::string wrong;
-  if (!seen.is_wkt_first) {
+  if (!lines.is_wkt_first) {
     blank_hash_comments(text);
     if (const auto value = parse_lenient_json(text)) {
       floes.format = FloeFormat::kGeojson;
@@ -134,11 +134,11 @@ tl::expected<FloeText, std::string> read_kind(std::string& text) {
       wrong = value.error();
     }
   }
-  if (seen.are_mostly_objects()) return read_ndjson(text);
-  if (std::string_view("{[/").find(seen.first_line.front()) != std::string_view::npos)
-    return tl::unexpected(wrong + " (read as GeoJSON)");
-  if (seen.wkt > 0) return read_wkt_floes(text);
-  return tl::unexpected("1:1: " + unknown_text(seen.first_line));
+  if (lines.are_mostly_objects()) return read_ndjson(text);
+  if (std::string_view("{[/").find(lines.first_line.front()) != std::string_view::npos)
+    return fail(wrong + " (read as GeoJSON)");
+  if (lines.wkt > 0) return read_wkt_floes(text);
+  return fail("1:1: " + unknown_text(lines.first_line));
 }
 
 }  // namespace
@@ -150,10 +150,9 @@ FloeText read_floe_json(const JsonValue& geojson) {
   return floes;
 }
 
-tl::expected<FloeText, std::string> read_floe_text(std::string text) {
+Result<FloeText> read_floe_text(std::string text) {
   if (text.size() > kLongestFloeText)
-    return tl::unexpected(
-        fmt::format("1:1: {} bytes, more than the {} allowed", text.size(), kLongestFloeText));
+    return fail(fmt::format("1:1: {} bytes, more than the {} allowed", text.size(), kLongestFloeText));
   if (text.starts_with("\xEF\xBB\xBF")) text.replace(0, 3, "   ");
   std::ranges::replace(text, '\x1E', ' ');  // GeoJSON text sequences [RFC8142] start each record with one
   const LineIndex lines(text);

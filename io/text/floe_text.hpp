@@ -7,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "geometry/shape/polygon.hpp"
 #include "io/text/json_value.hpp"
+#include "io/text/result.hpp"
 
 namespace polynya::io {
 
@@ -45,7 +44,7 @@ struct FloeText {
 /// content. A text without content has no polygons. What is no polygon, a bad line of NDJSON or WKT among
 /// them, is an entry with its refusal; validity is not checked. The error is for a text that cannot be read
 /// at all: "line:column: words".
-tl::expected<FloeText, std::string> read_floe_text(std::string text);
+Result<FloeText> read_floe_text(std::string text);
 
 /// The polygons of one GeoJSON value, likewise.
 FloeText read_floe_json(const JsonValue& geojson);

@@ -84,13 +84,13 @@ class GeojsonEntries {
     });
   }
 
-  /// What is refused inside is told here, and what stands beside it is read on.
+  /// What is refused inside is recorded here, and what stands beside it is read.
   template <class Read>
   void attempt(const JsonValue& value, Read read) {
     try {
       read();
-    } catch (const ParseError& refusal) {
-      refuse(value, feature_, refusal.reason, refusal.what());
+    } catch (const ParseError& error) {
+      refuse(value, feature_, error.reason, error.what());
       ++member_;
     }
   }
@@ -120,7 +120,7 @@ class GeojsonEntries {
   void read_birth(const JsonValue& birth) {
     floe_id_ = floe_id_in(birth, "floe_id");
     geometry::Polygon polygon = shape_of(birth);
-    if (floe_id_) births_.note_next(*floe_id_);
+    if (floe_id_) births_.add_next(*floe_id_);
     add(birth, std::move(polygon));
   }
 

@@ -10,7 +10,7 @@
 namespace polynya::io {
 namespace {
 
-/// Follows the parser's events through the text. The parser tells no positions, but between two events only
+/// Follows the parser's events through the text. The parser gives no positions, but between two events only
 /// blanks, comments, commas and colons can stand, so each event's own first byte can be found again.
 class PlaceFinder {
  public:

@@ -12,7 +12,7 @@ namespace polynya::io {
 inline constexpr int kDeepestNesting = 64;
 inline constexpr std::size_t kLongestText = std::size_t{256} << 20;  ///< [bytes]
 
-/// Something wrong in a JSON text, before anything is known of its meaning.
+/// Something wrong in a JSON text, before its meaning is read.
 struct JsonFault {
   std::uint32_t offset = 0;  ///< byte in the text
   std::string path;          ///< of the member, for a key that stands twice; else empty
@@ -27,7 +27,7 @@ struct JsonDocument {
 };
 
 /// Reads JSON with // and /* */ comments. A syntax error ends the reading (the root is then what was read so
-/// far); keys that stand twice are told and the first one counts. Nesting and length are bounded.
+/// far); keys that stand twice are faults and the first one counts. Nesting and length are bounded.
 JsonDocument parse_json(std::string_view text);
 
 }  // namespace polynya::io

@@ -32,7 +32,7 @@ struct JsonValue {
   ~JsonValue();
 
   Kind kind() const { return static_cast<Kind>(data.index()); }
-  bool is(Kind wanted) const { return kind() == wanted; }
+  bool is(Kind other) const { return kind() == other; }
   bool is_null() const { return is(Kind::kNull); }
 
   bool boolean() const { return std::get<bool>(data); }

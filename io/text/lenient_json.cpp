@@ -59,7 +59,7 @@ void blank_unfinite(std::string& text) {
 
 }  // namespace
 
-tl::expected<JsonValue, std::string> parse_lenient_json(const std::string& text) {
+Result<JsonValue> parse_lenient_json(const std::string& text) {
   JsonDocument document = parse_json(text);
   if (!document.faults.empty()) {
     std::string blanked = text;
@@ -69,7 +69,7 @@ tl::expected<JsonValue, std::string> parse_lenient_json(const std::string& text)
   if (document.faults.empty()) return std::move(document.root);
   const JsonFault& fault = document.faults.front();
   const LineAndColumn place = line_and_column(text, fault.offset);
-  return tl::unexpected(fmt::format("{}:{}: {}", place.line, place.column, message_of(fault)));
+  return fail(fmt::format("{}:{}: {}", place.line, place.column, message_of(fault)));
 }
 
 std::string compact_json(std::string_view text, std::size_t offset) {

@@ -79,7 +79,7 @@ enum class Durability {
 Result<> sync_file(const std::filesystem::path& path);
 Result<> sync_folder(const std::filesystem::path& folder);
 
-/// Writes a file of a run folder at once: to a temporary name beside it, then renamed, so that a reader sees
+/// Writes a file of a run folder at once: to a temporary name beside it, then renamed, so that a reader gets
 /// the old or the new one. A link of that name is replaced, not followed: run folders come from elsewhere
 /// too. A pipe, a device or a folder is refused and stays.
 Result<> write_whole_file(const std::filesystem::path& path, std::string_view text,

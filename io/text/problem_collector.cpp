@@ -15,6 +15,21 @@ void ProblemCollector::add(std::size_t source, std::uint32_t offset, Problem pro
   entries_.push_back({source, offset, std::move(problem)});
 }
 
+void ProblemCollector::report(std::size_t source, std::uint32_t offset, std::string path, std::string found,
+                              std::string allowed, std::string suggestion) {
+  add(source, offset,
+      {.path = std::move(path),
+       .found = std::move(found),
+       .allowed = std::move(allowed),
+       .suggestion = std::move(suggestion)});
+}
+
+void ProblemCollector::add_faults(std::size_t source, const std::vector<JsonFault>& faults) {
+  for (const JsonFault& fault : faults)
+    add(source, fault.offset,
+        {.path = fault.path, .found = fault.found, .allowed = fault.allowed, .sentence = fault.sentence});
+}
+
 std::vector<Problem> ProblemCollector::take() {
   std::ranges::stable_sort(entries_, {}, [](const Entry& e) { return std::tuple(e.source, e.offset); });
   std::vector<Problem> problems;

@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
 #include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
-/// Gathers everything wrong in a scene and in the files it names, so that it can be told at once.
+/// Gathers everything wrong in a scene and in the files it names, so that it can be reported at once.
 class ProblemCollector {
  public:
   static constexpr std::size_t kMost = 500;  ///< what comes after these is only counted
@@ -24,9 +25,13 @@ class ProblemCollector {
   const SourceText& source(std::size_t index) const { return sources_[index]; }
 
   void add(std::size_t source, std::uint32_t offset, Problem problem);
+  void report(std::size_t source, std::uint32_t offset, std::string path, std::string found,
+              std::string allowed, std::string suggestion = {});
+  /// What the parser found in a source.
+  void add_faults(std::size_t source, const std::vector<JsonFault>& faults);
   std::size_t count() const { return entries_.size() + beyond_; }
 
-  /// In the order of sources and places. Where there were too many, a last one says how many are left out.
+  /// In the order of sources and places. Where there were too many, a last one has how many are left out.
   std::vector<Problem> take();
 
  private:

@@ -4,7 +4,7 @@
 
 namespace polynya::io {
 
-/// Entries set row by row, so many a row: where the one at a place goes, and how many rows they fill.
+/// Entries set row by row, an equal number a row: where the one at a place goes, and how many rows they fill.
 constexpr std::size_t row_of(std::size_t place, std::size_t columns) {
   return place / columns;
 }

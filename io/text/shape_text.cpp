@@ -135,7 +135,7 @@ Result<ShapeParts> read_shape(const JsonValue& line) {
   try {
     return ShapeReader().read(line);
   } catch (const NoShape& wrong) {
-    return tl::unexpected(std::string(wrong.what()));
+    return fail(std::string(wrong.what()));
   }
 }
 

@@ -17,21 +17,19 @@ LineAndColumn line_and_column(std::string_view text, std::size_t offset) {
           .column = 1 + static_cast<int>(std::ranges::count_if(before.substr(line_start), is_character))};
 }
 
-tl::expected<std::string, std::string> read_text_file(const std::filesystem::path& path,
-                                                      std::size_t longest) {
+Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t longest) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return tl::unexpected(std::string("no such file"));
-  if (!std::filesystem::is_regular_file(status)) return tl::unexpected(std::string("not a regular file"));
+  if (!std::filesystem::exists(status)) return fail("no such file");
+  if (!std::filesystem::is_regular_file(status)) return fail("not a regular file");
   const auto size = std::filesystem::file_size(path, error);
-  if (error) return tl::unexpected(error.message());
-  if (size > longest) return tl::unexpected(fmt::format("{} bytes, more than the {} allowed", size, longest));
+  if (error) return fail(error.message());
+  if (size > longest) return fail(fmt::format("{} bytes, more than the {} allowed", size, longest));
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return tl::unexpected(std::string(std::strerror(errno)));
+  if (!stream) return fail(std::string(std::strerror(errno)));
   std::string text(size, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(size));
-  if (stream.gcount() != static_cast<std::streamsize>(size))
-    return tl::unexpected(std::string("it could not be read"));
+  if (stream.gcount() != static_cast<std::streamsize>(size)) return fail("it could not be read");
   return text;
 }
 

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
+#include "io/text/result.hpp"
 
 namespace polynya::io {
 
-/// A text with its name, for telling where in it something stands.
+/// A text with its name, for messages with a place in it.
 struct SourceText {
   std::string name;  ///< as shown to people, usually the file's path
   std::string text;
@@ -24,6 +24,6 @@ struct LineAndColumn {
 LineAndColumn line_and_column(std::string_view text, std::size_t offset);
 
 /// The whole of a regular file, or what is wrong with it in words. Longer files are refused, not read.
-tl::expected<std::string, std::string> read_text_file(const std::filesystem::path& path, std::size_t longest);
+Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t longest);
 
 }  // namespace polynya::io

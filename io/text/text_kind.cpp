@@ -58,25 +58,25 @@ bool is_comment(std::string_view line) {
   return line.starts_with('#') || line.starts_with("//");
 }
 
-LinesSeen lines_seen(std::string_view text) {
-  LinesSeen seen;
+LineCounts count_lines(std::string_view text) {
+  LineCounts counts;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     const std::string_view line = trimmed(text.substr(start, end - start));
     start = end + 1;
     if (line.empty() || is_comment(line)) continue;
-    if (seen.lines++ == 0) {
-      seen.first_line = line;
-      seen.is_wkt_first = begins_wkt(line);
+    if (counts.lines++ == 0) {
+      counts.first_line = line;
+      counts.is_wkt_first = begins_wkt(line);
     }
     if (is_one_object(line))
-      ++seen.objects;
+      ++counts.objects;
     else if (begins_wkt(line))
-      ++seen.wkt;
+      ++counts.wkt;
     else if (is_continued(line))
-      ++seen.continued;
+      ++counts.continued;
   }
-  return seen;
+  return counts;
 }
 
 }  // namespace polynya::io

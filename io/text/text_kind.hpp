@@ -12,8 +12,8 @@ std::string_view trimmed(std::string_view line);
 /// Whether a trimmed line is a comment: '#' or '//' to its end.
 bool is_comment(std::string_view line);
 
-/// What the lines of a text of floes look like. Blank lines and comments do not count.
-struct LinesSeen {
+/// What kinds of lines a text of floes has. Blank lines and comments do not count.
+struct LineCounts {
   std::size_t lines = 0;
   std::size_t objects = 0;    ///< from '{' to its own '}': a line of NDJSON, sound or not
   std::size_t continued = 0;  ///< end or begin amid a value: lines of one JSON text
@@ -24,6 +24,6 @@ struct LinesSeen {
   bool are_all_objects() const { return objects == lines && lines > 1; }
   bool are_mostly_objects() const { return objects > continued && lines > 1; }
 };
-LinesSeen lines_seen(std::string_view text);
+LineCounts count_lines(std::string_view text);
 
 }  // namespace polynya::io

@@ -63,14 +63,14 @@ class WktReader {
       skip_blanks();
     }
   }
-  bool take(char wanted) {
+  bool take(char expected) {
     skip_blanks();
-    if (at_ >= text_.size() || text_[at_] != wanted) return false;
+    if (at_ >= text_.size() || text_[at_] != expected) return false;
     ++at_;
     return true;
   }
-  void expect(char wanted) {
-    if (!take(wanted)) fail(fmt::format("'{}'", wanted));
+  void expect(char expected) {
+    if (!take(expected)) fail(fmt::format("'{}'", expected));
   }
   [[noreturn]] void fail(std::string_view expected) {
     skip_blanks();
@@ -170,7 +170,7 @@ class WktReader {
     double value = 0;
     const auto [end, error] = std::from_chars(start, text_.data() + text_.size(), value);
     if (end == start) fail("a number");
-    // Out of range is either too small or too large: strtod tells 0 from infinity.
+    // Out of range is either too small or too large: strtod returns 0 or infinity.
     if (error != std::errc{}) value = std::strtod(std::string(start, end).c_str(), nullptr);
     at_ = static_cast<std::size_t>(end - text_.data());
     return value;

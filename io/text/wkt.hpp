@@ -20,7 +20,7 @@ struct WktGeometry {
 
 /// The geometries of a text, in order: POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION of them, any case, with
 /// or without Z and M, "SRID=…;" before and ";" behind passed over, '#' and '//' comments to the line's end.
-/// After a syntax error reading goes on at the next line.
+/// After a syntax error reading continues at the next line.
 std::vector<WktGeometry> read_wkt(std::string_view text);
 
 /// Appends "POLYGON ((…), (…))" with numbers that read back to the same doubles.

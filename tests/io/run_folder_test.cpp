@@ -102,7 +102,7 @@ TEST(RunFolder, WhatAKillLeavesIsTakenAndNamed) {
   EXPECT_EQ(refusal(run, true), "");
   EXPECT_FALSE(fs::exists(run / "forces.csv"));
   write_file(run / "scene.json", "{}");
-  EXPECT_NE(refusal(run, false).find("go on with: polynya resume"), std::string::npos);
+  EXPECT_NE(refusal(run, false).find("continue it with: polynya resume"), std::string::npos);
   EXPECT_EQ(refusal(run, true), "");
   EXPECT_FALSE(fs::exists(run / "scene.json"));
 }

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "analysis/geojson_layer.hpp"
-#include "io/run/moment.hpp"
+#include "io/run/placed_floes.hpp"
 #include "io/scene/geographic.hpp"
 
 namespace polynya::views {

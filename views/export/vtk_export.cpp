@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "geometry/shape/triangulation.hpp"
-#include "io/run/moment.hpp"
+#include "io/run/placed_floes.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/vtk_file.hpp"
 

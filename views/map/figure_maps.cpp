@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/channel.hpp"
-#include "io/run/moment.hpp"
+#include "io/run/placed_floes.hpp"
 #include "views/map/figures.hpp"
 
 namespace polynya::views {

@@ -11,16 +11,16 @@
 
 namespace polynya::io {
 
-/// A floe where it was at some moment of a run.
+/// A floe where it was at some time of a run.
 struct PlacedFloe {
   const simulation::BirthRecord* birth = nullptr;            ///< the run's
   std::shared_ptr<const geometry::Polygon> polygon_in_body;  ///< [m]
   geometry::Pose world_from_body;
-  std::optional<Motion> motion;  ///< of its centre of mass; nothing where no frame tells of it
+  std::optional<Motion> motion;  ///< of its centre of mass; nothing where no frame has it
 };
 
 /// The floes alive at a time, by id. A floe that lived between two frames is placed as the floe it broke from
-/// was, whose body frame it shares; one of which no frame ever told, where it was born.
+/// was, whose body frame it shares; one that no frame has, where it was born.
 std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time);
 
 geometry::Ring placed(const geometry::Pose& world_from_body, const geometry::Ring& ring);

@@ -1,4 +1,4 @@
-#include "io/run/moment.hpp"
+#include "io/run/placed_floes.hpp"
 
 namespace polynya::io {
 namespace {
@@ -8,7 +8,7 @@ geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motio
   return {motion.position - rotate(rotation, birth.centroid_in_body - geometry::Point{}), rotation};
 }
 
-/// Of the youngest of the floe and those it broke from that a frame tells of.
+/// Of the youngest of the floe and those it broke from that a frame has.
 geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe,
                          double time) {
   const simulation::BirthRecord* at = &floe;

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "io/run/force_columns.hpp"
+#include "io/run/run_reader.hpp"
+#include "io/text/json_value.hpp"
+
+namespace polynya::io {
+
+// The lines that records.hpp writes, read back. Each throws ReadError where a line is not what it should be.
+
+/// What is wrong with a line or a file.
+struct ReadError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+JsonValue json_of(std::string_view text);
+/// Of a line of events.ndjson.
+std::string_view kind_of(const JsonValue& line);
+simulation::BirthRecord birth_of(const JsonValue& line);
+simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene);
+simulation::ShipContact ship_contact_of(const JsonValue& line, const simulation::Scene& scene);
+simulation::ShipSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
+                                 const simulation::Scene& scene);
+/// `run` has its scene and its floes.
+RunContact contact_of(std::string_view line, const Run& run);
+
+}  // namespace polynya::io

@@ -1,0 +1,176 @@
+#include "io/scene/floe_list_reader.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "geometry/exact/validity.hpp"
+#include "io/scene/floe_group.hpp"
+#include "io/scene/geojson_reader.hpp"
+#include "io/scene/scene_check.hpp"
+#include "io/scene/scene_resolve.hpp"
+
+namespace polynya::io {
+namespace {
+
+JsonValue to_json(geometry::Point point) {
+  return {JsonValue::Array{{point.x}, {point.y}}};
+}
+JsonValue to_json(const geometry::Ring& ring) {
+  JsonValue value{JsonValue::Array{}};
+  for (const geometry::Point p : ring) value.items().push_back(to_json(p));
+  return value;
+}
+JsonValue to_json(const geometry::Polygon& polygon) {
+  JsonValue holes{JsonValue::Array{}};
+  for (const geometry::Ring& hole : polygon.holes) holes.items().push_back(to_json(hole));
+  JsonValue value{JsonValue::Object{}};
+  value.members().push_back({"outer_m", 0, to_json(polygon.outer)});
+  value.members().push_back({"holes_m", 0, std::move(holes)});
+  return value;
+}
+
+}  // namespace
+
+void FloeListReader::add(std::size_t index, const JsonValue& item) {
+  const std::string path = fmt::format("floes[{}]", index);
+  const FloeGroup& group = draft_.group;
+  if (group.form == FloeGroup::Form::kFile) return add_file(index, item);
+  if (group.form == FloeGroup::Form::kField) return add_field(index, item);
+  if (group.form == FloeGroup::Form::kLattice) {
+    if (!check_lattice(item, path)) return;
+  } else if (!has_room_for(1, item, path)) {
+    return;
+  }
+  const auto polygons = floes_of(group);
+  const bool is_rectangle = group.form != FloeGroup::Form::kPolygon;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    add_floe(polygons[i], {.offset = item.offset,
+                           .group = index,
+                           .member = group.form == FloeGroup::Form::kLattice ? static_cast<int>(i) : -1,
+                           .is_known_valid = is_rectangle});
+  }
+  resolved_.items().push_back(item);
+}
+
+void FloeListReader::add_field(std::size_t index, const JsonValue& item) {
+  const std::string path = fmt::format("floes[{}].field", index);
+  const JsonValue& json = *item.find("field");
+  simulation::FloeField field = draft_.group.field;
+  complete(field);
+  if (!check_rings(field, json, path)) return;
+  const double count = simulation::floe_count(field);
+  if (count < 1)
+    return report(json.offset, path, "room for less than one floe",
+                  "a region for some floes of floe_size_m at the concentration");
+  if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), item, path)) return;
+  simulation::FloeFieldOutcome outcome = simulation::make_floe_field(field);
+  if (outcome.reachable_concentration < field.concentration)
+    return report(json.find("concentration")->offset, path + ".concentration",
+                  show(*json.find("concentration")),
+                  fmt::format("at most {:.3g} with this gap_m", outcome.reachable_concentration));
+  int member = 0;
+  for (geometry::Polygon& floe : outcome.floes) {
+    add_floe(std::move(floe),
+             {.offset = item.offset, .group = index, .member = member++, .is_known_valid = true});
+  }
+  outcome.floes.clear();
+  fields_.push_back({index, std::move(outcome)});
+  resolved_.items().push_back(item);
+}
+
+/// What a field needs of the rest of the scene.
+void FloeListReader::complete(simulation::FloeField& field) const {
+  const FloeGroup& group = draft_.group;
+  field.is_rectangle = group.extent != geometry::Vector{};
+  field.region = field.is_rectangle ? rectangle(group.origin, group.extent).outer
+                                    : in_house_notation({field.region, {}}).outer;
+  field.seed += draft_.scene.seed;
+  for (geometry::Polygon& clear : field.kept_clear) clear = in_house_notation(std::move(clear));
+  for (const auto& ship : draft_.scene.ships) {
+    if (ship.hull.waterline.size() >= 3) field.kept_clear.push_back(waterline_in_world(ship));
+  }
+}
+
+bool FloeListReader::check_rings(const simulation::FloeField& field, const JsonValue& json,
+                                 const std::string& path) {
+  const auto check = [&](const geometry::Ring& ring, const JsonValue& at, const std::string& key) {
+    const auto defect = geometry::find_defect({ring, {}});
+    if (defect) report(at.offset, path + "." + key, "an invalid ring: " + describe(*defect), "a simple ring");
+    return !defect;
+  };
+  bool is_good = field.is_rectangle || check(field.region, *json.find("outline_m"), "outline_m");
+  const JsonValue& rings = *json.find("keep_clear_m");
+  for (std::size_t i = 0; i < rings.items().size(); ++i) {
+    const std::string key = fmt::format("keep_clear_m[{}]", i);
+    is_good = check(field.kept_clear[i].outer, rings.items()[i], key) && is_good;
+  }
+  return is_good;
+}
+
+bool FloeListReader::check_lattice(const JsonValue& item, const std::string& path) {
+  const FloeGroup& group = draft_.group;
+  const bool is_too_wide =
+      (group.size.x > group.pitch.x && group.columns > 1) || (group.size.y > group.pitch.y && group.rows > 1);
+  if (is_too_wide)
+    report(item.find("lattice")->find("size_m")->offset, path + ".lattice.size_m",
+           fmt::format("{} × {} m, more than the pitch", group.size.x, group.size.y),
+           fmt::format("at most pitch_m, {} × {} m, or neighbours overlap", group.pitch.x, group.pitch.y));
+  const auto count = static_cast<std::size_t>(group.columns) * static_cast<std::size_t>(group.rows);
+  return !is_too_wide && has_room_for(count, item, path);
+}
+
+bool FloeListReader::has_room_for(std::size_t count, const JsonValue& item, const std::string& path) {
+  if (draft_.scene.floes.size() + count <= kMostFloes) return true;
+  report(item.offset, path, fmt::format("{} floes in all", draft_.scene.floes.size() + count),
+         fmt::format("at most {}", kMostFloes));
+  return false;
+}
+
+void FloeListReader::add_file(std::size_t index, const JsonValue& item) {
+  const std::string path = fmt::format("floes[{}].file", index);
+  const JsonValue& file = *item.find("file");
+  const auto found = locate(file.text());
+  if (!found)
+    return report(file.offset, path, show(file) + ": " + found.error(),
+                  "a GeoJSON file in the scene's folder or below");
+  auto text = read_text_file(*found, kLongestFloesFile);
+  if (!text)
+    return report(file.offset, path, show(file) + ": " + text.error(),
+                  fmt::format("a file of at most {} bytes", kLongestFloesFile));
+  const std::size_t source = problems_.add_source({found->string(), std::move(*text)});
+  const auto [polygons, run_time] = read_geojson(source, problems_);
+  if (run_time) draft_.run_times[source] = *run_time;
+  if (!has_room_for(polygons.size(), item, path)) return;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    add_floe(polygons[i].polygon,
+             {.source = source, .offset = polygons[i].offset, .group = index, .member = static_cast<int>(i)});
+    JsonValue spelled_out{JsonValue::Object{}, item.offset};
+    spelled_out.members().push_back({"polygon", 0, to_json(polygons[i].polygon)});
+    for (const JsonMember& member : item.members()) {
+      if (member.key != "file") spelled_out.members().push_back(member);
+    }
+    resolved_.items().push_back(std::move(spelled_out));
+  }
+}
+
+/// The path of a file named in the scene, if it stays in the scene's folder, links followed.
+Result<std::filesystem::path> FloeListReader::locate(const std::string& name) const {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (name.empty() || fs::path(name).is_absolute()) return fail("not a relative path");
+  const fs::path folder = fs::canonical(folder_.empty() ? "." : folder_, error);
+  if (error) return fail(error.message());
+  const fs::path target = fs::weakly_canonical(folder / name, error);
+  if (error) return fail(error.message());
+  const auto [end, unused] = std::ranges::mismatch(folder, target);
+  if (end != folder.end()) return fail("it leaves the scene's folder");
+  return folder_ / name;
+}
+
+void FloeListReader::add_floe(geometry::Polygon polygon, Origin origin) {
+  draft_.scene.floes.push_back({std::move(polygon), draft_.group.velocity, draft_.group.angular_velocity});
+  draft_.floe_origins.push_back(origin);
+}
+
+}  // namespace polynya::io

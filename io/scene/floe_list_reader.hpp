@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/scene/scene_draft.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/json_value.hpp"
+#include "io/text/problem_collector.hpp"
+#include "io/text/result.hpp"
+
+namespace polynya::io {
+
+/// Makes the floes of the scene's list: lattices, fields, files and single floes. Files are spelled out in
+/// the resolved list.
+class FloeListReader {
+ public:
+  /// All of these outlive it. `folder` is the scene's.
+  FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, ProblemCollector& problems,
+                 JsonValue& resolved, std::vector<FieldReport>& fields)
+      : folder_(folder), draft_(draft), problems_(problems), resolved_(resolved), fields_(fields) {}
+
+  /// Adds the floes of one item of the list, which the draft's group holds.
+  void add(std::size_t index, const JsonValue& item);
+
+ private:
+  void add_field(std::size_t index, const JsonValue& item);
+  void add_file(std::size_t index, const JsonValue& item);
+  void add_floe(geometry::Polygon polygon, Origin origin);
+  void complete(simulation::FloeField& field) const;
+  bool check_rings(const simulation::FloeField& field, const JsonValue& json, const std::string& path);
+  bool check_lattice(const JsonValue& item, const std::string& path);
+  bool has_room_for(std::size_t count, const JsonValue& item, const std::string& path);
+  Result<std::filesystem::path> locate(const std::string& name) const;
+  void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {
+    problems_.report(0, offset, std::move(path), std::move(found), std::move(allowed));
+  }
+
+  const std::filesystem::path& folder_;
+  SceneDraft& draft_;
+  ProblemCollector& problems_;
+  JsonValue& resolved_;
+  std::vector<FieldReport>& fields_;
+};
+
+}  // namespace polynya::io
