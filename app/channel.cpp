@@ -48,8 +48,8 @@ int measure(const Options& options) {
   if (!options.out.empty()) std::filesystem::create_directories(options.out, ignored);
   for (const auto& [name, text] : {std::pair{io::run_file::kChannelCsv, to_csv(*channel)},
                                    std::pair{io::run_file::kChannel, to_geojson(*channel)}}) {
-    if (const std::string wrong = write_product(options.out, options.run, name, text); !wrong.empty())
-      return fail(kInputOutput, wrong);
+    if (const auto written = write_product(options.out, options.run, name, text); !written)
+      return fail(kInputOutput, written.error());
   }
   write_out(options.format == "json"  ? to_json_text(*channel)
             : options.format == "csv" ? to_csv(*channel)

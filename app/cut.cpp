@@ -124,18 +124,18 @@ Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
 }
 
 /// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
-std::string write_results(const Options& options, const io::CutReport& report, io::FloeFormat format) {
+io::Result<> write_results(const Options& options, const io::CutReport& report, io::FloeFormat format) {
   std::string ledger = options.ledger;
   std::string out = options.out;
   if (ledger.empty() && out != "-") ledger = "-";
   if (out.empty() && !ledger.empty() && ledger != "-") out = "-";
   if (!out.empty()) {
-    std::string wrong = write_output(out, to_floe_text(report, format));
-    if (!wrong.empty()) return wrong;
+    if (auto written = write_output(out, to_floe_text(report, format)); !written) return written;
   } else {
     print_err("polynya: the ledger is on stdout; name --out FILE for the pieces, or --ledger FILE\n");
   }
-  return ledger.empty() ? "" : write_output(ledger, to_ledger_json(report));
+  if (ledger.empty()) return {};
+  return write_output(ledger, to_ledger_json(report));
 }
 
 io::CoordinateEvidence evidence_of(const io::FloeText& floes) {
@@ -178,8 +178,8 @@ Outcome<bool> cut_all(const Options& options) {
   io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
   report.crs = floes->crs;
   report_floes(name, report);
-  if (const std::string wrong = write_results(options, report, format); !wrong.empty())
-    return failure(kInputOutput, wrong);
+  if (const auto written = write_results(options, report, format); !written)
+    return failure(kInputOutput, written.error());
   report_totals(report);
   return io::totals_of(report).rejected == 0;
 }

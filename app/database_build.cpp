@@ -31,16 +31,16 @@ struct Options {
   bool overwrite = false;
 };
 
-/// Why the file cannot be written there; empty where it can. Before the work this tries it, with the
-/// temporary file that the write begins with.
-std::string obstacle(const std::filesystem::path& path, bool overwrite) {
+/// Whether the file can be written there: tried before the work, with the temporary file that the write
+/// begins with.
+io::Result<> check_target(const std::filesystem::path& path, bool overwrite) {
   std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder, ignored)) return folder.string() + ": no such folder";
-  if (!std::filesystem::exists(path, ignored)) return io::problem_of(io::trial_of_named_file(path));
-  if (!std::filesystem::is_regular_file(path, ignored)) return path.string() + ": it is not a file";
-  return overwrite ? io::problem_of(io::trial_of_named_file(path))
-                   : path.string() + ": it exists already; --overwrite replaces it";
+  if (!std::filesystem::is_directory(folder, ignored)) return io::fail(folder.string() + ": no such folder");
+  if (!std::filesystem::exists(path, ignored)) return io::trial_of_named_file(path);
+  if (!std::filesystem::is_regular_file(path, ignored)) return io::fail(path.string() + ": it is not a file");
+  if (!overwrite) return io::fail(path.string() + ": it exists already; --overwrite replaces it");
+  return io::trial_of_named_file(path);
 }
 
 ProgressReport report(std::size_t done, std::size_t total, double wall) {
@@ -60,8 +60,8 @@ int build(const Options& options) {
                                       kMostWedgeAngles));
     grid.opening_angles_deg = angles;
   }
-  if (const std::string problem = obstacle(options.out, options.overwrite); !problem.empty())
-    return fail(kInputOutput, problem);
+  if (const auto target = check_target(options.out, options.overwrite); !target)
+    return fail(kInputOutput, target.error());
 
   fracture::SolverSettings settings;
   settings.fluid = options.fluid;
@@ -78,9 +78,9 @@ int build(const Options& options) {
 
   const std::string text = fracture::write_database(*built);
   watch_signals();  // a signal waits for the write
-  std::string problem = obstacle(options.out, options.overwrite);
-  if (problem.empty()) problem = io::problem_of(io::write_named_file(options.out, text));
-  if (!problem.empty()) return fail(kInputOutput, problem);
+  auto written = check_target(options.out, options.overwrite);
+  if (written) written = io::write_named_file(options.out, text);
+  if (!written) return fail(kInputOutput, written.error());
   print_out("database    {}, {} bytes\n", options.out, text.size());
   print_out("solved      {} wedges, {} pushes, fluid {}, in {:.3g} s on {}\n", wedges,
             built->entries().size(), fracture::fluid_name(options.fluid), wall,

@@ -125,9 +125,8 @@ int draw_figures(const Options& options) {
       print_err("note: there is no energy in summary.json; {} is left out\n", name);
       continue;
     }
-    if (const std::string wrong = write_product(options.out, options.runs.front(), name, text);
-        !wrong.empty())
-      return fail(kInputOutput, wrong);
+    if (const auto written = write_product(options.out, options.runs.front(), name, text); !written)
+      return fail(kInputOutput, written.error());
     const std::string more = converted(folder / name);
     has_converter = has_converter && !more.empty();
     write_out((folder / name).string() + "\n" + more);

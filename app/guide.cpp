@@ -193,8 +193,8 @@ Command add_page(CLI::App& app, const char* name, const char* meaning, std::stri
   auto file = std::make_shared<std::string>();
   option(*command, "file", *file, "FILE", "Where to; stdout if not given");
   return {command, [file, page, &app] {
-            const std::string wrong = write_output(file->empty() ? "-" : *file, page(app));
-            return wrong.empty() ? kDone : fail(kInputOutput, wrong);
+            const auto written = write_output(file->empty() ? "-" : *file, page(app));
+            return written ? kDone : fail(kInputOutput, written.error());
           }};
 }
 

@@ -18,10 +18,9 @@ int init(const std::string& file) {
     write_out(io::commented_scene());
     return kDone;
   }
-  const std::string problem = std::filesystem::exists(file)
-                                  ? file + ": it exists already"
-                                  : io::problem_of(io::write_named_file(file, io::commented_scene()));
-  if (!problem.empty()) return fail(kInputOutput, problem);
+  if (std::filesystem::exists(file)) return fail(kInputOutput, file + ": it exists already");
+  if (const auto written = io::write_named_file(file, io::commented_scene()); !written)
+    return fail(kInputOutput, written.error());
   print_out("{}: a commented scene; run it with\n  polynya run {}\n", file, file);
   return kDone;
 }

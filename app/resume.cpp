@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "app/carry_out.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
 #include "app/load_scene.hpp"
 #include "app/options.hpp"
+#include "app/run_driver.hpp"
 #include "app/stop_signal.hpp"
 #include "io/run/active_run.hpp"
 #include "io/run/failure_dump.hpp"
@@ -27,7 +27,7 @@ struct ResumeOptions {
   std::string folder;
   std::string checkpoint;     ///< empty: the newest
   bool from_failure = false;  ///< only repeats the step that a failure was dumped for
-  CarryOptions carry;
+  DriverOptions driver;
 };
 
 int refuse(const std::string& reason) {
@@ -97,7 +97,7 @@ int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const
     print_err("polynya: {}: no checkpoint was written yet; from the start\n", folder.string());
     auto writer = io::RunWriter::begin(std::move(lock), scene);
     if (!writer) return refuse(writer.error());
-    return carry_out({scene, Simulation(scene.scene), std::move(*writer)}, options.carry);
+    return drive_run({scene, Simulation(scene.scene), std::move(*writer)}, options.driver);
   }
   const fs::path chosen = options.checkpoint.empty() ? checkpoints.front() : fs::path(options.checkpoint);
   auto run = io::resume_run(std::move(lock), scene, chosen);
@@ -107,7 +107,7 @@ int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const
     return kInputOutput;
   }
   print_err("polynya: from {} at {:.6g} s\n", chosen.filename().string(), run->simulation.time());
-  return carry_out(std::move(*run), options.carry);
+  return drive_run(std::move(*run), options.driver);
 }
 
 int resume(const ResumeOptions& options) {
@@ -144,7 +144,7 @@ Command add_resume(CLI::App& app) {
       ->add_flag("--from-failure", options->from_failure,
                  "Repeat the step for which failure.bin was dumped; nothing is written")
       ->excludes(checkpoint);
-  add_run_options(*command, options->carry);
+  add_run_options(*command, options->driver);
   return {command, [options] { return resume(*options); }};
 }
 

@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "app/carry_out.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/load_scene.hpp"
 #include "app/memory_check.hpp"
 #include "app/options.hpp"
+#include "app/run_driver.hpp"
 #include "app/stop_signal.hpp"
 #include "io/run/run_writer.hpp"
 #include "simulation/simulation.hpp"
@@ -24,7 +24,7 @@ struct RunOptions {
   std::optional<double> until;  ///< [s]
   std::optional<std::uint64_t> seed;
   bool overwrite = false;
-  CarryOptions carry;
+  DriverOptions driver;
 };
 
 /// A run before its first step. Whether it fits into memory is checked before anything is written.
@@ -60,7 +60,7 @@ int run(const RunOptions& options) {
     print_err("polynya: {}\n", writer.error());
     return kInputOutput;
   }
-  return carry_out({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.carry);
+  return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ Command add_run(CLI::App& app) {
          between(1e-9, 1e7));
   option(*command, "--seed", options->seed, "N", "Seed instead of the scene's",
          CLI::Range(0.0, 9007199254740991.0));
-  add_run_options(*command, options->carry);
+  add_run_options(*command, options->driver);
   command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
   return {command, [options] { return run(*options); }};
 }

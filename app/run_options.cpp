@@ -4,7 +4,7 @@
 
 namespace polynya::app {
 
-void add_run_options(CLI::App& command, CarryOptions& options) {
+void add_run_options(CLI::App& command, DriverOptions& options) {
   option(command, "--threads", options.threads, "N", "Threads to step on; results do not depend on it",
          CLI::Range(1, 1024));
   option(command, "--checkpoint-every", options.checkpoint_every, "S",

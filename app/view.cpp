@@ -54,9 +54,9 @@ int write_view(const Options& options) {
   const double megabytes = static_cast<double>(page.size()) / 1e6;
   if (megabytes > options.most_megabytes) return fail(kUsage, too_large(megabytes, options));
   const fs::path in_run = fs::path(options.run) / io::run_file::kView;
-  const std::string failure = options.out.empty() ? io::problem_of(io::write_whole_file(in_run, page))
-                                                  : write_output(options.out, page);
-  if (!failure.empty()) return fail(kInputOutput, failure);
+  const auto written =
+      options.out.empty() ? io::write_whole_file(in_run, page) : write_output(options.out, page);
+  if (!written) return fail(kInputOutput, written.error());
   const bool is_on_stdout = !options.out.empty() && is_stdout(options.out);
   (is_on_stdout ? write_err : write_out)(
       fmt::format("{}  {:.1f} MB, {} frames, {} floes, {} events; open it in a browser\n",

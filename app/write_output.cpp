@@ -24,20 +24,20 @@ bool is_stdout(const std::string& file) {
   return file == "-" || is_open_as(file, STDOUT_FILENO);
 }
 
-std::string write_output(const std::string& file, const std::string& text) {
+io::Result<> write_output(const std::string& file, const std::string& text) {
   // Replacing the file that a stream goes to would lose what else is written there.
   if (is_stdout(file))
     write_out(text);
   else if (is_open_as(file, STDERR_FILENO))
     write_err(text);
   else
-    return io::problem_of(io::write_named_file(file, text));
-  return "";
+    return io::write_named_file(file, text);
+  return {};
 }
 
-std::string write_product(const std::string& out, const std::string& run, std::string_view name,
-                          const std::string& text) {
-  if (out.empty()) return io::problem_of(io::write_whole_file(std::filesystem::path(run) / name, text));
+io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
+                           const std::string& text) {
+  if (out.empty()) return io::write_whole_file(std::filesystem::path(run) / name, text);
   return write_output((std::filesystem::path(out) / name).string(), text);
 }
 

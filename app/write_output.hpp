@@ -3,19 +3,20 @@
 #include <string>
 #include <string_view>
 
+#include "io/text/result.hpp"
+
 namespace polynya::app {
 
 /// Whether the name means the program's own stdout: "-", "/dev/stdout", or the file that stdout goes to.
 bool is_stdout(const std::string& file);
 
 /// Writes to a name that a user gave: to a file, or into a pipe, a device or the program's own stdout or
-/// stderr. Returns what went wrong; empty where all is well, and for stdout and stderr, of which
-/// close_streams() reports.
-std::string write_output(const std::string& file, const std::string& text);
+/// stderr, whose failures close_streams() reports.
+io::Result<> write_output(const std::string& file, const std::string& text);
 
 /// Writes what a command makes of a run: into the folder `out` that a user named, or where that is empty into
-/// the run's, where links are not followed. Returns what went wrong; empty where all is well.
-std::string write_product(const std::string& out, const std::string& run, std::string_view name,
-                          const std::string& text);
+/// the run's, where links are not followed.
+io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
+                           const std::string& text);
 
 }  // namespace polynya::app

@@ -165,7 +165,7 @@ const Object kRecord{
      field("frames_interval_s", Kind::kNumber, "s", above(0, 1e6), "2", "between frames of frames.bin",
            [](Draft& d, const Value& v) { d.scene.record.frames_interval = v.number(); }),
      field("contacts", Kind::kChoice, "", {}, "\"ships\"",
-           "which contacts contacts.csv tells at every frame: those with ships and structures, those between "
+           "which contacts contacts.csv has at every frame: those with ships and structures, those between "
            "floes "
            "too, none",
            [](Draft& d, const Value& v) {

@@ -213,7 +213,7 @@ std::string scene_tables() {
 std::string commented_scene() {
   std::string text =
       "// A scene for polynya. What stands here are the defaults; delete what you do not change.\n"
-      "// Everything a scene may say: docs/scene.md, or `polynya schema`.\n{\n";
+      "// Everything a scene may hold: docs/scene.md, or `polynya schema`.\n{\n";
   append_settings(text, scene_object(), 1);
   text += kExampleShips;
   text += kExampleFloes;

@@ -15,9 +15,4 @@ inline tl::unexpected<std::string> fail(std::string reason) {
   return tl::unexpected<std::string>(std::move(reason));
 }
 
-/// The error's text, or nothing, for callers that gather problems.
-inline std::string problem_of(const Result<>& result) {
-  return result ? "" : result.error();
-}
-
 }  // namespace polynya::io

@@ -49,7 +49,7 @@ void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelect
 
 void write_force_columns(io::JsonWriter& json, const simulation::Scene& scene) {
   json.key("force_columns").open('[');
-  for (const io::ForceColumn* column : plotted_columns(scene)) {
+  for (const io::ForceColumn* column : io::plotted_columns(scene)) {
     json.open('{').key("name").value(column->name).key("unit").value(column->unit);
     json.key("plot").value(column->plot).key("curve").value(name_of(column->curve));
     json.key("is_optional").value(column->is_optional).close('}');

@@ -1,4 +1,4 @@
-#include "app/carry_out.hpp"
+#include "app/run_driver.hpp"
 
 #include <filesystem>
 #include <new>
@@ -119,7 +119,7 @@ ExitCode report_cut_off(const io::ActiveRun& run, const io::RunResult& result) {
 
 }  // namespace
 
-ExitCode carry_out(io::ActiveRun run, const CarryOptions& options) {
+ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
   Progress progress(options.progress, run.scene.scene.time.until);
   const io::RunResult result =
       run_to_end(run, {.threads = options.threads,

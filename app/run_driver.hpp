@@ -7,6 +7,6 @@
 namespace polynya::app {
 
 /// Takes a run to its end, or to what stops it (io/run/run_loop.hpp), and prints the result.
-ExitCode carry_out(io::ActiveRun run, const CarryOptions& options);
+ExitCode drive_run(io::ActiveRun run, const DriverOptions& options);
 
 }  // namespace polynya::app
