@@ -82,8 +82,8 @@ tl::expected<FloeShapes, std::string> read_lines(const std::string& text) {
     if (!shape) return tl::unexpected(shape.error());
     const JsonValue* parent = line.root.find("parent_id");
     const bool has_parent = parent && parent->is(JsonValue::Kind::kNumber);
-    const auto added = shapes.add(
-        std::move(*shape), has_parent ? static_cast<FloeId>(parent->number()) : simulation::kNoFloe);
+    const auto added = shapes.add(std::move(*shape),
+                                  has_parent ? static_cast<FloeId>(parent->number()) : simulation::kNoFloe);
     if (!added) return tl::unexpected(added.error());
     start = end + 1;
   }
