@@ -3,7 +3,6 @@
 #include <array>
 #include <cassert>
 #include <charconv>
-#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -271,16 +270,6 @@ tl::expected<BendingDatabase, DatabaseError> parse_database(std::string_view tex
   if (!reader.has_failed() && !reader.is_at_end()) reader.fail("something follows the hash");
   if (reader.has_failed()) return tl::unexpected(reader.error());
   return BendingDatabase(settings, std::move(grid), std::move(entries));
-}
-
-tl::expected<BendingDatabase, DatabaseError> read_database(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(kLargestFile + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad() || (!file.eof() && file.fail()) || !file.is_open())
-    return tl::unexpected(DatabaseError{0, "cannot read " + path.string()});
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse_database(text);
 }
 
 const BendingDatabase& default_database() {

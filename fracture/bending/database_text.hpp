@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -29,8 +28,6 @@ std::string write_database(const BendingDatabase& database);
 /// extra entry or a wrong hash is an error with its line. Takes at most kMostEntries entries and kLargestFile
 /// bytes.
 tl::expected<BendingDatabase, DatabaseError> parse_database(std::string_view text);
-
-tl::expected<BendingDatabase, DatabaseError> read_database(const std::filesystem::path& path);
 
 inline constexpr std::size_t kMostEntries = 200'000;
 inline constexpr std::size_t kLargestFile = 16'000'000;

@@ -8,9 +8,6 @@
 
 namespace polynya::simulation {
 
-/// Of the bytes of save_state. Raised when the field lists (state_fields.hpp) change.
-inline constexpr std::uint32_t kStateVersion = 3;
-
 /// All that decides how a run continues, beside its scene, as bytes: doubles bit by bit. Taken between two
 /// steps, after the journal. What follows from shapes (masses, boundaries, drag) is left out, and so is what
 /// only culls.

@@ -8,7 +8,7 @@
 namespace polynya::simulation {
 
 // What a run's state is made of, member by member. A member that is added here is kept, read back and hashed;
-// raise kStateVersion (state.hpp) with it.
+// raise kCheckpointVersion (io/run/checkpoint.hpp) with it.
 
 /// Where a body is and how it moves, and how far it has travelled, which bounds its neighbours' caches.
 struct BodyMotion {

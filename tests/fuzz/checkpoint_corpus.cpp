@@ -1,5 +1,4 @@
-// Writes the seeds of checkpoint_fuzz into a folder: run it again when kStateVersion or kCheckpointVersion
-// rises.
+// Writes the seeds of checkpoint_fuzz into a folder: run it again when kCheckpointVersion rises.
 //   build/dev/tests/fuzz/checkpoint_corpus tests/fuzz/checkpoint_fuzz_corpus
 
 #include <fstream>

@@ -2,8 +2,6 @@
 // outside.
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <random>
 #include <string>
@@ -382,17 +380,6 @@ TEST(DatabaseText, RoundTripsByteForByte) {
   EXPECT_EQ(read->settings(), small_database().settings());
   EXPECT_EQ(write_database(default_database()), default_database_text());
   EXPECT_NE(text.find("hash fnv1a64 " + database_hash(small_database())), std::string::npos);
-}
-
-TEST(DatabaseText, ReadsFromAFile) {
-  const auto path = std::filesystem::temp_directory_path() / "polynya_database_test.txt";
-  std::ofstream(path, std::ios::binary) << write_database(small_database());
-  const auto read = read_database(path);
-  ASSERT_TRUE(read.has_value()) << read.error().message;
-  EXPECT_EQ(read->entries(), small_database().entries());
-  std::filesystem::remove(path);
-  EXPECT_EQ(read_database(path).error().message, "cannot read " + path.string());
-  EXPECT_FALSE(read_database(std::filesystem::temp_directory_path()).has_value());
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
