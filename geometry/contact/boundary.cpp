@@ -13,7 +13,7 @@ constexpr std::uint32_t kLeafCircles = 4;
 std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t count) {
   const auto index = static_cast<std::uint32_t>(boundary.tree.size());
   boundary.tree.push_back({});
-  const auto begin = boundary.covers.begin() + first;
+  const auto begin = boundary.bounding_circles.begin() + first;
   Box box{begin->centre, begin->centre};
   for (auto c = begin; c != begin + count; ++c) extend(box, c->centre);
   CircleNode node{midpoint(box.low, box.high), 0, first, count, 0};
@@ -43,16 +43,17 @@ Boundary make_outline(const Polygon& polygon) {
 
 void make_ready(Boundary& boundary, const CircleRule& rule) {
   boundary.pieces = boundary_pieces(boundary.edges, rule.circle_radius);
-  boundary.covers.reserve(boundary.pieces.size());
+  boundary.bounding_circles.reserve(boundary.pieces.size());
   if (rule.has_circles) {
     boundary.circles = sample_contact_circles(boundary.edges, boundary.pieces, rule.circle_radius);
     for (const ContactCircle& circle : boundary.circles)
-      boundary.covers.push_back({circle.centre, circle.reach});
+      boundary.bounding_circles.push_back({circle.centre, circle.reach});
   } else {
-    for (const BoundaryPiece& piece : boundary.pieces) boundary.covers.push_back({piece.middle, piece.reach});
+    for (const BoundaryPiece& piece : boundary.pieces)
+      boundary.bounding_circles.push_back({piece.middle, piece.reach});
   }
-  boundary.tree.reserve(boundary.covers.size());
-  build_node(boundary, 0, static_cast<std::uint32_t>(boundary.covers.size()));
+  boundary.tree.reserve(boundary.bounding_circles.size());
+  build_node(boundary, 0, static_cast<std::uint32_t>(boundary.bounding_circles.size()));
 }
 
 Boundary make_boundary(const Polygon& polygon, const CircleRule& rule) {
@@ -78,9 +79,10 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
     }
     if (na.right == 0 && nb.right == 0) {
       for (std::uint32_t k = nb.first; k < nb.first + nb.count; ++k) {
-        const Point centre = transform(a_from_b, b.covers[k].centre);
+        const Point centre = transform(a_from_b, b.bounding_circles[k].centre);
         for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
-          const double free = distance(a.covers[i].centre, centre) - a.covers[i].reach - b.covers[k].reach;
+          const double free = distance(a.bounding_circles[i].centre, centre) - a.bounding_circles[i].reach -
+                              b.bounding_circles[k].reach;
           bound = std::min(bound, free);
           if (free <= margin) circle_pairs.push_back({i, k});
         }

@@ -8,41 +8,41 @@
 
 namespace polynya::geometry {
 
-/// A circle that covers a piece of boundary.
+/// A circle that holds a piece of boundary.
 struct BoundingCircle {
   Point centre;      ///< [m]
   double reach = 0;  ///< [m]
 };
 
-/// A node of the tree over a boundary's covers: a circle that covers all of its own.
+/// A node of the tree over a boundary's bounding circles: a circle around all of its own.
 struct CircleNode {
   Point centre;             ///< [m]
   double reach = 0;         ///< [m]
-  std::uint32_t first = 0;  ///< first cover
-  std::uint32_t count = 0;  ///< number of covers; children split them in halves
+  std::uint32_t first = 0;  ///< first bounding circle
+  std::uint32_t count = 0;  ///< number of bounding circles; children split them in halves
   std::uint32_t right = 0;  ///< index of the second child, the first is the next node; 0 at a leaf
 };
 
-/// How a boundary is covered.
+/// Which circles a boundary has.
 struct CircleRule {
   double circle_radius = 1.0;  ///< of contact circles, and the most length of a piece [m]
-  bool has_circles = false;  ///< contact circles touch the boundary from inside (find_circle_manifolds wants
-                             ///< them); without, covers stand on it and are tighter
+  bool has_circles = false;    ///< contact circles, for find_circle_manifolds: bounding circles then share
+                               ///< their centres; without, they stand on the boundary and are tighter
 };
 
-/// A body's boundary: its edges and, once it is ready for finding contacts, its pieces, covers of the pieces
-/// and a tree over the covers. Everything is in the body frame.
+/// A body's boundary: its edges and, once it is ready for finding contacts, its pieces, their bounding
+/// circles and a tree over these. Everything is in the body frame.
 struct Boundary {
   EdgeList edges;
   std::vector<BoundaryPiece> pieces;
-  std::vector<ContactCircle> circles;  ///< of the pieces; empty where the rule has none
-  std::vector<BoundingCircle> covers;  ///< of the pieces: the circles' centres, or the pieces' middles
+  std::vector<ContactCircle> circles;            ///< of the pieces; empty where the rule has none
+  std::vector<BoundingCircle> bounding_circles;  ///< of the pieces, about contact circles' centres or middles
   std::vector<CircleNode> tree;
 
   bool is_ready() const { return !tree.empty(); }
 };
 
-/// A boundary of which only the edges are there yet: a floe that nobody comes near needs no more.
+/// A boundary with edges only: enough for a floe that no body comes near.
 Boundary make_outline(const Polygon& polygon);
 
 /// Makes a boundary ready for finding contacts.
@@ -50,20 +50,20 @@ void make_ready(Boundary& boundary, const CircleRule& rule);
 
 Boundary make_boundary(const Polygon& polygon, const CircleRule& rule);
 
-/// A pair of edges (or of covers) of two boundaries that are near each other.
+/// A pair of edges (or of bounding circles) of two boundaries that are near each other.
 struct NearPair {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   friend auto operator<=>(const NearPair&, const NearPair&) = default;
 };
 
-/// Finds what two boundaries have near each other: all pairs of covers within `margin` of each other [m], and
-/// so all pieces. Appends to `circle_pairs`. Returns a lower bound of the distance between the
-/// boundaries [m], of use where nothing is within the margin.
+/// All pairs of bounding circles of two boundaries within `margin` of each other [m], and so all near pieces.
+/// Appends to `circle_pairs`. Returns a lower bound of the distance between the boundaries [m], of use where
+/// nothing is within the margin.
 double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs);
 
-/// The pairs of edges behind pairs of covers, each once, in order.
+/// The pairs of edges on the pieces of pairs of bounding circles, each once, in order.
 void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
               std::vector<NearPair>& edge_pairs);
 

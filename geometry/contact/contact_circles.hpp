@@ -21,7 +21,7 @@ struct EdgeList {
 
 EdgeList edge_list(const Polygon& polygon);
 
-/// A piece of boundary that one contact circle stands for: a part of one long edge, or some short edges in a
+/// A piece of boundary with one contact circle: a part of one long edge, or some short edges in a
 /// row.
 struct BoundaryPiece {
   Point middle;                   ///< half-way along it, on the boundary, in the body frame [m]

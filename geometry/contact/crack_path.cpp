@@ -33,7 +33,7 @@ std::vector<std::uint32_t> edges_near_line(const Boundary& boundary, Point point
       continue;
     }
     for (std::uint32_t c = node.first; c < node.first + node.count; ++c) {
-      if (!is_near(boundary.covers[c])) continue;
+      if (!is_near(boundary.bounding_circles[c])) continue;
       std::uint32_t e = boundary.pieces[c].first_edge;
       for (std::uint32_t k = 0; k < boundary.pieces[c].edges; ++k, e = boundary.edges.next[e])
         near.push_back(e);

@@ -95,7 +95,7 @@ struct ChainExtent {
 template <typename InFrame>
 ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to,
                  double width, Vector outward, bool wraps, InFrame in_frame, std::vector<Point>& profile) {
-  constexpr int kMostVertices = 4096;  // a stretch this long is no contact: the bodies stand in each other
+  constexpr int kMostVertices = 4096;  // a stretch this long is no contact: the bodies lie deep in each other
   ChainExtent extent;
   extent.tip = midpoint(from, to);
   extent.tip_edge = first;
@@ -141,7 +141,7 @@ double off_at(const std::vector<Point>& profile, double along) {
 /// the line.
 double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& b_side, double line) {
   constexpr std::size_t kMostProduct =
-      4096;  // beyond, the sum is near enough for bodies that stand in each other
+      4096;  // beyond, the sum is near enough for bodies that lie deep in each other
   double most = 0;
   double sum = 0;
   for (const Point p : a_side) sum = std::max(sum, p.y);

@@ -37,6 +37,7 @@ struct CutResult {
   CutLedger ledger;
 };
 
+/// In the order of name_of().
 enum class CutFailure {
   kInvalidShape,     ///< the shape itself is not a valid polygon
   kInvalidTool,      ///< the disc, polygon or polyline is not usable

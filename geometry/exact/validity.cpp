@@ -69,7 +69,7 @@ Found find_edge_defect(const Polygon& polygon, const std::vector<Edge>& edges, s
     } else {
       touches.push_back({meeting.at, i, j});
     }
-    // A touch may yet turn out to be the end of an overlap, which is the better name for it.
+    // A touch may prove to be the end of an overlap, which is the better name.
     return !found || meeting.kind == Meeting::kTouch;
   });
   return found;

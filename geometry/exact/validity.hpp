@@ -8,7 +8,7 @@
 
 namespace polynya::geometry {
 
-/// Why a polygon is not valid by OGC Simple Features. Decided exactly.
+/// Why a polygon is not valid by OGC Simple Features. Decided exactly. In the order of name_of().
 enum class Defect {
   kTooFewPoints,      ///< fewer than three distinct points in a ring
   kNotFinite,         ///< a coordinate that is NaN, infinite or beyond 1e70 m

@@ -12,7 +12,7 @@ struct Vector {
   friend bool operator==(const Vector&, const Vector&) = default;
 };
 
-/// A position in the plane [m]. Which frame it is in stands in the name of the variable that holds it.
+/// A position in the plane [m]. The variable's name states its frame.
 struct Point {
   double x = 0;
   double y = 0;

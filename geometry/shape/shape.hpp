@@ -7,8 +7,8 @@ namespace polynya::geometry {
 /// A floe's shape at rest in its body frame. Every double is a rational: these are its exact coordinates.
 struct Shape {
   Polygon polygon;
-  /// Set by the cuts on their pieces, whose validity they have just established: the next cut need not look
-  /// again. Whoever edits `polygon` by hand clears it.
+  /// Set by the cuts on their pieces, which are valid: the next cut does not validate them again. Clear it
+  /// after editing `polygon`.
   bool known_valid = false;
 };
 

@@ -121,14 +121,16 @@ TEST_F(RandomFloes, TheTreesNodesCoverTheirPieces) {
     for (std::size_t n = 0; n < boundary.tree.size(); ++n) {
       const CircleNode& node = boundary.tree[n];
       for (std::uint32_t c = node.first; c < node.first + node.count; ++c) {
-        ASSERT_LE(distance(node.centre, boundary.covers[c].centre) + boundary.covers[c].reach, node.reach);
+        ASSERT_LE(
+            distance(node.centre, boundary.bounding_circles[c].centre) + boundary.bounding_circles[c].reach,
+            node.reach);
       }
       if (node.right == 0) continue;
       ASSERT_EQ(boundary.tree[n + 1].count + boundary.tree[node.right].count, node.count);
       ASSERT_EQ(boundary.tree[n + 1].first, node.first);
       ASSERT_EQ(boundary.tree[node.right].first, node.first + boundary.tree[n + 1].count);
     }
-    ASSERT_EQ(boundary.tree.front().count, boundary.covers.size());
+    ASSERT_EQ(boundary.tree.front().count, boundary.bounding_circles.size());
   }
 }
 

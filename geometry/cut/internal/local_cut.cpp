@@ -25,7 +25,7 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
   return sum;
 }
 
-// Σ pieces − shape, in shoelace terms: every chain of the shape stands in the pieces once, every chord once
+// Σ pieces − shape, in shoelace terms: every chain of the shape is in the pieces once, every chord once
 // in each direction, where its terms cancel; untouched rings are carried over. What is left is each split
 // edge against the sub-edges it became, and that is summed here in rationals: before rounding it must be
 // zero for every edge by itself. Returns twice the area that rounding the nodes adds; none where a sum is not
