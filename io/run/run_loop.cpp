@@ -80,14 +80,10 @@ class RunLoop {
 
 Stop RunLoop::advance() {
   try {
+    simulation().set_threads(control_.threads);
     return advance_to_end().value_or(Stop{});
   } catch (const std::bad_alloc&) {
     return memory_ran_out();
-  } catch (const std::system_error&) {
-    throw;
-  } catch (const std::runtime_error& no_thread) {  // TBB's, which starts threads when it needs them
-    if (control_.threads == 1) throw;
-    return {RunEnd::kOutOfMemory, no_thread.what()};
   }
 }
 
@@ -201,7 +197,6 @@ RunResult RunLoop::cut_off(Stop stop) {
 
 RunResult run_to_end(ActiveRun& run, const RunControl& control) {
   keep_memory_reserve();
-  run.simulation.set_threads(control.threads);
   RunLoop loop(run, control);
   Stop stop = loop.advance();
   try {

@@ -125,26 +125,15 @@ bool OutputFile::is_in_place() const {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-namespace {
-
-Result<> sync_opened(const std::filesystem::path& path, int flags) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
+Result<> sync_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder.empty() ? "." : folder;
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY);
   if (descriptor < 0 && errno == EACCES) return {};
   if (descriptor < 0) return failed_in_run_folder(path, errno);
   Result<> synced;
   if (::fsync(descriptor) != 0 && errno != EINVAL) synced = failed_in_run_folder(path, errno);
   ::close(descriptor);
   return synced;
-}
-
-}  // namespace
-
-Result<> sync_file(const std::filesystem::path& path) {
-  return sync_opened(path, O_NOFOLLOW);
-}
-
-Result<> sync_folder(const std::filesystem::path& folder) {
-  return sync_opened(folder.empty() ? "." : folder, O_DIRECTORY);
 }
 
 namespace {

@@ -74,9 +74,8 @@ enum class Durability {
   kSynced,   ///< whole, and there, whatever happens to the machine
 };
 
-/// Waits until a file's content is on the disk, or a folder's names. File systems that cannot, and folders
-/// that cannot be read, are taken at their word.
-Result<> sync_file(const std::filesystem::path& path);
+/// Waits until a folder's names are on the disk. File systems that cannot, and folders that cannot be read,
+/// are taken at their word.
 Result<> sync_folder(const std::filesystem::path& folder);
 
 /// Writes a file of a run folder at once: to a temporary name beside it, then renamed, so that a reader gets

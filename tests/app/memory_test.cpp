@@ -75,6 +75,27 @@ TEST(Memory, RunsOutAtAnyPointAndLeavesNothingOrAWholeFolder) {
   EXPECT_GT(during, 0);
 }
 
+/// Threads are made before the first step, where that there is no room for one is an exception: TBB aborts.
+TEST(Memory, RunsOutOnSeveralThreadsToo) {
+  const TemporaryFolder folder;
+  const Start start{folder.path()};
+  write_file(folder / "scene.json", drifting_floes(70));
+  int stopped = 0;
+  for (rlim_t limit = 60; limit < 400; limit += 7) {
+    const std::string out = "run" + std::to_string(limit);
+    const Outcome outcome =
+        run_within(limit * kMegabyte, start,
+                   {"run", "scene.json", "--out", out, "--progress", "none", "--threads", "4"});
+    if (outcome.code == 0) break;
+    SCOPED_TRACE(std::to_string(limit) + " MB: " + outcome.err);
+    ASSERT_EQ(outcome.code, 4);
+    if (!std::filesystem::exists(folder / out) || io::is_finished_run(folder / out)) continue;
+    expect_stopped_run(folder / out);
+    ++stopped;
+  }
+  EXPECT_GT(stopped, 0);
+}
+
 /// The most memory that a run had [bytes]. Without rsvg-convert, whose memory would count too.
 double peak_of_run(const std::string& scene, Start start) {
   start.arrange_streams = [] { setenv("PATH", "", 1); };

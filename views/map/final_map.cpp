@@ -36,7 +36,6 @@ tl::expected<std::string, std::string> draw_final_map(const io::Run& run) {
     return io::fail(written.error());
   const auto png = run.folder / io::run_file::kFinalPng;
   if (svg.size() > kLargestConverted || !convert_svg(file, png)) return std::string(io::run_file::kFinalSvg);
-  if (const auto synced = io::sync_file(png); !synced) return io::fail(synced.error());
   return std::string(io::run_file::kFinalPng);
 }
 
