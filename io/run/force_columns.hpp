@@ -36,18 +36,21 @@ struct ForceColumn {
   std::string_view plot = {};           ///< title of its plot in the player; empty: none
   CurveKind curve = CurveKind::kMean;   ///< in that plot
 
-  constexpr ForceColumn optional() const { return with(&ForceColumn::is_optional, true); }
-  constexpr ForceColumn with_peak(ShownWhere where) const { return with(&ForceColumn::peak, where); }
-  constexpr ForceColumn plotted(std::string_view title, CurveKind kind = CurveKind::kMean) const {
-    return with(&ForceColumn::plot, title).with(&ForceColumn::curve, kind);
+  constexpr ForceColumn optional() const {
+    ForceColumn column = *this;
+    column.is_optional = true;
+    return column;
   }
-
- private:
-  template <class Member, class Value>
-  constexpr ForceColumn with(Member ForceColumn::*member, Value value) const {
-    ForceColumn changed = *this;
-    changed.*member = value;
-    return changed;
+  constexpr ForceColumn with_peak(ShownWhere where) const {
+    ForceColumn column = *this;
+    column.peak = where;
+    return column;
+  }
+  constexpr ForceColumn plotted(std::string_view title, CurveKind kind = CurveKind::kMean) const {
+    ForceColumn column = *this;
+    column.plot = title;
+    column.curve = kind;
+    return column;
   }
 };
 

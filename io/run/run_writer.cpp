@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -75,6 +76,16 @@ Result<> check_size(const std::filesystem::path& file, std::uint64_t size_then) 
   return fail(fmt::format("{}: {} bytes; at the checkpoint there were {}", file.string(), size, size_then));
 }
 
+/// Whether a file begins as this program begins it: a row of other columns under its header would be lost.
+Result<> check_header(const std::filesystem::path& file, std::string_view header) {
+  std::string there(header.size(), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(there.data(), static_cast<std::streamsize>(there.size()));
+  if (stream && there == header) return {};
+  return fail(fmt::format("{}: its columns are those of another version of polynya, which can continue it",
+                          file.string()));
+}
+
 /// Whether the folder can be cut back to a checkpoint, before any of its files is.
 Result<> check_progress(const RunProgress& progress, const std::filesystem::path& folder,
                         const simulation::Scene& scene) {
@@ -86,6 +97,11 @@ Result<> check_progress(const RunProgress& progress, const std::filesystem::path
     return fail(fmt::format("{}: the checkpoint is of another run", folder.string()));
   for (std::size_t i = 0; i < kGrowing.size(); ++i)
     if (auto checked = check_size(folder / kGrowing[i], progress.file_sizes[i]); !checked) return checked;
+  const std::pair<std::size_t, std::string> headers[] = {{kForces, forces_header()},
+                                                         {kContacts, std::string(contacts_header())},
+                                                         {kStates, std::string(states_header())}};
+  for (const auto& [file, header] : headers)
+    if (auto checked = check_header(folder / kGrowing[file], header); !checked) return checked;
   return {};
 }
 

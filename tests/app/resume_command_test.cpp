@@ -98,6 +98,19 @@ TEST_F(Resume, ACheckpointOfAnotherRunIsRefused) {
   EXPECT_NE(resume({"--checkpoint", "nowhere.bin"}).err.find("no such file"), std::string::npos);
 }
 
+/// A run of another version, whose forces.csv has other columns.
+TEST_F(Resume, RowsAreNotWrittenUnderAnotherHeader) {
+  interrupt();
+  const auto forces = folder_ / "run" / io::run_file::kForces;
+  std::string text = read_file(forces);
+  text.replace(text.find("surge_N"), 7, "other_N");
+  write_file(forces, text);
+  const Outcome refused = resume();
+  EXPECT_EQ(refused.code, 5);
+  EXPECT_NE(refused.err.find("its columns are those of another version"), std::string::npos) << refused.err;
+  EXPECT_EQ(read_file(forces), text) << "nothing is cut back";
+}
+
 TEST_F(Resume, OutputThatIsMissingIsRefused) {
   interrupt();
   const std::string events = read_file(folder_ / "run/events.ndjson");

@@ -40,7 +40,7 @@ void read_births(const std::string& text) {
     auto shape = polynya::io::read_shape(line.root);
     if (!shape) return require(!shape.error().empty());
     const auto parent = polynya::io::floe_id_in(line.root, "parent_id");
-    if (!shapes.add(std::move(*shape), parent.value_or(-1)).empty()) return;
+    if (!shapes.add(std::move(*shape), parent.value_or(-1))) return;
     const auto polygon = shapes.of(static_cast<std::int64_t>(shapes.size()) - 1);
     require(polygon->outer.size() >= 3 && vertex_count(*polygon) < text.size());
     start = end + 1;
