@@ -13,9 +13,7 @@
 #include "io/run/active_run.hpp"
 #include "io/run/failure_dump.hpp"
 #include "io/run/run_folder.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/run/summary.hpp"
-#include "views/map/final_map.hpp"
 
 namespace polynya::app {
 namespace {
@@ -84,10 +82,9 @@ int report_finished(const fs::path& folder) {
   if (!lock) return kDone;                            // another polynya holds it and does what is left
   static_cast<void>(io::remove_checkpoints(folder));  // a later command tries again
   if (is_drawn) return kDone;
-  const auto run = io::read_run(folder);
-  if (!run) return refuse(run.error());
-  const auto drawn = views::draw_final_map(*run);
-  return drawn ? kDone : refuse(drawn.error());
+  const DrawnMap map = draw_map(folder);
+  if (map.end != io::RunEnd::kFinished) refuse(map.reason);
+  return exit_code_of(map.end);
 }
 
 int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const ResumeOptions& options) {

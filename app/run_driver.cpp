@@ -26,22 +26,6 @@ std::optional<std::string> reason_to_stop() {
   return signal == 2 ? "SIGINT" : signal == 15 ? "SIGTERM" : fmt::format("signal {}", signal);
 }
 
-ExitCode exit_code_of(RunEnd end) {
-  switch (end) {
-    case RunEnd::kFinished:
-      return kDone;
-    case RunEnd::kStopped:
-      return kStopped;
-    case RunEnd::kNumericalFailure:
-      return kNumericalFailure;
-    case RunEnd::kOutOfMemory:
-      return kOutOfMemory;
-    case RunEnd::kFolderFailure:
-      return kInputOutput;
-  }
-  return kDone;
-}
-
 /// A reason, with how much memory there is where that ran out.
 std::string in_words(const std::string& reason) {
   return reason == io::kMemoryRanOut ? out_of_memory() : reason;
@@ -72,32 +56,18 @@ void report_dump(const std::string& folder, const io::Result<>& dump) {
     print_err("polynya: the failure could not be dumped: {}\n", in_words(dump.error()));
 }
 
-/// Draws the run's map and returns its name; empty where the folder cannot be read back, or the map not
-/// written, which is a failure of the run's output, or does not fit into memory.
-std::string draw(const std::filesystem::path& folder, io::RunResult& result) {
-  try {
-    const auto run = io::read_run(folder);
-    if (!run) print_err("note: no map is drawn: {}\n", run.error());
-    if (!run) return "";
-    auto drawn = views::draw_final_map(*run);
-    if (drawn) return *drawn;
-    result.end = RunEnd::kFolderFailure;
-    result.reason = drawn.error();
-  } catch (const std::bad_alloc&) {
-    result.end = RunEnd::kOutOfMemory;
-    result.reason = "the final map: " + out_of_memory();
-  }
-  return "";
-}
-
 ExitCode report(io::ActiveRun& run, io::RunResult result) {
   { const simulation::Simulation freed = std::move(run.simulation); }  // makes room for the map
   const std::filesystem::path& folder = run.writer.folder();
-  const std::string picture = result.end == RunEnd::kFolderFailure ? "" : draw(folder, result);
+  const DrawnMap map = result.end == RunEnd::kFolderFailure ? DrawnMap{} : draw_map(folder);
+  if (map.end != RunEnd::kFinished) {
+    result.end = map.end;
+    result.reason = map.reason;
+  }
   if (result.end != RunEnd::kFinished) report_stop(run, result);
   if (result.dump) report_dump(folder.string(), *result.dump);
   for (const std::string& warning : result.summary.warnings) print_err("note: {}\n", warning);
-  if (result.end != RunEnd::kFolderFailure) print_result(result.summary, run.scene.scene, folder, picture);
+  if (result.end != RunEnd::kFolderFailure) print_result(result.summary, run.scene.scene, folder, map.name);
   return exit_code_of(result.end);
 }
 
@@ -118,6 +88,36 @@ ExitCode report_cut_off(const io::ActiveRun& run, const io::RunResult& result) {
 }
 
 }  // namespace
+
+ExitCode exit_code_of(RunEnd end) {
+  switch (end) {
+    case RunEnd::kFinished:
+      return kDone;
+    case RunEnd::kStopped:
+      return kStopped;
+    case RunEnd::kNumericalFailure:
+      return kNumericalFailure;
+    case RunEnd::kOutOfMemory:
+      return kOutOfMemory;
+    case RunEnd::kFolderFailure:
+      return kInputOutput;
+  }
+  return kDone;
+}
+
+DrawnMap draw_map(const std::filesystem::path& folder) {
+  try {
+    const auto run = io::read_run(folder);
+    if (!run) print_err("note: no map is drawn: {}\n", run.error());
+    if (!run) return {};
+    if (auto drawn = views::draw_final_map(*run))
+      return {*drawn};
+    else
+      return {"", RunEnd::kFolderFailure, drawn.error()};
+  } catch (const std::bad_alloc&) {
+    return {"", RunEnd::kOutOfMemory, "the final map: " + out_of_memory()};
+  }
+}
 
 ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
   Progress progress(options.progress, run.scene.scene.time.until);
