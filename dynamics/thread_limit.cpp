@@ -2,10 +2,9 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
+#include <exception>
+#include <latch>
 #include <new>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -19,29 +18,15 @@ namespace {
 /// TBB aborts the program where a worker cannot be made (pthread_create), most often for want of memory for
 /// its stack. So all threads are made once beforehand, at the same time, where that is an exception.
 void require_threads(int count) {
-  std::mutex mutex;
-  std::condition_variable condition;
-  bool is_over = false;
-  std::vector<std::jthread> threads;
-  const auto end = [&] {
-    {
-      const std::lock_guard lock(mutex);
-      is_over = true;
-    }
-    condition.notify_all();
-  };
+  std::latch all_made(1);
+  std::vector<std::jthread> threads;  // joined before the latch goes
   try {
-    for (int i = 0; i < count; ++i) {
-      threads.emplace_back([&] {
-        std::unique_lock lock(mutex);
-        condition.wait(lock, [&] { return is_over; });
-      });
-    }
-  } catch (const std::system_error&) {
-    end();
+    for (int i = 0; i < count; ++i) threads.emplace_back([&] { all_made.wait(); });
+  } catch (const std::exception&) {  // std::system_error of a thread, std::bad_alloc of what it is kept in
+    all_made.count_down();
     throw std::bad_alloc();
   }
-  end();
+  all_made.count_down();
 }
 
 /// Has TBB make its workers now, while there is room for them: each of the tasks waits for the others.
