@@ -88,7 +88,7 @@ class ChannelMeasure {
 
   Done find_ice() {
     for (const io::PlacedFloe& floe : floes_at(run_, motions_, time_)) {
-      Polygon polygon = io::placed(floe.world_from_body, *floe.polygon_in_body);
+      Polygon polygon = transform(floe.world_from_body, *floe.polygon_in_body);
       if (auto done = add_ice(ice_, floe.birth, std::move(polygon)); !done) return done;
     }
     return {};
@@ -208,7 +208,7 @@ class ChannelMeasure {
     const auto& waterline = run_.scene.scene.ships[ship_].hull.waterline;
     for (const Polygon& piece : *corridor) {
       std::vector<Polygon> taken = near(ice_, bounding_box(piece.outer));
-      taken.push_back({io::placed(ship_pose_at(run_, motions_, ship_, time_), waterline), {}});
+      taken.push_back({transform(ship_pose_at(run_, motions_, ship_, time_), waterline), {}});
       const auto parted = part(piece, taken);
       if (!parted) return tl::unexpected(parted.error());
       for (const Polygon& water : parted->outside) {

@@ -12,6 +12,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/run/motion_index.hpp"
+#include "io/run/placed_floes.hpp"
 
 namespace polynya::analysis {
 namespace {
@@ -81,12 +82,8 @@ struct Placed {
 
 Placed placed(const simulation::BirthRecord& birth, const Polygon& polygon_in_body,
               const io::Motion& motion) {
-  Placed floe{birth.floe, motion, {{}, geometry::Rotation::by(motion.angle)}, {}};
-  floe.world_from_body.position =
-      motion.position - rotate(floe.world_from_body.rotation, birth.centroid_in_body - Point{});
-  geometry::Ring ring;
-  for (const Point p : polygon_in_body.outer) ring.push_back(transform(floe.world_from_body, p));
-  const Box box = bounding_box(ring);
+  Placed floe{birth.floe, motion, pose_of(birth, motion), {}};
+  const Box box = bounding_box(transform(floe.world_from_body, polygon_in_body.outer));
   floe.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
   return floe;
 }

@@ -16,10 +16,8 @@ bool is_known(const std::vector<ShipContact>& contacts, BodyIndex ship, BodyInde
 }
 
 geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
-  const geometry::Pose pose = dynamics::water_from_body(bodies, ship);
-  geometry::Ring ring = setup.scene.ships[static_cast<std::size_t>(ship)].hull.waterline;
-  for (Point& p : ring) p = transform(pose, p);
-  return ring;
+  return transform(dynamics::water_from_body(bodies, ship),
+                   setup.scene.ships[static_cast<std::size_t>(ship)].hull.waterline);
 }
 
 /// The contact of two ships of prescribed motion whose outlines came to touch in the step. The contact search

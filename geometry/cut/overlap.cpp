@@ -28,9 +28,7 @@ exact::Polygon placed(const Shape& shape, const Pose& world_from_body) {
 
 // The outer ring's box in the world, with room for the rounding of its own arithmetic.
 Box box_in_world(const Shape& shape, const Pose& world_from_body) {
-  Ring ring;
-  for (const Point p : shape.polygon.outer) ring.push_back(transform(world_from_body, p));
-  const Box box = bounding_box(ring);
+  const Box box = bounding_box(transform(world_from_body, shape.polygon.outer));
   const double size = length(box.high - box.low) + length(box.low - Point{}) + length(box.high - Point{});
   return grown(box, 1e-12 * size);
 }

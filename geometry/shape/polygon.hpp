@@ -1,8 +1,10 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "geometry/shape/box.hpp"
+#include "geometry/shape/pose.hpp"
 
 namespace polynya::geometry {
 
@@ -21,6 +23,17 @@ inline Box bounding_box(const Ring& ring) {
   Box box{ring.front(), ring.front()};
   for (const Point p : ring) extend(box, p);
   return box;
+}
+
+/// An outline of frame b, in frame a.
+inline Ring transform(const Pose& a_from_b, Ring ring) {
+  for (Point& p : ring) p = transform(a_from_b, p);
+  return ring;
+}
+inline Polygon transform(const Pose& a_from_b, Polygon polygon) {
+  polygon.outer = transform(a_from_b, std::move(polygon.outer));
+  for (Ring& hole : polygon.holes) hole = transform(a_from_b, std::move(hole));
+  return polygon;
 }
 
 inline std::size_t vertex_count(const Polygon& polygon) {

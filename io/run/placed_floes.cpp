@@ -1,12 +1,13 @@
 #include "io/run/placed_floes.hpp"
 
 namespace polynya::io {
-namespace {
 
 geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motion) {
   const geometry::Rotation rotation = geometry::Rotation::by(motion.angle);
   return {motion.position - rotate(rotation, birth.centroid_in_body - geometry::Point{}), rotation};
 }
+
+namespace {
 
 /// Of the youngest of the floe and those it broke from that a frame has.
 geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe,
@@ -30,19 +31,6 @@ std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, dou
                      motions.floe_at(floe.birth.floe, time)});
   }
   return floes;
-}
-
-geometry::Ring placed(const geometry::Pose& world_from_body, const geometry::Ring& ring) {
-  geometry::Ring moved;
-  moved.reserve(ring.size());
-  for (const geometry::Point p : ring) moved.push_back(transform(world_from_body, p));
-  return moved;
-}
-
-geometry::Polygon placed(const geometry::Pose& world_from_body, const geometry::Polygon& polygon) {
-  geometry::Polygon moved{placed(world_from_body, polygon.outer), {}};
-  for (const geometry::Ring& hole : polygon.holes) moved.holes.push_back(placed(world_from_body, hole));
-  return moved;
 }
 
 geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time) {

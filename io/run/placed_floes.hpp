@@ -23,8 +23,8 @@ struct PlacedFloe {
 /// was, whose body frame it shares; one that no frame has, where it was born.
 std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time);
 
-geometry::Ring placed(const geometry::Pose& world_from_body, const geometry::Ring& ring);
-geometry::Polygon placed(const geometry::Pose& world_from_body, const geometry::Polygon& polygon);
+/// The body frame of a floe whose centre of mass moves so.
+geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motion);
 
 /// Where a ship's frame is in the world; where the scene puts it if the run has no frames.
 geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time);

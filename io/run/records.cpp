@@ -40,9 +40,7 @@ void append_criterion(JsonWriter& json, const simulation::Event& event) {
 }
 
 geometry::Ring closed_ring_in_world(const geometry::Pose& world_from_body, const geometry::Ring& ring) {
-  geometry::Ring moved;
-  moved.reserve(ring.size() + 1);
-  for (const geometry::Point p : ring) moved.push_back(transform(world_from_body, p));
+  geometry::Ring moved = transform(world_from_body, ring);
   moved.push_back(moved.front());
   return moved;
 }

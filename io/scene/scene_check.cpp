@@ -182,9 +182,7 @@ std::string describe(const geometry::DefectAt& defect) {
 
 Polygon waterline_in_world(const simulation::ShipSpec& ship) {
   const geometry::Pose world_from_ship{ship.position_in_world, geometry::Rotation::by(ship.heading)};
-  Polygon outline;
-  for (const geometry::Point p : ship.hull.waterline) outline.outer.push_back(transform(world_from_ship, p));
-  return outline;
+  return {transform(world_from_ship, ship.hull.waterline), {}};
 }
 
 void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {

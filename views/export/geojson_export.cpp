@@ -44,7 +44,7 @@ std::string floes_layer(const io::Run& run, const io::MotionIndex& motions, doub
       json.value(length(floe.motion->velocity));
     else
       json.null();
-    layer.end_with(io::placed(floe.world_from_body, *floe.polygon_in_body));
+    layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
   }
   return layer.finish();
 }
@@ -90,7 +90,7 @@ std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, doub
   for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
     layer.start().key("ship").value(ship_name(run, static_cast<int>(ship))).key("t_s").value(time);
     const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
-    layer.end_with(geometry::Polygon{io::placed(ship_pose_at(run, motions, ship, time), waterline), {}});
+    layer.end_with(geometry::Polygon{transform(ship_pose_at(run, motions, ship, time), waterline), {}});
   }
   return layer.finish();
 }

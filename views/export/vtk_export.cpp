@@ -44,7 +44,7 @@ class IceExport {
     std::vector<std::int64_t> first_point;
     for (const io::PlacedFloe& floe : floes) {
       first_point.push_back(static_cast<std::int64_t>(data.points.size()));
-      add_rings(data, io::placed(floe.world_from_body, *floe.polygon_in_body));
+      add_rings(data, transform(floe.world_from_body, *floe.polygon_in_body));
     }
     data.cell_data = {
         {"floe_id", {}, 1, true},        {"parent_id", {}, 1, true},         {"generation", {}, 1, true},
@@ -113,7 +113,7 @@ VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double 
     const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
     const geometry::Pose pose = ship_pose_at(run, motions, ship, time);
     const auto first = static_cast<std::int64_t>(data.points.size());
-    const geometry::Ring ring = io::placed(pose, waterline);
+    const geometry::Ring ring = transform(pose, waterline);
     data.points.insert(data.points.end(), ring.begin(), ring.end());
     for (const geometry::Triangle& t : geometry::triangulate({waterline, {}})) {
       data.polygons.push_back({first + t[0], first + t[1], first + t[2]});

@@ -13,10 +13,9 @@ Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double ti
   const simulation::Scene& scene = run.scene.scene;
   for (const auto& floe : scene.floes) picture.ice_at_start.push_back(floe.polygon_in_world);
   for (const io::PlacedFloe& floe : floes_at(run, motions, time))
-    picture.floes.push_back(
-        {io::placed(floe.world_from_body, *floe.polygon_in_body), floe.birth->generation});
+    picture.floes.push_back({transform(floe.world_from_body, *floe.polygon_in_body), floe.birth->generation});
   for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
-    Picture::Ship drawn{io::placed(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline),
+    Picture::Ship drawn{transform(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline),
                         {}};
     for (const double t : frame_times_until(run, time))
       drawn.track.push_back(ship_pose_at(run, motions, ship, t).position);

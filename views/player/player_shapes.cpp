@@ -36,7 +36,7 @@ class ShapeColumns {
     for (const Point p : polygon->outer) reach = std::max(reach, distance(p, birth.centroid_in_body));
     reach_.push_back(reach);
     std::size_t end = 0;
-    for (const std::size_t size : io::ring_sizes(parts ? *parts : io::whole(*polygon))) {
+    for (const std::size_t size : io::ring_sizes(*polygon)) {
       end += size;
       ring_ends_.push_back(static_cast<std::int32_t>(end));
     }
