@@ -23,6 +23,22 @@ enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kStates, kForces };
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
+/// What a file that grows begins with.
+std::string header_of(std::size_t file) {
+  switch (file) {
+    case kForces:
+      return forces_header();
+    case kFrames:
+      return FrameEncoder::header();
+    case kContacts:
+      return std::string(contacts_header());
+    case kStates:
+      return std::string(states_header());
+    default:
+      return "";
+  }
+}
+
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
   return {transform(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity,
           floe.angular_velocity};
@@ -48,11 +64,8 @@ Result<RunWriter> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
     files.push_back(std::move(*file));
   }
   RunWriter writer(scene, std::move(files), std::move(lock));
-  writer.file(kForces).append(forces_header());
-  writer.file(kFrames).append(FrameEncoder::header());
-  writer.file(kContacts).append(contacts_header());
-  writer.file(kStates).append(states_header());
-  writer.flush();  // the headers
+  for (std::size_t i = 0; i < kGrowing.size(); ++i) writer.file(i).append(header_of(i));
+  writer.flush();
   if (const auto status = writer.status(); !status) return fail(status.error());
   RunSummary first;
   first.stopped_by = "still running, or killed";
@@ -97,11 +110,8 @@ Result<> check_progress(const RunProgress& progress, const std::filesystem::path
     return fail(fmt::format("{}: the checkpoint is of another run", folder.string()));
   for (std::size_t i = 0; i < kGrowing.size(); ++i)
     if (auto checked = check_size(folder / kGrowing[i], progress.file_sizes[i]); !checked) return checked;
-  const std::pair<std::size_t, std::string> headers[] = {{kForces, forces_header()},
-                                                         {kContacts, std::string(contacts_header())},
-                                                         {kStates, std::string(states_header())}};
-  for (const auto& [file, header] : headers)
-    if (auto checked = check_header(folder / kGrowing[file], header); !checked) return checked;
+  for (std::size_t i = 0; i < kGrowing.size(); ++i)
+    if (auto checked = check_header(folder / kGrowing[i], header_of(i)); !checked) return checked;
   return {};
 }
 
