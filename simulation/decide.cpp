@@ -144,15 +144,16 @@ bool measure_bending(const Setup& setup, const dynamics::Bodies& bodies, const S
 PendingFracture evaluate(const Setup& setup, const Population& population, const ShipContactLoad& load,
                          Counts& counts) {
   const Contact& c = load.contact;
-  const FractureSettings& settings = setup.scene.fracture;
   PendingFracture pending;
+  if (c.approach_speed <= 0) return pending;
+  const FractureSettings& settings = setup.scene.fracture;
   fracture::FailureCriteria& criteria = pending.criteria;
   criteria.floe_size = std::sqrt(population.floes[population.floe_of(c.b)].area);
   criteria.breakable_size =
       settings.breakable_size_factor *
       fracture::breakable_length(load.ice, setup.scene.water.water, settings.characteristic_length);
   criteria.collision_force = load.impulse / setup.scene.contact.contact_time;
-  if (criteria.floe_size < criteria.breakable_size || c.approach_speed <= 0) return pending;
+  if (criteria.floe_size < criteria.breakable_size) return pending;
 
   // Cracks shorter than κ l do not count: below the force that such a crack takes, none can split.
   if (criteria.collision_force > splitting_force(setup, load.ice, criteria.breakable_size))

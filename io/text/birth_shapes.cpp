@@ -34,8 +34,7 @@ Result<geometry::Polygon> BirthShapes::assemble(const JsonValue& line) {
                     "--floe ID` prints a floe's shape whole)",
                     *id));
   const geometry::Polygon& parent = floes_.entries[found->second].polygon;
-  if (const auto checked = check_parts(*shape, ring_sizes(whole(parent))); !checked)
-    return fail(checked.error());
+  if (const auto checked = check_parts(*shape, ring_sizes(parent)); !checked) return fail(checked.error());
   assembled_ += vertex_count(parent);
   if (assembled_ > kMostAssembled)
     return fail(fmt::format("more than {} vertices in the shapes of parents", kMostAssembled));

@@ -140,6 +140,12 @@ std::vector<std::size_t> ring_sizes(const ShapeParts& shape) {
   return sizes;
 }
 
+std::vector<std::size_t> ring_sizes(const geometry::Polygon& polygon) {
+  std::vector<std::size_t> sizes{polygon.outer.size()};
+  for (const geometry::Ring& hole : polygon.holes) sizes.push_back(hole.size());
+  return sizes;
+}
+
 Result<> check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes) {
   const std::size_t most =
       std::accumulate(parent_ring_sizes.begin(), parent_ring_sizes.end(), std::size_t{0});

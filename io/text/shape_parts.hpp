@@ -38,6 +38,7 @@ ShapeParts parts_of(const geometry::Polygon& shape, const geometry::Polygon& par
 
 /// How many vertices each ring has.
 std::vector<std::size_t> ring_sizes(const ShapeParts& shape);
+std::vector<std::size_t> ring_sizes(const geometry::Polygon& polygon);
 
 /// Whether parts can be of a parent with rings of these sizes.
 Result<> check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes);
