@@ -9,7 +9,8 @@
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
 set(POLYNYA_PLAYER_SCRIPTS numbers.js floe_shapes.js run_data.js motion.js breakage.js palette.js map_view.js floe_raster.js draw_ice.js still_ice.js
   floe_card.js shown_floe.js channel.js contact_forces.js contact_circles.js draw_marks.js draw_ship.js legend.js map_picture.js
-  plot_scale.js plot_curves.js plot_reading.js plot_gestures.js plot.js timeline.js gestures.js keyboard.js page.js actions.js player.js)
+  plot_scale.js plot_curves.js plot_reading.js plot_off_scale.js plot_chart.js plot_gestures.js plot.js plot_panel.js timeline.js gestures.js keyboard.js page.js
+  actions.js draw_loop.js player.js)
 
 function(polynya_player_page folder output)
   set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} player.html vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)

@@ -2,11 +2,17 @@
 
 const rates = [0.5, 1, 2, 5, 10, 20, 50, 100];
 
+/** All actions, each group with the others at hand. */
 function makeActions(player) {
-  const { run, state, view, places, range, plot } = player;
-  const { info, frames, floes } = run;
+  const actions = {};
+  const groups = [timeActions, eventActions, mapActions, layerActions, floeActions, pageActions];
+  return Object.assign(actions, ...groups.map((group) => group(player, actions)));
+}
 
-  const actions = {
+/** Time, and how fast it goes. */
+function timeActions({ run, state, range }, actions) {
+  const { frames } = run;
+  return {
     goTo(time) {
       state.time = Math.min(range[1], Math.max(range[0], time));
       state.iceDirty = true;
@@ -25,8 +31,23 @@ function makeActions(player) {
       const next = count < 0 && state.time - frames.times[at] > 1e-9 ? at + 1 + count : at + count;
       actions.goTo(frames.times[Math.min(frames.times.length - 1, Math.max(0, next))] ?? 0);
     },
+    setRate(rate) {
+      state.rate = rate;
+      byId("rate").value = String(rate);
+    },
+    changeRate(step) {
+      const at = rates.indexOf(state.rate) + step;
+      actions.setRate(rates[Math.min(rates.length - 1, Math.max(0, at))]);
+    },
+  };
+}
+
+/** From fracture to fracture. */
+function eventActions({ run, state, view }, actions) {
+  const { events } = run.info;
+  return {
     goToEvent(index) {
-      const event = info.events[index];
+      const event = events[index];
       if (!event) return;
       state.event = index;
       actions.play(false);
@@ -39,7 +60,6 @@ function makeActions(player) {
       showEventCard(byId("event-card"), run, event);
     },
     stepEvent(step) {
-      const { events } = info;
       let index = state.event;
       if (index === null || Math.abs(events[index].t_s - state.time) > 1e-6) {
         const after = events.findIndex((event) => event.t_s > state.time);
@@ -47,14 +67,14 @@ function makeActions(player) {
       } else index += step;
       actions.goToEvent(Math.min(events.length - 1, Math.max(0, index)));
     },
-    setRate(rate) {
-      state.rate = rate;
-      byId("rate").value = String(rate);
-    },
-    changeRate(step) {
-      const at = rates.indexOf(state.rate) + step;
-      actions.setRate(rates[Math.min(rates.length - 1, Math.max(0, at))]);
-    },
+  };
+}
+
+/** The part of the map in view. */
+function mapActions(player, actions) {
+  const { state, view } = player;
+  const { ships } = player.run.info;
+  return {
     pan(dx, dy) {
       view.panBy(dx, dy);
       if (state.follow >= 0) actions.setFollow(-1);
@@ -73,30 +93,44 @@ function makeActions(player) {
       state.isFitted = true;
       state.iceDirty = true;
     },
-    follow: () => actions.setFollow(state.follow + 1 < info.ships.length ? state.follow + 1 : -1),
+    follow: () => actions.setFollow(state.follow + 1 < ships.length ? state.follow + 1 : -1),
     setFollow(ship) {
       state.follow = ship;
       byId("follow").setAttribute("aria-pressed", String(ship >= 0));
       if (ship >= 0 && state.isFitted) {
-        const hull = info.ships[ship].waterline_m.map(([x]) => x);
+        const hull = ships[ship].waterline_m.map(([x]) => x);
         const length = Math.max(...hull) - Math.min(...hull);
         view.scale = Math.max(view.scale, Math.min(view.width, view.height) / (2.2 * length));
         state.isFitted = false;
       }
       state.iceDirty = true;
     },
+  };
+}
+
+/** What the map shows. */
+function layerActions(player) {
+  const { state } = player;
+  return {
     colourBy(what) {
       state.colourBy = what;
       byId(`by-${what}`).checked = true;
-      player.showLegend();
+      player.legend.show();
       state.iceDirty = true;
     },
     toggleLayer(name, isOn = !state.layers[name]) {
       state.layers[name] = isOn;
       byId(`layer-${name}`).checked = isOn;
-      player.showLegend();
+      player.legend.show();
       state.iceDirty = true;
     },
+  };
+}
+
+/** The floe that is chosen, and the one pointed at. */
+function floeActions(player, actions) {
+  const { run, state, view, places, range } = player;
+  return {
     select(id) {
       state.selected = id;
       state.marksDirty = true;
@@ -106,7 +140,7 @@ function makeActions(player) {
     visit(id) {
       if (!places.isAlive(id, state.time)) {
         actions.play(false);
-        actions.goTo(Math.max(range[0], floes.born[id]));
+        actions.goTo(Math.max(range[0], run.floes.born[id]));
       }
       actions.select(id);
     },
@@ -126,6 +160,13 @@ function makeActions(player) {
       state.hovered = -1;
       state.marksDirty = true;
     },
+  };
+}
+
+/** The page: its cards, its theme and its plot. */
+function pageActions(player, actions) {
+  const { run, state, range, plot } = player;
+  return {
     letGo() {
       if (byId("help").open) return byId("help").close();
       state.event = null;
@@ -144,16 +185,15 @@ function makeActions(player) {
     },
     toggleFullScale() {
       plot.setFull(!plot.isFull);
-      player.showPlotTools();
+      player.plotPanel.showTools();
     },
     /** Shows a part of the run in the plot [s]; without ends all of it. */
     zoomPlot: (from = range[0], until = range[1]) => plot.show(from, until),
     plotQuantity(name) {
       plot.quantity = name;
-      player.rebuildPlot();
+      player.plotPanel.rebuild();
     },
   };
-  return actions;
 }
 
 /** Half a minute for the whole run. */

@@ -51,7 +51,7 @@ function traceArrow(context, sx, sy, fx, fy, length) {
 function drawContactForces(context, view, run, motions, places, time, colours, perNewton) {
   const { columns } = run;
   if (columns.contact_t_s.length === 0) return "This run recorded no contacts.";
-  const frame = motions.frame();
+  const frame = motions.frame;
   const contacts = contactsOfFrame(run, frame);
   for (const [isCrushing, colour] of [[0, colours.bend], [1, colours.split]]) {
     context.beginPath();

@@ -12,49 +12,46 @@ function pixelOf(colour, other = colour, part = 0) {
   return -0x1000000 | (mixed[2] << 16) | (mixed[1] << 8) | mixed[0];
 }
 
-function makeFloeRaster() {
-  const canvas = document.createElement("canvas");
-  const context = canvas.getContext("2d");
-  const crossings = new Float64Array(rasterRows * mostCrossings); // x of each row, not in order
-  const counts = new Int32Array(rasterRows);
-  let width = 0;
-  let height = 0;
-  let image = null;
-  let pixels = null;
-
-  function begin(newWidth, newHeight) {
-    if (width !== newWidth || height !== newHeight) {
-      canvas.width = width = newWidth;
-      canvas.height = height = newHeight;
-      image = context.createImageData(width, height);
-      pixels = new Int32Array(image.data.buffer);
-    } else pixels.fill(0);
+class FloeRaster {
+  constructor() {
+    this.canvas = document.createElement("canvas");
+    this.context = this.canvas.getContext("2d");
+    this.crossings = new Float64Array(rasterRows * mostCrossings); // x of each row, not in order
+    this.counts = new Int32Array(rasterRows);
+    this.width = 0;
+    this.height = 0;
+    this.image = null;
+    this.pixels = null;
   }
 
-  /** Notes where an edge crosses the middles of rows, y from the first row's top. */
-  function cross(ax, ay, bx, by) {
-    const slope = (bx - ax) / (by - ay);
-    const end = Math.ceil(Math.max(ay, by) - 0.5);
-    for (let row = Math.ceil(Math.min(ay, by) - 0.5); row < end; ++row) {
-      const count = counts[row];
-      if (count === mostCrossings) continue;
-      crossings[row * mostCrossings + count] = ax + (row + 0.5 - ay) * slope;
-      counts[row] = count + 1;
+  begin(width, height) {
+    if (this.width === width && this.height === height) {
+      this.pixels.fill(0);
+      return;
     }
+    this.canvas.width = this.width = width;
+    this.canvas.height = this.height = height;
+    this.image = this.context.createImageData(width, height);
+    this.pixels = new Int32Array(this.image.data.buffer);
   }
 
   /** Fills a floe; pixels at its edge get the colour `rim`. */
-  function add(floes, places, view, id, fill, rim) {
+  add(floes, places, view, id, fill, rim) {
     const scale = view.scale * view.ratio;
     const reach = floes.reach[id] * scale;
     const x0 = ((places.x[id] - view.x) * view.scale + view.width / 2) * view.ratio;
     const centreY = ((view.y - places.y[id]) * view.scale + view.height / 2) * view.ratio;
     const top = Math.floor(centreY - reach);
     const y0 = centreY - top;
-    const c = places.cos[id] * scale;
-    const s = places.sin[id] * scale;
     const rows = Math.ceil(y0 + reach) + 1;
-    for (let row = 0; row < rows; ++row) counts[row] = 0;
+    this.counts.fill(0, 0, rows);
+    this.crossEdges(floes, id, { x0, y0, c: places.cos[id] * scale, s: places.sin[id] * scale });
+    for (let row = 0; row < rows; ++row) this.order(row);
+    this.fillRows(top, rows, fill, rim);
+  }
+
+  /** Notes the crossings of a floe's edges, its centroid at (x0, y0) from the first row's top, turned and scaled by (c, s). */
+  crossEdges(floes, id, { x0, y0, c, s }) {
     const { ringsOf, ringEnds } = floes;
     const { points, first } = floes.shape(id);
     const cx = floes.cx[id];
@@ -72,28 +69,31 @@ function makeFloeRaster() {
         const bx = x0 + c * px - s * py;
         const by = y0 - s * px - c * py;
         if (k + 1 < end && Math.abs(bx - ax) < 0.5 && Math.abs(by - ay) < 0.5) continue;
-        cross(ax, ay, bx, by);
+        this.cross(ax, ay, bx, by);
         ax = bx;
         ay = by;
       }
     }
-    for (let row = 0; row < rows; ++row) order(row);
-    const lastRow = Math.min(rows, height - top);
-    for (let row = Math.max(0, -top); row < lastRow; ++row) {
-      const first = row * mostCrossings;
-      for (let n = 0; n + 1 < counts[row]; n += 2) {
-        const left = crossings[first + n];
-        const right = crossings[first + n + 1];
-        fillSpan((top + row) * width, left, right, rim);
-        if (rim !== fill && counts[row] === 2) fillInside((top + row) * width, row, left, right, fill);
-      }
+  }
+
+  /** Notes where an edge crosses the middles of rows, y from the first row's top. */
+  cross(ax, ay, bx, by) {
+    const { crossings, counts } = this;
+    const slope = (bx - ax) / (by - ay);
+    const end = Math.ceil(Math.max(ay, by) - 0.5);
+    for (let row = Math.ceil(Math.min(ay, by) - 0.5); row < end; ++row) {
+      const count = counts[row];
+      if (count === mostCrossings) continue;
+      crossings[row * mostCrossings + count] = ax + (row + 0.5 - ay) * slope;
+      counts[row] = count + 1;
     }
   }
 
   /** Puts a row's crossings in order. */
-  function order(row) {
+  order(row) {
+    const { crossings } = this;
     const first = row * mostCrossings;
-    const end = first + counts[row];
+    const end = first + this.counts[row];
     for (let k = first + 1; k < end; ++k) {
       const x = crossings[k];
       let at = k;
@@ -102,41 +102,57 @@ function makeFloeRaster() {
     }
   }
 
+  /** Fills between the crossings of each row; the first row is `top` on the screen. */
+  fillRows(top, rows, fill, rim) {
+    const { crossings, counts, width } = this;
+    const end = Math.min(rows, this.height - top);
+    for (let row = Math.max(0, -top); row < end; ++row) {
+      const first = row * mostCrossings;
+      for (let n = 0; n + 1 < counts[row]; n += 2) {
+        const left = crossings[first + n];
+        const right = crossings[first + n + 1];
+        this.fillSpan((top + row) * width, left, right, rim);
+        if (rim !== fill && counts[row] === 2) this.fillInside((top + row) * width, row, left, right, fill);
+      }
+    }
+  }
+
   /** Ice from left to right in the row that begins at pixel `at`: its ends in part, between them `rim`. */
-  function fillSpan(at, left, right, rim) {
+  fillSpan(at, left, right, rim) {
+    const { width, pixels } = this;
     const start = Math.floor(left);
     const end = Math.floor(right);
     if (end < 0 || start >= width) return;
-    if (start >= 0) lay(at + start, rim, start === end ? right - left : start + 1 - left);
+    if (start >= 0) this.lay(at + start, rim, start === end ? right - left : start + 1 - left);
     const last = at + Math.min(end, width);
     for (let to = at + Math.max(start + 1, 0); to < last; ++to) pixels[to] = rim;
-    if (end > start && end < width) lay(at + end, rim, right - end);
+    if (end > start && end < width) this.lay(at + end, rim, right - end);
   }
 
   /** Where the rows above and below have ice too it is not the edge. */
-  function fillInside(at, row, left, right, fill) {
+  fillInside(at, row, left, right, fill) {
+    const { counts, crossings, pixels } = this;
     if (row === 0 || counts[row - 1] !== 2 || counts[row + 1] !== 2) return;
     const above = (row - 1) * mostCrossings;
     const below = (row + 1) * mostCrossings;
     const start = Math.floor(Math.max(left, crossings[above], crossings[below]));
-    const end = at + Math.min(width, Math.ceil(Math.min(right, crossings[above + 1], crossings[below + 1])) - 1);
+    const end = at + Math.min(this.width, Math.ceil(Math.min(right, crossings[above + 1], crossings[below + 1])) - 1);
     for (let to = at + Math.max(0, start + 1); to < end; ++to) pixels[to] = fill;
   }
 
   /** Covers a part of a pixel. Floes beside each other share it, so their parts add up; the larger gives the colour. */
-  function lay(at, colour, part) {
+  lay(at, colour, part) {
+    const { pixels } = this;
     const old = pixels[at] >>> 24;
     const now = Math.round(255 * part);
     pixels[at] = (Math.min(255, old + now) << 24) | ((now > old ? colour : pixels[at]) & 0xffffff);
   }
 
   /** Lays what was added over a canvas of that size. */
-  function put(target, view) {
-    context.putImageData(image, 0, 0);
+  put(target, view) {
+    this.context.putImageData(this.image, 0, 0);
     target.resetTransform();
-    target.drawImage(canvas, 0, 0);
+    target.drawImage(this.canvas, 0, 0);
     target.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
   }
-
-  return { begin, add, put };
 }

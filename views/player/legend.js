@@ -1,7 +1,7 @@
 // The legend below the map: what the colours, marks and arrows mean that are shown now.
 
-function makeLegend(player, forceScale, arrowScale) {
-  const { run, state, colourings } = player;
+function makeLegend(player) {
+  const { run, state, colourings, forceScale, arrowScale } = player;
   // As wide as its longest words from the start: the legend must not grow and shrink while the run plays.
   const channelWidth = make("output", { id: "channel-width", style: `flex: 0 1 ${23 * run.info.ships.length}ch` });
 

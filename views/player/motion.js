@@ -10,46 +10,59 @@ function lastAtMost(values, x, from = 0, end = values.length) {
   return from - 1;
 }
 
-function makeMotions(run) {
-  const { frames, floes } = run;
-  const { times, doubles, recordsOf, recordFrame, recordAt } = frames;
-  const reference = floeReferences(run);
-  const motion = new Float64Array(6); // x, y, angle, vx, vy, spin
-  const recorded = new Float64Array(6);
-  let time = 0;
-  let frame = 0; // the last one not after time
-  let part = 0; // of the way to the next
+class Motions {
+  constructor({ frames, floes }) {
+    this.frames = frames;
+    this.floes = floes;
+    this.reference = floeReferences({ frames, floes });
+    this.motion = new Float64Array(6); // x, y, angle, vx, vy, spin
+    this.recorded = new Float64Array(6);
+    this.time = 0;
+    this.frame = 0; // the last one not after time
+    this.part = 0; // of the way to the next
+  }
 
-  function carry(out, at, duration) {
+  setTime(time) {
+    const { times } = this.frames;
+    this.time = time;
+    this.frame = Math.max(0, lastAtMost(times, time));
+    const next = this.frame + 1;
+    this.part = next < times.length ? (time - times[this.frame]) / (times[next] - times[this.frame]) : 0;
+  }
+
+  /** The motion recorded at a place of the frames, carried on for a time. */
+  carry(out, at, duration) {
+    const { doubles } = this.frames;
     for (let k = 3; k < 6; ++k) out[k] = doubles[at + k];
     for (let k = 0; k < 3; ++k) out[k] = doubles[at + k] + duration * out[k + 3];
   }
 
-  function setTime(t) {
-    time = t;
-    frame = Math.max(0, lastAtMost(times, t));
-    part = frame + 1 < times.length ? (t - times[frame]) / (times[frame + 1] - times[frame]) : 0;
+  /** A floe's last record not after the present frame, else its first. */
+  slotOf(floe) {
+    const { recordsOf, recordFrame } = this.frames;
+    return Math.max(recordsOf[floe], lastAtMost(recordFrame, this.frame, recordsOf[floe], recordsOf[floe + 1]));
   }
 
   /** Motion of a floe that frames record. */
-  function ofRecorded(floe) {
-    const first = recordsOf[floe];
-    const end = recordsOf[floe + 1];
-    const slot = Math.max(first, lastAtMost(recordFrame, frame, first, end));
+  ofRecorded(floe) {
+    const { times, doubles, recordsOf, recordFrame, recordAt } = this.frames;
+    const { motion, recorded, time, frame, part } = this;
+    const slot = this.slotOf(floe);
     const recordTime = times[recordFrame[slot]];
-    carry(motion, recordAt[slot], time - recordTime);
-    const hasNext = slot + 1 < end && recordFrame[slot + 1] === frame + 1;
+    this.carry(motion, recordAt[slot], time - recordTime);
+    const hasNext = slot + 1 < recordsOf[floe + 1] && recordFrame[slot + 1] === frame + 1;
     if (recordTime > time || !hasNext) return motion;
-    carry(recorded, recordAt[slot], times[frame] - recordTime);
+    this.carry(recorded, recordAt[slot], times[frame] - recordTime);
     for (let k = 0; k < 6; ++k) motion[k] = recorded[k] + part * (doubles[recordAt[slot + 1] + k] - recorded[k]);
     return motion;
   }
 
   /** Motion of any floe. One that lived between two frames moves with what it broke from. */
-  function floe(id) {
-    const by = reference[id];
+  floe(id) {
+    const { floes, motion } = this;
+    const by = this.reference[id];
     if (by < 0) return motion.set([floes.cx[id], floes.cy[id], 0, 0, 0, 0]), motion;
-    ofRecorded(by);
+    this.ofRecorded(by);
     if (by === id) return motion;
     const c = Math.cos(motion[2]);
     const s = Math.sin(motion[2]);
@@ -60,35 +73,33 @@ function makeMotions(run) {
     return motion;
   }
 
-  function shipInFrame(ship, index) {
-    const at = frames.shipAt[index] + 6 * ship;
-    return doubles.subarray(at, at + 6);
+  shipInFrame(ship, frame) {
+    const at = this.frames.shipAt[frame] + 6 * ship;
+    return this.frames.doubles.subarray(at, at + 6);
   }
 
-  function ship(index) {
+  ship(index) {
+    const { times } = this.frames;
     if (times.length === 0) return null;
-    const a = shipInFrame(index, frame);
-    if (frame + 1 >= times.length) return Float64Array.from(a);
-    const b = shipInFrame(index, frame + 1);
-    return a.map((value, k) => value + part * (b[k] - value));
+    const a = this.shipInFrame(index, this.frame);
+    if (this.frame + 1 >= times.length) return Float64Array.from(a);
+    const b = this.shipInFrame(index, this.frame + 1);
+    return a.map((value, k) => value + this.part * (b[k] - value));
   }
 
-  return {
-    setTime,
-    floe,
-    ship,
-    shipInFrame,
-    frame: () => frame,
-    /** Whether no frame from the present one to that one records the floe. */
-    isSteady(id, endFrame) {
-      const by = reference[id];
-      if (by < 0) return true;
-      const slot = Math.max(recordsOf[by], lastAtMost(recordFrame, frame, recordsOf[by], recordsOf[by + 1]));
-      return slot + 1 >= recordsOf[by + 1] || recordFrame[slot + 1] > endFrame;
-    },
-    /** Whether frames record the floe itself. */
-    isRecorded: (id) => reference[id] === id,
-  };
+  /** Whether no frame from the present one to that one records the floe. */
+  isSteady(id, endFrame) {
+    const { recordsOf, recordFrame } = this.frames;
+    const by = this.reference[id];
+    if (by < 0) return true;
+    const next = this.slotOf(by) + 1;
+    return next >= recordsOf[by + 1] || recordFrame[next] > endFrame;
+  }
+
+  /** Whether frames record the floe itself. */
+  isRecorded(id) {
+    return this.reference[id] === id;
+  }
 }
 
 /** For each floe the one whose records place it: itself, else the nearest ancestor, else a descendant. */

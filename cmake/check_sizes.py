@@ -1,0 +1,123 @@
+"""Fails on a product file above 300 lines and on a function above 50, in C++ and JavaScript.
+
+    python3 cmake/check_sizes.py SOURCE
+
+A function's lines are those from the parenthesis of its parameters (a lambda's without them: from its body) to its closing
+brace, functions within it included.
+"""
+import pathlib
+import re
+import sys
+
+ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "python"]
+SUFFIXES = {".cpp", ".hpp", ".js"}
+MOST_LINES_OF_FILE = 300
+MOST_LINES_OF_FUNCTION = 50
+# "path: name of the function" -> why it is a table that reads best in one piece.
+TABLES = {}
+
+CONTROL = {"if", "constexpr", "for", "while", "switch", "catch"}
+CPP_SKIPPED = re.compile(
+    r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^\s()\\]{0,16})\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"'
+    r"|(?<![0-9a-fA-F])'(?:\\.|[^'\\\n])+'", re.S)
+JS_SKIPPED = re.compile(
+    r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'"
+    r"|(?<=[(,=:\[!&|?{};])\s*/(?![*/])(?:\\.|\[(?:\\.|[^\]\\\n])*\]|[^/\\\n\[])+/")
+PARAMETERS_END = re.compile(r"\)(?:\s*(?:const|noexcept|override|final|mutable|&|->[\w:<>,*&\s]+))*\s*$")
+
+
+def blank(text):
+    return re.sub(r"[^\n]", " ", text)
+
+
+def end_of_template(text, at):
+    """The end of the JavaScript template literal that begins at `at`, past the templates in its expressions."""
+    depth, at = 0, at + 1
+    while at < len(text):
+        if text[at] == "\\":
+            at += 1
+        elif text[at] == "`" and depth == 0:
+            return at + 1
+        elif text[at] == "`":
+            at = end_of_template(text, at) - 1
+        elif text.startswith("${", at) and depth == 0:
+            depth, at = 1, at + 1
+        elif depth > 0:
+            depth += {"{": 1, "}": -1}.get(text[at], 0)
+        at += 1
+    return at
+
+
+def bare(path, text):
+    """The text with its comments and strings blanked, each character in its place."""
+    if path.endswith(".js"):
+        at, parts = 0, []
+        while at < len(text):
+            skipped = JS_SKIPPED.match(text, at)
+            end = skipped.end() if skipped else end_of_template(text, at) if text[at] == "`" else at + 1
+            parts.append(blank(text[at:end]) if skipped or text[at] == "`" else text[at])
+            at = end
+        return "".join(parts)
+    return CPP_SKIPPED.sub(lambda match: blank(match.group()), text)
+
+
+def function_at(code, brace, partner):
+    """Where the function begins whose body opens at `brace`, with its name; None where something else opens."""
+    before = code[:brace].rstrip()
+    if before.endswith("=>") or before.endswith("]"):
+        before_parameters = before.removesuffix("=>").rstrip()
+        start = partner.get(len(before_parameters) - 1, brace) if before_parameters.endswith(")") else brace
+    elif before.endswith("}"):  # the members of a constructor
+        start = brace
+    else:
+        end = PARAMETERS_END.search(before)
+        if not end:
+            return None
+        start = partner.get(end.start(), brace)
+    words = re.findall(r"[\w~:.]+|\W", code[max(0, start - 120):start].rstrip())
+    name = words[-1] if words and re.match(r"\w", words[-1]) else "a function without a name"
+    return None if name in CONTROL else (start, name)
+
+
+def problems_of(path, text):
+    lines = text.count("\n") + (not text.endswith("\n"))
+    if lines > MOST_LINES_OF_FILE:
+        yield f"{path}: {lines} lines, more than {MOST_LINES_OF_FILE}"
+    code = bare(path, text)
+    opened, partner = [], {}
+    for at, character in enumerate(code):
+        if character in "({[":
+            opened.append(at)
+        elif character in ")}]":
+            if not opened or code[opened[-1]] + character not in ("()", "{}", "[]"):
+                yield f"{path}:{code.count(chr(10), 0, at) + 1}: '{character}' closes nothing that is open"
+                return
+            partner[at] = opened.pop()
+            function = function_at(code, partner[at], partner) if character == "}" else None
+            if function:
+                start, name = function
+                length = code.count("\n", start, at) + 1
+                if length > MOST_LINES_OF_FUNCTION and f"{path}: {name}" not in TABLES:
+                    yield f"{path}:{code.count(chr(10), 0, start) + 1}: {name} has {length} lines, more than {MOST_LINES_OF_FUNCTION}"
+    if opened:
+        yield f"{path}:{code.count(chr(10), 0, opened[-1]) + 1}: '{code[opened[-1]]}' is never closed"
+
+
+def product_files(root):
+    for room in ROOMS:
+        for path in sorted((root / room).rglob("*")):
+            if path.suffix in SUFFIXES and "vendor" not in path.parts:
+                yield path
+
+
+def main(root):
+    found, files = [], 0
+    for path in product_files(root):
+        files += 1
+        found.extend(problems_of(path.relative_to(root).as_posix(), path.read_text()))
+    print("\n".join(found) or f"{files} files of at most {MOST_LINES_OF_FILE} lines, their functions of at most {MOST_LINES_OF_FUNCTION}")
+    return 1 if found or files == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1])))

@@ -1,0 +1,54 @@
+// Rows that lie off the plot's scale: counted in words, and marked at its edge.
+
+/** Counts the rows in view that lie off the scale, and names the largest of each curve. */
+function countOffScale(plot) {
+  const ranges = plot.loadRanges();
+  const all = { count: 0, words: [] };
+  for (const curve of plot.shownCurves().filter(isLoad)) {
+    plot.run.forces.forEach((rows, ship) => {
+      const times = rows.force_t_s.subarray(...plot.rowsInView(ship));
+      const off = rowsOffScale(times, plot.inView(ship, curve.column), ranges[curve.scale]);
+      if (off.count === 0) return;
+      all.count += off.count;
+      all.words.push(`${curve.label} to ${valueWords(off.largest, curve.base)} at ${Number(off.time.toFixed(3))} s`);
+    });
+  }
+  return all.count > 0 ? all : null;
+}
+
+function showOffScale(plot) {
+  plot.off = countOffScale(plot);
+  plot.offScale.hidden = plot.off === null;
+  if (plot.off) plot.offScale.replaceChildren(make("span", { class: "long" }, `\u25b2 off the scale: ${plot.off.words.join("; ")}`),
+    make("span", { class: "short" }, `\u25b2 ${plot.off.count} values off the scale`));
+}
+
+/** A mark at the edge for rows off the scale, one for each few pixels. */
+function drawOffScale(plot, chart) {
+  if (!plot.off) return;
+  const { forces } = plot.run;
+  plot.shownCurves().forEach((curve) => forces.forEach((rows, ship) => {
+    chart.ctx.fillStyle = curveStyle(curve, ship, forces.length, plot.colours).stroke.slice(0, 7);
+    drawEdgeMarks(chart, rows.force_t_s.subarray(...plot.rowsInView(ship)), plot.inView(ship, curve.column), chart.scales[curve.scale]);
+  }));
+}
+
+function drawEdgeMarks(chart, times, values, { min, max }) {
+  const { ctx, bbox } = chart;
+  const size = 4 * devicePixelRatio;
+  const marked = new Set();
+  values.forEach((value, row) => {
+    if (value >= min && value <= max) return;
+    const side = value > max ? 1 : -1;
+    const x = chart.valToPos(times[row], "x", true);
+    const key = side * (1 + Math.floor(x / size));
+    if (marked.has(key) || x < bbox.left) return;
+    marked.add(key);
+    const y = side > 0 ? bbox.top : bbox.top + bbox.height;
+    ctx.beginPath();
+    ctx.moveTo(x, y);
+    ctx.lineTo(x - size, y + 1.5 * side * size);
+    ctx.lineTo(x + size, y + 1.5 * side * size);
+    ctx.fill();
+  });
+}
