@@ -1,5 +1,6 @@
 #include "bench/peer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -67,6 +68,17 @@ PeerScene peer_scene(const simulation::Simulation& simulation) {
     scene.bodies.push_back(std::move(body));
   }
   return scene;
+}
+
+std::vector<geometry::Ring> convex_pieces(const geometry::Ring& ring, std::size_t most_corners) {
+  std::vector<geometry::Ring> pieces;
+  for (std::size_t first = 1; first + 1 < ring.size(); first += most_corners - 2) {
+    const std::size_t last = std::min(first + most_corners - 2, ring.size() - 1);
+    geometry::Ring& piece = pieces.emplace_back();
+    piece.push_back(ring[0]);
+    for (std::size_t i = first; i <= last; ++i) piece.push_back(ring[i]);
+  }
+  return pieces;
 }
 
 Vector drag_acceleration(const PeerBody& body, const dynamics::ShearCurrent& current, Point p, Vector v,

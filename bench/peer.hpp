@@ -43,6 +43,9 @@ struct StepReport {
   int contacts = 0;  ///< pairs that touch; −1: not counted at this step
 };
 
+/// A convex ring in convex pieces of at most so many corners, cut along chords.
+std::vector<geometry::Ring> convex_pieces(const geometry::Ring& ring, std::size_t most_corners);
+
 /// Box2D 2.4.1, in floats: 8 velocity and 3 position iterations, as its manual recommends; sleeping on, with
 /// its own thresholds (1 cm/s, 2°/s, 0.5 s); continuous collision off. Bodies at rest start asleep. Drag as
 /// Eq. (6), put on from outside the clock.
@@ -50,6 +53,21 @@ class Box2dWorld {
  public:
   explicit Box2dWorld(const PeerScene& scene);
   ~Box2dWorld();
+  StepReport step(bool counts_contacts);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Box2D 3.2, in floats: 4 substeps, as its manual recommends; one worker; sleeping on, with Box2D 2.4.1's
+/// threshold of 1 cm/s (its own would be 5 cm/s) and its own 0.5 s; continuous collision off. Bodies at rest
+/// start asleep. Drag as Eq. (6), put on from outside the clock. Its touching contacts include those it
+/// expects within 2 cm. Only where its sources are (CMakeLists.txt).
+class Box2d3World {
+ public:
+  explicit Box2d3World(const PeerScene& scene);
+  ~Box2d3World();
   StepReport step(bool counts_contacts);
 
  private:

@@ -17,18 +17,21 @@ void add_shape(b2Body& body, const PeerBody& from, const PeerScene& scene) {
   fixture.friction = static_cast<float>(scene.friction);
   fixture.restitution = static_cast<float>(scene.restitution);
   fixture.restitutionThreshold = 0;  // as Eq. (5)
-  b2PolygonShape polygon;
-  b2CircleShape circle;
   if (from.radius > 0) {
+    b2CircleShape circle;
     circle.m_radius = static_cast<float>(from.radius);
     fixture.shape = &circle;
+    body.CreateFixture(&fixture);
   } else {
-    std::vector<b2Vec2> corners;
-    for (const geometry::Point p : from.outline) corners.push_back(to_b2(p - geometry::Point{}));
-    polygon.Set(corners.data(), static_cast<int>(corners.size()));
-    fixture.shape = &polygon;
+    for (const geometry::Ring& piece : convex_pieces(from.outline, b2_maxPolygonVertices)) {
+      std::vector<b2Vec2> corners;
+      for (const geometry::Point p : piece) corners.push_back(to_b2(p - geometry::Point{}));
+      b2PolygonShape polygon;
+      polygon.Set(corners.data(), static_cast<int>(corners.size()));
+      fixture.shape = &polygon;
+      body.CreateFixture(&fixture);
+    }
   }
-  body.CreateFixture(&fixture);
   b2MassData mass;
   mass.mass = static_cast<float>(from.mass);
   mass.center = {0, 0};

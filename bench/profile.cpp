@@ -48,7 +48,7 @@ int main(int count, char** words) {
   const Shares cylinder = profile("cylinder-shear.json", 100 * part);
   std::puts("| stage | voyage | field-10000 | cylinder-shear |\n|---|---|---|---|");
   for (std::size_t i = 0; i < kStages.size(); ++i) {
-    std::printf("| %s | %.0f %% | %.0f %% | %.0f %% |\n", kStages[i].name, 100 * voyage[i], 100 * field[i],
-                100 * cylinder[i]);
+    std::printf("| %s | %.0f %% | %.0f %% | %.0f %% |\n", kStages[i].name.data(), 100 * voyage[i],
+                100 * field[i], 100 * cylinder[i]);
   }
 }

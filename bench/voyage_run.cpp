@@ -72,9 +72,9 @@ int touching_pairs(const std::vector<dynamics::Contact>& contacts) {
 }
 
 template <class Engine>
-RunCost run_peer(const char* name, const PeerScene& scene, const Limits& limits) {
+RunCost run_peer(const Peer& peer, const PeerScene& scene, const Limits& limits) {
   RunCost cost;
-  cost.engine = name;
+  cost.engine = peer.name;
   cost.step = scene.step;
   Engine engine(scene);
   run_steps(cost, limits, [&](bool counts_contacts) { return engine.step(counts_contacts); });
@@ -163,11 +163,13 @@ RunCost run_polynya(const simulation::Scene& scene, const Limits& limits) {
   return step_through(simulation, limits);
 }
 
-RunCost run_box2d(const PeerScene& scene, const Limits& limits) {
-  return run_peer<Box2dWorld>("Box2D", scene, limits);
-}
-RunCost run_chipmunk(const PeerScene& scene, const Limits& limits) {
-  return run_peer<ChipmunkWorld>("Chipmunk", scene, limits);
+const std::vector<Peer>& peers() {
+  static const std::vector<Peer> all{{"Box2D 2.4.1", run_peer<Box2dWorld>},
+#ifdef POLYNYA_BENCH_BOX2D_3
+                                     {"Box2D 3.2", run_peer<Box2d3World>},
+#endif
+                                     {"Chipmunk 7.0.3", run_peer<ChipmunkWorld>}};
+  return all;
 }
 
 }  // namespace polynya::bench

@@ -46,7 +46,13 @@ simulation::Scene load(const std::string& file, const Edit& edit = {});
 /// Loading included, which is timed.
 RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits);
 RunCost run_polynya(const simulation::Scene& scene, const Limits& limits);
-RunCost run_box2d(const PeerScene& scene, const Limits& limits);
-RunCost run_chipmunk(const PeerScene& scene, const Limits& limits);
+
+/// An engine that we are compared to.
+struct Peer {
+  std::string name;
+  RunCost (*run)(const Peer& peer, const PeerScene& scene, const Limits& limits);
+};
+/// Those that this build has.
+const std::vector<Peer>& peers();
 
 }  // namespace polynya::bench

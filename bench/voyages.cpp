@@ -1,5 +1,5 @@
-// Whole runs side by side with Box2D 2.4.1 and Chipmunk 7.0.3 stepping the same bodies at the same step,
-// without any fracture. One process, one engine after another.
+// Whole runs side by side with Box2D 2.4.1, Chipmunk 7.0.3 and, where its sources are, Box2D 3.2 stepping the
+// same bodies at the same step, without any fracture. One process, one engine after another.
 //   polynya_bench_voyages [--quick] [--csv FILE] [--only CASE] [--peer-seconds S]
 // Prints the table of docs/performance.md (Markdown). bench/performance.sh puts it there.
 #include <algorithm>
@@ -123,8 +123,7 @@ void run_case(const Case& at, const std::vector<Case>& all, const Options& optio
       at.has_peers ? peer_scene(simulation::Simulation{simulation::Scene(scene)}) : PeerScene{};
   const Limits limits{options.peer_seconds, steps};
   if (at.has_peers) {
-    runs.emplace_back([&] { return run_box2d(bodies, limits); });
-    runs.emplace_back([&] { return run_chipmunk(bodies, limits); });
+    for (const Peer& peer : peers()) runs.emplace_back([&] { return peer.run(peer, bodies, limits); });
   }
   const std::vector<RunCost> costs = alternate(at.repeats, runs);
   const RunCost& own = costs.front();
