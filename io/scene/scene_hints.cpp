@@ -20,11 +20,15 @@ using simulation::ShipSpec;
 // Block coefficients are those of fine-lined and of full ships; a draught is most often a third of the beam.
 constexpr double kLeastBlock = 0.4, kMostBlock = 0.9;                          // [-]
 constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
-constexpr double kFastestShip = 12;       ///< icebreakers reach 11 m/s in open water [m/s]
-constexpr double kFastestIce = 3;         ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
-constexpr double kThinnestIce = 0.01;     ///< thinner ice is grease and slush [m]
-constexpr double kThickestIce = 4;        ///< level ice grows no thicker; ridges are no plates [m]
-constexpr double kKnots = 3600 / 1852.0;  ///< [kn / (m/s)]
+constexpr double kFastestShip = 12;    ///< icebreakers reach 11 m/s in open water [m/s]
+constexpr double kFastestIce = 3;      ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
+constexpr double kThinnestIce = 0.01;  ///< thinner ice is grease and slush [m]
+constexpr double kThickestIce = 4;     ///< level ice grows no thicker; ridges are no plates [m]
+/// The longest way in a step: of the thickness, so that the load grows to breaking over several steps
+/// (docs/theory.md, "The step"), and of the contact circles, beyond which a contact is lost from one step to
+/// the next (dynamics/narrow_phase.cpp).
+constexpr double kLongestWayOfThickness = 0.1, kLongestWayOfCircle = 0.25;  // [-]
+constexpr double kKnots = 3600 / 1852.0;                                    ///< [kn / (m/s)]
 
 /// A hull's size along and across its axis [m].
 struct HullSize {
@@ -68,6 +72,7 @@ class Hinter {
       for (std::size_t k = i + 1; k < scene_.ships.size(); ++k) hint_at_crossing(i, k);
     }
     hint_at_drift();
+    hint_at_step();
   }
 
  private:
@@ -191,6 +196,27 @@ class Hinter {
                   .sentence = fmt::format("{:.3g} m/s: ice moves at {:g} m/s at most", speed, kFastestIce),
                   .severity = Severity::kHint});
     }
+  }
+
+  void hint_at_step() {
+    double speed = 0;
+    for (const ShipSpec& ship : scene_.ships) speed = std::max(speed, std::abs(ship.speed));
+    for (const simulation::FloeSpec& floe : scene_.floes) speed = std::max(speed, length(floe.velocity));
+    if (speed == 0 || scene_.floes.empty()) return;
+    const double way = speed * scene_.time.step;
+    const double of_ice = kLongestWayOfThickness * scene_.ice.thickness;
+    const double of_circle = kLongestWayOfCircle * scene_.contact.circle_radius;
+    if (way <= 1.005 * std::min(of_ice, of_circle))
+      return;  // what the sentence below gives, rounded, will do
+    const std::string why = of_ice < of_circle
+                                ? fmt::format("{:g} of the ice's thickness of {:g} m", kLongestWayOfThickness,
+                                              scene_.ice.thickness)
+                                : fmt::format("{:g} of contact.circle_radius_m {:g}", kLongestWayOfCircle,
+                                              scene_.contact.circle_radius);
+    add(Severity::kWarning, value_at("time", "step_s"), "time.step_s",
+        fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
+                    "give {:.3g} s or less",
+                    speed, way, why, std::min(of_ice, of_circle) / speed));
   }
 
   const simulation::Scene& scene_;
