@@ -19,6 +19,7 @@ struct PersistentContact {
   double restitution_limit = 0;     ///< bound of it, by the fastest approach so far of the two alone [N s]
   double last_impulse[2] = {0, 0};  ///< compression at the last step [N s]
   double warm_start_impulse[2] = {0, 0};  ///< where the solver starts, predicted from two steps [N s]
+  double loaded_depth = 0;                ///< deepest overlap that pressed: the ice is gone so far [m]
   bool has_crushed = false;
   bool was_refused = false;   ///< a fracture here was rejected by geometry: not tried again
   bool is_continued = false;  ///< already taken over by a contact of the next step
@@ -44,13 +45,21 @@ struct Contact {
   /// What crushing ice carries in the step [N s].
   double impulse_limit = std::numeric_limits<double>::infinity();
   double friction = 0;  ///< most tangential per normal impulse [-]
+  // Of contacts that crush by crush_law.hpp: along the normal, both ends together.
+  double crushing_force = 0;      ///< F, at the overlap now or the deepest that pressed [N]
+  double crushing_stiffness = 0;  ///< k = dF/dξ there [N/m]
+  double missed_impulse = 0;      ///< in the step of the first contact, before it was found [N s]
+  double breaking_force = std::numeric_limits<double>::infinity();  ///< at which the ice breaks [N]
+  bool is_rigid = false;                                            ///< steel on steel: does not crush
 
   // Found by the solver.
   double normal_impulse[2] = {0, 0};  ///< on b along the normal, at each end [N s]
   double normal_work = 0;             ///< of the normal impulses on the two bodies together [J]
   double slip_work = 0;               ///< of the slip impulse [J]
-  double prescribed_work = 0;         ///< by one of prescribed motion on the other [J]
-  double slip_impulse = 0;            ///< on b along perpendicular(normal), anywhere on the line [N s]
+  bool is_broken = false;             ///< the force reached breaking_force
+  double steady_share = 1;     ///< of the impulses: without what was missed before the contact was found [-]
+  double prescribed_work = 0;  ///< by one of prescribed motion on the other [J]
+  double slip_impulse = 0;     ///< on b along perpendicular(normal), anywhere on the line [N s]
 
   geometry::Point middle() const { return midpoint(ends[0], ends[1]); }
   double total_normal_impulse() const { return normal_impulse[0] + normal_impulse[1]; }

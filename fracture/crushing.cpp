@@ -24,6 +24,17 @@ double crushed_overlap_area(const Overlap& overlap, double thickness, double hul
   return overlap.area / sine * -std::expm1(p * std::log1p(-reach / overlap.depth));
 }
 
+CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thickness, double hull_angle) {
+  if (overlap.area <= 0 || overlap.depth <= 0) return {};
+  const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
+  const auto area_at = [&](double x) { return x > 0 ? overlap.area * std::pow(x / overlap.depth, p) : 0.0; };
+  const auto slope_at = [&](double x) { return x > 0 ? p * area_at(x) / x : 0.0; };
+  const double sine = std::sin(hull_angle);
+  if (sine < kVertical) return {thickness * slope_at(depth), thickness * (p - 1) * slope_at(depth) / depth};
+  const double inner = depth - thickness * std::tan(hull_angle);
+  return {(area_at(depth) - area_at(inner)) / sine, std::max(0.0, slope_at(depth) - slope_at(inner)) / sine};
+}
+
 CrushingShares crushing_shares(double hull_angle, double friction, double approach_speed, double slip_speed) {
   const double sine = std::sin(hull_angle);
   const double cosine = std::cos(hull_angle);

@@ -27,6 +27,16 @@ struct Overlap {
 /// along the hull p = 1, where Eq. (2)'s tan θ_w would diverge. p is clamped to [1, 3].
 double crushed_overlap_area(const Overlap& overlap, double thickness, double hull_angle);
 
+/// A_c of an overlap at a depth of its own, and how it grows there.
+struct CrushedArea {
+  double area = 0;   ///< A_c [m²]
+  double slope = 0;  ///< dA_c/dξ, ≥ 0 [m]
+};
+
+/// The same where the overlap was pressed to a depth before that is not less than its own now: S is
+/// continued by its power law to `depth` [m].
+CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thickness, double hull_angle);
+
 /// The forces between hull and ice while it crushes, per newton of the facet's normal force F_n.
 struct CrushingShares {
   double horizontal = 1;  ///< H / F_n along the plan normal

@@ -61,6 +61,7 @@ struct ShipContactLoad {
   double impulse = 0;       ///< j of Eq. (5) [N s]
   double hull_angle = 0;    ///< θ_s [rad]
   double normal_force = 0;  ///< F_n on the facet while ice crushes [N]
+  double stiffness = 0;     ///< dF_n/dξ [N/m]
   fracture::CrushingShares shares;
 };
 
@@ -69,11 +70,54 @@ double crushing_force(const fracture::Ice& ice, const Contact& c, double hull_an
       ice, fracture::crushed_overlap_area({c.width, c.depth, c.area}, ice.thickness, hull_angle));
 }
 
+struct CrushingForce {
+  double force = 0;      ///< [N]
+  double stiffness = 0;  ///< dF/dξ [N/m]
+};
+
+/// The same at the deepest overlap that pressed, for the law of crushing ice.
+CrushingForce deepest_crushing_force(const fracture::Ice& ice, const Contact& c, double hull_angle) {
+  const fracture::CrushedArea crushed = fracture::crushed_overlap_at(
+      {c.width, c.depth, c.area}, std::max(c.depth, c.record->loaded_depth), ice.thickness, hull_angle);
+  return {fracture::crushing_force(ice, crushed.area), fracture::crushing_force(ice, crushed.slope)};
+}
+
+/// Enters what the law of crushing ice takes of a contact. One that is found for the first time has pressed
+/// while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given F ξ / ((1 + n) v).
+void set_crushing(Contact& c, CrushingForce crushing, double dt) {
+  c.crushing_force = crushing.force;
+  c.crushing_stiffness = crushing.stiffness;
+  const bool is_new = c.record->loaded_depth == 0 && c.record->age < 1.5 * dt;
+  if (!is_new || crushing.force <= 0 || c.approach_speed <= 0) return;
+  const double exponent = crushing.stiffness * c.depth / crushing.force;
+  c.missed_impulse = std::min(dt, c.depth / c.approach_speed) * crushing.force / (1 + exponent);
+}
+
+/// The force at which a contact's ice breaks. One found deeper than that broke on the way, at the share
+/// (F_b/F)^(1/n) of its depth.
+void set_breaking(Contact& c, double force) {
+  c.breaking_force = force;
+  if (c.missed_impulse == 0 || c.crushing_force <= force) return;
+  const double exponent = c.crushing_stiffness * c.depth / c.crushing_force;
+  const double share_of_force = force / c.crushing_force;
+  c.missed_impulse *= share_of_force * (exponent > 0 ? std::pow(share_of_force, 1 / exponent) : 1);
+}
+
+bool is_crush_law(const Setup& setup) {
+  return setup.scene.contact.law == ContactLaw::kCrush;
+}
+
 ShipContactLoad load_of(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
-  ShipContactLoad load{c, ice_of(setup, bodies, c.b), {}, {}, {}, {}};
+  ShipContactLoad load{c, ice_of(setup, bodies, c.b), {}, {}, {}, {}, {}};
   load.impulse = eq5_impulse(setup, bodies, c);
   load.hull_angle = hull_angle_at(setup.scene.ships[c.a].hull, bodies, c);
-  load.normal_force = crushing_force(load.ice, c, load.hull_angle);
+  if (is_crush_law(setup)) {
+    const CrushingForce crushing = deepest_crushing_force(load.ice, c, load.hull_angle);
+    load.normal_force = crushing.force;
+    load.stiffness = crushing.stiffness;
+  } else {
+    load.normal_force = crushing_force(load.ice, c, load.hull_angle);
+  }
   load.shares = fracture::crushing_shares(load.hull_angle, load.ice.friction, c.approach_speed, c.slip_speed);
   return load;
 }
@@ -131,13 +175,17 @@ void measure_crack(const Setup& setup, const dynamics::Bodies& bodies, const Shi
 /// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
 bool measure_bending(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
                      PendingFracture& pending) {
+  const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, bodies, load));
+  pending.criteria.bending_capacity = capacity.vertical_force;
+  pending.cusp_radius = capacity.cusp_radius;
+  if (is_crush_law(setup)) {  // the solver finds whether the load comes to V_b
+    pending.criteria.vertical_force = capacity.vertical_force;
+    return capacity.is_in_range;
+  }
   // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
   const double crushing_impulse = load.shares.horizontal * load.normal_force * setup.scene.time.step;
   const double pressed = crushing_impulse > 0 ? std::min(1.0, load.impulse / crushing_impulse) : 0;
   pending.criteria.vertical_force = pressed * load.shares.vertical * load.normal_force;
-  const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, bodies, load));
-  pending.criteria.bending_capacity = capacity.vertical_force;
-  pending.cusp_radius = capacity.cusp_radius;
   return capacity.is_in_range;
 }
 
@@ -196,19 +244,40 @@ void decide(const Setup& setup, const Population& population, StepData& step, Co
     c.friction = setup.scene.ice.friction;
     if (!population.is_ship(c.a)) {  // floe against floe: vertical walls; the thinner one crushes
       const BodyIndex thinner = bodies.thickness[c.b] < bodies.thickness[c.a] ? c.b : c.a;
-      c.impulse_limit = crushing_force(ice_of(setup, bodies, thinner), c, 0) * dt;
+      const fracture::Ice ice = ice_of(setup, bodies, thinner);
+      if (is_crush_law(setup))
+        set_crushing(c, deepest_crushing_force(ice, c, 0), dt);
+      else
+        c.impulse_limit = crushing_force(ice, c, 0) * dt;
       continue;
     }
-    if (population.is_ship(c.b)) continue;  // steel against steel does not crush
+    c.is_rigid = population.is_ship(c.b);  // steel against steel does not crush
+    if (c.is_rigid) continue;
     const ShipContactLoad load = load_of(setup, bodies, c);
     add_peak(setup, bodies, load, step.loads[c.a]);
-    c.impulse_limit = load.shares.horizontal * load.normal_force * dt;
-    c.friction = load.shares.tangential / load.shares.horizontal;
+    const double horizontal = load.shares.horizontal;
+    if (is_crush_law(setup))
+      set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt);
+    else
+      c.impulse_limit = horizontal * load.normal_force * dt;
+    c.friction = load.shares.tangential / horizontal;
     const PendingFracture pending = evaluate(setup, population, load, counts);
     const bool breaks =
         pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
-    if (breaks && !c.record->was_refused) step.fractures.push_back(pending);
+    if (!breaks || c.record->was_refused) continue;
+    if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
+      set_breaking(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
+    step.fractures.push_back(pending);
   }
+}
+
+void drop_unbroken(const Setup& setup, StepData& step) {
+  if (!is_crush_law(setup)) return;
+  std::erase_if(step.fractures, [&](const PendingFracture& pending) {
+    if (pending.failure != fracture::Failure::kBend) return false;
+    return std::ranges::none_of(step.contacts,
+                                [&](const Contact& c) { return c.record == pending.record && c.is_broken; });
+  });
 }
 
 }  // namespace polynya::simulation

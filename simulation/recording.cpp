@@ -21,8 +21,12 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
   const bool is_with_ship = population.is_ship(ship == c.a ? c.b : c.a);
   ContactLoads& loads = is_with_ship ? ship_loads.ships : ship_loads.ice;
   const auto add = [&](geometry::Point at, Vector impulse) {
-    loads.impulse += rotate_back(bodies.rotation[ship], impulse);
-    loads.angular_impulse += cross(at - bodies.position[ship], impulse);
+    const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
+    const double moment = cross(at - bodies.position[ship], impulse);
+    loads.impulse += in_ship;
+    loads.angular_impulse += moment;
+    loads.steady_impulse += c.steady_share * in_ship;
+    loads.steady_angular_impulse += c.steady_share * moment;
   };
   for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal);
   add(c.middle(), sign * c.slip_impulse * perpendicular(c.normal));
@@ -32,8 +36,8 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
 void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
   sum.impulse += step.impulse;
   sum.angular_impulse += step.angular_impulse;
-  sum.largest = larger(sum.largest, step.impulse / dt);
-  sum.largest_moment = larger(sum.largest_moment, step.angular_impulse / dt);
+  sum.largest = larger(sum.largest, step.steady_impulse / dt);
+  sum.largest_moment = larger(sum.largest_moment, step.steady_angular_impulse / dt);
   sum.contacts = step.contacts;
 }
 

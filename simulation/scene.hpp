@@ -42,13 +42,23 @@ enum class ContactNormal {
   kCircleCentres,  ///< along the line between the circles' centres, the paper's own rule
 };
 
+/// How bodies push each other apart (docs/theory.md, "Contact").
+enum class ContactLaw {
+  kCrush,    ///< what crushing ice carries while bodies close, nothing at rest or parting
+  kImpulse,  ///< the paper's rigid impulses, Eq. (5), up to what crushing ice carries
+};
+
 struct ContactSettings {
-  double circle_radius = 1.0;  ///< [m]
+  ContactLaw law = ContactLaw::kCrush;
+  int substeps = 1;             ///< of kCrush: parts of a step, solved one after the other
+  double tolerance = 1e-4;      ///< of kCrush: largest violation of the law that is left [m/s]
+  bool is_warm_started = true;  ///< of kCrush: from the impulses of the step before
+  double circle_radius = 1.0;   ///< [m]
   ContactNormal normal = ContactNormal::kBoundary;
   double restitution = 0.1;      ///< ε of Eq. (5) [-]; friction is the ice's μ
   double contact_time = 0.5;     ///< τ_c, only for the paper's peak force j/τ_c [s]
   double separation_time = 1.0;  ///< decay time of overlap that nothing presses together any more [s]
-  int iterations = 30;           ///< most iterations of the impulse solver in a step
+  int iterations = 100;          ///< most sweeps of the contact solver over an island
 };
 
 enum class BendingModelKind { kNevel, kKashtelyan, kFsiDatabase };

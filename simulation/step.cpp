@@ -20,20 +20,24 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
 
 /// Marks what crushed: contacts that needed all that crushing ice can carry. Enters what all contacts did
 /// into the accounts.
-void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts,
+void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts, ContactLaw law,
                     Accounts& accounts) {
   EnergyFlows& energy = accounts.audit.energy;
+  double given = 0;
   for (dynamics::Contact& c : contacts) {
-    const bool is_at_limit = c.is_at_limit();
+    const bool is_at_limit = law == ContactLaw::kCrush ? !c.is_rigid : c.is_at_limit();
     (is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
     energy.friction -= c.slip_work;
+    given += c.normal_work + c.slip_work;
     if (bodies.inverse_mass[c.a] == 0 || bodies.inverse_mass[c.b] == 0)
       enter_prescribed_work(bodies, c, accounts.audit);
     if (!is_at_limit || c.approach_speed <= 0) continue;
+    if (law == ContactLaw::kCrush && c.total_normal_impulse() == 0) continue;
     c.record->crushed_depth = c.depth;
     if (!c.record->has_crushed) ++accounts.counts.crush_contacts;
     c.record->has_crushed = true;
   }
+  accounts.counts.energy_created += std::max(0.0, given);
 }
 
 void enter_water(const dynamics::WaterWork& work, AuditSums& audit) {
@@ -82,10 +86,16 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
   if (step.contacts.empty()) return;
   dynamics::SolverSettings settings = setup.solver;
   settings.threads = threads;
-  const dynamics::SolverResult result = step.solver.solve(population.bodies, step.contacts, settings);
+  const ContactSettings& contact = setup.scene.contact;
+  const dynamics::SolverResult result =
+      contact.law == ContactLaw::kCrush
+          ? step.crush_solver.solve(population.bodies, step.contacts,
+                                    {setup.scene.time.step, contact.substeps, contact.iterations,
+                                     contact.tolerance, threads, contact.is_warm_started})
+          : step.solver.solve(population.bodies, step.contacts, settings);
   if (!result.is_converged()) ++accounts.counts.unconverged_steps;
   accounts.counts.largest_residual = std::max(accounts.counts.largest_residual, result.residual);
-  enter_contacts(population.bodies, step.contacts, accounts);
+  enter_contacts(population.bodies, step.contacts, setup.scene.contact.law, accounts);
   for (const dynamics::Contact& c : step.contacts) {
     if (c.total_normal_impulse() == 0) continue;
     wake(c.a, population);
@@ -109,7 +119,8 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
                                             const std::vector<dynamics::Contact>& contacts,
                                             Population& population) {
   const double dt = setup.scene.time.step;
-  separate(population.bodies, contacts, setup.separation, dt);
+  if (setup.scene.contact.law == ContactLaw::kImpulse)  // crushed overlap is gone ice
+    separate(population.bodies, contacts, setup.separation, dt);
   const double fastest = integrate(population.bodies, population.awake, dt, threads);
   if (fastest < kRunawaySpeed) return std::nullopt;
   const auto runaway = std::ranges::find_if(
@@ -138,13 +149,14 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 12> kStages = {{
+const std::array<Stage, 13> kStages = {{
     {"find pairs", [](World& w) { find_pairs(w.population); }},
     {"find contacts",
      [](World& w) { find_contacts(w.setup, w.threads, w.population, w.step.contacts, w.accounts.counts); }},
     {"decide", [](World& w) { decide(w.setup, w.population, w.step, w.accounts.counts); }},
     {"solve impulses",
      [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
+    {"drop unbroken", [](World& w) { drop_unbroken(w.setup, w.step); }},
     {"tally loads", [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
     {"integrate",

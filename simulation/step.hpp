@@ -21,6 +21,9 @@ void decide(const Setup& setup, const Population& population, StepData& step, Co
 void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
                     Accounts& accounts);
 
+/// By the law of crushing ice: drops the bends whose contacts were not loaded up to V_b.
+void drop_unbroken(const Setup& setup, StepData& step);
+
 /// Adds what the impulses did to the ships.
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
                  std::vector<ShipLoads>& loads);
@@ -54,7 +57,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 12> kStages;
+extern const std::array<Stage, 13> kStages;
 
 /// One time step: all stages.
 void step(World& world);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/crush_solver.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/contact/crack_path.hpp"
 #include "simulation/energy.hpp"
@@ -15,11 +16,13 @@ namespace polynya::simulation {
 
 /// What one kind of contact does to a ship over a recording interval, in the ship's frame.
 struct ContactLoads {
-  geometry::Vector impulse;    ///< on the ship [N s]
-  double angular_impulse = 0;  ///< [N m s]
-  geometry::Vector largest;    ///< single-step true force, component by component [N]
-  double largest_moment = 0;   ///< [N m]
-  int contacts = 0;            ///< at the last step
+  geometry::Vector impulse;           ///< on the ship [N s]
+  double angular_impulse = 0;         ///< [N m s]
+  geometry::Vector steady_impulse;    ///< of the present step: what the largest force is found from [N s]
+  double steady_angular_impulse = 0;  ///< likewise [N m s]
+  geometry::Vector largest;           ///< single-step true force, component by component [N]
+  double largest_moment = 0;          ///< [N m]
+  int contacts = 0;                   ///< at the last step
 };
 
 /// Sums over a step or a recording interval, in the ship's frame.
@@ -52,6 +55,7 @@ struct StepData {
   std::vector<ShipLoads> loads;               ///< per ship
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
   dynamics::ImpulseSolver solver;             ///< its reusable memory
+  dynamics::CrushSolver crush_solver;         ///< likewise
 };
 
 /// What has happened so far, in sums.

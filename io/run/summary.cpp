@@ -66,6 +66,7 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
       .key("unconverged_steps")
       .value(counts.unconverged_steps);
   json.key("largest_left_over_m_per_s").value(counts.largest_residual);
+  json.key("energy_created_J").value(counts.energy_created);
   json.key("unpaired_stretches").value(counts.unpaired_stretches);
   json.key("peak_contacts").value(counts.peak_contacts).key("peak_awake").value(counts.peak_awake);
   json.close('}');

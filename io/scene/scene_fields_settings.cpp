@@ -93,6 +93,25 @@ const Object kContact{
                v.text() == "boundary" ? ContactNormal::kBoundary : ContactNormal::kCircleCentres;
          },
          {"boundary", "circle-centres"}),
+     field("law", Kind::kChoice, "", {}, "\"crush\"",
+           "how bodies push each other apart: what crushing ice carries, or the paper's rigid impulses, Eq. "
+           "(5)",
+           [](Draft& d, const Value& v) {
+             d.scene.contact.law =
+                 v.text() == "crush" ? simulation::ContactLaw::kCrush : simulation::ContactLaw::kImpulse;
+           },
+           {"crush", "impulse"}),
+     field("substeps", Kind::kInteger, "", from(1, 64), "1",
+           "of law crush: parts of a step, solved one after the other",
+           [](Draft& d, const Value& v) { d.scene.contact.substeps = static_cast<int>(v.number()); }),
+     field("tolerance_m_per_s", Kind::kNumber, "m/s", from(1e-9, 0.1), "1e-4",
+           "of law crush: largest violation of the law that is left",
+           [](Draft& d, const Value& v) { d.scene.contact.tolerance = v.number(); }),
+     field("start", Kind::kChoice, "", {}, "\"last-step\"",
+           "of law crush: the impulses that the solver starts from, those of the step before or none; the "
+           "solution does not depend on it",
+           [](Draft& d, const Value& v) { d.scene.contact.is_warm_started = v.text() == "last-step"; },
+           {"last-step", "zero"}),
      field("restitution", Kind::kNumber, "", from(0, 1), "0.1", "ε of Eq. (5)",
            [](Draft& d, const Value& v) { d.scene.contact.restitution = v.number(); }),
      field("contact_time_s", Kind::kNumber, "s", from(1e-4, 100), "0.5",
@@ -104,8 +123,8 @@ const Object kContact{
      field("separation_time_s", Kind::kNumber, "s", from(1e-3, 1e4), "1",
            "time over which overlap that nothing presses together any more decays",
            [](Draft& d, const Value& v) { d.scene.contact.separation_time = v.number(); }),
-     field("iterations", Kind::kInteger, "", from(1, 10000), "30",
-           "most sweeps of the impulse solver in a step",
+     field("iterations", Kind::kInteger, "", from(1, 10000), "100",
+           "most sweeps of the contact solver over bodies in touch, in a step or substep",
            [](Draft& d, const Value& v) { d.scene.contact.iterations = static_cast<int>(v.number()); })}};
 
 const Object kBending{{field("model", Kind::kChoice, "", {}, "\"fsi-database\"",

@@ -102,7 +102,7 @@ class StateLoader {
           c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
           c.peak_contacts, c.peak_awake})
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
-    bytes_.require(c.largest_residual >= 0, "a negative residual");
+    bytes_.require(c.largest_residual >= 0 && c.energy_created >= 0, "a negative residual");
     bytes_.require(world_.accounts.loads.size() == scene_.ships.size(), "loads of other ships");
     for (const ShipContact& contact : world_.accounts.ship_contacts)
       bytes_.require(

@@ -75,7 +75,7 @@ template <class Archive>
 void fields(Archive& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
           c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.largest_residual,
-          c.unpaired_stretches, c.peak_contacts, c.peak_awake);
+          c.energy_created, c.unpaired_stretches, c.peak_contacts, c.peak_awake);
 }
 template <class Archive>
 void fields(Archive& archive, Is<EnergyFlows> auto& e) {
@@ -93,7 +93,7 @@ template <class Archive>
 void fields(Archive& archive, Is<dynamics::PersistentContact> auto& r) {
   archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.owed_impulse,
           r.given_impulse, r.restitution_limit, r.last_impulse[0], r.last_impulse[1], r.warm_start_impulse[0],
-          r.warm_start_impulse[1], r.has_crushed, r.was_refused, r.is_continued);
+          r.warm_start_impulse[1], r.loaded_depth, r.has_crushed, r.was_refused, r.is_continued);
 }
 /// Not its separation_bound: that is a cache, which may differ where the same bodies do the same.
 template <class Archive>

@@ -26,9 +26,10 @@ inline std::string fingerprint(const simulation::Scene& s) {
       fmt::format("ice {} {} {} {} {} {} {} {} {}\n", s.ice.thickness, s.ice.density, s.ice.youngs_modulus,
                   s.ice.poisson_ratio, s.ice.flexural_strength, s.ice.compressive_strength,
                   s.ice.tensile_strength, s.ice.fracture_toughness, s.ice.friction);
-  text += fmt::format("contact {} {} {} {} {} {}\n", s.contact.circle_radius,
-                      static_cast<int>(s.contact.normal), s.contact.restitution, s.contact.contact_time,
-                      s.contact.separation_time, s.contact.iterations);
+  text += fmt::format("contact {} {} {} {} {} {} {} {} {} {}\n", static_cast<int>(s.contact.law),
+                      s.contact.substeps, s.contact.is_warm_started, s.contact.tolerance,
+                      s.contact.circle_radius, static_cast<int>(s.contact.normal), s.contact.restitution,
+                      s.contact.contact_time, s.contact.separation_time, s.contact.iterations);
   text += fmt::format("fracture {} {} {} {} {} {} {} {}\n",
                       static_cast<int>(s.fracture.characteristic_length), s.fracture.breakable_size_factor,
                       static_cast<int>(s.fracture.bending), static_cast<int>(s.fracture.splitting),

@@ -177,7 +177,7 @@ TEST(CrushingCollision, ByTheBoundaryRuleDoesNotKnowTheCirclesRadius) {
 
 /// Mean of the force that level ice takes [N].
 double mean_resistance(double radius) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.contact.circle_radius = radius;
   scene.ships = {icebreaker({-2, 0}, ConstantSpeed{1})};
   scene.floes = {floe(rectangle(0, -75, 300, 75))};

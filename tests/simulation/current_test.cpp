@@ -20,7 +20,7 @@ geometry::Polygon disc(Point centre, double radius) {
 }
 
 Scene sheared(double rate, double direction = 0, Point origin = {}) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.water.shear = {rate, direction, origin};
   return scene;
 }

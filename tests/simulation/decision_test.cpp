@@ -11,7 +11,7 @@ namespace {
 using namespace scenes;
 
 Scene ship_against(const ShipSpec& ship, const geometry::Polygon& ice) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.ships = {ship};
   scene.floes = {floe(ice)};
   return scene;

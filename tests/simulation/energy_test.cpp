@@ -27,7 +27,7 @@ Audit after(const Scene& scene, double until) {
 
 /// A ship through two plates and small floes, all sinks at work.
 Scene busy_scene(const Propulsion& propulsion) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.ships = {icebreaker({0, 3}, propulsion, 2)};
   scene.floes = {floe(rectangle(0.5, -40, 70, 50), {-0.2, 0.05}, 1e-3), floe(rectangle(72, -40, 120, 60))};
   for (int i = 0; i < 12; ++i)

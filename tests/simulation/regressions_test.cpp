@@ -14,7 +14,7 @@ namespace {
 /// them.
 TEST(Regression, AMovingFloeMeetsFloesThatTheSceneListsLater) {
   for (const bool is_mover_first : {true, false}) {
-    Scene scene;
+    Scene scene = paper_scene();
     scene.water.drag_coefficient = 0;
     const FloeSpec solver_body = floe(rectangle(0, 0, 10, 10), {1, 0});
     const FloeSpec rester = floe(rectangle(10.5, 0, 20.5, 10));
@@ -29,7 +29,7 @@ TEST(Regression, AMovingFloeMeetsFloesThatTheSceneListsLater) {
 /// Restitution was charged by the whole squeeze, step after step, and threw the small floe off at 1.45 m/s.
 TEST(Regression, APinchedFloeIsNotThrownOff) {
   for (const double restitution : {0.0, 0.1, 0.3}) {
-    Scene scene;
+    Scene scene = paper_scene();
     scene.contact.restitution = restitution;
     scene.fracture.breakable_size_factor = 1e3;
     scene.ships = {barge({0, 0}, ConstantSpeed{1})};
@@ -63,7 +63,7 @@ TEST(Regression, IceWithoutMassOrInertiaIsNoFloe) {
 
 /// With a weak criterion the halves of a floe split again every step along the crack they had just left.
 TEST(Regression, ACrackIsNotParedStripByStrip) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.fracture.splitting = fracture::SplittingModel::kLefm;
   scene.ships = {icebreaker({0, 3}, ConstantSpeed{0.5}, 0.5)};
   scene.floes = {floe(rectangle(0.5, -40, 70, 50))};
@@ -76,7 +76,7 @@ TEST(Regression, ACrackIsNotParedStripByStrip) {
 
 /// The scene's own comment: j = (1 + ε) v m_eff, worked by hand.
 TEST(Regression, TwoFloesMeetAsEquation5SaysByHand) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.water.drag_coefficient = 0;
   scene.contact.restitution = 0.1;
   const double v = 0.3;

@@ -73,9 +73,17 @@ inline Story run(Simulation& simulation, double until) {
   return story;
 }
 
+/// A scene whose contacts are the paper's: rigid impulses with restitution.
+inline Scene paper_scene() {
+  Scene scene;
+  scene.contact.law = ContactLaw::kImpulse;
+  scene.contact.iterations = 30;
+  return scene;
+}
+
 /// Ice and water without drag, so that nothing but contacts changes a velocity.
 inline Scene without_drag() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.water.drag_coefficient = 0;
   return scene;
 }

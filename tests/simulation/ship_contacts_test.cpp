@@ -81,7 +81,7 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
   // The pile stands off the course by this much: every step length and place finds the touch, none beside it.
   for (const double step : {0.005, 0.013, 0.05}) {
     for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
-      Scene scene;
+      Scene scene = paper_scene();
       scene.time.step = step;
       scene.ships = {barge({0, 0}, ConstantSpeed{2}), pile({25, off}, 5), pile({-150, 0}, 5)};
       Simulation simulation(scene);
@@ -107,7 +107,7 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
 }
 
 TEST(ShipContacts, AreRecordedOnceAlsoAfterAResume) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.ships = {barge({0, 0}, ConstantThrust{1e5}), pile({1, 0}, 5), barge({0, 100}, ConstantSpeed{1}),
                  pile({6, 100}, 5)};
   scene.ships[1].position_in_world.x += 5;

@@ -107,7 +107,7 @@ TEST(Ships, MeetAsEq5Says) {
 }
 
 TEST(Drift, AFloeDriftsWithTheWaterAndFeelsNothing) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.water.drift = {-0.05, -0.05};
   scene.floes = {floe(rectangle(0, 0, 15, 15)), floe(rectangle(40, 3, 55, 18))};
   Simulation simulation(scene);
@@ -124,7 +124,7 @@ TEST(Drift, IsTheSameSceneSeenFromAMovingFrame) {
   // Drift along the course: relative to the water the ship is faster by as much. The same forces, cracks and
   // tracks.
   const auto scene_with = [](double drift) {
-    Scene scene;
+    Scene scene = paper_scene();
     scene.water.drift = {drift, 0};
     scene.ships = {icebreaker({0, 0.7}, ConstantThrust{2e4}, 1 + drift)};
     add_pack(scene, 1, -40, 2, 6);

@@ -98,7 +98,7 @@ void add_field(Scene& scene, double x0, double y0, double x1, double y1, double 
 
 /// A ship that breaks its way through a plate and pushes floes in a drift.
 Scene voyage() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.time.step = 0.01;
   scene.water.drift = {-0.1, 0.05};
   scene.ships = {icebreaker({0, 0}, ConstantThrust{4e5}, 2)};
@@ -110,7 +110,7 @@ Scene voyage() {
 
 /// Floes that a sheared current carries past a pile: all awake, jammed and parting.
 Scene pile_in_shear() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.time.step = 0.02;
   scene.water.drift = {0.6, 0};
   scene.water.shear = {0.004, 0, {0, 0}};

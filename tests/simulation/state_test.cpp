@@ -13,7 +13,7 @@ namespace {
 
 /// Bends, splits, sleeping and waking floes, pinched small ones.
 Scene broken_plate() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.time.step = 0.01;
   scene.ships = {icebreaker({-0.5, 0}, ConstantThrust{5e5}, 2)};
   scene.floes = {floe(rectangle(0, -40, 60, 40)), floe(rectangle(60.5, -40, 140, 40))};
@@ -117,7 +117,7 @@ TEST(State, AStateOfAnotherSceneIsRefused) {
 /// On several threads, on more than there are cores, the same bits. The scene is large enough to share out:
 /// more than 1024 awake floes (dynamics::kBodiesPerChunk), some of them colliding.
 TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.time.step = 0.02;
   scene.ships = {icebreaker({-1, 400}, ConstantSpeed{2}, 2)};
   for (int i = 0; i < 60; ++i) {

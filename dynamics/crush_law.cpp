@@ -1,0 +1,86 @@
+#include "dynamics/crush_law.hpp"
+
+#include <cmath>
+
+namespace polynya::dynamics {
+namespace {
+
+constexpr int kMostTries = 8;  ///< of Newton's; it seldom needs three
+
+struct Pieces {
+  CrushPiece of[2];
+  friend bool operator==(const Pieces&, const Pieces&) = default;
+};
+
+/// The two ends of one contact line and what slows them.
+class EndPair {
+ public:
+  EndPair(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
+          const std::array<double, 2>& closing_speed)
+      : ends_(ends), mobility_(mobility), free_(closing_speed) {}
+
+  std::array<double, 2> speeds(const std::array<double, 2>& impulse) const {
+    return {free_[0] - mobility_.at[0] * impulse[0] - mobility_.between * impulse[1],
+            free_[1] - mobility_.between * impulse[0] - mobility_.at[1] * impulse[1]};
+  }
+  Pieces pieces(const std::array<double, 2>& speed) const {
+    return {piece_at(ends_[0], speed[0]), piece_at(ends_[1], speed[1])};
+  }
+  std::array<double, 2> solve_on(const Pieces& pieces) const {
+    const CrushBranch p = branch_of(ends_[0], pieces.of[0]);
+    const CrushBranch q = branch_of(ends_[1], pieces.of[1]);
+    const double right_0 = p.at_rest + p.slope * (free_[0] - ends_[0].gap_speed);
+    const double right_1 = q.at_rest + q.slope * (free_[1] - ends_[1].gap_speed);
+    const double m00 = 1 + p.slope * mobility_.at[0];
+    const double m11 = 1 + q.slope * mobility_.at[1];
+    const double m01 = p.slope * mobility_.between;
+    const double m10 = q.slope * mobility_.between;
+    const double determinant = m00 * m11 - m01 * m10;  // ≥ 1: K is positive semidefinite
+    return {(m11 * right_0 - m01 * right_1) / determinant, (m00 * right_1 - m10 * right_0) / determinant};
+  }
+  /// By how much impulses miss the law [N s].
+  double violation(const std::array<double, 2>& impulse) const {
+    const auto u = speeds(impulse);
+    return std::max(std::abs(impulse[0] - crush_impulse(ends_[0], u[0])),
+                    std::abs(impulse[1] - crush_impulse(ends_[1], u[1])));
+  }
+  std::array<double, 2> best_of_all() const {
+    std::array<double, 2> best{};
+    double least = violation(best);
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        const auto impulse = solve_on({{static_cast<CrushPiece>(i), static_cast<CrushPiece>(j)}});
+        if (const double missed = violation(impulse); missed < least) {
+          least = missed;
+          best = impulse;
+        }
+      }
+    }
+    return best;
+  }
+
+ private:
+  const std::array<CrushResponse, 2>& ends_;
+  const EndsMobility& mobility_;
+  std::array<double, 2> free_;
+};
+
+}  // namespace
+
+std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
+                                     const std::array<double, 2>& closing_speed) {
+  const EndPair pair(ends, mobility, closing_speed);
+  Pieces pieces = pair.pieces(closing_speed);
+  if (pieces == Pieces{{CrushPiece::kApart, CrushPiece::kApart}}) return {0, 0};
+  for (int i = 0; i < kMostTries; ++i) {
+    const auto impulse = pair.solve_on(pieces);
+    const Pieces next = pair.pieces(pair.speeds(impulse));
+    if (next == pieces)
+      return {std::clamp(impulse[0], 0.0, ends[0].cap), std::clamp(impulse[1], 0.0, ends[1].cap)};
+    pieces = next;
+  }
+  const auto impulse = pair.best_of_all();
+  return {std::clamp(impulse[0], 0.0, ends[0].cap), std::clamp(impulse[1], 0.0, ends[1].cap)};
+}
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,160 @@
+// The law of crushing ice, at one contact and where many press on each other.
+#include "dynamics/crush_law.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/crush_solver.hpp"
+#include "tests/dynamics/scenery.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+using geometry::Vector;
+using namespace scenery;
+
+constexpr std::uint64_t kSeed = 20170611;
+
+CrushResponse random_response(Random& random) {
+  CrushResponse r;
+  r.impulse_of_force = std::pow(10.0, random.between(-2, 5));
+  r.slope = random.below(4) == 0 ? 0 : std::pow(10.0, random.between(-2, 6));
+  r.gap_speed = random.below(2) == 0 ? 0 : random.between(0, 1);
+  r.cap = random.below(3) == 0 ? r.impulse_of_force * random.between(0.1, 3)
+                               : std::numeric_limits<double>::infinity();
+  return r;
+}
+
+TEST(CrushLaw, NeverFallsNorJumpsAndCarriesNothingWhereBodiesPart) {
+  Random random(kSeed);
+  for (int i = 0; i < 2000; ++i) {
+    const CrushResponse r = random_response(random);
+    EXPECT_EQ(crush_impulse(r, r.gap_speed), 0);
+    EXPECT_EQ(crush_impulse(r, r.gap_speed - random.between(0, 5)), 0);
+    const double u = r.gap_speed + std::pow(10.0, random.between(-6, 1));
+    const double step = 1e-9 * u;
+    const double here = crush_impulse(r, u);
+    const double there = crush_impulse(r, u + step);
+    EXPECT_GE(there, here * (1 - 1e-12));
+    EXPECT_LE(there - here, creep_slope(r) * step * (1 + 1e-3) + 1e-9 * here);
+    EXPECT_LE(here, r.cap);
+  }
+}
+
+TEST(CrushLaw, BothEndsObeyItTogether) {
+  Random random(kSeed);
+  for (int i = 0; i < 20000; ++i) {
+    const std::array<CrushResponse, 2> ends{random_response(random), random_response(random)};
+    EndsMobility k;
+    k.at[0] = std::pow(10.0, random.between(-7, -2));
+    k.at[1] = k.at[0] * std::pow(10.0, random.between(-2, 2));
+    k.between = std::sqrt(k.at[0] * k.at[1]) * random.between(-1, 1);
+    const std::array<double, 2> free{random.between(-1, 3), random.between(-1, 3)};
+    const auto p = crush_impulses(ends, k, free);
+    const std::array<double, 2> u{free[0] - k.at[0] * p[0] - k.between * p[1],
+                                  free[1] - k.between * p[0] - k.at[1] * p[1]};
+    for (std::size_t end = 0; end < 2; ++end) {
+      // As a speed: what the impulse misses the law by, as far as that moves its own end.
+      const double missed =
+          std::abs(p[end] - crush_impulse(ends[end], u[end])) / (1 / k.at[end] + creep_slope(ends[end]));
+      EXPECT_LT(missed, 1e-9) << "case " << i << " end " << end;
+    }
+  }
+}
+
+/// A row of floes pressed together between two walls that close, and the impulses to start from.
+struct Jam {
+  Bodies bodies;
+  std::vector<Contact> contacts;
+  std::vector<PersistentContact> records;
+};
+
+Jam jam_of(Random& random, int floes) {
+  Jam jam;
+  const auto wall = [&](double x, double speed) {
+    NewBody body = floe_body(rectangle(10, 40), {x, 0});
+    body.velocity = {speed, 0};
+    const BodyIndex i = add_body(jam.bodies, body);
+    jam.bodies.inverse_mass[i] = jam.bodies.inverse_moment[i] = 0;
+  };
+  wall(-5, random.between(0, 1));
+  wall(10.0 * floes + 5, -random.between(0, 1));
+  for (int i = 0; i < floes; ++i) {
+    NewBody body = floe_body(rectangle(10, random.between(5, 20)), {10.0 * i + 5, random.between(-2, 2)});
+    body.velocity = {random.between(-1, 1), random.between(-0.2, 0.2)};
+    body.angular_velocity = random.between(-0.05, 0.05);
+    add_body(jam.bodies, body);
+  }
+  for (int i = 0; i <= floes; ++i) {
+    const BodyIndex a = i == 0 ? 0 : i + 1;
+    const BodyIndex b = i == floes ? 1 : i + 2;
+    Contact c = a < b ? contact_at(a, b, {10.0 * i, random.between(-2, 2)}, {1, 0}, random.between(0.5, 4))
+                      : contact_at(b, a, {10.0 * i, random.between(-2, 2)}, {-1, 0}, random.between(0.5, 4));
+    c.depth = random.between(0.001, 0.1);
+    c.crushing_force = std::pow(10.0, random.between(3, 6.5));
+    c.crushing_stiffness = c.crushing_force / c.depth * random.between(0, 2);
+    jam.contacts.push_back(c);
+  }
+  return jam;
+}
+
+TEST(CrushSolver, FindsOneAnswerWhateverItStartsFrom) {
+  Random random(kSeed);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Jam jam = jam_of(random, 2 + random.below(12));
+    std::vector<Bodies> ends;
+    double size_of_start = 0;
+    for (int start = 0; start < 3; ++start) {
+      Jam now = jam;
+      now.records.assign(jam.contacts.size(), {});
+      for (std::size_t i = 0; i < now.contacts.size(); ++i) {
+        now.contacts[i].record = &now.records[i];
+        now.records[i].loaded_depth = 0.5 * now.contacts[i].depth;
+        for (double& impulse : now.records[i].last_impulse)
+          size_of_start += impulse =
+              start == 0 ? 0 : random.between(0, 0.02) * now.contacts[i].crushing_force;
+      }
+      const SolverResult result = CrushSolver().solve(
+          now.bodies, now.contacts,
+          {.step = 0.01, .substeps = 1, .max_iterations = 20000, .tolerance = 1e-10, .threads = 1});
+      EXPECT_TRUE(result.is_converged()) << result.residual;
+      ends.push_back(now.bodies);
+    }
+    ASSERT_GT(size_of_start, 0);
+    for (BodyIndex i = 0; i < jam.bodies.size(); ++i) {
+      for (int start = 1; start < 3; ++start) {
+        EXPECT_LT(length(ends[static_cast<std::size_t>(start)].velocity[i] - ends[0].velocity[i]), 1e-6)
+            << trial;
+        EXPECT_NEAR(ends[static_cast<std::size_t>(start)].angular_velocity[i], ends[0].angular_velocity[i],
+                    1e-6);
+      }
+    }
+  }
+}
+
+TEST(CrushSolver, KeepsMomentumAndMakesNoEnergy) {
+  Random random(kSeed);
+  for (int trial = 0; trial < 200; ++trial) {
+    Jam jam = jam_of(random, 2 + random.below(6));
+    jam.contacts.front().crushing_force = jam.contacts.back().crushing_force = 0;  // the walls let go
+    jam.contacts.front().crushing_stiffness = jam.contacts.back().crushing_stiffness = 0;
+    jam.records.assign(jam.contacts.size(), {});
+    for (std::size_t i = 0; i < jam.contacts.size(); ++i) {
+      jam.contacts[i].record = &jam.records[i];
+      jam.contacts[i].friction = 0.2;
+    }
+    const Vector p = momentum(jam.bodies);
+    const double l = angular_momentum(jam.bodies);
+    const double energy = kinetic_energy(jam.bodies);
+    CrushSolver().solve(
+        jam.bodies, jam.contacts,
+        {.step = 0.01, .substeps = 4, .max_iterations = 100, .tolerance = 1e-6, .threads = 1});
+    EXPECT_LT(length(momentum(jam.bodies) - p), 1e-9 * (length(p) + 1e5));
+    EXPECT_NEAR(angular_momentum(jam.bodies), l, 1e-9 * (std::abs(l) + 1e6));
+    EXPECT_LE(kinetic_energy(jam.bodies), energy * (1 + 1e-12));
+  }
+}
+
+}  // namespace
+}  // namespace polynya::dynamics
