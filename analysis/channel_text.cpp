@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "analysis/floe_sizes.hpp"
-#include "analysis/geojson_layer.hpp"
+#include "io/text/csv_row.hpp"
+#include "io/text/geojson_layer.hpp"
 
 namespace polynya::analysis {
 namespace {
+
+using io::GeojsonLayer;
 
 double heading_deg(const ChannelStation& station) {
   return 180 / std::numbers::pi * std::atan2(station.forward.y, station.forward.x);
@@ -62,25 +64,30 @@ std::string summary_lines(const Channel& channel) {
 
 void append(io::JsonWriter& json, const Channel& channel) {
   const WidthSummary width = widths(channel);
-  json.key("ship").value(std::string_view(channel.ship)).key("t_s").value(channel.time);
+  json.key("ship").value(channel.ship).key("t_s").value(channel.time);
   json.key("beam_m").value(channel.beam).key("spacing_m").value(channel.spacing);
-  json.key("reach_m").value(channel.reach);
-  json.key("stations").value(static_cast<std::int64_t>(channel.stations.size()));
-  json.key("bounded_stations").value(static_cast<std::int64_t>(width.count));
+  json.key("reach_m").value(channel.reach).key("stations").value(channel.stations.size());
+  json.key("bounded_stations").value(width.count);
   json.key("mean_width_m").value(width.mean).key("least_width_m").value(width.least);
   json.key("most_width_m").value(width.most);
   json.key("swept_area_m2").value(channel.swept_area);
   json.key("swept_ice_at_start_m2").value(channel.swept_ice_at_start);
   json.key("swept_ice_m2").value(channel.swept_ice());
-  json.key("floes_in_band").value(static_cast<std::int64_t>(channel.floes.size()));
+  json.key("floes_in_band").value(channel.floes.size());
   json.key("largest_floe_m").value(channel.floes.empty() ? 0 : channel.floes.front().size);
   json.key("open_area_m2").value(channel.open_area);
 }
 
 void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t number) {
   io::JsonWriter& json = layer.start().key("part").value("station");
-  json.key("station").value(static_cast<std::int64_t>(number));
-  json.key("along_m").value(s.along).key("passed_s").value(s.passed).key("port_m").value(s.port);
+  json.key("station")
+      .value(number)
+      .key("along_m")
+      .value(s.along)
+      .key("passed_s")
+      .value(s.passed)
+      .key("port_m")
+      .value(s.port);
   json.key("starboard_m").value(s.starboard).key("width_m").value(s.width());
   json.key("is_bounded").value(s.is_bounded()).key("ice_across_beam").value(s.ice_across_beam);
   const geometry::Vector to_port = perpendicular(s.forward);
@@ -111,12 +118,9 @@ std::string to_csv(const Channel& channel) {
   for (std::size_t i = 0; i < channel.stations.size(); ++i) {
     const ChannelStation& s = channel.stations[i];
     io::append_number(text, static_cast<std::int64_t>(i));
-    for (const double value : {s.along, s.passed, s.middle.x, s.middle.y, heading_deg(s), s.port, s.starboard,
-                               s.width(), s.width() / channel.beam, s.has_port_ice ? 1.0 : 0.0,
-                               s.has_starboard_ice ? 1.0 : 0.0, s.ice_across_beam}) {
-      text += ',';
-      io::append_number(text, value);
-    }
+    io::append_csv(text, {s.along, s.passed, s.middle.x, s.middle.y, heading_deg(s), s.port, s.starboard,
+                          s.width(), s.width() / channel.beam, s.has_port_ice ? 1.0 : 0.0,
+                          s.has_starboard_ice ? 1.0 : 0.0, s.ice_across_beam});
     text += '\n';
   }
   return text;
@@ -129,9 +133,8 @@ std::string to_json_text(const Channel& channel) {
   append(json, channel);
   json.key("floes").open('[');
   for (const ChannelFloe& floe : channel.floes) {
-    json.open('{').key("floe_id").value(floe.floe).key("size_m").value(floe.size).key("area_m2").value(
-        floe.area);
-    json.key("inside_m2").value(floe.inside).close('}');
+    json.open('{').key("floe_id").value(floe.floe).key("size_m").value(floe.size);
+    json.key("area_m2").value(floe.area).key("inside_m2").value(floe.inside).close('}');
   }
   json.close(']').close('}');
   return text + "\n";

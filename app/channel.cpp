@@ -1,13 +1,11 @@
 #include "analysis/channel.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "analysis/channel_text.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/options.hpp"
 #include "app/write_output.hpp"
 #include "io/run/run_folder.hpp"
@@ -44,8 +42,6 @@ int measure(const Options& options) {
   }
   const auto channel = analysis::measure_channel(*run, wanted);
   if (!channel) return fail(kUsage, channel.error());
-  std::error_code ignored;
-  if (!options.out.empty()) std::filesystem::create_directories(options.out, ignored);
   for (const auto& [name, text] : {std::pair{io::run_file::kChannelCsv, to_csv(*channel)},
                                    std::pair{io::run_file::kChannel, to_geojson(*channel)}}) {
     if (const auto written = write_product(options.out, options.run, name, text); !written)

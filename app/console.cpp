@@ -8,8 +8,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "app/exit_code.hpp"
-
 namespace polynya::app {
 namespace {
 
@@ -57,7 +55,7 @@ void write_err(std::string_view text) {
   write(stderr, text, err_error);
 }
 
-int fail(int code, std::string_view message) {
+ExitCode fail(ExitCode code, std::string_view message) {
   print_err("polynya: {}\n", message);
   return code;
 }

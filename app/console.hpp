@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "app/exit_code.hpp"
+
 namespace polynya::app {
 
 // Every text of the program goes through here. A text that could not be written never ends in exit code 0;
@@ -37,7 +39,7 @@ inline std::string counted(std::size_t count, std::string_view noun) {
 }
 
 /// "polynya: " and the message on stderr; returns the code.
-int fail(int code, std::string_view message);
+ExitCode fail(ExitCode code, std::string_view message);
 
 /// Shows how far some work is, on stderr. It may be lost.
 void show_progress(std::string_view text);

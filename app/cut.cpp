@@ -3,13 +3,10 @@
 #include <memory>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/cut_floes.hpp"
 #include "app/cut_messages.hpp"
-#include "app/exit_code.hpp"
 #include "app/options.hpp"
 #include "app/read_input.hpp"
 #include "app/write_output.hpp"
@@ -59,16 +56,19 @@ tl::unexpected<Failure> failure(const std::string& where, const io::ToolError& e
   return failure(is_invalid ? kRefused : kUsage, fmt::format("{}: {}", where, error.words));
 }
 
-Outcome<std::vector<double>> numbers(const char* option, const std::string& text, std::size_t wanted) {
-  auto read = io::read_numbers(text, wanted);
-  if (!read) return failure(kUsage, fmt::format("{}: {}", option, read.error()));
-  return *std::move(read);
-}
-
 template <class Tool>
 Outcome<std::vector<io::CutOp>> one_op(const char* where, io::ToolOutcome<Tool> tool, io::Keep keep) {
   if (!tool) return failure(where, tool.error());
   return std::vector<io::CutOp>{{std::move(*tool), keep}};
+}
+
+/// The cut by a tool of that many numbers, which `tool_of` makes.
+template <class ToolOf>
+Outcome<std::vector<io::CutOp>> op_of_numbers(const char* option, const std::string& text, std::size_t wanted,
+                                              io::Keep keep, ToolOf tool_of) {
+  const auto numbers = io::read_numbers(text, wanted);
+  if (!numbers) return failure(kUsage, fmt::format("{}: {}", option, numbers.error()));
+  return one_op(option, tool_of(*numbers), keep);
 }
 
 Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
@@ -79,21 +79,18 @@ Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
     return failure(kUsage, fmt::format("one of --disc, --crack, --line, --polygon, --ops is needed, {} given",
                                        given == 0 ? "none is" : fmt::format("{} are", given)));
   }
-  if (!options.disc.empty()) {
-    const auto n = numbers("--disc", options.disc, 3);
-    if (!n) return tl::unexpected(n.error());
-    return one_op("--disc", io::disc_tool(*n, options.sagitta), options.keep);
-  }
-  if (!options.crack.empty()) {
-    const auto n = numbers("--crack", options.crack, 3);
-    if (!n) return tl::unexpected(n.error());
-    return std::vector<io::CutOp>{{io::CrackTool{{(*n)[0], (*n)[1]}, (*n)[2]}, options.keep}};
-  }
-  if (!options.line.empty()) {
-    const auto n = numbers("--line", options.line, 4);
-    if (!n) return tl::unexpected(n.error());
-    return one_op("--line", io::line_tool({{(*n)[0], (*n)[1]}, {(*n)[2], (*n)[3]}}), options.keep);
-  }
+  using Numbers = std::vector<double>;
+  if (!options.disc.empty())
+    return op_of_numbers("--disc", options.disc, 3, options.keep,
+                         [&](const Numbers& n) { return io::disc_tool(n, options.sagitta); });
+  if (!options.crack.empty())
+    return op_of_numbers("--crack", options.crack, 3, options.keep, [](const Numbers& n) {
+      return io::ToolOutcome<io::CrackTool>(io::CrackTool{{n[0], n[1]}, n[2]});
+    });
+  if (!options.line.empty())
+    return op_of_numbers("--line", options.line, 4, options.keep, [](const Numbers& n) {
+      return io::line_tool({{n[0], n[1]}, {n[2], n[3]}});
+    });
   const std::string& file = options.polygon.empty() ? options.ops : options.polygon;
   auto text = read_input(file, options.polygon.empty() ? kLongestOps : io::kLongestFloeText);
   if (!text) return failure(kInputOutput, fmt::format("{}: {}", file, text.error()));

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "app/console.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::app {
 namespace {
@@ -25,8 +24,7 @@ void report_floes(const std::string& name, const io::CutReport& report) {
       std::string words = floe.rejected->reason;
       if (!floe.rejected->detail.empty()) words += ": " + floe.rejected->detail;
       const auto& vertices = floe.rejected->vertices;
-      for (std::size_t i = 0; i < std::min(vertices.size(), kMostVertices); ++i)
-        words += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", vertices[i].x, vertices[i].y);
+      words += io::places_in_words(vertices, kMostVertices);
       if (vertices.size() > kMostVertices)
         words += fmt::format(" and {} more", vertices.size() - kMostVertices);
       report_of(floe, words);

@@ -2,12 +2,9 @@
 #include <filesystem>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/database_input.hpp"
-#include "app/exit_code.hpp"
 #include "app/stop_signal.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "io/text/output_file.hpp"

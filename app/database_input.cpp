@@ -5,8 +5,6 @@
 #include <thread>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "app/console.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/crushing.hpp"
@@ -22,8 +20,7 @@ constexpr double kRadian = std::numbers::pi / 180;
 constexpr double kNarrowestWedge = 0.1;  ///< as --wedge-angle allows [deg]
 
 tl::unexpected<ExitCode> usage(const std::string& problem) {
-  print_err("polynya: {}\n", problem);
-  return tl::unexpected(kUsage);
+  return tl::unexpected(fail(kUsage, problem));
 }
 
 }  // namespace
@@ -76,15 +73,11 @@ tl::expected<DatabasePointer, ExitCode> load_database(const std::string& file) {
   // The shipped one lives as long as the program: nothing to delete.
   if (file.empty()) return DatabasePointer(DatabasePointer(), &fracture::default_database());
   const auto text = io::read_text_file(file, fracture::kLargestFile);
-  if (!text) {
-    print_err("polynya: {}: {}\n", file, text.error());
-    return tl::unexpected(kInputOutput);
-  }
+  if (!text) return tl::unexpected(fail(kInputOutput, fmt::format("{}: {}", file, text.error())));
   auto database = fracture::parse_database(*text);
   if (database) return std::make_shared<const fracture::BendingDatabase>(*std::move(database));
   print_err("polynya: {}:{}: {}\n", file, database.error().line, database.error().message);
-  print_err("polynya: {} is not an icebreaking database that this version reads\n", file);
-  return tl::unexpected(kInputOutput);
+  return tl::unexpected(fail(kInputOutput, file + " is not an icebreaking database that this version reads"));
 }
 
 std::string database_title(const std::string& file) {

@@ -5,12 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/database_input.hpp"
-#include "app/exit_code.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/scaled_load.hpp"
 #include "fracture/bending/studies.hpp"
@@ -45,11 +42,7 @@ bool can_bend(const BendingLoad& load) {
 
 /// A member; null where the ice cannot bend.
 void write_number(io::JsonWriter& json, std::string_view key, double value, bool is_known) {
-  json.key(key);
-  if (is_known)
-    json.value(value);
-  else
-    json.null();
+  json.key(key).value(is_known ? std::optional(value) : std::nullopt);
 }
 
 void write_published(io::JsonWriter& json, std::string_view name, const BendingCapacity& capacity,
@@ -121,10 +114,7 @@ void print_json(const Options& options, const BendingDatabase& database, const B
   write_load(json, options.load, load);
   write_groups(json, fracture::scaled(load), forecast);
   json.key("database").open('{').key("file");
-  if (options.file.empty())
-    json.null();
-  else
-    json.value(options.file);
+  json.value(options.file.empty() ? std::nullopt : std::optional(options.file));
   json.key("fluid").value(fracture::fluid_name(database.settings().fluid));
   json.key("hash").value("fnv1a64 " + fracture::database_hash(database)).close('}');
   json.close('}');

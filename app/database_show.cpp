@@ -6,13 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/database_input.hpp"
 #include "app/database_plots.hpp"
-#include "app/exit_code.hpp"
+#include "app/write_output.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
 #include "io/text/output_file.hpp"
@@ -101,17 +99,14 @@ void print_slices(const FsiDatabaseModel& model, const BendingLoad& load) {
   print_slice(model, load, SliceAxis::kThickness, "h m", kThicknesses);
 }
 
-/// The pictures into the folder, which is made where it is missing. What went wrong; empty where all is well.
-std::string write_pictures(const std::vector<NamedChart>& charts, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return folder.string() + ": " + error.message();
+/// The pictures into the folder, which is made where it is missing.
+io::Result<> write_pictures(const std::vector<NamedChart>& charts, const std::filesystem::path& folder) {
+  if (auto made = make_folder(folder); !made) return made;
   for (const auto& [file, chart] : charts) {
-    if (const auto written = io::write_named_file(folder / file, views::to_svg(chart)); !written)
-      return written.error();
+    if (auto written = io::write_named_file(folder / file, views::to_svg(chart)); !written) return written;
     print_out("{}picture         {}\n", &file == &charts.front().file ? "\n" : "", (folder / file).string());
   }
-  return "";
+  return {};
 }
 
 int show(const Options& options) {
@@ -129,8 +124,8 @@ int show(const Options& options) {
   if (options.svg_folder.empty()) return kDone;
   const std::string title = fmt::format("{}, fluid {}", options.file.empty() ? "shipped" : options.file,
                                         fracture::fluid_name((*database)->settings().fluid));
-  const std::string problem = write_pictures(database_charts(model, title, *load), options.svg_folder);
-  return problem.empty() ? kDone : fail(kInputOutput, problem);
+  const auto written = write_pictures(database_charts(model, title, *load), options.svg_folder);
+  return written ? kDone : fail(kInputOutput, written.error());
 }
 
 }  // namespace

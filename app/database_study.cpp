@@ -4,12 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/database_input.hpp"
-#include "app/exit_code.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/options.hpp"
+#include "app/write_output.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/geojson_export.hpp"
 #include "views/export/vtk_export.hpp"
@@ -31,15 +31,8 @@ struct Options {
   bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
 };
 
-/// Makes a folder; what went wrong, or empty.
-std::string make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  return error ? fmt::format("{}: {}", folder.string(), error.message()) : "";
-}
-
 int write_vtk(const io::Run& run, const Options& options) {
-  if (const std::string wrong = make_folder(options.vtk); !wrong.empty()) return fail(kInputOutput, wrong);
+  if (const auto made = make_folder(options.vtk); !made) return fail(kInputOutput, made.error());
   io::FrameSelection selection;
   selection.every = options.every;
   const auto written = views::export_vtk(run, selection, options.vtk);
@@ -59,8 +52,7 @@ int write_geojson(const io::Run& run, const Options& options) {
   if (!(time >= run.start_time() && time <= run.end_time()))
     return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run.start_time(),
                                     run.end_time()));
-  if (const std::string wrong = make_folder(options.geojson); !wrong.empty())
-    return fail(kInputOutput, wrong);
+  if (const auto made = make_folder(options.geojson); !made) return fail(kInputOutput, made.error());
   auto origin = run.scene.scene.origin;
   if (options.is_in_metres) origin.reset();
   if (!origin && !options.is_in_metres)

@@ -5,11 +5,8 @@
 #include <limits>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/options.hpp"
 #include "app/write_output.hpp"
 #include "io/run/run_folder.hpp"
@@ -110,8 +107,6 @@ int draw_figures(const Options& options) {
   }
   if (const std::string problem = problem_of(options, runs); !problem.empty()) return fail(kUsage, problem);
   const fs::path folder = options.out.empty() ? options.runs.front() : options.out;
-  std::error_code ignored;
-  fs::create_directories(folder, ignored);
   const views::PageStyle page{options.width, options.title};
   const std::pair<std::string_view, std::string> pages[] = {
       {io::run_file::kFigureFloes, views::to_svg(maps(runs, options, page))},

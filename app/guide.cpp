@@ -5,11 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/options.hpp"
 #include "app/write_output.hpp"
 #include "io/text/version.hpp"

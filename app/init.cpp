@@ -1,11 +1,8 @@
 #include <filesystem>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/options.hpp"
 #include "io/scene/scene_schema.hpp"
 #include "io/text/output_file.hpp"

@@ -1,10 +1,7 @@
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/inspect_views.hpp"
 #include "app/options.hpp"
 #include "io/run/motion_index.hpp"

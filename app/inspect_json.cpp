@@ -1,3 +1,5 @@
+#include <array>
+
 #include "app/inspect_views.hpp"
 #include "io/run/records.hpp"
 #include "io/text/json_writer.hpp"
@@ -5,25 +7,12 @@
 namespace polynya::app {
 namespace {
 
+using io::id_or_none;
 using io::JsonWriter;
-
-void write_id(JsonWriter& json, std::string_view key, simulation::FloeId floe) {
-  json.key(key);
-  if (floe == simulation::kNoFloe)
-    json.null();
-  else
-    json.value(floe);
-}
-
-void write_count(JsonWriter& json, std::string_view key, std::size_t count) {
-  json.key(key).value(static_cast<std::int64_t>(count));
-}
 
 void write_worst(JsonWriter& json, std::string_view key, const analysis::Worst& worst) {
   json.key(key).open('{').key("largest_m2").value(worst.value);
-  write_id(json, "floe_id", worst.floe);
-  write_count(json, "wrong", worst.wrong);
-  json.close('}');
+  json.key("floe_id").value(id_or_none(worst.floe)).key("wrong").value(worst.wrong).close('}');
 }
 
 void write_shared(JsonWriter& json, std::string_view key, const analysis::SharedIce& shared) {
@@ -32,7 +21,7 @@ void write_shared(JsonWriter& json, std::string_view key, const analysis::Shared
     json.null();
     return;
   }
-  json.open('{').key("floe_ids").open('[').value(shared.first).value(shared.second).close(']');
+  json.open('{').key("floe_ids").list(std::array{shared.first, shared.second});
   json.key("t_s").value(shared.time).key("area_m2").value(shared.area).key("depth_m").value(shared.depth);
   json.close('}');
 }
@@ -40,7 +29,7 @@ void write_shared(JsonWriter& json, std::string_view key, const analysis::Shared
 void write_invalid(JsonWriter& json, const std::vector<analysis::InvalidFloe>& invalid) {
   json.key("invalid").open('[');
   for (const analysis::InvalidFloe& floe : invalid) {
-    json.open('{').key("floe_id").value(floe.floe).key("defect").value(std::string_view(floe.defect));
+    json.open('{').key("floe_id").value(floe.floe).key("defect").value(floe.defect);
     json.key("places_m").value(floe.places_in_body).close('}');
   }
   json.close(']');
@@ -54,18 +43,11 @@ std::string floes_json(const std::vector<FloeRow>& rows, double time) {
   json.open('{').key("t_s").value(time).key("floes").open('[');
   for (const FloeRow& row : rows) {
     json.start_line();
-    json.open('{').key("floe_id").value(row.birth.floe);
-    write_id(json, "parent_id", row.birth.parent);
+    json.open('{').key("floe_id").value(row.birth.floe).key("parent_id").value(id_or_none(row.birth.parent));
     json.key("born_s").value(row.birth.time).key("area_m2").value(row.birth.area);
-    json.key("perimeter_m").value(row.perimeter);
-    write_count(json, "vertices", row.vertices);
-    write_count(json, "holes", row.holes);
-    json.key("mass_kg").value(row.birth.mass).key("speed_m_per_s");
-    if (row.speed)
-      json.value(*row.speed);
-    else
-      json.null();
-    json.key("valid").value(row.validity).close('}');
+    json.key("perimeter_m").value(row.perimeter).key("vertices").value(row.vertices);
+    json.key("holes").value(row.holes).key("mass_kg").value(row.birth.mass);
+    json.key("speed_m_per_s").value(row.speed).key("valid").value(row.validity).close('}');
   }
   json.close(']').close('}');
   return text + "\n";
@@ -74,18 +56,15 @@ std::string floes_json(const std::vector<FloeRow>& rows, double time) {
 std::string size_json(const analysis::SizeDistribution& sizes) {
   std::string text;
   JsonWriter json(text);
-  json.open('{').key("t_s").value(sizes.time);
-  write_count(json, "floes", sizes.count);
-  write_count(json, "left_out", sizes.without_size);
+  json.open('{').key("t_s").value(sizes.time).key("floes").value(sizes.count);
+  json.key("left_out").value(sizes.without_size);
   json.key("area_m2").value(sizes.area).key("least_m").value(sizes.least).key("median_m").value(sizes.median);
   json.key("largest_m").value(sizes.largest).key("classes").open('[');
   for (const analysis::SizeClass& one : sizes.classes) {
     json.start_line();
     json.open('{').key("from_m").value(one.from).key("below_m").value(one.below);
-    write_count(json, "floes", one.count);
-    json.key("area_m2").value(one.area);
-    write_count(json, "from_on", one.from_on);
-    json.close('}');
+    json.key("floes").value(one.count).key("area_m2").value(one.area);
+    json.key("from_on").value(one.from_on).close('}');
   }
   json.close(']').close('}');
   return text + "\n";
@@ -102,11 +81,8 @@ std::string lineage_json(const io::Run& run, simulation::FloeId floe) {
     json.key("area_m2").value(at.birth.area).key("broken_by");
     if (at.death_event) {
       const simulation::Event& event = run.events[*at.death_event];
-      const auto& ships = run.scene.scene.ships;
-      const bool has_ship = event.ship >= 0 && event.ship < std::ssize(ships);
       std::string line;
-      io::append_event(line, event, has_ship ? ships[static_cast<std::size_t>(event.ship)].name : "",
-                       at.birth.parent);
+      io::append_event(line, event, io::ship_name(run.scene.scene, event.ship), at.birth.parent);
       line.pop_back();  // its newline
       json.json(line);
     } else {
@@ -121,18 +97,15 @@ std::string lineage_json(const io::Run& run, simulation::FloeId floe) {
 std::string check_json(const analysis::RunCheck& check) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
-  json.open('{').key("is_sound").value(check.is_sound());
-  write_count(json, "shapes", check.shapes);
+  json.open('{').key("is_sound").value(check.is_sound()).key("shapes").value(check.shapes);
   write_invalid(json, check.invalid);
   write_worst(json, "recorded_area", check.recorded_area);
-  write_count(json, "fractures", check.fractures);
+  json.key("fractures").value(check.fractures);
   write_worst(json, "balance", check.balance);
-  write_count(json, "overlapping_siblings", check.overlapping_siblings);
+  json.key("overlapping_siblings").value(check.overlapping_siblings);
   json.key("most_shared_by_siblings_m2").value(check.siblings.area);
-  write_count(json, "moments", check.instants);
-  write_count(json, "pairs", check.pairs);
-  write_count(json, "undecided", check.undecided);
-  write_count(json, "overlapping_pairs", check.overlapping_pairs);
+  json.key("moments").value(check.instants).key("pairs").value(check.pairs);
+  json.key("undecided").value(check.undecided).key("overlapping_pairs").value(check.overlapping_pairs);
   json.key("most_shared_m2").value(check.most_shared).key("most_shared_s").value(check.most_shared_time);
   json.key("ice_then_m2").value(check.ice_then);
   write_shared(json, "largest_overlap", check.worst);

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <iterator>
 
-#include <fmt/format.h>
-
 #include "app/console.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/run/motion_index.hpp"
+#include "io/run/records.hpp"
 #include "io/text/json_writer.hpp"
+#include "io/text/problem.hpp"
 #include "io/text/wkt.hpp"
 
 namespace polynya::app {
@@ -28,23 +28,12 @@ std::string as_geojson(const ShapeView& view) {
   std::string text;
   io::JsonWriter json(text);
   json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(birth.floe);
-  json.key("parent_id");
-  if (birth.parent == simulation::kNoFloe)
-    json.null();
-  else
-    json.value(birth.parent);
+  json.key("parent_id").value(io::id_or_none(birth.parent));
   json.key("born_s").value(birth.time).key("generation").value(birth.generation);
   json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
   json.key("frame").value(view.time_in_world ? "world" : "body");
   if (view.time_in_world) json.key("t_s").value(*view.time_in_world);
-  json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
-  const auto write = [&json](Ring ring) {
-    ring.push_back(ring.front());
-    json.value(ring);
-  };
-  write(view.polygon.outer);
-  std::ranges::for_each(view.polygon.holes, write);
-  json.close(']').close('}').close('}');
+  json.close('}').key("geometry").polygon(view.polygon).close('}');
   return text + "\n";
 }
 
@@ -72,12 +61,10 @@ std::string as_svg(const ShapeView& view) {
 }
 
 std::string described(const io::Run& run, const simulation::Event& event) {
-  const auto& ships = run.scene.scene.ships;
   const auto& c = event.criteria;
   const bool is_split = event.kind == simulation::EventKind::kSplit;
-  const std::string ship = event.ship >= 0 && event.ship < std::ssize(ships)
-                               ? fmt::format(" by {}", ships[static_cast<std::size_t>(event.ship)].name)
-                               : "";
+  const std::string_view name = io::ship_name(run.scene.scene, event.ship);
+  const std::string ship = name.empty() ? "" : fmt::format(" by {}", name);
   std::string text = fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): {} {:.4g} N {} {} {:.4g} N", event.time,
                                  name_of(event.kind), ship, event.point_in_world.x, event.point_in_world.y,
                                  is_split ? "collision force" : "vertical force",
@@ -178,11 +165,8 @@ std::string check_text(const analysis::RunCheck& check) {
   };
   add(fmt::format("validity   {} shapes, {} invalid", check.shapes, check.invalid.size()));
   for (const analysis::InvalidFloe& floe : check.invalid) {
-    std::string line = fmt::format("           floe {}: {}", floe.floe, floe.defect);
-    for (std::size_t i = 0; i < std::min<std::size_t>(floe.places_in_body.size(), 4); ++i)
-      line += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", floe.places_in_body[i].x,
-                          floe.places_in_body[i].y);
-    add(line);
+    add(fmt::format("           floe {}: {}{}", floe.floe, floe.defect,
+                    io::places_in_words(floe.places_in_body, 4)));
   }
   add(fmt::format("areas      recorded - ring at most {:.2e} m2{}, {} beyond {:g} of the area",
                   check.recorded_area.value, from(check.recorded_area.floe), check.recorded_area.wrong,

@@ -3,8 +3,6 @@
 #include <filesystem>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "app/console.hpp"
 #include "app/read_input.hpp"
 
@@ -27,8 +25,7 @@ tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
   auto text = read_input(file, io::kLongestScene);
   if (!text) {
     if (is_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
-    print_err("polynya: {}: {}\n", name, text.error());
-    return tl::unexpected(kInputOutput);
+    return tl::unexpected(fail(kInputOutput, fmt::format("{}: {}", name, text.error())));
   }
   auto loaded = io::read_scene(std::move(*text), name, std::filesystem::path(file).parent_path(), overrides);
   if (loaded) return std::move(*loaded);

@@ -7,7 +7,6 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/guide.hpp"
 #include "app/memory_check.hpp"
 #include "app/usage.hpp"

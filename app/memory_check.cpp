@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "app/console.hpp"
 #include "simulation/memory_estimate.hpp"
 

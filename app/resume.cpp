@@ -1,11 +1,8 @@
 #include <filesystem>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/load_scene.hpp"
 #include "app/options.hpp"
 #include "app/run_driver.hpp"
@@ -28,11 +25,6 @@ struct ResumeOptions {
   DriverOptions driver;
 };
 
-int refuse(const std::string& reason) {
-  print_err("polynya: {}\n", reason);
-  return kInputOutput;
-}
-
 /// Names the checkpoints that are left, where one was refused.
 void offer_others(const fs::path& folder, const fs::path& refused) {
   for (const fs::path& other : io::checkpoints_in(folder)) {
@@ -48,9 +40,9 @@ void offer_others(const fs::path& folder, const fs::path& refused) {
 int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
   const fs::path path = folder / io::run_file::kFailure;
   const auto dump = io::read_checkpoint_file(path, scene.hash);
-  if (!dump) return refuse(dump.error());
+  if (!dump) return fail(kInputOutput, dump.error());
   auto simulation = io::simulation_at(scene, *dump);
-  if (!simulation) return refuse(fmt::format("{}: {}", path.string(), simulation.error()));
+  if (!simulation) return fail(kInputOutput, fmt::format("{}: {}", path.string(), simulation.error()));
   print_out("state       step {}, t = {:.9g} s, hash {:016x}\n", simulation->steps(), simulation->time(),
             simulation->state_hash());
   print_out("then        {}\n", dump->failure);
@@ -83,7 +75,7 @@ int report_finished(const fs::path& folder) {
   static_cast<void>(io::remove_checkpoints(folder));  // a later command tries again
   if (is_drawn) return kDone;
   const DrawnMap map = draw_map(folder);
-  if (map.end != io::RunEnd::kFinished) refuse(map.reason);
+  if (map.end != io::RunEnd::kFinished) fail(kInputOutput, map.reason);
   return exit_code_of(map.end);
 }
 
@@ -93,13 +85,13 @@ int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const
   if (checkpoints.empty() && options.checkpoint.empty()) {
     print_err("polynya: {}: no checkpoint was written yet; from the start\n", folder.string());
     auto writer = io::RunWriter::begin(std::move(lock), scene);
-    if (!writer) return refuse(writer.error());
+    if (!writer) return fail(kInputOutput, writer.error());
     return drive_run({scene, Simulation(scene.scene), std::move(*writer)}, options.driver);
   }
   const fs::path chosen = options.checkpoint.empty() ? checkpoints.front() : fs::path(options.checkpoint);
   auto run = io::resume_run(std::move(lock), scene, chosen);
   if (!run) {
-    refuse(run.error());
+    fail(kInputOutput, run.error());
     offer_others(folder, chosen);
     return kInputOutput;
   }
@@ -110,14 +102,14 @@ int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const
 int resume(const ResumeOptions& options) {
   const fs::path folder = options.folder;
   const fs::path scene_file = folder / io::run_file::kScene;
-  if (!fs::is_regular_file(scene_file)) return refuse(no_run_in(folder));
+  if (!fs::is_regular_file(scene_file)) return fail(kInputOutput, no_run_in(folder));
   if (options.from_failure) {
     const auto scene = load_scene(scene_file.string());
     return scene ? repeat_failure(*scene, folder) : scene.error();
   }
   if (io::is_finished_run(folder)) return report_finished(folder);
   auto lock = io::RunLock::take(folder);
-  if (!lock) return refuse(lock.error());
+  if (!lock) return fail(kInputOutput, lock.error());
   if (io::is_finished_run(folder)) return report_finished(folder);  // by another polynya meanwhile
   watch_signals();
   const auto scene = load_scene(scene_file.string());

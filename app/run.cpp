@@ -3,8 +3,6 @@
 #include <new>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/load_scene.hpp"
@@ -42,9 +40,8 @@ tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
     auto simulation = std::make_unique<simulation::Simulation>(loaded->scene);
     return Start{std::make_unique<io::LoadedScene>(std::move(*loaded)), std::move(simulation)};
   } catch (const std::bad_alloc&) {
-    print_err("polynya: {}: {}; nothing was written; {}\n", options.scene, out_of_memory(),
-              kToNeedLessMemory);
-    return tl::unexpected(kOutOfMemory);
+    return tl::unexpected(fail(kOutOfMemory, fmt::format("{}: {}; nothing was written; {}", options.scene,
+                                                         out_of_memory(), kToNeedLessMemory)));
   }
 }
 
@@ -56,10 +53,7 @@ int run(const RunOptions& options) {
                                            : std::filesystem::path(options.out);
   watch_signals();
   auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
-  if (!writer) {
-    print_err("polynya: {}\n", writer.error());
-    return kInputOutput;
-  }
+  if (!writer) return fail(kInputOutput, writer.error());
   return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
 }
 

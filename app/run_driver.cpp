@@ -4,16 +4,15 @@
 #include <new>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "app/console.hpp"
 #include "app/memory_check.hpp"
+#include "app/options.hpp"
 #include "app/run_result.hpp"
 #include "app/stop_signal.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
-#include "views/map/final_map.hpp"
+#include "views/map/figures.hpp"
 
 namespace polynya::app {
 namespace {
@@ -119,15 +118,25 @@ DrawnMap draw_map(const std::filesystem::path& folder) {
   }
 }
 
+void add_run_options(CLI::App& command, DriverOptions& options) {
+  io::RunControl& control = options.control;
+  option(command, "--threads", control.threads, "N", "Threads to step on; results do not depend on it",
+         CLI::Range(1, 1024));
+  option(command, "--checkpoint-every", control.checkpoint_every, "S",
+         "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
+  option(command, "--checkpoint-every-wall", control.checkpoint_every_wall, "S",
+         "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
+  command.add_flag("--check", control.check,
+                   "Recompute every cross-index and sum after every step; stop if one differs");
+  add_progress(command, options.progress);
+}
+
 ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
   Progress progress(options.progress, run.scene.scene.time.until);
-  const io::RunResult result =
-      run_to_end(run, {.threads = options.threads,
-                       .checkpoint_every = options.checkpoint_every,
-                       .checkpoint_every_wall = options.checkpoint_every_wall,
-                       .check = options.check,
-                       .progress = [&](const io::RunStatus& at) { progress.show(at.time, at.fractures); },
-                       .stop = reason_to_stop});
+  io::RunControl control = options.control;
+  control.progress = [&](const io::RunStatus& at) { progress.show(at.time, at.fractures); };
+  control.stop = reason_to_stop;
+  const io::RunResult result = run_to_end(run, control);
   progress.finish(result.summary.sim_time, io::fractures_of(result.summary.counts));
   return result.is_cut_off ? report_cut_off(run, result) : report(run, result);
 }

@@ -4,9 +4,13 @@
 #include <string>
 
 #include "app/exit_code.hpp"
-#include "app/run_options.hpp"
+#include "app/progress.hpp"
 #include "io/run/active_run.hpp"
 #include "io/run/run_loop.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace polynya::app {
 
@@ -21,6 +25,13 @@ struct DrawnMap {
 DrawnMap draw_map(const std::filesystem::path& folder);
 
 ExitCode exit_code_of(io::RunEnd end);
+
+/// How a run is driven, whether it starts or is resumed.
+struct DriverOptions {
+  io::RunControl control;
+  ProgressKind progress = ProgressKind::kAuto;
+};
+void add_run_options(CLI::App& command, DriverOptions& options);
 
 /// Takes a run to its end, or to what stops it (io/run/run_loop.hpp), and prints the result.
 ExitCode drive_run(io::ActiveRun run, const DriverOptions& options);

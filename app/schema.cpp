@@ -2,7 +2,6 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "io/scene/scene_schema.hpp"
 
 namespace polynya::app {

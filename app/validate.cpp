@@ -1,11 +1,8 @@
 #include <algorithm>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/load_scene.hpp"
 #include "app/options.hpp"
 

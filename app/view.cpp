@@ -3,11 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/options.hpp"
 #include "app/write_output.hpp"
 #include "io/run/run_folder.hpp"

@@ -1,7 +1,5 @@
 #include "app/write_output.hpp"
 
-#include <filesystem>
-
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -35,9 +33,17 @@ io::Result<> write_output(const std::string& file, const std::string& text) {
   return {};
 }
 
+io::Result<> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return io::fail(folder.string() + ": " + error.message());
+  return {};
+}
+
 io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
                            const std::string& text) {
   if (out.empty()) return io::write_whole_file(std::filesystem::path(run) / name, text);
+  static_cast<void>(make_folder(out));  // writing reports what is wrong with it
   return write_output((std::filesystem::path(out) / name).string(), text);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,11 @@ bool is_stdout(const std::string& file);
 /// stderr, whose failures close_streams() reports.
 io::Result<> write_output(const std::string& file, const std::string& text);
 
-/// Writes what a command makes of a run: into the folder `out` that a user named, or where that is empty into
-/// the run's, where links are not followed.
+/// Makes a folder that a user named, with those above it.
+io::Result<> make_folder(const std::filesystem::path& folder);
+
+/// Writes what a command makes of a run: into the folder `out` that a user named, which is made where it is
+/// missing, or where that is empty into the run's, where links are not followed.
 io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
                            const std::string& text);
 

@@ -18,11 +18,18 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kRadians = std::numbers::pi / 180;
 
 template <auto Member>
-constexpr ForceColumn column(std::string_view name, std::string_view unit, std::string_view meaning) {
-  return {name, unit, meaning, [](const ShipSample& s) { return static_cast<double>(s.*Member); },
-          [](ShipSample& s, double value) {
-            s.*Member = static_cast<std::remove_reference_t<decltype(s.*Member)>>(value);
-          }};
+constexpr ForceColumn column(std::string_view name, std::string_view unit, std::string_view meaning,
+                             std::string_view plot = {}, bool is_optional = false) {
+  return {.name = name,
+          .unit = unit,
+          .meaning = meaning,
+          .read = [](const ShipSample& s) { return static_cast<double>(s.*Member); },
+          .store =
+              [](ShipSample& s, double value) {
+                s.*Member = static_cast<std::remove_reference_t<decltype(s.*Member)>>(value);
+              },
+          .is_optional = is_optional,
+          .plot = plot};
 }
 
 template <double ShipSample::*Member>
@@ -37,87 +44,79 @@ constexpr ForceColumn component(std::string_view name, std::string_view unit, st
           [](ShipSample& s, double value) { s.*Pair.*Component = value; }};
 }
 
-constexpr std::string_view kSurge = "Surge force of the ice", kSurgeOfShips = "Surge force of ships";
-constexpr std::string_view kSway = "Sway force of the ice", kSwayOfShips = "Sway force of ships";
-constexpr std::string_view kYaw = "Yaw moment of the ice", kYawOfShips = "Yaw moment of ships";
-
 using S = ShipSample;
 using geometry::Point;
 using geometry::Vector;
 using enum ShownWhere;
 using enum CurveKind;
+
+/// A load, with its peak and its plot; older runs do not have those of ships.
+template <double S::*Member>
+constexpr ForceColumn load(std::string_view name, std::string_view unit, std::string_view meaning,
+                           ShownWhere where, std::string_view plot, CurveKind curve = kMean) {
+  ForceColumn load = column<Member>(name, unit, meaning);
+  load.is_optional = where == kAmongShips;
+  load.peak = where;
+  load.plot = plot;
+  load.curve = curve;
+  return load;
+}
+
+constexpr std::string_view kSurge = "Surge force of the ice", kSurgeOfShips = "Surge force of ships";
+constexpr std::string_view kSway = "Sway force of the ice", kSwayOfShips = "Sway force of ships";
+constexpr std::string_view kYaw = "Yaw moment of the ice", kYawOfShips = "Yaw moment of ships";
+constexpr bool kInNewerRuns = true;
+
 constexpr ForceColumn kColumns[] = {
-    column<&S::surge_force>("surge_N", "N",
-                            "force of the ice forward, mean of the interval: momentum given / time")
-        .with_peak(kAlways)
-        .plotted(kSurge),
-    column<&S::sway_force>("sway_N", "N", "to port, likewise").with_peak(kAlways).plotted(kSway),
-    column<&S::yaw_moment>("yaw_Nm", "N·m", "moment counter-clockwise, likewise")
-        .with_peak(kAlways)
-        .plotted(kYaw),
-    column<&S::surge_max>("surge_max_N", "N",
-                          "force of the ice forward in the single step where it is largest by magnitude")
-        .with_peak(kAlways)
-        .plotted(kSurge, kMax),
-    column<&S::sway_max>("sway_max_N", "N", "to port, likewise").with_peak(kAlways).plotted(kSway, kMax),
-    column<&S::yaw_max>("yaw_max_Nm", "N·m", "moment counter-clockwise, likewise")
-        .with_peak(kAlways)
-        .plotted(kYaw, kMax),
-    column<&S::surge_from_ships>("surge_from_ships_N", "N",
-                                 "force of other ships and structures forward, mean of the interval")
-        .optional()
-        .with_peak(kAmongShips)
-        .plotted(kSurgeOfShips),
-    column<&S::sway_from_ships>("sway_from_ships_N", "N", "to port, likewise")
-        .optional()
-        .with_peak(kAmongShips)
-        .plotted(kSwayOfShips),
-    column<&S::yaw_from_ships>("yaw_from_ships_Nm", "N·m", "moment counter-clockwise, likewise")
-        .optional()
-        .with_peak(kAmongShips)
-        .plotted(kYawOfShips),
-    column<&S::surge_from_ships_max>(
+    load<&S::surge_force>("surge_N", "N",
+                          "force of the ice forward, mean of the interval: momentum given / time", kAlways,
+                          kSurge),
+    load<&S::sway_force>("sway_N", "N", "to port, likewise", kAlways, kSway),
+    load<&S::yaw_moment>("yaw_Nm", "N·m", "moment counter-clockwise, likewise", kAlways, kYaw),
+    load<&S::surge_max>("surge_max_N", "N",
+                        "force of the ice forward in the single step where it is largest by magnitude",
+                        kAlways, kSurge, kMax),
+    load<&S::sway_max>("sway_max_N", "N", "to port, likewise", kAlways, kSway, kMax),
+    load<&S::yaw_max>("yaw_max_Nm", "N·m", "moment counter-clockwise, likewise", kAlways, kYaw, kMax),
+    load<&S::surge_from_ships>("surge_from_ships_N", "N",
+                               "force of other ships and structures forward, mean of the interval",
+                               kAmongShips, kSurgeOfShips),
+    load<&S::sway_from_ships>("sway_from_ships_N", "N", "to port, likewise", kAmongShips, kSwayOfShips),
+    load<&S::yaw_from_ships>("yaw_from_ships_Nm", "N·m", "moment counter-clockwise, likewise", kAmongShips,
+                             kYawOfShips),
+    load<&S::surge_from_ships_max>(
         "surge_from_ships_max_N", "N",
-        "force of other ships and structures forward in the single step where it is largest by magnitude")
-        .optional()
-        .with_peak(kAmongShips)
-        .plotted(kSurgeOfShips, kMax),
-    column<&S::sway_from_ships_max>("sway_from_ships_max_N", "N", "to port, likewise")
-        .optional()
-        .with_peak(kAmongShips)
-        .plotted(kSwayOfShips, kMax),
-    column<&S::yaw_from_ships_max>("yaw_from_ships_max_Nm", "N·m", "moment counter-clockwise, likewise")
-        .optional()
-        .with_peak(kAmongShips)
-        .plotted(kYawOfShips, kMax),
-    column<&S::surge_peak>("surge_j_over_tau_c_N", "N",
-                           "the paper's collision force j/τ_c of the ice forward, largest by magnitude")
-        .with_peak(kWhereItSplits)
-        .plotted(kSurge, kPaper),
-    column<&S::sway_peak>("sway_j_over_tau_c_N", "N", "to port, likewise")
-        .with_peak(kWhereItSplits)
-        .plotted(kSway, kPaper),
-    column<&S::yaw_peak>("yaw_j_over_tau_c_Nm", "N·m", "its moment counter-clockwise, likewise")
-        .with_peak(kWhereItSplits)
-        .plotted(kYaw, kPaper),
+        "force of other ships and structures forward in the single step where it is largest by magnitude",
+        kAmongShips, kSurgeOfShips, kMax),
+    load<&S::sway_from_ships_max>("sway_from_ships_max_N", "N", "to port, likewise", kAmongShips,
+                                  kSwayOfShips, kMax),
+    load<&S::yaw_from_ships_max>("yaw_from_ships_max_Nm", "N·m", "moment counter-clockwise, likewise",
+                                 kAmongShips, kYawOfShips, kMax),
+    load<&S::surge_peak>("surge_j_over_tau_c_N", "N",
+                         "the paper's collision force j/τ_c of the ice forward, largest by magnitude",
+                         kWhereItSplits, kSurge, kPaper),
+    load<&S::sway_peak>("sway_j_over_tau_c_N", "N", "to port, likewise", kWhereItSplits, kSway, kPaper),
+    load<&S::yaw_peak>("yaw_j_over_tau_c_Nm", "N·m", "its moment counter-clockwise, likewise", kWhereItSplits,
+                       kYaw, kPaper),
     component<&S::position_in_world, &Point::x>("x_m", "m", "centre of gravity, over ground"),
     component<&S::position_in_world, &Point::y>("y_m", "m", "centre of gravity, over ground"),
     in_degrees<&S::heading>("heading_deg", "°", "from the x axis, counter-clockwise"),
-    ForceColumn{"speed_m_per_s", "m/s", "over ground", [](const S& s) { return length(s.velocity_in_world); },
-                [](S&, double) {}}  // it follows from the velocity
-        .with_peak(kAlways)
-        .plotted("Speed over ground"),
+    {.name = "speed_m_per_s",
+     .unit = "m/s",
+     .meaning = "over ground",
+     .read = [](const S& s) { return length(s.velocity_in_world); },
+     .store = [](S&, double) {},  // it follows from the velocity
+     .peak = kAlways,
+     .plot = "Speed over ground"},
     component<&S::velocity_in_world, &Vector::x>("vx_m_per_s", "m/s", "velocity over ground"),
     component<&S::velocity_in_world, &Vector::y>("vy_m_per_s", "m/s", "velocity over ground"),
     in_degrees<&S::yaw_rate>("yaw_rate_deg_per_s", "°/s", "counter-clockwise"),
     column<&S::thrust>("thrust_N", "N",
-                       "along the heading; of a ship at constant speed what it takes to hold it")
-        .plotted("Thrust"),
-    column<&S::contacts>("contacts", "", "with ice, at the end of the interval")
-        .plotted("Contacts at the hull"),
+                       "along the heading; of a ship at constant speed what it takes to hold it", "Thrust"),
+    column<&S::contacts>("contacts", "", "with ice, at the end of the interval", "Contacts at the hull"),
     column<&S::contacts_with_ships>("contacts_with_ships", "",
-                                    "with other ships and structures, at the end of the interval")
-        .optional(),
+                                    "with other ships and structures, at the end of the interval", "",
+                                    kInNewerRuns),
 };
 
 template <class Condition>

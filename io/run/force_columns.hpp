@@ -35,23 +35,6 @@ struct ForceColumn {
   std::optional<ShownWhere> peak = {};  ///< where summary.json has its largest value by magnitude
   std::string_view plot = {};           ///< title of its plot in the player; empty: none
   CurveKind curve = CurveKind::kMean;   ///< in that plot
-
-  constexpr ForceColumn optional() const {
-    ForceColumn column = *this;
-    column.is_optional = true;
-    return column;
-  }
-  constexpr ForceColumn with_peak(ShownWhere where) const {
-    ForceColumn column = *this;
-    column.peak = where;
-    return column;
-  }
-  constexpr ForceColumn plotted(std::string_view title, CurveKind kind = CurveKind::kMean) const {
-    ForceColumn column = *this;
-    column.plot = title;
-    column.curve = kind;
-    return column;
-  }
 };
 
 /// All of them, as they follow the columns t_s and ship.

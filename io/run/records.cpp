@@ -1,11 +1,12 @@
 #include "io/run/records.hpp"
 
-#include <initializer_list>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "io/run/force_columns.hpp"
+#include "io/text/csv_row.hpp"
+#include "io/text/geojson_layer.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/shape_parts.hpp"
 
@@ -13,13 +14,6 @@ namespace polynya::io {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-
-void append_id(JsonWriter& json, simulation::FloeId id) {
-  if (id == simulation::kNoFloe)
-    json.null();
-  else
-    json.value(id);
-}
 
 /// What decided a fracture: the load that reached the capacity.
 void append_criterion(JsonWriter& json, const simulation::Event& event) {
@@ -39,13 +33,12 @@ void append_criterion(JsonWriter& json, const simulation::Event& event) {
   json.close('}');
 }
 
-geometry::Ring closed_ring_in_world(const geometry::Pose& world_from_body, const geometry::Ring& ring) {
-  geometry::Ring moved = transform(world_from_body, ring);
-  moved.push_back(moved.front());
-  return moved;
-}
-
 }  // namespace
+
+std::string_view ship_name(const simulation::Scene& scene, int ship) {
+  if (ship < 0 || ship >= std::ssize(scene.ships)) return "";
+  return scene.ships[static_cast<std::size_t>(ship)].name;
+}
 
 std::string forces_header() {
   std::string header = "t_s,ship";
@@ -57,10 +50,7 @@ void append_forces_row(std::string& text, const simulation::ShipSample& s, std::
   append_number(text, s.time);
   text += ',';
   text += ship_name;
-  for (const ForceColumn& column : force_columns()) {
-    text += ',';
-    append_number(text, column.read(s));
-  }
+  for (const ForceColumn& column : force_columns()) append_csv(text, {column.read(s)});
   text += '\n';
 }
 
@@ -77,11 +67,8 @@ void append_contact(std::string& text, double time, const simulation::ContactSta
     text += ',';
     if (floe != simulation::kNoFloe) append_number(text, floe);
   }
-  for (const double value : {contact.point_in_world.x, contact.point_in_world.y, contact.force.x,
-                             contact.force.y, contact.depth}) {
-    text += ',';
-    append_number(text, value);
-  }
+  append_csv(text, {contact.point_in_world.x, contact.point_in_world.y, contact.force.x, contact.force.y,
+                    contact.depth});
   text += contact.is_crushing ? ",1\n" : ",0\n";
 }
 
@@ -96,8 +83,7 @@ void append_state(std::string& text, double time, std::int64_t steps, std::uint6
 
 void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent) {
   JsonWriter json(text);
-  json.open('{').key("floe_id").value(birth.floe).key("parent_id");
-  append_id(json, birth.parent);
+  json.open('{').key("floe_id").value(birth.floe).key("parent_id").value(id_or_none(birth.parent));
   json.key("born_s").value(birth.time).key("generation").value(birth.generation);
   json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
   json.key("centroid_m").value(birth.centroid_in_body);
@@ -110,18 +96,15 @@ void append_event(std::string& text, const simulation::Event& event, std::string
                   simulation::FloeId parent) {
   JsonWriter json(text);
   json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-  json.key("ship").value(ship_name).key("floe").value(event.floe).key("parent");
-  append_id(json, parent);
-  json.key("children").open('[');
-  for (const simulation::FloeId child : event.children) json.value(child);
-  json.close(']');
+  json.key("ship").value(ship_name).key("floe").value(event.floe).key("parent").value(id_or_none(parent));
+  json.key("children").list(event.children);
   json.key("point_m").value(event.point_in_world).key("normal").value(event.normal_in_world);
   append_criterion(json, event);
   json.key("penetration_m").value(event.penetration);
   if (event.cusp_radius > 0) json.key("cusp_radius_m").value(event.cusp_radius);
   json.key("submerged_area_m2").value(event.submerged_area).key("brash_area_m2").value(event.brash_area);
   json.key("rounding_defect_m2").value(event.rounding_defect);
-  if (!event.reason.empty()) json.key("reason").value(std::string_view(event.reason));
+  if (!event.reason.empty()) json.key("reason").value(event.reason);
   json.close('}');
   text += '\n';
 }
@@ -139,29 +122,18 @@ void append_ship_contact(std::string& text, const simulation::ShipContact& conta
 }
 
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{').key("type").value("FeatureCollection").key("t_s").value(time).key("features").open('[');
+  GeojsonLayer layer(time);
   for (const simulation::FloeState& floe : floes) {
-    json.start_line();
-    json.open('{').key("type").value("Feature").key("properties").open('{');
-    json.key("floe_id").value(floe.floe).key("parent_id");
-    append_id(json, floe.parent);
+    JsonWriter& json = layer.start();
+    json.key("floe_id").value(floe.floe).key("parent_id").value(id_or_none(floe.parent));
     json.key("born_s").value(floe.born).key("generation").value(floe.generation);
     json.key("area_m2").value(floe.area).key("mass_kg").value(floe.mass);
     json.key("speed_m_per_s").value(geometry::length(floe.velocity));
     json.key("vx_m_per_s").value(floe.velocity.x).key("vy_m_per_s").value(floe.velocity.y);
     json.key("angular_velocity_deg_per_s").value(kDegrees * floe.angular_velocity);
-    json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
-    json.value(closed_ring_in_world(floe.world_from_body, floe.polygon_in_body->outer));
-    for (const geometry::Ring& hole : floe.polygon_in_body->holes) {
-      json.value(closed_ring_in_world(floe.world_from_body, hole));
-    }
-    json.close(']').close('}').close('}');
+    layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
   }
-  json.close(']').close('}');
-  text += '\n';
-  return text;
+  return layer.finish();
 }
 
 }  // namespace polynya::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,14 @@
 #include "simulation/simulation.hpp"
 
 namespace polynya::io {
+
+/// A floe's number where there is such a floe; records have null where there is none.
+inline std::optional<simulation::FloeId> id_or_none(simulation::FloeId floe) {
+  return floe == simulation::kNoFloe ? std::nullopt : std::optional(floe);
+}
+
+/// The name of a ship or structure, by its index; empty where there is none.
+std::string_view ship_name(const simulation::Scene& scene, int ship);
 
 /// The lines of a run's text files (docs/run-folder.md). Each appends whole lines to a buffer.
 

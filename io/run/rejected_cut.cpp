@@ -9,26 +9,12 @@
 namespace polynya::io {
 namespace {
 
-void append_ring(JsonWriter& json, geometry::Ring ring) {
-  ring.push_back(ring.front());
-  json.value(ring);
-}
-
-void append_geometry(JsonWriter& json, const geometry::Polygon& polygon) {
-  json.open('{').key("type").value("Polygon").key("coordinates").open('[');
-  append_ring(json, polygon.outer);
-  for (const geometry::Ring& hole : polygon.holes) append_ring(json, hole);
-  json.close(']').close('}');
-}
-
 std::string floe_text(const simulation::RejectedCut& cut) {
   std::string text;
   JsonWriter json(text);
   json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(cut.floe);
-  json.key("t_s").value(cut.time).key("reason").value(std::string_view(cut.reason));
-  json.close('}').key("geometry");
-  append_geometry(json, cut.polygon_in_body);
-  json.close('}');
+  json.key("t_s").value(cut.time).key("reason").value(cut.reason);
+  json.close('}').key("geometry").polygon(cut.polygon_in_body).close('}');
   return text + "\n";
 }
 
@@ -40,9 +26,7 @@ std::string ops_text(const simulation::RejectedCut& cut) {
     json.key("line").open('[').value(cut.crack_in_body[0].x).value(cut.crack_in_body[0].y);
     json.value(cut.crack_in_body[1].x).value(cut.crack_in_body[1].y).close(']');
   } else {
-    json.key("polygon");
-    append_geometry(json, {cut.cusp_in_body, {}});
-    json.key("keep").value("both");
+    json.key("polygon").polygon({cut.cusp_in_body, {}}).key("keep").value("both");
   }
   json.key("must_cut").value(true).close('}').close(']');
   return text + "\n";

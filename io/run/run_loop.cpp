@@ -11,7 +11,6 @@
 #include "io/run/failure_dump.hpp"
 #include "io/run/last_whole_step.hpp"
 #include "io/run/memory_reserve.hpp"
-#include "io/run/summarise.hpp"
 #include "simulation/world.hpp"
 
 namespace polynya::io {

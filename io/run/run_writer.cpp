@@ -163,13 +163,6 @@ RunWriter::RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, Ru
   }
 }
 
-std::string_view RunWriter::ship_name(int ship) const {
-  const auto& ships = scene_->scene.ships;
-  return ship >= 0 && static_cast<std::size_t>(ship) < ships.size()
-             ? std::string_view(ships[static_cast<std::size_t>(ship)].name)
-             : "";
-}
-
 void RunWriter::record(simulation::Journal& journal) {
   const auto append_line = [&](std::size_t which, auto&& write) {
     line_.clear();
@@ -187,16 +180,20 @@ void RunWriter::record(simulation::Journal& journal) {
   }
   for (const simulation::Event& event : journal.events) {
     append_line(kEvents, [&](std::string& line) {
-      append_event(line, event, ship_name(event.ship), parents_[static_cast<std::size_t>(event.floe)]);
+      append_event(line, event, ship_name(scene_->scene, event.ship),
+                   parents_[static_cast<std::size_t>(event.floe)]);
     });
   }
   for (const simulation::ShipContact& contact : journal.ship_contacts) {
     append_line(kEvents, [&](std::string& line) {
-      append_ship_contact(line, contact, ship_name(contact.ship), ship_name(contact.other));
+      append_ship_contact(line, contact, ship_name(scene_->scene, contact.ship),
+                          ship_name(scene_->scene, contact.other));
     });
   }
   for (const simulation::ShipSample& sample : journal.samples) {
-    append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, ship_name(sample.ship)); });
+    append_line(kForces, [&](std::string& line) {
+      append_forces_row(line, sample, ship_name(scene_->scene, sample.ship));
+    });
   }
   for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
     if (auto written = write_rejected_cut(folder(), cut); !written) status_ = std::move(written);
@@ -226,7 +223,8 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
   file(kFrames).append(frames_.encode(simulation.time(), ships, floes));
   line_.clear();  // an instant's contacts are one record: no file holds a part of them
   for (const simulation::ContactState& contact : simulation.contact_states())
-    append_contact(line_, simulation.time(), contact, ship_name(contact.on.ship), ship_name(contact.by.ship));
+    append_contact(line_, simulation.time(), contact, ship_name(scene_->scene, contact.on.ship),
+                   ship_name(scene_->scene, contact.by.ship));
   if (!line_.empty()) file(kContacts).append(line_);
   line_.clear();
   append_state(line_, simulation.time(), simulation.counts().steps, simulation.state_hash());

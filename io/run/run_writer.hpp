@@ -89,7 +89,6 @@ class RunWriter {
   void keep();
   /// Keeps it as the failure if the folder or a file in it has lost its name.
   void check_place();
-  std::string_view ship_name(int ship) const;
 
   const LoadedScene* scene_;
   std::vector<OutputFile> files_;  ///< in the order they are flushed: what is named before what names it

@@ -1,17 +1,24 @@
 #include "io/run/summary.hpp"
 
+#include <array>
+
+#include <fmt/format.h>
+
 #include "io/run/run_folder.hpp"
-#include "io/run/shown_loads.hpp"
+#include "io/run/run_writer.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/source_text.hpp"
 #include "io/text/version.hpp"
+#include "simulation/world.hpp"
 
 namespace polynya::io {
 namespace {
 
+using simulation::Simulation;
+
 void append(JsonWriter& json, const ShipPeaks& peaks, const std::vector<const ForceColumn*>& columns) {
-  json.open('{').key("ship").value(std::string_view(peaks.ship));
+  json.open('{').key("ship").value(peaks.ship);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Peak& peak = peaks.of_column[i];
     json.key(columns[i]->name).open('{').key("value").value(peak.value);
@@ -38,9 +45,7 @@ void append(JsonWriter& json, const simulation::Audit& audit) {
   json.key("splitting_J").value(e.splitting).key("rest_J").value(e.rest);
   json.key("imbalance_J").value(audit.energy_imbalance).key("turnover_J").value(audit.turnover);
   json.close('}');
-  const auto vector = [&](const char* key, geometry::Vector v) {
-    json.key(key).open('[').value(v.x).value(v.y).close(']');
-  };
+  const auto vector = [&](const char* key, geometry::Vector v) { json.key(key).list(std::array{v.x, v.y}); };
   const simulation::MomentumFlows& m = audit.sums.momentum;
   json.key("momentum").open('{');
   vector("initial_Ns", audit.sums.initial_momentum);
@@ -61,10 +66,8 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("crush_contacts").value(counts.crush_contacts).key("rejected_cuts").value(counts.rejected_cuts);
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
-  json.key("snap_rounded")
-      .value(counts.snap_rounded)
-      .key("unconverged_steps")
-      .value(counts.unconverged_steps);
+  json.key("snap_rounded").value(counts.snap_rounded);
+  json.key("unconverged_steps").value(counts.unconverged_steps);
   json.key("largest_left_over_m_per_s").value(counts.largest_residual);
   json.key("energy_created_J").value(counts.energy_created);
   json.key("unpaired_stretches").value(counts.unpaired_stretches);
@@ -72,7 +75,72 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.close('}');
 }
 
+constexpr std::size_t kMostShipContacts = 5;  ///< that each have a warning
+
+/// A warning for each two ships or structures that came into contact, the first few of them.
+std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
+  std::vector<std::string> warnings;
+  const auto& contacts = simulation.world().accounts.ship_contacts;
+  const auto& ships = simulation.scene().ships;
+  for (const simulation::ShipContact& c : contacts) {
+    if (warnings.size() == kMostShipContacts) {
+      warnings.push_back(
+          fmt::format("{} more pairs of ships and structures came into contact (events.ndjson)",
+                      contacts.size() - kMostShipContacts));
+      break;
+    }
+    warnings.push_back(fmt::format(
+        "{} and {} came into contact at {:.6g} s, closing at {:.3g} m/s; {}",
+        ships[static_cast<std::size_t>(c.ship)].name, ships[static_cast<std::size_t>(c.other)].name, c.time,
+        c.closing_speed,
+        c.is_prescribed ? "the motion of both is prescribed, so they pass through each other and no force is "
+                          "computed: give the ship thrust_N"
+                        : "forces.csv has these loads apart from those of ice, in its *_from_ships columns"));
+  }
+  return warnings;
+}
+
+std::vector<std::string> warnings_of(const Simulation& simulation, const simulation::Counts& counts) {
+  std::vector<std::string> warnings = ship_contact_warnings(simulation);
+  const auto warn = [&](std::int64_t count, const char* words) {
+    if (count > 0) warnings.push_back(fmt::format("{} {}", count, words));
+  };
+  warn(counts.rejected_cuts, "cuts were rejected; events.ndjson has each with its reason");
+  warn(counts.unconverged_steps, "steps used all sweeps of the impulse solver (contact.iterations)");
+  warn(counts.database_out_of_range, "bending loads lay outside the database's range");
+  if (const simulation::Audit audit = simulation.audit(); !audit.is_closed()) {
+    warnings.push_back(fmt::format(
+        "THE AUDIT IS BROKEN: energy is off by {:.2e} J of {:.2e} J, momentum by {:.2e} N s of {:.2e} N s; "
+        "do not trust this run, and please report it with its failure.bin",
+        audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
+  }
+  if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
+    warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");
+  return warnings;
+}
+
 }  // namespace
+
+RunSummary summarise(const Simulation& simulation, const RunWriter& writer, const std::string& stopped_by,
+                     double wall_time) {
+  RunSummary summary;
+  summary.finished = stopped_by.empty();
+  summary.stopped_by = stopped_by;
+  summary.counts = simulation.counts();
+  summary.steps = summary.counts.steps;
+  summary.sim_time = simulation.time();
+  summary.wall_time = wall_time;
+  summary.ledger = simulation.area_ledger();
+  summary.audit = simulation.audit();
+  summary.peaks = writer.peaks();
+  summary.warnings = warnings_of(simulation, summary.counts);
+  for (const std::string& name : writer.overlong())
+    summary.warnings.push_back(
+        fmt::format("{} has more than the {} bytes that inspect, view and the others read; record less (the "
+                    "scene's record)",
+                    name, kLongestRunFile));
+  return summary;
+}
 
 bool is_finished_run(const std::filesystem::path& folder) {
   const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
@@ -90,11 +158,9 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
   json.open('{').key("version").value(version()).key("folder_version").value(kRunFolderVersion);
-  json.key("scene").value(std::string_view(scene.scene.name));
-  json.key("seed").value(static_cast<std::int64_t>(scene.scene.seed));
-  json.key("scene_hash").value(std::string_view(scene.hash));
-  json.key("finished").value(summary.finished);
-  if (!summary.stopped_by.empty()) json.key("stopped_by").value(std::string_view(summary.stopped_by));
+  json.key("scene").value(scene.scene.name).key("seed").value(scene.scene.seed);
+  json.key("scene_hash").value(scene.hash).key("finished").value(summary.finished);
+  if (!summary.stopped_by.empty()) json.key("stopped_by").value(summary.stopped_by);
   json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
   json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
   json.key("forces_interval_s").value(recording_interval(scene.scene));
@@ -105,9 +171,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   append(json, summary.ledger);
   append(json, summary.audit);
   append(json, summary.counts);
-  json.key("warnings").open('[');
-  for (const std::string& warning : summary.warnings) json.value(std::string_view(warning));
-  json.close(']').close('}');
+  json.key("warnings").list(summary.warnings).close('}');
   text += '\n';
   return text;
 }

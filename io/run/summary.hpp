@@ -9,7 +9,13 @@
 #include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
 
+namespace polynya::simulation {
+class Simulation;
+}
+
 namespace polynya::io {
+
+class RunWriter;
 
 /// The largest value of something, by magnitude, and when.
 struct Peak {
@@ -46,6 +52,10 @@ struct RunSummary {
 
   double real_time_factor() const { return wall_time > 0 ? sim_time / wall_time : 0; }
 };
+
+/// The summary of a run at its end, or where it was stopped; `stopped_by` is empty at the end.
+RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& writer,
+                     const std::string& stopped_by, double wall_time);
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
 

@@ -173,11 +173,7 @@ std::string floe_path(const SceneDraft& draft, std::size_t floe) {
 }
 
 std::string describe(const geometry::DefectAt& defect) {
-  std::string text(name_of(defect.defect));
-  for (std::size_t i = 0; i < std::min<std::size_t>(defect.places.size(), 3); ++i) {
-    text += fmt::format("{} ({}, {})", i == 0 ? " at" : ",", defect.places[i].x, defect.places[i].y);
-  }
-  return text;
+  return fmt::format("{}{}", name_of(defect.defect), places_in_words(defect.places, 3));
 }
 
 Polygon waterline_in_world(const simulation::ShipSpec& ship) {

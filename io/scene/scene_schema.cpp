@@ -57,9 +57,7 @@ void write_type(JsonWriter& json, const Field& field) {
     case Kind::kNumber:
       return write_number(json, field, "number");
     case Kind::kChoice:
-      json.key("enum").open('[');
-      for (const auto choice : field.choices) json.value(choice);
-      json.close(']');
+      json.key("enum").list(field.choices);
       return;
     case Kind::kVector:
       return write_vector(json, field);

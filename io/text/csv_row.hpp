@@ -2,11 +2,20 @@
 
 #include <algorithm>
 #include <charconv>
+#include <initializer_list>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include "io/text/json_writer.hpp"
+
 namespace polynya::io {
+
+/// Adds numbers to a row, each behind a comma.
+inline void append_csv(std::string& row, std::initializer_list<double> values) {
+  for (const double value : values) append_number(row += ',', value);
+}
 
 /// Takes the first field off a row.
 inline std::string_view csv_field(std::string_view& row) {

@@ -18,19 +18,13 @@ namespace {
 
 using JsonKind = JsonValue::Kind;
 
+constexpr std::size_t kMostPlaces = 4;  ///< in a message
+
 tl::unexpected<ToolError> malformed(std::string words) {
   return tl::unexpected(ToolError{ToolError::Kind::kMalformed, std::move(words)});
 }
 tl::unexpected<ToolError> invalid(std::string words) {
   return tl::unexpected(ToolError{ToolError::Kind::kInvalidPolygon, std::move(words)});
-}
-
-std::string places_of(const geometry::DefectAt& found) {
-  constexpr std::size_t kMost = 4;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(found.places.size(), kMost); ++i)
-    text += fmt::format("{}({}, {})", i > 0 ? ", " : " at ", found.places[i].x, found.places[i].y);
-  return text;
 }
 
 ToolOutcome<PolygonTool> tool_of(const FloeText& text) {
@@ -40,7 +34,8 @@ ToolOutcome<PolygonTool> tool_of(const FloeText& text) {
     if (!entry.refusal.empty()) return invalid(fmt::format("{}: {}: {}", place, entry.refusal, entry.detail));
     geometry::Polygon polygon = geometry::normalised(entry.polygon);
     if (const auto found = geometry::find_defect(polygon))
-      return invalid(fmt::format("{}: {}{}", place, name_of(found->defect), places_of(*found)));
+      return invalid(fmt::format("{}: {}{}", place, name_of(found->defect),
+                                 places_in_words(found->places, kMostPlaces)));
     tool.polygons.push_back(std::move(polygon));
   }
   if (tool.polygons.empty()) return malformed("there is no polygon in it");
@@ -98,11 +93,8 @@ ToolOutcome<CutOp> read_tool(std::string_view kind, const JsonValue& value, doub
 }
 
 ToolOutcome<Keep> read_keep(const JsonValue& value) {
-  if (value.is(JsonKind::kText)) {
-    if (value.text() == "outside") return Keep::kOutside;
-    if (value.text() == "inside") return Keep::kInside;
-    if (value.text() == "both") return Keep::kBoth;
-  }
+  for (const Keep keep : {Keep::kOutside, Keep::kInside, Keep::kBoth})
+    if (value.is(JsonKind::kText) && value.text() == name_of(keep)) return keep;
   return malformed(R"(keep: expected "outside", "inside" or "both")");
 }
 
@@ -149,6 +141,10 @@ ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) 
 
 }  // namespace
 
+std::string_view name_of(Keep keep) {
+  return keep == Keep::kOutside ? "outside" : keep == Keep::kInside ? "inside" : "both";
+}
+
 double default_sagitta(double radius) {
   return std::min(0.02, radius / 250);
 }
@@ -185,7 +181,7 @@ ToolOutcome<DiscTool> disc_tool(const std::vector<double>& centre_and_radius, do
   disc.polygon.outer = geometry::disc_polygon(disc.centre, disc.radius, disc.sagitta);
   if (const auto found = geometry::find_defect(disc.polygon)) {
     return invalid(fmt::format("the disc's polygon has no room among the doubles there: {}{}",
-                               name_of(found->defect), places_of(*found)));
+                               name_of(found->defect), places_in_words(found->places, kMostPlaces)));
   }
   return disc;
 }

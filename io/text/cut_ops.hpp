@@ -12,6 +12,7 @@ namespace polynya::io {
 
 /// Which pieces of a cut by a disc or a polygon stay. Cracks and lines keep everything.
 enum class Keep { kOutside, kInside, kBoth };
+std::string_view name_of(Keep keep);
 
 /// The regular polygon inscribed in a circle that cuts in its place.
 struct DiscTool {

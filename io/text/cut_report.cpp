@@ -1,6 +1,6 @@
 #include "io/text/cut_report.hpp"
 
-#include <algorithm>
+#include <array>
 
 #include "geometry/exact/validity.hpp"
 #include "io/text/json_writer.hpp"
@@ -8,11 +8,6 @@
 
 namespace polynya::io {
 namespace {
-
-geometry::Ring closed(geometry::Ring ring) {
-  if (!ring.empty()) ring.push_back(ring.front());
-  return ring;
-}
 
 void write_crs(JsonWriter& json, const std::string& crs) {
   if (!crs.empty()) json.key("crs").json(crs);
@@ -25,34 +20,20 @@ void write_feature(JsonWriter& json, const std::string& crs, const CutFloe& floe
   json.key("floe_id").value(piece.floe_id).key("parent_id").value(floe.floe_id);
   json.key("area_m2").value(piece.area).key("part").value(name_of(piece.part));
   if (floe.properties) json.json(*floe.properties);
-  json.close('}').key("geometry").open('{').key("type").value("Polygon").key("coordinates").open('[');
-  json.value(closed(piece.polygon.outer));
-  for (const geometry::Ring& hole : piece.polygon.holes) json.value(closed(hole));
-  json.close(']').close('}').close('}');
-}
-
-void write_numbers(JsonWriter& json, std::initializer_list<double> numbers) {
-  json.open('[');
-  for (const double number : numbers) json.value(number);
-  json.close(']');
+  json.close('}').key("geometry").polygon(piece.polygon).close('}');
 }
 
 void write_tool(JsonWriter& json, const DiscTool& disc) {
-  json.key("disc");
-  write_numbers(json, {disc.centre.x, disc.centre.y, disc.radius});
+  json.key("disc").list(std::array{disc.centre.x, disc.centre.y, disc.radius});
   json.key("sagitta_m").value(disc.sagitta).key("vertices").value(std::ssize(disc.polygon.outer));
 }
 void write_tool(JsonWriter& json, const PolygonTool& tool) {
   std::size_t vertices = 0;
   for (const geometry::Polygon& polygon : tool.polygons) vertices += vertex_count(polygon);
-  json.key("polygons")
-      .value(std::ssize(tool.polygons))
-      .key("vertices")
-      .value(static_cast<std::int64_t>(vertices));
+  json.key("polygons").value(tool.polygons.size()).key("vertices").value(vertices);
 }
 void write_tool(JsonWriter& json, const CrackTool& crack) {
-  json.key("crack");
-  write_numbers(json, {crack.point.x, crack.point.y, crack.angle_deg});
+  json.key("crack").list(std::array{crack.point.x, crack.point.y, crack.angle_deg});
 }
 void write_tool(JsonWriter& json, const LineTool& line) {
   json.key("line").value(line.path);
@@ -82,38 +63,32 @@ void write_rejection(JsonWriter& json, const std::optional<Rejection>& rejected)
     json.null();
     return;
   }
-  json.open('{').key("reason").value(std::string_view(rejected->reason));
-  if (!rejected->detail.empty()) json.key("detail").value(std::string_view(rejected->detail));
+  json.open('{').key("reason").value(rejected->reason);
+  if (!rejected->detail.empty()) json.key("detail").value(rejected->detail);
   json.key("vertices").value(rejected->vertices).close('}');
 }
 
 void write_floe(JsonWriter& json, const CutFloe& floe) {
   json.open('{').key("floe_id").value(floe.floe_id);
-  json.key("feature").value(static_cast<std::int64_t>(floe.feature));
-  json.key("polygon").value(static_cast<std::int64_t>(floe.member));
-  json.key("line").value(static_cast<std::int64_t>(floe.line));
+  json.key("feature").value(floe.feature).key("polygon").value(floe.member).key("line").value(floe.line);
   json.key("area_m2").value(floe.area).key("pieces").value(std::ssize(floe.pieces));
   json.key("area_of_pieces_m2").value(floe.area_of_pieces).key("removed_m2").value(floe.removed);
-  json.key("exact_defect_m2").value(std::string_view(floe.exact_defect));
+  json.key("exact_defect_m2").value(floe.exact_defect);
   json.key("rounding_defect_m2").value(floe.rounding_defect);
   json.key("snap_rounded").value(floe.snap_rounded);
   json.key("slivers").value(floe.slivers).key("area_slivers_m2").value(floe.area_slivers);
   write_dangling(json, floe);
   if (floe.repair) {
     json.key("repair").open('{').key("rule").value(floe.repair->rule);
-    json.key("defect").value(std::string_view(floe.repair->defect));
-    json.key("area_drawn_m2")
-        .value(floe.repair->area_drawn)
-        .key("area_changed_m2")
-        .value(floe.repair->area_changed);
-    json.key("shapes").value(static_cast<std::int64_t>(floe.repair->shapes)).close('}');
+    json.key("defect").value(floe.repair->defect).key("area_drawn_m2").value(floe.repair->area_drawn);
+    json.key("area_changed_m2").value(floe.repair->area_changed);
+    json.key("shapes").value(floe.repair->shapes).close('}');
   }
   write_rejection(json, floe.rejected);
   json.key("parts").open('[');
   for (const CutPiece& piece : floe.pieces) {
     json.open('{').key("floe_id").value(piece.floe_id).key("part").value(name_of(piece.part));
-    json.key("area_m2").value(piece.area);
-    json.close('}');
+    json.key("area_m2").value(piece.area).close('}');
   }
   json.close(']').close('}');
 }
@@ -122,18 +97,6 @@ void write_floe(JsonWriter& json, const CutFloe& floe) {
 
 std::string_view name_of(geometry::Part part) {
   return part == geometry::Part::kInside ? "inside" : "outside";
-}
-
-std::string_view name_of(Keep keep) {
-  switch (keep) {
-    case Keep::kOutside:
-      return "outside";
-    case Keep::kInside:
-      return "inside";
-    case Keep::kBoth:
-      return "both";
-  }
-  return "";
 }
 
 CutTotals totals_of(const CutReport& report) {
@@ -171,25 +134,15 @@ std::string to_ledger_json(const CutReport& report) {
   }
   json.close(']');
   const CutTotals totals = totals_of(report);
-  const auto count = [&](std::string_view key, std::size_t value) {
-    json.key(key).value(static_cast<std::int64_t>(value));
-  };
   json.start_line();
-  json.key("totals").open('{');
-  count("floes", totals.floes);
-  json.key("area_m2").value(totals.area);
-  count("pieces", totals.pieces);
-  json.key("area_of_pieces_m2").value(totals.area_of_pieces).key("removed_m2").value(totals.removed);
-  json.key("exact_defect_m2").value(std::string_view(totals.exact_defect));
-  json.key("rounding_defect_m2").value(totals.rounding_defect);
-  count("slivers", totals.slivers);
-  json.key("area_slivers_m2").value(totals.area_slivers);
-  count("snap_rounded", totals.snap_rounded);
-  count("dangling", totals.dangling);
-  count("repaired", totals.repaired);
+  json.key("totals").open('{').key("floes").value(totals.floes).key("area_m2").value(totals.area);
+  json.key("pieces").value(totals.pieces).key("area_of_pieces_m2").value(totals.area_of_pieces);
+  json.key("removed_m2").value(totals.removed).key("exact_defect_m2").value(totals.exact_defect);
+  json.key("rounding_defect_m2").value(totals.rounding_defect).key("slivers").value(totals.slivers);
+  json.key("area_slivers_m2").value(totals.area_slivers).key("snap_rounded").value(totals.snap_rounded);
+  json.key("dangling").value(totals.dangling).key("repaired").value(totals.repaired);
   json.key("area_changed_by_repair_m2").value(totals.area_repaired);
-  count("rejected", totals.rejected);
-  json.close('}').close('}');
+  json.key("rejected").value(totals.rejected).close('}').close('}');
   text += '\n';
   return text;
 }

@@ -70,7 +70,6 @@ struct CutReport {
 };
 
 std::string_view name_of(geometry::Part part);
-std::string_view name_of(Keep keep);
 
 struct CutTotals {
   double area = 0, area_of_pieces = 0, removed = 0, area_slivers = 0, rounding_defect = 0;  ///< [m²]

@@ -28,17 +28,6 @@ class LineIndex {
   std::vector<std::size_t> ends_;
 };
 
-/// Calls use(line, offset) for each line that is neither blank nor a comment.
-template <class Use>
-void for_lines(std::string_view text, Use use) {
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::string_view line = text.substr(start, end - start);
-    if (const auto words = trimmed(line); !words.empty() && !is_comment(words)) use(line, start);
-    start = end + 1;
-  }
-}
-
 /// Blanks for comments that begin a line with '#', which JSON's parser refuses.
 void blank_hash_comments(std::string& text) {
   for (std::size_t start = 0; start < text.size();) {

@@ -193,21 +193,8 @@ std::uint32_t nearest_offset(const JsonValue& root, std::string_view path) {
 }
 
 std::string_view name_of(JsonValue::Kind kind) {
-  switch (kind) {
-    case JsonValue::Kind::kNull:
-      return "null";
-    case JsonValue::Kind::kBoolean:
-      return "true or false";
-    case JsonValue::Kind::kNumber:
-      return "a number";
-    case JsonValue::Kind::kText:
-      return "text";
-    case JsonValue::Kind::kArray:
-      return "a list";
-    case JsonValue::Kind::kObject:
-      return "an object";
-  }
-  return "";
+  constexpr std::string_view kNames[]{"null", "true or false", "a number", "text", "a list", "an object"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 JsonDocument parse_json(std::string_view text) {

@@ -15,21 +15,13 @@ struct JsonMember;
 struct JsonValue {
   using Array = std::vector<JsonValue>;
   using Object = std::vector<JsonMember>;
+  /// In the order of Data and of name_of().
   enum class Kind { kNull, kBoolean, kNumber, kText, kArray, kObject };
 
   using Data = std::variant<std::nullptr_t, bool, double, std::string, Array, Object>;
 
   Data data;
   std::uint32_t offset = 0;  ///< of the value's first byte in its text
-
-  // Defined where members are complete.
-  JsonValue();
-  JsonValue(Data value, std::uint32_t at = 0);
-  JsonValue(const JsonValue&);
-  JsonValue(JsonValue&&) noexcept;
-  JsonValue& operator=(const JsonValue&);
-  JsonValue& operator=(JsonValue&&) noexcept;
-  ~JsonValue();
 
   Kind kind() const { return static_cast<Kind>(data.index()); }
   bool is(Kind other) const { return kind() == other; }
@@ -53,14 +45,6 @@ struct JsonMember {
   std::uint32_t key_offset = 0;  ///< of the key's opening quote
   JsonValue value;
 };
-
-inline JsonValue::JsonValue() : data(nullptr) {}
-inline JsonValue::JsonValue(Data value, std::uint32_t at) : data(std::move(value)), offset(at) {}
-inline JsonValue::JsonValue(const JsonValue&) = default;
-inline JsonValue::JsonValue(JsonValue&&) noexcept = default;
-inline JsonValue& JsonValue::operator=(const JsonValue&) = default;
-inline JsonValue& JsonValue::operator=(JsonValue&&) noexcept = default;
-inline JsonValue::~JsonValue() = default;
 
 inline const JsonValue* JsonValue::find(std::string_view key) const {
   if (!is(Kind::kObject)) return nullptr;

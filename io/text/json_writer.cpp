@@ -44,6 +44,18 @@ void append_text(std::string& text, std::string_view value) {
   text += '"';
 }
 
+namespace {
+
+void append_point(std::string& text, geometry::Point point) {
+  text += '[';
+  append_number(text, point.x);
+  text += ',';
+  append_number(text, point.y);
+  text += ']';
+}
+
+}  // namespace
+
 void JsonWriter::break_line() {
   text_ += '\n';
   text_.append(2 * depth_, ' ');
@@ -89,21 +101,15 @@ JsonWriter& JsonWriter::value(double number) {
   append_number(text_, number);
   return *this;
 }
-JsonWriter& JsonWriter::value(std::int64_t number) {
+JsonWriter& JsonWriter::whole(std::int64_t number) {
   separate();
   append_number(text_, number);
   return *this;
-}
-JsonWriter& JsonWriter::value(bool truth) {
-  return json(truth ? "true" : "false");
 }
 JsonWriter& JsonWriter::value(std::string_view words) {
   separate();
   append_text(text_, words);
   return *this;
-}
-JsonWriter& JsonWriter::null() {
-  return json("null");
 }
 JsonWriter& JsonWriter::json(std::string_view raw) {
   separate();
@@ -113,11 +119,7 @@ JsonWriter& JsonWriter::json(std::string_view raw) {
 
 JsonWriter& JsonWriter::value(geometry::Point point) {
   separate();
-  text_ += '[';
-  append_number(text_, point.x);
-  text_ += ',';
-  append_number(text_, point.y);
-  text_ += ']';
+  append_point(text_, point);
   return *this;
 }
 
@@ -126,14 +128,25 @@ JsonWriter& JsonWriter::value(const geometry::Ring& ring) {
   text_ += '[';
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (i > 0) text_ += ',';
-    text_ += '[';
-    append_number(text_, ring[i].x);
-    text_ += ',';
-    append_number(text_, ring[i].y);
-    text_ += ']';
+    append_point(text_, ring[i]);
   }
   text_ += ']';
   return *this;
+}
+
+JsonWriter& JsonWriter::value(const geometry::Polygon& polygon) {
+  const auto closed = [this](geometry::Ring ring) {
+    if (!ring.empty()) ring.push_back(ring.front());
+    value(ring);
+  };
+  open('[');
+  closed(polygon.outer);
+  std::ranges::for_each(polygon.holes, closed);
+  return close(']');
+}
+
+JsonWriter& JsonWriter::polygon(const geometry::Polygon& polygon) {
+  return open('{').key("type").value("Polygon").key("coordinates").value(polygon).close('}');
 }
 
 namespace {
@@ -165,7 +178,7 @@ void write(JsonWriter& json, const JsonValue& value) {
       json.value(value.number());
       return;
     case JsonValue::Kind::kText:
-      json.value(std::string_view(value.text()));
+      json.value(value.text());
       return;
     case JsonValue::Kind::kArray:
       if (holds_only_numbers(value)) {

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "geometry/shape/polygon.hpp"
 #include "io/text/json_value.hpp"
@@ -31,21 +32,39 @@ class JsonWriter {
   JsonWriter& close(char bracket);
   JsonWriter& key(std::string_view name);
   JsonWriter& value(double number);
-  JsonWriter& value(std::int64_t number);
-  JsonWriter& value(int number) { return value(std::int64_t{number}); }
-  JsonWriter& value(bool truth);
+  template <std::integral Number>
+  JsonWriter& value(Number number) {
+    return whole(static_cast<std::int64_t>(number));
+  }
+  JsonWriter& value(bool truth) { return json(truth ? "true" : "false"); }
   JsonWriter& value(std::string_view words);
   JsonWriter& value(const char* words) { return value(std::string_view(words)); }
-  JsonWriter& null();
   JsonWriter& value(geometry::Point point);
   JsonWriter& value(geometry::Vector vector) { return value(geometry::Point{vector.x, vector.y}); }
   JsonWriter& value(const geometry::Ring& ring);
+  /// As the coordinates of a GeoJSON Polygon: its rings, each closed by its first point.
+  JsonWriter& value(const geometry::Polygon& polygon);
+  /// What is not known is null.
+  template <class Value>
+  JsonWriter& value(const std::optional<Value>& known) {
+    return known ? value(*known) : null();
+  }
+  JsonWriter& null() { return json("null"); }
+  template <class Values>
+  JsonWriter& list(const Values& values) {
+    open('[');
+    for (const auto& each : values) value(each);
+    return close(']');
+  }
+  /// A GeoJSON geometry.
+  JsonWriter& polygon(const geometry::Polygon& polygon);
   /// A value that is JSON already.
   JsonWriter& json(std::string_view raw);
   /// The next item or member starts on a line of its own.
   void start_line() { starts_line_ = true; }
 
  private:
+  JsonWriter& whole(std::int64_t number);
   void separate();
   void break_line();
   std::string& text_;

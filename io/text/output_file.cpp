@@ -79,18 +79,6 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       size_(other.size_),
       status_(std::move(other.status_)) {}
 
-OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  std::swap(name_, other.name_);
-  std::swap(buffer_, other.buffer_);
-  std::swap(record_ends_, other.record_ends_);
-  std::swap(kept_, other.kept_);
-  std::swap(kept_records_, other.kept_records_);
-  std::swap(size_, other.size_);
-  std::swap(status_, other.status_);
-  return *this;
-}
-
 OutputFile::~OutputFile() {
   if (descriptor_ < 0) return;
   flush();

@@ -21,7 +21,6 @@ class OutputFile {
   /// shorter file, and what is no regular file, is refused and left as it is.
   static Result<OutputFile> reopen(const std::filesystem::path& path, std::uint64_t size);
   OutputFile(OutputFile&& other) noexcept;
-  OutputFile& operator=(OutputFile&& other) noexcept;
   ~OutputFile();
 
   void append(std::string_view record) {

@@ -36,15 +36,8 @@ std::string_view without_unit(std::string_view key) {
 }  // namespace
 
 std::string_view name_of(Severity severity) {
-  switch (severity) {
-    case Severity::kError:
-      return "error";
-    case Severity::kWarning:
-      return "warning";
-    case Severity::kHint:
-      return "hint";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[]{"error", "warning", "hint"};
+  return kNames[static_cast<std::size_t>(severity)];
 }
 
 std::string message_of(const Problem& problem) {
@@ -69,17 +62,21 @@ std::string to_json_text(const std::vector<Problem>& problems) {
   json.open('[');
   for (const Problem& problem : problems) {
     json.start_line();
-    json.open('{').key("file").value(std::string_view(problem.file));
-    const bool has_place = problem.line > 0;
-    for (const auto& [key, value] : {std::pair{"line", problem.line}, {"column", problem.column}}) {
-      json.key(key);
-      has_place ? json.value(value) : json.null();
-    }
-    json.key("path").value(std::string_view(problem.path)).key("severity").value(name_of(problem.severity));
-    json.key("message").value(std::string_view(message_of(problem))).close('}');
+    json.open('{').key("file").value(problem.file);
+    for (const auto& [key, value] : {std::pair{"line", problem.line}, {"column", problem.column}})
+      json.key(key).value(problem.line > 0 ? std::optional(value) : std::nullopt);
+    json.key("path").value(problem.path).key("severity").value(name_of(problem.severity));
+    json.key("message").value(message_of(problem)).close('}');
   }
   json.close(']');
   return text + "\n";
+}
+
+std::string places_in_words(std::span<const geometry::Point> places, std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(places.size(), most); ++i)
+    text += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", places[i].x, places[i].y);
+  return text;
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates) {

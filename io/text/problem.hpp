@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "geometry/shape/point.hpp"
+
 namespace polynya::io {
 
-/// What a problem does to a file: an error refuses it, the others do not.
+/// What a problem does to a file: an error refuses it, the others do not. In the order of name_of().
 enum class Severity {
   kError,
   kWarning,  ///< it works, and is probably not meant
@@ -39,6 +42,9 @@ std::string to_string(const Problem& problem);
 /// A JSON array of them, one a line: file, line and column (null where there is no place), path, severity and
 /// message.
 std::string to_json_text(const std::vector<Problem>& problems);
+
+/// " at (5, 5), (0, 0)": the first few of what is wrong, for messages; empty where there are none.
+std::string places_in_words(std::span<const geometry::Point> places, std::size_t most);
 
 /// The candidate fewest edits away from a word, or "" where none is near enough to be meant.
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates);

@@ -106,8 +106,7 @@ class ShapeReader {
 
 void append_part(JsonWriter& json, const ShapeParts& shape, const ShapePart& part, bool is_listed) {
   if (part.ring != ShapePart::kNew) {
-    json.open('[').value(std::int64_t{part.ring}).value(std::int64_t{part.first});
-    json.value(std::int64_t{part.count}).close(']');
+    json.open('[').value(part.ring).value(part.first).value(part.count).close(']');
     return;
   }
   if (is_listed) json.open('[');

@@ -60,11 +60,8 @@ bool is_comment(std::string_view line) {
 
 LineCounts count_lines(std::string_view text) {
   LineCounts counts;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::string_view line = trimmed(text.substr(start, end - start));
-    start = end + 1;
-    if (line.empty() || is_comment(line)) continue;
+  for_lines(text, [&counts](std::string_view whole_line, std::size_t) {
+    const std::string_view line = trimmed(whole_line);
     if (counts.lines++ == 0) {
       counts.first_line = line;
       counts.is_wkt_first = begins_wkt(line);
@@ -75,7 +72,7 @@ LineCounts count_lines(std::string_view text) {
       ++counts.wkt;
     else if (is_continued(line))
       ++counts.continued;
-  }
+  });
   return counts;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
 namespace polynya::io {
@@ -11,6 +12,17 @@ std::string_view trimmed(std::string_view line);
 
 /// Whether a trimmed line is a comment: '#' or '//' to its end.
 bool is_comment(std::string_view line);
+
+/// Calls use(line, offset) for each line that is neither blank nor a comment.
+template <class Use>
+void for_lines(std::string_view text, Use use) {
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const std::string_view line = text.substr(start, end - start);
+    if (const auto words = trimmed(line); !words.empty() && !is_comment(words)) use(line, start);
+    start = end + 1;
+  }
+}
 
 /// What kinds of lines a text of floes has. Blank lines and comments do not count.
 struct LineCounts {

@@ -2,17 +2,18 @@
 
 #include <numbers>
 
-#include "analysis/geojson_layer.hpp"
 #include "io/run/placed_floes.hpp"
+#include "io/run/records.hpp"
 #include "io/scene/geographic.hpp"
+#include "io/text/geojson_layer.hpp"
 
 namespace polynya::views {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-using analysis::GeojsonLayer;
-using analysis::Project;
+using io::GeojsonLayer;
+using io::Project;
 
 Project projection(const std::optional<simulation::GeographicOrigin>& origin) {
   if (!origin) return {};
@@ -22,11 +23,8 @@ Project projection(const std::optional<simulation::GeographicOrigin>& origin) {
   };
 }
 
-void append_id(io::JsonWriter& json, simulation::FloeId id) {
-  if (id == simulation::kNoFloe)
-    json.null();
-  else
-    json.value(id);
+std::optional<double> speed_of(const io::PlacedFloe& floe) {
+  return floe.motion ? std::optional(length(floe.motion->velocity)) : std::nullopt;
 }
 
 std::string floes_layer(const io::Run& run, const io::MotionIndex& motions, double time,
@@ -35,24 +33,13 @@ std::string floes_layer(const io::Run& run, const io::MotionIndex& motions, doub
   for (const io::PlacedFloe& floe : floes_at(run, motions, time)) {
     const simulation::BirthRecord& birth = *floe.birth;
     io::JsonWriter& json = layer.start();
-    json.key("floe_id").value(birth.floe).key("parent_id");
-    append_id(json, birth.parent);
+    json.key("floe_id").value(birth.floe).key("parent_id").value(io::id_or_none(birth.parent));
     json.key("born_s").value(birth.time).key("generation").value(birth.generation);
     json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass).key("t_s").value(time);
-    json.key("speed_m_per_s");
-    if (floe.motion)
-      json.value(length(floe.motion->velocity));
-    else
-      json.null();
+    json.key("speed_m_per_s").value(speed_of(floe));
     layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
   }
   return layer.finish();
-}
-
-std::string_view ship_name(const io::Run& run, int ship) {
-  const auto& ships = run.scene.scene.ships;
-  return ship >= 0 && ship < std::ssize(ships) ? std::string_view(ships[static_cast<std::size_t>(ship)].name)
-                                               : "";
 }
 
 std::string fractures_layer(const io::Run& run, double time, const Project& project) {
@@ -61,7 +48,7 @@ std::string fractures_layer(const io::Run& run, double time, const Project& proj
     if (event.time > time || event.kind == simulation::EventKind::kRejectedCut) continue;
     io::JsonWriter& json = layer.start();
     json.key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-    json.key("ship").value(ship_name(run, event.ship)).key("floe_id").value(event.floe);
+    json.key("ship").value(io::ship_name(run.scene.scene, event.ship)).key("floe_id").value(event.floe);
     json.key("collision_force_N").value(event.criteria.collision_force);
     json.key("vertical_force_N").value(event.criteria.vertical_force);
     json.key("submerged_area_m2").value(event.submerged_area);
@@ -78,7 +65,7 @@ std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, dou
     for (const double t : frame_times_until(run, time))
       track.push_back(ship_pose_at(run, motions, ship, t).position);
     if (track.size() < 2) continue;
-    layer.start().key("ship").value(ship_name(run, static_cast<int>(ship)));
+    layer.start().key("ship").value(run.scene.scene.ships[ship].name);
     layer.end_with(track);
   }
   return layer.finish();
@@ -88,7 +75,7 @@ std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, doub
                         const Project& project) {
   GeojsonLayer layer(time, project);
   for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
-    layer.start().key("ship").value(ship_name(run, static_cast<int>(ship))).key("t_s").value(time);
+    layer.start().key("ship").value(run.scene.scene.ships[ship].name).key("t_s").value(time);
     const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
     layer.end_with(geometry::Polygon{transform(ship_pose_at(run, motions, ship, time), waterline), {}});
   }
@@ -102,7 +89,7 @@ std::string channel_layer(const io::Run& run, double time, const Project& projec
         analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0});
     if (!channel) continue;
     for (const geometry::Polygon& water : channel->open_water) {
-      io::JsonWriter& json = layer.start().key("ship").value(std::string_view(channel->ship));
+      io::JsonWriter& json = layer.start().key("ship").value(channel->ship);
       json.key("mean_width_m").value(analysis::widths(*channel).mean);
       layer.end_with(water);
     }

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "io/text/rows_of.hpp"
 #include "views/map/axis_scale.hpp"
 #include "views/map/svg_text.hpp"
 
@@ -67,7 +66,7 @@ class SvgChart {
     for (std::size_t i = 0; i < chart_.panels.size(); ++i) {
       left_ = pitch_ * static_cast<double>(i % columns_) + kLeft;
       width_ = pitch_ - kLeft - 12;
-      top_ = top_of_row(static_cast<double>(io::row_of(i, columns_)));
+      top_ = top_of_row(static_cast<double>(row_of(i, columns_)));
       if (!chart_.panels[i].title.empty()) draw_panel(chart_.panels[i], i);
     }
     draw_legend();
@@ -83,8 +82,7 @@ class SvgChart {
     return heading_.height() + head + row * (head + chart_.panel_height + kBelow);
   }
   double legend_top() const {
-    const auto rows =
-        static_cast<double>(io::rows_of(std::max<std::size_t>(1, chart_.panels.size()), columns_));
+    const auto rows = static_cast<double>(rows_of(std::max<std::size_t>(1, chart_.panels.size()), columns_));
     return top_of_row(rows - 1) + chart_.panel_height + kBelow;
   }
   /// With their letters, in lines.
@@ -258,7 +256,7 @@ int colour_of_run(std::size_t run) {
 
 std::size_t columns_for(std::size_t panels, const PageStyle& page) {
   const double room = std::clamp(page.pixels() / kLeastPitch, 1.0, static_cast<double>(kMostColumns));
-  return panels == 0 ? 1 : io::rows_of(panels, io::rows_of(panels, static_cast<std::size_t>(room)));
+  return panels == 0 ? 1 : rows_of(panels, rows_of(panels, static_cast<std::size_t>(room)));
 }
 
 std::string to_svg(const Chart& chart) {

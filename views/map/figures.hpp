@@ -17,6 +17,10 @@ namespace polynya::views {
 /// A run's floes, hulls, tracks and fractures at a time [s].
 Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double time);
 
+/// Draws the last frame of a run, finished or not, into its folder: final.svg, and final.png where there is a
+/// converter. Returns the name of the better one; the error names the file that could not be written.
+io::Result<std::string> draw_final_map(const io::Run& run);
+
 /// Floes, hulls, tracks and channel of each run at each time [s].
 PictureSheet map_figure(const std::vector<io::Run>& runs, const std::vector<double>& times);
 

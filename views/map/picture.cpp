@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "io/text/rows_of.hpp"
 #include "views/map/map_marks.hpp"
 #include "views/map/svg_layout.hpp"
 
@@ -27,8 +26,7 @@ std::optional<Box> extent_of(const Picture& picture) {
   std::optional<Box> all;
   const auto include = [&](Point p) {
     if (!all) all = Box{p, p};
-    all->low = {std::min(all->low.x, p.x), std::min(all->low.y, p.y)};
-    all->high = {std::max(all->high.x, p.x), std::max(all->high.y, p.y)};
+    extend(*all, p);
   };
   for (const auto& polygon : picture.ice_at_start) std::ranges::for_each(polygon.outer, include);
   for (const auto& ship : picture.ships) std::ranges::for_each(ship.waterline_in_world, include);
@@ -165,7 +163,7 @@ class SvgSheet {
     std::size_t lines = 0;
     for (const auto& head : heads_) lines = std::max(lines, head.size());
     const double head = kHeadLine * static_cast<double>(lines) + (lines > 0 ? 8 : 0);
-    const std::size_t rows = io::rows_of(sheet_.pictures.size(), columns_);
+    const std::size_t rows = rows_of(sheet_.pictures.size(), columns_);
     const double pitch = head + frame_.height() + 10;
     const double below = heading_.height() + pitch * static_cast<double>(rows);
     const bool has_channel =
@@ -178,7 +176,7 @@ class SvgSheet {
     heading_.draw(svg);
     for (std::size_t i = 0; i < sheet_.pictures.size(); ++i) {
       frame_.left = left_of_cell(i % columns_) + 0.5 * (cell_ - frame_.width());
-      frame_.top = heading_.height() + static_cast<double>(io::row_of(i, columns_)) * pitch + head;
+      frame_.top = heading_.height() + static_cast<double>(row_of(i, columns_)) * pitch + head;
       draw_head(svg, i, frame_.top - head);
       SvgMap(svg, sheet_.pictures[i], frame_, i).draw();
     }

@@ -61,9 +61,8 @@ void write_events(io::JsonWriter& json, const io::Run& run) {
   json.key("events").open('[');
   for (const simulation::Event& event : run.events) {
     json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-    json.key("ship").value(event.ship).key("floe").value(event.floe).key("children").open('[');
-    for (const simulation::FloeId child : event.children) json.value(child);
-    json.close(']').key("point_m").value(event.point_in_world);
+    json.key("ship").value(event.ship).key("floe").value(event.floe).key("children").list(event.children);
+    json.key("point_m").value(event.point_in_world);
     const auto& c = event.criteria;
     const bool is_split = event.kind == simulation::EventKind::kSplit;
     json.key("load_N").value(is_split ? c.collision_force : c.vertical_force);
@@ -103,9 +102,8 @@ std::string info_of(const io::Run& run, const PlayerData& data) {
   const simulation::Scene& scene = run.scene.scene;
   json.open('{').key("polynya").value(io::version()).key("scene").value(scene.name);
   json.key("description").value(run.scene.description).key("scene_hash").value(run.scene.hash);
-  json.key("seed").value(static_cast<std::int64_t>(scene.seed)).key("until_s").value(scene.time.until);
-  json.key("frames").value(static_cast<std::int64_t>(data.frames));
-  json.key("frames_of_run").value(static_cast<std::int64_t>(run.frames.size()));
+  json.key("seed").value(scene.seed).key("until_s").value(scene.time.until);
+  json.key("frames").value(data.frames).key("frames_of_run").value(run.frames.size());
   json.key("circle_radius_m").value(scene.contact.circle_radius);
   json.key("forces_interval_s").value(recording_interval(scene));
   json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene));
@@ -117,8 +115,7 @@ std::string info_of(const io::Run& run, const PlayerData& data) {
   json.key("columns").open('[');
   for (const ColumnWriter::Column& column : data.columns.table()) {
     json.open('{').key("name").value(column.name).key("type").value(column.type);
-    json.key("offset").value(static_cast<std::int64_t>(column.offset));
-    json.key("count").value(static_cast<std::int64_t>(column.count)).close('}');
+    json.key("offset").value(column.offset).key("count").value(column.count).close('}');
   }
   json.close(']').close('}');
   return text;

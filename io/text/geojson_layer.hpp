@@ -7,7 +7,7 @@
 #include "geometry/shape/polygon.hpp"
 #include "io/text/json_writer.hpp"
 
-namespace polynya::analysis {
+namespace polynya::io {
 
 /// From the scene's plane to the coordinates of a layer.
 using Project = std::function<geometry::Point(geometry::Point)>;
@@ -18,7 +18,7 @@ class GeojsonLayer {
  public:
   explicit GeojsonLayer(double time, Project project = {});
 
-  io::JsonWriter& start();
+  JsonWriter& start();
   void end_with(const geometry::Polygon& polygon);
   void end_with(const std::vector<geometry::Polygon>& polygons);
   void end_with(const geometry::Ring& line);
@@ -26,13 +26,13 @@ class GeojsonLayer {
   std::string finish();
 
  private:
-  io::JsonWriter& open_geometry(const char* type);
-  void write(const geometry::Polygon& polygon);
+  JsonWriter& open_geometry(const char* type);
   geometry::Ring projected(geometry::Ring points) const;
+  geometry::Polygon projected(geometry::Polygon polygon) const;
 
-  Project project_;
+  Project project_;  ///< empty: none
   std::string text_;
-  io::JsonWriter json_;
+  JsonWriter json_;
 };
 
-}  // namespace polynya::analysis
+}  // namespace polynya::io
