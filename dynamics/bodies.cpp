@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include <boost/container/small_vector.hpp>
 
@@ -25,6 +26,7 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   bodies.travel.push_back(0);
   bodies.bounding_radius.push_back(radius);
   bodies.rim_speed.push_back(length(body.velocity) + std::abs(body.angular_velocity) * radius);
+  bodies.drag_span.push_back({});
   bodies.is_awake.push_back(0);
   bodies.is_alive.push_back(1);
   bodies.mass.push_back(body.mass);
@@ -66,17 +68,26 @@ double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt,
   const auto is_faster = [](double rim, double than) { return rim > than || rim != rim; };
   for_chunks(awake.size(), kBodiesPerChunk, threads,
              [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-               for (std::size_t k = begin; k < end; ++k) {
-                 const BodyIndex i = awake[k];
-                 const double omega = bodies.angular_velocity[i];
-                 const double rim = length(bodies.velocity[i]) + std::abs(omega) * bodies.bounding_radius[i];
-                 bodies.rim_speed[i] = rim;
-                 if (is_faster(rim, fastest[chunk])) fastest[chunk] = rim;
-                 bodies.position[i] += dt * bodies.velocity[i];
-                 bodies.travel[i] += dt * rim;
-                 bodies.angle[i] += dt * omega;
-                 bodies.rotation[i] = turned(bodies.rotation[i], dt * omega);
+               // Without checks of each index.
+               const geometry::Vector* velocity = bodies.velocity.data();
+               const double* angular_velocity = bodies.angular_velocity.data();
+               const double* radius = bodies.bounding_radius.data();
+               geometry::Point* position = bodies.position.data();
+               geometry::Rotation* rotation = bodies.rotation.data();
+               double *angle = bodies.angle.data(), *travel = bodies.travel.data();
+               double* rim_speed = bodies.rim_speed.data();
+               double most = 0;
+               for (const BodyIndex i : std::span(awake).subspan(begin, end - begin)) {
+                 const double omega = angular_velocity[i];
+                 const double rim = length(velocity[i]) + std::abs(omega) * radius[i];
+                 rim_speed[i] = rim;
+                 if (is_faster(rim, most)) most = rim;
+                 position[i] += dt * velocity[i];
+                 travel[i] += dt * rim;
+                 angle[i] += dt * omega;
+                 rotation[i] = turned(rotation[i], dt * omega);
                }
+               fastest[chunk] = most;
              });
   double most = 0;
   for (const double rim : fastest) {

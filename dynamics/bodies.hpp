@@ -19,6 +19,14 @@ struct DragShape {
   std::array<double, kDirections + 1> width{};  ///< across drag_direction(k) [m]; last = first
 };
 
+/// The part of a body's drag shape that it needed last: in steady motion it needs the same again.
+struct DragSpan {
+  double width = 0;       ///< across drag_direction(place) [m]
+  double next_width = 0;  ///< across the next one [m]
+  double rotational = 0;  ///< K [m⁴]
+  int place = -1;         ///< −1: none yet
+};
+
 /// The rigid bodies of a world, ships and floes alike, as columns. Positions and velocities are in the water
 /// frame, which drifts over ground with the water's uniform velocity: ice at rest in it is at rest exactly.
 /// Bodies are only ever added; one that broke is marked dead and its index is not used again.
@@ -34,6 +42,7 @@ struct Bodies {
   std::vector<double> travel;                ///< bound of how far any point of the body has moved so far [m]
   std::vector<double> bounding_radius;       ///< about the centre of mass [m]
   std::vector<double> rim_speed;             ///< bound of any point's speed at the last integration [m/s]
+  std::vector<DragSpan> drag_span;
   std::vector<std::uint8_t> is_awake;
   // Cold.
   std::vector<std::uint8_t> is_alive;

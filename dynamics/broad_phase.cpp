@@ -30,7 +30,10 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
 BroadPhase::BroadPhase(const ContactRule& rule, double grid_cell) : rule_(rule), grid_(grid_cell) {}
 
 void BroadPhase::add(const Bodies& bodies, BodyIndex body) {
-  if (entries_.size() <= static_cast<std::size_t>(body)) entries_.resize(static_cast<std::size_t>(body) + 1);
+  if (entries_.size() <= static_cast<std::size_t>(body)) {
+    entries_.resize(static_cast<std::size_t>(body) + 1);
+    travel_limits_.resize(static_cast<std::size_t>(body) + 1);
+  }
   place(bodies, body);
 }
 
@@ -38,7 +41,7 @@ void BroadPhase::place(const Bodies& bodies, BodyIndex body) {
   Entry& entry = entries_[body];
   if (entry.is_in) grid_.remove(body, entry.box);
   entry.box = geometry::grown(box_in_water(bodies, body), kBoxMargin);
-  entry.travel_limit = bodies.travel[body] + kBoxMargin;
+  travel_limits_[body] = bodies.travel[body] + kBoxMargin;
   grid_.insert(body, entry.box);
   entry.is_in = true;
 }
@@ -152,7 +155,7 @@ void BroadPhase::merge_new() {
 void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
   for (const BodyIndex body : awake) {
     if (!rule_.is_culling) break;  // every pair is there already
-    if (bodies.travel[body] <= entries_[body].travel_limit) continue;
+    if (bodies.travel[body] <= travel_limits_[body]) continue;
     place(bodies, body);
     own_pairs_ = entries_[body].pairs;
     for (const std::uint32_t pair : own_pairs_) {
@@ -163,25 +166,34 @@ void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
   if (!new_.empty() || dropped_ > 0) merge_new();
 }
 
-/// The pairs that may touch by now, by (a, b).
-void BroadPhase::find_pending(const Bodies& bodies) {
-  pending_.clear();
+/// The pairs that may touch by now, by (a, b): of the active ones from begin to end, and of the recent ones
+/// that belong between these.
+void BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
+                              std::vector<ActivePair*>& pending) {
+  pending.clear();
+  const double* travel = bodies.travel.data();
   const auto consider = [&](ActivePair& active) {
-    const bool is_apart = bodies.travel[active.a] + bodies.travel[active.b] <= active.separation_bound;
-    if ((is_apart && rule_.is_culling) || pairs_[active.slot].is_dropped) return;
-    pending_.push_back(&active);
+    const bool is_apart = travel[active.a] + travel[active.b] <= active.separation_bound;
+    if (is_apart && rule_.is_culling) return;
+    __builtin_prefetch(&pairs_[active.slot]);
+    pending.push_back(&active);
   };
-  auto recent = recent_.begin();
-  for (ActivePair& active : active_) {
-    while (recent != recent_.end() && *recent < active) consider(*recent++);
-    consider(active);
+  const auto recent_from = [&](std::size_t i) {
+    return i == 0 ? recent_.begin() : std::lower_bound(recent_.begin(), recent_.end(), active_[i]);
+  };
+  auto recent = recent_from(begin);
+  const auto last_recent = end < active_.size() ? recent_from(end) : recent_.end();
+  for (ActivePair* active = active_.data() + begin; active != active_.data() + end; ++active) {
+    while (recent != last_recent && *recent < *active) consider(*recent++);
+    consider(*active);
   }
-  while (recent != recent_.end()) consider(*recent++);
+  while (recent != last_recent) consider(*recent++);
 }
 
 void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
                          std::vector<Contact>& contacts) {
   Pair& pair = pairs_[active.slot];
+  if (pair.is_dropped) return;
   if (!rule_.is_culling) pair.near.distance = pair.apart.distance = pair.near_bound = -1;
   const Pose pose = centre_a_from_b(bodies, active.a, active.b);
   double clearance = clearance_left(bodies, active.b, pose, pair.apart);
@@ -190,25 +202,24 @@ void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, Pa
   active.separation_bound = travelled + std::max(0.0, clearance - kRounding);
 }
 
+void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt,
+                               Share& share, std::vector<Contact>& contacts) {
+  find_pending(bodies, begin, end, share.pending);
+  for (ActivePair* active : share.pending) collide(bodies, *active, dt, share.scratch, contacts);
+}
+
 void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
-  constexpr std::size_t kPairsPerShare = 256;  // fewer are not worth another thread
+  constexpr std::size_t kPairsPerShare = 2048;  // fewer are not worth another thread
   contacts.clear();
   if (!new_.empty() || dropped_ > 0) merge_new();
-  find_pending(bodies);
-  if (shares_.size() < chunk_count(pending_.size(), kPairsPerShare))
-    shares_.resize(chunk_count(pending_.size(), kPairsPerShare));
-  if (pending_.size() <= kPairsPerShare) {
-    for (ActivePair* active : pending_) collide(bodies, *active, dt, shares_.front().scratch, contacts);
-    return;
-  }
-  for_chunks(pending_.size(), kPairsPerShare, threads,
-             [&](std::size_t k, std::size_t begin, std::size_t end) {
-               Share& share = shares_[k];
-               share.contacts.clear();
-               for (std::size_t i = begin; i < end; ++i)
-                 collide(bodies, *pending_[i], dt, share.scratch, share.contacts);
-             });
-  for (std::size_t k = 0; k < chunk_count(pending_.size(), kPairsPerShare); ++k)
+  const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), kPairsPerShare));
+  if (shares_.size() < chunks) shares_.resize(chunks);
+  if (chunks == 1) return collide_share(bodies, 0, active_.size(), dt, shares_.front(), contacts);
+  for_chunks(active_.size(), kPairsPerShare, threads, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    shares_[k].contacts.clear();
+    collide_share(bodies, begin, end, dt, shares_[k], shares_[k].contacts);
+  });
+  for (std::size_t k = 0; k < chunks; ++k)
     contacts.insert(contacts.end(), shares_[k].contacts.begin(), shares_[k].contacts.end());
 }
 

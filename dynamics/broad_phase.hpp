@@ -48,9 +48,8 @@ class BroadPhase {
   std::int64_t take_unpaired_stretches();
 
  private:
-  struct Entry {              // one body
-    geometry::Box box;        // grown
-    double travel_limit = 0;  // the box contains the body until it has travelled this far
+  struct Entry {        // one body
+    geometry::Box box;  // grown
     std::vector<std::uint32_t> pairs;
     bool is_in = false;
   };
@@ -68,21 +67,27 @@ class BroadPhase {
   void drop_pair(std::uint32_t pair);
   void merge_new();
   void erase_dropped(std::vector<ActivePair>& list);
-  void find_pending(const Bodies& bodies);
+  struct Share;
+  void find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
+                    std::vector<ActivePair*>& pending);
+  void collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt, Share& share,
+                     std::vector<Contact>& contacts);
   void collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
                std::vector<Contact>& contacts);
 
   ContactRule rule_;
   HashGrid grid_;
   std::vector<Entry> entries_;
+  std::vector<double>
+      travel_limits_;        // of bodies: the grown box contains one until it has travelled this far
   std::vector<Pair> pairs_;  // slots
   std::vector<std::uint32_t> free_pairs_;
-  std::vector<ActivePair> active_;    // pairs in use, by (a, b), dropped ones included
-  std::vector<ActivePair> recent_;    // the same; merged into active_ when there are many
-  std::vector<ActivePair> new_;       // not sorted yet
-  std::size_t dropped_ = 0;           // of all three
-  std::vector<ActivePair*> pending_;  // those that may touch in this step
-  struct Share {                      // of the pending pairs, for one thread at a time
+  std::vector<ActivePair> active_;     // pairs in use, by (a, b), dropped ones included
+  std::vector<ActivePair> recent_;     // the same; merged into active_ when there are many
+  std::vector<ActivePair> new_;        // not sorted yet
+  std::size_t dropped_ = 0;            // of all three
+  struct Share {                       // of the pairs in use, for one thread at a time
+    std::vector<ActivePair*> pending;  // those that may touch in this step
     PairScratch scratch;
     std::vector<Contact> contacts;
   };

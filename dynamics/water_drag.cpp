@@ -7,6 +7,7 @@
 #include <boost/container/small_vector.hpp>
 
 #include "dynamics/chunks.hpp"
+#include "geometry/shape/avx2_clone.hpp"
 
 namespace polynya::dynamics {
 
@@ -91,46 +92,163 @@ Vector drag_direction(int k) {
   return t < 1 ? Vector{1 - t, t} : Vector{1 - t, 2 - t};
 }
 
+namespace {
+
+/// Where a direction (of any length > 0) is among those of half a turn, from [0, kDirections]. The inverse of
+/// drag_direction.
+inline double place_along(Vector d) {
+  const bool is_behind = d.y < 0;
+  const double x = is_behind ? -d.x : d.x;
+  const double y = is_behind ? -d.y : d.y;
+  const double from_axis = y / (std::abs(x) + y);
+  return (x >= 0 ? from_axis : 2 - from_axis) * (0.5 * kDirections);
+}
+
+}  // namespace
+
 double width_across(const DragShape& shape, Vector direction_in_body) {
-  Vector d = direction_in_body;
-  if (d.y < 0) d = -d;
-  const double from_axis = d.y / (std::abs(d.x) + d.y);
-  const double t = d.x >= 0 ? from_axis : 2 - from_axis;
-  const double at = t * (0.5 * DragShape::kDirections);
-  const int k = std::min(static_cast<int>(at), DragShape::kDirections - 1);
+  const double at = place_along(direction_in_body);
+  const int k = std::min(static_cast<int>(at), kDirections - 1);
   return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
 }
 
 namespace {
 
-/// Brakes one body over the step; half_rate is ½ C_D ρ_w Δt.
-void brake(Bodies& bodies, BodyIndex i, const DragShape& shape, double half_rate, const ShearCurrent& current,
-           WaterWork& work) {
+/// Some bodies side by side, for loops that the compiler turns into vector instructions. Plain arrays: it
+/// does not of those that check their indices.
+struct Lanes {
+  static constexpr std::size_t kMost = 32;
+  BodyIndex body[kMost];
+  // The motion through the water, and what changes it.
+  double ux[kMost], uy[kMost], speed[kMost], cosine[kMost], sine[kMost], place[kMost], width[kMost];
+  double rate[kMost], inverse_mass[kMost], mass[kMost];
+  double omega[kMost], rotational[kMost], inverse_moment[kMost], moment[kMost];
+  // The motion after the step is the water's and this.
+  double ux_after[kMost], uy_after[kMost], omega_after[kMost];
+  // What the water did.
+  double slowing[kMost], lost[kMost], lost_turning[kMost], turning_slowing[kMost];
+};
+
+POLYNYA_AVX2_CLONE void find_places(Lanes& l, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    l.speed[i] = std::sqrt(l.ux[i] * l.ux[i] + l.uy[i] * l.uy[i]);
+    const double x = l.cosine[i] * l.ux[i] + l.sine[i] * l.uy[i];
+    const double y = -l.sine[i] * l.ux[i] + l.cosine[i] * l.uy[i];
+    const double place = place_along({x, y});
+    l.place[i] = l.speed[i] > 0 ? place : 0;
+  }
+}
+
+POLYNYA_AVX2_CLONE void brake(Lanes& l, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double shrink = 1 / (1 + l.rate[i] * l.width[i] * l.inverse_mass[i] * l.speed[i]);
+    l.ux_after[i] = shrink * l.ux[i];
+    l.uy_after[i] = shrink * l.uy[i];
+    l.slowing[i] = l.mass[i] * (1 - shrink);
+    l.lost[i] = 0.5 * l.slowing[i] * (1 + shrink) * l.speed[i] * l.speed[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double shrink = 1 / (1 + l.rate[i] * l.rotational[i] * l.inverse_moment[i] * std::abs(l.omega[i]));
+    l.omega_after[i] = shrink * l.omega[i];
+    l.turning_slowing[i] = l.moment[i] * (1 - shrink) * l.omega[i];
+    l.lost_turning[i] = 0.5 * l.turning_slowing[i] * (1 + shrink) * l.omega[i];
+  }
+}
+
+/// The columns of the bodies that drag reads and changes, without checks of each index.
+struct Columns {
+  explicit Columns(Bodies& bodies)
+      : position(bodies.position.data()),
+        rotation(bodies.rotation.data()),
+        velocity(bodies.velocity.data()),
+        angular_velocity(bodies.angular_velocity.data()),
+        mass(bodies.mass.data()),
+        inverse_mass(bodies.inverse_mass.data()),
+        moment(bodies.moment.data()),
+        inverse_moment(bodies.inverse_moment.data()),
+        thickness(bodies.thickness.data()),
+        span(bodies.drag_span.data()),
+        drag(bodies.drag.data()) {}
+
+  const geometry::Point* position;
+  const geometry::Rotation* rotation;
+  Vector* velocity;
+  double* angular_velocity;
+  const double *mass, *inverse_mass, *moment, *inverse_moment, *thickness;
+  DragSpan* span;
+  const std::shared_ptr<const DragShape>* drag;
+};
+
+/// The width across a place between two known directions.
+double width_at(const Columns& bodies, BodyIndex i, double place) {
+  DragSpan& span = bodies.span[i];
+  const int k = std::min(static_cast<int>(place), kDirections - 1);
+  if (span.place != k) {
+    const DragShape& shape = *bodies.drag[i];
+    span = {shape.width[k], shape.width[k + 1], shape.rotational, k};
+  }
+  return span.width + (place - k) * (span.next_width - span.width);
+}
+
+Vector flow_at(const Columns& bodies, BodyIndex i, const ShearCurrent& current) {
+  return current.is_still() ? Vector{} : current.velocity_at(bodies.position[i]);
+}
+
+/// Writes what changes the motion of the bodies into the lanes.
+void gather(const Columns& bodies, Lanes& l, std::size_t count, double half_rate,
+            const ShearCurrent& current) {
+  const double turning = current.is_still() ? 0 : current.angular_velocity();
+  for (std::size_t k = 0; k < count; ++k) {
+    const BodyIndex i = l.body[k];
+    const Vector u = bodies.velocity[i] - flow_at(bodies, i, current);
+    l.ux[k] = u.x;
+    l.uy[k] = u.y;
+    l.cosine[k] = bodies.rotation[i].cosine;
+    l.sine[k] = bodies.rotation[i].sine;
+    l.rate[k] = half_rate * bodies.thickness[i];
+    l.inverse_mass[k] = bodies.inverse_mass[i];
+    l.mass[k] = bodies.mass[i];
+    l.omega[k] = bodies.angular_velocity[i] - turning;
+    l.inverse_moment[k] = bodies.inverse_moment[i];
+    l.moment[k] = bodies.moment[i];
+  }
+}
+
+/// Writes the lanes' motion back and adds what the water did, body by body.
+void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const ShearCurrent& current,
+             WaterWork& work) {
   const bool is_still = current.is_still();
-  const double rate = half_rate * bodies.thickness[i];
-  const Vector flow = is_still ? Vector{} : current.velocity_at(bodies.position[i]);
-  const Vector u = bodies.velocity[i] - flow;
-  const double speed = length(u);
-  if (speed > 0) {
-    const double width = width_across(shape, rotate_back(bodies.rotation[i], u));
-    const double shrink = 1 / (1 + rate * width * bodies.inverse_mass[i] * speed);
-    bodies.velocity[i] = flow + shrink * u;
-    const double slowing = bodies.mass[i] * (1 - shrink);
-    const Vector impulse = -slowing * u;
-    work.lost += 0.5 * slowing * (1 + shrink) * speed * speed;
-    work.impulse += impulse;
-    work.impulses += slowing * speed;
-    if (!is_still) work.by_current += dot(impulse, flow);
-  }
   const double turning = is_still ? 0 : current.angular_velocity();
-  const double omega = bodies.angular_velocity[i] - turning;
-  if (omega != 0) {
-    const double shrink = 1 / (1 + rate * shape.rotational * bodies.inverse_moment[i] * std::abs(omega));
-    bodies.angular_velocity[i] = turning + shrink * omega;
-    const double slowing = bodies.moment[i] * (1 - shrink) * omega;
-    work.lost += 0.5 * slowing * (1 + shrink) * omega;
-    work.by_current -= slowing * turning;
+  for (std::size_t k = 0; k < count; ++k) {
+    const BodyIndex i = l.body[k];
+    if (l.speed[k] > 0) {
+      const Vector flow = flow_at(bodies, i, current);
+      const Vector impulse = -l.slowing[k] * Vector{l.ux[k], l.uy[k]};
+      bodies.velocity[i] = flow + Vector{l.ux_after[k], l.uy_after[k]};
+      work.lost += l.lost[k];
+      work.impulse += impulse;
+      work.impulses += l.slowing[k] * l.speed[k];
+      if (!is_still) work.by_current += dot(impulse, flow);
+    }
+    if (l.omega[k] != 0) {
+      bodies.angular_velocity[i] = turning + l.omega_after[k];
+      work.lost += l.lost_turning[k];
+      work.by_current -= l.turning_slowing[k] * turning;
+    }
   }
+}
+
+/// Brakes the lanes' bodies over the step; half_rate is ½ C_D ρ_w Δt.
+void brake(const Columns& bodies, Lanes& l, std::size_t count, double half_rate, const ShearCurrent& current,
+           WaterWork& work) {
+  gather(bodies, l, count, half_rate, current);
+  find_places(l, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    l.width[k] = width_at(bodies, l.body[k], l.place[k]);
+    l.rotational[k] = bodies.span[l.body[k]].rotational;
+  }
+  brake(l, count);
+  scatter(bodies, l, count, current, work);
 }
 
 }  // namespace
@@ -138,13 +256,19 @@ void brake(Bodies& bodies, BodyIndex i, const DragShape& shape, double half_rate
 WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
                            double dt, int threads) {
   const double half_rate = 0.5 * water.drag_coefficient * water.density * dt;
+  const Columns columns(bodies);
   boost::container::small_vector<WaterWork, 16> works(chunk_count(awake.size(), kBodiesPerChunk));
   for_chunks(awake.size(), kBodiesPerChunk, threads,
              [&](std::size_t chunk, std::size_t begin, std::size_t end) {
                WaterWork work;
+               Lanes lanes;
+               std::size_t count = 0;
                for (std::size_t k = begin; k < end; ++k) {
-                 const DragShape* shape = bodies.drag[awake[k]].get();
-                 if (shape != nullptr) brake(bodies, awake[k], *shape, half_rate, water.current, work);
+                 if (columns.span[awake[k]].place >= 0 || columns.drag[awake[k]] != nullptr)
+                   lanes.body[count++] = awake[k];
+                 if (count < Lanes::kMost && k + 1 < end) continue;
+                 brake(columns, lanes, count, half_rate, water.current, work);
+                 count = 0;
                }
                works[chunk] = work;
              });
