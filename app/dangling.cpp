@@ -1,7 +1,6 @@
 #include "app/dangling.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/exact/measures.hpp"
 

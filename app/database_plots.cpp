@@ -1,7 +1,6 @@
 #include "app/database_plots.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 

@@ -7,7 +7,6 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/database_input.hpp"
-#include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
 
 namespace polynya::app {

@@ -9,7 +9,6 @@
 #include "app/options.hpp"
 #include "app/run_result.hpp"
 #include "app/stop_signal.hpp"
-#include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
 #include "views/map/figures.hpp"

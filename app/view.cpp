@@ -1,7 +1,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "app/commands.hpp"
 #include "app/console.hpp"

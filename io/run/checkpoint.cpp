@@ -68,10 +68,6 @@ void fields(Archive& archive, Is<ShipPeaks> auto& p) {
   archive(p.ship, p.of_column);
 }
 template <class Archive>
-void fields(Archive& archive, Is<Motion> auto& m) {
-  archive(m.position, m.angle, m.velocity, m.angular_velocity);
-}
-template <class Archive>
 void fields(Archive& archive, Is<RecordedMotion> auto& r) {
   archive(r.time, r.motion);
 }

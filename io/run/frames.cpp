@@ -1,15 +1,12 @@
 #include "io/run/frames.hpp"
 
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
+#include "simulation/state/state_fields.hpp"
+
 namespace polynya::io {
 namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "frames.bin is written as the machine holds numbers");
 
 constexpr std::string_view kFileMark = "PLYNYFRM";
 constexpr std::string_view kFrameMark = "FRAM";
@@ -18,19 +15,6 @@ constexpr std::size_t kHeaderSize = 16;
 constexpr std::size_t kFrameHeadSize = 24;
 constexpr std::size_t kMotionSize = 48;
 constexpr std::size_t kFloeSize = 56;
-
-template <class Number>
-void append(std::string& bytes, Number value) {
-  std::array<char, sizeof value> raw;
-  std::memcpy(raw.data(), &value, sizeof value);
-  bytes.append(raw.data(), raw.size());
-}
-
-void append(std::string& bytes, const Motion& m) {
-  for (const double value :
-       {m.position.x, m.position.y, m.angle, m.velocity.x, m.velocity.y, m.angular_velocity})
-    append(bytes, value);
-}
 
 template <class Number>
 Number take(std::string_view& bytes) {
@@ -68,24 +52,18 @@ Motion carried_on(const Motion& motion, double duration) {
 }
 
 std::string FrameEncoder::header() {
-  std::string bytes(kFileMark);
-  append(bytes, kVersion);
-  append(bytes, std::uint32_t{0});
-  return bytes;
+  simulation::ByteWriter head;
+  head(kVersion, std::uint32_t{0});
+  return std::string(kFileMark) + head.take();
 }
 
 std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes) {
-  std::string bytes(kFrameMark);
-  append(bytes, static_cast<std::uint32_t>(ships.size()));
-  append(bytes, static_cast<std::uint32_t>(floes.size()));
-  append(bytes, std::uint32_t{0});
-  append(bytes, time);
-  for (const Motion& ship : ships) append(bytes, ship);
-  for (const FloeMotion& floe : floes) {
-    append(bytes, floe.floe);
-    append(bytes, floe.motion);
-  }
-  return bytes;
+  simulation::ByteWriter frame;
+  frame(static_cast<std::uint32_t>(ships.size()), static_cast<std::uint32_t>(floes.size()), std::uint32_t{0},
+        time);
+  for (const Motion& ship : ships) frame(ship);
+  for (const FloeMotion& floe : floes) frame(floe.floe, floe.motion);
+  return std::string(kFrameMark) + frame.take();
 }
 
 std::string FrameEncoder::encode(double time, std::span<const Motion> ships,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include "geometry/shape/point.hpp"
 #include "io/text/result.hpp"
 #include "simulation/simulation.hpp"
+#include "simulation/state/archive.hpp"
 
 namespace polynya::io {
 
@@ -34,6 +34,11 @@ struct Motion {
   geometry::Vector velocity;    ///< over ground [m/s]
   double angular_velocity = 0;  ///< [rad/s]
 };
+
+template <class Archive>
+void fields(Archive& archive, simulation::Is<Motion> auto& m) {
+  archive(m.position, m.angle, m.velocity, m.angular_velocity);
+}
 
 /// The motion carried on at its velocity for a time [s].
 Motion carried_on(const Motion& motion, double duration);

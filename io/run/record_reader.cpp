@@ -14,8 +14,8 @@ using simulation::FloeId;
 namespace {
 
 const JsonValue& member(const JsonValue& value, std::string_view key, JsonValue::Kind kind) {
-  const JsonValue* found = value.find(key);
-  if (!found || !found->is(kind)) throw ReadError(fmt::format("\"{}\" is not {}", key, name_of(kind)));
+  const JsonValue* found = value.find(key, kind);
+  if (!found) throw ReadError(fmt::format("\"{}\" is not {}", key, name_of(kind)));
   return *found;
 }
 double number(const JsonValue& value, std::string_view key) {
@@ -122,8 +122,7 @@ simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene
   event.submerged_area = number(line, "submerged_area_m2");
   event.brash_area = number(line, "brash_area_m2");
   event.rounding_defect = number(line, "rounding_defect_m2");
-  if (const JsonValue* reason = line.find("reason"); reason && reason->is(JsonValue::Kind::kText))
-    event.reason = reason->text();
+  if (const JsonValue* reason = line.find("reason", JsonValue::Kind::kText)) event.reason = reason->text();
   return event;
 }
 

@@ -1,6 +1,5 @@
 #include "io/run/run_folder.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <vector>

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <new>
-#include <stdexcept>
-#include <system_error>
 
 #include "io/run/failure_dump.hpp"
 #include "io/run/last_whole_step.hpp"

@@ -146,8 +146,8 @@ bool is_finished_run(const std::filesystem::path& folder) {
   const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
   if (!text) return false;
   const JsonDocument summary = parse_json(*text);
-  const JsonValue* finished = summary.faults.empty() ? summary.root.find("finished") : nullptr;
-  return finished != nullptr && finished->kind() == JsonValue::Kind::kBoolean && finished->boolean();
+  const JsonValue* finished = summary.root.find("finished", JsonValue::Kind::kBoolean);
+  return summary.faults.empty() && finished && finished->boolean();
 }
 
 std::string_view version() {
@@ -172,8 +172,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   append(json, summary.audit);
   append(json, summary.counts);
   json.key("warnings").list(summary.warnings).close('}');
-  text += '\n';
-  return text;
+  return text + "\n";
 }
 
 }  // namespace polynya::io

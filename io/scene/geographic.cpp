@@ -1,7 +1,6 @@
 #include "io/scene/geographic.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace polynya::io {
 namespace {

@@ -22,16 +22,14 @@ class GeojsonReader {
   GeojsonReader(std::size_t source, ProblemCollector& problems) : source_(source), problems_(problems) {}
 
   void read(const JsonValue& value, const std::string& path) {
-    const JsonValue* type = value.find("type");
-    if (!type || !type->is(JsonKind::kText))
-      return report(value, path, show(value), "an object with a GeoJSON type");
+    const JsonValue* type = value.find("type", JsonKind::kText);
+    if (!type) return report(value, path, show(value), "an object with a GeoJSON type");
     const std::string& name = type->text();
     if (name == "FeatureCollection") return each(value, path, "features");
     if (name == "GeometryCollection") return each(value, path, "geometries");
     if (name == "Feature") return read_feature(value, path);
-    const JsonValue* coordinates = value.find("coordinates");
-    if (!coordinates || !coordinates->is(JsonKind::kArray))
-      return report(value, path, "no coordinates", "a list");
+    const JsonValue* coordinates = value.find("coordinates", JsonKind::kArray);
+    if (!coordinates) return report(value, path, "no coordinates", "a list");
     if (name == "Polygon") return read_polygon(*coordinates, path + ".coordinates");
     if (name == "MultiPolygon") {
       for (std::size_t i = 0; i < coordinates->items().size(); ++i) {
@@ -94,9 +92,8 @@ class GeojsonReader {
   }
 
   void each(const JsonValue& value, const std::string& path, std::string_view key) {
-    const JsonValue* list = value.find(key);
-    if (!list || !list->is(JsonKind::kArray))
-      return report(value, path, fmt::format("no {}", key), "a list of them");
+    const JsonValue* list = value.find(key, JsonKind::kArray);
+    if (!list) return report(value, path, fmt::format("no {}", key), "a list of them");
     for (std::size_t i = 0; i < list->items().size(); ++i) {
       read(list->items()[i], fmt::format("{}{}{}[{}]", path, path.empty() ? "" : ".", key, i));
     }
@@ -105,8 +102,8 @@ class GeojsonReader {
   void read_feature(const JsonValue& value, const std::string& path) {
     const JsonValue* geometry = value.find("geometry");
     const JsonValue* properties = value.find("properties");
-    const JsonValue* area = properties ? properties->find("area_m2") : nullptr;
-    if (area && area->is(JsonKind::kNumber)) own_area_ += area->number();
+    const JsonValue* area = properties ? properties->find("area_m2", JsonKind::kNumber) : nullptr;
+    if (area) own_area_ += area->number();
     if (!geometry || geometry->is_null())
       return report(value, path, "a feature without geometry", "a Polygon or MultiPolygon");
     read(*geometry, path + ".geometry");
@@ -174,10 +171,9 @@ class GeojsonReader {
 
 /// A run writes its time beside the floes, and when each was born.
 std::optional<double> run_time_of(const JsonValue& root) {
-  const JsonValue* time = root.find("t_s");
-  const JsonValue* features = root.find("features");
-  if (!time || !time->is(JsonKind::kNumber) || !features || !features->is(JsonKind::kArray))
-    return std::nullopt;
+  const JsonValue* time = root.find("t_s", JsonKind::kNumber);
+  const JsonValue* features = root.find("features", JsonKind::kArray);
+  if (!time || !features) return std::nullopt;
   for (const JsonValue& feature : features->items()) {
     const JsonValue* properties = feature.find("properties");
     if (!properties || !properties->find("floe_id") || !properties->find("born_s")) return std::nullopt;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "io/text/json_value.hpp"
 #include "io/text/problem_collector.hpp"
 
 namespace polynya::io {

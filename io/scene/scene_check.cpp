@@ -1,9 +1,7 @@
 #include "io/scene/scene_check.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <variant>
 
 #include <fmt/format.h>
 

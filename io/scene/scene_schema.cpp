@@ -197,8 +197,7 @@ std::string scene_schema() {
   json.key("title").value("Polynya scene");
   write_object(json, scene_object());
   json.close('}');
-  text += '\n';
-  return text;
+  return text + "\n";
 }
 
 std::string scene_tables() {

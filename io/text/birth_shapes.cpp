@@ -15,8 +15,8 @@ constexpr std::size_t kMostAssembled = 20'000'000;  ///< vertices, 320 MB
 }  // namespace
 
 std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view key) {
-  const JsonValue* id = object.find(key);
-  if (!id || !id->is(JsonValue::Kind::kNumber)) return {};
+  const JsonValue* id = object.find(key, JsonValue::Kind::kNumber);
+  if (!id) return {};
   const double number = id->number();
   if (!(number >= 0 && number < 9e15 && number == std::floor(number))) return {};
   return static_cast<std::int64_t>(number);

@@ -143,8 +143,7 @@ std::string to_ledger_json(const CutReport& report) {
   json.key("dangling").value(totals.dangling).key("repaired").value(totals.repaired);
   json.key("area_changed_by_repair_m2").value(totals.area_repaired);
   json.key("rejected").value(totals.rejected).close('}').close('}');
-  text += '\n';
-  return text;
+  return text + "\n";
 }
 
 std::string to_floe_text(const CutReport& report, FloeFormat format) {
@@ -161,8 +160,7 @@ std::string to_floe_text(const CutReport& report, FloeFormat format) {
       }
     }
     json.close(']').close('}');
-    text += '\n';
-    return text;
+    return text + "\n";
   }
   for (const CutFloe& floe : report.floes) {
     for (const CutPiece& piece : floe.pieces) {

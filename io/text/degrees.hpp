@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "geometry/shape/polygon.hpp"
 #include "io/text/json_value.hpp"

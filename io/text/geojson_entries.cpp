@@ -34,11 +34,9 @@ class GeojsonEntries {
   /// offsets.
   void read(const JsonValue& value, std::size_t feature) {
     note_crs(value);
-    const JsonValue* type = value.find("type");
-    if (type && type->is(JsonKind::kText) && type->text() == "FeatureCollection") {
-      const JsonValue* features = value.find("features");
-      if (!features || !features->is(JsonKind::kArray))
-        return refuse(value, feature, "malformed", "a FeatureCollection without features");
+    if (value.has("type", "FeatureCollection")) {
+      const JsonValue* features = value.find("features", JsonKind::kArray);
+      if (!features) return refuse(value, feature, "malformed", "a FeatureCollection without features");
       for (const JsonValue& item : features->items()) read_feature(item, feature++);
     } else {
       read_feature(value, feature);
@@ -64,8 +62,7 @@ class GeojsonEntries {
     floe_id_ = {};
     properties_ = nullptr;
     const JsonValue* geometry = &value;
-    if (const JsonValue* type = value.find("type");
-        type && type->is(JsonKind::kText) && type->text() == "Feature") {
+    if (value.has("type", "Feature")) {
       note_crs(value);
       geometry = value.find("geometry");
       if (const JsonValue* properties = value.find("properties")) {
@@ -138,8 +135,8 @@ class GeojsonEntries {
   }
 
   void read_geometry(const JsonValue& value) {
-    const JsonValue* type = value.find("type");
-    if (!type || !type->is(JsonKind::kText))
+    const JsonValue* type = value.find("type", JsonKind::kText);
+    if (!type)
       throw ParseError("malformed", fmt::format("found {}, expected an object with a GeoJSON type",
                                                 value.is(JsonKind::kObject) ? "an object without one"
                                                                             : name_of(value.kind())));

@@ -37,6 +37,16 @@ struct JsonValue {
 
   /// The member of that key, or null where this is no object or has none.
   const JsonValue* find(std::string_view key) const;
+  /// The same where it is of that kind.
+  const JsonValue* find(std::string_view key, Kind kind) const {
+    const JsonValue* found = find(key);
+    return found && found->is(kind) ? found : nullptr;
+  }
+  /// Whether it has that text as a member.
+  bool has(std::string_view key, std::string_view text) const {
+    const JsonValue* found = find(key, Kind::kText);
+    return found && found->text() == text;
+  }
   JsonValue* find(std::string_view key) { return const_cast<JsonValue*>(std::as_const(*this).find(key)); }
 };
 

@@ -208,8 +208,7 @@ std::string to_json_text(const JsonValue& value) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
   write(json, value);
-  text += '\n';
-  return text;
+  return text + "\n";
 }
 
 }  // namespace polynya::io

@@ -1,7 +1,6 @@
 #include "views/export/vtk_export.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <map>

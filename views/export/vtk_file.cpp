@@ -1,6 +1,5 @@
 #include "views/export/vtk_file.hpp"
 
-#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,32 +7,23 @@
 #include "io/text/base64.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/xml_text.hpp"
+#include "simulation/state/archive.hpp"
 
 namespace polynya::views {
 namespace {
 
 using Cells = std::vector<std::vector<std::int64_t>>;
 
-void append_bytes(std::string& bytes, std::uint64_t word) {
-  for (int i = 0; i < 8; ++i) bytes += static_cast<char>(word >> (8 * i) & 0xffU);
-}
-void append_bytes(std::string& bytes, double value) {
-  append_bytes(bytes, std::bit_cast<std::uint64_t>(value));
-}
-void append_bytes(std::string& bytes, std::int64_t value) {
-  append_bytes(bytes, static_cast<std::uint64_t>(value));
-}
-
 /// A DataArray: its length in bytes and its bytes as one stream of base64 (VTK seeks in it as in one).
 template <class Value>
 std::string data_array(const std::string& name, const std::vector<Value>& values, int components) {
-  std::string bytes;
-  append_bytes(bytes, static_cast<std::uint64_t>(values.size() * sizeof(Value)));
-  for (const Value value : values) append_bytes(bytes, value);
+  simulation::ByteWriter bytes;
+  bytes(std::uint64_t{values.size() * sizeof(Value)});
+  for (const Value value : values) bytes(value);
   return fmt::format(
       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
       std::is_same_v<Value, double> ? "Float64" : "Int64", io::escaped(name), components,
-      io::to_base64(bytes));
+      io::to_base64(bytes.take()));
 }
 
 std::string cells_element(const char* element, const Cells& cells) {

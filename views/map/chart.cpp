@@ -1,10 +1,8 @@
 #include "views/map/chart.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -40,8 +40,8 @@ constexpr Name kNames[] = {{"initial", "motion at the start", true},
 std::vector<Sink> sinks_of(const std::vector<io::Run>& runs) {
   std::vector<Sink> sinks;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const io::JsonValue* energy = runs[i].summary.find("energy");
-    if (!energy || !energy->is(io::JsonValue::Kind::kObject)) continue;
+    const io::JsonValue* energy = runs[i].summary.find("energy", io::JsonValue::Kind::kObject);
+    if (!energy) continue;
     for (const io::JsonMember& member : energy->members()) {
       // The turnover is a scale for the imbalance, and no sink.
       if (!member.key.ends_with("_J") || member.key == "turnover_J" ||

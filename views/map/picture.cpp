@@ -1,7 +1,6 @@
 #include "views/map/picture.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>

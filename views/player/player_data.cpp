@@ -90,9 +90,9 @@ void write_water(io::JsonWriter& json, const simulation::WaterSettings& water) {
 }
 
 void write_summary(io::JsonWriter& json, const io::Run& run) {
-  const io::JsonValue* finished = run.summary.find("finished");
-  json.key("finished").value(finished && finished->is(io::JsonValue::Kind::kBoolean) && finished->boolean());
-  if (const io::JsonValue* by = run.summary.find("stopped_by"); by && by->is(io::JsonValue::Kind::kText))
+  const io::JsonValue* finished = run.summary.find("finished", io::JsonValue::Kind::kBoolean);
+  json.key("finished").value(finished && finished->boolean());
+  if (const io::JsonValue* by = run.summary.find("stopped_by", io::JsonValue::Kind::kText))
     json.key("stopped_by").value(by->text());
 }
 
