@@ -83,12 +83,13 @@ CrushingForce deepest_crushing_force(const fracture::Ice& ice, const Contact& c,
 }
 
 /// Enters what the law of crushing ice takes of a contact. One that is found for the first time has pressed
-/// while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given F ξ / ((1 + n) v).
-void set_crushing(Contact& c, CrushingForce crushing, double dt) {
+/// while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given F ξ / ((1 + n) v). But
+/// for pieces of floes that broke just now, whose contacts were there before.
+void set_crushing(Contact& c, CrushingForce crushing, double dt, bool is_just_born) {
   c.crushing_force = crushing.force;
   c.crushing_stiffness = crushing.stiffness;
   const bool is_new = c.record->loaded_depth == 0 && c.record->age < 1.5 * dt;
-  if (!is_new || crushing.force <= 0 || c.approach_speed <= 0) return;
+  if (!is_new || is_just_born || crushing.force <= 0 || c.approach_speed <= 0) return;
   const double exponent = crushing.stiffness * c.depth / crushing.force;
   c.missed_impulse = std::min(dt, c.depth / c.approach_speed) * crushing.force / (1 + exponent);
 }
@@ -235,8 +236,12 @@ void add_peak(const Setup& setup, const dynamics::Bodies& bodies, const ShipCont
 
 }  // namespace
 
-void decide(const Setup& setup, const Population& population, StepData& step, Counts& counts) {
+void decide(const Setup& setup, const Clock& clock, const Population& population, StepData& step,
+            Counts& counts) {
   const dynamics::Bodies& bodies = population.bodies;
+  const auto is_just_born = [&](BodyIndex body) {
+    return !population.is_ship(body) && population.floes[population.floe_of(body)].born == clock.time();
+  };
   const double dt = setup.scene.time.step;
   step.fractures.clear();
   step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
@@ -246,7 +251,7 @@ void decide(const Setup& setup, const Population& population, StepData& step, Co
       const BodyIndex thinner = bodies.thickness[c.b] < bodies.thickness[c.a] ? c.b : c.a;
       const fracture::Ice ice = ice_of(setup, bodies, thinner);
       if (is_crush_law(setup))
-        set_crushing(c, deepest_crushing_force(ice, c, 0), dt);
+        set_crushing(c, deepest_crushing_force(ice, c, 0), dt, is_just_born(c.a) || is_just_born(c.b));
       else
         c.impulse_limit = crushing_force(ice, c, 0) * dt;
       continue;
@@ -257,7 +262,7 @@ void decide(const Setup& setup, const Population& population, StepData& step, Co
     add_peak(setup, bodies, load, step.loads[c.a]);
     const double horizontal = load.shares.horizontal;
     if (is_crush_law(setup))
-      set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt);
+      set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt, is_just_born(c.b));
     else
       c.impulse_limit = horizontal * load.normal_force * dt;
     c.friction = load.shares.tangential / horizontal;

@@ -153,7 +153,7 @@ const std::array<Stage, 13> kStages = {{
     {"find pairs", [](World& w) { find_pairs(w.population); }},
     {"find contacts",
      [](World& w) { find_contacts(w.setup, w.threads, w.population, w.step.contacts, w.accounts.counts); }},
-    {"decide", [](World& w) { decide(w.setup, w.population, w.step, w.accounts.counts); }},
+    {"decide", [](World& w) { decide(w.setup, w.clock, w.population, w.step, w.accounts.counts); }},
     {"solve impulses",
      [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
     {"drop unbroken", [](World& w) { drop_unbroken(w.setup, w.step); }},
