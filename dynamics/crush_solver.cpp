@@ -4,12 +4,15 @@
 #include <cmath>
 
 #include "dynamics/chunks.hpp"
+#include "dynamics/jam_solver.hpp"
 
 namespace polynya::dynamics {
 namespace {
 
 constexpr std::size_t kContactsPerChunk = 256;
-constexpr int kPlainSweeps = 4;  ///< before the acceleration; most islands need no more
+constexpr int kPlainSweeps = 4;     ///< before the acceleration; most islands need no more
+constexpr int kSweepsToJam = 24;    ///< an island that needs more is jammed: Newton's method, now and again
+constexpr double kSlipShare = 0.5;  ///< of the tolerance: speed within which friction grows to its bound
 
 /// Brings the slip of a contact line within the Coulomb cone of its normal impulses. Returns the change of
 /// the slip impulse [N s].
@@ -110,6 +113,7 @@ void CrushSolver::warm_start(const Island& island, const std::vector<Contact>& c
 double CrushSolver::sweep(const Island& island, const CrushSettings& settings) {
   double last = 0;
   double violation = 0;
+  int accelerated = 0;  // sweeps since the last start
   for (int round = 0; round < settings.max_iterations; ++round) {
     const bool is_plain = round < kPlainSweeps;
     violation = 0;
@@ -145,9 +149,29 @@ double CrushSolver::sweep(const Island& island, const CrushSettings& settings) {
                     std::abs(slip) * constraint.inverse_slip_mass});
     }
     if (violation <= settings.tolerance) return violation;
-    if (!is_plain && round + 1 < settings.max_iterations) accelerate(island, last, round == kPlainSweeps);
+    if (round + 1 >= settings.max_iterations) break;
+    if (round % kSweepsToJam == kSweepsToJam - 1) {
+      solve_jam(island, settings.tolerance);
+      accelerated = 0;
+    } else if (!is_plain) {
+      accelerate(island, last, accelerated++ == 0);
+    }
   }
   return violation;
+}
+
+void CrushSolver::solve_jam(const Island& island, double tolerance) {
+  std::vector<EndLaws> laws(island.count);
+  for (std::uint32_t k = 0; k < island.count; ++k) {
+    const Crushing& crushing = crushing_[island.first + k];
+    const ContactConstraint& constraint = constraints_[island.first + k];
+    if (crushing.is_rigid)
+      laws[k] = {rigid_law(constraint.inverse_mass_at[0]), rigid_law(constraint.inverse_mass_at[1])};
+    else
+      laws[k] = crushing.ends;
+  }
+  dynamics::solve_jam(std::span(constraints_).subspan(island.first, island.count), laws, solver_bodies_,
+                      kSlipShare * tolerance);
 }
 
 void CrushSolver::accelerate(const Island& island, double& last, bool is_first) {

@@ -48,6 +48,7 @@ class CrushSolver {
   static double impulse_to_breaking(const Crushing& crushing, const ConstraintSpeeds& speeds, double tau);
   void end_substep(const Island& island, double tau);
   double sweep(const Island& island, const CrushSettings& settings);
+  void solve_jam(const Island& island, double tolerance);
   void accelerate(const Island& island, double& last, bool is_first);
   void write_back(Bodies& bodies, std::vector<Contact>& contacts, double step);
 
