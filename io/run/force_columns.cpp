@@ -28,8 +28,8 @@ constexpr ForceColumn column(std::string_view name, std::string_view unit, std::
               [](ShipSample& s, double value) {
                 s.*Member = static_cast<std::remove_reference_t<decltype(s.*Member)>>(value);
               },
-          .is_optional = is_optional,
-          .plot = plot};
+          .plot = plot,
+          .is_optional = is_optional};
 }
 
 template <double ShipSample::*Member>

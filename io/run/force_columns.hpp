@@ -31,10 +31,10 @@ struct ForceColumn {
   std::string_view meaning;  ///< as docs/run-folder.md has it
   double (*read)(const simulation::ShipSample& row);
   void (*store)(simulation::ShipSample& row, double value);
-  bool is_optional = false;             ///< older runs do not have it
   std::optional<ShownWhere> peak = {};  ///< where summary.json has its largest value by magnitude
   std::string_view plot = {};           ///< title of its plot in the player; empty: none
   CurveKind curve = CurveKind::kMean;   ///< in that plot
+  bool is_optional = false;             ///< older runs do not have it
 };
 
 /// All of them, as they follow the columns t_s and ship.
