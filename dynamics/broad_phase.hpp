@@ -68,8 +68,8 @@ class BroadPhase {
   void merge_new();
   void erase_dropped(std::vector<ActivePair>& list);
   struct Share;
-  void find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
-                    std::vector<ActivePair*>& pending);
+  std::size_t find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
+                           std::vector<ActivePair*>& pending);
   void collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt, Share& share,
                      std::vector<Contact>& contacts);
   void collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
@@ -87,7 +87,7 @@ class BroadPhase {
   std::vector<ActivePair> new_;        // not sorted yet
   std::size_t dropped_ = 0;            // of all three
   struct Share {                       // of the pairs in use, for one thread at a time
-    std::vector<ActivePair*> pending;  // those that may touch in this step
+    std::vector<ActivePair*> pending;  // those that may touch in this step, and room for more
     PairScratch scratch;
     std::vector<Contact> contacts;
   };

@@ -7,28 +7,26 @@ namespace {
 
 constexpr int kMostTries = 8;  ///< of Newton's; it seldom needs three
 
-struct Pieces {
-  CrushPiece of[2];
-  friend bool operator==(const Pieces&, const Pieces&) = default;
-};
-
 /// The two ends of one contact line and what slows them.
 class EndPair {
  public:
   EndPair(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
           const std::array<double, 2>& closing_speed)
-      : ends_(ends), mobility_(mobility), free_(closing_speed) {}
+      : ends_(ends),
+        creep_{creep_slope(ends[0]), creep_slope(ends[1])},
+        mobility_(mobility),
+        free_(closing_speed) {}
 
   std::array<double, 2> speeds(const std::array<double, 2>& impulse) const {
     return {free_[0] - mobility_.at[0] * impulse[0] - mobility_.between * impulse[1],
             free_[1] - mobility_.between * impulse[0] - mobility_.at[1] * impulse[1]};
   }
-  Pieces pieces(const std::array<double, 2>& speed) const {
-    return {piece_at(ends_[0], speed[0]), piece_at(ends_[1], speed[1])};
+  CrushPieces pieces(const std::array<double, 2>& speed) const {
+    return {{piece_at(ends_[0], creep_[0], speed[0]), piece_at(ends_[1], creep_[1], speed[1])}};
   }
-  std::array<double, 2> solve_on(const Pieces& pieces) const {
-    const CrushBranch p = branch_of(ends_[0], pieces.of[0]);
-    const CrushBranch q = branch_of(ends_[1], pieces.of[1]);
+  std::array<double, 2> solve_on(const CrushPieces& pieces) const {
+    const CrushBranch p = branch_of(ends_[0], creep_[0], pieces.of[0]);
+    const CrushBranch q = branch_of(ends_[1], creep_[1], pieces.of[1]);
     const double right_0 = p.at_rest + p.slope * (free_[0] - ends_[0].gap_speed);
     const double right_1 = q.at_rest + q.slope * (free_[1] - ends_[1].gap_speed);
     const double m00 = 1 + p.slope * mobility_.at[0];
@@ -61,6 +59,7 @@ class EndPair {
 
  private:
   const std::array<CrushResponse, 2>& ends_;
+  double creep_[2];
   const EndsMobility& mobility_;
   std::array<double, 2> free_;
 };
@@ -68,13 +67,16 @@ class EndPair {
 }  // namespace
 
 std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
-                                     const std::array<double, 2>& closing_speed) {
+                                     const std::array<double, 2>& closing_speed, CrushPieces& pieces) {
+  if (closing_speed[0] <= ends[0].gap_speed && closing_speed[1] <= ends[1].gap_speed) {
+    pieces = {};
+    return {0, 0};
+  }
   const EndPair pair(ends, mobility, closing_speed);
-  Pieces pieces = pair.pieces(closing_speed);
-  if (pieces == Pieces{{CrushPiece::kApart, CrushPiece::kApart}}) return {0, 0};
+  if (pieces == CrushPieces{}) pieces = pair.pieces(closing_speed);
   for (int i = 0; i < kMostTries; ++i) {
     const auto impulse = pair.solve_on(pieces);
-    const Pieces next = pair.pieces(pair.speeds(impulse));
+    const CrushPieces next = pair.pieces(pair.speeds(impulse));
     if (next == pieces)
       return {std::clamp(impulse[0], 0.0, ends[0].cap), std::clamp(impulse[1], 0.0, ends[1].cap)};
     pieces = next;

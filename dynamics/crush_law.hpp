@@ -43,21 +43,26 @@ inline double creep_slope(const CrushResponse& r) {
   return r.impulse_of_force / kCreepSpeed + r.slope;
 }
 
-inline CrushPiece piece_at(const CrushResponse& r, double closing_speed) {
+/// `creep` is creep_slope(r), for those that ask often.
+inline CrushPiece piece_at(const CrushResponse& r, double creep, double closing_speed) {
   const double x = closing_speed - r.gap_speed;
   if (x <= 0) return CrushPiece::kApart;
-  const double crept = creep_slope(r) * x;
+  const double crept = creep * x;
   const double crushed = r.impulse_of_force + r.slope * x;
   if (std::min(crept, crushed) >= r.cap) return CrushPiece::kBroken;
   return crept < crushed ? CrushPiece::kCreeping : CrushPiece::kCrushing;
 }
 
-inline CrushBranch branch_of(const CrushResponse& r, CrushPiece piece) {
+inline CrushPiece piece_at(const CrushResponse& r, double closing_speed) {
+  return piece_at(r, creep_slope(r), closing_speed);
+}
+
+inline CrushBranch branch_of(const CrushResponse& r, double creep, CrushPiece piece) {
   switch (piece) {
     case CrushPiece::kApart:
       return {0, 0};
     case CrushPiece::kCreeping:
-      return {0, creep_slope(r)};
+      return {0, creep};
     case CrushPiece::kCrushing:
       return {r.impulse_of_force, r.slope};
     case CrushPiece::kBroken:
@@ -66,11 +71,22 @@ inline CrushBranch branch_of(const CrushResponse& r, CrushPiece piece) {
   return {};
 }
 
+inline CrushBranch branch_of(const CrushResponse& r, CrushPiece piece) {
+  return branch_of(r, creep_slope(r), piece);
+}
+
 /// λ of one end [N s].
 inline double crush_impulse(const CrushResponse& r, double closing_speed) {
-  const CrushBranch branch = branch_of(r, piece_at(r, closing_speed));
+  const double creep = creep_slope(r);
+  const CrushBranch branch = branch_of(r, creep, piece_at(r, creep, closing_speed));
   return branch.at_rest + branch.slope * (closing_speed - r.gap_speed);
 }
+
+/// The pieces that the two ends of a contact line are on.
+struct CrushPieces {
+  CrushPiece of[2] = {CrushPiece::kApart, CrushPiece::kApart};
+  friend bool operator==(const CrushPieces&, const CrushPieces&) = default;
+};
 
 /// How the impulses at the two ends of a contact line slow their closing: u = û − K λ, K symmetric, positive
 /// semidefinite [1/kg].
@@ -82,8 +98,9 @@ struct EndsMobility {
 /// The impulses of both ends that obey the law together: λ_i = λ_i(û_i − (K λ)_i), û the closing speeds
 /// without them [m/s]. On each pair of pieces this is a 2 × 2 system, (I + diag(β) K) λ = α + β (û − g/τ);
 /// the pieces follow from its solution, as in Newton's method, and where that goes round in circles, all
-/// pairs are tried.
+/// pairs are tried. Starts from `pieces`, or from those of û where both are apart, and leaves there those of
+/// the solution: the next one is likely on the same.
 std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
-                                     const std::array<double, 2>& closing_speed);
+                                     const std::array<double, 2>& closing_speed, CrushPieces& pieces);
 
 }  // namespace polynya::dynamics

@@ -56,6 +56,7 @@ void CrushSolver::fill(const Bodies& bodies, const std::vector<Contact>& contact
                                  .missed = c.missed_impulse,
                                  .breaking_force = c.breaking_force,
                                  .ends = {},
+                                 .pieces = {},
                                  .total = {0, 0},
                                  .total_slip = 0,
                                  .normal_work = 0,
@@ -136,7 +137,7 @@ double CrushSolver::sweep(const Island& island, const CrushSettings& settings) {
       const std::array<double, 2> free{-apart[0] + mobility.at[0] * p0 + mobility.between * p1,
                                        -apart[1] + mobility.between * p0 + mobility.at[1] * p1};
       if (p0 == 0 && p1 == 0 && constraint.slip_impulse == 0 && free[0] <= 0 && free[1] <= 0) continue;
-      const auto impulse = crush_impulses(crushing_[k].ends, mobility, free);
+      const auto impulse = crush_impulses(crushing_[k].ends, mobility, free, crushing_[k].pieces);
       const double change_0 = impulse[0] - p0;
       const double change_1 = impulse[1] - p1;
       constraint.normal_impulse[0] = impulse[0];

@@ -34,6 +34,7 @@ class CrushSolver {
     double missed;            // impulse before the contact was found [N s]
     double breaking_force;    // [N]
     std::array<CrushResponse, 2> ends;
+    CrushPieces pieces;           // of the ends, at the last solution
     double total[2], total_slip;  // impulses of the substeps so far [N s]
     double normal_work, slip_work;
     bool is_rigid, is_broken;

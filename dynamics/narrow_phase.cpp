@@ -78,9 +78,8 @@ void find_near(const Bodies& bodies, Pair& pair, const Pose& pose) {
   const geometry::Boundary& b = *bodies.boundary[pair.b];
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
   pair.near_circles.clear();
-  pair.near_edges.clear();
   const double distance = near_circles(a, b, a_from_b, kNearMargin, pair.near_circles);
-  if (!pair.near_circles.empty()) edges_of(a, b, pair.near_circles, pair.near_edges);
+  edges_of(a, b, pair.near_circles, pair.near_edges);
   pair.near = {pose, (pair.near_circles.empty() ? distance : kNearMargin) * (1 - 1e-9)};
 }
 
@@ -138,7 +137,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
     if (clearance_left(bodies, pair.b, pose, pair.near) < kRounding) find_near(bodies, pair, pose);
     pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
   }
-  if (pair.near_circles.empty()) {
+  if (pair.near_edges.pairs.empty()) {
     pair.records.clear();
     pair.apart = pair.near;
     return clearance_left(bodies, pair.b, pose, pair.apart);
@@ -152,8 +151,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
     return -1;
   }
   // Circles lie inside the ice: no two can overlap while the boundaries are apart.
-  const double gap = least_distance(*bodies.boundary[pair.a], *bodies.boundary[pair.b],
-                                    a_from_b(bodies, pair.a, pair.b, pose), pair.near_edges);
+  const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.near_edges);
   pair.records.clear();
   pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};
   return pair.apart.distance;

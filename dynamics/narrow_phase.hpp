@@ -23,10 +23,11 @@ struct alignas(64) Pair {
   Clearance apart;          ///< statement: they do not touch
   bool is_dropped = false;  ///< its slot is freed when the lists of pairs are cleaned up
   // The first line ends here.
-  Clearance near;                                ///< statement: only the near circles and edges can meet
-  std::vector<geometry::NearPair> near_circles;  ///< bounding circles of boundary pieces near each other
-  std::vector<geometry::NearPair> near_edges;    ///< the edges behind them
+  Clearance near;  ///< statement: only the near circles and edges can meet
   std::vector<PersistentContact> records;
+  // Nor do most need what follows.
+  geometry::NearEdges near_edges;                ///< of the near circles
+  std::vector<geometry::NearPair> near_circles;  ///< bounding circles of boundary pieces near each other
 };
 
 /// How contacts are found.

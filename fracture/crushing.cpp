@@ -28,11 +28,14 @@ CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thic
   if (overlap.area <= 0 || overlap.depth <= 0) return {};
   const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
   const auto area_at = [&](double x) { return x > 0 ? overlap.area * std::pow(x / overlap.depth, p) : 0.0; };
-  const auto slope_at = [&](double x) { return x > 0 ? p * area_at(x) / x : 0.0; };
+  const auto slope_at = [&](double x, double area) { return x > 0 ? p * area / x : 0.0; };
+  const double area = area_at(depth);
+  const double slope = slope_at(depth, area);
   const double sine = std::sin(hull_angle);
-  if (sine < kVertical) return {thickness * slope_at(depth), thickness * (p - 1) * slope_at(depth) / depth};
+  if (sine < kVertical) return {thickness * slope, thickness * (p - 1) * slope / depth};
   const double inner = depth - thickness * std::tan(hull_angle);
-  return {(area_at(depth) - area_at(inner)) / sine, std::max(0.0, slope_at(depth) - slope_at(inner)) / sine};
+  const double inner_area = area_at(inner);
+  return {(area - inner_area) / sine, std::max(0.0, slope - slope_at(inner, inner_area)) / sine};
 }
 
 CrushingShares crushing_shares(double hull_angle, double friction, double approach_speed, double slip_speed) {

@@ -99,7 +99,9 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
 }
 
 void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
-              std::vector<NearPair>& edge_pairs) {
+              NearEdges& edges) {
+  std::vector<NearPair>& pairs = edges.pairs;
+  pairs.clear();
   for (const NearPair pair : circle_pairs) {
     const BoundaryPiece& ca = a.pieces[pair.a];
     const BoundaryPiece& cb = b.pieces[pair.b];
@@ -107,25 +109,38 @@ void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>&
     for (std::uint32_t i = 0; i < ca.edges; ++i, ea = a.edges.next[ea]) {
       std::uint32_t eb = cb.first_edge;
       for (std::uint32_t k = 0; k < cb.edges; ++k, eb = b.edges.next[eb]) {
-        if (edge_pairs.empty() || edge_pairs.back() != NearPair{ea, eb}) edge_pairs.push_back({ea, eb});
+        if (pairs.empty() || pairs.back() != NearPair{ea, eb}) pairs.push_back({ea, eb});
       }
     }
   }
-  std::sort(edge_pairs.begin(), edge_pairs.end());
-  edge_pairs.erase(std::unique(edge_pairs.begin(), edge_pairs.end()), edge_pairs.end());
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  edges.stride = (pairs.size() + 3) / 4 * 4;
+  edges.ends.assign(8 * edges.stride, 0);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    std::size_t at = i;
+    for (const Point end : {a.edges.from(pairs[i].a), a.edges.to(pairs[i].a), b.edges.from(pairs[i].b),
+                            b.edges.to(pairs[i].b)}) {
+      edges.ends[at] = end.x;
+      edges.ends[at + edges.stride] = end.y;
+      at += 2 * edges.stride;
+    }
+  }
 }
 
-double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                      const std::vector<NearPair>& edge_pairs) {
+double least_distance(const Pose& a_from_b, const NearEdges& edges) {
   double least = std::numeric_limits<double>::infinity();  // squared
   const auto squared_to_segment = [](Point p, Point from, Point to) {
     return squared_length(nearest_on_segment(from, to, p) - p);
   };
-  for (const NearPair pair : edge_pairs) {
-    const Point a0 = a.edges.from(pair.a);
-    const Point a1 = a.edges.to(pair.a);
-    const Point b0 = transform(a_from_b, b.edges.from(pair.b));
-    const Point b1 = transform(a_from_b, b.edges.to(pair.b));
+  for (std::size_t i = 0; i < edges.pairs.size(); ++i) {
+    const auto end = [&](std::size_t k) {
+      return Point{edges.ends[i + 2 * k * edges.stride], edges.ends[i + (2 * k + 1) * edges.stride]};
+    };
+    const Point a0 = end(0);
+    const Point a1 = end(1);
+    const Point b0 = transform(a_from_b, end(2));
+    const Point b1 = transform(a_from_b, end(3));
     const double b_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0);
     const double a_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0);
     if (b_sides <= 0 && a_sides <= 0) return 0;
@@ -133,6 +148,33 @@ double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b
                       squared_to_segment(b0, a0, a1), squared_to_segment(b1, a0, a1)});
   }
   return std::sqrt(least);
+}
+
+void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                           const std::vector<NearPair>& circle_pairs,
+                           std::vector<ContactManifold>& manifolds) {
+  for (const NearPair pair : circle_pairs) {
+    const ContactCircle& ca = a.circles[pair.a];
+    const ContactCircle& cb = b.circles[pair.b];
+    const Vector line = transform(a_from_b, cb.centre) - ca.centre;
+    const double centres = length(line);
+    const double depth = ca.radius + cb.radius - centres;
+    if (depth <= 0 || centres == 0) continue;
+    ContactManifold manifold;
+    manifold.normal = line / centres;
+    manifold.depth = depth;
+    // Half the lens's chord: c² = r_a² − x², with x the chord's distance from a's centre.
+    const double x = (centres * centres + ca.radius * ca.radius - cb.radius * cb.radius) / (2 * centres);
+    const double half_chord = std::sqrt(std::max(0.0, ca.radius * ca.radius - x * x));
+    const Point middle = ca.centre + (ca.radius - 0.5 * depth) * manifold.normal;
+    manifold.width = 2 * half_chord;
+    manifold.area = 2.0 / 3.0 * depth * manifold.width;  // of a thin lens
+    manifold.ends[0] = middle - half_chord * perpendicular(manifold.normal);
+    manifold.ends[1] = middle + half_chord * perpendicular(manifold.normal);
+    manifold.tip_of_b = ca.centre + (centres - cb.radius) * manifold.normal;
+    manifold.tip_edge_of_b = b.pieces[pair.b].first_edge;
+    manifolds.push_back(manifold);
+  }
 }
 
 }  // namespace polynya::geometry

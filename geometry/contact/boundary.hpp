@@ -57,6 +57,14 @@ struct NearPair {
   friend auto operator<=>(const NearPair&, const NearPair&) = default;
 };
 
+/// Pairs of edges that are near each other, with the edges' ends beside them: each in its boundary's frame.
+struct NearEdges {
+  std::vector<NearPair> pairs;
+  /// Eight columns of `stride` numbers: x and y of the first end of a's edges, of the second, and of b's [m].
+  std::vector<double> ends;
+  std::size_t stride = 0;  ///< at least one for each pair, a multiple of 4
+};
+
 /// All pairs of bounding circles of two boundaries within `margin` of each other [m], and so all near pieces.
 /// Appends to `circle_pairs`. Returns a lower bound of the distance between the boundaries [m], of use where
 /// nothing is within the margin.
@@ -65,7 +73,7 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
 
 /// The pairs of edges on the pieces of pairs of bounding circles, each once, in order.
 void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
-              std::vector<NearPair>& edge_pairs);
+              NearEdges& edges);
 
 /// Where two bodies overlap, seen as one contact. In the frame of a.
 struct ContactManifold {
@@ -96,13 +104,11 @@ struct ManifoldScratch {
 /// of a's boundary inside b makes one: the contact line joins the points where the boundaries cross, the
 /// normal stands on it. Appends to `manifolds`. Returns how many stretches were left out because their
 /// crossings did not pair up (rounding at a touching vertex; they pair up one step later).
-int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                   const std::vector<NearPair>& edge_pairs, ManifoldScratch& scratch,
-                   std::vector<ContactManifold>& manifolds);
+int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, const NearEdges& edges,
+                   ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds);
 
 /// Least distance between the edges of the pairs, 0 where two cross or touch [m].
-double least_distance(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                      const std::vector<NearPair>& edge_pairs);
+double least_distance(const Pose& a_from_b, const NearEdges& edges);
 
 /// The paper's own rule: every pair of overlapping contact circles is a contact with its normal along the
 /// line of centres and its contact point half-way into the overlap. [Sawamura2017], Fig. 1. Depth is the

@@ -2,48 +2,74 @@
 #include <cmath>
 
 #include "geometry/contact/boundary.hpp"
+#include "geometry/shape/avx2_clone.hpp"
 
 namespace polynya::geometry {
 namespace {
 
 using Crossing = ManifoldScratch::Crossing;
 
-// Which side of an edge along d a point is on, by the sign of its turn, true for left. A zero is decided as
-// if all of b were moved by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate
-// between entering and leaving.
-bool is_left_of_a_edge(Vector d, double turn_of_b) {
-  if (turn_of_b != 0) [[likely]]
-    return turn_of_b > 0;
-  return d.y != 0 ? d.y < 0 : d.x > 0;
-}
-bool is_left_of_b_edge(Vector d, double turn_of_a) {
-  if (turn_of_a != 0) [[likely]]
-    return turn_of_a > 0;
-  return d.y != 0 ? d.y > 0 : d.x < 0;
-}
+/// Some pairs of edges side by side, for a loop that the compiler turns into vector instructions. Plain
+/// arrays: it does not of those that check their indices.
+struct EdgeLanes {
+  static constexpr std::size_t kMost = 16;
+  double b0x[kMost], b0y[kMost], b1x[kMost], b1y[kMost];  // b's edges in a's frame [m]
+  double starts_inside[kMost], is_crossing[kMost];        // 1 or 0
+};
 
-void find_crossings(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                    const std::vector<NearPair>& edge_pairs, std::vector<Crossing>& crossings) {
-  for (const NearPair pair : edge_pairs) {
-    const Point a0 = a.edges.from(pair.a);
-    const Point a1 = a.edges.to(pair.a);
-    const Point b0 = transform(a_from_b, b.edges.from(pair.b));
-    const Point b1 = transform(a_from_b, b.edges.to(pair.b));
+/// Brings b's edges into a's frame and finds which pairs cross. Which side of an edge along d a point is on
+/// is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were moved
+/// by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
+/// leaving.
+POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* ends, std::size_t stride, std::size_t count,
+                                            const Pose& a_from_b, EdgeLanes& l) {
+  const Pose pose = a_from_b;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point a0{ends[i], ends[i + stride]};
+    const Point a1{ends[i + 2 * stride], ends[i + 3 * stride]};
+    const Point b0 = transform(pose, {ends[i + 4 * stride], ends[i + 5 * stride]});
+    const Point b1 = transform(pose, {ends[i + 6 * stride], ends[i + 7 * stride]});
     const Vector da = a1 - a0;
     const Vector db = b1 - b0;
     const Vector ab = b0 - a0;
     const double b_turns[2] = {cross(da, ab), cross(da, b1 - a0)};
     const double a_turns[2] = {-cross(db, ab), cross(db, a1 - b0)};
-    // Side by side, not one after the other: which of the four decides is unpredictable.
-    const bool is_a_crossed = is_left_of_a_edge(da, b_turns[0]) != is_left_of_a_edge(da, b_turns[1]);
-    const bool starts_inside = is_left_of_b_edge(db, a_turns[0]);
-    const bool is_b_crossed = starts_inside != is_left_of_b_edge(db, a_turns[1]);
-    if (!(is_a_crossed & is_b_crossed)) continue;
-    const double turn = cross(da, db);
-    const double per_turn = 1 / turn;
-    const double along_a = turn != 0 ? std::clamp(cross(ab, db) * per_turn, 0.0, 1.0) : 0.5;
-    const double along_b = turn != 0 ? std::clamp(cross(ab, da) * per_turn, 0.0, 1.0) : 0.5;
-    crossings.push_back({a0 + along_a * da, pair.a, pair.b, along_a, along_b, !starts_inside, 0});
+    const bool a_tie = (da.y < 0) | ((da.y == 0) & (da.x > 0));
+    const bool b_tie = (db.y > 0) | ((db.y == 0) & (db.x < 0));
+    const bool is_b0_left = (b_turns[0] > 0) | ((b_turns[0] == 0) & a_tie);
+    const bool is_b1_left = (b_turns[1] > 0) | ((b_turns[1] == 0) & a_tie);
+    const bool is_a0_left = (a_turns[0] > 0) | ((a_turns[0] == 0) & b_tie);
+    const bool is_a1_left = (a_turns[1] > 0) | ((a_turns[1] == 0) & b_tie);
+    l.b0x[i] = b0.x;
+    l.b0y[i] = b0.y;
+    l.b1x[i] = b1.x;
+    l.b1y[i] = b1.y;
+    l.starts_inside[i] = is_a0_left ? 1 : 0;
+    l.is_crossing[i] = (is_b0_left != is_b1_left) & (is_a0_left != is_a1_left) ? 1 : 0;
+  }
+}
+
+void find_crossings(const Pose& a_from_b, const NearEdges& edges, std::vector<Crossing>& crossings) {
+  EdgeLanes lanes;
+  for (std::size_t first = 0; first < edges.pairs.size(); first += EdgeLanes::kMost) {
+    const double* ends = edges.ends.data() + first;
+    const std::size_t count = std::min(EdgeLanes::kMost, edges.pairs.size() - first);
+    find_crossing_lanes(ends, edges.stride, (count + 3) / 4 * 4, a_from_b, lanes);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (lanes.is_crossing[i] == 0) continue;
+      const Point a0{ends[i], ends[i + edges.stride]};
+      const Point b0{lanes.b0x[i], lanes.b0y[i]};
+      const Vector da = Point{ends[i + 2 * edges.stride], ends[i + 3 * edges.stride]} - a0;
+      const Vector db = Point{lanes.b1x[i], lanes.b1y[i]} - b0;
+      const Vector ab = b0 - a0;
+      const double turn = cross(da, db);
+      const double per_turn = 1 / turn;
+      const double along_a = turn != 0 ? std::clamp(cross(ab, db) * per_turn, 0.0, 1.0) : 0.5;
+      const double along_b = turn != 0 ? std::clamp(cross(ab, da) * per_turn, 0.0, 1.0) : 0.5;
+      const NearPair pair = edges.pairs[first + i];
+      crossings.push_back(
+          {a0 + along_a * da, pair.a, pair.b, along_a, along_b, lanes.starts_inside[i] == 0, 0});
+    }
   }
 }
 
@@ -234,13 +260,12 @@ int add_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, con
 
 }  // namespace
 
-int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                   const std::vector<NearPair>& edge_pairs, ManifoldScratch& scratch,
-                   std::vector<ContactManifold>& manifolds) {
+int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, const NearEdges& edges,
+                   ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds) {
   const std::vector<Crossing>& by_a = scratch.crossings;
   const std::vector<Crossing>& by_b = scratch.by_b;
   scratch.crossings.clear();
-  find_crossings(a, b, a_from_b, edge_pairs, scratch.crossings);
+  find_crossings(a_from_b, edges, scratch.crossings);
   if (by_a.empty()) return 0;
   if (by_a.size() == 2 &&
       by_a[0].is_entering != by_a[1].is_entering) {  // nearly all contacts: no order to find
@@ -264,33 +289,6 @@ int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
                     : add_manifold(a, b, a_from_b, by_a[i], by_a[j], closes_on_b, scratch, manifolds);
   }
   return left_out;
-}
-
-void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                           const std::vector<NearPair>& circle_pairs,
-                           std::vector<ContactManifold>& manifolds) {
-  for (const NearPair pair : circle_pairs) {
-    const ContactCircle& ca = a.circles[pair.a];
-    const ContactCircle& cb = b.circles[pair.b];
-    const Vector line = transform(a_from_b, cb.centre) - ca.centre;
-    const double centres = length(line);
-    const double depth = ca.radius + cb.radius - centres;
-    if (depth <= 0 || centres == 0) continue;
-    ContactManifold manifold;
-    manifold.normal = line / centres;
-    manifold.depth = depth;
-    // Half the lens's chord: c² = r_a² − x², with x the chord's distance from a's centre.
-    const double x = (centres * centres + ca.radius * ca.radius - cb.radius * cb.radius) / (2 * centres);
-    const double half_chord = std::sqrt(std::max(0.0, ca.radius * ca.radius - x * x));
-    const Point middle = ca.centre + (ca.radius - 0.5 * depth) * manifold.normal;
-    manifold.width = 2 * half_chord;
-    manifold.area = 2.0 / 3.0 * depth * manifold.width;  // of a thin lens
-    manifold.ends[0] = middle - half_chord * perpendicular(manifold.normal);
-    manifold.ends[1] = middle + half_chord * perpendicular(manifold.normal);
-    manifold.tip_of_b = ca.centre + (centres - cb.radius) * manifold.normal;
-    manifold.tip_edge_of_b = b.pieces[pair.b].first_edge;
-    manifolds.push_back(manifold);
-  }
 }
 
 }  // namespace polynya::geometry

@@ -147,9 +147,10 @@ TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
     const Pose a_from_b{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
     const double margin = i % 2 == 0 ? 0 : random_.between(0, 1);
     std::vector<NearPair> circle_pairs;
-    std::vector<NearPair> edge_pairs;
+    NearEdges edges;
     const double bound = near_circles(a, b, a_from_b, margin, circle_pairs);
-    edges_of(a, b, circle_pairs, edge_pairs);
+    edges_of(a, b, circle_pairs, edges);
+    const std::vector<NearPair>& edge_pairs = edges.pairs;
     ASSERT_TRUE(std::is_sorted(edge_pairs.begin(), edge_pairs.end()));
     ASSERT_TRUE(std::adjacent_find(edge_pairs.begin(), edge_pairs.end()) == edge_pairs.end());
     const std::set<NearPair> found(edge_pairs.begin(), edge_pairs.end());

@@ -39,7 +39,7 @@ std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule)
         continue;
       const Pose a_from_b = dynamics::a_from_b(bodies, a, b, centre_a_from_b(bodies, a, b));
       std::vector<geometry::NearPair> circles;
-      std::vector<geometry::NearPair> edges;
+      geometry::NearEdges edges;
       std::vector<geometry::ContactManifold> manifolds;
       near_circles(*bodies.boundary[a], *bodies.boundary[b], a_from_b, 0, circles);
       if (rule.is_circle_centres) {

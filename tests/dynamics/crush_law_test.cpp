@@ -51,7 +51,9 @@ TEST(CrushLaw, BothEndsObeyItTogether) {
     k.at[1] = k.at[0] * std::pow(10.0, random.between(-2, 2));
     k.between = std::sqrt(k.at[0] * k.at[1]) * random.between(-1, 1);
     const std::array<double, 2> free{random.between(-1, 3), random.between(-1, 3)};
-    const auto p = crush_impulses(ends, k, free);
+    const auto any_piece = [&] { return static_cast<CrushPiece>(random.below(4)); };
+    CrushPieces pieces{{any_piece(), any_piece()}};  // wherever it starts from
+    const auto p = crush_impulses(ends, k, free, pieces);
     const std::array<double, 2> u{free[0] - k.at[0] * p[0] - k.between * p[1],
                                   free[1] - k.between * p[0] - k.at[1] * p[1]};
     for (std::size_t end = 0; end < 2; ++end) {

@@ -23,7 +23,7 @@ Found patches_of(const Polygon& a, const Polygon& b, const Pose& a_from_b, doubl
   const Boundary boundary_a = make_boundary(a, {radius});
   const Boundary boundary_b = make_boundary(b, {radius});
   std::vector<NearPair> circles;
-  std::vector<NearPair> edges;
+  NearEdges edges;
   near_circles(boundary_a, boundary_b, a_from_b, 0, circles);
   edges_of(boundary_a, boundary_b, circles, edges);
   ManifoldScratch scratch;
