@@ -10,7 +10,8 @@
 namespace polynya::dynamics {
 namespace {
 
-constexpr int kMostSteps = 60;       ///< of Newton's; a dozen is common
+constexpr int kMostSteps = 60;      ///< of Newton's; a dozen is common
+constexpr int kUndampedSteps = 10;  ///< after them the bounds of friction follow by halves, which ends cycles
 constexpr int kMostBisections = 12;  ///< of one step's length
 constexpr double kFlat = 0.1;        ///< a slope along the step below this share of its first is no slope
 constexpr double kConverged =
@@ -69,7 +70,7 @@ class Jam {
   bool solve() {
     bool is_solved = false;
     for (int step = 0; step < kMostSteps && !is_solved; ++step) {
-      find_loads();
+      find_loads(step < kUndampedSteps ? 1 : 0.5);
       const Vector gradient = gradient_now();
       assemble();
       if (step == 0) cholesky_.analyzePattern(hessian_);
@@ -141,11 +142,12 @@ class Jam {
     load.slope[2] = is_bound ? 0 : slope;
     return load;
   }
-  /// By the speeds now, and with them the bounds of friction until the next step.
-  void find_loads() {
+  /// By the speeds now. The bounds of friction go a share of the way to μ times the normal impulses.
+  void find_loads(double share) {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const ContactLoad normal = load_at(k, speeds_[k]);
-      slip_bound_[k] = constraints_[k].friction * (normal.impulse[0] + normal.impulse[1]);
+      const double bound = constraints_[k].friction * (normal.impulse[0] + normal.impulse[1]);
+      slip_bound_[k] += share * (bound - slip_bound_[k]);
       loads_[k] = load_at(k, speeds_[k]);
     }
   }

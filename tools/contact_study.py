@@ -43,13 +43,13 @@ def squeeze(substeps, tolerance, sweeps, start):
 
 
 def confined(cover, seed, law, sweeps=100, tolerance=1e-4):
-    """Pack ice of 15 m floes in a basin of 240 × 120 m with walls all around but where the ship enters."""
+    """Pack ice of 15 m floes in a basin of 300 × 120 m with walls all around but where the ship enters."""
     wall = lambda x0, y0, x1, y1: {"waterline_m": [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]}
-    return {"name": "confined", "seed": seed, "time": {"step_s": 0.01, "until_s": 150},
+    return {"name": "confined", "seed": seed, "time": {"step_s": 0.01, "until_s": 100},
             "contact": {"law": law, "iterations": sweeps, "tolerance_m_per_s": tolerance},
             "ships": [ship(-62, 0, 1)],
-            "structures": [wall(0, 60, 250, 70), wall(0, -70, 250, -60), wall(240, -60, 250, 60)],
-            "floes": [{"field": {"corner_m": [0, -60], "extent_m": [240, 120], "floe_size_m": 15,
+            "structures": [wall(0, 60, 310, 70), wall(0, -70, 310, -60), wall(300, -60, 310, 60)],
+            "floes": [{"field": {"corner_m": [0, -60], "extent_m": [300, 120], "floe_size_m": 15,
                                  "concentration": cover, "gap_m": 0.01}}]}
 
 
@@ -124,7 +124,7 @@ def study_squeeze(arguments):
 
 
 def study_jams(arguments):
-    cases = [(cover, law, sweeps) for cover in (0.8, 0.9) for law, sweeps in (("crush", 100), ("impulse", 1000))]
+    cases = [(cover, law, sweeps) for cover in (0.8, 0.9) for law, sweeps in (("crush", 100), ("impulse", 300))]
     scenes = {("jam", *case, seed): confined(case[0], seed, case[1], case[2])
               for case in cases for seed in range(1, arguments.seeds + 1)}
     results = run_all(arguments, scenes)
@@ -133,7 +133,7 @@ def study_jams(arguments):
     for case in cases:
         of_case = [results["jam", *case, seed] for seed in range(1, arguments.seeds + 1)]
         means = np.array([surge[t > 30].mean() for t, surge, *_ in of_case]) / 1e3
-        converged = min(1 - r[3]["counts"]["unconverged_steps"] / 15000 for r in of_case)
+        converged = min(1 - r[3]["counts"]["unconverged_steps"] / r[3]["steps"] for r in of_case)
         created = max(r[3]["counts"]["energy_created_J"] for r in of_case)
         print(f"| {case[0]} | {case[1]} | {means.mean():.0f} ± {means.std(ddof=1) / np.sqrt(len(means)):.0f} | "
               f"{np.median(means):.0f} | {means.max():.0f} | {max(r[2] for r in of_case) / 1e6:.2f} | "

@@ -106,7 +106,7 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, words));
   };
   warn(counts.rejected_cuts, "cuts were rejected; events.ndjson has each with its reason");
-  warn(counts.unconverged_steps, "steps used all sweeps of the impulse solver (contact.iterations)");
+  warn(counts.unconverged_steps, "steps used all sweeps of the contact solver (contact.iterations)");
   warn(counts.database_out_of_range, "bending loads lay outside the database's range");
   if (const simulation::Audit audit = simulation.audit(); !audit.is_closed()) {
     warnings.push_back(fmt::format(

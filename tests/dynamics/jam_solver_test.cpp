@@ -1,0 +1,173 @@
+// Newton's method for jams: at the velocities found every contact obeys its law, in hard jams too.
+#include "dynamics/jam_solver.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/crush_solver.hpp"
+#include "tests/dynamics/scenery.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+using geometry::Vector;
+using namespace scenery;
+
+constexpr std::uint64_t kSeed = 20170611;
+constexpr double kSlipSpeed = 0.02;  // [m/s]
+
+/// Floes of 10 m, side by side in columns and rows, between a wall that presses and one that stands.
+struct Pack {
+  Bodies bodies;
+  std::vector<SolverBody> solver_bodies;
+  std::vector<Contact> contacts;
+  std::vector<ContactConstraint> constraints;
+  std::vector<EndLaws> laws;
+};
+
+void add_contact(Pack& pack, Random& random, BodyIndex a, BodyIndex b, geometry::Point middle, Vector normal,
+                 double friction) {
+  pack.contacts.push_back(contact_at(a, b, middle, normal, random.between(0.5, 8), friction));
+  pack.constraints.push_back(make_constraint(pack.bodies, pack.contacts.back(), a, b, pack.solver_bodies));
+  const double force = std::pow(10.0, random.between(4, 7));
+  const CrushResponse end{
+      .impulse_of_force = 0.01 * force,
+      .slope = 1e-4 * force * random.between(0, 20),
+      .gap_speed = random.below(3) == 0 ? random.between(0, 0.1) : 0,
+      .cap = random.below(8) == 0 ? 0.015 * force : std::numeric_limits<double>::infinity()};
+  pack.laws.push_back({end, end});
+}
+
+Pack pack_of(Random& random, int columns, int rows, double friction) {
+  Pack pack;
+  const auto wall = [&](double x, double speed) {
+    NewBody body = floe_body(rectangle(10, 10.0 * rows), {x, 5.0 * rows});
+    body.velocity = {speed, 0};
+    const BodyIndex i = add_body(pack.bodies, body);
+    pack.bodies.inverse_mass[i] = pack.bodies.inverse_moment[i] = 0;
+  };
+  wall(-5, 1);
+  wall(10.0 * columns + 5, 0);
+  const auto floe_at = [&](int column, int row) { return static_cast<BodyIndex>(2 + column * rows + row); };
+  for (int column = 0; column < columns; ++column) {
+    for (int row = 0; row < rows; ++row) {
+      NewBody body = floe_body(rectangle(10, 10), {10.0 * column + 5, 10.0 * row + 5});
+      body.velocity = {random.between(-0.2, 0.5), random.between(-0.2, 0.2)};
+      body.angular_velocity = random.between(-0.02, 0.02);
+      add_body(pack.bodies, body);
+    }
+  }
+  for (BodyIndex i = 0; i < pack.bodies.size(); ++i)
+    pack.solver_bodies.push_back({pack.bodies.velocity[i], pack.bodies.angular_velocity[i],
+                                  pack.bodies.inverse_mass[i], pack.bodies.inverse_moment[i]});
+  for (int row = 0; row < rows; ++row) {
+    const double y = 10.0 * row + 5;
+    add_contact(pack, random, 0, floe_at(0, row), {0, y}, {1, 0}, friction);
+    add_contact(pack, random, 1, floe_at(columns - 1, row), {10.0 * columns, y}, {-1, 0}, friction);
+    for (int column = 0; column + 1 < columns; ++column)
+      add_contact(pack, random, floe_at(column, row), floe_at(column + 1, row), {10.0 * column + 10, y},
+                  {1, 0}, friction);
+  }
+  for (int column = 0; column < columns; ++column) {
+    for (int row = 0; row + 1 < rows; ++row)
+      add_contact(pack, random, floe_at(column, row), floe_at(column, row + 1),
+                  {10.0 * column + 5, 10.0 * row + 10}, {0, 1}, friction);
+  }
+  return pack;
+}
+
+/// By how much impulses and velocities of a pack miss the law, as speeds [m/s].
+double largest_miss(const Pack& pack) {
+  double largest = 0;
+  for (std::size_t k = 0; k < pack.constraints.size(); ++k) {
+    const ContactConstraint& c = pack.constraints[k];
+    const ConstraintSpeeds speeds = speeds_at(c, pack.solver_bodies);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const CrushResponse& law = pack.laws[k][end];
+      const double missed = std::abs(c.normal_impulse[end] - crush_impulse(law, -speeds.apart[end]));
+      largest = std::max(largest, missed / (1 / c.inverse_mass_at[end] + creep_slope(law)));
+    }
+  }
+  return largest;
+}
+
+TEST(JamSolver, EveryContactObeysItsLawInOnePass) {
+  Random random(kSeed);
+  for (const int size : {1, 3, 8, 15}) {
+    Pack pack = pack_of(random, size, size, 0);
+    ASSERT_TRUE(solve_jam(pack.constraints, pack.laws, pack.solver_bodies, kSlipSpeed)) << size;
+    EXPECT_LT(largest_miss(pack), 1e-8) << size;
+  }
+}
+
+TEST(JamSolver, FrictionIsCoulombs) {
+  Random random(kSeed);
+  for (int trial = 0; trial < 10; ++trial) {
+    Pack pack = pack_of(random, 5, 4, 0.2);
+    ASSERT_TRUE(solve_jam(pack.constraints, pack.laws, pack.solver_bodies, kSlipSpeed));
+    EXPECT_LT(largest_miss(pack), 1e-7);
+    int stuck = 0, sliding = 0;
+    double largest = 0;  // [N s]
+    for (const ContactConstraint& c : pack.constraints) largest = std::max(largest, c.normal_impulse[0]);
+    for (const ContactConstraint& c : pack.constraints) {
+      const double slip = speeds_at(c, pack.solver_bodies).slip;
+      const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
+      EXPECT_LE(std::abs(c.slip_impulse), 1.05 * most + 1e-3 * largest);
+      if (most < 0.01 * largest) continue;
+      EXPECT_LE(slip * c.slip_impulse, 1e-9) << "it opposes the slip";
+      if (std::abs(slip) < kSlipSpeed) {
+        ++stuck;
+      } else {
+        ++sliding;
+        EXPECT_NEAR(std::abs(c.slip_impulse) / most, 1, 0.05);
+      }
+    }
+    EXPECT_GT(stuck, 0);
+    EXPECT_GT(sliding, 0);
+  }
+}
+
+/// Impulses that are there before are no part of the problem: the answer is the same.
+TEST(JamSolver, StartsFromAnyImpulses) {
+  for (const double start : {0.0, 1e4}) {
+    Random random(kSeed);
+    Pack pack = pack_of(random, 6, 6, 0);
+    for (ContactConstraint& c : pack.constraints) {
+      c.normal_impulse[0] = start;
+      apply_impulses(c, start, 0, 0, pack.solver_bodies);
+    }
+    ASSERT_TRUE(solve_jam(pack.constraints, pack.laws, pack.solver_bodies, kSlipSpeed));
+    static std::vector<SolverBody> first;
+    if (first.empty()) first = pack.solver_bodies;
+    for (std::size_t i = 0; i < first.size(); ++i)
+      EXPECT_LT(length(pack.solver_bodies[i].velocity - first[i].velocity), 1e-9);
+  }
+}
+
+/// A pack that sweeps do not solve: the solver of whole steps comes to its tolerance all the same.
+TEST(JamSolver, SolvesWhatSweepsDoNot) {
+  Random random(kSeed);
+  Pack pack = pack_of(random, 20, 8, 0);
+  std::vector<PersistentContact> records(pack.contacts.size());
+  for (std::size_t i = 0; i < pack.contacts.size(); ++i) {
+    pack.contacts[i].record = &records[i];
+    pack.contacts[i].depth = 0.05;
+    pack.contacts[i].crushing_force = 200 * pack.laws[i][0].impulse_of_force;
+    pack.contacts[i].crushing_stiffness = pack.contacts[i].crushing_force;
+  }
+  const auto residual = [&](int sweeps) {
+    Bodies bodies = pack.bodies;
+    std::vector<Contact> contacts = pack.contacts;
+    for (PersistentContact& record : records) record = {};
+    return CrushSolver()
+        .solve(bodies, contacts,
+               {.step = 0.01, .substeps = 1, .max_iterations = sweeps, .tolerance = 1e-6, .threads = 1})
+        .residual;
+  };
+  EXPECT_GT(residual(20), 1e-5) << "before the first pass of Newton's method";
+  EXPECT_LE(residual(60), 1e-6);
+}
+
+}  // namespace
+}  // namespace polynya::dynamics
