@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/chunks.hpp"
 #include "dynamics/collision.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/crushing.hpp"
 #include "fracture/splitting.hpp"
 #include "geometry/contact/crack_path.hpp"
 #include "geometry/contact/wedge.hpp"
+#include "simulation/hull_angle.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {
@@ -30,28 +32,6 @@ double eq5_impulse(const Setup& setup, const dynamics::Bodies& bodies, const Con
   const double mass = dynamics::effective_mass(true_mobility(bodies, c.a, c.middle()),
                                                true_mobility(bodies, c.b, c.middle()), c.normal);
   return dynamics::collision_impulse(c.approach_speed, setup.scene.contact.restitution, mass);
-}
-
-/// θ_s where the contact is: by the waterline's normal from the stem angle, or from the hull's own table
-/// [rad].
-double hull_angle_at(const Hull& hull, const dynamics::Bodies& bodies, const Contact& c) {
-  const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
-  if (hull.angles_from_vertical.empty()) {
-    return fracture::hull_angle_from_vertical(rotate_back(pose.rotation, c.normal).x, hull.stem_angle);
-  }
-  const Point here = inverse_transform(pose, c.middle());
-  double nearest = std::numeric_limits<double>::infinity();
-  double angle = 0;
-  for (std::size_t i = 0; i < hull.waterline.size(); ++i) {
-    const std::size_t next = (i + 1) % hull.waterline.size();
-    const double along = nearest_part(hull.waterline[i], hull.waterline[next], here);
-    const double d =
-        squared_length(here - (hull.waterline[i] + along * (hull.waterline[next] - hull.waterline[i])));
-    if (d >= nearest) continue;
-    nearest = d;
-    angle = (1 - along) * hull.angles_from_vertical[i] + along * hull.angles_from_vertical[next];
-  }
-  return angle;
 }
 
 /// One contact of a ship with ice, as the fracture laws see it.
@@ -234,45 +214,66 @@ void add_peak(const Setup& setup, const dynamics::Bodies& bodies, const ShipCont
   loads.peak_moment += cross(c.middle() - bodies.position[c.a], force);
 }
 
+/// Whether a floe was born by what broke at the end of the step before.
+bool is_just_born(const Population& population, const Clock& clock, BodyIndex body) {
+  return !population.is_ship(body) && population.floes[population.floe_of(body)].born == clock.time();
+}
+
+/// Of floe against floe: vertical walls; the thinner one crushes.
+void decide_between_floes(const Setup& setup, const Clock& clock, const Population& population, Contact& c) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double dt = setup.scene.time.step;
+  const BodyIndex thinner = bodies.thickness[c.b] < bodies.thickness[c.a] ? c.b : c.a;
+  const fracture::Ice ice = ice_of(setup, bodies, thinner);
+  if (is_crush_law(setup))
+    set_crushing(c, deepest_crushing_force(ice, c, 0), dt,
+                 is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b));
+  else
+    c.impulse_limit = crushing_force(ice, c, 0) * dt;
+}
+
+/// Of a ship with ice: also whether the ice breaks.
+void decide_at_ship(const Setup& setup, const Clock& clock, const Population& population, Contact& c,
+                    StepData& step, Counts& counts) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double dt = setup.scene.time.step;
+  const ShipContactLoad load = load_of(setup, bodies, c);
+  add_peak(setup, bodies, load, step.loads[c.a]);
+  const double horizontal = load.shares.horizontal;
+  if (is_crush_law(setup))
+    set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt,
+                 is_just_born(population, clock, c.b));
+  else
+    c.impulse_limit = horizontal * load.normal_force * dt;
+  c.friction = load.shares.tangential / horizontal;
+  const PendingFracture pending = evaluate(setup, population, load, counts);
+  const bool breaks =
+      pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
+  if (!breaks || c.record->was_refused) return;
+  if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
+    set_breaking(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
+  step.fractures.push_back(pending);
+}
+
 }  // namespace
 
-void decide(const Setup& setup, const Clock& clock, const Population& population, StepData& step,
+void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
             Counts& counts) {
-  const dynamics::Bodies& bodies = population.bodies;
-  const auto is_just_born = [&](BodyIndex body) {
-    return !population.is_ship(body) && population.floes[population.floe_of(body)].born == clock.time();
-  };
-  const double dt = setup.scene.time.step;
+  constexpr std::size_t kContactsPerChunk = 128;  // fewer are not worth another thread
   step.fractures.clear();
   step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
-  for (Contact& c : step.contacts) {
-    c.friction = setup.scene.ice.friction;
-    if (!population.is_ship(c.a)) {  // floe against floe: vertical walls; the thinner one crushes
-      const BodyIndex thinner = bodies.thickness[c.b] < bodies.thickness[c.a] ? c.b : c.a;
-      const fracture::Ice ice = ice_of(setup, bodies, thinner);
-      if (is_crush_law(setup))
-        set_crushing(c, deepest_crushing_force(ice, c, 0), dt, is_just_born(c.a) || is_just_born(c.b));
-      else
-        c.impulse_limit = crushing_force(ice, c, 0) * dt;
-      continue;
-    }
+  dynamics::for_chunks(step.contacts.size(), kContactsPerChunk, threads,
+                       [&](std::size_t, std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           Contact& c = step.contacts[i];
+                           c.friction = setup.scene.ice.friction;
+                           if (!population.is_ship(c.a)) decide_between_floes(setup, clock, population, c);
+                         }
+                       });
+  for (Contact& c : step.contacts) {  // by (a, b): those of ships come first
+    if (!population.is_ship(c.a)) break;
     c.is_rigid = population.is_ship(c.b);  // steel against steel does not crush
-    if (c.is_rigid) continue;
-    const ShipContactLoad load = load_of(setup, bodies, c);
-    add_peak(setup, bodies, load, step.loads[c.a]);
-    const double horizontal = load.shares.horizontal;
-    if (is_crush_law(setup))
-      set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt, is_just_born(c.b));
-    else
-      c.impulse_limit = horizontal * load.normal_force * dt;
-    c.friction = load.shares.tangential / horizontal;
-    const PendingFracture pending = evaluate(setup, population, load, counts);
-    const bool breaks =
-        pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
-    if (!breaks || c.record->was_refused) continue;
-    if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
-      set_breaking(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
-    step.fractures.push_back(pending);
+    if (!c.is_rigid) decide_at_ship(setup, clock, population, c, step, counts);
   }
 }
 

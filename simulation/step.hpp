@@ -16,7 +16,7 @@ void find_contacts(const Setup& setup, int threads, Population& population,
                    std::vector<dynamics::Contact>& contacts, Counts& counts);
 
 /// What each contact can carry, and whether ice breaks there: impulse, crush, bend or split.
-void decide(const Setup& setup, const Clock& clock, const Population& population, StepData& step,
+void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
             Counts& counts);
 
 void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
