@@ -48,14 +48,6 @@ ContactConstraint make_constraint(const Bodies& bodies, const Contact& c, std::i
   return k;
 }
 
-ConstraintSpeeds speeds_at(const ContactConstraint& k, std::span<const SolverBody> solver_bodies) {
-  const SolverBody& a = solver_bodies[k.a];
-  const SolverBody& b = solver_bodies[k.b];
-  return {apart_at(k, a, b), dot(b.velocity - a.velocity, perpendicular(k.normal)) +
-                                 b.angular_velocity * k.arm_cross_tangent_b -
-                                 a.angular_velocity * k.arm_cross_tangent_a};
-}
-
 double isolated_impulse(const ContactConstraint& k, const ConstraintSpeeds& speeds) {
   const double v0 = -speeds.apart[0];
   const double v1 = -speeds.apart[1];

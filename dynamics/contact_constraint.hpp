@@ -48,8 +48,6 @@ struct ConstraintSpeeds {
 ContactConstraint make_constraint(const Bodies& bodies, const Contact& contact, std::int32_t a,
                                   std::int32_t b, std::span<const SolverBody> solver_bodies);
 
-ConstraintSpeeds speeds_at(const ContactConstraint& constraint, std::span<const SolverBody> solver_bodies);
-
 /// The sum of the impulses p ≥ 0 that would bring both ends to rest without other contacts, K p = approach
 /// speeds [N s].
 double isolated_impulse(const ContactConstraint& constraint, const ConstraintSpeeds& speeds);
@@ -63,6 +61,14 @@ inline std::array<double, 2> apart_at(const ContactConstraint& k, const SolverBo
   return {
       apart + b.angular_velocity * k.arm_cross_normal_b[0] - a.angular_velocity * k.arm_cross_normal_a[0],
       apart + b.angular_velocity * k.arm_cross_normal_b[1] - a.angular_velocity * k.arm_cross_normal_a[1]};
+}
+
+inline ConstraintSpeeds speeds_at(const ContactConstraint& k, std::span<const SolverBody> solver_bodies) {
+  const SolverBody& a = solver_bodies[k.a];
+  const SolverBody& b = solver_bodies[k.b];
+  return {apart_at(k, a, b), dot(b.velocity - a.velocity, perpendicular(k.normal)) +
+                                 b.angular_velocity * k.arm_cross_tangent_b -
+                                 a.angular_velocity * k.arm_cross_tangent_a};
 }
 
 /// Changes the velocities by impulses on b, and their opposites on a.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "dynamics/chunks.hpp"
 #include "dynamics/jam_solver.hpp"
@@ -47,22 +48,23 @@ void CrushSolver::fill(const Bodies& bodies, const std::vector<Contact>& contact
                for (std::size_t k = begin; k < end; ++k) {
                  const std::uint32_t i = islands_.order()[k];
                  const Contact& c = contacts[i];
-                 constraints_[k] = make_constraint(bodies, c, islands_.place_of_a(i), islands_.place_of_b(i),
-                                                   solver_bodies_);
-                 crushing_[k] = {.force = c.crushing_force,
-                                 .stiffness = c.crushing_stiffness,
-                                 .depth = c.depth,
-                                 .loaded = c.record->loaded_depth,
-                                 .missed = c.missed_impulse,
-                                 .breaking_force = c.breaking_force,
-                                 .ends = {},
-                                 .pieces = {},
-                                 .total = {0, 0},
-                                 .total_slip = 0,
-                                 .normal_work = 0,
-                                 .slip_work = 0,
-                                 .is_rigid = c.is_rigid,
-                                 .is_broken = false};
+                 // Made in their places: copying them costs as much as making them.
+                 new (&constraints_[k]) ContactConstraint(make_constraint(
+                     bodies, c, islands_.place_of_a(i), islands_.place_of_b(i), solver_bodies_));
+                 new (&crushing_[k]) Crushing{.force = c.crushing_force,
+                                              .stiffness = c.crushing_stiffness,
+                                              .depth = c.depth,
+                                              .loaded = c.record->loaded_depth,
+                                              .missed = c.missed_impulse,
+                                              .breaking_force = c.breaking_force,
+                                              .ends = {},
+                                              .pieces = {},
+                                              .total = {0, 0},
+                                              .total_slip = 0,
+                                              .normal_work = 0,
+                                              .slip_work = 0,
+                                              .is_rigid = c.is_rigid,
+                                              .is_broken = false};
                }
              });
 }
