@@ -3,7 +3,8 @@
 
   tools/contact_study.py step    [--figure FILE.svg]   the step: level ice at three speeds and four offsets
   tools/contact_study.py squeeze                       substeps, tolerance, sweeps: ice squeezed along the midbody
-  tools/contact_study.py jams    [--seeds N]           confined pack ice at 80 and 90 %: convergence, by both laws
+  tools/contact_study.py jams    [--seeds N] [--covers C ...]
+                                                       confined pack ice at 80 and 90 %: convergence, by both laws
 
 Options of all: --polynya PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. Needs numpy; the figure
 needs matplotlib.
@@ -102,11 +103,11 @@ def draw_steps(path, speeds, steps, means):
     for v in speeds:
         mean, error = np.array([means[v, dt] for dt in steps]).T / 1e3
         axes.errorbar(np.array(steps) * 1e3, mean, error, marker="o", capsize=3, label=f"{v:g} m/s")
-    axes.set(xlabel="time step [ms]", ylabel="mean surge [kN]", xscale="log", ylim=(0, None))
+    axes.set(xlabel="time step [ms]", ylabel="mean surge [kN]", xscale="log", ylim=(0, 1.25 * max(mean for mean, _ in means.values()) / 1e3))
     axes.set_xticks(np.array(steps) * 1e3, [f"{1e3 * dt:g}" for dt in steps])
     axes.minorticks_off()
     axes.grid(alpha=0.3)
-    axes.legend(title="ship's speed")
+    axes.legend(title="ship's speed", ncols=len(speeds), loc="upper center")
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
 
@@ -124,7 +125,7 @@ def study_squeeze(arguments):
 
 
 def study_jams(arguments):
-    cases = [(cover, law, sweeps) for cover in (0.8, 0.9) for law, sweeps in (("crush", 100), ("impulse", 300))]
+    cases = [(cover, law, sweeps) for cover in arguments.covers for law, sweeps in (("crush", 100), ("impulse", 300))]
     scenes = {("jam", *case, seed): confined(case[0], seed, case[1], case[2])
               for case in cases for seed in range(1, arguments.seeds + 1)}
     results = run_all(arguments, scenes)
@@ -147,6 +148,7 @@ def main():
     parser.add_argument("--work", default="/tmp/contact-study")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--covers", type=float, nargs="+", default=[0.8, 0.9])
     parser.add_argument("--figure")
     arguments = parser.parse_args()
     os.makedirs(arguments.work, exist_ok=True)

@@ -1,5 +1,6 @@
 // Contact that behaves as ice: closed forms, one answer, and a load in level ice that the step does not make.
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -170,6 +171,38 @@ TEST(CrushLaw, AJamIsSolvedAndItsContactsCreateNoEnergy) {
   EXPECT_LT(counts.energy_created, 1e-6 * simulation.audit().turnover);
   EXPECT_GT(counts.peak_contacts, 60);
   EXPECT_TRUE(simulation.audit().is_closed());
+}
+
+/// 1.5 m of ice, whose tips press on both sides of the parallel midbody: rigid impulses keep each other alive
+/// there through the solver's start.
+TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
+  const auto surge_of = [](const ContactSettings& settings) {
+    Scene scene;
+    scene.ice.thickness = 1.5;
+    scene.contact = settings;
+    scene.ships = {icebreaker({-2, 0}, ConstantSpeed{0.25}, 0.25)};
+    scene.floes = {floe(rectangle(0, -2000, 4000, 2000))};
+    Simulation simulation(scene);
+    std::vector<double> means;  // over 0.1 s [N]
+    for (const ShipSample& sample : run(simulation, 300).samples) means.push_back(sample.surge_force);
+    return means;
+  };
+  std::vector<ContactSettings> others(3);
+  others[0].substeps = 8;
+  others[1].tolerance = 1e-6;
+  others[2].is_warm_started = false;
+  const std::vector<double> first = surge_of({});
+  const double mean = std::accumulate(first.begin(), first.end(), 0.0) / static_cast<double>(first.size());
+  const double peak = std::ranges::min(first);
+  EXPECT_LT(mean, -5e4);
+  EXPECT_GT(mean, -3e5);
+  for (const ContactSettings& settings : others) {
+    const std::vector<double> surge = surge_of(settings);
+    ASSERT_EQ(surge.size(), first.size());
+    EXPECT_NEAR(std::accumulate(surge.begin(), surge.end(), 0.0) / static_cast<double>(surge.size()) / mean,
+                1, 0.01);
+    EXPECT_NEAR(std::ranges::min(surge) / peak, 1, 0.01);
+  }
 }
 
 /// Mean surge on the reference ship at 1 m/s through 120 m of level ice [N].
