@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "dynamics/chunks.hpp"
 
@@ -34,8 +35,9 @@ void ImpulseSolver::fill_constraints(const Bodies& bodies, std::vector<Contact>&
              [&](std::size_t, std::size_t begin, std::size_t end) {
                for (std::size_t k = begin; k < end; ++k) {
                  const std::uint32_t i = islands_.order()[k];
-                 constraints_[k] = make_constraint(bodies, contacts[i], islands_.place_of_a(i),
-                                                   islands_.place_of_b(i), solver_bodies_);
+                 // Made in its place: copying it costs as much as making it.
+                 new (&constraints_[k]) ContactConstraint(make_constraint(
+                     bodies, contacts[i], islands_.place_of_a(i), islands_.place_of_b(i), solver_bodies_));
                  before_[k] = speeds_at(constraints_[k], solver_bodies_);
                  PersistentContact* record = contacts[i].record;
                  if (record == nullptr) continue;

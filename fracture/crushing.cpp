@@ -27,11 +27,14 @@ double crushed_overlap_area(const Overlap& overlap, double thickness, double hul
 CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thickness, double hull_angle) {
   if (overlap.area <= 0 || overlap.depth <= 0) return {};
   const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
-  const auto area_at = [&](double x) { return x > 0 ? overlap.area * std::pow(x / overlap.depth, p) : 0.0; };
+  const auto area_at = [&](double x) {
+    if (x == overlap.depth) return overlap.area;  // without a power: most contacts that crush
+    return x > 0 ? overlap.area * std::pow(x / overlap.depth, p) : 0.0;
+  };
   const auto slope_at = [&](double x, double area) { return x > 0 ? p * area / x : 0.0; };
   const double area = area_at(depth);
   const double slope = slope_at(depth, area);
-  const double sine = std::sin(hull_angle);
+  const double sine = hull_angle == 0 ? 0 : std::sin(hull_angle);
   if (sine < kVertical) return {thickness * slope, thickness * (p - 1) * slope / depth};
   const double inner = depth - thickness * std::tan(hull_angle);
   const double inner_area = area_at(inner);
