@@ -32,6 +32,21 @@ struct SharedIce {
   double depth = 0;  ///< of the deepest vertex of either in the other [m]
 };
 
+/// A pair of bodies may share more ice than was crushed there by this share of the smaller one, and by what
+/// a step and the frames' accuracy make of it.
+inline constexpr double kUncrushedShare = 0.01;
+inline constexpr std::size_t kMostUncrushed = 20;  ///< of these are named
+
+/// Two bodies that are farther in each other than what was crushed there.
+struct UncrushedOverlap {
+  simulation::ContactState::Body first, second;
+  double time = 0;                 ///< [s]
+  double shared = 0;               ///< exact, to the nearest double [m²]
+  double crushed = 0;              ///< on record [m²]
+  double allowed = 0;              ///< beyond it [m²]
+  geometry::Point place_in_world;  ///< about where [m]
+};
+
 /// What re-deriving a run's geometry found.
 struct RunCheck {
   std::size_t shapes = 0;
@@ -48,22 +63,28 @@ struct RunCheck {
   std::size_t overlapping_pairs =
       0;                   ///< that shared more than kTouchingArea (overlapping_pairs.hpp) at some instant
   double most_shared = 0;  ///< Σ over all pairs at the instant it is most [m²]
-  double most_shared_time = 0;  ///< [s]
-  double ice_then = 0;          ///< area of all floes at that instant [m²]
-  SharedIce deepest;            ///< the deepest pair of those that share more than kTouchingArea
-  SharedIce worst;              ///< the pair that shares most
-  std::size_t undecided = 0;    ///< pairs whose overlap geometry failed to find
+  double most_shared_time = 0;      ///< [s]
+  double ice_then = 0;              ///< area of all floes at that instant [m²]
+  SharedIce deepest;                ///< the deepest pair of those that share more than kTouchingArea
+  SharedIce worst;                  ///< the pair that shares most
+  std::size_t hull_pairs = 0;       ///< of a ship or structure and a floe, whose boxes met, over all instants
+  SharedIce worst_with_hull;        ///< the floe (second) that shares most with one
+  int worst_hull = -1;              ///< that one
+  bool has_crushed = false;         ///< the run states what was crushed: overlaps were compared with it
+  std::size_t uncrushed_pairs = 0;  ///< over all instants
+  std::vector<UncrushedOverlap> uncrushed;  ///< the first of these
+  std::size_t undecided = 0;                ///< pairs whose overlap geometry failed to find
 
   bool is_sound() const {
     return invalid.empty() && recorded_area.wrong == 0 && balance.wrong == 0 && overlapping_siblings == 0 &&
-           undecided == 0;
+           uncrushed_pairs == 0 && undecided == 0;
   }
 };
 
 /// Finds validity, areas, balances and shared areas exactly, for the doubles on record; areas are rounded
 /// once for the report. Measures overlaps at every frame, or at one instant only. Frames are right to 1 mm
-/// (frames.hpp), and the contact model lets floes overlap by the depth they crush: the check does not
-/// separate the two.
+/// (frames.hpp). What bodies share at a frame is compared with what was crushed there (crushed.csv), hulls
+/// and structures included; runs of versions that did not record it are measured only.
 RunCheck check_run(const io::Run& run, std::optional<double> only_at = {});
 
 }  // namespace polynya::analysis

@@ -75,7 +75,8 @@ int print(const io::Run& run, const Options& options) {
   }
   if (options.check) {
     const analysis::RunCheck check = analysis::check_run(run, options.at);
-    write_out(options.json ? check_json(check) : check_text(check));
+    write_out(options.json ? check_json(check, run.scene.scene.ships)
+                           : check_text(check, run.scene.scene.ships));
     return check.is_sound() ? kDone : kRefused;
   }
   if (options.fsd) {

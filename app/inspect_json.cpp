@@ -94,7 +94,43 @@ std::string lineage_json(const io::Run& run, simulation::FloeId floe) {
   return text + "\n";
 }
 
-std::string check_json(const analysis::RunCheck& check) {
+namespace {
+
+void write_hulls(JsonWriter& json, const analysis::RunCheck& check,
+                 const std::vector<simulation::ShipSpec>& ships) {
+  const auto write_body = [&](std::string_view key, const simulation::ContactState::Body& body) {
+    json.key(key);
+    if (body.ship >= 0)
+      json.value(ships[static_cast<std::size_t>(body.ship)].name);
+    else
+      json.value(body.floe);
+  };
+  json.key("hull_pairs").value(check.hull_pairs).key("largest_overlap_with_hull");
+  if (check.worst_hull >= 0) {
+    json.open('{').key("ship").value(ships[static_cast<std::size_t>(check.worst_hull)].name);
+    json.key("floe_id").value(check.worst_with_hull.second).key("t_s").value(check.worst_with_hull.time);
+    json.key("area_m2").value(check.worst_with_hull.area).key("depth_m").value(check.worst_with_hull.depth);
+    json.close('}');
+  } else {
+    json.null();
+  }
+  json.key("has_crushed").value(check.has_crushed).key("uncrushed_pairs").value(check.uncrushed_pairs);
+  json.key("uncrushed").open('[');
+  for (const analysis::UncrushedOverlap& pair : check.uncrushed) {
+    json.start_line();
+    json.open('{');
+    write_body("first", pair.first);
+    write_body("second", pair.second);
+    json.key("t_s").value(pair.time).key("place_m").value(pair.place_in_world);
+    json.key("shared_m2").value(pair.shared).key("crushed_m2").value(pair.crushed);
+    json.key("allowed_beyond_m2").value(pair.allowed).close('}');
+  }
+  json.close(']');
+}
+
+}  // namespace
+
+std::string check_json(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
   json.open('{').key("is_sound").value(check.is_sound()).key("shapes").value(check.shapes);
@@ -110,6 +146,7 @@ std::string check_json(const analysis::RunCheck& check) {
   json.key("ice_then_m2").value(check.ice_then);
   write_shared(json, "largest_overlap", check.worst);
   write_shared(json, "deepest_overlap", check.deepest);
+  write_hulls(json, check, ships);
   json.close('}');
   return text + "\n";
 }

@@ -64,13 +64,20 @@ std::string described(const io::Run& run, const simulation::Event& event) {
   const auto& c = event.criteria;
   const bool is_split = event.kind == simulation::EventKind::kSplit;
   const std::string_view name = io::ship_name(run.scene.scene, event.ship);
-  const std::string ship = name.empty() ? "" : fmt::format(" by {}", name);
-  std::string text = fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): {} {:.4g} N {} {} {:.4g} N", event.time,
-                                 name_of(event.kind), ship, event.point_in_world.x, event.point_in_world.y,
-                                 is_split ? "collision force" : "vertical force",
-                                 is_split ? c.collision_force : c.vertical_force,
-                                 is_split ? ">" : ">=", is_split ? "splitting force" : "bending capacity",
-                                 is_split ? c.splitting_force : c.bending_capacity);
+  const bool is_by_floe = event.by_floe != simulation::kNoFloe;
+  const std::string by = is_by_floe     ? fmt::format(" by floe {}", event.by_floe)
+                         : name.empty() ? ""
+                                        : fmt::format(" by {}", name);
+  std::string text = fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): ", event.time, name_of(event.kind), by,
+                                 event.point_in_world.x, event.point_in_world.y);
+  if (event.grinding.least_width > 0)
+    text += fmt::format("{:.4g} m2 overlapped, width {:.4g} m < {:.4g} m", event.grinding.overlap_area,
+                        event.grinding.width, event.grinding.least_width);
+  else
+    text += fmt::format("{} {:.4g} N {} {} {:.4g} N", is_split ? "collision force" : "vertical force",
+                        is_split ? c.collision_force : c.vertical_force,
+                        is_split ? ">" : ">=", is_split ? "splitting force" : "bending capacity",
+                        is_split ? c.splitting_force : c.bending_capacity);
   if (event.submerged_area > 0) text += fmt::format("; {:.6g} m2 submerged", event.submerged_area);
   if (event.brash_area > 0) text += fmt::format("; {:.6g} m2 brash", event.brash_area);
   return text;
@@ -157,7 +164,39 @@ std::string size_text(const analysis::SizeDistribution& sizes) {
   return text;
 }
 
-std::string check_text(const analysis::RunCheck& check) {
+namespace {
+
+void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
+                           const std::vector<simulation::ShipSpec>& ships) {
+  const auto add = [&text](const std::string& line) { text += line + "\n"; };
+  if (check.worst_with_hull.area > 0)
+    add(fmt::format(
+        "hulls      {} pairs with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
+        "vertex {:.4g} m deep",
+        check.hull_pairs, ships[static_cast<std::size_t>(check.worst_hull)].name,
+        check.worst_with_hull.second, check.worst_with_hull.time, check.worst_with_hull.area,
+        check.worst_with_hull.depth));
+  if (!check.has_crushed) {
+    add("crushed    not on record (no crushed.csv): overlaps are measured, not judged");
+  } else {
+    add(fmt::format("crushed    {} pairs share more than was crushed there and {:g} % of the smaller body",
+                    check.uncrushed_pairs, 100 * analysis::kUncrushedShare));
+    const auto name = [&](const simulation::ContactState::Body& body) {
+      return body.ship >= 0 ? ships[static_cast<std::size_t>(body.ship)].name
+                            : fmt::format("floe {}", body.floe);
+    };
+    for (const analysis::UncrushedOverlap& pair : check.uncrushed)
+      add(fmt::format(
+          "           {} and {} at {:.6g} s about ({:.3f}, {:.3f}): {:.6g} m2 shared, {:.6g} m2 crushed, "
+          "{:.6g} m2 beyond it allowed",
+          name(pair.first), name(pair.second), pair.time, pair.place_in_world.x, pair.place_in_world.y,
+          pair.shared, pair.crushed, pair.allowed));
+  }
+}
+
+}  // namespace
+
+std::string check_text(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships) {
   std::string text;
   const auto add = [&text](const std::string& line) { text += line + "\n"; };
   const auto from = [](simulation::FloeId floe) {
@@ -195,9 +234,10 @@ std::string check_text(const analysis::RunCheck& check) {
   };
   add_pair("largest", check.worst);
   add_pair("deepest", check.deepest);
-  add("           Overlap is part of the contact model: ice in contact is let in by the depth it crushes, "
-      "and frames are");
-  add("           right to 1 mm and 1e-5 rad. All areas are exact for the rings and poses on record.");
+  add_hulls_and_crushed(text, check, ships);
+  add("           Overlap is part of the contact model: ice in contact is let in by what it crushes, and "
+      "frames are right to");
+  add("           1 mm and 1e-5 rad. All areas are exact for the rings and poses on record.");
   add(check.is_sound() ? "sound" : "NOT SOUND");
   return text;
 }

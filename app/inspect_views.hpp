@@ -43,13 +43,13 @@ std::string lineage_tree(const io::Run& run, simulation::FloeId floe);
 std::string size_text(const analysis::SizeDistribution& sizes);
 
 /// What check_run found, in words.
-std::string check_text(const analysis::RunCheck& check);
+std::string check_text(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships);
 
 /// The same reports as JSON: one object each.
 std::string floes_json(const std::vector<FloeRow>& rows, double time);
 std::string size_json(const analysis::SizeDistribution& sizes);
 /// The floes from the scene's down to this one; of each the fracture that broke it, as in events.ndjson.
 std::string lineage_json(const io::Run& run, simulation::FloeId floe);
-std::string check_json(const analysis::RunCheck& check);
+std::string check_json(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships);
 
 }  // namespace polynya::app

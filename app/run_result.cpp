@@ -57,6 +57,8 @@ void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
             summary.real_time_factor());
   print_out("fractures   {} cusps broken by bending, {} splits, {} rejected cuts\n", counts.bends,
             counts.splits, counts.rejected_cuts);
+  if (counts.ground > 0)
+    print_out("ground      {} overlaps that no contact could part, to brash\n", counts.ground);
   print_out("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
   print_out(
       "ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding "

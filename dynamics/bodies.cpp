@@ -13,9 +13,12 @@ namespace polynya::dynamics {
 
 BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   assert(body.mass > 0 && body.moment > 0 && body.boundary);
+  const geometry::EdgeList& edges = body.boundary->edges;
   double radius = 0;
-  for (const geometry::Point p : body.boundary->edges.vertices)
-    radius = std::max(radius, distance(p, body.centroid));
+  double area = 0;
+  for (std::uint32_t edge = 0; edge < edges.size(); ++edge)
+    area += 0.5 * cross(edges.from(edge) - body.centroid, edges.to(edge) - body.centroid);
+  for (const geometry::Point p : edges.vertices) radius = std::max(radius, distance(p, body.centroid));
   bodies.position.push_back(body.position);
   bodies.angle.push_back(body.angle);
   bodies.rotation.push_back(geometry::Rotation::by(body.angle));
@@ -32,6 +35,7 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   bodies.mass.push_back(body.mass);
   bodies.moment.push_back(body.moment);
   bodies.centroid.push_back(body.centroid);
+  bodies.area.push_back(area);
   bodies.thickness.push_back(body.thickness);
   bodies.boundary.push_back(body.boundary);
   bodies.drag.push_back(body.drag);

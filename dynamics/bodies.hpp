@@ -49,6 +49,7 @@ struct Bodies {
   std::vector<double> mass;               ///< [kg], also of bodies of prescribed motion
   std::vector<double> moment;             ///< of inertia about the centre of mass [kg m²]
   std::vector<geometry::Point> centroid;  ///< centre of mass in the body frame [m]
+  std::vector<double> area;               ///< in plan [m²]
   std::vector<double> thickness;          ///< of the ice, or the draught that meets water [m]
   std::vector<std::shared_ptr<geometry::Boundary>> boundary;  ///< made ready when another body comes near
   std::vector<std::shared_ptr<const DragShape>> drag;         ///< null: no drag, or it sleeps

@@ -234,6 +234,14 @@ void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Cont
     contacts.insert(contacts.end(), shares_[k].contacts.begin(), shares_[k].contacts.end());
 }
 
+void BroadPhase::take_blind_overlaps(std::vector<BlindOverlap>& overlaps) {
+  overlaps.clear();
+  for (Share& share : shares_) {
+    overlaps.insert(overlaps.end(), share.scratch.blind.begin(), share.scratch.blind.end());
+    share.scratch.blind.clear();
+  }
+}
+
 std::int64_t BroadPhase::take_unpaired_stretches() {
   std::int64_t unpaired = 0;
   for (Share& share : shares_) unpaired += std::exchange(share.scratch.unpaired, 0);

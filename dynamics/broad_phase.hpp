@@ -15,6 +15,14 @@ struct PairState {
   std::vector<PersistentContact> records;
 };
 
+/// An overlap that has pressed, of a body that breaks.
+struct Inheritance {
+  BodyIndex other = 0;
+  geometry::Point place;   ///< in the water frame [m]
+  double reach = 0;        ///< [m]
+  double loaded_area = 0;  ///< [m²]
+};
+
 /// Finds which bodies overlap. A grid finds the pairs whose grown boxes meet; each pair keeps the edges that
 /// are near each other until the bodies have moved so far relative to each other that others might be. All
 /// bounds are conservative: what is culled cannot touch, so the contacts are those of a search over
@@ -27,6 +35,10 @@ class BroadPhase {
   void add(const Bodies& bodies, BodyIndex body);
   /// Removes a body and its pairs.
   void remove(BodyIndex body);
+  /// What has pressed against a body, in water: for the pieces that it breaks into.
+  std::vector<Inheritance> inheritance_of(const Bodies& bodies, BodyIndex body) const;
+  /// Passes it on to a piece that was added and woken.
+  void inherit(const Bodies& bodies, BodyIndex piece, const std::vector<Inheritance>& inheritance);
   /// Pairs are kept only where one of the two is awake.
   void wake(const Bodies& bodies, BodyIndex body);
   void sleep(const Bodies& bodies, BodyIndex body);
@@ -43,6 +55,19 @@ class BroadPhase {
 
   /// Adds saved pairs, after all bodies have been added. Their caches are filled again as they are used.
   void restore(const Bodies& bodies, const std::vector<PairState>& pairs);
+
+  /// Calls use(a, b, area) for each pair, in no order: the overlap of its bodies that has pressed [m²].
+  template <class Use>
+  void for_loaded_overlaps(Use use) const {
+    for (const Pair& pair : pairs_) {
+      double area = 0;
+      for (const PersistentContact& record : pair.records) area += record.loaded_area;
+      if (area > 0 && !pair.is_dropped) use(pair.a, pair.b, area);
+    }
+  }
+
+  /// What find_contacts found blind since the last call, ordered by (a, b).
+  void take_blind_overlaps(std::vector<BlindOverlap>& overlaps);
 
   /// Contact stretches whose crossings did not pair up (see geometry::find_manifolds), since the last call.
   std::int64_t take_unpaired_stretches();

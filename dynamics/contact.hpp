@@ -20,8 +20,12 @@ struct PersistentContact {
   double last_impulse[2] = {0, 0};  ///< compression at the last step [N s]
   double warm_start_impulse[2] = {0, 0};  ///< where the solver starts, predicted from two steps [N s]
   double loaded_depth = 0;                ///< deepest overlap that pressed: the ice is gone so far [m]
+  double loaded_area = 0;                 ///< of that overlap [m²]
+  double reach = 0;                       ///< of the contact from last_point_in_b, at the last step [m]
   bool has_crushed = false;
+  bool is_pierced = false;    ///< of a pierced body, at the last step
   bool was_refused = false;   ///< a fracture here was rejected by geometry: not tried again
+  bool is_inherited = false;  ///< of the body that this one broke from: states only what has pressed
   bool is_continued = false;  ///< already taken over by a contact of the next step
 };
 
@@ -74,5 +78,20 @@ struct Contact {
   /// Whether it presses with all that crushing ice carries.
   bool is_at_limit() const { return total_normal_impulse() >= impulse_limit * (1 - 1e-9); }
 };
+
+/// Two bodies that are in each other where the gradient of the overlap's area does not show it: no contact
+/// parts them.
+struct BlindOverlap {
+  BodyIndex a = 0;
+  BodyIndex b = 0;
+  bool is_inside = false;  ///< one is all inside the other, without a crossing
+  double area = 0;         ///< of the pair's blind overlaps [m²]; 0 where is_inside
+  double width = 0;        ///< |R| of the largest of them [m]
+  double least_width = 0;  ///< below which the overlap is blind [m]
+  geometry::Point middle;  ///< of the largest, in the water frame [m]
+};
+
+/// Keeps in the contact's record how far its overlap has pressed, after the solver.
+void remember_overlap(const Contact& contact);
 
 }  // namespace polynya::dynamics

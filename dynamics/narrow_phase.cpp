@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dynamics/contact_tracker.hpp"
+
 namespace polynya::dynamics {
 namespace {
 
@@ -12,66 +14,6 @@ using geometry::Vector;
 
 constexpr double kNearMargin = 0.75;  ///< bounding circles within this distance are kept with a pair [m]
 
-/// Updates the records of a pair's contacts. A record passes to the nearest contact that may be the same; one
-/// without a contact is dropped.
-class ContactTracker {
- public:
-  ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch,
-                 double circle_radius, double dt)
-      : records_(records), updated_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
-
-  void update(Contact* contacts, std::size_t count, const Bodies& bodies) {
-    if (count == 1 && records_.size() == 1) {  // nearly always, and then in place
-      const Point here = point_in_b(bodies, contacts[0], contacts[0].middle());
-      const double reach = tolerance_ + 0.5 * contacts[0].width;
-      if (squared_length(here - records_[0].last_point_in_b) > reach * reach)
-        records_[0] = new_record(bodies, contacts[0]);
-      advance(records_[0], contacts[0], here);
-    } else {
-      updated_.clear();
-      for (std::size_t i = 0; i < count; ++i) updated_.push_back(record_of(contacts[i], bodies));
-      std::swap(records_, updated_);
-    }
-    for (std::size_t i = 0; i < count; ++i) contacts[i].record = &records_[i];
-  }
-
- private:
-  static Point point_in_b(const Bodies& bodies, const Contact& c, Point point_in_water) {
-    return bodies.centroid[c.b] + rotate_back(bodies.rotation[c.b], point_in_water - bodies.position[c.b]);
-  }
-  static PersistentContact new_record(const Bodies& bodies, const Contact& c) {
-    PersistentContact record;
-    record.first_touch_in_b = point_in_b(bodies, c, c.tip_of_b);
-    return record;
-  }
-  PersistentContact record_of(const Contact& c, const Bodies& bodies) {
-    const Point here = point_in_b(bodies, c, c.middle());
-    PersistentContact* old = nullptr;
-    double nearest = tolerance_ + 0.5 * c.width;
-    for (PersistentContact& record : records_) {
-      const double d = distance(record.last_point_in_b, here);
-      if (record.is_continued || d > nearest) continue;
-      nearest = d;
-      old = &record;
-    }
-    PersistentContact record = old != nullptr ? *old : new_record(bodies, c);
-    if (old != nullptr) old->is_continued = true;
-    advance(record, c, here);
-    return record;
-  }
-  void advance(PersistentContact& record, const Contact& c, Point here) const {
-    record.last_point_in_b = here;
-    record.age += dt_;
-    record.approach += std::max(0.0, c.approach_speed) * dt_;
-    record.crushed_depth = std::min(record.crushed_depth, c.depth);
-  }
-
-  std::vector<PersistentContact>& records_;
-  std::vector<PersistentContact>& updated_;
-  double tolerance_;  // of a contact's displacement in a step, beside half its width [m]
-  double dt_;
-};
-
 /// Finds the circles and edges of a pair that are near each other.
 void find_near(const Bodies& bodies, Pair& pair, const Pose& pose) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
@@ -81,6 +23,33 @@ void find_near(const Bodies& bodies, Pair& pair, const Pose& pose) {
   const double distance = near_circles(a, b, a_from_b, kNearMargin, pair.near_circles);
   edges_of(a, b, pair.near_circles, pair.near_edges);
   pair.near = {pose, (pair.near_circles.empty() ? distance : kNearMargin) * (1 - 1e-9)};
+}
+
+/// Notes the manifolds that are blind and removes those that have no direction to part the bodies in.
+void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch) {
+  BlindOverlap blind{pair.a, pair.b, false, 0, 0, 0, {}};
+  double largest = 0;
+  for (const geometry::ContactManifold& m : scratch.manifolds) {
+    if (!m.is_pierced || !geometry::is_blind(m.width, m.area, m.extent)) continue;
+    blind.area += m.area;
+    if (m.area <= largest) continue;
+    largest = m.area;
+    blind.width = m.width;
+    blind.least_width = geometry::kBlindShare * m.area / m.extent;
+    blind.middle = transform(water_from_a, m.centroid);
+  }
+  if (blind.area > 0) scratch.blind.push_back(blind);
+  std::erase_if(scratch.manifolds, [](const geometry::ContactManifold& m) {
+    return m.is_pierced && m.width <= geometry::kNoWidth;
+  });
+}
+
+/// Two bodies whose boundaries do not cross: notes where one is inside the other.
+void take_inside(const Bodies& bodies, const Pair& pair, const Pose& pose, PairScratch& scratch) {
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
+  if (!is_one_inside(*bodies.boundary[pair.a], *bodies.boundary[pair.b], a_from_b)) return;
+  const BodyIndex inner = bodies.bounding_radius[pair.a] < bodies.bounding_radius[pair.b] ? pair.a : pair.b;
+  scratch.blind.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
 }
 
 /// Appends the contacts of a pair among its near edges. Returns whether the two are apart.
@@ -97,8 +66,15 @@ bool collect(const Bodies& bodies, const Pair& pair, const Pose& pose, bool is_c
     unpaired = find_manifolds(a, b, a_from_b, pair.near_edges, scratch.crossings, scratch.manifolds);
   }
   scratch.unpaired += unpaired;
-  if (scratch.manifolds.empty()) return unpaired == 0;
+  if (scratch.manifolds.empty()) {
+    const bool is_apart = unpaired == 0;
+    if (is_apart && !is_circle_centres && scratch.crossings.crossings.empty())
+      take_inside(bodies, pair, pose, scratch);
+    return is_apart;
+  }
   const Pose water_from_a = water_from_body(bodies, pair.a);
+  if (std::ranges::any_of(scratch.manifolds, &geometry::ContactManifold::is_pierced))
+    take_blind(pair, water_from_a, scratch);
   std::uint32_t number = 0;
   for (const geometry::ContactManifold& manifold : scratch.manifolds) {
     Contact& c = contacts.emplace_back();
@@ -138,6 +114,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
     pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
   }
   if (pair.near_edges.pairs.empty()) {
+    take_inside(bodies, pair, pose, scratch);
     pair.records.clear();
     pair.apart = pair.near;
     return clearance_left(bodies, pair.b, pose, pair.apart);
@@ -146,7 +123,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
   const bool is_apart = collect(bodies, pair, pose, rule.is_circle_centres, scratch, contacts);
   if (!is_apart) {
     ContactTracker(pair.records, scratch.records, rule.circle_radius, dt)
-        .update(contacts.data() + first, contacts.size() - first, bodies);
+        .update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
     pair.apart.distance = -1;
     return -1;
   }

@@ -17,6 +17,7 @@ struct EnergyFlows {
   double crushing = 0;   ///< out: across contact lines that pressed with all that crushing ice carries
   double bending = 0;    ///< out: the motion of the cusps and brash that bending took out of the floe list
   double splitting = 0;  ///< out: the same of splits
+  double grinding = 0;   ///< out: the same of overlaps that were ground to brash
   double rest = 0;       ///< out: what was left to floes that came to rest
 };
 

@@ -13,19 +13,30 @@ namespace polynya::simulation {
 using FloeId = std::int64_t;
 inline constexpr FloeId kNoFloe = -1;
 
-enum class EventKind { kBend, kSplit, kRejectedCut };
+enum class EventKind { kBend, kSplit, kGrind, kRejectedCut };
 std::string_view name_of(EventKind kind);
 
-/// A fracture, or a cut that geometry refused. Written as one line of events.ndjson.
+/// What decides that an overlap is ground to brash: it is large, and no motion of the bodies reduces it (the
+/// gradient of its area is small, docs/theory.md, "Contact").
+struct GrindCriterion {
+  double overlap_area = 0;  ///< [m²]
+  double least_area = 0;    ///< a smaller overlap is left [m²]
+  double width = 0;         ///< |R|, by which the area falls per metre of motion [m]
+  double least_width = 0;   ///< a wider overlap is left to its contact [m]
+};
+
+/// A fracture, ground ice, or a cut that geometry refused. Written as one line of events.ndjson.
 struct Event {
   double time = 0;  ///< [s]
   EventKind kind = EventKind::kBend;
-  int ship = 0;           ///< index in the scene
-  FloeId floe = kNoFloe;  ///< the floe that broke (its children's parent)
+  int ship = 0;              ///< index in the scene; -1 where a floe did it
+  FloeId by_floe = kNoFloe;  ///< the floe that ground it
+  FloeId floe = kNoFloe;     ///< the floe that broke (its children's parent)
   std::vector<FloeId> children;
   geometry::Point point_in_world;      ///< contact point [m]
   geometry::Vector normal_in_world;    ///< unit, from the hull into the ice
   fracture::FailureCriteria criteria;  ///< both sides of what was decided
+  GrindCriterion grinding;             ///< of ground ice
   double cusp_radius = 0;              ///< R, bends only [m]
   double penetration = 0;              ///< ξ when it broke [m]
   double submerged_area = 0;           ///< [m²]
@@ -142,6 +153,7 @@ struct Counts {
   std::int64_t floes_final = 0;
   std::int64_t bends = 0;
   std::int64_t splits = 0;
+  std::int64_t ground = 0;          ///< overlaps ground to brash
   std::int64_t crush_contacts = 0;  ///< contacts (not steps) at which ice crushed
   std::int64_t rejected_cuts = 0;
   std::int64_t floated_cusps = 0;
@@ -149,8 +161,8 @@ struct Counts {
   std::int64_t snap_rounded = 0;  ///< pieces whose nearest doubles were not a valid polygon
   std::int64_t database_out_of_range = 0;
   std::int64_t unconverged_steps = 0;  ///< steps in which the contact solver used all its sweeps
-  double largest_residual = 0;         ///< by how much a contact missed its law after a step's last sweep [m/s]
-  double energy_created = 0;           ///< by steps whose contacts gave more than they took [J]
+  double largest_residual = 0;  ///< by how much a contact missed its law after a step's last sweep [m/s]
+  double energy_created = 0;    ///< by steps whose contacts gave more than they took [J]
   std::int64_t unpaired_stretches = 0;  ///< overlaps without a contact for a step: crossings not in pairs
   std::int64_t steps = 0;
   std::int64_t peak_contacts = 0;

@@ -1,7 +1,9 @@
 #include "simulation/simulation.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <tuple>
 
 #include "dynamics/thread_limit.hpp"
 #include "simulation/state/state.hpp"
@@ -18,6 +20,8 @@ std::string_view name_of(EventKind kind) {
       return "bend";
     case EventKind::kSplit:
       return "split";
+    case EventKind::kGrind:
+      return "grind";
     case EventKind::kRejectedCut:
       return "rejected_cut";
   }
@@ -154,14 +158,33 @@ std::vector<FloeState> Simulation::floe_states() const {
   return states;
 }
 
+namespace {
+
+ContactState::Body contact_body(const Population& population, BodyIndex body) {
+  return population.is_ship(body) ? ContactState::Body{body, kNoFloe}
+                                  : ContactState::Body{-1, population.floe_of(body)};
+}
+
+}  // namespace
+
+std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
+  const Population& population = world_->population;
+  std::vector<std::tuple<BodyIndex, BodyIndex, double>> pairs;
+  population.pairs.for_loaded_overlaps(
+      [&](BodyIndex a, BodyIndex b, double area) { pairs.emplace_back(a, b, area); });
+  std::ranges::sort(pairs);
+  std::vector<CrushedOverlap> overlaps;
+  for (const auto& [a, b, area] : pairs)
+    overlaps.push_back({contact_body(population, a), contact_body(population, b), area,
+                        area / std::min(population.bodies.area[a], population.bodies.area[b])});
+  return overlaps;
+}
+
 std::vector<ContactState> Simulation::contact_states() const {
   const World& world = *world_;
   const double dt = world.clock.step;
   const Vector drift_then = static_cast<double>(world.clock.steps - 1) * dt * world.clock.water_drift;
-  const auto body_of = [&](BodyIndex body) {
-    return world.population.is_ship(body) ? ContactState::Body{body, kNoFloe}
-                                          : ContactState::Body{-1, world.population.floe_of(body)};
-  };
+  const auto body_of = [&](BodyIndex body) { return contact_body(world.population, body); };
   std::vector<ContactState> states;
   for (const dynamics::Contact& c : world.step.contacts) {
     if (!is_recorded(world, c)) continue;

@@ -57,6 +57,14 @@ struct ContactState {
   bool is_crushing = false;        ///< it presses with all that crushing ice carries
 };
 
+/// Two bodies with an overlap that their contacts have pressed: ice that was crushed there.
+struct CrushedOverlap {
+  ContactState::Body on;
+  ContactState::Body by;
+  double area = 0;   ///< [m²]
+  double share = 0;  ///< of the smaller of the two bodies
+};
+
 /// A run in progress: the scene's world, stepped.
 class Simulation {
  public:
@@ -94,6 +102,8 @@ class Simulation {
   /// Those contacts of the last step that the scene has recorded, ships' first, in the order of their
   /// bodies. None before the first step and right after a resume.
   std::vector<ContactState> contact_states() const;
+  /// Those of a ship or structure with a floe first, in the order of their bodies.
+  std::vector<CrushedOverlap> crushed_overlaps() const;
   const World& world() const;
 
  private:

@@ -29,6 +29,7 @@ void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contac
     (is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
     energy.friction -= c.slip_work;
     given += c.normal_work + c.slip_work;
+    remember_overlap(c);
     if (bodies.inverse_mass[c.a] == 0 || bodies.inverse_mass[c.b] == 0)
       enter_prescribed_work(bodies, c, accounts.audit);
     if (!is_at_limit || c.approach_speed <= 0) continue;
@@ -149,10 +150,13 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 13> kStages = {{
+const std::array<Stage, 14> kStages = {{
     {"find pairs", [](World& w) { find_pairs(w.population); }},
     {"find contacts",
-     [](World& w) { find_contacts(w.setup, w.threads, w.population, w.step.contacts, w.accounts.counts); }},
+     [](World& w) {
+       find_contacts(w.setup, w.threads, w.population, w.step.contacts, w.accounts.counts);
+       w.population.pairs.take_blind_overlaps(w.step.blind_overlaps);
+     }},
     {"decide",
      [](World& w) { decide(w.setup, w.clock, w.threads, w.population, w.step, w.accounts.counts); }},
     {"solve impulses",
@@ -174,6 +178,10 @@ const std::array<Stage, 13> kStages = {{
     {"apply fractures",
      [](World& w) {
        apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal);
+     }},
+    {"grind",
+     [](World& w) {
+       grind_blind_overlaps(w.setup, w.clock, w.step.blind_overlaps, w.population, w.accounts, w.journal);
      }},
     {"put to rest", [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
     {"record", [](World& w) { record(w.setup, w.clock, w.population, w.step.loads, w.accounts, w.journal); }},

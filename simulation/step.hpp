@@ -41,9 +41,14 @@ void record_ship_contacts(const Setup& setup, const Clock& clock, const Populati
                           const std::vector<dynamics::Contact>& contacts,
                           std::vector<ShipContact>& known_contacts, Journal& journal);
 
-/// The only stage that changes which floes there are: serially, in floe-id order.
+/// With the next one all that changes which floes there are: serially, in floe-id order.
 void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
                      Population& population, Accounts& accounts, Journal& journal);
+
+/// Cuts overlaps that no contact can part from the floe and makes them brash, in the order of the pairs.
+void grind_blind_overlaps(const Setup& setup, const Clock& clock,
+                          const std::vector<dynamics::BlindOverlap>& overlaps, Population& population,
+                          Accounts& accounts, Journal& journal);
 
 void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
                  AuditSums& audit);
@@ -58,7 +63,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 13> kStages;
+extern const std::array<Stage, 14> kStages;
 
 /// One time step: all stages.
 void step(World& world);

@@ -51,6 +51,7 @@ struct PendingFracture {
 /// What one step works out; of the step before, between two steps.
 struct StepData {
   std::vector<dynamics::Contact> contacts;
+  std::vector<dynamics::BlindOverlap> blind_overlaps;
   std::vector<PendingFracture> fractures;
   std::vector<ShipLoads> loads;               ///< per ship
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
@@ -63,8 +64,9 @@ struct Accounts {
   AreaLedger ledger;  ///< initial, submerged, brash, rounding; the rest is derived
   AuditSums audit;
   Counts counts;
-  std::vector<ShipLoads> loads;            ///< per ship, since the last sample
-  std::vector<ShipContact> ship_contacts;  ///< the first one of each pair of ships
+  std::vector<ShipLoads> loads;                                       ///< per ship, since the last sample
+  std::vector<ShipContact> ship_contacts;                             ///< the first one of each pair of ships
+  std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut
 };
 
 /// What a new world has in it.

@@ -29,6 +29,18 @@ std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t 
   return index;
 }
 
+/// By the parity of edges to the right of it: holes count.
+bool is_inside(const EdgeList& edges, Point p) {
+  bool inside = false;
+  for (std::uint32_t edge = 0; edge < edges.size(); ++edge) {
+    const Point from = edges.from(edge);
+    const Point to = edges.to(edge);
+    if ((from.y > p.y) == (to.y > p.y)) continue;
+    if ((cross(to - from, p - from) > 0) == (to.y > from.y)) inside = !inside;
+  }
+  return inside;
+}
+
 double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
   return distance(a.centre, b_centre_in_a) - a.reach - b.reach;
 }
@@ -126,6 +138,18 @@ void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>&
       at += 2 * edges.stride;
     }
   }
+}
+
+bool is_one_inside(const Boundary& a, const Boundary& b, const Pose& a_from_b) {
+  const CircleNode& around_a = a.tree.front();
+  const CircleNode& around_b = b.tree.front();
+  const double between = distance(around_a.centre, transform(a_from_b, around_b.centre));
+  if (between > std::max(around_a.reach, around_b.reach)) return false;
+  // All vertices: where two only touch, rounding may find one of them inside.
+  return std::ranges::all_of(b.edges.vertices,
+                             [&](Point p) { return is_inside(a.edges, transform(a_from_b, p)); }) ||
+         std::ranges::all_of(a.edges.vertices,
+                             [&](Point p) { return is_inside(b.edges, inverse_transform(a_from_b, p)); });
 }
 
 double least_distance(const Pose& a_from_b, const NearEdges& edges) {

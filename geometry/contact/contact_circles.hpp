@@ -15,6 +15,7 @@ struct EdgeList {
   std::vector<std::uint32_t> ring;  ///< 0 for the outer ring, then the holes
 
   std::size_t size() const { return vertices.size(); }
+  bool has_holes() const { return ring.back() > 0; }
   Point from(std::uint32_t edge) const { return vertices[edge]; }
   Point to(std::uint32_t edge) const { return vertices[next[edge]]; }
 };

@@ -51,11 +51,23 @@ int ship_index(const simulation::Scene& scene, std::string_view name) {
 }
 
 simulation::EventKind event_kind(std::string_view name) {
-  for (const auto kind :
-       {simulation::EventKind::kBend, simulation::EventKind::kSplit, simulation::EventKind::kRejectedCut}) {
+  for (const auto kind : {simulation::EventKind::kBend, simulation::EventKind::kSplit,
+                          simulation::EventKind::kGrind, simulation::EventKind::kRejectedCut}) {
     if (name_of(kind) == name) return kind;
   }
   throw ReadError(fmt::format("an unknown kind of event, \"{}\"", name));
+}
+
+fracture::FailureCriteria criteria_of(const JsonValue& criterion) {
+  fracture::FailureCriteria criteria;
+  criteria.floe_size = number(criterion, "floe_size_m");
+  criteria.breakable_size = number(criterion, "breakable_size_m");
+  criteria.collision_force = number(criterion, "collision_force_N");
+  criteria.splitting_force = number(criterion, "splitting_force_N");
+  criteria.crack_length = number(criterion, "crack_length_m");
+  criteria.vertical_force = number(criterion, "vertical_force_N");
+  criteria.bending_capacity = number(criterion, "bending_capacity_N");
+  return criteria;
 }
 
 double take_number(std::string_view& row) {
@@ -103,6 +115,7 @@ simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene
   event.time = number(line, "t_s");
   event.kind = event_kind(member(line, "kind", JsonValue::Kind::kText).text());
   event.ship = ship_index(scene, member(line, "ship", JsonValue::Kind::kText).text());
+  if (const JsonValue* by = line.find("by_floe")) event.by_floe = floe_id(*by);
   event.floe = floe_id(line, "floe");
   for (const JsonValue& child : member(line, "children", JsonValue::Kind::kArray).items())
     event.children.push_back(floe_id(child));
@@ -110,13 +123,11 @@ simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene
   const geometry::Point normal = point(line, "normal");
   event.normal_in_world = {normal.x, normal.y};
   const JsonValue& criterion = member(line, "criterion", JsonValue::Kind::kObject);
-  event.criteria.floe_size = number(criterion, "floe_size_m");
-  event.criteria.breakable_size = number(criterion, "breakable_size_m");
-  event.criteria.collision_force = number(criterion, "collision_force_N");
-  event.criteria.splitting_force = number(criterion, "splitting_force_N");
-  event.criteria.crack_length = number(criterion, "crack_length_m");
-  event.criteria.vertical_force = number(criterion, "vertical_force_N");
-  event.criteria.bending_capacity = number(criterion, "bending_capacity_N");
+  if (criterion.find("least_width_m"))
+    event.grinding = {number(criterion, "overlap_area_m2"), number(criterion, "least_area_m2"),
+                      number(criterion, "width_m"), number(criterion, "least_width_m")};
+  else
+    event.criteria = criteria_of(criterion);
   event.penetration = number(line, "penetration_m");
   event.cusp_radius = number_or(line, "cusp_radius_m", 0);
   event.submerged_area = number(line, "submerged_area_m2");
@@ -146,6 +157,15 @@ simulation::ShipSample sample_of(std::string_view line, const std::vector<const 
   s.ship = ship_index(scene, csv_field(line));
   for (const ForceColumn* column : columns) column->store(s, take_number(line));
   return s;
+}
+
+RunCrushed crushed_of(std::string_view line, const Run& run) {
+  RunCrushed crushed;
+  crushed.time = take_number(line);
+  crushed.overlap.on = body_of(line, run);
+  crushed.overlap.by = body_of(line, run);
+  crushed.overlap.area = take_number(line);
+  return crushed;
 }
 
 RunContact contact_of(std::string_view line, const Run& run) {

@@ -26,6 +26,7 @@ simulation::ShipContact ship_contact_of(const JsonValue& line, const simulation:
 simulation::ShipSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene);
 /// `run` has its scene and its floes.
+RunCrushed crushed_of(std::string_view line, const Run& run);
 RunContact contact_of(std::string_view line, const Run& run);
 
 }  // namespace polynya::io

@@ -19,6 +19,13 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 void append_criterion(JsonWriter& json, const simulation::Event& event) {
   const fracture::FailureCriteria& c = event.criteria;
   json.key("criterion").open('{');
+  if (event.grinding.least_width > 0) {
+    json.key("kind").value("overlap width < least width");
+    json.key("width_m").value(event.grinding.width).key("least_width_m").value(event.grinding.least_width);
+    json.key("overlap_area_m2").value(event.grinding.overlap_area);
+    json.key("least_area_m2").value(event.grinding.least_area).close('}');
+    return;
+  }
   if (event.kind == simulation::EventKind::kSplit) {
     json.key("kind").value("collision force > splitting force");
     json.key("load_N").value(c.collision_force).key("capacity_N").value(c.splitting_force);
@@ -31,6 +38,14 @@ void append_criterion(JsonWriter& json, const simulation::Event& event) {
   json.key("crack_length_m").value(c.crack_length);
   json.key("vertical_force_N").value(c.vertical_force).key("bending_capacity_N").value(c.bending_capacity);
   json.close('}');
+}
+
+/// The two columns that name a ship or a floe.
+void append_body(std::string& text, std::string_view ship, simulation::FloeId floe) {
+  text += ',';
+  text += ship;
+  text += ',';
+  if (floe != simulation::kNoFloe) append_number(text, floe);
 }
 
 }  // namespace
@@ -61,15 +76,24 @@ std::string_view contacts_header() {
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     std::string_view on_ship, std::string_view by_ship) {
   append_number(text, time);
-  for (const auto& [ship, floe] : {std::pair{on_ship, contact.on.floe}, {by_ship, contact.by.floe}}) {
-    text += ',';
-    text += ship;
-    text += ',';
-    if (floe != simulation::kNoFloe) append_number(text, floe);
-  }
+  append_body(text, on_ship, contact.on.floe);
+  append_body(text, by_ship, contact.by.floe);
   append_csv(text, {contact.point_in_world.x, contact.point_in_world.y, contact.force.x, contact.force.y,
                     contact.depth});
   text += contact.is_crushing ? ",1\n" : ",0\n";
+}
+
+std::string_view crushed_header() {
+  return "t_s,ship,floe_id,by_ship,by_floe_id,crushed_m2\n";
+}
+
+void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
+                    std::string_view on_ship, std::string_view by_ship) {
+  append_number(text, time);
+  append_body(text, on_ship, overlap.on.floe);
+  append_body(text, by_ship, overlap.by.floe);
+  append_csv(text, {overlap.area});
+  text += '\n';
 }
 
 std::string_view states_header() {
@@ -96,7 +120,9 @@ void append_event(std::string& text, const simulation::Event& event, std::string
                   simulation::FloeId parent) {
   JsonWriter json(text);
   json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-  json.key("ship").value(ship_name).key("floe").value(event.floe).key("parent").value(id_or_none(parent));
+  json.key("ship").value(ship_name);
+  if (event.by_floe != simulation::kNoFloe) json.key("by_floe").value(event.by_floe);
+  json.key("floe").value(event.floe).key("parent").value(id_or_none(parent));
   json.key("children").list(event.children);
   json.key("point_m").value(event.point_in_world).key("normal").value(event.normal_in_world);
   append_criterion(json, event);

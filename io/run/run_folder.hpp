@@ -9,9 +9,9 @@
 
 namespace polynya::io {
 
-/// What a run folder's files are like, in its summary.json. 2: floes.ndjson has parts of parents' shapes;
-/// folders without a number are 1.
-inline constexpr int kRunFolderVersion = 2;
+/// What a run folder's files are like, in its summary.json. 3: crushed.csv and ground overlaps; 2:
+/// floes.ndjson has parts of parents' shapes; folders without a number are 1.
+inline constexpr int kRunFolderVersion = 3;
 
 /// The files of a run (docs/run-folder.md).
 namespace run_file {
@@ -24,6 +24,7 @@ inline constexpr std::string_view kFloes = "floes.ndjson";
 inline constexpr std::string_view kFrames = "frames.bin";
 inline constexpr std::string_view kStates = "states.csv";
 inline constexpr std::string_view kContacts = "contacts.csv";
+inline constexpr std::string_view kCrushed = "crushed.csv";
 inline constexpr std::string_view kFinalGeojson = "final.geojson";
 inline constexpr std::string_view kFinalSvg = "final.svg";
 inline constexpr std::string_view kFinalPng = "final.png";
@@ -39,9 +40,9 @@ inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
 inline constexpr std::string_view kFailure = "failure.bin";
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
-inline constexpr std::array kAll{kScene,    kSummary, kForces,   kEvents,       kFloes,
-                                 kFrames,   kStates,  kContacts, kFinalGeojson, kFinalSvg,
-                                 kFinalPng, kView,    kChannel,  kChannelCsv};
+inline constexpr std::array kAll{kScene,    kSummary,  kForces,   kEvents,  kFloes,
+                                 kFrames,   kStates,   kContacts, kCrushed, kFinalGeojson,
+                                 kFinalSvg, kFinalPng, kView,     kChannel, kChannelCsv};
 }  // namespace run_file
 
 /// What reads runs takes no longer file; a run that writes one warns [bytes].

@@ -146,6 +146,9 @@ Result<Run> read_run(const std::filesystem::path& folder) {
     if (std::filesystem::exists(folder / run_file::kContacts))
       for_rows(folder, run_file::kContacts, contacts_header(),
                [&](std::string_view line) { run.contacts.push_back(contact_of(line, run)); });
+    if (run.has_crushed = std::filesystem::exists(folder / run_file::kCrushed); run.has_crushed)
+      for_rows(folder, run_file::kCrushed, crushed_header(),
+               [&](std::string_view line) { run.crushed.push_back(crushed_of(line, run)); });
     auto frames = decode_frames(text_of(folder, run_file::kFrames));
     if (!frames) return fail(fmt::format("{}: {}", (folder / run_file::kFrames).string(), frames.error()));
     run.frames = std::move(*frames);

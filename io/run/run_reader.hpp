@@ -31,6 +31,12 @@ struct RunContact {
   simulation::ContactState state;
 };
 
+/// A line of crushed.csv.
+struct RunCrushed {
+  double time = 0;  ///< [s]
+  simulation::CrushedOverlap overlap;
+};
+
 /// A run folder read back (docs/run-folder.md): what every tool for runs starts from.
 struct Run {
   std::filesystem::path folder;
@@ -44,6 +50,8 @@ struct Run {
   std::vector<simulation::ShipSample> samples;
   std::vector<Frame> frames;
   std::vector<RunContact> contacts;  ///< as time goes; none in runs of versions that did not record them
+  std::vector<RunCrushed> crushed;   ///< as time goes
+  bool has_crushed = false;          ///< runs of versions before do not record it
 
   double start_time() const { return frames.empty() ? 0 : frames.front().time; }
   double end_time() const { return frames.empty() ? 0 : frames.back().time; }

@@ -17,9 +17,9 @@ namespace polynya::io {
 namespace {
 
 /// The files that grow, in the order they are flushed: what is named before what names it.
-constexpr std::array kGrowing{run_file::kFloes,    run_file::kEvents, run_file::kFrames,
-                              run_file::kContacts, run_file::kStates, run_file::kForces};
-enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kStates, kForces };
+constexpr std::array kGrowing{run_file::kFloes,   run_file::kEvents, run_file::kFrames, run_file::kContacts,
+                              run_file::kCrushed, run_file::kStates, run_file::kForces};
+enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces };
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
@@ -32,6 +32,8 @@ std::string header_of(std::size_t file) {
       return FrameEncoder::header();
     case kContacts:
       return std::string(contacts_header());
+    case kCrushed:
+      return std::string(crushed_header());
     case kStates:
       return std::string(states_header());
     default:
@@ -226,6 +228,13 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
     append_contact(line_, simulation.time(), contact, ship_name(scene_->scene, contact.on.ship),
                    ship_name(scene_->scene, contact.by.ship));
   if (!line_.empty()) file(kContacts).append(line_);
+  line_.clear();
+  for (const simulation::CrushedOverlap& overlap : simulation.crushed_overlaps()) {
+    if (overlap.share >= kLeastCrushedShare)
+      append_crushed(line_, simulation.time(), overlap, ship_name(scene_->scene, overlap.on.ship),
+                     ship_name(scene_->scene, overlap.by.ship));
+  }
+  if (!line_.empty()) file(kCrushed).append(line_);
   line_.clear();
   append_state(line_, simulation.time(), simulation.counts().steps, simulation.state_hash());
   file(kStates).append(line_);

@@ -42,7 +42,7 @@ void append(JsonWriter& json, const simulation::Audit& audit) {
   json.key("thrust_J").value(e.thrust).key("current_J").value(e.current).key("drag_J").value(e.drag);
   json.key("friction_J").value(e.friction).key("restitution_J").value(e.restitution);
   json.key("crushing_J").value(e.crushing).key("bending_J").value(e.bending);
-  json.key("splitting_J").value(e.splitting).key("rest_J").value(e.rest);
+  json.key("splitting_J").value(e.splitting).key("grinding_J").value(e.grinding).key("rest_J").value(e.rest);
   json.key("imbalance_J").value(audit.energy_imbalance).key("turnover_J").value(audit.turnover);
   json.close('}');
   const auto vector = [&](const char* key, geometry::Vector v) { json.key(key).list(std::array{v.x, v.y}); };
@@ -63,6 +63,7 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("counts").open('{');
   json.key("floes_initial").value(counts.floes_initial).key("floes_final").value(counts.floes_final);
   json.key("bends").value(counts.bends).key("splits").value(counts.splits);
+  json.key("ground").value(counts.ground);
   json.key("crush_contacts").value(counts.crush_contacts).key("rejected_cuts").value(counts.rejected_cuts);
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);

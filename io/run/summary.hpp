@@ -32,9 +32,9 @@ struct ShipPeaks {
   std::vector<Peak> of_column;  ///< of each of peak_columns()
 };
 
-/// Bends, splits and rejected cuts.
+/// Bends, splits, ground overlaps and rejected cuts.
 inline std::int64_t fractures_of(const simulation::Counts& counts) {
-  return counts.bends + counts.splits + counts.rejected_cuts;
+  return counts.bends + counts.splits + counts.ground + counts.rejected_cuts;
 }
 
 /// What summary.json holds.

@@ -98,7 +98,7 @@ class StateLoader {
     bytes_(world_.clock.steps, world_.accounts);
     const Counts& c = world_.accounts.counts;
     for (const std::int64_t count :
-         {c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
+         {c.floes_initial, c.bends, c.splits, c.ground, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
           c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
           c.peak_contacts, c.peak_awake})
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");

@@ -73,13 +73,14 @@ void fields(Archive& archive, Is<AreaLedger> auto& l) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<Counts> auto& c) {
-  archive(c.floes_initial, c.bends, c.splits, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
+  archive(c.floes_initial, c.bends, c.splits, c.ground, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
           c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.largest_residual,
           c.energy_created, c.unpaired_stretches, c.peak_contacts, c.peak_awake);
 }
 template <class Archive>
 void fields(Archive& archive, Is<EnergyFlows> auto& e) {
-  archive(e.thrust, e.current, e.drag, e.friction, e.restitution, e.crushing, e.bending, e.splitting, e.rest);
+  archive(e.thrust, e.current, e.drag, e.friction, e.restitution, e.crushing, e.bending, e.splitting,
+          e.grinding, e.rest);
 }
 template <class Archive>
 void fields(Archive& archive, Is<MomentumFlows> auto& m) {
@@ -93,7 +94,8 @@ template <class Archive>
 void fields(Archive& archive, Is<dynamics::PersistentContact> auto& r) {
   archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.owed_impulse,
           r.given_impulse, r.restitution_limit, r.last_impulse[0], r.last_impulse[1], r.warm_start_impulse[0],
-          r.warm_start_impulse[1], r.loaded_depth, r.has_crushed, r.was_refused, r.is_continued);
+          r.warm_start_impulse[1], r.loaded_depth, r.loaded_area, r.reach, r.has_crushed, r.is_pierced,
+          r.is_inherited, r.was_refused, r.is_continued);
 }
 /// Not its separation_bound: that is a cache, which may differ where the same bodies do the same.
 template <class Archive>
@@ -102,8 +104,13 @@ void fields(Archive& archive, Is<dynamics::PairState> auto& p) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Is<std::pair<std::int64_t, std::int64_t>> auto& p) {
+  archive(p.first, p.second);
+}
+
+template <class Archive>
 void fields(Archive& archive, Is<Accounts> auto& a) {
-  archive(a.ledger, a.audit, a.counts, a.loads, a.ship_contacts);
+  archive(a.ledger, a.audit, a.counts, a.loads, a.ship_contacts, a.refused_grinds);
 }
 
 }  // namespace polynya::simulation

@@ -111,7 +111,8 @@ Defect check_sums(const World& world) {
       area + ledger.submerged_area + ledger.brash_area - ledger.rounding_defect - ledger.initial_ice_area;
   if (!(std::abs(lost) <= kAreaTolerance * ledger.initial_ice_area))
     return fmt::format("{} m² of ice too much", lost);
-  const std::int64_t fractures = world.accounts.counts.bends + world.accounts.counts.splits;
+  const Counts& counts = world.accounts.counts;
+  const std::int64_t fractures = counts.bends + counts.splits + counts.ground;
   if (broken != fractures) return fmt::format("{} floes broke in {} fractures", broken, fractures);
   return {};
 }

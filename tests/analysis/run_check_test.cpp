@@ -1,5 +1,6 @@
 #include "analysis/run_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -146,6 +147,41 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
   EXPECT_EQ(check.worst.depth, 0.5);
   EXPECT_EQ(check.deepest.depth, 0.5);
   EXPECT_EQ(check_run(small_run(), 2).most_shared, 0) << "they touch at 2 s";
+}
+
+/// At 3 s floe 1 shares 0.5 m² with each half, and a hull stands in it.
+TEST(RunCheck, OverlapsThatWereNotCrushedAreFoundHullsIncluded) {
+  io::Run run = small_run();
+  simulation::ShipSpec pile;
+  pile.name = "pile";
+  pile.hull.waterline = square(0, 0, 1);
+  pile.position_in_world = {5, 2.5};
+  run.scene.scene.ships.push_back(pile);
+  for (io::Frame& frame : run.frames) {
+    io::Motion motion;
+    motion.position = pile.position_in_world;
+    frame.ships.push_back(motion);
+  }
+  EXPECT_TRUE(check_run(run).is_sound()) << "the run does not state what was crushed";
+  EXPECT_EQ(check_run(run, 3).worst_with_hull.area, 0.25);
+  EXPECT_EQ(check_run(run, 3).worst_hull, 0);
+  run.has_crushed = true;
+  const RunCheck check = check_run(run, 3);
+  EXPECT_FALSE(check.is_sound());
+  ASSERT_EQ(check.uncrushed.size(), 3U);
+  EXPECT_EQ(check.uncrushed_pairs, 3U);
+  const auto with_pile =
+      std::ranges::find(check.uncrushed, 0, [](const auto& pair) { return pair.first.ship; });
+  ASSERT_NE(with_pile, check.uncrushed.end());
+  EXPECT_EQ(with_pile->second.floe, 1);
+  EXPECT_EQ(with_pile->shared, 0.25);
+  EXPECT_LT(distance(with_pile->place_in_world, {5.25, 2.75}), 1e-6);
+  run.crushed = {{3, {{0, simulation::kNoFloe}, {-1, 1}, 0.25, 0}},
+                 {3, {{-1, 1}, {-1, 2}, 0.5, 0}},
+                 {3, {{-1, 1}, {-1, 3}, 0.43, 0}}};
+  EXPECT_EQ(check_run(run, 3).uncrushed_pairs, 1U);
+  run.crushed.back().overlap.area = 0.48;
+  EXPECT_TRUE(check_run(run, 3).is_sound()) << "1 % of the smaller floe may be missing";
 }
 
 TEST(RunCheck, WhatIsWrongIsFound) {

@@ -26,8 +26,9 @@ inline std::string crash_scene(const std::string& until) {
 
 /// The files whose bytes an interruption must not change, and one that it may only bring forth again.
 inline constexpr std::array kComparedFiles{
-    io::run_file::kScene,  io::run_file::kForces,   io::run_file::kEvents, io::run_file::kFloes,
-    io::run_file::kFrames, io::run_file::kContacts, io::run_file::kStates, io::run_file::kFinalGeojson};
+    io::run_file::kScene,   io::run_file::kForces, io::run_file::kEvents,
+    io::run_file::kFloes,   io::run_file::kFrames, io::run_file::kContacts,
+    io::run_file::kCrushed, io::run_file::kStates, io::run_file::kFinalGeojson};
 
 /// A summary.json without the lines that record how long the run took by the clock.
 inline std::string without_wall_time(const std::string& summary) {

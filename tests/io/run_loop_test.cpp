@@ -69,8 +69,9 @@ TEST(RunLoop, AStoppedRunIsResumedToTheSameBytes) {
   auto resumed = resume_run(std::move(*lock), scene, checkpoints.front());
   ASSERT_TRUE(resumed.has_value()) << resumed.error();
   EXPECT_EQ(run_to_end(*resumed).end, RunEnd::kFinished);
-  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames,
-                          run_file::kStates, run_file::kContacts, run_file::kFinalGeojson})
+  for (const auto name :
+       {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames, run_file::kStates,
+        run_file::kContacts, run_file::kCrushed, run_file::kFinalGeojson})
     EXPECT_EQ(read_file(folder / "run" / name), read_file(folder / "whole" / name)) << name;
 }
 

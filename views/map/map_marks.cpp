@@ -16,7 +16,7 @@ void draw_fracture_mark(SvgText& svg, simulation::EventKind kind, double x, doub
         x, y - 9 * size, 8 * size, 14 * size, -16 * size, kSplit);
   else
     svg.add("<circle cx='{:.2f}' cy='{:.2f}' r='{:.2f}' fill='{}' stroke='#ffffff' stroke-width='0.5'/>\n", x,
-            y, 2.8 * size, kBend, size < 0.8 ? "0" : "0.5");
+            y, 2.8 * size, kind == simulation::EventKind::kGrind ? kGrind : kBend, size < 0.8 ? "0" : "0.5");
 }
 
 namespace {

@@ -20,6 +20,7 @@ inline constexpr auto kShip = "#2b2b2b";
 inline constexpr auto kTrack = "#d55e00";
 inline constexpr auto kBend = "#0072b2";
 inline constexpr auto kSplit = "#d55e00";
+inline constexpr auto kGrind = "#7a5c2e";
 }  // namespace map_colour
 
 /// The mark of a fracture; `size` of the one in the legend is 1.

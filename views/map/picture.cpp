@@ -72,6 +72,7 @@ class SvgMap {
     draw_water();
     draw_ice();
     draw_fractures(simulation::EventKind::kBend);
+    draw_fractures(simulation::EventKind::kGrind);
     draw_ships();
     draw_fractures(simulation::EventKind::kSplit);
     svg_.add("</g>\n");

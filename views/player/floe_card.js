@@ -135,13 +135,14 @@ function showEventCard(host, run, event) {
   }
   const ship = run.info.ships[event.ship];
   const unit = loadUnit(Math.max(event.load_N ?? 0, event.capacity_N ?? 0), "N");
-  const inUnit = (value) => (value === null ? "\u2013" : `${shortNumber(value * unit.factor)} ${unit.name}`);
+  const inUnit = (value) => ((value ?? null) === null ? "\u2013" : `${shortNumber(value * unit.factor)} ${unit.name}`);
   const rows = {
     event: kindWords[event.kind], time: `${event.t_s.toFixed(3)} s`, ship: ship ? ship.name : "\u2013",
     floe: String(event.floe), pieces: event.children.join(", ") || "\u2013",
     at: `(${event.point_m.map((v) => minus(v.toFixed(1))).join(", ")}) m`,
-    load: inUnit(event.load_N), capacity: inUnit(event.capacity_N),
   };
+  if (event.kind === "grind") rows["overlap ground"] = `${shortNumber(event.overlap_area_m2)} m\u00b2`;
+  else Object.assign(rows, { load: inUnit(event.load_N), capacity: inUnit(event.capacity_N) });
   if (event.reason) rows.reason = event.reason;
   const list = make("dl");
   for (const [name, words] of Object.entries(rows)) list.append(make("dt", {}, name), make("dd", {}, words));

@@ -12,10 +12,10 @@ function fillPage({ run, range, state, plot, actions }) {
     byId("badge").hidden = false;
     byId("badge").textContent = `unfinished: ${range[1].toFixed(1)} of ${info.until_s} s` + (info.stopped_by ? `, stopped by ${info.stopped_by}` : "");
   }
-  const counts = { bend: 0, split: 0, rejected_cut: 0 };
+  const counts = { bend: 0, split: 0, grind: 0, rejected_cut: 0 };
   for (const event of info.events) ++counts[event.kind];
   const facts = {
-    "floes in all": floes.count, bends: counts.bend, splits: counts.split, "rejected cuts": counts.rejected_cut,
+    "floes in all": floes.count, bends: counts.bend, splits: counts.split, ...(counts.grind && { ground: counts.grind }), "rejected cuts": counts.rejected_cut,
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
     frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}`,
     seed: info.seed, scene: info.scene_hash, polynya: info.polynya,

@@ -56,6 +56,6 @@ function themeColours() {
   const style = getComputedStyle(document.documentElement);
   const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "deck", "deck-house", "track", "ink", "panel", "muted",
     "accent", "highlight", "line", "family",
-    "bend", "split", "rejected_cut", "paper-load", "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
+    "bend", "split", "grind", "rejected_cut", "paper-load", "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }

@@ -65,8 +65,12 @@ void write_events(io::JsonWriter& json, const io::Run& run) {
     json.key("point_m").value(event.point_in_world);
     const auto& c = event.criteria;
     const bool is_split = event.kind == simulation::EventKind::kSplit;
-    json.key("load_N").value(is_split ? c.collision_force : c.vertical_force);
-    json.key("capacity_N").value(is_split ? c.splitting_force : c.bending_capacity);
+    if (event.grinding.least_width > 0) {
+      json.key("overlap_area_m2").value(event.grinding.overlap_area);
+    } else {
+      json.key("load_N").value(is_split ? c.collision_force : c.vertical_force);
+      json.key("capacity_N").value(is_split ? c.splitting_force : c.bending_capacity);
+    }
     if (!event.reason.empty()) json.key("reason").value(event.reason);
     json.close('}');
   }

@@ -1,7 +1,7 @@
 // The timeline: a slider with a mark for every event. A click on a mark goes there.
 
 const nearMark = 5; // [px]
-const markHeights = { split: 7, bend: 18, rejected_cut: 18 }; // of each kind of mark, from the top [px]
+const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18 }; // of each kind of mark, from the top [px]
 
 /** The slider; `pixelOf` and `timeOf` convert between times [s] and pixels from its left. */
 function makeTimeline(run, track, range, actions) {
@@ -99,7 +99,7 @@ function watchTimeline(track, timeline, run, actions) {
   for (const name of ["pointerup", "pointercancel"]) track.addEventListener(name, () => { isDown = false; });
 }
 
-const kindWords = { bend: "bend", split: "split", rejected_cut: "rejected cut" };
+const kindWords = { bend: "bend", split: "split", grind: "grinding", rejected_cut: "rejected cut" };
 
 function eventWords(run, event) {
   return `${event.t_s.toFixed(2)} s: ${kindWords[event.kind]} of floe ${event.floe}`;

@@ -1,0 +1,85 @@
+#include "simulation/pieces.hpp"
+
+#include <cmath>
+
+#include "geometry/exact/measures.hpp"
+#include "simulation/limits.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+/// What all pieces of a floe have in common: they move on as the parts of the body they were, v + ω × r, the
+/// same ω.
+NewFloe child_of(const Population& population, FloeId parent) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const BodyIndex body = population.body_of(parent);
+  NewFloe child;
+  child.thickness = bodies.thickness[body];
+  child.parent = parent;
+  child.generation = population.floes[parent].generation + 1;
+  child.water_from_body = dynamics::water_from_body(bodies, body);
+  child.angle = bodies.angle[body];
+  child.angular_velocity = bodies.angular_velocity[body];
+  child.velocity =
+      dynamics::velocity_at(bodies, body, child.water_from_body.position - bodies.position[body]);
+  return child;
+}
+
+/// Enters the motion of ice that leaves the floe list with its parent's motion.
+void enter_removed(const NewFloe& piece, const geometry::Measures& measures, double ice_density,
+                   double& energy_sink, AuditSums& audit) {
+  const double mass_per_area = ice_density * piece.thickness;
+  const geometry::Vector arm =
+      transform(piece.water_from_body, measures.centroid) - piece.water_from_body.position;
+  const geometry::Vector velocity = piece.velocity + cross(piece.angular_velocity, arm);
+  const geometry::Vector carried = mass_per_area * measures.area * velocity;
+  energy_sink += 0.5 * (dot(carried, velocity) + mass_per_area * measures.second_moment *
+                                                     piece.angular_velocity * piece.angular_velocity);
+  audit.momentum.removed += carried;
+  audit.impulses += length(carried);
+}
+
+void enter_areas(const Event& event, const geometry::CutLedger& cut, Accounts& accounts) {
+  accounts.counts.snap_rounded += cut.snap_rounded;
+  accounts.ledger.submerged_area += event.submerged_area;
+  accounts.ledger.brash_area += event.brash_area;
+  accounts.ledger.rounding_defect += event.rounding_defect;
+}
+
+}  // namespace
+
+void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage,
+                       const geometry::CutResult& cut, Population& population, Accounts& accounts,
+                       Journal& journal) {
+  Event& event = breakage.event;
+  NewFloe child = child_of(population, event.floe);
+  const auto pressed = population.pairs.inheritance_of(population.bodies, population.body_of(event.floe));
+  retire_floe(event.floe, population, journal);
+  double& energy_sink = accounts.audit.energy.*breakage.energy_sink;
+  for (const geometry::Piece& piece : cut.pieces) {
+    const geometry::Measures measures = geometry::measure(piece.shape.polygon);
+    const bool is_inside = piece.part == geometry::Part::kInside;
+    const bool is_submerged = is_inside && breakage.inside == InsideFate::kSubmerged;
+    const bool is_brash = (is_inside && breakage.inside == InsideFate::kBrash) ||
+                          measures.area < setup.scene.fracture.smallest_floe_area || !can_be_floe(measures);
+    if (is_submerged || is_brash) {
+      (is_submerged ? event.submerged_area : event.brash_area) += measures.area;
+      accounts.counts.brash_pieces += is_submerged ? 0 : 1;
+      enter_removed(child, measures, setup.scene.ice.density, energy_sink, accounts.audit);
+      continue;
+    }
+    child.shape = piece.shape;
+    const FloeId id = add_floe(setup, clock, child, measures, population, journal);
+    wake(population.body_of(id), population);
+    population.pairs.inherit(population.bodies, population.body_of(id), pressed);
+    event.children.push_back(id);
+    accounts.counts.floated_cusps += is_inside ? 1 : 0;
+  }
+  event.brash_area += cut.ledger.area_slivers;
+  event.rounding_defect = cut.ledger.rounding_defect;
+  enter_areas(event, cut.ledger, accounts);
+  ++(accounts.counts.*breakage.count);
+  journal.events.push_back(std::move(event));
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,180 @@
+// No body passes through another: at the end of a run no two share more ice than what was crushed there, and
+// 1 % of the smaller floe's area.
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "geometry/cut/overlap.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "simulation/simulation.hpp"
+#include "tests/passing/random_scene.hpp"
+
+namespace polynya::tests {
+namespace {
+
+using geometry::Polygon;
+using geometry::Pose;
+using simulation::Simulation;
+
+const std::filesystem::path kSource = POLYNYA_SOURCE_DIR;
+
+struct Placed {
+  simulation::ContactState::Body body;
+  const Polygon* polygon;
+  Pose world_from_body;
+  geometry::Box box;
+  double area;
+  geometry::Vector velocity;
+};
+
+struct Passed {
+  double uncrushed = 0;   ///< largest share of a floe that overlaps and was not crushed
+  double overlapped = 0;  ///< largest share of a floe that overlaps
+  std::string where;      ///< of the first
+};
+
+std::string name_of(const Simulation& run, simulation::ContactState::Body body) {
+  return body.ship >= 0 ? run.scene().ships[static_cast<std::size_t>(body.ship)].name
+                        : "floe " + std::to_string(body.floe);
+}
+
+Passed measure(const Simulation& run) {
+  std::vector<Polygon> hulls;
+  hulls.reserve(run.scene().ships.size());
+  std::vector<Placed> bodies;
+  const auto ships = run.ship_states();
+  for (std::size_t i = 0; i < ships.size(); ++i) {
+    hulls.push_back({run.scene().ships[i].hull.waterline, {}});
+    bodies.push_back({{static_cast<int>(i), simulation::kNoFloe},
+                      &hulls.back(),
+                      ships[i].world_from_ship,
+                      {},
+                      1e30,
+                      ships[i].velocity});
+  }
+  const auto floes = run.floe_states();
+  for (const simulation::FloeState& floe : floes)
+    bodies.push_back(
+        {{-1, floe.floe}, floe.polygon_in_body, floe.world_from_body, {}, floe.area, floe.velocity});
+  for (Placed& body : bodies)
+    body.box = grown(bounding_box(transform(body.world_from_body, body.polygon->outer)), 1e-6);
+  std::map<std::pair<std::int64_t, std::int64_t>, double> crushed;
+  const auto key = [&](simulation::ContactState::Body body) {
+    return body.ship >= 0 ? -1 - std::int64_t{body.ship} : body.floe;
+  };
+  for (const simulation::CrushedOverlap& overlap : run.crushed_overlaps())
+    crushed[{key(overlap.on), key(overlap.by)}] = overlap.area;
+  Passed passed;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t k = std::max(i + 1, ships.size()); k < bodies.size(); ++k) {
+      const Placed& a = bodies[i];
+      const Placed& b = bodies[k];
+      if (!overlaps(a.box, b.box)) continue;
+      const auto shared = shared_area(*a.polygon, a.world_from_body, *b.polygon, b.world_from_body);
+      EXPECT_TRUE(shared.has_value());
+      if (!shared || *shared == 0) continue;
+      const double smaller = std::min(a.area, b.area);
+      passed.overlapped = std::max(passed.overlapped, *shared / smaller);
+      // A contact is found, and what has pressed is known, a step late.
+      const double step = run.scene().time.step * length(a.velocity - b.velocity);
+      const geometry::Vector diagonal =
+          std::min(a.area, b.area) == a.area ? a.box.high - a.box.low : b.box.high - b.box.low;
+      const double uncrushed =
+          (*shared - crushed[{key(a.body), key(b.body)}] - step * length(diagonal)) / smaller;
+      if (uncrushed <= passed.uncrushed) continue;
+      passed.uncrushed = uncrushed;
+      passed.where = name_of(run, a.body) + " and " + name_of(run, b.body) + " share " +
+                     std::to_string(*shared) + " m2 of " + std::to_string(smaller) + ", " +
+                     std::to_string(crushed[{key(a.body), key(b.body)}]) + " crushed";
+    }
+  }
+  return passed;
+}
+
+Simulation run(simulation::Scene scene, double until) {
+  Simulation simulation(std::move(scene));
+  while (simulation.time() < until - 1e-9 && !simulation.numerical_failure()) {
+    simulation.step();
+    simulation.journal().clear();
+  }
+  EXPECT_FALSE(simulation.numerical_failure().has_value());
+  EXPECT_TRUE(simulation.audit().is_closed());
+  return simulation;
+}
+
+simulation::Scene read(const std::filesystem::path& file) {
+  auto loaded = io::read_scene_file(file);
+  EXPECT_TRUE(loaded.has_value()) << file;
+  return loaded ? loaded->scene : simulation::Scene{};
+}
+
+int scene_count() {
+  const char* given = std::getenv("POLYNYA_PASSING_SCENES");
+  return given ? std::atoi(given) : 20;
+}
+
+TEST(Passing, NoRandomSceneEndsWithMoreOverlapThanWasCrushed) {
+  const int scenes = scene_count();
+  std::int64_t ground = 0, unpaired = 0, contacts = 0;
+  double deepest = 0;
+  int beyond = 0;
+  for (int seed = 0; seed < scenes; ++seed) {
+    const Simulation simulation = run(random_scene(static_cast<std::uint64_t>(seed)), 8);
+    const Passed passed = measure(simulation);
+    EXPECT_LE(passed.uncrushed, 0.01) << "seed " << seed << ": " << passed.where;
+    const simulation::Counts counts = simulation.counts();
+    ground += counts.ground;
+    unpaired += counts.unpaired_stretches;
+    contacts += counts.crush_contacts;
+    deepest = std::max(deepest, passed.overlapped);
+    beyond += passed.overlapped > 0.15 ? 1 : 0;
+  }
+  std::printf(
+      "%d scenes: %ld contacts crushed, %ld overlaps ground, %ld stretches unpaired; %d scenes end with more "
+      "than "
+      "15 %% of a floe overlapped, at most %.0f %%\n",
+      scenes, static_cast<long>(contacts), static_cast<long>(ground), static_cast<long>(unpaired), beyond,
+      100 * deepest);
+  EXPECT_GT(contacts, 0);
+}
+
+/// The first seconds of each, or as long as the long trial lasts.
+TEST(Passing, NoShippedSceneDoes) {
+  const bool is_long = scene_count() > 20;
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kSource / "scenes")) {
+    if (entry.path().extension() != ".json" || entry.path().stem().string().starts_with("field-")) continue;
+    simulation::Scene scene = read(entry.path());
+    const double until = std::min(scene.time.until, is_long ? 400.0 : 2.0);
+    const Simulation simulation = run(std::move(scene), until);
+    const Passed passed = measure(simulation);
+    EXPECT_LE(passed.uncrushed, 0.01) << entry.path() << ": " << passed.where;
+    if (is_long)
+      std::printf("%s, %g s: %.2f %% of a floe overlapped, %ld ground\n", entry.path().stem().c_str(), until,
+                  100 * passed.overlapped, static_cast<long>(simulation.counts().ground));
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 9);
+}
+
+TEST(Passing, TheDirectedTrialsDoNot) {
+  for (const char* name :
+       {"pierced_floe_4x3", "pierced_floe_backed", "pierced_floe_free", "pierced_in_random_scene_54"}) {
+    for (const auto law : {simulation::ContactLaw::kCrush, simulation::ContactLaw::kImpulse}) {
+      simulation::Scene scene = read(kSource / "tests/passing" / (std::string(name) + ".json"));
+      scene.contact.law = law;
+      const double until = scene.time.until;
+      const Simulation simulation = run(std::move(scene), until);
+      const Passed passed = measure(simulation);
+      std::printf("%s, %s: %.1f %% of a floe overlapped, %.1f %% not crushed, %ld ground\n", name,
+                  law == simulation::ContactLaw::kCrush ? "crush" : "impulse", 100 * passed.overlapped,
+                  100 * passed.uncrushed, static_cast<long>(simulation.counts().ground));
+      EXPECT_LE(passed.uncrushed, 0.01) << name << ": " << passed.where;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace polynya::tests
