@@ -60,6 +60,8 @@ class Jam {
       const ConstraintSpeeds now = speeds_at(c, bodies);
       speeds_.push_back({now.apart[0], now.apart[1], now.slip});
     }
+    before_constraints_.assign(constraints.begin(), constraints.end());
+    for (const std::int32_t body : body_of_) before_bodies_.push_back(bodies[index(body)]);
     take_out_impulses();
     without_ = velocities();
     loads_.resize(rows_.size());
@@ -84,6 +86,8 @@ class Jam {
       is_solved = way == 1 && largest < kConverged * slip_speed_;
     }
     enter_impulses();
+    is_solved = is_solved && missed_speed() < slip_speed_;
+    if (!is_solved) restore();
     return is_solved;
   }
 
@@ -251,10 +255,28 @@ class Jam {
     }
   }
 
+  /// By how much the impulses entered give other speeds than those they were found at, which they do short of
+  /// the minimum or where masses differ by more than doubles bear [m/s].
+  double missed_speed() const {
+    double largest = 0;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const ConstraintSpeeds now = speeds_at(constraints_[k], bodies_);
+      largest = std::max({largest, std::abs(now.apart[0] - speeds_[k][0]),
+                          std::abs(now.apart[1] - speeds_[k][1]), std::abs(now.slip - speeds_[k][2])});
+    }
+    return largest;
+  }
+  void restore() {
+    std::ranges::copy(before_constraints_, constraints_.begin());
+    for (std::size_t i = 0; i < body_of_.size(); ++i) bodies_[index(body_of_[i])] = before_bodies_[i];
+  }
+
   std::span<ContactConstraint> constraints_;
   std::span<const EndLaws> laws_;
   std::span<SolverBody> bodies_;
   double slip_speed_;
+  std::vector<ContactConstraint> before_constraints_;
+  std::vector<SolverBody> before_bodies_;
   std::vector<std::int32_t> body_of_;  ///< those free to move, three unknowns each
   std::vector<Rows> rows_;
   std::vector<Speeds> speeds_, changes_;

@@ -25,8 +25,8 @@ CrushResponse rigid_law(double inverse_mass);
 /// to where the slope vanishes. Ψ is friction: the slip impulse grows to its bound within `slip_speed` [m/s],
 /// and the bound, μ times the normal impulses, follows from one step to the next.
 ///
-/// Enters the impulses into the constraints and the velocities into the bodies. Bodies of prescribed motion
-/// are not changed. Returns whether it came to the minimum.
+/// Enters the impulses into the constraints and the velocities into the bodies and returns true where it came
+/// to the minimum; else both stay as they were. Bodies of prescribed motion are never changed.
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws,
                std::span<SolverBody> bodies, double slip_speed);
 
