@@ -110,11 +110,11 @@ void OverlapCheck::read_crushed(double time) {
   const auto key = [](const simulation::ContactState::Body& body) {
     return body.ship >= 0 ? -1 - BodyKey{body.ship} : body.floe;
   };
-  const auto rows = std::ranges::equal_range(run_.crushed, time, {}, &io::RunCrushed::time);
-  for (const io::RunCrushed& row : rows) {
-    const BodyKey on = key(row.overlap.on);
-    const BodyKey by = key(row.overlap.by);
-    crushed_[{std::min(on, by), std::max(on, by)}] = row.overlap.area;
+  auto row = std::ranges::lower_bound(run_.crushed, time, {}, &io::RunCrushed::time);
+  for (; row != run_.crushed.end() && row->time == time; ++row) {
+    const BodyKey on = key(row->overlap.on);
+    const BodyKey by = key(row->overlap.by);
+    crushed_[{std::min(on, by), std::max(on, by)}] = row->overlap.area;
   }
 }
 
