@@ -31,15 +31,14 @@ struct Rows {
 Rows rows_of(const ContactConstraint& c, int a, int b) {
   const geometry::Vector n = c.normal;
   const geometry::Vector t = perpendicular(n);
-  Rows rows{.of_a = {{-n.x, -n.y, -c.arm_cross_normal_a[0]},
-                     {-n.x, -n.y, -c.arm_cross_normal_a[1]},
-                     {-t.x, -t.y, -c.arm_cross_tangent_a}},
-            .of_b = {{n.x, n.y, c.arm_cross_normal_b[0]},
-                     {n.x, n.y, c.arm_cross_normal_b[1]},
-                     {t.x, t.y, c.arm_cross_tangent_b}},
-            .a = a,
-            .b = b};
-  return rows;
+  return {.of_a = {{-n.x, -n.y, -c.arm_cross_normal_a[0]},
+                   {-n.x, -n.y, -c.arm_cross_normal_a[1]},
+                   {-t.x, -t.y, -c.arm_cross_tangent_a}},
+          .of_b = {{n.x, n.y, c.arm_cross_normal_b[0]},
+                   {n.x, n.y, c.arm_cross_normal_b[1]},
+                   {t.x, t.y, c.arm_cross_tangent_b}},
+          .a = a,
+          .b = b};
 }
 
 /// The impulses of one contact on b at given speeds, and how they grow with them.
@@ -62,7 +61,8 @@ class Jam {
     }
     before_constraints_.assign(constraints.begin(), constraints.end());
     for (const std::int32_t body : body_of_) before_bodies_.push_back(bodies[index(body)]);
-    take_out_impulses();
+    for (ContactConstraint& c : constraints)
+      apply_impulses(c, -c.normal_impulse[0], -c.normal_impulse[1], -c.slip_impulse, bodies);
     without_ = velocities();
     loads_.resize(rows_.size());
     changes_.resize(rows_.size());
@@ -107,9 +107,8 @@ class Jam {
     mass_.resize(static_cast<Eigen::Index>(3 * body_of_.size()));
     for (std::size_t i = 0; i < body_of_.size(); ++i) {
       const SolverBody& body = bodies_[index(body_of_[i])];
-      const auto at = static_cast<Eigen::Index>(3 * i);
-      mass_[at] = mass_[at + 1] = 1 / body.inverse_mass;
-      mass_[at + 2] = 1 / body.inverse_moment;
+      const double mass = 1 / body.inverse_mass;
+      mass_.segment<3>(static_cast<Eigen::Index>(3 * i)) << mass, mass, 1 / body.inverse_moment;
     }
   }
   int unknown_of(std::int32_t body) const {
@@ -125,10 +124,6 @@ class Jam {
           body.angular_velocity;
     }
     return v;
-  }
-  void take_out_impulses() {
-    for (ContactConstraint& c : constraints_)
-      apply_impulses(c, -c.normal_impulse[0], -c.normal_impulse[1], -c.slip_impulse, bodies_);
   }
 
   ContactLoad load_at(std::size_t k, const Speeds& speeds) const {
