@@ -248,6 +248,7 @@ void CrushSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts, dou
     contact.normal_work = c.normal_work;
     contact.slip_work = c.slip_work;
     contact.is_broken = c.is_broken;
+    if (!c.is_rigid) contact.impulse_limit = contact.total_normal_impulse();  // all of it crushes
     contact.record->loaded_depth = c.loaded;
     const double steady = step * contact.crushing_force;
     contact.steady_share = c.missed > 0 ? steady / (steady + c.missed) : 1;

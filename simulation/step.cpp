@@ -25,7 +25,7 @@ void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contac
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
   for (dynamics::Contact& c : contacts) {
-    const bool is_at_limit = law == ContactLaw::kCrush ? !c.is_rigid : c.is_at_limit();
+    const bool is_at_limit = c.is_at_limit();
     (is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
     energy.friction -= c.slip_work;
     given += c.normal_work + c.slip_work;

@@ -54,6 +54,8 @@ Stop stop_of(const Scene& scene, double gap) {
   const double start = simulation.floe_states()[0].world_from_body.position.x;
   while (simulation.floe_states()[0].velocity.x < -1e-2 && simulation.time() < 2) {
     simulation.step();
+    for (const ContactState& state : simulation.contact_states())
+      EXPECT_EQ(state.is_crushing, length(state.force) > 0);
     for (const dynamics::Contact& c : simulation.world().step.contacts)
       stop.peak_force =
           std::max(stop.peak_force, c.steady_share * c.total_normal_impulse() / scene.time.step);
