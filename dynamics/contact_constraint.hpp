@@ -112,6 +112,20 @@ inline std::array<double, 2> impulses_to_rest(const ContactConstraint& k,
   return {std::clamp(p0, k.least[0], k.limit), std::clamp(p1, k.least[1], k.limit)};
 }
 
+/// The slip impulse that brings a contact line's slip to rest, within the Coulomb cone of its normal
+/// impulses, whose last changes the bodies do not have yet [N s].
+inline double slip_to_rest(const ContactConstraint& k, const SolverBody& a, const SolverBody& b,
+                           double change_0, double change_1) {
+  const double omega_a = a.angular_velocity - a.inverse_moment * (change_0 * k.arm_cross_normal_a[0] +
+                                                                  change_1 * k.arm_cross_normal_a[1]);
+  const double omega_b = b.angular_velocity + b.inverse_moment * (change_0 * k.arm_cross_normal_b[0] +
+                                                                  change_1 * k.arm_cross_normal_b[1]);
+  const double slip = dot(b.velocity - a.velocity, perpendicular(k.normal)) +
+                      omega_b * k.arm_cross_tangent_b - omega_a * k.arm_cross_tangent_a;
+  const double most = k.friction * (k.normal_impulse[0] + k.normal_impulse[1]);
+  return std::clamp(k.slip_impulse - slip * k.slip_mass, -most, most);
+}
+
 /// Brings both ends of a contact line to rest within their bounds, then its slip within the Coulomb cone.
 /// Returns the largest change of a velocity at the contact [m/s].
 inline double solve_constraint(ContactConstraint& k, std::span<SolverBody> solver_bodies) {
@@ -127,16 +141,8 @@ inline double solve_constraint(ContactConstraint& k, std::span<SolverBody> solve
   const double change_1 = impulses[1] - k.normal_impulse[1];
   k.normal_impulse[0] = impulses[0];
   k.normal_impulse[1] = impulses[1];
-
-  const double omega_a = a.angular_velocity - a.inverse_moment * (change_0 * k.arm_cross_normal_a[0] +
-                                                                  change_1 * k.arm_cross_normal_a[1]);
-  const double omega_b = b.angular_velocity + b.inverse_moment * (change_0 * k.arm_cross_normal_b[0] +
-                                                                  change_1 * k.arm_cross_normal_b[1]);
-  const double slip = dot(b.velocity - a.velocity, perpendicular(k.normal)) +
-                      omega_b * k.arm_cross_tangent_b - omega_a * k.arm_cross_tangent_a;
-  const double most = k.friction * (impulses[0] + impulses[1]);
   const double slip_before = k.slip_impulse;
-  k.slip_impulse = std::clamp(slip_before - slip * k.slip_mass, -most, most);
+  k.slip_impulse = slip_to_rest(k, a, b, change_0, change_1);
   const double slip_change = k.slip_impulse - slip_before;
   apply_impulses(k, change_0, change_1, slip_change, solver_bodies);
   return std::max({std::abs(change_0) * k.inverse_mass_at[0], std::abs(change_1) * k.inverse_mass_at[1],

@@ -15,21 +15,6 @@ constexpr int kPlainSweeps = 4;     ///< before the acceleration; most islands n
 constexpr int kSweepsToJam = 24;    ///< an island that needs more is jammed: Newton's method, now and again
 constexpr double kSlipShare = 0.5;  ///< of the tolerance: speed within which friction grows to its bound
 
-/// Brings the slip of a contact line within the Coulomb cone of its normal impulses. Returns the change of
-/// the slip impulse [N s].
-double slip_change(const ContactConstraint& constraint, const SolverBody& a, const SolverBody& b,
-                   double change_0, double change_1) {
-  const double turn_a = a.angular_velocity - a.inverse_moment * (change_0 * constraint.arm_cross_normal_a[0] +
-                                                                 change_1 * constraint.arm_cross_normal_a[1]);
-  const double turn_b = b.angular_velocity + b.inverse_moment * (change_0 * constraint.arm_cross_normal_b[0] +
-                                                                 change_1 * constraint.arm_cross_normal_b[1]);
-  const double slip = dot(b.velocity - a.velocity, perpendicular(constraint.normal)) +
-                      turn_b * constraint.arm_cross_tangent_b - turn_a * constraint.arm_cross_tangent_a;
-  const double most = constraint.friction * (constraint.normal_impulse[0] + constraint.normal_impulse[1]);
-  return std::clamp(constraint.slip_impulse - slip * constraint.slip_mass, -most, most) -
-         constraint.slip_impulse;
-}
-
 }  // namespace
 
 void CrushSolver::fill(const Bodies& bodies, const std::vector<Contact>& contacts,
@@ -144,7 +129,7 @@ double CrushSolver::sweep(const Island& island, const CrushSettings& settings) {
       const double change_1 = impulse[1] - p1;
       constraint.normal_impulse[0] = impulse[0];
       constraint.normal_impulse[1] = impulse[1];
-      const double slip = slip_change(constraint, a, b, change_0, change_1);
+      const double slip = slip_to_rest(constraint, a, b, change_0, change_1) - constraint.slip_impulse;
       constraint.slip_impulse += slip;
       apply_impulses(constraint, change_0, change_1, slip, solver_bodies_);
       violation =
