@@ -12,6 +12,23 @@ constexpr double kSingular = 1e-9;
 
 }  // namespace
 
+void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched,
+                 std::vector<SolverBody>& solver_bodies) {
+  solver_bodies.clear();
+  for (const BodyIndex body : touched) {
+    solver_bodies.push_back({bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
+                             bodies.inverse_moment[body]});
+  }
+}
+
+void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched,
+                      Bodies& bodies) {
+  for (std::size_t place = 0; place < touched.size(); ++place) {
+    bodies.velocity[touched[place]] = solver_bodies[place].velocity;
+    bodies.angular_velocity[touched[place]] = solver_bodies[place].angular_velocity;
+  }
+}
+
 ContactConstraint make_constraint(const Bodies& bodies, const Contact& c, std::int32_t place_of_a,
                                   std::int32_t place_of_b, std::span<const SolverBody> solver_bodies) {
   ContactConstraint k;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "dynamics/contact.hpp"
 
@@ -16,6 +17,12 @@ struct SolverBody {
   double inverse_mass;        ///< 0: prescribed motion [1/kg]
   double inverse_moment;      ///< 0: prescribed motion [1/(kg m²)]
 };
+
+/// Those that touch, and the velocities found for them.
+void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched,
+                 std::vector<SolverBody>& solver_bodies);
+void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched,
+                      Bodies& bodies);
 
 /// The constraint of one contact line, with the impulses found so far; [0] and [1] are its ends. With J_e the
 /// row that gives the separating speed at end e from the velocities of the two bodies,

@@ -19,11 +19,7 @@ constexpr double kSlipShare = 0.5;  ///< of the tolerance: speed within which fr
 
 void CrushSolver::fill(const Bodies& bodies, const std::vector<Contact>& contacts,
                        const CrushSettings& settings) {
-  solver_bodies_.clear();
-  for (const BodyIndex body : islands_.bodies_touched()) {
-    solver_bodies_.push_back({bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
-                              bodies.inverse_moment[body]});
-  }
+  take_bodies(bodies, islands_.bodies_touched(), solver_bodies_);
   constraints_.resize(contacts.size());
   crushing_.resize(contacts.size());
   before_.resize(contacts.size());
@@ -242,11 +238,7 @@ void CrushSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts, dou
     contact.prescribed_work =
         is_prescribed ? prescribed_work(constraint, solver_bodies_, bodies, contact) : 0;
   }
-  for (std::size_t place = 0; place < solver_bodies_.size(); ++place) {
-    const BodyIndex body = islands_.bodies_touched()[place];
-    bodies.velocity[body] = solver_bodies_[place].velocity;
-    bodies.angular_velocity[body] = solver_bodies_[place].angular_velocity;
-  }
+  give_back_bodies(solver_bodies_, islands_.bodies_touched(), bodies);
 }
 
 SolverResult CrushSolver::solve(Bodies& bodies, std::vector<Contact>& contacts,

@@ -23,11 +23,7 @@ constexpr std::size_t kContactsPerChunk = 256;
 
 void ImpulseSolver::fill_constraints(const Bodies& bodies, std::vector<Contact>& contacts,
                                      const SolverSettings& settings) {
-  solver_bodies_.clear();
-  for (const BodyIndex body : islands_.bodies_touched()) {
-    solver_bodies_.push_back({bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
-                              bodies.inverse_moment[body]});
-  }
+  take_bodies(bodies, islands_.bodies_touched(), solver_bodies_);
   constraints_.resize(contacts.size());
   directions_.resize(contacts.size());
   before_.resize(contacts.size());
@@ -185,11 +181,7 @@ void ImpulseSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts) {
         solver_bodies_[constraint.a].inverse_mass == 0 || solver_bodies_[constraint.b].inverse_mass == 0;
     c.prescribed_work = is_prescribed ? prescribed_work(constraint, solver_bodies_, bodies, c) : 0;
   }
-  for (std::size_t place = 0; place < solver_bodies_.size(); ++place) {
-    const BodyIndex body = islands_.bodies_touched()[place];
-    bodies.velocity[body] = solver_bodies_[place].velocity;
-    bodies.angular_velocity[body] = solver_bodies_[place].angular_velocity;
-  }
+  give_back_bodies(solver_bodies_, islands_.bodies_touched(), bodies);
 }
 
 SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts,
