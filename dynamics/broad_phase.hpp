@@ -56,6 +56,14 @@ class BroadPhase {
   /// Adds saved pairs, after all bodies have been added. Their caches are filled again as they are used.
   void restore(const Bodies& bodies, const std::vector<PairState>& pairs);
 
+  /// Calls use(body) for each body whose box may meet the box, more than once where it is large.
+  template <class Use>
+  void for_bodies_near(const geometry::Box& box, Use use) const {
+    grid_.for_each_near(box, [&](BodyIndex body) {
+      if (overlaps(entries_[static_cast<std::size_t>(body)].box, box)) use(body);
+    });
+  }
+
   /// Calls use(a, b, area) for each pair, in no order: the overlap of its bodies that has pressed [m²].
   template <class Use>
   void for_loaded_overlaps(Use use) const {

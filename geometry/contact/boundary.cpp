@@ -29,7 +29,12 @@ std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t 
   return index;
 }
 
-/// By the parity of edges to the right of it: holes count.
+double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
+  return distance(a.centre, b_centre_in_a) - a.reach - b.reach;
+}
+
+}  // namespace
+
 bool is_inside(const EdgeList& edges, Point p) {
   bool inside = false;
   for (std::uint32_t edge = 0; edge < edges.size(); ++edge) {
@@ -40,12 +45,6 @@ bool is_inside(const EdgeList& edges, Point p) {
   }
   return inside;
 }
-
-double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
-  return distance(a.centre, b_centre_in_a) - a.reach - b.reach;
-}
-
-}  // namespace
 
 Boundary make_outline(const Polygon& polygon) {
   Boundary boundary;

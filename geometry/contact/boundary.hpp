@@ -159,6 +159,9 @@ inline bool is_blind(double width, double area, double extent) {
   return width * extent < kBlindShare * area;
 }
 
+/// Whether a point is inside, by the parity of edges to the right of it: not in holes. In doubles.
+bool is_inside(const EdgeList& edges, Point p);
+
 /// Whether boundaries that do not cross are one inside the other.
 bool is_one_inside(const Boundary& a, const Boundary& b, const Pose& a_from_b);
 
