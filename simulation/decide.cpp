@@ -246,6 +246,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
   else
     c.impulse_limit = horizontal * load.normal_force * dt;
   c.friction = load.shares.tangential / horizontal;
+  step.slopes.back() = {load.shares.vertical / horizontal, std::tan(load.hull_angle)};
   const PendingFracture pending = evaluate(setup, population, load, counts);
   const bool breaks =
       pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
@@ -261,6 +262,7 @@ void decide(const Setup& setup, const Clock& clock, int threads, const Populatio
             Counts& counts) {
   constexpr std::size_t kContactsPerChunk = 128;  // fewer are not worth another thread
   step.fractures.clear();
+  step.slopes.clear();
   step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
   dynamics::for_chunks(step.contacts.size(), kContactsPerChunk, threads,
                        [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -272,6 +274,7 @@ void decide(const Setup& setup, const Clock& clock, int threads, const Populatio
                        });
   for (Contact& c : step.contacts) {  // by (a, b): those of ships come first
     if (!population.is_ship(c.a)) break;
+    step.slopes.emplace_back();
     c.is_rigid = population.is_ship(c.b);  // steel against steel does not crush
     if (!c.is_rigid) decide_at_ship(setup, clock, population, c, step, counts);
   }

@@ -51,8 +51,8 @@ Audit audit(const AuditSums& sums, double kinetic_energy, Vector momentum) {
   const MomentumFlows& m = audit.sums.momentum;
   audit.kinetic_energy = kinetic_energy;
   const double in = e.thrust + e.current;
-  const double out =
-      e.drag + e.friction + e.restitution + e.crushing + e.bending + e.splitting + e.grinding + e.rest;
+  const double out = e.drag + e.friction + e.restitution + e.crushing + e.bending + e.splitting + e.grinding +
+                     e.submersion + e.submerged_ice + e.rest;
   audit.energy_imbalance = audit.kinetic_energy - audit.sums.initial_energy - in + out;
   audit.turnover = audit.sums.initial_energy + std::abs(e.thrust) + std::abs(e.current) + std::abs(out);
   audit.total_momentum = momentum;

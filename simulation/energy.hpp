@@ -13,19 +13,21 @@ struct EnergyFlows {
   double drag = 0;      ///< out: relative to the water around
   double friction = 0;  ///< out: along contact lines
   double restitution =
-      0;                 ///< out: across contact lines that did not crush, which restitution does not return
-  double crushing = 0;   ///< out: across contact lines that pressed with all that crushing ice carries
-  double bending = 0;    ///< out: the motion of the cusps and brash that bending took out of the floe list
-  double splitting = 0;  ///< out: the same of splits
-  double grinding = 0;   ///< out: the same of overlaps that were ground to brash
-  double rest = 0;       ///< out: what was left to floes that came to rest
+      0;                  ///< out: across contact lines that did not crush, which restitution does not return
+  double crushing = 0;    ///< out: across contact lines that pressed with all that crushing ice carries
+  double bending = 0;     ///< out: the motion of the cusps and brash that bending took out of the floe list
+  double splitting = 0;   ///< out: the same of splits
+  double grinding = 0;    ///< out: the same of overlaps that were ground to brash
+  double submersion = 0;  ///< out: the motion of ice that went under a hull
+  double submerged_ice = 0;  ///< out: of ships, to the ice under their hulls
+  double rest = 0;           ///< out: what was left to floes that came to rest
 };
 
 /// Impulses from outside on everything free to move, summed over all steps [N s]. In the water frame.
 struct MomentumFlows {
   geometry::Vector thrust;   ///< of ships' propellers
   geometry::Vector held;     ///< through contacts with bodies of prescribed motion
-  geometry::Vector water;    ///< of drag and current
+  geometry::Vector water;    ///< of drag and current, and of the ice under hulls
   geometry::Vector removed;  ///< with what left the floe list, and what rest took
 };
 

@@ -46,14 +46,25 @@ void reject(const Setup& setup, const Clock& clock, const PendingFracture& pendi
   pending.record->was_refused = true;
 }
 
+InsideFate fate_of_cusp(const Setup& setup, int ship) {
+  switch (setup.scene.fracture.cusp_fate) {
+    case CuspFate::kFloat:
+      return InsideFate::kFloats;
+    case CuspFate::kUnderHull:
+      return setup.underwater[ship].can_take_ice ? InsideFate::kUnderHull : InsideFate::kSubmerged;
+    case CuspFate::kSubmerge:
+      break;
+  }
+  return InsideFate::kSubmerged;
+}
+
 /// What becomes of the floe's pieces.
 Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFracture& pending) {
   if (pending.failure != fracture::Failure::kBend)
     return {event_of(clock, pending, EventKind::kSplit), InsideFate::kFloats, &EnergyFlows::splitting,
             &Counts::splits};
-  const bool is_submerged = setup.scene.fracture.cusp_fate == CuspFate::kSubmerge;
-  return {event_of(clock, pending, EventKind::kBend),
-          is_submerged ? InsideFate::kSubmerged : InsideFate::kFloats, &EnergyFlows::bending, &Counts::bends};
+  return {event_of(clock, pending, EventKind::kBend), fate_of_cusp(setup, pending.ship),
+          &EnergyFlows::bending, &Counts::bends};
 }
 
 }  // namespace
@@ -62,7 +73,7 @@ void apply_fractures(const Setup& setup, const Clock& clock, std::vector<Pending
                      Population& population, Accounts& accounts, Journal& journal) {
   std::ranges::stable_sort(fractures, {}, &PendingFracture::floe);
   for (const PendingFracture& pending : fractures) {
-    if (!population.is_alive(pending.floe))
+    if (!population.is_floating(pending.floe))
       continue;  // it broke in this step already; its pieces may break in the next
     const geometry::Shape& shape = population.floes[pending.floe].shape;
     const geometry::CutOutcome outcome = cut(setup, shape, pending);

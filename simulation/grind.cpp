@@ -70,6 +70,8 @@ void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vec
   for (const BlindOverlap& overlap : overlaps) {
     const dynamics::Bodies& bodies = population.bodies;
     if (!bodies.is_alive[overlap.a] || !bodies.is_alive[overlap.b]) continue;  // broken in this step
+    if (!population.is_ship(overlap.a) && !population.is_floating(population.floe_of(overlap.a))) continue;
+    if (!population.is_floating(population.floe_of(overlap.b))) continue;
     const std::pair<std::int64_t, std::int64_t> both{overlap.a, overlap.b};
     if (std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end()) continue;
     const GrindCriterion criterion = criterion_of(population, overlap);

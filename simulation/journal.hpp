@@ -13,7 +13,15 @@ namespace polynya::simulation {
 using FloeId = std::int64_t;
 inline constexpr FloeId kNoFloe = -1;
 
-enum class EventKind { kBend, kSplit, kGrind, kRejectedCut };
+enum class EventKind {
+  kBend,
+  kSplit,
+  kGrind,
+  kRejectedCut,
+  kSubmerge,   ///< a floe or a broken cusp went under a hull
+  kResurface,  ///< it came up behind it
+  kStayUnder,  ///< it found no room and stays under the ice
+};
 std::string_view name_of(EventKind kind);
 
 /// What decides that an overlap is ground to brash: it is large, and no motion of the bodies reduces it (the
@@ -25,7 +33,24 @@ struct GrindCriterion {
   double least_width = 0;   ///< a wider overlap is left to its contact [m]
 };
 
-/// A fracture, ground ice, or a cut that geometry refused. Written as one line of events.ndjson.
+/// What decides that a floe goes under.
+struct TiltCriterion {
+  double deflection = 0;        ///< w of its edge [m]
+  double least_deflection = 0;  ///< c_g h; 0 of a cusp, which goes under as it breaks off [m]
+  double vertical_force = 0;    ///< V on it in the step [N]
+  double capacity = 0;          ///< V_rot [N]
+};
+
+/// What decides that ice comes up, or stays under.
+struct ResurfaceCriterion {
+  double path = 0;          ///< s, how far the ship has come over it [m]
+  double least_path = 0;    ///< s̄, of the hull [m]
+  double waited = 0;        ///< for room [s]
+  double longest_wait = 0;  ///< [s]
+};
+
+/// A fracture, ground ice, ice that goes under or comes up, or a cut that geometry refused. Written as one
+/// line of events.ndjson.
 struct Event {
   double time = 0;  ///< [s]
   EventKind kind = EventKind::kBend;
@@ -37,9 +62,13 @@ struct Event {
   geometry::Vector normal_in_world;    ///< unit, from the hull into the ice
   fracture::FailureCriteria criteria;  ///< both sides of what was decided
   GrindCriterion grinding;             ///< of ground ice
+  TiltCriterion tilting;               ///< of ice that goes under
+  ResurfaceCriterion resurfacing;      ///< of ice that comes up or stays under
   double cusp_radius = 0;              ///< R, bends only [m]
   double penetration = 0;              ///< ξ when it broke [m]
-  double submerged_area = 0;           ///< [m²]
+  double submerged_area = 0;           ///< gone under the ship for good [m²]
+  double under_hull_area = 0;          ///< gone under it, to come up [m²]
+  double under_ice_area = 0;           ///< staying under the ice behind it [m²]
   double brash_area = 0;               ///< pieces below the size limit and slivers [m²]
   double rounding_defect = 0;          ///< [m²]
   std::string reason;                  ///< of a rejected cut
@@ -116,8 +145,11 @@ struct ShipSample {
   geometry::Vector velocity_in_world;  ///< over ground [m/s]
   double yaw_rate = 0;                 ///< [rad/s]
   double thrust = 0;  ///< along the heading; for a constant-speed ship the force that kept its speed [N]
-  int contacts = 0;   ///< with ice, at the sampled step
-  int contacts_with_ships = 0;  ///< with other ships and structures, at the sampled step
+  double surge_from_submerged = 0;  ///< of the ice under the hull, mean over the interval [N]
+  double yaw_from_submerged = 0;    ///< likewise [N m]
+  double submerged_area = 0;        ///< ice under the hull, at the sampled step [m²]
+  int contacts = 0;                 ///< with ice, at the sampled step
+  int contacts_with_ships = 0;      ///< with other ships and structures, at the sampled step
 };
 
 /// What happened since the caller last cleared it; the vectors keep their capacity.
@@ -138,14 +170,17 @@ struct Journal {
   }
 };
 
-/// Where all the ice went [m²]. initial = floes + submerged + brash + rounding, up to `imbalance`.
+/// Where all the ice went [m²]. initial = floes + under hulls + under ice + submerged + brash − rounding, up
+/// to `imbalance`.
 struct AreaLedger {
   double initial_ice_area = 0;
   double floe_area = 0;
-  double submerged_area = 0;
+  double under_hull_area = 0;  ///< of tiles, also of those that wait for room
+  double under_ice_area = 0;   ///< of those that found none
+  double submerged_area = 0;   ///< gone by cusp_fate submerge
   double brash_area = 0;
   double rounding_defect = 0;  ///< what rounding added (+) or took (−)
-  double imbalance = 0;        ///< floes + submerged + brash − rounding − initial
+  double imbalance = 0;        ///< the sum of all places − rounding − initial
 };
 
 struct Counts {
@@ -154,6 +189,10 @@ struct Counts {
   std::int64_t bends = 0;
   std::int64_t splits = 0;
   std::int64_t ground = 0;          ///< overlaps ground to brash
+  std::int64_t tilted_under = 0;    ///< floes that tilted under a hull
+  std::int64_t went_under = 0;      ///< the same and broken cusps
+  std::int64_t came_up = 0;         ///< of them
+  std::int64_t stayed_under = 0;    ///< of them
   std::int64_t crush_contacts = 0;  ///< contacts (not steps) at which ice crushed
   std::int64_t rejected_cuts = 0;
   std::int64_t floated_cusps = 0;

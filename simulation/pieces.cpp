@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "geometry/exact/measures.hpp"
+#include "simulation/going_under.hpp"
 #include "simulation/limits.hpp"
 
 namespace polynya::simulation {
@@ -55,6 +56,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   NewFloe child = child_of(population, event.floe);
   const auto pressed = population.pairs.inheritance_of(population.bodies, population.body_of(event.floe));
   retire_floe(event.floe, population, journal);
+  std::vector<Event> submersions;  // of pieces that go under the hull
   double& energy_sink = accounts.audit.energy.*breakage.energy_sink;
   for (const geometry::Piece& piece : cut.pieces) {
     const geometry::Measures measures = geometry::measure(piece.shape.polygon);
@@ -70,9 +72,15 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
     }
     child.shape = piece.shape;
     const FloeId id = add_floe(setup, clock, child, measures, population, journal);
+    event.children.push_back(id);
+    if (is_inside && breakage.inside == InsideFate::kUnderHull) {
+      event.under_hull_area += measures.area;
+      submersions.push_back(submersion_event(clock, population, id, event.ship));
+      go_under(setup, clock, id, event.ship, population, accounts);
+      continue;
+    }
     wake(population.body_of(id), population);
     population.pairs.inherit(population.bodies, population.body_of(id), pressed);
-    event.children.push_back(id);
     accounts.counts.floated_cusps += is_inside ? 1 : 0;
   }
   event.brash_area += cut.ledger.area_slivers;
@@ -80,6 +88,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   enter_areas(event, cut.ledger, accounts);
   ++(accounts.counts.*breakage.count);
   journal.events.push_back(std::move(event));
+  for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));
 }
 
 }  // namespace polynya::simulation

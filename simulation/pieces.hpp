@@ -5,7 +5,7 @@
 namespace polynya::simulation {
 
 /// What becomes of the pieces inside the cutting polygon.
-enum class InsideFate { kFloats, kSubmerged, kBrash };
+enum class InsideFate { kFloats, kSubmerged, kUnderHull, kBrash };
 
 /// A floe that breaks: what is recorded of it, and where it is counted.
 struct Breakage {

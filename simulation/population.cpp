@@ -80,7 +80,7 @@ FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
   // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
   body.angular_velocity = floe.angular_velocity;
-  population.floes.push_back({floe.parent, clock.time(), floe.generation, measures.area, floe.shape});
+  population.floes.push_back({floe.parent, clock.time(), floe.generation, measures.area, floe.shape, false});
   const BodyIndex index = add_body(population.bodies, body);
   assert(population.floe_of(index) == id);
   population.pairs.add(population.bodies, index);
@@ -101,6 +101,7 @@ void retire_floe(FloeId floe, Population& population, Journal& journal) {
   }
   bodies.boundary[body].reset();
   bodies.drag[body].reset();
+  population.floes[floe].is_under = false;
   journal.deaths.push_back({floe, std::move(population.floes[floe].shape.polygon)});
   population.floes[floe].shape = {};
 }

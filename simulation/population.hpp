@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dynamics/broad_phase.hpp"
+#include "fracture/tilting.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/journal.hpp"
@@ -19,6 +20,24 @@ struct Floe {
   int generation = 0;     ///< fractures since the scene's floe
   double area = 0;        ///< [m²]
   geometry::Shape shape;  ///< body frame: the scene's coordinates of its oldest ancestor; empty once it broke
+  bool is_under = false;  ///< a tile under a hull: it meets no body, and rests in the water
+};
+
+/// A floe that a ship's hull presses down.
+struct TiltedFloe {
+  FloeId floe = 0;
+  int ship = 0;
+  fracture::EdgeMotion edge;
+};
+
+/// A floe under a ship's hull, or under the ice behind it.
+struct Tile {
+  FloeId floe = 0;
+  int ship = 0;         ///< whose hull it is under
+  double path = 0;      ///< s: how far the ship has come over it [m]
+  double weight = 0;    ///< w_t: buoyancy of its part within the beam, when it went under [N]
+  double next_try = 0;  ///< of coming up [s]
+  double waited = 0;    ///< clear of the hull, for room [s]
 };
 
 /// The ships and floes of a run, where they are and how they move.
@@ -26,16 +45,19 @@ struct Population {
   explicit Population(const Setup& setup);
 
   int ship_count = 0;
-  dynamics::Bodies bodies;       ///< the ships first, then floes by id
-  std::vector<Floe> floes;       ///< by id
-  std::vector<BodyIndex> awake;  ///< ascending
-  dynamics::BroadPhase pairs;    ///< of bodies that may touch, with the memory of their contacts
+  dynamics::Bodies bodies;         ///< the ships first, then floes by id
+  std::vector<Floe> floes;         ///< by id
+  std::vector<BodyIndex> awake;    ///< ascending
+  dynamics::BroadPhase pairs;      ///< of bodies that may touch, with the memory of their contacts
+  std::vector<TiltedFloe> tilted;  ///< by (ship, floe)
+  std::vector<Tile> tiles;         ///< in the order in which they went under
 
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
   bool is_ship(BodyIndex body) const { return body < ship_count; }
   BodyIndex body_of(FloeId floe) const { return static_cast<BodyIndex>(floe) + ship_count; }
   FloeId floe_of(BodyIndex body) const { return body - ship_count; }
   bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
+  bool is_floating(FloeId floe) const { return is_alive(floe) && !floes[floe].is_under; }
 };
 
 /// A floe to be added; the population gives it an id and a body.

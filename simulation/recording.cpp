@@ -44,6 +44,9 @@ void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
 void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
   add_step(sum.ice, step.ice, dt);
   add_step(sum.ships, step.ships, dt);
+  sum.submerged.impulse += step.submerged.impulse;
+  sum.submerged.angular_impulse += step.submerged.angular_impulse;
+  sum.submerged.area = step.submerged.area;
   sum.peak = larger(sum.peak, step.peak);
   sum.peak_moment = larger(sum.peak_moment, step.peak_moment);
 }
@@ -74,7 +77,10 @@ ShipSample sample_of(const Setup& setup, const Clock& clock, const dynamics::Bod
   sample.velocity_in_world = bodies.velocity[ship] + clock.water_drift;
   sample.yaw_rate = bodies.angular_velocity[ship];
   const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion);
-  const double resisted = sample.surge_force + sample.surge_from_ships;
+  sample.surge_from_submerged = -loads.submerged.impulse / interval;
+  sample.yaw_from_submerged = loads.submerged.angular_impulse / interval;
+  sample.submerged_area = loads.submerged.area;
+  const double resisted = sample.surge_force + sample.surge_from_ships + sample.surge_from_submerged;
   sample.thrust = thrust != nullptr ? thrust->thrust : -resisted;
   sample.contacts = loads.ice.contacts;
   sample.contacts_with_ships = loads.ships.contacts;

@@ -24,6 +24,10 @@ bool splits_by_j_over_tau_c(const Scene& scene) {
   return scene.fracture.splitting == fracture::SplittingModel::kMichel;
 }
 
+bool has_draught(const Scene& scene) {
+  return std::ranges::any_of(scene.ships, [](const ShipSpec& ship) { return ship.hull.draught > 0; });
+}
+
 geometry::Ring cylinder_waterline(double radius) {
   constexpr double kSagitta = 0.01;  // [m]
   const double half_turn = std::acos(std::max(-1.0, 1 - kSagitta / radius));

@@ -9,6 +9,7 @@
 #include "fracture/characteristic_length.hpp"
 #include "fracture/materials.hpp"
 #include "fracture/splitting.hpp"
+#include "fracture/tilting.hpp"
 #include "geometry/shape/polygon.hpp"
 
 namespace polynya::simulation {
@@ -62,7 +63,26 @@ struct ContactSettings {
 };
 
 enum class BendingModelKind { kNevel, kKashtelyan, kFsiDatabase };
-enum class CuspFate { kSubmerge, kFloat };
+enum class CuspFate {
+  kSubmerge,   ///< gone, the paper's
+  kFloat,      ///< a floe
+  kUnderHull,  ///< under the hull until it comes up behind; gone at a hull without a draught
+};
+
+/// How floes go under inclined hulls with a draught.
+struct GoingUnderSettings {
+  bool is_enabled = false;
+  fracture::TiltSettings tilting;
+};
+
+/// How ice comes up that went under a hull.
+struct ResurfaceSettings {
+  bool is_enabled = false;
+  double retry = 1;        ///< time between two tries where there was no room [s]
+  double give_up = 120;    ///< time without room after which it stays under the ice [s]
+  double rim_loss = 0.05;  ///< share of a piece's area that becomes brash, evenly off its rim [-]
+  double scatter = 0.2;    ///< deviation of its place, of √area, and of its turn, of a half turn [-]
+};
 
 struct FractureSettings {
   fracture::CharacteristicLength characteristic_length = fracture::CharacteristicLength::kFourthRoot;
@@ -71,6 +91,8 @@ struct FractureSettings {
   fracture::SplittingModel splitting = fracture::SplittingModel::kMichel;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
   CuspFate cusp_fate = CuspFate::kSubmerge;
+  GoingUnderSettings going_under;
+  ResurfaceSettings resurface;
   double cusp_sagitta = 0.02;       ///< a cusp's polygon stays this close to its circle [m]
   double smallest_floe_area = 0.1;  ///< smaller pieces leave the floe list as brash [m²]
 };
@@ -79,6 +101,8 @@ struct FractureSettings {
 struct Hull {
   geometry::Ring waterline;                  ///< counter-clockwise
   double stem_angle = 0.5236;                ///< φ, of the stem from the horizontal [rad]
+  double draught = 0;                        ///< T; 0: no ice goes under this hull [m]
+  bool has_speed_factor = true;              ///< Lindqvist's factor of speed on the load of ice under it
   std::vector<double> angles_from_vertical;  ///< θ_s per waterline vertex [rad]; empty: from the stem angle
 };
 
@@ -158,6 +182,9 @@ struct Shortcuts {
   bool culls = true;   ///< pairs of bodies are not collided while they cannot touch
   bool sleeps = true;  ///< floes at rest that touch nothing are not stepped
 };
+
+/// Whether ice can go under a ship's hull.
+bool has_draught(const Scene& scene);
 
 /// A wedge-bowed waterline of the given length and beam [m]: straight flanks from the stem at the entrance
 /// angle from the centreline [rad], a parallel midbody, a square stern. Origin amidships.

@@ -32,7 +32,27 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   solver.restitution = scene.contact.restitution;
   solver.max_iterations = scene.contact.iterations;
   separation.time = scene.contact.separation_time;
+  for (const ShipSpec& ship : scene.ships) underwater.push_back(underwater_of(ship.hull));
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
+}
+
+Underwater underwater_of(const Hull& hull) {
+  const geometry::Box box = bounding_box(hull.waterline);
+  const double half_beam = 0.5 * (box.high.y - box.low.y);
+  const double middle = 0.5 * (box.high.y + box.low.y);
+  double widest = box.low.x;  // the foremost place with the full beam
+  for (const geometry::Point p : hull.waterline) {
+    if (std::abs(p.y - middle) > (1 - 1e-6) * half_beam) widest = std::max(widest, p.x);
+  }
+  Underwater underwater;
+  underwater.form = {.length = box.high.x - box.low.x,
+                     .beam = 2 * half_beam,
+                     .draught = hull.draught,
+                     .stem_angle = hull.stem_angle,
+                     .entrance_angle = std::atan2(half_beam, box.high.x - widest)};
+  underwater.can_take_ice = hull.draught > 0;
+  if (underwater.can_take_ice) underwater.path = dynamics::submersion_path(underwater.form);
+  return underwater;
 }
 
 dynamics::ShearCurrent current_of(const ShearSettings& shear) {

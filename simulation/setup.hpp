@@ -5,11 +5,19 @@
 
 #include "dynamics/impulse_solver.hpp"
 #include "dynamics/separation.hpp"
+#include "dynamics/submerged_ice.hpp"
 #include "dynamics/water_drag.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "simulation/scene.hpp"
 
 namespace polynya::simulation {
+
+/// What ice under a ship's hull meets.
+struct Underwater {
+  dynamics::HullForm form;
+  dynamics::SubmersionPath path;
+  bool can_take_ice = false;  ///< it has a draught
+};
 
 /// What a run is computed with, the same from its first step to its last.
 struct Setup {
@@ -21,8 +29,13 @@ struct Setup {
   dynamics::ShearCurrent current;  ///< in the water frame
   dynamics::SolverSettings solver;
   dynamics::SeparationSettings separation;
+  std::vector<Underwater> underwater;  ///< per ship
   std::int64_t steps_per_sample = 1;
 };
+
+/// A hull's underwater form by its waterline, stem angle and draught. Its entrance angle is the mean one of
+/// the bow: tan α = ½ B / (distance from the stem to where the waterline is widest).
+Underwater underwater_of(const Hull& hull);
 
 /// The scene's sheared current, as the water drag takes it.
 dynamics::ShearCurrent current_of(const ShearSettings& shear);

@@ -24,6 +24,12 @@ std::string_view name_of(EventKind kind) {
       return "grind";
     case EventKind::kRejectedCut:
       return "rejected_cut";
+    case EventKind::kSubmerge:
+      return "submerge";
+    case EventKind::kResurface:
+      return "resurface";
+    case EventKind::kStayUnder:
+      return "stay_under";
   }
   return "unknown";
 }
@@ -117,9 +123,11 @@ AreaLedger Simulation::area_ledger() const {
   const Population& population = world_->population;
   AreaLedger ledger = world_->accounts.ledger;
   for (FloeId id = 0; id < population.floe_count(); ++id) {
-    if (population.is_alive(id)) ledger.floe_area += population.floes[id].area;
+    if (!population.is_alive(id)) continue;
+    (population.floes[id].is_under ? ledger.under_hull_area : ledger.floe_area) += population.floes[id].area;
   }
-  ledger.imbalance = ledger.floe_area + ledger.submerged_area + ledger.brash_area - ledger.rounding_defect -
+  ledger.imbalance = ledger.floe_area + ledger.under_hull_area + ledger.under_ice_area +
+                     ledger.submerged_area + ledger.brash_area - ledger.rounding_defect -
                      ledger.initial_ice_area;
   return ledger;
 }
@@ -128,34 +136,53 @@ Counts Simulation::counts() const {
   const Population& population = world_->population;
   Counts counts = world_->accounts.counts;
   counts.steps = world_->clock.steps;
-  for (FloeId id = 0; id < population.floe_count(); ++id) counts.floes_final += population.is_alive(id);
+  for (FloeId id = 0; id < population.floe_count(); ++id) counts.floes_final += population.is_floating(id);
   return counts;
 }
 
-std::vector<FloeState> Simulation::floe_states() const {
-  const Population& population = world_->population;
-  const dynamics::Bodies& bodies = population.bodies;
+namespace {
+
+FloeState state_of(const World& world, FloeId id) {
+  const dynamics::Bodies& bodies = world.population.bodies;
+  const BodyIndex body = world.population.body_of(id);
+  const Floe& floe = world.population.floes[id];
+  FloeState state;
+  state.floe = id;
+  state.parent = floe.parent;
+  state.born = floe.born;
+  state.generation = floe.generation;
+  state.world_from_body = dynamics::water_from_body(bodies, body);
+  state.world_from_body.position += world.clock.drift();
+  state.angle = bodies.angle[body];
+  state.velocity = bodies.velocity[body] + world.clock.water_drift;
+  state.angular_velocity = bodies.angular_velocity[body];
+  if (floe.is_under && !world.setup.current.is_still()) {  // it goes with the water
+    state.velocity += world.setup.current.velocity_at(bodies.position[body]);
+    state.angular_velocity = world.setup.current.angular_velocity();
+  }
+  state.area = floe.area;
+  state.mass = bodies.mass[body];
+  state.polygon_in_body = &floe.shape.polygon;
+  return state;
+}
+
+std::vector<FloeState> states_where(const World& world, bool is_under) {
   std::vector<FloeState> states;
-  for (FloeId id = 0; id < population.floe_count(); ++id) {
-    if (!population.is_alive(id)) continue;
-    const BodyIndex body = population.body_of(id);
-    const Floe& floe = population.floes[id];
-    FloeState state;
-    state.floe = id;
-    state.parent = floe.parent;
-    state.born = floe.born;
-    state.generation = floe.generation;
-    state.world_from_body = dynamics::water_from_body(bodies, body);
-    state.world_from_body.position += world_->clock.drift();
-    state.angle = bodies.angle[body];
-    state.velocity = bodies.velocity[body] + world_->clock.water_drift;
-    state.angular_velocity = bodies.angular_velocity[body];
-    state.area = floe.area;
-    state.mass = bodies.mass[body];
-    state.polygon_in_body = &floe.shape.polygon;
-    states.push_back(state);
+  for (FloeId id = 0; id < world.population.floe_count(); ++id) {
+    if (world.population.is_alive(id) && world.population.floes[id].is_under == is_under)
+      states.push_back(state_of(world, id));
   }
   return states;
+}
+
+}  // namespace
+
+std::vector<FloeState> Simulation::floe_states() const {
+  return states_where(*world_, false);
+}
+
+std::vector<FloeState> Simulation::states_under_hull() const {
+  return states_where(*world_, true);
 }
 
 namespace {

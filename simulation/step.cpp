@@ -150,7 +150,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 14> kStages = {{
+const std::array<Stage, 19> kStages = {{
     {"find pairs", [](World& w) { find_pairs(w.population); }},
     {"find contacts",
      [](World& w) {
@@ -159,11 +159,15 @@ const std::array<Stage, 14> kStages = {{
      }},
     {"decide",
      [](World& w) { decide(w.setup, w.clock, w.threads, w.population, w.step, w.accounts.counts); }},
+    {"limit by tilt", [](World& w) { limit_by_tilt(w.setup, w.population, w.step); }},
     {"solve impulses",
      [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
     {"drop unbroken", [](World& w) { drop_unbroken(w.setup, w.step); }},
+    {"tilt floes", [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
     {"tally loads", [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
+    {"pull of submerged ice",
+     [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},
     {"integrate",
      [](World& w) {
        auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);
@@ -183,6 +187,11 @@ const std::array<Stage, 14> kStages = {{
      [](World& w) {
        grind_blind_overlaps(w.setup, w.clock, w.step.blind_overlaps, w.population, w.accounts, w.journal);
      }},
+    {"go under",
+     [](World& w) {
+       apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal);
+     }},
+    {"come up", [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},
     {"put to rest", [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
     {"record", [](World& w) { record(w.setup, w.clock, w.population, w.step.loads, w.accounts, w.journal); }},
 }};

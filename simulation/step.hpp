@@ -19,17 +19,28 @@ void find_contacts(const Setup& setup, int threads, Population& population,
 void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
             Counts& counts);
 
+/// Limits what contacts carry by what the floes that they press down resist.
+void limit_by_tilt(const Setup& setup, const Population& population, StepData& step);
+
 void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
                     Accounts& accounts);
 
 /// By the law of crushing ice: drops the bends whose contacts were not loaded up to V_b.
 void drop_unbroken(const Setup& setup, StepData& step);
 
+/// Tilts the floes that hulls press down, by the impulses found; those pressed down far enough are to go
+/// under.
+void tilt_floes(const Setup& setup, Population& population, StepData& step);
+
 /// Adds what the impulses did to the ships.
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
                  std::vector<ShipLoads>& loads);
 
 void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit);
+
+/// Brakes ships by the ice under their hulls, and moves that ice along its path.
+void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads,
+                           AuditSums& audit);
 
 /// Returns why the numbers cannot be trusted any more, where a body has no finite speed below kRunawaySpeed.
 std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
@@ -41,7 +52,7 @@ void record_ship_contacts(const Setup& setup, const Clock& clock, const Populati
                           const std::vector<dynamics::Contact>& contacts,
                           std::vector<ShipContact>& known_contacts, Journal& journal);
 
-/// With the next one all that changes which floes there are: serially, in floe-id order.
+/// With the next three all that changes which floes there are: serially, in floe-id order.
 void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
                      Population& population, Accounts& accounts, Journal& journal);
 
@@ -49,6 +60,14 @@ void apply_fractures(const Setup& setup, const Clock& clock, std::vector<Pending
 void grind_blind_overlaps(const Setup& setup, const Clock& clock,
                           const std::vector<dynamics::BlindOverlap>& overlaps, Population& population,
                           Accounts& accounts, Journal& journal);
+
+/// Puts floes that tilted far enough under the hulls.
+void apply_submersions(const Setup& setup, const Clock& clock, const std::vector<PendingSubmersion>& pending,
+                       Population& population, Accounts& accounts, Journal& journal);
+
+/// Lets ice come up that ships have passed, in the order in which it went under.
+void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
+             Journal& journal);
 
 void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
                  AuditSums& audit);
@@ -63,7 +82,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 14> kStages;
+extern const std::array<Stage, 19> kStages;
 
 /// One time step: all stages.
 void step(World& world);

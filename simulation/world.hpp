@@ -25,10 +25,18 @@ struct ContactLoads {
   int contacts = 0;                   ///< at the last step
 };
 
+/// What the ice under its hull does to a ship.
+struct SubmergedLoads {
+  double impulse = 0;          ///< aft [N s]
+  double angular_impulse = 0;  ///< counter-clockwise [N m s]
+  double area = 0;             ///< of the ice under the hull, at the last step [m²]
+};
+
 /// Sums over a step or a recording interval, in the ship's frame.
 struct ShipLoads {
   ContactLoads ice;
-  ContactLoads ships;      ///< other ships and structures
+  ContactLoads ships;  ///< other ships and structures
+  SubmergedLoads submerged;
   geometry::Vector peak;   ///< the paper's j/τ_c of contacts with ice, component by component [N]
   double peak_moment = 0;  ///< [N m]
 };
@@ -48,11 +56,29 @@ struct PendingFracture {
   dynamics::PersistentContact* record = nullptr;  ///< of the contact that broke it, valid during the step
 };
 
+/// The hull at one of its contacts.
+struct HullSlope {
+  double vertical_share = 0;  ///< V/H, down on the ice; ≤ 0 where it is too steep to press ice down
+  double tangent = 0;         ///< tan θ_s
+};
+
+/// A floe whose edge was pressed down so far that it goes under.
+struct PendingSubmersion {
+  FloeId floe = 0;
+  int ship = 0;
+  geometry::Point point_in_water;  ///< contact point [m]
+  geometry::Vector normal;         ///< from the hull into the ice, water frame
+  double penetration = 0;          ///< [m]
+  TiltCriterion criterion;
+};
+
 /// What one step works out; of the step before, between two steps.
 struct StepData {
   std::vector<dynamics::Contact> contacts;
   std::vector<dynamics::BlindOverlap> blind_overlaps;
+  std::vector<HullSlope> slopes;  ///< of the contacts of ships, which come first
   std::vector<PendingFracture> fractures;
+  std::vector<PendingSubmersion> submersions;
   std::vector<ShipLoads> loads;               ///< per ship
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
   dynamics::ImpulseSolver solver;             ///< its reusable memory

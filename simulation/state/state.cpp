@@ -48,12 +48,13 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) archive(motion_of(population.bodies, ship));
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     const Floe& floe = population.floes[id];
-    archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, population.is_alive(id)});
+    archive(
+        FloeHead{floe.parent, floe.born, floe.generation, floe.area, population.is_alive(id), floe.is_under});
     if (!population.is_alive(id)) continue;
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
     archive(motion_of(population.bodies, population.body_of(id)));
   }
-  archive(pairs);
+  archive(population.tilted, population.tiles, pairs);
 }
 
 /// Where the ice of a scene was at the start: its floes' frames, in which their pieces stay.
@@ -82,6 +83,7 @@ class StateLoader {
                    "a number of floes that cannot be");
     for (BodyIndex ship = 0; ship < population_.ship_count && bytes_.is_well(); ++ship) load_ship(ship);
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
+    if (bytes_.is_well()) load_ice_at_hulls();
     if (bytes_.is_well()) load_pairs();
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
     if (bytes_.is_well()) {
@@ -99,8 +101,8 @@ class StateLoader {
     const Counts& c = world_.accounts.counts;
     for (const std::int64_t count :
          {c.floes_initial, c.bends, c.splits, c.ground, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
-          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches,
-          c.peak_contacts, c.peak_awake})
+          c.tilted_under, c.went_under, c.came_up, c.stayed_under, c.brash_pieces, c.snap_rounded,
+          c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches, c.peak_contacts, c.peak_awake})
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
     bytes_.require(c.largest_residual >= 0 && c.energy_created >= 0, "a negative residual");
     bytes_.require(world_.accounts.loads.size() == scene_.ships.size(), "loads of other ships");
@@ -128,10 +130,12 @@ class StateLoader {
     return motion;
   }
 
-  void place(BodyIndex body, const BodyMotion& motion) {
+  void place(BodyIndex body, const BodyMotion& motion, bool is_under = false) {
     if (!bytes_.is_well()) return;
+    bytes_.require(!is_under || !motion.is_awake, "ice under a hull that is awake");
     set_motion(population_.bodies, body, motion);
     population_.pairs.add(population_.bodies, body);
+    if (is_under) population_.pairs.remove(body);
     if (!motion.is_awake) return;
     population_.bodies.is_awake[body] = 1;
     population_.awake.push_back(body);
@@ -155,13 +159,14 @@ class StateLoader {
     const int generation = is_of_scene ? 0 : population_.floes[head.parent].generation + 1;
     bytes_.require(head.generation == generation, "a generation that does not follow the parent's");
     bytes_.require(is_of_scene || !population_.is_alive(head.parent), "a parent that has not broken");
+    bytes_.require(head.is_alive || !head.is_under, "a broken floe under a hull");
     return head;
   }
 
   void load_floe(FloeId id) {
     const FloeHead head = load_head(id);
     if (!bytes_.is_well()) return;
-    Floe floe{head.parent, head.born, head.generation, head.area, {}};
+    Floe floe{head.parent, head.born, head.generation, head.area, {}, head.is_under};
     if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = scene_.floes[id].polygon_in_world;
     if (head.is_alive && head.parent != kNoFloe) floe.shape = load_shape();
     if (!bytes_.is_well()) return;
@@ -179,7 +184,8 @@ class StateLoader {
     }
     const BodyIndex index = add_body(population_.bodies, body);
     population_.floes.push_back(std::move(floe));
-    if (head.is_alive) return place(index, load_motion(population_.bodies.bounding_radius[index]));
+    if (head.is_alive)
+      return place(index, load_motion(population_.bodies.bounding_radius[index]), head.is_under);
     population_.bodies.is_alive[index] = 0;
     population_.bodies.boundary[index].reset();
   }
@@ -200,6 +206,39 @@ class StateLoader {
     return shape;
   }
 
+  bool is_hull(int ship) const {
+    return ship >= 0 && ship < population_.ship_count &&
+           world_.setup.underwater[static_cast<std::size_t>(ship)].can_take_ice;
+  }
+
+  bool is_in_contact_world(BodyIndex body) const {
+    return population_.is_ship(body) || population_.is_floating(population_.floe_of(body));
+  }
+
+  void load_ice_at_hulls() {
+    bytes_(population_.tilted, population_.tiles);
+    const auto is_floe = [&](FloeId floe) {
+      return floe >= 0 && floe < population_.floe_count() && population_.is_alive(floe);
+    };
+    std::pair<int, FloeId> last{-1, kNoFloe};
+    for (const TiltedFloe& tilted : population_.tilted) {
+      bytes_.require(is_hull(tilted.ship) && is_floe(tilted.floe) && population_.is_floating(tilted.floe),
+                     "a tilted floe that there is not");
+      bytes_.require(tilted.edge.deflection >= 0, "an edge above the water");
+      bytes_.require(last < std::pair(tilted.ship, tilted.floe), "tilted floes out of their order");
+      last = {tilted.ship, tilted.floe};
+    }
+    std::vector<bool> is_tile(population_.floes.size());
+    for (const Tile& tile : population_.tiles) {
+      bytes_.require(is_hull(tile.ship) && is_floe(tile.floe) && population_.floes[tile.floe].is_under,
+                     "ice under a hull that there is not");
+      if (!bytes_.is_well()) return;
+      bytes_.require(!is_tile[static_cast<std::size_t>(tile.floe)], "ice under two hulls");
+      bytes_.require(tile.weight >= 0 && tile.waited >= 0, "a negative weight or wait");
+      is_tile[static_cast<std::size_t>(tile.floe)] = true;
+    }
+  }
+
   void load_pairs() {
     std::vector<dynamics::PairState> pairs;
     std::vector<double> separation_bound;
@@ -210,7 +249,7 @@ class StateLoader {
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {
       dynamics::PairState& pair = pairs[i];
       const bool is_there = pair.a >= 0 && pair.a < pair.b && pair.b < bodies.size();
-      bytes_.require(is_there && bodies.is_alive[pair.a] && bodies.is_alive[pair.b],
+      bytes_.require(is_there && is_in_contact_world(pair.a) && is_in_contact_world(pair.b),
                      "a pair of no two bodies");
       if (!bytes_.is_well()) return;
       bytes_.require(bodies.is_awake[pair.a] || bodies.is_awake[pair.b], "a pair of two asleep");

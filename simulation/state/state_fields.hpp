@@ -29,6 +29,7 @@ struct FloeHead {
   std::int32_t generation = 0;
   double area = 0;
   bool is_alive = false;
+  bool is_under = false;
 };
 
 template <class Archive>
@@ -53,7 +54,19 @@ void fields(Archive& archive, Is<BodyMotion> auto& m) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<FloeHead> auto& f) {
-  archive(f.parent, f.born, f.generation, f.area, f.is_alive);
+  archive(f.parent, f.born, f.generation, f.area, f.is_alive, f.is_under);
+}
+template <class Archive>
+void fields(Archive& archive, Is<TiltedFloe> auto& t) {
+  archive(t.floe, t.ship, t.edge.deflection, t.edge.rate);
+}
+template <class Archive>
+void fields(Archive& archive, Is<Tile> auto& t) {
+  archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
+}
+template <class Archive>
+void fields(Archive& archive, Is<SubmergedLoads> auto& l) {
+  archive(l.impulse, l.angular_impulse, l.area);
 }
 template <class Archive>
 void fields(Archive& archive, Is<ContactLoads> auto& l) {
@@ -65,22 +78,24 @@ void fields(Archive& archive, Is<ShipContact> auto& c) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<ShipLoads> auto& l) {
-  archive(l.ice, l.ships, l.peak, l.peak_moment);
+  archive(l.ice, l.ships, l.submerged, l.peak, l.peak_moment);
 }
 template <class Archive>
 void fields(Archive& archive, Is<AreaLedger> auto& l) {
-  archive(l.initial_ice_area, l.submerged_area, l.brash_area, l.rounding_defect);  // the rest is derived
+  archive(l.initial_ice_area, l.under_ice_area, l.submerged_area, l.brash_area,
+          l.rounding_defect);  // the rest is derived
 }
 template <class Archive>
 void fields(Archive& archive, Is<Counts> auto& c) {
-  archive(c.floes_initial, c.bends, c.splits, c.ground, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
-          c.brash_pieces, c.snap_rounded, c.database_out_of_range, c.unconverged_steps, c.largest_residual,
-          c.energy_created, c.unpaired_stretches, c.peak_contacts, c.peak_awake);
+  archive(c.floes_initial, c.bends, c.splits, c.ground, c.tilted_under, c.went_under, c.came_up,
+          c.stayed_under, c.crush_contacts, c.rejected_cuts, c.floated_cusps, c.brash_pieces, c.snap_rounded,
+          c.database_out_of_range, c.unconverged_steps, c.largest_residual, c.energy_created,
+          c.unpaired_stretches, c.peak_contacts, c.peak_awake);
 }
 template <class Archive>
 void fields(Archive& archive, Is<EnergyFlows> auto& e) {
   archive(e.thrust, e.current, e.drag, e.friction, e.restitution, e.crushing, e.bending, e.splitting,
-          e.grinding, e.rest);
+          e.grinding, e.submersion, e.submerged_ice, e.rest);
 }
 template <class Archive>
 void fields(Archive& archive, Is<MomentumFlows> auto& m) {

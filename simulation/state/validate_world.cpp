@@ -103,16 +103,22 @@ Defect check_sums(const World& world) {
   double area = 0;
   std::int64_t broken = 0;
   for (FloeId id = 0; id < population.floe_count(); ++id) {
-    if (population.is_alive(id)) area += population.floes[id].area;
+    if (population.is_floating(id)) area += population.floes[id].area;
     broken += population.is_alive(id) ? 0 : 1;
   }
+  for (const Tile& tile : population.tiles) {
+    if (!population.is_alive(tile.floe) || !population.floes[tile.floe].is_under)
+      return fmt::format("floe {} is a tile and not under a hull", tile.floe);
+    area += population.floes[tile.floe].area;
+  }
   const AreaLedger& ledger = world.accounts.ledger;
-  const double lost =
-      area + ledger.submerged_area + ledger.brash_area - ledger.rounding_defect - ledger.initial_ice_area;
+  const double lost = area + ledger.under_ice_area + ledger.submerged_area + ledger.brash_area -
+                      ledger.rounding_defect - ledger.initial_ice_area;
   if (!(std::abs(lost) <= kAreaTolerance * ledger.initial_ice_area))
     return fmt::format("{} m² of ice too much", lost);
   const Counts& counts = world.accounts.counts;
-  const std::int64_t fractures = counts.bends + counts.splits + counts.ground;
+  const std::int64_t fractures =
+      counts.bends + counts.splits + counts.ground + counts.came_up + counts.stayed_under;
   if (broken != fractures) return fmt::format("{} floes broke in {} fractures", broken, fractures);
   return {};
 }

@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/contact/clearance.hpp"
+#include "geometry/exact/validity.hpp"
+#include "simulation/limits.hpp"
+#include "simulation/random.hpp"
+#include "simulation/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Point;
+using geometry::Pose;
+using geometry::Vector;
+
+constexpr int kPlaces = 8;  ///< tried at a time, each scattered less; the last one is where it went under
+
+/// Where a piece may come up.
+struct Place {
+  Pose water_from_body;
+  double angle = 0;  ///< [rad]
+};
+
+/// A polygon without its rim, about a point.
+geometry::Polygon shrunk(geometry::Polygon polygon, Point about, double rim_loss) {
+  const double scale = std::sqrt(1 - rim_loss);
+  const auto shrink = [&](geometry::Ring& ring) {
+    for (Point& p : ring) p = about + scale * (p - about);
+  };
+  shrink(polygon.outer);
+  for (geometry::Ring& hole : polygon.holes) shrink(hole);
+  return polygon;
+}
+
+/// The piece's place in the water, scattered at random.
+Place scattered(const dynamics::Bodies& bodies, BodyIndex body, double size, double scatter, Random& random) {
+  const Vector shift = scatter * size * Vector{random.normal(), random.normal()};
+  const double turn = scatter * std::numbers::pi * random.normal();
+  if (scatter == 0) return {dynamics::water_from_body(bodies, body), bodies.angle[body]};
+  const double angle = bodies.angle[body] + turn;
+  const geometry::Rotation rotation = geometry::Rotation::by(angle);
+  const Point centre = bodies.position[body] + shift;
+  return {{centre - rotate(rotation, bodies.centroid[body] - Point{}), rotation}, angle};
+}
+
+enum class Blocked { kNot, kByShip, kByIce };
+
+/// What is where a piece would come up.
+Blocked blocked_at(const Population& population, const geometry::Boundary& piece,
+                   const Pose& water_from_piece) {
+  geometry::Ring ring;
+  for (const Point p : piece.edges.vertices) ring.push_back(transform(water_from_piece, p));
+  Blocked blocked = Blocked::kNot;
+  population.pairs.for_bodies_near(bounding_box(ring), [&](BodyIndex other) {
+    const bool is_ship = population.is_ship(other);
+    if (blocked == Blocked::kByShip || (blocked == Blocked::kByIce && !is_ship)) return;
+    const Pose other_from_piece =
+        relative_pose(dynamics::water_from_body(population.bodies, other), water_from_piece);
+    if (is_clear(*population.bodies.boundary[other], piece, other_from_piece)) return;
+    blocked = is_ship ? Blocked::kByShip : Blocked::kByIce;
+  });
+  return blocked;
+}
+
+Event event_of(const Setup& setup, const Clock& clock, const Population& population, const Tile& tile,
+               EventKind kind) {
+  Event event;
+  event.time = clock.time();
+  event.kind = kind;
+  event.ship = tile.ship;
+  event.floe = tile.floe;
+  event.point_in_world = population.bodies.position[population.body_of(tile.floe)] + clock.drift();
+  event.resurfacing = {tile.path, setup.underwater[tile.ship].path.sliding, tile.waited,
+                       setup.scene.fracture.resurface.give_up};
+  return event;
+}
+
+/// One tile's attempts to come up.
+class Resurfacing {
+ public:
+  Resurfacing(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
+              Journal& journal)
+      : setup_(setup),
+        settings_(setup.scene.fracture.resurface),
+        clock_(clock),
+        population_(population),
+        accounts_(accounts),
+        journal_(journal) {}
+
+  /// Returns whether the tile is one no more.
+  bool ends(Tile& tile) {
+    const bool is_ahead = tile.path < 0;  // the ship backed off it
+    if (tile.path < setup_.underwater[tile.ship].path.sliding && !is_ahead) return false;
+    if (clock_.time() < tile.next_try) return false;
+    if (!settings_.is_enabled && !is_ahead) return stay_under(tile);
+    tile.next_try = clock_.time() + settings_.retry;
+    return try_to_come_up(tile);
+  }
+
+ private:
+  bool stay_under(const Tile& tile) {
+    Event event = event_of(setup_, clock_, population_, tile, EventKind::kStayUnder);
+    event.under_ice_area = population_.floes[tile.floe].area;
+    accounts_.ledger.under_ice_area += event.under_ice_area;
+    ++accounts_.counts.stayed_under;
+    retire_floe(tile.floe, population_, journal_);
+    journal_.events.push_back(std::move(event));
+    return true;
+  }
+
+  bool try_to_come_up(Tile& tile) {
+    const BodyIndex body = population_.body_of(tile.floe);
+    const Floe& floe = population_.floes[tile.floe];
+    const geometry::Polygon polygon =
+        shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
+    const geometry::Boundary boundary = geometry::make_outline(polygon);
+    const Pose in_place = dynamics::water_from_body(population_.bodies, body);
+    if (blocked_at(population_, boundary, in_place) == Blocked::kByShip) return false;  // not behind it yet
+    Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(tile.floe) << 32U) ^
+                  static_cast<std::uint64_t>(clock_.steps));
+    for (int i = 0; i < kPlaces; ++i) {
+      const double share = 1 - static_cast<double>(i) / (kPlaces - 1);
+      const Place place =
+          scattered(population_.bodies, body, std::sqrt(floe.area), share * settings_.scatter, random);
+      if (blocked_at(population_, boundary, place.water_from_body) != Blocked::kNot) continue;
+      come_up(tile, polygon, place);
+      return true;
+    }
+    if (tile.waited >= settings_.give_up) return stay_under(tile);
+    tile.waited += settings_.retry;
+    return false;
+  }
+
+  void come_up(const Tile& tile, const geometry::Polygon& polygon, const Place& place) {
+    Event event = event_of(setup_, clock_, population_, tile, EventKind::kResurface);
+    const geometry::Measures measures = geometry::measure(polygon);
+    const double area_before = population_.floes[tile.floe].area;
+    const bool is_floe = can_be_floe(measures) && measures.area >= setup_.scene.fracture.smallest_floe_area &&
+                         !geometry::find_defect(polygon);
+    event.brash_area = is_floe ? area_before - measures.area : area_before;
+    if (is_floe) event.children.push_back(add_piece(tile, polygon, measures, place));
+    accounts_.counts.brash_pieces += is_floe ? 0 : 1;
+    accounts_.ledger.brash_area += event.brash_area;
+    ++accounts_.counts.came_up;
+    retire_floe(tile.floe, population_, journal_);
+    journal_.events.push_back(std::move(event));
+  }
+
+  /// Adds the floe, going with the water.
+  FloeId add_piece(const Tile& tile, const geometry::Polygon& polygon, const geometry::Measures& measures,
+                   const Place& place) {
+    NewFloe piece;
+    piece.shape = {polygon, true};
+    piece.thickness = population_.bodies.thickness[population_.body_of(tile.floe)];
+    piece.parent = tile.floe;
+    piece.generation = population_.floes[tile.floe].generation + 1;
+    piece.water_from_body = place.water_from_body;
+    piece.angle = place.angle;
+    if (!setup_.current.is_still()) {
+      const Point centre = transform(place.water_from_body, measures.centroid);
+      piece.angular_velocity = setup_.current.angular_velocity();
+      piece.velocity = setup_.current.velocity_at(centre) -
+                       cross(piece.angular_velocity, centre - place.water_from_body.position);
+    }
+    const FloeId id = add_floe(setup_, clock_, piece, measures, population_, journal_);
+    wake_and_enter(population_.body_of(id));
+    return id;
+  }
+
+  /// Awake, it is paired with the bodies around it. A sheared current carries it along.
+  void wake_and_enter(BodyIndex body) {
+    wake(body, population_);
+    const dynamics::Bodies& bodies = population_.bodies;
+    const Vector carried = bodies.mass[body] * bodies.velocity[body];
+    const double omega = bodies.angular_velocity[body];
+    accounts_.audit.energy.current +=
+        0.5 * (dot(carried, bodies.velocity[body]) + bodies.moment[body] * omega * omega);
+    accounts_.audit.momentum.water += carried;
+    accounts_.audit.impulses += length(carried);
+  }
+
+  const Setup& setup_;
+  const ResurfaceSettings& settings_;
+  const Clock& clock_;
+  Population& population_;
+  Accounts& accounts_;
+  Journal& journal_;
+};
+
+}  // namespace
+
+void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
+             Journal& journal) {
+  if (population.tiles.empty()) return;
+  Resurfacing resurfacing(setup, clock, population, accounts, journal);
+  std::vector<Tile> left;
+  left.reserve(population.tiles.size());
+  for (Tile& tile : population.tiles) {
+    if (!resurfacing.ends(tile)) left.push_back(tile);
+  }
+  population.tiles = std::move(left);
+}
+
+}  // namespace polynya::simulation
