@@ -50,7 +50,7 @@ void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck
   }
   const double before = run.floe(event.floe)->birth.area;
   const Polygon* const parents[]{parent.get()};
-  const double terms[]{event.submerged_area, event.brash_area, -event.rounding_defect};
+  const double terms[]{event.submerged_area, event.under_ice_area, event.brash_area, -event.rounding_defect};
   see(check.balance, geometry::exact_balance(after, parents, terms), before, event.floe);
   for (std::size_t i = 0; i < children.size(); ++i) {
     for (std::size_t j = i + 1; j < children.size(); ++j) {
@@ -69,7 +69,8 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at) {
   RunCheck check;
   check_shapes(run, check);
   for (const simulation::Event& event : run.events) {
-    if (event.kind != simulation::EventKind::kRejectedCut) check_fracture(run, event, check);
+    if (event.kind != simulation::EventKind::kRejectedCut && event.kind != simulation::EventKind::kSubmerge)
+      check_fracture(run, event, check);
   }
   check.has_crushed = run.has_crushed;
   OverlapCheck overlaps(run, check);

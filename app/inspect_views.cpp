@@ -60,6 +60,11 @@ std::string as_svg(const ShapeView& view) {
   return text;
 }
 
+std::string how_it_went_under(const simulation::TiltCriterion& c) {
+  if (c.least_deflection == 0) return "a cusp broken off at the hull";
+  return fmt::format("edge {:.3g} m down >= {:.3g} m", c.deflection, c.least_deflection);
+}
+
 std::string described(const io::Run& run, const simulation::Event& event) {
   const auto& c = event.criteria;
   const bool is_split = event.kind == simulation::EventKind::kSplit;
@@ -70,7 +75,12 @@ std::string described(const io::Run& run, const simulation::Event& event) {
                                         : fmt::format(" by {}", name);
   std::string text = fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): ", event.time, name_of(event.kind), by,
                                  event.point_in_world.x, event.point_in_world.y);
-  if (event.grinding.least_width > 0)
+  if (event.kind == simulation::EventKind::kSubmerge)
+    text += how_it_went_under(event.tilting);
+  else if (event.resurfacing.longest_wait > 0 || event.resurfacing.path != 0)
+    text += fmt::format("{:.4g} m after the stem, {:.4g} s for room", event.resurfacing.path,
+                        event.resurfacing.waited);
+  else if (event.grinding.least_width > 0)
     text += fmt::format("{:.4g} m2 overlapped, width {:.4g} m < {:.4g} m", event.grinding.overlap_area,
                         event.grinding.width, event.grinding.least_width);
   else
@@ -78,6 +88,8 @@ std::string described(const io::Run& run, const simulation::Event& event) {
                         is_split ? c.collision_force : c.vertical_force,
                         is_split ? ">" : ">=", is_split ? "splitting force" : "bending capacity",
                         is_split ? c.splitting_force : c.bending_capacity);
+  if (event.under_hull_area > 0) text += fmt::format("; {:.6g} m2 under the hull", event.under_hull_area);
+  if (event.under_ice_area > 0) text += fmt::format("; {:.6g} m2 under the ice", event.under_ice_area);
   if (event.submerged_area > 0) text += fmt::format("; {:.6g} m2 submerged", event.submerged_area);
   if (event.brash_area > 0) text += fmt::format("; {:.6g} m2 brash", event.brash_area);
   return text;

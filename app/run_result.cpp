@@ -49,6 +49,19 @@ std::string force_lines(const io::RunSummary& summary, const simulation::Scene& 
 
 }  // namespace
 
+namespace {
+
+void print_under_hull(const simulation::Counts& counts, const simulation::AreaLedger& ledger) {
+  if (counts.went_under == 0) return;
+  print_out(
+      "under hull  {} pieces went under, {} of them tilted floes; {} came up, {} stayed under the ice\n",
+      counts.went_under, counts.tilted_under, counts.came_up, counts.stayed_under);
+  print_out("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n",
+            ledger.under_hull_area, ledger.under_ice_area);
+}
+
+}  // namespace
+
 void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
                   const std::filesystem::path& folder, const std::string& picture) {
   const auto& counts = summary.counts;
@@ -59,11 +72,13 @@ void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
             counts.splits, counts.rejected_cuts);
   if (counts.ground > 0)
     print_out("ground      {} overlaps that no contact could part, to brash\n", counts.ground);
+  print_under_hull(counts, ledger);
   print_out("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
+  const double submerged = ledger.submerged_area + ledger.under_hull_area + ledger.under_ice_area;
   print_out(
       "ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding "
       "{:.1e} m2)\n",
-      ledger.initial_ice_area, ledger.floe_area, ledger.submerged_area, ledger.brash_area, ledger.imbalance,
+      ledger.initial_ice_area, ledger.floe_area, submerged, ledger.brash_area, ledger.imbalance,
       ledger.rounding_defect);
   const simulation::EnergyFlows& energy = summary.audit.sums.energy;
   print_out(

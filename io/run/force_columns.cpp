@@ -55,7 +55,7 @@ template <double S::*Member>
 constexpr ForceColumn load(std::string_view name, std::string_view unit, std::string_view meaning,
                            ShownWhere where, std::string_view plot, CurveKind curve = kMean) {
   ForceColumn load = column<Member>(name, unit, meaning);
-  load.is_optional = where == kAmongShips;
+  load.is_optional = where == kAmongShips || where == kUnderHulls;
   load.peak = where;
   load.plot = plot;
   load.curve = curve;
@@ -92,6 +92,13 @@ constexpr ForceColumn kColumns[] = {
                                   kSwayOfShips, kMax),
     load<&S::yaw_from_ships_max>("yaw_from_ships_max_Nm", "N·m", "moment counter-clockwise, likewise",
                                  kAmongShips, kYawOfShips, kMax),
+    load<&S::surge_from_submerged>("surge_from_submerged_ice_N", "N",
+                                   "force of the ice under the hull forward, mean of the interval",
+                                   kUnderHulls, "Surge force of the ice under the hull"),
+    load<&S::yaw_from_submerged>("yaw_from_submerged_ice_Nm", "N·m", "its moment counter-clockwise, likewise",
+                                 kUnderHulls, "Yaw moment of the ice under the hull"),
+    load<&S::submerged_area>("ice_under_hull_m2", "m²", "ice under the hull, at the end of the interval",
+                             kUnderHulls, "Ice under the hull"),
     load<&S::surge_peak>("surge_j_over_tau_c_N", "N",
                          "the paper's collision force j/τ_c of the ice forward, largest by magnitude",
                          kWhereItSplits, kSurge, kPaper),
@@ -139,6 +146,7 @@ std::string_view name_of(CurveKind kind) {
 
 bool is_shown(ShownWhere where, const simulation::Scene& scene) {
   if (where == kAmongShips) return scene.ships.size() > 1;
+  if (where == kUnderHulls) return has_draught(scene);
   return where == kAlways || splits_by_j_over_tau_c(scene);
 }
 
@@ -148,7 +156,8 @@ std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene) {
 
 std::vector<const ForceColumn*> plotted_columns(const simulation::Scene& scene) {
   return columns_where([&](const ForceColumn& c) {
-    return !c.plot.empty() && (c.peak != kAmongShips || is_shown(kAmongShips, scene));
+    const bool is_optional = c.peak == kAmongShips || c.peak == kUnderHulls;
+    return !c.plot.empty() && (!is_optional || is_shown(*c.peak, scene));
   });
 }
 

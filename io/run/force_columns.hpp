@@ -15,6 +15,7 @@ namespace polynya::io {
 enum class ShownWhere {
   kAlways,
   kAmongShips,    ///< in scenes of several ships and structures
+  kUnderHulls,    ///< in scenes with ships that ice can go under
   kWhereItSplits  ///< in scenes where j/τ_c decides splits
 };
 

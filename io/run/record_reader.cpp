@@ -51,8 +51,10 @@ int ship_index(const simulation::Scene& scene, std::string_view name) {
 }
 
 simulation::EventKind event_kind(std::string_view name) {
-  for (const auto kind : {simulation::EventKind::kBend, simulation::EventKind::kSplit,
-                          simulation::EventKind::kGrind, simulation::EventKind::kRejectedCut}) {
+  for (const auto kind :
+       {simulation::EventKind::kBend, simulation::EventKind::kSplit, simulation::EventKind::kGrind,
+        simulation::EventKind::kRejectedCut, simulation::EventKind::kSubmerge,
+        simulation::EventKind::kResurface, simulation::EventKind::kStayUnder}) {
     if (name_of(kind) == name) return kind;
   }
   throw ReadError(fmt::format("an unknown kind of event, \"{}\"", name));
@@ -68,6 +70,21 @@ fracture::FailureCriteria criteria_of(const JsonValue& criterion) {
   criteria.vertical_force = number(criterion, "vertical_force_N");
   criteria.bending_capacity = number(criterion, "bending_capacity_N");
   return criteria;
+}
+
+void read_criterion(const JsonValue& criterion, simulation::Event& event) {
+  if (event.kind == simulation::EventKind::kSubmerge)
+    event.tilting = {number_or(criterion, "deflection_m", 0), number_or(criterion, "least_deflection_m", 0),
+                     number_or(criterion, "vertical_force_N", 0),
+                     number_or(criterion, "tilting_capacity_N", 0)};
+  else if (criterion.find("least_path_m"))
+    event.resurfacing = {number(criterion, "path_m"), number(criterion, "least_path_m"),
+                         number(criterion, "waited_s"), number(criterion, "longest_wait_s")};
+  else if (criterion.find("least_width_m"))
+    event.grinding = {number(criterion, "overlap_area_m2"), number(criterion, "least_area_m2"),
+                      number(criterion, "width_m"), number(criterion, "least_width_m")};
+  else
+    event.criteria = criteria_of(criterion);
 }
 
 double take_number(std::string_view& row) {
@@ -122,15 +139,12 @@ simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene
   event.point_in_world = point(line, "point_m");
   const geometry::Point normal = point(line, "normal");
   event.normal_in_world = {normal.x, normal.y};
-  const JsonValue& criterion = member(line, "criterion", JsonValue::Kind::kObject);
-  if (criterion.find("least_width_m"))
-    event.grinding = {number(criterion, "overlap_area_m2"), number(criterion, "least_area_m2"),
-                      number(criterion, "width_m"), number(criterion, "least_width_m")};
-  else
-    event.criteria = criteria_of(criterion);
+  read_criterion(member(line, "criterion", JsonValue::Kind::kObject), event);
   event.penetration = number(line, "penetration_m");
   event.cusp_radius = number_or(line, "cusp_radius_m", 0);
   event.submerged_area = number(line, "submerged_area_m2");
+  event.under_hull_area = number_or(line, "under_hull_area_m2", 0);
+  event.under_ice_area = number_or(line, "under_ice_area_m2", 0);
   event.brash_area = number(line, "brash_area_m2");
   event.rounding_defect = number(line, "rounding_defect_m2");
   if (const JsonValue* reason = line.find("reason", JsonValue::Kind::kText)) event.reason = reason->text();

@@ -15,10 +15,35 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
+/// What put a floe under a hull; a cusp goes under as it breaks off.
+void append_tilting(JsonWriter& json, const simulation::TiltCriterion& c) {
+  if (c.least_deflection == 0) {
+    json.key("kind").value("a cusp broken off at the hull").close('}');
+    return;
+  }
+  json.key("kind").value("edge deflection >= least deflection");
+  json.key("deflection_m").value(c.deflection).key("least_deflection_m").value(c.least_deflection);
+  json.key("vertical_force_N").value(c.vertical_force).key("tilting_capacity_N").value(c.capacity).close('}');
+}
+
+/// What let a piece come up, or kept it under the ice.
+void append_resurfacing(JsonWriter& json, const simulation::Event& event) {
+  const simulation::ResurfaceCriterion& c = event.resurfacing;
+  const bool is_up = event.kind == simulation::EventKind::kResurface;
+  json.key("kind").value(!is_up       ? "waited >= longest wait"
+                         : c.path < 0 ? "the ship backed off it"
+                                      : "path >= least path");
+  json.key("path_m").value(c.path).key("least_path_m").value(c.least_path);
+  json.key("waited_s").value(c.waited).key("longest_wait_s").value(c.longest_wait).close('}');
+}
+
 /// What decided a fracture: the load that reached the capacity.
 void append_criterion(JsonWriter& json, const simulation::Event& event) {
   const fracture::FailureCriteria& c = event.criteria;
   json.key("criterion").open('{');
+  if (event.kind == simulation::EventKind::kSubmerge) return append_tilting(json, event.tilting);
+  if (event.kind == simulation::EventKind::kResurface || event.kind == simulation::EventKind::kStayUnder)
+    return append_resurfacing(json, event);
   if (event.grinding.least_width > 0) {
     json.key("kind").value("overlap width < least width");
     json.key("width_m").value(event.grinding.width).key("least_width_m").value(event.grinding.least_width);
@@ -129,6 +154,8 @@ void append_event(std::string& text, const simulation::Event& event, std::string
   json.key("penetration_m").value(event.penetration);
   if (event.cusp_radius > 0) json.key("cusp_radius_m").value(event.cusp_radius);
   json.key("submerged_area_m2").value(event.submerged_area).key("brash_area_m2").value(event.brash_area);
+  if (event.under_hull_area > 0) json.key("under_hull_area_m2").value(event.under_hull_area);
+  if (event.under_ice_area > 0) json.key("under_ice_area_m2").value(event.under_ice_area);
   json.key("rounding_defect_m2").value(event.rounding_defect);
   if (!event.reason.empty()) json.key("reason").value(event.reason);
   json.close('}');

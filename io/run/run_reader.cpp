@@ -69,7 +69,7 @@ void read_floes(Run& run) {
     if (!shape) throw ReadError(shape.error());
     if (const auto added = run.shapes.add(std::move(*shape), birth.parent); !added)
       throw ReadError(added.error());
-    run.floes.push_back({.birth = birth, .died = std::numeric_limits<double>::infinity(), .death_event = {}});
+    run.floes.push_back({.birth = birth, .death_event = {}});
   });
 }
 
@@ -82,10 +82,12 @@ void read_events(Run& run) {
     }
     simulation::Event event = event_of(json, run.scene.scene);
     if (!run.floe(event.floe)) throw ReadError(fmt::format("floe {} was never born", event.floe));
-    if (event.kind != simulation::EventKind::kRejectedCut) {
-      RunFloe& broken = run.floes[static_cast<std::size_t>(event.floe)];
-      broken.died = event.time;
-      broken.death_event = run.events.size();
+    RunFloe& floe = run.floes[static_cast<std::size_t>(event.floe)];
+    if (event.kind == simulation::EventKind::kSubmerge) {
+      floe.went_under = event.time;
+    } else if (event.kind != simulation::EventKind::kRejectedCut) {
+      floe.died = event.time;
+      floe.death_event = run.events.size();
     }
     run.events.push_back(std::move(event));
   });

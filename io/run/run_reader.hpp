@@ -21,8 +21,9 @@ namespace polynya::io {
 /// A floe's life in a run.
 struct RunFloe {
   simulation::BirthRecord birth;
-  double died = std::numeric_limits<double>::infinity();  ///< when it broke [s]
-  std::optional<std::size_t> death_event;                 ///< index of the event that broke it
+  double went_under = std::numeric_limits<double>::infinity();  ///< a hull [s]
+  double died = std::numeric_limits<double>::infinity();        ///< when it broke, or came up as another [s]
+  std::optional<std::size_t> death_event;                       ///< index of the event that broke it
 };
 
 /// A line of contacts.csv.
@@ -61,8 +62,14 @@ struct Run {
   }
   /// The shape of a floe that there is, in its body frame.
   std::shared_ptr<const geometry::Polygon> shape(simulation::FloeId id) const { return shapes.of(id); }
+  /// Whether it floats then.
   bool is_alive(simulation::FloeId id, double time) const {
-    return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died;
+    return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died &&
+           time < floe(id)->went_under;
+  }
+  /// Whether it is under a hull then, or waits for room behind it.
+  bool is_under(simulation::FloeId id, double time) const {
+    return floe(id) != nullptr && floe(id)->went_under <= time && time < floe(id)->died;
   }
   /// Those recorded at the time of a frame.
   std::span<const RunContact> contacts_at(double time) const;

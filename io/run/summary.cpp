@@ -30,6 +30,8 @@ void append(JsonWriter& json, const ShipPeaks& peaks, const std::vector<const Fo
 void append(JsonWriter& json, const simulation::AreaLedger& ledger) {
   json.key("ledger").open('{');
   json.key("initial_ice_area_m2").value(ledger.initial_ice_area).key("floe_area_m2").value(ledger.floe_area);
+  json.key("under_hull_area_m2").value(ledger.under_hull_area);
+  json.key("under_ice_area_m2").value(ledger.under_ice_area);
   json.key("submerged_area_m2").value(ledger.submerged_area).key("brash_area_m2").value(ledger.brash_area);
   json.key("rounding_defect_m2").value(ledger.rounding_defect).key("imbalance_m2").value(ledger.imbalance);
   json.close('}');
@@ -42,7 +44,13 @@ void append(JsonWriter& json, const simulation::Audit& audit) {
   json.key("thrust_J").value(e.thrust).key("current_J").value(e.current).key("drag_J").value(e.drag);
   json.key("friction_J").value(e.friction).key("restitution_J").value(e.restitution);
   json.key("crushing_J").value(e.crushing).key("bending_J").value(e.bending);
-  json.key("splitting_J").value(e.splitting).key("grinding_J").value(e.grinding).key("rest_J").value(e.rest);
+  json.key("splitting_J").value(e.splitting).key("grinding_J").value(e.grinding);
+  json.key("submersion_J")
+      .value(e.submersion)
+      .key("submerged_ice_J")
+      .value(e.submerged_ice)
+      .key("rest_J")
+      .value(e.rest);
   json.key("imbalance_J").value(audit.energy_imbalance).key("turnover_J").value(audit.turnover);
   json.close('}');
   const auto vector = [&](const char* key, geometry::Vector v) { json.key(key).list(std::array{v.x, v.y}); };
@@ -64,6 +72,8 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("floes_initial").value(counts.floes_initial).key("floes_final").value(counts.floes_final);
   json.key("bends").value(counts.bends).key("splits").value(counts.splits);
   json.key("ground").value(counts.ground);
+  json.key("tilted_under").value(counts.tilted_under).key("went_under").value(counts.went_under);
+  json.key("came_up").value(counts.came_up).key("stayed_under").value(counts.stayed_under);
   json.key("crush_contacts").value(counts.crush_contacts).key("rejected_cuts").value(counts.rejected_cuts);
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);

@@ -61,6 +61,10 @@ void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vecto
                "each ship and structure its own name");
     }
     const auto& hull = ship.hull;
+    const geometry::Box box = bounding_box(hull.waterline);
+    if (hull.draught > box.high.x - box.low.x)
+      report("hull.draught_m", fmt::format("{:g}", hull.draught),
+             fmt::format("at most the waterline's length, {:g} [m]", box.high.x - box.low.x));
     if (!hull.angles_from_vertical.empty() && hull.angles_from_vertical.size() != hull.waterline.size())
       report("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
              fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));

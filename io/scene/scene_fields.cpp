@@ -63,6 +63,8 @@ std::string describe_allowed(const Field& field) {
       return "an integer" + describe_range(field);
     case Kind::kNumber:
       return "a number" + describe_range(field);
+    case Kind::kBoolean:
+      return "true or false";
     case Kind::kChoice:
       return fmt::format("one of {}", fmt::join(field.choices, ", "));
     case Kind::kVector:

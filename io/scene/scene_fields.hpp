@@ -17,6 +17,7 @@ enum class FieldKind {
   kName,  ///< a string of letters, digits, space, '.', '_', '-' that can name a file
   kInteger,
   kNumber,
+  kBoolean,
   kChoice,          ///< one of a few words
   kVector,          ///< [x, y]
   kNumberOrVector,  ///< [x, y], or one number for both; resolved to [x, y]

@@ -148,6 +148,40 @@ const Object kSplitting{
      field("shape_factor", Kind::kNumber, "", above(0, 100), "0.25", "n of Eq. (4)",
            [](Draft& d, const Value& v) { d.scene.fracture.splitting_shape_factor = v.number(); })}};
 
+const Object kGoingUnder{
+    {field("enabled", Kind::kBoolean, "", {}, "false",
+           "whether floes tilt and go under; if not given, where a ship has a draught",
+           [](Draft& d, const Value& v) { d.scene.fracture.going_under.is_enabled = v.boolean(); }),
+     field("added_mass_factor", Kind::kNumber, "", from(0, 10), "1",
+           "c_a, of the water's mass that tilts with a floe; 1: a disc's in heave",
+           [](Draft& d, const Value& v) {
+             d.scene.fracture.going_under.tilting.added_mass_factor = v.number();
+           }),
+     field("damping", Kind::kNumber, "", from(0, 10), "0.3", "ζ, of the tilting",
+           [](Draft& d, const Value& v) { d.scene.fracture.going_under.tilting.damping = v.number(); }),
+     field("edge_deflection_over_thickness", Kind::kNumber, "", above(0, 10), "0.9",
+           "c_g: a floe goes under when its edge is pressed down by this times its thickness",
+           [](Draft& d, const Value& v) {
+             d.scene.fracture.going_under.tilting.edge_deflection = v.number();
+           })}};
+
+const Object kResurface{
+    {field("enabled", Kind::kBoolean, "", {}, "false",
+           "whether ice comes up behind the hull; if not given, where any goes under",
+           [](Draft& d, const Value& v) { d.scene.fracture.resurface.is_enabled = v.boolean(); }),
+     field("retry_s", Kind::kNumber, "s", above(0, 1e4), "1", "time between two tries where there is no room",
+           [](Draft& d, const Value& v) { d.scene.fracture.resurface.retry = v.number(); }),
+     field("give_up_s", Kind::kNumber, "s", from(0, 1e6), "120",
+           "time without room after which a piece stays under the ice",
+           [](Draft& d, const Value& v) { d.scene.fracture.resurface.give_up = v.number(); }),
+     field("rim_loss", Kind::kNumber, "", below(0, 1), "0.05",
+           "share of a piece's area that became brash, evenly off its rim",
+           [](Draft& d, const Value& v) { d.scene.fracture.resurface.rim_loss = v.number(); }),
+     field("scatter", Kind::kNumber, "", from(0, 1), "0.2",
+           "by how much pieces come up beside their place, of √area, and turned, of a half turn (standard "
+           "deviations); 0: in place",
+           [](Draft& d, const Value& v) { d.scene.fracture.resurface.scatter = v.number(); })}};
+
 const Object kFracture{
     {field("characteristic_length", Kind::kChoice, "", {}, "\"fourth_root\"",
            "how Eq. (7) is read: (D/ρ_w g)^¼, a length, or as the paper prints it, (D/ρ_w g)^½, whose unit "
@@ -166,11 +200,19 @@ const Object kFracture{
      field("bending", Kind::kObject, "", {}, "{}", "failure by bending", nullptr, {}, "", &kBending),
      field("splitting", Kind::kObject, "", {}, "{}", "failure by splitting", nullptr, {}, "", &kSplitting),
      field("cusp_fate", Kind::kChoice, "", {}, "\"submerge\"",
-           "what becomes of a broken cusp: it is gone under the hull (the paper), or it floats as a floe",
+           "what becomes of a broken cusp: it goes under the hull and comes up behind it (if not given, "
+           "where a "
+           "ship has a draught), it is gone (the paper), or it floats as a floe",
            [](Draft& d, const Value& v) {
-             d.scene.fracture.cusp_fate = v.text() == "submerge" ? CuspFate::kSubmerge : CuspFate::kFloat;
+             d.scene.fracture.cusp_fate = v.text() == "under_hull" ? CuspFate::kUnderHull
+                                          : v.text() == "submerge" ? CuspFate::kSubmerge
+                                                                   : CuspFate::kFloat;
            },
-           {"submerge", "float"}),
+           {"under_hull", "submerge", "float"}),
+     field("going_under", Kind::kObject, "", {}, "{}", "floes that a hull with a draught presses under",
+           nullptr, {}, "", &kGoingUnder),
+     field("resurface", Kind::kObject, "", {}, "{}", "ice that comes up behind a hull", nullptr, {}, "",
+           &kResurface),
      field("cusp_sagitta_m", Kind::kNumber, "m", from(1e-4, 1), "0.02",
            "a cusp's polygon stays this close to its circle",
            [](Draft& d, const Value& v) { d.scene.fracture.cusp_sagitta = v.number(); }),

@@ -32,7 +32,14 @@ const Object kHull{
          },
          {}, "outline"),
      field("stem_angle_deg", Kind::kNumber, "°", from(1, 90), "30", "φ, of the stem from the horizontal",
-           [](Draft& d, const Value& v) { d.ship().hull.stem_angle = radians(v); })},
+           [](Draft& d, const Value& v) { d.ship().hull.stem_angle = radians(v); }),
+     field("draught_m", Kind::kNumber, "m", above(0, 1000), kLeftOut,
+           "T: ice goes under the hull and comes up behind it; without it none does",
+           [](Draft& d, const Value& v) { d.ship().hull.draught = v.number(); }),
+     field("submersion_speed_factor", Kind::kChoice, "", {}, "\"lindqvist\"",
+           "how the load of ice under the hull grows with speed: by 1 + 9.4 v/√(gL), or not",
+           [](Draft& d, const Value& v) { d.ship().hull.has_speed_factor = v.text() == "lindqvist"; },
+           {"lindqvist", "none"})},
     {"wedge bow", "outline"}};
 
 const Object kPropulsion{

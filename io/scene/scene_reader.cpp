@@ -56,6 +56,7 @@ class SceneReader {
     resolved_ = resolve_scene(document.root, problems_);
     if (resolved_.members().empty()) return tl::unexpected(problems_.take());
     hold_constant_speeds(document.root);
+    choose_fate_of_ice(document.root);
     build();
     check_scene(draft_, resolved_, problems_);
     if (problems_.count() > 0) return tl::unexpected(problems_.take());
@@ -94,6 +95,37 @@ class SceneReader {
       }
       speed.data = held->number();
     }
+  }
+
+  /// Ice goes under hulls with a draught and comes up behind them, unless the scene states otherwise.
+  void choose_fate_of_ice(const JsonValue& root) {
+    const auto is_given = [&](std::string_view object, std::string_view key) {
+      const JsonValue* fracture = root.find("fracture");
+      const JsonValue* in = fracture && !object.empty() ? fracture->find(object) : fracture;
+      return in && in->find(key) != nullptr;
+    };
+    bool has_draught = false;
+    for (const JsonValue& ship : resolved_.find("ships")->items()) {
+      const JsonValue* hull = ship.find("hull");
+      has_draught = has_draught || (hull && hull->find("draught_m"));
+    }
+    JsonValue* fracture = resolved_.find("fracture");
+    JsonValue* fate = fracture ? fracture->find("cusp_fate") : nullptr;
+    JsonValue* tilting = fracture ? fracture->find("going_under")->find("enabled") : nullptr;
+    JsonValue* coming_up = fracture ? fracture->find("resurface")->find("enabled") : nullptr;
+    if (!fate || !tilting || !coming_up) return;
+    if (has_draught && !is_given("", "cusp_fate")) fate->data = std::string("under_hull");
+    if (!is_given("going_under", "enabled")) tilting->data = has_draught;
+    const bool goes_under = has_draught && (fate->text() == "under_hull" || tilting->boolean());
+    if (!is_given("resurface", "enabled")) coming_up->data = goes_under;
+    const std::string draught = "a hull with a draught (hull.draught_m)";
+    if (!has_draught && fate->text() == "under_hull")
+      report(fate->offset, "fracture.cusp_fate", "under_hull without " + draught, "submerge or float");
+    if (!has_draught && tilting->boolean())
+      report(tilting->offset, "fracture.going_under.enabled", "true without " + draught, "false");
+    if (!goes_under && coming_up->boolean())
+      report(coming_up->offset, "fracture.resurface.enabled", "true where no ice goes under a hull",
+             "false, or cusp_fate under_hull, or going_under.enabled");
   }
 
   void build() {

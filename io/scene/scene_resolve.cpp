@@ -190,6 +190,8 @@ class Resolver {
         return number(value) || value.number() != std::floor(value.number()) ? &value : nullptr;
       case FieldKind::kNumber:
         return number(value);
+      case FieldKind::kBoolean:
+        return value.is(JsonKind::kBoolean) ? nullptr : &value;
       case FieldKind::kChoice:
         return value.is(JsonKind::kText) &&
                        std::ranges::find(field.choices, value.text()) != field.choices.end()

@@ -56,6 +56,9 @@ void write_type(JsonWriter& json, const Field& field) {
       return write_number(json, field, "integer");
     case Kind::kNumber:
       return write_number(json, field, "number");
+    case Kind::kBoolean:
+      json.key("type").value("boolean");
+      return;
     case Kind::kChoice:
       json.key("enum").list(field.choices);
       return;

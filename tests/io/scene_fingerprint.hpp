@@ -35,9 +35,15 @@ inline std::string fingerprint(const simulation::Scene& s) {
                       static_cast<int>(s.fracture.bending), static_cast<int>(s.fracture.splitting),
                       s.fracture.splitting_shape_factor, static_cast<int>(s.fracture.cusp_fate),
                       s.fracture.cusp_sagitta, s.fracture.smallest_floe_area);
+  const auto& under = s.fracture.going_under;
+  const auto& up = s.fracture.resurface;
+  text += fmt::format("under {} {} {} {} up {} {} {} {} {}\n", under.is_enabled,
+                      under.tilting.added_mass_factor, under.tilting.damping, under.tilting.edge_deflection,
+                      up.is_enabled, up.retry, up.give_up, up.rim_loss, up.scatter);
   text += fmt::format("record {} {} {}\n", s.record.forces_interval, s.record.frames_interval,
                       static_cast<int>(s.record.contacts));
   for (const auto& ship : s.ships) {
+    text += fmt::format("hull {} {} ", ship.hull.draught, ship.hull.has_speed_factor);
     text += fmt::format("ship {} {} {} {} {} {} {} {} ", ship.name, ship.mass, ship.moment_of_inertia,
                         ship.position_in_world.x, ship.position_in_world.y, ship.heading, ship.speed,
                         ship.hull.stem_angle);
