@@ -17,7 +17,7 @@ int main(int count, char** words) {
   const auto write = [&](const std::string& name, char depth, const std::string& bytes) {
     std::ofstream(folder + "/" + name, std::ios::binary) << depth << bytes;
   };
-  for (const int until : {0, 20, 60, 150, 400}) {
+  for (const int until : {0, 20, 60, 150, 400, 1200}) {
     while (simulation.steps() < until) {
       simulation.step();
       simulation.journal().clear();
@@ -37,5 +37,5 @@ int main(int count, char** words) {
     if (until == 60) write("file_" + at, 0, file);
     if (until == 60) write("payload_" + at, 1, file.substr(polynya::io::checkpoint_file_of("").size()));
   }
-  return simulation.counts().bends > 0 ? 0 : 1;
+  return simulation.counts().came_up > 0 ? 0 : 1;
 }

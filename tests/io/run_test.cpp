@@ -171,7 +171,7 @@ TEST(Run, ForcesAreReadByTheirColumnsNames) {
 TEST(Run, ColumnsOfForcesNameTheirUnitsOnce) {
   const std::map<std::string_view, std::string_view> suffixes{
       {"N", "_N"},         {"N·m", "_Nm"},        {"m", "_m"}, {"°", "_deg"},
-      {"m/s", "_m_per_s"}, {"°/s", "_deg_per_s"}, {"", ""}};
+      {"m²", "_m2"}, {"m/s", "_m_per_s"}, {"°/s", "_deg_per_s"}, {"", ""}};
   std::set<std::string_view> names;
   for (const ForceColumn& column : force_columns()) {
     ASSERT_TRUE(suffixes.contains(column.unit)) << column.name;
@@ -313,14 +313,14 @@ TEST(Run, AFolderOfVersionOneReadsTheSame) {
   tests::write_file(folder.path() / "run" / run_file::kFloes, lines);
   const auto path = folder.path() / "run" / run_file::kSummary;
   std::string summary = read_file(path);
-  const std::string version = "\"folder_version\": 3,";
+  const std::string version = "\"folder_version\": 4,";
   ASSERT_NE(summary.find(version), std::string::npos);
   tests::write_file(path, std::string(summary).replace(summary.find(version), version.size(), ""));
   const auto run = read_run(folder / "run");
   ASSERT_TRUE(run.has_value()) << run.error();
   for (const simulation::Birth& birth : recorded.births)
     EXPECT_EQ(*run->shape(birth.floe), birth.polygon_in_body);
-  for (const char* other : {"\"folder_version\": 4,", "\"folder_version\": \"3\","}) {
+  for (const char* other : {"\"folder_version\": 5,", "\"folder_version\": \"3\","}) {
     tests::write_file(path, std::string(summary).replace(summary.find(version), version.size(), other));
     const auto newer = read_run(folder / "run");
     ASSERT_FALSE(newer.has_value());
