@@ -1,12 +1,15 @@
 // Where a step's time goes: the stages of simulation/step.hpp, each under the clock, over whole runs.
-//   polynya_bench_profile [--quick]      prints a Markdown table
+//   polynya_bench_profile [--quick]      prints a Markdown table of shares, on one thread
+//   polynya_bench_profile [--quick] --only voyage|field-10000|cylinder-shear
+//                                        prints one case in microseconds a step, on one and on two threads
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <string_view>
 
 #include "bench/voyage_run.hpp"
+#include "dynamics/thread_limit.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::bench {
@@ -15,26 +18,65 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using simulation::kStages;
 
-using Shares = std::array<double, kStages.size()>;
+/// Of each stage [s a step].
+using Times = std::array<double, kStages.size()>;
 
-Shares profile(const char* file, double until) {
-  simulation::World world(load(file));
-  const auto steps = std::lround(until / world.clock.step);
-  Shares seconds{};
-  for (long step = 0; step < steps; ++step) {
-    auto before = Clock::now();
-    for (std::size_t i = 0; i < kStages.size(); ++i) {
-      kStages[i].run(world);
-      const auto now = Clock::now();
-      seconds[i] += std::chrono::duration<double>(now - before).count();
-      before = now;
+struct Case {
+  const char* name;
+  const char* file;
+  double until;  ///< [s]
+};
+constexpr Case kCases[] = {{"voyage", "sawamura2017-fig4b.json", 550},
+                           {"field-10000", "field-10000.json", 500},
+                           {"cylinder-shear", "cylinder-shear.json", 100}};
+
+Times profile(const Case& at, double part, int threads) {
+  simulation::World world(
+      load(at.file, [](simulation::Scene& scene) { scene.contact.law = simulation::ContactLaw::kCrush; }));
+  world.threads = threads;
+  dynamics::ThreadLimit limit(threads);
+  const auto steps = std::lround(at.until * part / world.clock.step);
+  Times seconds{};
+  limit.execute([&] {
+    for (long step = 0; step < steps; ++step) {
+      auto before = Clock::now();
+      for (std::size_t i = 0; i < kStages.size(); ++i) {
+        kStages[i].run(world);
+        const auto now = Clock::now();
+        seconds[i] += std::chrono::duration<double>(now - before).count();
+        before = now;
+      }
+      world.journal.clear();
     }
-    world.journal.clear();
-  }
-  double sum = 0;
-  for (const double s : seconds) sum += s;
-  for (double& s : seconds) s /= sum;
+  });
+  for (double& s : seconds) s /= static_cast<double>(steps);
   return seconds;
+}
+
+double sum_of(const Times& times) {
+  double sum = 0;
+  for (const double t : times) sum += t;
+  return sum;
+}
+
+void print_shares(double part) {
+  std::array<Times, std::size(kCases)> times{};
+  for (std::size_t c = 0; c < times.size(); ++c) times[c] = profile(kCases[c], part, 1);
+  std::puts("| stage | voyage | field-10000 | cylinder-shear |\n|---|---|---|---|");
+  for (std::size_t i = 0; i < kStages.size(); ++i) {
+    std::printf("| %s |", kStages[i].name.data());
+    for (const Times& t : times) std::printf(" %.0f %% |", 100 * t[i] / sum_of(t));
+    std::puts("");
+  }
+}
+
+void print_threads(const Case& at, double part) {
+  const Times one = profile(at, part, 1);
+  const Times two = profile(at, part, 2);
+  std::printf("| stage of %s | 1 thread, us | 2 threads, us |\n|---|---|---|\n", at.name);
+  for (std::size_t i = 0; i < kStages.size(); ++i)
+    std::printf("| %s | %.2f | %.2f |\n", kStages[i].name.data(), 1e6 * one[i], 1e6 * two[i]);
+  std::printf("| all | %.2f | %.2f |\n", 1e6 * sum_of(one), 1e6 * sum_of(two));
 }
 
 }  // namespace
@@ -42,13 +84,18 @@ Shares profile(const char* file, double until) {
 
 int main(int count, char** words) {
   using namespace polynya::bench;
-  const double part = count > 1 && std::strcmp(words[1], "--quick") == 0 ? 0.1 : 1;
-  const Shares voyage = profile("sawamura2017-fig4b.json", 550 * part);
-  const Shares field = profile("field-10000.json", 500 * part);
-  const Shares cylinder = profile("cylinder-shear.json", 100 * part);
-  std::puts("| stage | voyage | field-10000 | cylinder-shear |\n|---|---|---|---|");
-  for (std::size_t i = 0; i < kStages.size(); ++i) {
-    std::printf("| %s | %.0f %% | %.0f %% | %.0f %% |\n", kStages[i].name.data(), 100 * voyage[i],
-                100 * field[i], 100 * cylinder[i]);
+  double part = 1;
+  std::string_view only;
+  for (int i = 1; i < count; ++i) {
+    if (std::string_view(words[i]) == "--quick")
+      part = 0.1;
+    else if (std::string_view(words[i]) == "--only" && i + 1 < count)
+      only = words[++i];
   }
+  if (only.empty()) return print_shares(part), 0;
+  for (const Case& at : kCases) {
+    if (only == at.name) return print_threads(at, part), 0;
+  }
+  std::fprintf(stderr, "usage: %s [--quick] [--only voyage|field-10000|cylinder-shear]\n", words[0]);
+  return 2;
 }
