@@ -29,7 +29,7 @@ PACKAGES = {
     r"CGAL/": ["geometry/"],
     r"gmp(xx)?\.h": ["geometry/exact/"],
     r"(tbb|oneapi)/": ["dynamics/"],
-    r"Eigen/": ["fracture/bending/", "dynamics/jam_solver.cpp"],
+    r"Eigen/": ["fracture/bending/", "dynamics/internal/jam_matrix"],
     r"boost/container/": ["dynamics/"],
     r"boost/math/": ["fracture/bending/"],
     r"boost/crc": ["io/run/"],

@@ -5,30 +5,21 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
+#include "dynamics/internal/jam_matrix.hpp"
 
 namespace polynya::dynamics {
 namespace {
 
-constexpr int kMostSteps = 60;      ///< of Newton's; a dozen is common
+constexpr int kMostSteps = 60;      ///< half a dozen is common
 constexpr int kUndampedSteps = 10;  ///< after them the bounds of friction follow by halves, which ends cycles
-constexpr int kMostBisections = 12;  ///< of one step's length
-constexpr double kFlat = 0.1;        ///< a slope along the step below this share of its first is no slope
-constexpr double kConverged =
-    0.02;                       ///< largest change of a speed at a contact by the last step, in slip speeds
-constexpr double kRigid = 1e6;  ///< impulse per speed of rigid ends, in masses
+// Of the last step, in slip speeds:
+constexpr double kConverged = 0.1;   ///< largest change of a speed at a contact
+constexpr double kBoundFound = 0.5;  ///< what friction's bound may still change the slip by
+constexpr double kRigid = 1e6;       ///< impulse per speed of rigid ends, in masses
 
 using Vector = Eigen::VectorXd;
-using Matrix = Eigen::SparseMatrix<double>;
 
-/// The rows of one contact: speeds apart at both ends and along the line, by the velocities of its bodies
-/// (x, y, rotation), a's and b's.
-struct Rows {
-  double of_a[3][3], of_b[3][3];
-  int a, b;  ///< first unknown; −1 of bodies of prescribed motion
-};
-
-Rows rows_of(const ContactConstraint& c, int a, int b) {
+JamRows rows_of(const ContactConstraint& c, int a, int b) {
   const geometry::Vector n = c.normal;
   const geometry::Vector t = perpendicular(n);
   return {.of_a = {{-n.x, -n.y, -c.arm_cross_normal_a[0]},
@@ -41,10 +32,10 @@ Rows rows_of(const ContactConstraint& c, int a, int b) {
           .b = b};
 }
 
-/// The impulses of one contact on b at given speeds, and how they grow with them.
-struct ContactLoad {
-  double impulse[3];  ///< at both ends, apart; along the line [N s]
-  double slope[3];    ///< ≥ 0 [N s per m/s]
+/// The pieces that a contact is on: of its ends, and whether it slips to a side (−1, 1) or sticks (0).
+struct ContactPieces {
+  CrushPieces ends;
+  int slip;
 };
 
 class Jam {
@@ -58,32 +49,28 @@ class Jam {
       rows_.push_back(rows_of(c, unknown_of(c.a), unknown_of(c.b)));
       const ConstraintSpeeds now = speeds_at(c, bodies);
       speeds_.push_back({now.apart[0], now.apart[1], now.slip});
+      loads_.push_back({{c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse}, {}});
+      slip_bound_.push_back(c.friction * (c.normal_impulse[0] + c.normal_impulse[1]));
     }
     before_constraints_.assign(constraints.begin(), constraints.end());
     for (const std::int32_t body : body_of_) before_bodies_.push_back(bodies[index(body)]);
     for (ContactConstraint& c : constraints)
       apply_impulses(c, -c.normal_impulse[0], -c.normal_impulse[1], -c.slip_impulse, bodies);
     without_ = velocities();
-    loads_.resize(rows_.size());
-    changes_.resize(rows_.size());
-    slip_bound_.resize(rows_.size());
+    pieces_.resize(rows_.size());
   }
 
   bool solve() {
+    JamMatrix matrix(mass_, rows_);
     bool is_solved = false;
     for (int step = 0; step < kMostSteps && !is_solved; ++step) {
-      find_loads(step < kUndampedSteps ? 1 : 0.5);
+      bool is_same = true;
+      for (std::size_t k = 0; k < rows_.size(); ++k)
+        is_same &= choose_pieces(k, step < kUndampedSteps ? 1 : 0.5);
       const Vector gradient = gradient_now();
-      assemble();
-      if (step == 0) cholesky_.analyzePattern(hessian_);
-      cholesky_.factorize(hessian_);
-      if (cholesky_.info() != Eigen::Success) break;
-      const Vector direction = cholesky_.solve(-gradient);
-      const double largest = find_changes(direction);
-      const double way = way_down(direction, gradient.dot(direction));
-      velocity_ += way * direction;
-      for (std::size_t k = 0; k < rows_.size(); ++k) speeds_[k] = speeds_after(k, way);
-      is_solved = way == 1 && largest < kConverged * slip_speed_;
+      if (!matrix.factorize(mass_, rows_, loads_)) break;
+      const Vector direction = matrix.solve(-gradient);
+      is_solved = advance(direction) < kConverged * slip_speed_ && is_same;
     }
     enter_impulses();
     is_solved = is_solved && missed_speed() < slip_speed_;
@@ -126,34 +113,45 @@ class Jam {
     return v;
   }
 
-  ContactLoad load_at(std::size_t k, const Speeds& speeds) const {
-    ContactLoad load;
+  /// Chooses the pieces that are nearest a contact's speeds and impulses, and brings the impulses onto them.
+  /// Then the bound of friction goes a share of the way to μ times the normal impulses: the other way round,
+  /// stick and slip may follow each other for ever. Returns whether pieces of ends and bound are found.
+  bool choose_pieces(std::size_t k, double share) {
+    const ContactConstraint& c = constraints_[k];
+    ContactPieces& pieces = pieces_[k];
+    const CrushPieces before = pieces.ends;
+    double normal = 0;
     for (std::size_t end = 0; end < 2; ++end) {
       const CrushResponse& law = laws_[k][end];
-      const CrushBranch branch = branch_of(law, piece_at(law, -speeds[end]));
-      load.impulse[end] = branch.at_rest - branch.slope * (speeds[end] + law.gap_speed);
+      const double impulse = loads_[k].impulse[end];
+      pieces.ends.of[end] = piece_near(law, -speeds_[k][end], impulse, c.inverse_mass_at[end]);
+      normal += std::clamp(impulse, 0.0, law.cap);
+    }
+    const double place = c.inverse_slip_mass * loads_[k].impulse[2] - speeds_[k][2];
+    const double most = c.inverse_slip_mass * slip_bound_[k] + slip_speed_;
+    pieces.slip = std::abs(place) <= most ? 0 : place > 0 ? 1 : -1;
+    const double off = c.friction * normal - slip_bound_[k];
+    slip_bound_[k] += share * off;
+    loads_[k] = load_of(k);
+    return pieces.ends == before && std::abs(off) * c.inverse_slip_mass < kBoundFound * slip_speed_;
+  }
+  /// By the speeds now, on the pieces as if they had no ends.
+  JamLoad load_of(std::size_t k) const {
+    JamLoad load;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const CrushBranch branch = branch_of(laws_[k][end], pieces_[k].ends.of[end]);
+      load.impulse[end] = branch.at_rest - branch.slope * (speeds_[k][end] + laws_[k][end].gap_speed);
       load.slope[end] = branch.slope;
     }
-    const double slope = slip_bound_[k] / slip_speed_;
-    const double slip = -slope * speeds[2];
-    const bool is_bound = std::abs(slip) >= slip_bound_[k];
-    load.impulse[2] = is_bound ? std::copysign(slip_bound_[k], slip) : slip;
-    load.slope[2] = is_bound ? 0 : slope;
+    const int slip = pieces_[k].slip;
+    load.slope[2] = slip == 0 ? slip_bound_[k] / slip_speed_ : 0;
+    load.impulse[2] = slip == 0 ? -load.slope[2] * speeds_[k][2] : slip * slip_bound_[k];
     return load;
-  }
-  /// By the speeds now. The bounds of friction go a share of the way to μ times the normal impulses.
-  void find_loads(double share) {
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const ContactLoad normal = load_at(k, speeds_[k]);
-      const double bound = constraints_[k].friction * (normal.impulse[0] + normal.impulse[1]);
-      slip_bound_[k] += share * (bound - slip_bound_[k]);
-      loads_[k] = load_at(k, speeds_[k]);
-    }
   }
   Vector gradient_now() const {
     Vector gradient = mass_.cwiseProduct(velocity_ - without_);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const Rows& r = rows_[k];
+      const JamRows& r = rows_[k];
       for (int row = 0; row < 3; ++row) {
         for (int i = 0; i < 3; ++i) {
           if (r.a >= 0) gradient[r.a + i] -= loads_[k].impulse[row] * r.of_a[row][i];
@@ -163,95 +161,39 @@ class Jam {
     }
     return gradient;
   }
-  /// The lower triangle of the second derivative.
-  void assemble() {
-    entries_.clear();
-    for (Eigen::Index i = 0; i < mass_.size(); ++i)
-      entries_.emplace_back(static_cast<int>(i), static_cast<int>(i), mass_[i]);
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const Rows& r = rows_[k];
-      if (r.a >= 0) add_block(loads_[k], r.a, r.of_a, r.a, r.of_a);
-      if (r.b >= 0) add_block(loads_[k], r.b, r.of_b, r.b, r.of_b);
-      if (r.a >= 0 && r.b > r.a) add_block(loads_[k], r.b, r.of_b, r.a, r.of_a);
-      if (r.b >= 0 && r.a > r.b) add_block(loads_[k], r.a, r.of_a, r.b, r.of_b);
-    }
-    hessian_.resize(mass_.size(), mass_.size());
-    hessian_.setFromTriplets(entries_.begin(), entries_.end());
-  }
-  void add_block(const ContactLoad& load, int p, const double (&of_p)[3][3], int q,
-                 const double (&of_q)[3][3]) {
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        if (p + i < q + j) continue;
-        double sum = 0;
-        for (int row = 0; row < 3; ++row) sum += load.slope[row] * of_p[row][i] * of_q[row][j];
-        entries_.emplace_back(p + i, q + j, sum);
-      }
-    }
-  }
-
-  /// How a change of the velocities changes the speeds at the contacts; returns the largest.
-  double find_changes(const Vector& direction) {
+  /// Changes the velocities, and with them speeds and impulses. Returns the largest change of a speed at a
+  /// contact.
+  double advance(const Vector& direction) {
+    velocity_ += direction;
     double largest = 0;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const Rows& r = rows_[k];
+      const JamRows& r = rows_[k];
       for (std::size_t row = 0; row < 3; ++row) {
-        double sum = 0;
+        double change = 0;
         for (int i = 0; i < 3; ++i) {
-          if (r.a >= 0) sum += r.of_a[row][i] * direction[r.a + i];
-          if (r.b >= 0) sum += r.of_b[row][i] * direction[r.b + i];
+          if (r.a >= 0) change += r.of_a[row][i] * direction[r.a + i];
+          if (r.b >= 0) change += r.of_b[row][i] * direction[r.b + i];
         }
-        changes_[k][row] = sum;
-        largest = std::max(largest, std::abs(sum));
+        speeds_[k][row] += change;
+        largest = std::max(largest, std::abs(change));
       }
+      loads_[k] = load_of(k);
     }
     return largest;
   }
-  Speeds speeds_after(std::size_t k, double way) const {
-    Speeds speeds = speeds_[k];
-    for (std::size_t row = 0; row < 3; ++row) speeds[row] += way * changes_[k][row];
-    return speeds;
-  }
-  /// How far to go along a direction: all of it, or to where the slope along it vanishes, which is a sum of
-  /// functions that do not fall.
-  double way_down(const Vector& direction, double slope_at_0) const {
-    const Vector momentum = mass_.cwiseProduct(direction);
-    const double of_mass = momentum.dot(velocity_ - without_);
-    const double growth = momentum.dot(direction);
-    const auto slope = [&](double way) {
-      double sum = of_mass + way * growth;
-      for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const ContactLoad load = load_at(k, speeds_after(k, way));
-        for (std::size_t row = 0; row < 3; ++row) sum -= load.impulse[row] * changes_[k][row];
-      }
-      return sum;
-    };
-    const double flat = kFlat * std::abs(slope_at_0);
-    double low = 0, high = 1, at_low = slope_at_0, at_high = slope(1);
-    if (at_high <= flat) return 1;
-    double way = 1;
-    for (int i = 0; i < kMostBisections; ++i) {
-      way = low + (high - low) * std::clamp(at_low / (at_low - at_high), 0.05, 0.95);
-      const double here = slope(way);
-      if (std::abs(here) <= flat) break;
-      (here < 0 ? low : high) = way;
-      (here < 0 ? at_low : at_high) = here;
-    }
-    return way;
-  }
   void enter_impulses() {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const ContactLoad load = load_at(k, speeds_[k]);
       ContactConstraint& c = constraints_[k];
-      c.normal_impulse[0] = load.impulse[0];
-      c.normal_impulse[1] = load.impulse[1];
-      c.slip_impulse = load.impulse[2];
-      apply_impulses(c, load.impulse[0], load.impulse[1], load.impulse[2], bodies_);
+      for (std::size_t end = 0; end < 2; ++end)
+        c.normal_impulse[end] = std::clamp(loads_[k].impulse[end], 0.0, laws_[k][end].cap);
+      const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
+      c.slip_impulse = std::clamp(loads_[k].impulse[2], -most, most);
+      apply_impulses(c, c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse, bodies_);
     }
   }
 
-  /// By how much the impulses entered give other speeds than those they were found at, which they do short of
-  /// the minimum or where masses differ by more than doubles bear [m/s].
+  /// By how much the impulses entered, which obey their bounds, give other speeds than those they were found
+  /// at: short of the minimum, or where masses differ by more than doubles bear [m/s].
   double missed_speed() const {
     double largest = 0;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -273,14 +215,12 @@ class Jam {
   std::vector<ContactConstraint> before_constraints_;
   std::vector<SolverBody> before_bodies_;
   std::vector<std::int32_t> body_of_;  ///< those free to move, three unknowns each
-  std::vector<Rows> rows_;
-  std::vector<Speeds> speeds_, changes_;
-  std::vector<ContactLoad> loads_;
+  std::vector<JamRows> rows_;
+  std::vector<Speeds> speeds_;
+  std::vector<JamLoad> loads_;  ///< by the speeds, on the pieces; the impulses need not obey their laws
+  std::vector<ContactPieces> pieces_;
   std::vector<double> slip_bound_;    ///< [N s]
   Vector mass_, velocity_, without_;  ///< now, and without any impulses
-  std::vector<Eigen::Triplet<double>> entries_;
-  Matrix hessian_;
-  Eigen::SimplicialLLT<Matrix> cholesky_;
 };
 
 }  // namespace

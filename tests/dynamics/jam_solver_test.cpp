@@ -106,7 +106,7 @@ TEST(JamSolver, FrictionIsCoulombs) {
   for (int trial = 0; trial < 10; ++trial) {
     Pack pack = pack_of(random, 5, 4, 0.2);
     ASSERT_TRUE(solve_jam(pack.constraints, pack.laws, pack.solver_bodies, kSlipSpeed));
-    EXPECT_LT(largest_miss(pack), 1e-7);
+    EXPECT_LT(largest_miss(pack), 0.05 * kSlipSpeed);  // the bounds of friction are found to half of it
     int stuck = 0, sliding = 0;
     double largest = 0;  // [N s]
     for (const ContactConstraint& c : pack.constraints) largest = std::max(largest, c.normal_impulse[0]);
@@ -126,6 +126,21 @@ TEST(JamSolver, FrictionIsCoulombs) {
     EXPECT_GT(stuck, 0);
     EXPECT_GT(sliding, 0);
   }
+}
+
+/// Where friction's kink is as narrow as the solver of whole steps has it, from a start far away: pieces chosen
+/// by the speeds alone find few of these.
+TEST(JamSolver, SolvesMostJamsWithFrictionOfANarrowKink) {
+  constexpr double kNarrow = 5e-5;  // [m/s]
+  Random random(kSeed);
+  int solved = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    Pack pack = pack_of(random, 12, 12, 0.2);
+    if (!solve_jam(pack.constraints, pack.laws, pack.solver_bodies, kNarrow)) continue;
+    ++solved;
+    EXPECT_LT(largest_miss(pack), kNarrow);
+  }
+  EXPECT_GE(solved, 17);
 }
 
 /// Impulses that are there before are no part of the problem: the answer is the same.
