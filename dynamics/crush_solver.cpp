@@ -11,8 +11,12 @@ namespace polynya::dynamics {
 namespace {
 
 constexpr std::size_t kContactsPerChunk = 256;
-constexpr int kPlainSweeps = 4;     ///< before the acceleration; most islands need no more
-constexpr int kSweepsToJam = 24;    ///< an island that needs more is jammed: Newton's method, now and again
+constexpr int kPlainSweeps = 4;  ///< before the acceleration; most islands need no more
+/// An island that needs more sweeps is jammed: Newton's method, now and again. Most small ones come to their
+/// solution by some more.
+constexpr int sweeps_to_jam(const Island& island) {
+  return island.count > 64 ? 24 : 48;
+}
 constexpr double kSlipShare = 0.5;  ///< of the tolerance: speed within which friction grows to its bound
 
 }  // namespace
@@ -95,6 +99,7 @@ void CrushSolver::warm_start(const Island& island, const std::vector<Contact>& c
 }
 
 double CrushSolver::sweep(const Island& island, const CrushSettings& settings) {
+  const int to_jam = sweeps_to_jam(island);
   double last = 0;
   double violation = 0;
   int accelerated = 0;  // sweeps since the last start
@@ -134,7 +139,7 @@ double CrushSolver::sweep(const Island& island, const CrushSettings& settings) {
     }
     if (violation <= settings.tolerance) return violation;
     if (round + 1 >= settings.max_iterations) break;
-    if (round % kSweepsToJam == kSweepsToJam - 1) {
+    if (round % to_jam == to_jam - 1) {
       solve_jam(island, settings.tolerance);
       accelerated = 0;
     } else if (!is_plain) {
