@@ -128,8 +128,8 @@ TEST(JamSolver, FrictionIsCoulombs) {
   }
 }
 
-/// Where friction's kink is as narrow as the solver of whole steps has it, from a start far away: pieces chosen
-/// by the speeds alone find few of these.
+/// Where friction's kink is as narrow as the solver of whole steps has it, from a start far away: pieces
+/// chosen by the speeds alone find few of these.
 TEST(JamSolver, SolvesMostJamsWithFrictionOfANarrowKink) {
   constexpr double kNarrow = 5e-5;  // [m/s]
   Random random(kSeed);
