@@ -52,11 +52,7 @@ Event submersion_event(const Clock& clock, const Population& population, FloeId 
 void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Population& population,
               Accounts& accounts) {
   const BodyIndex body = population.body_of(floe);
-  population.pairs.remove(body);
-  if (population.bodies.is_awake[body]) {
-    population.bodies.is_awake[body] = 0;
-    population.awake.erase(std::ranges::find(population.awake, body));
-  }
+  leave_contacts(floe, population);
   stop(population.bodies, body, accounts.audit);
   population.bodies.drag[body].reset();
   population.floes[floe].is_under = true;

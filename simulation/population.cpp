@@ -90,15 +90,20 @@ FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
   return id;
 }
 
+void leave_contacts(FloeId floe, Population& population) {
+  const BodyIndex body = population.body_of(floe);
+  population.pairs.remove(body);
+  std::erase_if(population.tilted, [&](const TiltedFloe& tilted) { return tilted.floe == floe; });
+  if (!population.bodies.is_awake[body]) return;
+  population.bodies.is_awake[body] = 0;
+  population.awake.erase(std::find(population.awake.begin(), population.awake.end(), body));
+}
+
 void retire_floe(FloeId floe, Population& population, Journal& journal) {
   dynamics::Bodies& bodies = population.bodies;
   const BodyIndex body = population.body_of(floe);
-  population.pairs.remove(body);
+  leave_contacts(floe, population);
   bodies.is_alive[body] = 0;
-  if (bodies.is_awake[body]) {
-    bodies.is_awake[body] = 0;
-    population.awake.erase(std::find(population.awake.begin(), population.awake.end(), body));
-  }
   bodies.boundary[body].reset();
   bodies.drag[body].reset();
   population.floes[floe].is_under = false;

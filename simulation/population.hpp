@@ -80,6 +80,9 @@ void add_scene(const Setup& setup, const Clock& clock, Population& population, J
 FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
                 const geometry::Measures& measures, Population& population, Journal& journal);
 
+/// Takes a floe out of the contact world, and puts it to sleep.
+void leave_contacts(FloeId floe, Population& population);
+
 /// Removes a floe that broke; records its death.
 void retire_floe(FloeId floe, Population& population, Journal& journal);
 

@@ -20,24 +20,18 @@ bool do_meet(const Edge& p, const Edge& q) {
   return !((q_from > 0 && q_to > 0) || (q_from < 0 && q_to < 0));
 }
 
-Box box_of(const EdgeList& edges) {
-  Box box{edges.vertices.front(), edges.vertices.front()};
-  for (const Point p : edges.vertices) extend(box, p);
-  return box;
-}
-
 }  // namespace
 
 bool is_clear(const Boundary& a, const Boundary& b, const Pose& a_from_b) {
-  const Box box_of_a = box_of(a.edges);
   Ring b_in_a;
   b_in_a.reserve(b.edges.size());
   for (const Point p : b.edges.vertices) b_in_a.push_back(transform(a_from_b, p));
-  for (std::uint32_t j = 0; j < b.edges.size(); ++j) {
-    const Edge q{b_in_a[j], b_in_a[b.edges.next[j]]};
-    if (!overlaps(box_of_a, box_around(q.from, q.to))) continue;
-    for (std::uint32_t i = 0; i < a.edges.size(); ++i) {
-      if (do_meet({a.edges.from(i), a.edges.to(i)}, q)) return false;
+  const Box box_of_b = bounding_box(b_in_a);
+  for (std::uint32_t i = 0; i < a.edges.size(); ++i) {
+    const Edge p{a.edges.from(i), a.edges.to(i)};
+    if (!overlaps(box_of_b, box_around(p.from, p.to))) continue;
+    for (std::uint32_t j = 0; j < b.edges.size(); ++j) {
+      if (do_meet(p, {b_in_a[j], b_in_a[b.edges.next[j]]})) return false;
     }
   }
   // Where no edges meet, one vertex stands for all of its body.

@@ -153,7 +153,7 @@ constexpr auto kExampleShips = R"(  "ships": [
     {
       "name": "icebreaker",
       // the waterline by its main dimensions; or point by point with "waterline_m"
-      "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},
+      "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6},
       "mass_kg": 1e7,
       "moment_of_inertia_kg_m2": 5e9,
       "position_m": [-61, 0],  // of amidships: the stem is 1 m from the ice
@@ -224,6 +224,9 @@ std::string commented_scene() {
   };
   replace(R"("name": "scene")", R"("name": "my-scene")");
   replace(R"("until_s": 550)", R"("until_s": 120)");
+  // What is filled in where a ship has a draught, as this one has.
+  replace(R"("cusp_fate": "submerge")", R"("cusp_fate": "under_hull")");
+  for (int i = 0; i < 2; ++i) replace(R"("enabled": false)", R"("enabled": true)");
   return text;
 }
 

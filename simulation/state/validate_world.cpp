@@ -111,6 +111,10 @@ Defect check_sums(const World& world) {
       return fmt::format("floe {} is a tile and not under a hull", tile.floe);
     area += population.floes[tile.floe].area;
   }
+  for (const TiltedFloe& tilted : population.tilted) {
+    if (!population.is_floating(tilted.floe))
+      return fmt::format("floe {} is tilted and does not float", tilted.floe);
+  }
   const AreaLedger& ledger = world.accounts.ledger;
   const double lost = area + ledger.under_ice_area + ledger.submerged_area + ledger.brash_area -
                       ledger.rounding_defect - ledger.initial_ice_area;
