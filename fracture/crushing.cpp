@@ -41,6 +41,27 @@ CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thic
   return {(area - inner_area) / sine, std::max(0.0, slope - slope_at(inner, inner_area)) / sine};
 }
 
+RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thickness, double hull_angle,
+                               double recession) {
+  RecedingCrush result{depth, crushed_overlap_at(overlap, depth, thickness, hull_angle)};
+  if (recession <= 0 || depth <= 0) return result;
+  // ξ + r A_c(ξ) grows, and is convex but where the facet comes to span the thickness: Newton's method,
+  // within a bracket.
+  constexpr int kMostTries = 60;
+  constexpr double kTolerance = 1e-12;
+  double shallow = 0, deep = depth;
+  for (int i = 0; i < kMostTries; ++i) {
+    const double excess = result.penetration + recession * result.crushed.area - depth;
+    (excess > 0 ? deep : shallow) = result.penetration;
+    if (std::abs(excess) <= kTolerance * depth || deep - shallow <= kTolerance * depth) break;
+    const double next = result.penetration - excess / (1 + recession * result.crushed.slope);
+    result.penetration = next > shallow && next < deep ? next : 0.5 * (shallow + deep);
+    result.crushed = crushed_overlap_at(overlap, result.penetration, thickness, hull_angle);
+  }
+  result.crushed.slope /= 1 + recession * result.crushed.slope;
+  return result;
+}
+
 CrushingShares crushing_shares(double hull_angle, double friction, double approach_speed, double slip_speed) {
   const double sine = std::sin(hull_angle);
   const double cosine = std::cos(hull_angle);

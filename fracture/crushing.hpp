@@ -37,6 +37,18 @@ struct CrushedArea {
 /// continued by its power law to `depth` [m].
 CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thickness, double hull_angle);
 
+/// The same where the ice edge recedes from the hull while it is pressed: of the depth, ξ is crushed and the
+/// rest is what the edge has given way, depth = ξ + r A_c(ξ).
+struct RecedingCrush {
+  double penetration = 0;  ///< ξ [m]
+  CrushedArea crushed;     ///< A_c(ξ), and how it grows with the depth (not with ξ)
+};
+
+/// `recession` r ≥ 0 [m/m²], at 0 that of crushed_overlap_at. r must not change while A_c grows: where it
+/// does, the slope is that with r held.
+RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thickness, double hull_angle,
+                               double recession);
+
 /// The forces between hull and ice while it crushes, per newton of the facet's normal force F_n.
 struct CrushingShares {
   double horizontal = 1;  ///< H / F_n along the plan normal

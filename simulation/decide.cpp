@@ -2,60 +2,26 @@
 #include <cmath>
 
 #include "dynamics/chunks.hpp"
-#include "dynamics/collision.hpp"
-#include "fracture/characteristic_length.hpp"
-#include "fracture/crushing.hpp"
 #include "fracture/splitting.hpp"
 #include "geometry/contact/crack_path.hpp"
-#include "geometry/contact/wedge.hpp"
-#include "simulation/hull_angle.hpp"
+#include "simulation/ship_contact_load.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {
 namespace {
 
 using dynamics::Contact;
-using geometry::Point;
 using geometry::Vector;
 
-/// The cusp is expected about this many characteristic lengths away; the wedge is measured over that length.
-constexpr double kWedgeLengthOverL = 0.3;
 /// A crack starts and ends this far outside the ice, so that it separates [m].
 constexpr double kCrackMargin = 1e-3;
-
-/// Eq. (5) needs the masses of the bodies as they are, also of one of prescribed motion.
-dynamics::Mobility true_mobility(const dynamics::Bodies& bodies, BodyIndex i, Point at) {
-  return {1 / bodies.mass[i], 1 / bodies.moment[i], at - bodies.position[i]};
-}
-
-double eq5_impulse(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
-  const double mass = dynamics::effective_mass(true_mobility(bodies, c.a, c.middle()),
-                                               true_mobility(bodies, c.b, c.middle()), c.normal);
-  return dynamics::collision_impulse(c.approach_speed, setup.scene.contact.restitution, mass);
-}
-
-/// One contact of a ship with ice, as the fracture laws see it.
-struct ShipContactLoad {
-  const Contact& contact;
-  fracture::Ice ice;        ///< of the floe
-  double impulse = 0;       ///< j of Eq. (5) [N s]
-  double hull_angle = 0;    ///< θ_s [rad]
-  double normal_force = 0;  ///< F_n on the facet while ice crushes [N]
-  double stiffness = 0;     ///< dF_n/dξ [N/m]
-  fracture::CrushingShares shares;
-};
-
-double crushing_force(const fracture::Ice& ice, const Contact& c, double hull_angle) {
-  return fracture::crushing_force(
-      ice, fracture::crushed_overlap_area({c.width, c.depth, c.area}, ice.thickness, hull_angle));
-}
 
 struct CrushingForce {
   double force = 0;      ///< [N]
   double stiffness = 0;  ///< dF/dξ [N/m]
 };
 
-/// The same at the deepest overlap that pressed, for the law of crushing ice.
+/// F_n at the deepest overlap that pressed, for the law of crushing ice.
 CrushingForce deepest_crushing_force(const fracture::Ice& ice, const Contact& c, double hull_angle) {
   const fracture::CrushedArea crushed = fracture::crushed_overlap_at(
       {c.width, c.depth, c.area}, std::max(c.depth, c.record->loaded_depth), ice.thickness, hull_angle);
@@ -84,52 +50,6 @@ void set_breaking(Contact& c, double force) {
   c.missed_impulse *= share_of_force * (exponent > 0 ? std::pow(share_of_force, 1 / exponent) : 1);
 }
 
-bool is_crush_law(const Setup& setup) {
-  return setup.scene.contact.law == ContactLaw::kCrush;
-}
-
-ShipContactLoad load_of(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
-  ShipContactLoad load{c, ice_of(setup, bodies, c.b), {}, {}, {}, {}, {}};
-  load.impulse = eq5_impulse(setup, bodies, c);
-  load.hull_angle = hull_angle_at(setup.scene.ships[c.a].hull, bodies, c);
-  if (is_crush_law(setup)) {
-    const CrushingForce crushing = deepest_crushing_force(load.ice, c, load.hull_angle);
-    load.normal_force = crushing.force;
-    load.stiffness = crushing.stiffness;
-  } else {
-    load.normal_force = crushing_force(load.ice, c, load.hull_angle);
-  }
-  load.shares = fracture::crushing_shares(load.hull_angle, load.ice.friction, c.approach_speed, c.slip_speed);
-  return load;
-}
-
-geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodies,
-                               const ShipContactLoad& load) {
-  const Contact& c = load.contact;
-  const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
-  const double l = fracture::characteristic_length(load.ice, setup.scene.water.water);
-  return geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b,
-                                inverse_transform(water_from_floe, c.tip_of_b),
-                                rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
-}
-
-fracture::BendingLoad bending_load(const Setup& setup, const dynamics::Bodies& bodies,
-                                   const ShipContactLoad& load) {
-  const Contact& c = load.contact;
-  const geometry::WedgeAngles wedge = wedge_at(setup, bodies, load);
-  fracture::BendingLoad bending;
-  bending.ice = load.ice;
-  bending.water = setup.scene.water.water;
-  bending.front_half_angle =
-      std::clamp(wedge.front, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
-  bending.back_half_angle = std::clamp(wedge.back, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
-  bending.hull_angle = load.hull_angle;
-  bending.mean_approach_speed = c.record->age > 0 ? c.record->approach / c.record->age : c.approach_speed;
-  bending.penetration = c.depth;
-  bending.vertical_to_crushing = load.shares.vertical;
-  return bending;
-}
-
 /// F_s along a crack of that length [m] in ice [N].
 double splitting_force(const Setup& setup, const fracture::Ice& ice, double length) {
   const FractureSettings& fracture = setup.scene.fracture;
@@ -147,16 +67,15 @@ void measure_crack(const Setup& setup, const dynamics::Bodies& bodies, const Shi
                            rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
   // At the corner that an earlier crack left, the next one would run along its face and pare it strip by
   // strip.
-  const geometry::WedgeAngles wedge = wedge_at(setup, bodies, load);
-  pending.criteria.has_ice_beside = std::min(wedge.front, wedge.back) >= fracture::kSmallestHalfAngle;
+  pending.criteria.has_ice_beside =
+      std::min(load.wedge.front, load.wedge.back) >= fracture::kSmallestHalfAngle;
   pending.criteria.crack_length = pending.crack_in_body.length_in_ice;
   pending.criteria.splitting_force = splitting_force(setup, load.ice, pending.criteria.crack_length);
 }
 
 /// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
-bool measure_bending(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
-                     PendingFracture& pending) {
-  const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, bodies, load));
+bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFracture& pending) {
+  const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
   pending.criteria.bending_capacity = capacity.vertical_force;
   pending.cusp_radius = capacity.cusp_radius;
   if (is_crush_law(setup)) {  // the solver finds whether the load comes to V_b
@@ -175,12 +94,9 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   const Contact& c = load.contact;
   PendingFracture pending;
   if (c.approach_speed <= 0) return pending;
-  const FractureSettings& settings = setup.scene.fracture;
   fracture::FailureCriteria& criteria = pending.criteria;
-  criteria.floe_size = std::sqrt(population.floes[population.floe_of(c.b)].area);
-  criteria.breakable_size =
-      settings.breakable_size_factor *
-      fracture::breakable_length(load.ice, setup.scene.water.water, settings.characteristic_length);
+  criteria.floe_size = floe_size(population, c.b);
+  criteria.breakable_size = breakable_size(setup, load.ice);
   criteria.collision_force = load.impulse / setup.scene.contact.contact_time;
   if (criteria.floe_size < criteria.breakable_size) return pending;
 
@@ -188,7 +104,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   if (criteria.collision_force > splitting_force(setup, load.ice, criteria.breakable_size))
     measure_crack(setup, population.bodies, load, pending);
   if (load.shares.vertical > 0) {
-    const bool is_in_range = measure_bending(setup, population.bodies, load, pending);
+    const bool is_in_range = measure_bending(setup, load, pending);
     if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
   }
   pending.failure = fracture::decide(criteria);
@@ -200,7 +116,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   pending.point_in_water = c.middle();
   pending.first_touch_in_body = c.record->first_touch_in_b;
   pending.normal = c.normal;
-  pending.penetration = c.depth;
+  pending.penetration = load.penetration;
   pending.record = c.record;
   return pending;
 }
@@ -237,7 +153,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
                     StepData& step, Counts& counts) {
   const dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
-  const ShipContactLoad load = load_of(setup, bodies, c);
+  const ShipContactLoad load = load_of(setup, population, c);
   add_peak(setup, bodies, load, step.loads[c.a]);
   const double horizontal = load.shares.horizontal;
   if (is_crush_law(setup))

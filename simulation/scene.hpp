@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "fracture/bending/bending_model.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/materials.hpp"
 #include "fracture/splitting.hpp"
@@ -88,6 +89,8 @@ struct FractureSettings {
   fracture::CharacteristicLength characteristic_length = fracture::CharacteristicLength::kFourthRoot;
   double breakable_size_factor = 1.0;  ///< κ: floes with √area < κ l are pushed, never broken [-]
   BendingModelKind bending = BendingModelKind::kFsiDatabase;
+  fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;  ///< of kFsiDatabase
+  bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
   fracture::SplittingModel splitting = fracture::SplittingModel::kMichel;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
   CuspFate cusp_fate = CuspFate::kSubmerge;

@@ -10,14 +10,14 @@
 namespace polynya::simulation {
 namespace {
 
-std::unique_ptr<const fracture::BendingModel> make_bending_model(BendingModelKind kind) {
-  switch (kind) {
+std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureSettings& settings) {
+  switch (settings.bending) {
     case BendingModelKind::kNevel:
       return std::make_unique<fracture::NevelModel>();
     case BendingModelKind::kKashtelyan:
       return std::make_unique<fracture::KashtelyanModel>();
     case BendingModelKind::kFsiDatabase:
-      return std::make_unique<fracture::FsiDatabaseModel>();
+      return std::make_unique<fracture::FsiDatabaseModel>(settings.radial_cracks);
   }
   return nullptr;  // no other kind
 }
@@ -27,7 +27,7 @@ std::unique_ptr<const fracture::BendingModel> make_bending_model(BendingModelKin
 Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
     : scene(std::move(scene_of_run)),
       shortcuts(shortcuts_of_run),
-      bending(make_bending_model(scene.fracture.bending)),
+      bending(make_bending_model(scene.fracture)),
       current(current_of(scene.water.shear)) {
   solver.restitution = scene.contact.restitution;
   solver.max_iterations = scene.contact.iterations;

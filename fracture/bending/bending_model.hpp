@@ -14,6 +14,12 @@ struct BendingLoad {
   double mean_approach_speed = 0;    ///< mean v_n since first contact [m/s]
   double penetration = 0;            ///< ξ, so far crushed along the plan normal [m]
   double vertical_to_crushing = 1;   ///< c_V = V / F_n of section 2 [-]
+  /// 2α as measured, where the edges lie beyond the largest half-angles [rad]; 0: the sum of the half-angles.
+  /// A hull that has broken its way in meets the ice at the bottom of a notch, 2α > π.
+  double opening_angle = 0;
+  /// V of the contact at that penetration [N]; 0 where it is not known: then V follows from the wedge's
+  /// angles, Eq. (2).
+  double vertical_force = 0;
 };
 
 /// What the wedge bears before its cusp breaks off.
@@ -22,6 +28,12 @@ struct BendingCapacity {
   double cusp_radius = 0;           ///< R [m]
   bool is_in_range = true;          ///< false where a tabulated model had to clamp the load to its table
   bool radial_crack_first = false;  ///< a radial crack opens before the cusp breaks, where the model has one
+};
+
+/// What the crack does that opens in the bottom fibre, along the bisector, before the cusp breaks off.
+enum class RadialCracks {
+  kIgnored,     ///< the wedge breaks as if it were whole
+  kSplitWedge,  ///< it runs through and splits the wedge (docs/theory-bow.md)
 };
 
 /// When a plate breaks by bending, and how large the cusp is. Without state of a run.

@@ -1,5 +1,6 @@
 #include "fracture/bending/fsi_database_model.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,16 @@
 
 namespace polynya::fracture {
 namespace {
+
+/// The groups to look up where the contact's force at its penetration is known: the softness is that of the
+/// push κ ξ² that has this force there. The hull need not be flat, nor the ice as wide as its wedge, where
+/// they touch.
+WedgeGroups measured_groups(const ScaledLoad& scaled_load, const BendingLoad& load) {
+  WedgeGroups groups = scaled_load.groups;
+  const double depth = load.penetration / scaled_load.length_scale;
+  groups.softness = depth * depth * scaled_load.force_scale / load.vertical_force;
+  return groups;
+}
 
 /// The groups to look up for a load that has come so deep [m]: the softness is that of the push κ ξ² with the
 /// true push's force at this penetration.
@@ -30,6 +41,29 @@ BendingCapacity to_capacity(const DatabaseAnswer& answer, const ScaledLoad& load
   return capacity;
 }
 
+/// What the parts of a wedge bear that radial cracks have split into 2, 4, … alike: each crack opens along
+/// the bisector of a part where its bottom fibre fails before its top fibre does. The parts bear V in equal
+/// shares; where they bear less than the load that opened the last crack, they break under that one.
+DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGroups& whole) {
+  constexpr int kMostParts = 16;
+  const double crack_ratio = database.look_up(whole).crack_ratio;
+  double at_crack = 0;
+  for (int parts = 1;; parts *= 2) {
+    WedgeGroups part = whole;
+    part.opening_angle /= parts;
+    part.softness *= parts;
+    DatabaseAnswer answer = database.look_up(part);
+    answer.force *= parts;
+    if (answer.crack_ratio >= 1 && parts < kMostParts) {
+      at_crack = std::max(at_crack, answer.force / answer.crack_ratio);
+      continue;
+    }
+    answer.force = std::max(answer.force, at_crack);
+    answer.crack_ratio = crack_ratio;
+    return answer;
+  }
+}
+
 bool has_poisson_ratio_of(const BendingDatabase& database, const BendingLoad& load) {
   constexpr double kTolerance = 1e-9;
   return std::abs(load.ice.poisson_ratio - database.settings().poisson_ratio) <= kTolerance;
@@ -37,9 +71,10 @@ bool has_poisson_ratio_of(const BendingDatabase& database, const BendingLoad& lo
 
 }  // namespace
 
-FsiDatabaseModel::FsiDatabaseModel()
+FsiDatabaseModel::FsiDatabaseModel(RadialCracks radial_cracks)
     // The shipped database lives as long as the program: nothing to delete.
-    : database_(std::shared_ptr<const BendingDatabase>(), &default_database()) {}
+    : database_(std::shared_ptr<const BendingDatabase>(), &default_database()),
+      radial_cracks_(radial_cracks) {}
 
 FsiDatabaseModel::FsiDatabaseModel(std::shared_ptr<const BendingDatabase> database)
     : database_(std::move(database)) {
@@ -48,8 +83,12 @@ FsiDatabaseModel::FsiDatabaseModel(std::shared_ptr<const BendingDatabase> databa
 
 BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
   const ScaledLoad scaled_load = scaled(load);
-  return to_capacity(database_->look_up(looked_up_groups(scaled_load, load.penetration)), scaled_load,
-                     has_poisson_ratio_of(*database_, load));
+  const WedgeGroups groups = load.vertical_force > 0 ? measured_groups(scaled_load, load)
+                                                     : looked_up_groups(scaled_load, load.penetration);
+  const DatabaseAnswer answer = radial_cracks_ == RadialCracks::kSplitWedge
+                                    ? with_radial_cracks(*database_, groups)
+                                    : database_->look_up(groups);
+  return to_capacity(answer, scaled_load, has_poisson_ratio_of(*database_, load));
 }
 
 BendingForecast FsiDatabaseModel::forecast(const BendingLoad& load) const {

@@ -24,23 +24,26 @@ struct BendingForecast {
 /// The paper's bending model: the icebreaking database of a fluid–structure solution, looked up with the
 /// load's dimensionless groups. [Sawamura2017, "Plate Ice Breaking"] The table covers contacts that have not
 /// crushed through the thickness, V = κ ξ². Where the load's penetration is deeper than h tan θ_s, the Π of
-/// the κ ξ² push with the same force at the same penetration is taken instead. Deviation: none known; the
-/// paper does not print its database. Its speed is the mean v_n since first contact.
+/// the κ ξ² push with the same force at the same penetration is taken instead; so it is where the contact's
+/// own force is given. Deviation: none known; the paper does not print its database. Its speed is the mean
+/// v_n since first contact.
 class FsiDatabaseModel final : public BendingModel {
  public:
   /// The shipped database.
-  FsiDatabaseModel();
+  explicit FsiDatabaseModel(RadialCracks radial_cracks = RadialCracks::kIgnored);
   explicit FsiDatabaseModel(std::shared_ptr<const BendingDatabase> database);
 
   BendingCapacity capacity(const BendingLoad& load) const override;
 
-  /// The break of a push at the load's speed from first contact; the load's penetration is not used.
+  /// The break of a push at the load's speed from first contact; the load's penetration is not used,
+  /// nor are radial cracks.
   BendingForecast forecast(const BendingLoad& load) const;
 
   const BendingDatabase& database() const { return *database_; }
 
  private:
   std::shared_ptr<const BendingDatabase> database_;
+  RadialCracks radial_cracks_ = RadialCracks::kIgnored;
 };
 
 }  // namespace polynya::fracture

@@ -16,7 +16,8 @@ ScaledLoad scaled(const BendingLoad& load) {
   result.length_scale = l;
   result.force_scale = ice.flexural_strength * h * h;
   result.time_scale = std::sqrt(l / kGravity);
-  result.groups.opening_angle = load.front_half_angle + load.back_half_angle;
+  result.groups.opening_angle =
+      load.opening_angle > 0 ? load.opening_angle : load.front_half_angle + load.back_half_angle;
   result.groups.mass_ratio = ice.density * h / (load.water.density * l);
   result.groups.froude = std::max(load.mean_approach_speed, 0.0) / std::sqrt(kGravity * l);
   const double tangent_sum = std::tan(load.front_half_angle) + std::tan(load.back_half_angle);

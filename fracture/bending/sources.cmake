@@ -10,6 +10,7 @@ set(POLYNYA_BENDING_SOURCES
   bending/database.cpp
   bending/database_build.cpp
   bending/database_text.cpp
+  bending/edge_deflection.cpp
   bending/fsi_database_model.cpp
   bending/internal/fluid.cpp
   bending/internal/march.cpp

@@ -127,15 +127,28 @@ const Object kContact{
            "most sweeps of the contact solver over bodies in touch, in a step or substep",
            [](Draft& d, const Value& v) { d.scene.contact.iterations = static_cast<int>(v.number()); })}};
 
-const Object kBending{{field("model", Kind::kChoice, "", {}, "\"fsi-database\"",
-                             "what a wedge of ice bears before its cusp breaks off",
-                             [](Draft& d, const Value& v) {
-                               d.scene.fracture.bending = v.text() == "nevel" ? BendingModelKind::kNevel
-                                                          : v.text() == "kashtelyan"
-                                                              ? BendingModelKind::kKashtelyan
-                                                              : BendingModelKind::kFsiDatabase;
-                             },
-                             {"fsi-database", "nevel", "kashtelyan"})}};
+const Object kBending{
+    {field("model", Kind::kChoice, "", {}, "\"fsi-database\"",
+           "what a wedge of ice bears before its cusp breaks off",
+           [](Draft& d, const Value& v) {
+             d.scene.fracture.bending = v.text() == "nevel"        ? BendingModelKind::kNevel
+                                        : v.text() == "kashtelyan" ? BendingModelKind::kKashtelyan
+                                                                   : BendingModelKind::kFsiDatabase;
+           },
+           {"fsi-database", "nevel", "kashtelyan"}),
+     field("radial_cracks", Kind::kChoice, "", {}, "\"split\"",
+           "of model fsi-database: whether the crack that opens below a wide wedge before its cusp breaks "
+           "splits the wedge, or is ignored",
+           [](Draft& d, const Value& v) {
+             d.scene.fracture.radial_cracks =
+                 v.text() == "split" ? fracture::RadialCracks::kSplitWedge : fracture::RadialCracks::kIgnored;
+           },
+           {"split", "ignored"}),
+     field("deflection", Kind::kChoice, "", {}, "\"followed\"",
+           "of contact law crush: whether ice that bends under a hull recedes from it, so "
+           "that the hull comes farther before a cusp breaks, or only crushes until then",
+           [](Draft& d, const Value& v) { d.scene.fracture.follows_deflection = v.text() == "followed"; },
+           {"followed", "ignored"})}};
 
 const Object kSplitting{
     {field("model", Kind::kChoice, "", {}, "\"michel\"",

@@ -30,9 +30,10 @@ inline std::string fingerprint(const simulation::Scene& s) {
                       s.contact.substeps, s.contact.is_warm_started, s.contact.tolerance,
                       s.contact.circle_radius, static_cast<int>(s.contact.normal), s.contact.restitution,
                       s.contact.contact_time, s.contact.separation_time, s.contact.iterations);
-  text += fmt::format("fracture {} {} {} {} {} {} {} {}\n",
+  text += fmt::format("fracture {} {} {} {} {} {} {} {} {} {}\n",
                       static_cast<int>(s.fracture.characteristic_length), s.fracture.breakable_size_factor,
-                      static_cast<int>(s.fracture.bending), static_cast<int>(s.fracture.splitting),
+                      static_cast<int>(s.fracture.bending), static_cast<int>(s.fracture.radial_cracks),
+                      s.fracture.follows_deflection, static_cast<int>(s.fracture.splitting),
                       s.fracture.splitting_shape_factor, static_cast<int>(s.fracture.cusp_fate),
                       s.fracture.cusp_sagitta, s.fracture.smallest_floe_area);
   const auto& under = s.fracture.going_under;

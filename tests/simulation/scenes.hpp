@@ -77,6 +77,7 @@ inline Story run(Simulation& simulation, double until) {
 inline Scene paper_scene() {
   Scene scene;
   scene.contact.law = ContactLaw::kImpulse;
+  scene.fracture.radial_cracks = fracture::RadialCracks::kIgnored;
   scene.contact.iterations = 30;
   return scene;
 }

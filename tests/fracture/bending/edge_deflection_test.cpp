@@ -1,0 +1,107 @@
+// How far the tip of a wedge sinks, and what that takes of a hull's advance.
+#include "fracture/bending/edge_deflection.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "fracture/bending/internal/modes.hpp"
+#include "fracture/bending/studies.hpp"
+#include "fracture/characteristic_length.hpp"
+#include "tests/fracture/bending/floating_beam.hpp"
+#include "tests/fracture/wedge_contact.hpp"
+
+namespace polynya::fracture {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// w / V under a force that grows as t²: μ q̈ + q = f t² from rest has q = f (t² − 2 μ (1 − cos t/√μ)).
+double compliance_of(const WedgeModes& modes, double duration) {
+  const Eigen::VectorXd at_rest = static_amplitudes(modes, 0.02);
+  double compliance = 0;
+  for (Eigen::Index k = 0; k < at_rest.size(); ++k) {
+    const double mu = modes.inertia[k];
+    const double phase = mu > 0 ? duration / std::sqrt(mu) : 1e9;
+    const double lag = phase > 1e-3 ? 2 * (1 - std::cos(phase)) / (phase * phase) : 1 - phase * phase / 12;
+    compliance += modes.tip[k] * at_rest[k] * (1 - lag);
+  }
+  return compliance;
+}
+
+TEST(TipCompliance, IsThatOfTheModes) {
+  for (const double angle : {20.0, 40.0, 90.0, 180.0}) {
+    const WedgeModes modes = wedge_modes(0.5 * angle * kDegree, 0.05, {});
+    for (const double duration :
+         {0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 0.9, 1.3, 1.8, 2.4, 3.2, 4.2, 6.0, 1e3})
+      EXPECT_NEAR(tip_compliance(angle * kDegree, duration) / compliance_of(modes, duration), 1, 1e-3)
+          << angle << " " << duration;
+  }
+}
+
+TEST(TipCompliance, BetweenItsPointsAndForOtherMassRatios) {
+  for (const double angle : {25.0, 75.0, 105.0, 165.0}) {
+    for (const double mass_ratio : {0.02, 0.05, 0.1}) {
+      const WedgeModes modes = wedge_modes(0.5 * angle * kDegree, mass_ratio, {});
+      for (const double duration : {0.1, 0.3, 1.1, 2.8, 9.0}) {
+        const double tolerance = mass_ratio == 0.05 ? 0.02 : duration < 1 ? 0.25 : 0.12;
+        EXPECT_NEAR(tip_compliance(angle * kDegree, duration) / compliance_of(modes, duration), 1, tolerance)
+            << angle << " " << mass_ratio << " " << duration;
+      }
+    }
+  }
+}
+
+TEST(TipCompliance, AtRestIsTheHalfPlanesAndTheNarrowBeams) {
+  EXPECT_NEAR(tip_compliance(std::numbers::pi, 1e6), 0.46198, 0.005);
+  // The beam's l has no 1 − ν²; its width grows with 2 tan α.
+  const BeamResponse beam = solve_floating_beam(BeamShape::kWedge, 0.02, 100);
+  const double narrow = beam.tip_deflection / (2 * std::tan(10 * kDegree) * std::sqrt(1 - 0.3 * 0.3));
+  EXPECT_NEAR(tip_compliance(20 * kDegree, 1e6) / narrow, 1, 0.02);
+}
+
+TEST(TipCompliance, GrowsFromNothing) {
+  EXPECT_EQ(tip_compliance(1.5, 0), 0);
+  double last = 0;
+  for (double duration = 1e-3; duration < 2.5; duration *= 1.1) {
+    const double now = tip_compliance(1.5, duration);
+    EXPECT_GT(now, last);
+    last = now;
+  }
+}
+
+/// The hull comes ξ + tan θ_s w before the wedge breaks: against the solution in which the two act on each
+/// other at every instant.
+TEST(Recession, LengthensThePushAsTheCoupledSolutionHasIt) {
+  BendingLoad load;
+  load.hull_angle = 38.2 * kDegree;
+  load.front_half_angle = load.back_half_angle = 56 * kDegree;
+  load.vertical_to_crushing = crushing_shares(load.hull_angle, load.ice.friction, 1, 0).vertical;
+  for (const double thickness : {0.25, 1.0}) {
+    load.ice.thickness = thickness;
+    const WedgeSolver solver = wedge_of(load, {});
+    for (const double speed : {0.05, 0.2, 0.5, 1.0}) {
+      load.mean_approach_speed = speed;
+      const auto ignored = direct_forecast(solver, load);
+      const auto coupled = direct_forecast(solver, load, Feedback::kCoupled);
+      ASSERT_TRUE(ignored && coupled);
+      const double area = ignored->normal_force / load.ice.compressive_strength;
+      double travel = ignored->penetration;
+      for (int i = 0; i < 50; ++i) travel = ignored->penetration + recession_per_area(load, travel) * area;
+      EXPECT_NEAR(travel / speed / coupled->time, 1, 0.08) << thickness << " " << speed;
+      if (speed == 0.05) {
+        EXPECT_GT(coupled->time / ignored->time, 1.3);
+      }
+    }
+  }
+}
+
+TEST(Recession, OfAWallThatDoesNotPressDownIsNothing) {
+  BendingLoad load;
+  load.vertical_to_crushing = -0.1;
+  EXPECT_EQ(recession_per_area(load, 0.1), 0);
+}
+
+}  // namespace
+}  // namespace polynya::fracture
