@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/channel_brash.hpp"
 #include "analysis/placed_ice.hpp"
 #include "analysis/swept_band.hpp"
 #include "geometry/cut/repair.hpp"
@@ -66,6 +67,7 @@ class ChannelMeasure {
         .and_then([&] { return find_band(); })
         .and_then([&] { return find_stations(); })
         .and_then([&] { return find_open_water(); })
+        .and_then([&] { return measure_brash(channel_, cells_, brash_); })
         .map([&] { return std::move(channel_); });
   }
 
@@ -91,6 +93,8 @@ class ChannelMeasure {
       Polygon polygon = transform(floe.world_from_body, *floe.polygon_in_body);
       if (auto done = add_ice(ice_, floe.birth, std::move(polygon)); !done) return done;
     }
+    for (const PlacedIce& ice : ice_)
+      (run_.floe(ice.birth->floe)->came_up ? brash_ : firm_ice_).push_back(ice);
     return {};
   }
 
@@ -109,20 +113,9 @@ class ChannelMeasure {
       if (!parted) return tl::unexpected(parted.error());
       channel_.swept_ice_at_start += parted->inside_area;
     }
-    return find_floes_in_band();
-  }
-
-  Done find_floes_in_band() {
-    for (const PlacedIce& floe : ice_) {
-      const auto parted = part(floe.polygon, channel_.swept);
-      if (!parted) return tl::unexpected(parted.error());
-      if (parted->inside_area <= 0) continue;
-      if (channel_.floes.empty() || channel_.floes.back().floe != floe.birth->floe)
-        channel_.floes.push_back({floe.birth->floe, std::sqrt(floe.birth->area), floe.birth->area, 0});
-      channel_.floes.back().inside += parted->inside_area;
-    }
-    std::ranges::stable_sort(channel_.floes, std::ranges::greater{}, &ChannelFloe::size);
-    return {};
+    return floes_in(channel_.swept, ice_).map([&](std::vector<ChannelFloe>&& floes) {
+      channel_.floes = std::move(floes);
+    });
   }
 
   /// Neighbouring cells share the corners between them: each joint has the mean of the directions
@@ -164,11 +157,10 @@ class ChannelMeasure {
                            .forward = chord / length(chord),
                            .port = channel_.reach,
                            .starboard = channel_.reach};
-    const std::vector<Polygon> ice = near(ice_, bounding_box(cell.outer));
-    const auto parted = part(cell, ice);
+    const auto parted = part(cell, near(firm_ice_, bounding_box(cell.outer)));
     if (!parted) return tl::unexpected(parted.error());
     for (const Polygon& piece : parted->inside) clear_up_to(piece, station);
-    const auto beam = part(within_beam, ice);
+    const auto beam = part(within_beam, near(ice_, bounding_box(within_beam.outer)));
     if (!beam) return tl::unexpected(beam.error());
     station.ice_across_beam = beam->inside_area / geometry::measure(within_beam).area;
     channel_.stations.push_back(station);
@@ -194,6 +186,7 @@ class ChannelMeasure {
     }
   }
 
+  /// Brash does not part it: water beyond brash is joined to the track by it.
   Done find_open_water() {
     std::vector<Polygon> cells;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -207,26 +200,30 @@ class ChannelMeasure {
     if (!corridor) return tl::unexpected(describe(corridor.error()));
     const auto& waterline = run_.scene.scene.ships[ship_].hull.waterline;
     for (const Polygon& piece : *corridor) {
-      std::vector<Polygon> taken = near(ice_, bounding_box(piece.outer));
+      std::vector<Polygon> taken = near(firm_ice_, bounding_box(piece.outer));
       taken.push_back({transform(ship_pose_at(run_, motions_, ship_, time_), waterline), {}});
       const auto parted = part(piece, taken);
       if (!parted) return tl::unexpected(parted.error());
-      for (const Polygon& water : parted->outside) {
-        if (!has_track(water)) continue;
-        channel_.open_area += geometry::measure(water).area;
-        channel_.open_water.push_back(water);
+      for (const Polygon& joined : parted->outside) {
+        if (!has_track(joined)) continue;
+        const auto water = part(joined, near(brash_, bounding_box(joined.outer)));
+        if (!water) return tl::unexpected(water.error());
+        for (const Polygon& open : water->outside) {
+          channel_.open_area += geometry::measure(open).area;
+          channel_.open_water.push_back(open);
+        }
       }
     }
     return {};
   }
 
-  bool has_track(const Polygon& water) const {
-    const Box box = bounding_box(water.outer);
+  bool has_track(const Polygon& piece) const {
+    const Box box = bounding_box(piece.outer);
     const double step = channel_.spacing / 16;
     const auto points = static_cast<std::size_t>(std::ceil(track_.back().along / step - 0.5));
     for (std::size_t i = 0; i < points; ++i) {
       const Point p = at_way(track_, (static_cast<double>(i) + 0.5) * step).point;
-      if (overlaps(box, {p, p}) && contains(water, p)) return true;
+      if (overlaps(box, {p, p}) && contains(piece, p)) return true;
     }
     return false;
   }
@@ -237,6 +234,7 @@ class ChannelMeasure {
   double time_;        ///< [s]
   double behind_ = 0;  ///< from the ship's centre to its stern [m]
   std::vector<PlacedIce> ice_;
+  std::vector<PlacedIce> brash_, firm_ice_;  ///< of it what came up from under a hull, and the rest
   std::vector<Waypoint> track_;
   std::vector<Polygon> cells_;  ///< of the stations
   Channel channel_;

@@ -27,22 +27,26 @@ struct ChannelStation {
   double passed = 0;         ///< when the ship's centre was there [s]
   geometry::Point middle;    ///< on the track, now [m]
   geometry::Vector forward;  ///< unit, along the track
-  double port = 0;       ///< from the track to the nearest ice in the cell [m]; the reach where there is none
+  double port = 0;  ///< from the track to the nearest ice in the cell that is not brash [m]; the reach where
+                    ///< there is none
   double starboard = 0;  ///< [m]
   bool has_port_ice = false;
   bool has_starboard_ice = false;
   double ice_across_beam = 0;  ///< share of the cell within half a beam of the track that ice covers [-]
+  double channel_area = 0;     ///< of the cell from ice to ice [m²]; 0 where it is not bounded
+  double brash_area = 0;       ///< of it that brash covers [m²]
 
+  double brash_cover() const;                        ///< [-]; NaN where there is no channel
   double width() const { return port + starboard; }  ///< [m]
   bool is_bounded() const { return has_port_ice && has_starboard_ice; }
 };
 
-/// A floe that reaches into the band the hull swept.
+/// A floe that reaches into the band the hull swept, or a piece of brash in the channel.
 struct ChannelFloe {
   simulation::FloeId floe = 0;
   double size = 0;    ///< √area [m]
   double area = 0;    ///< [m²]
-  double inside = 0;  ///< of it in the band [m²]
+  double inside = 0;  ///< of it in there [m²]
 };
 
 struct Channel {
@@ -53,15 +57,22 @@ struct Channel {
   double reach = 0;                    ///< [m]
   std::vector<geometry::Point> track;  ///< of the ship's centre, carried with the water to now [m]
   std::vector<ChannelStation> stations;
-  std::vector<geometry::Polygon> swept;  ///< by the hull, carried with the water to now [m]
-  double swept_area = 0;                 ///< [m²]
-  double swept_ice_at_start = 0;         ///< of it that was ice when the run began [m²]
-  std::vector<ChannelFloe> floes;        ///< in the band, the largest first
-  std::vector<geometry::Polygon>
-      open_water;        ///< joined to the track, from the first to the last bounded cell [m]
-  double open_area = 0;  ///< [m²]
+  std::vector<geometry::Polygon> swept;       ///< by the hull, carried with the water to now [m]
+  double swept_area = 0;                      ///< [m²]
+  double swept_ice_at_start = 0;              ///< of it that was ice when the run began [m²]
+  std::vector<ChannelFloe> floes;             ///< in the band, the largest first
+  std::vector<geometry::Polygon> open_water;  ///< joined to the track by water or brash, from the first to
+                                              ///< the last bounded cell [m]
+  double open_area = 0;                       ///< [m²]
+  // From ice to ice, in the bounded cells. Brash is ice that came up from under a hull, and what it broke
+  // into.
+  double area = 0;                        ///< of them together [m²]
+  std::vector<geometry::Polygon> brash;   ///< in there [m]
+  double brash_area = 0;                  ///< [m²]
+  std::vector<ChannelFloe> brash_pieces;  ///< that reach in there, the largest first
 
-  double swept_ice() const;  ///< [m²]
+  double swept_ice() const;    ///< [m²]
+  double brash_cover() const;  ///< share of `area` [-]; NaN where there is none
 };
 
 /// Widths of the stations with ice on both sides [m]; NaN where there are none.
@@ -70,6 +81,13 @@ struct WidthSummary {
   double mean = 0, least = 0, most = 0;
 };
 WidthSummary widths(const Channel& channel);
+
+/// Sizes √area of the pieces of brash in the channel [m]; NaN where there are none.
+struct BrashSizes {
+  std::size_t count = 0;
+  double mean = 0, median = 0, largest = 0;
+};
+BrashSizes brash_sizes(const Channel& channel);
 
 /// Fails with words where the ship or the time is not in the run, or geometry refuses.
 tl::expected<Channel, std::string> measure_channel(const io::Run& run, const ChannelOptions& options);

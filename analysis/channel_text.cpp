@@ -24,6 +24,12 @@ std::string side(double width, bool has_ice) {
   return has_ice ? fmt::format("{:.2f}", width) : fmt::format(">{:.2f}", width);
 }
 
+/// The cell of the table.
+std::string brash_cell(const ChannelStation& station) {
+  return station.channel_area > 0 ? fmt::format(" {:>10.2f}", 100 * station.brash_cover())
+                                  : fmt::format(" {:>10}", "-");
+}
+
 std::string size_table(const Channel& channel) {
   if (channel.floes.empty()) return "";
   std::vector<SizedFloe> floes;
@@ -62,6 +68,17 @@ std::string summary_lines(const Channel& channel) {
   return text;
 }
 
+/// Empty where nothing came up from under a hull.
+std::string brash_lines(const Channel& channel) {
+  if (channel.brash_pieces.empty()) return "";
+  const BrashSizes sizes = brash_sizes(channel);
+  return fmt::format(
+      "brash covers {:.2f} % of the {:.2f} m2 from ice to ice, {:.2f} % is open water\n"
+      "pieces of brash  {}; mean {:.2f} m, median {:.2f} m, largest {:.2f} m (root of the area)\n",
+      100 * channel.brash_cover(), channel.area, 100 * (1 - channel.brash_cover()), sizes.count, sizes.mean,
+      sizes.median, sizes.largest);
+}
+
 void append(io::JsonWriter& json, const Channel& channel) {
   const WidthSummary width = widths(channel);
   json.key("ship").value(channel.ship).key("t_s").value(channel.time);
@@ -76,6 +93,16 @@ void append(io::JsonWriter& json, const Channel& channel) {
   json.key("floes_in_band").value(channel.floes.size());
   json.key("largest_floe_m").value(channel.floes.empty() ? 0 : channel.floes.front().size);
   json.key("open_area_m2").value(channel.open_area);
+  json.key("channel_area_m2").value(channel.area).key("brash_area_m2").value(channel.brash_area);
+  json.key("brash_cover").value(channel.brash_cover());
+  const BrashSizes sizes = brash_sizes(channel);
+  json.key("brash_pieces").value(sizes.count).key("mean_piece_m").value(sizes.mean);
+  json.key("median_piece_m").value(sizes.median).key("largest_piece_m").value(sizes.largest);
+}
+
+void append_floe(io::JsonWriter& json, const ChannelFloe& floe) {
+  json.open('{').key("floe_id").value(floe.floe).key("size_m").value(floe.size);
+  json.key("area_m2").value(floe.area).key("inside_m2").value(floe.inside).close('}');
 }
 
 void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t number) {
@@ -90,6 +117,8 @@ void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t nu
       .value(s.port);
   json.key("starboard_m").value(s.starboard).key("width_m").value(s.width());
   json.key("is_bounded").value(s.is_bounded()).key("ice_across_beam").value(s.ice_across_beam);
+  json.key("channel_area_m2").value(s.channel_area).key("brash_area_m2").value(s.brash_area);
+  json.key("brash_cover").value(s.brash_cover());
   const geometry::Vector to_port = perpendicular(s.forward);
   layer.end_with(geometry::Ring{s.middle + s.port * to_port, s.middle - s.starboard * to_port});
 }
@@ -101,26 +130,29 @@ std::string to_table(const Channel& channel) {
       fmt::format("channel of {} at {:g} s: {} stations of {:g} m, {} with ice on both sides within {:g} m\n",
                   channel.ship, channel.time, channel.stations.size(), channel.spacing, widths(channel).count,
                   channel.reach);
-  text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>9} {:>10}\n", "along_m", "passed_s",
-                      "x_m", "y_m", "port_m", "starboard_m", "width_m", "over_beam", "ice_beam_%");
+  const bool has_brash = !channel.brash_pieces.empty();
+  text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>9} {:>10}{}\n", "along_m", "passed_s",
+                      "x_m", "y_m", "port_m", "starboard_m", "width_m", "over_beam", "ice_beam_%",
+                      has_brash ? "    brash_%" : "");
   for (const ChannelStation& s : channel.stations)
-    text += fmt::format("{:>9.1f} {:>9.1f} {:>9.2f} {:>9.2f} {:>9} {:>11} {:>9} {:>9.2f} {:>10.2f}\n",
+    text += fmt::format("{:>9.1f} {:>9.1f} {:>9.2f} {:>9.2f} {:>9} {:>11} {:>9} {:>9.2f} {:>10.2f}{}\n",
                         s.along, s.passed, s.middle.x, s.middle.y, side(s.port, s.has_port_ice),
                         side(s.starboard, s.has_starboard_ice), side(s.width(), s.is_bounded()),
-                        s.width() / channel.beam, 100 * s.ice_across_beam);
-  return text + summary_lines(channel) + size_table(channel);
+                        s.width() / channel.beam, 100 * s.ice_across_beam, has_brash ? brash_cell(s) : "");
+  return text + summary_lines(channel) + brash_lines(channel) + size_table(channel);
 }
 
 std::string to_csv(const Channel& channel) {
   std::string text =
       "station,along_m,passed_s,x_m,y_m,track_deg,port_m,starboard_m,width_m,width_over_beam,has_port_ice,"
-      "has_starboard_ice,ice_across_beam\n";
+      "has_starboard_ice,ice_across_beam,channel_area_m2,brash_area_m2,brash_cover\n";
   for (std::size_t i = 0; i < channel.stations.size(); ++i) {
     const ChannelStation& s = channel.stations[i];
     io::append_number(text, static_cast<std::int64_t>(i));
-    io::append_csv(text, {s.along, s.passed, s.middle.x, s.middle.y, heading_deg(s), s.port, s.starboard,
-                          s.width(), s.width() / channel.beam, s.has_port_ice ? 1.0 : 0.0,
-                          s.has_starboard_ice ? 1.0 : 0.0, s.ice_across_beam});
+    io::append_csv(text,
+                   {s.along, s.passed, s.middle.x, s.middle.y, heading_deg(s), s.port, s.starboard, s.width(),
+                    s.width() / channel.beam, s.has_port_ice ? 1.0 : 0.0, s.has_starboard_ice ? 1.0 : 0.0,
+                    s.ice_across_beam, s.channel_area, s.brash_area, s.brash_cover()});
     text += '\n';
   }
   return text;
@@ -132,10 +164,9 @@ std::string to_json_text(const Channel& channel) {
   json.open('{');
   append(json, channel);
   json.key("floes").open('[');
-  for (const ChannelFloe& floe : channel.floes) {
-    json.open('{').key("floe_id").value(floe.floe).key("size_m").value(floe.size);
-    json.key("area_m2").value(floe.area).key("inside_m2").value(floe.inside).close('}');
-  }
+  for (const ChannelFloe& floe : channel.floes) append_floe(json, floe);
+  json.close(']').key("brash").open('[');
+  for (const ChannelFloe& piece : channel.brash_pieces) append_floe(json, piece);
   json.close(']').close('}');
   return text + "\n";
 }
@@ -144,6 +175,10 @@ std::string to_geojson(const Channel& channel) {
   GeojsonLayer layer(channel.time);
   append(layer.start().key("part").value("open water"), channel);
   layer.end_with(channel.open_water);
+  if (!channel.brash.empty()) {
+    layer.start().key("part").value("brash").key("area_m2").value(channel.brash_area);
+    layer.end_with(channel.brash);
+  }
   layer.start().key("part").value("swept band").key("area_m2").value(channel.swept_area);
   layer.end_with(channel.swept);
   if (channel.track.size() > 1) {

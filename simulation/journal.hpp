@@ -24,6 +24,11 @@ enum class EventKind {
 };
 std::string_view name_of(EventKind kind);
 
+/// Whether ice broke in it.
+constexpr bool is_fracture(EventKind kind) {
+  return kind == EventKind::kBend || kind == EventKind::kSplit || kind == EventKind::kGrind;
+}
+
 /// What decides that an overlap is ground to brash: it is large, and no motion of the bodies reduces it (the
 /// gradient of its area is small, docs/theory.md, "Contact").
 struct GrindCriterion {

@@ -21,16 +21,26 @@ geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simul
   }
 }
 
-}  // namespace
-
-std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time) {
+template <class Condition>
+std::vector<PlacedFloe> floes_where(const Run& run, const MotionIndex& motions, double time,
+                                    Condition condition) {
   std::vector<PlacedFloe> floes;
   for (const RunFloe& floe : run.floes) {
-    if (!run.is_alive(floe.birth.floe, time)) continue;
+    if (!condition(floe.birth.floe)) continue;
     floes.push_back({&floe.birth, run.shape(floe.birth.floe), body_pose(run, motions, floe.birth, time),
                      motions.floe_at(floe.birth.floe, time)});
   }
   return floes;
+}
+
+}  // namespace
+
+std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time) {
+  return floes_where(run, motions, time, [&](simulation::FloeId floe) { return run.is_alive(floe, time); });
+}
+
+std::vector<PlacedFloe> floes_under_hulls_at(const Run& run, const MotionIndex& motions, double time) {
+  return floes_where(run, motions, time, [&](simulation::FloeId floe) { return run.is_under(floe, time); });
 }
 
 geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time) {

@@ -19,9 +19,12 @@ struct PlacedFloe {
   std::optional<Motion> motion;  ///< of its centre of mass; nothing where no frame has it
 };
 
-/// The floes alive at a time, by id. A floe that lived between two frames is placed as the floe it broke from
-/// was, whose body frame it shares; one that no frame has, where it was born.
+/// The floes that float at a time, by id. A floe that lived between two frames is placed as the floe it broke
+/// from was, whose body frame it shares; one that no frame has, where it was born.
 std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time);
+
+/// Those under hulls then, or waiting for room behind them, likewise.
+std::vector<PlacedFloe> floes_under_hulls_at(const Run& run, const MotionIndex& motions, double time);
 
 /// The body frame of a floe whose centre of mass moves so.
 geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motion);

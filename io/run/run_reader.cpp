@@ -73,6 +73,14 @@ void read_floes(Run& run) {
   });
 }
 
+/// What comes up from under a hull is brash, and so is all that it breaks into.
+void mark_brash(Run& run, const simulation::Event& event) {
+  const bool came_up = event.kind == simulation::EventKind::kResurface || run.floe(event.floe)->came_up;
+  for (const FloeId child : event.children) {
+    if (run.floe(child)) run.floes[static_cast<std::size_t>(child)].came_up = came_up;
+  }
+}
+
 void read_events(Run& run) {
   for_lines(run.folder, run_file::kEvents, [&](std::string_view line, int) {
     const JsonValue json = json_of(line);
@@ -89,6 +97,7 @@ void read_events(Run& run) {
       floe.died = event.time;
       floe.death_event = run.events.size();
     }
+    mark_brash(run, event);
     run.events.push_back(std::move(event));
   });
 }

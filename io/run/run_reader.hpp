@@ -24,6 +24,7 @@ struct RunFloe {
   double went_under = std::numeric_limits<double>::infinity();  ///< a hull [s]
   double died = std::numeric_limits<double>::infinity();        ///< when it broke, or came up as another [s]
   std::optional<std::size_t> death_event;                       ///< index of the event that broke it
+  bool came_up = false;  ///< it, or a floe that it broke from, came up from under a hull: brash
 };
 
 /// A line of contacts.csv.

@@ -20,7 +20,7 @@ std::vector<Frame> thinned_frames(const Run& run, const FrameSelection& selectio
     if (selected++ % selection.every != 0 && i + 1 != last) continue;
     Frame kept{.time = frame.time, .ships = frame.ships, .floes = {}};
     for (const auto& [floe, at] : skipped) {
-      if (run.is_alive(floe, frame.time))
+      if (run.is_alive(floe, frame.time) || run.is_under(floe, frame.time))
         kept.floes.push_back({floe, carried_on(at.motion, frame.time - at.time)});
     }
     skipped.clear();

@@ -1,5 +1,7 @@
 #include "analysis/channel.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "analysis/channel_text.hpp"
@@ -51,6 +53,11 @@ struct HandMadeRun {
     run.scene.scene.floes.push_back({polygon, {}, 0});
     run.frames.front().floes.push_back({birth.floe, {birth.centroid_in_body, 0, drift, 0}});
     run.floes.push_back({.birth = birth, .death_event = {}});
+  }
+  /// A piece that came up from under the hull.
+  void add_brash(const Polygon& along_track) {
+    add(along_track);
+    run.floes.back().came_up = true;
   }
 };
 
@@ -118,6 +125,60 @@ TEST(Channel, LeftoverIceOfTheBandIsAccountedForFloeByFloe) {
   EXPECT_GT(channel.floes[0].size, channel.floes[1].size);
   EXPECT_NEAR(channel.swept_ice(), 4 + 40, 1e-9);
   EXPECT_NEAR(channel.swept_ice_at_start, 4 + 40, 1e-9);
+}
+
+/// Cells are 8 m long and 33 m wide between the walls; brash in the first, across the border of the first
+/// two, across the whole channel, and half under a wall.
+TEST(Channel, BrashCoversItAndDoesNotNarrowIt) {
+  for (const double heading : {0.0, 0.7}) {
+    HandMadeRun made(heading, {0.2, -0.1});
+    made.add(box({-50, 14}, {200, 40}));
+    made.add(box({-50, -60}, {200, -19}));
+    made.add_brash(box({1, -2}, {5, 2}));      // 16 m²
+    made.add_brash(box({7, -1}, {16, 3}));     // 4 and 32 m²
+    made.add_brash(box({26, -19}, {29, 14}));  // 99 m²: water on both sides of it
+    made.add_brash(box({66, 12}, {67, 16}));   // 4 m², 2 of them in the wall
+    const analysis::Channel channel = measured(made.run);
+    ASSERT_EQ(channel.stations.size(), 11U);
+    const double wanted[] = {20, 32, 0, 99, 0, 0, 0, 0, 2, 0, 0};
+    for (std::size_t i = 0; i < channel.stations.size(); ++i) {
+      const analysis::ChannelStation& station = channel.stations[i];
+      EXPECT_NEAR(station.port, 14, 1e-9) << i;
+      EXPECT_NEAR(station.starboard, 19, 1e-9) << i;
+      EXPECT_NEAR(station.channel_area, 8 * 33, 1e-8) << i;
+      EXPECT_NEAR(station.brash_area, wanted[i], 1e-8) << i;
+      EXPECT_NEAR(station.brash_cover(), wanted[i] / (8 * 33), 1e-10) << i;
+    }
+    EXPECT_NEAR(channel.area, 88 * 33, 1e-8);
+    EXPECT_NEAR(channel.open_area, 88 * 33 - 153, 1e-8);
+    EXPECT_NEAR(channel.brash_cover(), 153.0 / (88 * 33), 1e-10);
+    const analysis::BrashSizes sizes = brash_sizes(channel);
+    EXPECT_EQ(sizes.count, 4U);
+    EXPECT_NEAR(sizes.mean, (4 + 6 + std::sqrt(99.0) + 2) / 4, 1e-9);
+    EXPECT_NEAR(sizes.median, 6, 1e-9);
+    EXPECT_NEAR(sizes.largest, std::sqrt(99.0), 1e-9);
+    EXPECT_NEAR(channel.brash_pieces.back().inside, 2, 1e-8);
+    EXPECT_NE(
+        to_table(channel).find("brash covers 5.27 % of the 2904.00 m2 from ice to ice, 94.73 % is open"),
+        std::string::npos)
+        << to_table(channel);
+    EXPECT_NE(to_json_text(channel).find("\"brash_pieces\": 4"), std::string::npos);
+    EXPECT_NE(to_geojson(channel).find("\"part\":\"brash\""), std::string::npos);
+    const std::string csv = to_csv(channel);
+    EXPECT_EQ(csv.substr(0, csv.find('\n')).substr(csv.find("channel_area_m2")),
+              "channel_area_m2,brash_area_m2,brash_cover");
+  }
+}
+
+TEST(Channel, WithoutBrashHasNoPiecesAndNoSizes) {
+  HandMadeRun made;
+  made.add(box({-50, 14}, {200, 40}));
+  made.add(box({-50, -60}, {200, -19}));
+  const analysis::Channel channel = measured(made.run);
+  EXPECT_EQ(channel.brash_cover(), 0);
+  EXPECT_EQ(brash_sizes(channel).count, 0U);
+  EXPECT_TRUE(std::isnan(brash_sizes(channel).mean));
+  EXPECT_EQ(to_table(channel).find("brash"), std::string::npos);
 }
 
 TEST(Channel, WaterCarriesAffinelyAndBack) {
