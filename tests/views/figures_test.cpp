@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "io/text/json_parser.hpp"
+#include "views/export/geojson_export.hpp"
 
 namespace polynya::views {
 namespace {
@@ -16,11 +17,11 @@ io::Run run_of_three(const std::string& name) {
   const std::string hull = R"("hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27}, "mass_kg": 1e6,
     "moment_of_inertia_kg_m2": 1e8, "propulsion": {"constant_speed_m_per_s": 1})";
   auto scene =
-      io::read_scene(R"({"name": ")" + name + R"(", "ships": [{"name": "north", "position_m": [0, 50], )" + hull +
-                     R"(}, {"name": "south", )" + hull +
-                     R"(}], "structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}],
+      io::read_scene(R"({"name": ")" + name + R"(", "ships": [{"name": "north", "position_m": [0, 50], )" +
+                         hull + R"(}, {"name": "south", )" + hull +
+                         R"(}], "structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}],
     "floes": [{"rectangle": {"corner_m": [200, 0], "size_m": 10}}]})",
-                 "scene.json", ".");
+                     "scene.json", ".");
   EXPECT_TRUE(scene.has_value());
   io::Run run;
   run.scene = std::move(*scene);
@@ -138,9 +139,10 @@ io::Run run_with_energy(const std::string& name) {
     run.floes.push_back(floe);
     run.shapes.add({{{20.0 * i, 0}, {20.0 * i + 3 * (i + 1), 0}, {20.0 * i, 3.0 * (i + 1)}}, {}});
   }
-  run.summary = io::parse_json(R"({"energy": {"initial_J": 1e6, "kinetic_J": 2e6, "thrust_J": 5e6, "current_J": 0,
+  run.summary =
+      io::parse_json(R"({"energy": {"initial_J": 1e6, "kinetic_J": 2e6, "thrust_J": 5e6, "current_J": 0,
     "drag_J": 1e6, "crushing_J": 3e6, "imbalance_J": 0, "turnover_J": 6e6}})")
-                    .root;
+          .root;
   return run;
 }
 
@@ -251,6 +253,63 @@ TEST(Figures, AWindowShowsItsPartOfTheWorld) {
   EXPECT_NEAR(width_of_ice(part) / numbers_of(part.substr(part.find("<clipPath")), "width").front(), 0.5,
               0.01);
   EXPECT_GT(width_of_ice(part), 5 * width_of_ice(whole));
+}
+
+/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third
+/// came up.
+io::Run run_with_ice_under_a_hull() {
+  io::Run run = run_with_energy("level");
+  run.scene.scene.ships[0].hull.draught = 6;
+  run.floes[1].went_under = 5;
+  run.floes[2].came_up = true;
+  run.floes[2].birth.generation = 2;
+  for (const auto kind : {simulation::EventKind::kSubmerge, simulation::EventKind::kSubmerge,
+                          simulation::EventKind::kResurface, simulation::EventKind::kStayUnder}) {
+    simulation::Event event;
+    event.time = 5;
+    event.ship = 1;
+    event.kind = kind;
+    run.events.push_back(event);
+  }
+  return run;
+}
+
+std::size_t count_of(const std::string& text, const std::string& words) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}
+
+TEST(Figures, IceUnderAHullIsNeitherFloatingIceNorAFracture) {
+  std::vector<io::Run> runs;
+  runs.push_back(run_with_ice_under_a_hull());
+  const Picture picture = picture_at(runs[0], io::MotionIndex(runs[0]), 10);
+  EXPECT_EQ(picture.floes.size(), 4U);
+  EXPECT_EQ(picture.ice_under_hulls.size(), 1U);
+  EXPECT_EQ(picture.fractures.size(), 1U);
+  const PictureSheet maps = map_figure(runs, {0, 10});
+  EXPECT_EQ(maps.pictures[0].caption, "0 cusps, 0 splits, 5 floes");
+  EXPECT_EQ(maps.pictures[1].caption, "1 cusps, 0 splits, 4 floes; 2 pieces went under the hull, 1 came up");
+  EXPECT_EQ(load_figure(runs, "max").panels.at(1).marks.size(), 1U);
+  const std::string with = to_svg(maps), without = to_svg(map_figure({run_with_energy("plain")}, {0, 10}));
+  for (const char* words :
+       {">ice under the hull or waiting behind it<", ">piece that came up from under the hull<"}) {
+    EXPECT_EQ(count_of(with, words), 1U) << words;
+    EXPECT_EQ(count_of(without, words), 0U) << words;
+  }
+}
+
+TEST(Figures, IceUnderAHullHasALayerOfItsOwn) {
+  const io::Run run = run_with_ice_under_a_hull();
+  const auto layers = geojson_layers(run, 10, {});
+  ASSERT_EQ(layers.size(), 6U);
+  EXPECT_EQ(count_of(layers[0].second, "\"floe_id\""), 4U);
+  EXPECT_EQ(count_of(layers[0].second, "\"came_up\":true"), 1U);
+  EXPECT_EQ(count_of(layers[1].second, "\"kind\""), 1U);
+  EXPECT_EQ(layers[5].first, "under-hull.geojson");
+  EXPECT_EQ(count_of(layers[5].second, "\"floe_id\""), 1U);
+  EXPECT_EQ(count_of(layers[5].second, "\"went_under_s\":5"), 1U);
+  EXPECT_EQ(geojson_layers(run_with_energy("plain"), 10, {}).size(), 5U);
 }
 
 TEST(Figures, ALegendKeepsEachSwatchBesideItsWords) {

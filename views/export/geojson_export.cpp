@@ -27,16 +27,18 @@ std::optional<double> speed_of(const io::PlacedFloe& floe) {
   return floe.motion ? std::optional(length(floe.motion->velocity)) : std::nullopt;
 }
 
-std::string floes_layer(const io::Run& run, const io::MotionIndex& motions, double time,
+std::string floes_layer(const io::Run& run, const std::vector<io::PlacedFloe>& floes, double time,
                         const Project& project) {
   GeojsonLayer layer(time, project);
-  for (const io::PlacedFloe& floe : floes_at(run, motions, time)) {
+  for (const io::PlacedFloe& floe : floes) {
     const simulation::BirthRecord& birth = *floe.birth;
+    const io::RunFloe& of_run = *run.floe(birth.floe);
     io::JsonWriter& json = layer.start();
     json.key("floe_id").value(birth.floe).key("parent_id").value(io::id_or_none(birth.parent));
     json.key("born_s").value(birth.time).key("generation").value(birth.generation);
     json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass).key("t_s").value(time);
-    json.key("speed_m_per_s").value(speed_of(floe));
+    json.key("speed_m_per_s").value(speed_of(floe)).key("came_up").value(of_run.came_up);
+    if (run.is_under(birth.floe, time)) json.key("went_under_s").value(of_run.went_under);
     layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
   }
   return layer.finish();
@@ -45,7 +47,7 @@ std::string floes_layer(const io::Run& run, const io::MotionIndex& motions, doub
 std::string fractures_layer(const io::Run& run, double time, const Project& project) {
   GeojsonLayer layer(time, project);
   for (const simulation::Event& event : run.events) {
-    if (event.time > time || event.kind == simulation::EventKind::kRejectedCut) continue;
+    if (event.time > time || !is_fracture(event.kind)) continue;
     io::JsonWriter& json = layer.start();
     json.key("t_s").value(event.time).key("kind").value(name_of(event.kind));
     json.key("ship").value(io::ship_name(run.scene.scene, event.ship)).key("floe_id").value(event.floe);
@@ -91,6 +93,7 @@ std::string channel_layer(const io::Run& run, double time, const Project& projec
     for (const geometry::Polygon& water : channel->open_water) {
       io::JsonWriter& json = layer.start().key("ship").value(channel->ship);
       json.key("mean_width_m").value(analysis::widths(*channel).mean);
+      json.key("brash_cover").value(channel->brash_cover());
       layer.end_with(water);
     }
   }
@@ -103,11 +106,16 @@ std::vector<std::pair<std::string, std::string>> geojson_layers(
     const io::Run& run, double time, const std::optional<simulation::GeographicOrigin>& origin) {
   const Project project = projection(origin);
   const io::MotionIndex motions(run);
-  return {{"floes.geojson", floes_layer(run, motions, time, project)},
-          {"fractures.geojson", fractures_layer(run, time, project)},
-          {"tracks.geojson", tracks_layer(run, motions, time, project)},
-          {"ships.geojson", ships_layer(run, motions, time, project)},
-          {"channel.geojson", channel_layer(run, time, project)}};
+  std::vector<std::pair<std::string, std::string>> layers{
+      {"floes.geojson", floes_layer(run, floes_at(run, motions, time), time, project)},
+      {"fractures.geojson", fractures_layer(run, time, project)},
+      {"tracks.geojson", tracks_layer(run, motions, time, project)},
+      {"ships.geojson", ships_layer(run, motions, time, project)},
+      {"channel.geojson", channel_layer(run, time, project)}};
+  if (has_draught(run.scene.scene))
+    layers.emplace_back("under-hull.geojson",
+                        floes_layer(run, floes_under_hulls_at(run, motions, time), time, project));
+  return layers;
 }
 
 }  // namespace polynya::views

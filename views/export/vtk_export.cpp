@@ -35,20 +35,25 @@ class IceExport {
  public:
   explicit IceExport(const io::Run& run) : run_(run), motions_(run) {}
 
-  VtkPolyData at(double time) {
+  /// What floats, or what is under hulls.
+  VtkPolyData at(double time, bool is_under_hulls) {
     VtkPolyData data;
     data.time = time;
-    const std::vector<io::PlacedFloe> floes = floes_at(run_, motions_, time);
-    std::erase_if(triangles_, [&](const auto& of) { return !run_.is_alive(of.first, time); });
+    const std::vector<io::PlacedFloe> floes =
+        is_under_hulls ? floes_under_hulls_at(run_, motions_, time) : floes_at(run_, motions_, time);
+    std::erase_if(triangles_, [&](const auto& of) {
+      return !run_.is_alive(of.first, time) && !run_.is_under(of.first, time);
+    });
     std::vector<std::int64_t> first_point;
     for (const io::PlacedFloe& floe : floes) {
       first_point.push_back(static_cast<std::int64_t>(data.points.size()));
       add_rings(data, transform(floe.world_from_body, *floe.polygon_in_body));
     }
-    data.cell_data = {
-        {"floe_id", {}, 1, true},        {"parent_id", {}, 1, true},         {"generation", {}, 1, true},
-        {"born_s", {}, 1, false},        {"area_m2", {}, 1, false},          {"mass_kg", {}, 1, false},
-        {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false}, {"is_outline", {}, 1, true}};
+    data.cell_data = {{"floe_id", {}, 1, true},        {"parent_id", {}, 1, true},
+                      {"generation", {}, 1, true},     {"born_s", {}, 1, false},
+                      {"area_m2", {}, 1, false},       {"mass_kg", {}, 1, false},
+                      {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false},
+                      {"is_outline", {}, 1, true},     {"came_up", {}, 1, true}};
     for (const io::PlacedFloe& floe : floes) {
       for (std::size_t ring = 0; ring <= floe.polygon_in_body->holes.size(); ++ring)
         add_cell(data, floe, true);
@@ -89,12 +94,13 @@ class IceExport {
     std::ranges::for_each(polygon.holes, add);
   }
 
-  static void add_cell(VtkPolyData& data, const io::PlacedFloe& floe, bool is_outline) {
+  void add_cell(VtkPolyData& data, const io::PlacedFloe& floe, bool is_outline) const {
     const simulation::BirthRecord& birth = *floe.birth;
     const geometry::Vector velocity = floe.motion ? floe.motion->velocity : geometry::Vector{kNan, kNan};
     add_row(data.cell_data, {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
                              static_cast<double>(birth.generation), birth.time, birth.area, birth.mass,
-                             length(velocity), velocity.x, velocity.y, 0.0, is_outline ? 1.0 : 0.0});
+                             length(velocity), velocity.x, velocity.y, 0.0, is_outline ? 1.0 : 0.0,
+                             run_.floe(birth.floe)->came_up ? 1.0 : 0.0});
   }
 
   const io::Run& run_;
@@ -123,6 +129,12 @@ VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double 
     }
   }
   return data;
+}
+
+/// The `kind` of a fracture in the loads; that of a ship is 0.
+int number_of(simulation::EventKind fracture) {
+  if (fracture == simulation::EventKind::kBend) return 1;
+  return fracture == simulation::EventKind::kSplit ? 2 : 3;
 }
 
 /// The ice loads of the interval that ends at the time, a vertex a ship at its centre; and the fractures
@@ -157,10 +169,9 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
         rotate(world_from_ship, {s->surge_peak, s->sway_peak}));
   }
   for (const simulation::Event& event : run.events) {
-    if (!(event.time > after && event.time <= time) || event.kind == simulation::EventKind::kRejectedCut)
-      continue;
-    add(event.point_in_world, event.kind == simulation::EventKind::kBend ? 1 : 2, event.ship, event.floe,
-        event.time, {kNan, kNan}, kNan, event.criteria.collision_force * event.normal_in_world);
+    if (!(event.time > after && event.time <= time) || !is_fracture(event.kind)) continue;
+    add(event.point_in_world, number_of(event.kind), event.ship, event.floe, event.time, {kNan, kNan}, kNan,
+        event.criteria.collision_force * event.normal_in_world);
   }
   return data;
 }
@@ -193,10 +204,12 @@ tl::expected<VtkExport, std::string> export_vtk(const io::Run& run, const io::Fr
   double before = -std::numeric_limits<double>::infinity();
   std::size_t number = 0;
   for (const io::Frame& frame : thinned_frames(run, selection)) {
-    const std::pair<const char*, VtkPolyData> parts[] = {{"ice", ice.at(frame.time)},
-                                                         {"ships", ships_at(run, motions, frame.time)},
-                                                         {"loads", loads_at(run, before, frame.time)},
-                                                         {"contacts", contacts_at(run, frame.time)}};
+    std::vector<std::pair<const char*, VtkPolyData>> parts;
+    parts.emplace_back("ice", ice.at(frame.time, false));
+    parts.emplace_back("ships", ships_at(run, motions, frame.time));
+    parts.emplace_back("loads", loads_at(run, before, frame.time));
+    parts.emplace_back("contacts", contacts_at(run, frame.time));
+    if (has_draught(run.scene.scene)) parts.emplace_back("under-hull", ice.at(frame.time, true));
     int part = 0;
     for (const auto& [name, data] : parts) {
       const std::string file = fmt::format("{}-{:05}.vtp", name, number);

@@ -81,8 +81,9 @@ std::vector<Chart::Point> peaks(const Subject& subject, const io::ForceColumn& c
 std::vector<Chart::Mark> marks_of(const Subject& subject) {
   std::vector<Chart::Mark> marks;
   for (const simulation::Event& event : subject.run->events) {
-    if (event.kind == simulation::EventKind::kRejectedCut || event.ship != subject.ship) continue;
-    marks.push_back({event.time, event.kind == simulation::EventKind::kSplit});
+    const bool is_split = event.kind == simulation::EventKind::kSplit;
+    if (event.ship == subject.ship && (is_split || event.kind == simulation::EventKind::kBend))
+      marks.push_back({event.time, is_split});
   }
   std::ranges::stable_sort(marks, {}, &Chart::Mark::is_major);
   return marks;

@@ -16,7 +16,10 @@ Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double ti
   const simulation::Scene& scene = run.scene.scene;
   for (const auto& floe : scene.floes) picture.ice_at_start.push_back(floe.polygon_in_world);
   for (const io::PlacedFloe& floe : floes_at(run, motions, time))
-    picture.floes.push_back({transform(floe.world_from_body, *floe.polygon_in_body), floe.birth->generation});
+    picture.floes.push_back({transform(floe.world_from_body, *floe.polygon_in_body), floe.birth->generation,
+                             run.floe(floe.birth->floe)->came_up});
+  for (const io::PlacedFloe& floe : floes_under_hulls_at(run, motions, time))
+    picture.ice_under_hulls.push_back(transform(floe.world_from_body, *floe.polygon_in_body));
   for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
     Picture::Ship drawn{transform(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline),
                         {}};
@@ -25,7 +28,7 @@ Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double ti
     picture.ships.push_back(std::move(drawn));
   }
   for (const simulation::Event& event : run.events) {
-    if (event.time <= time && event.kind != simulation::EventKind::kRejectedCut)
+    if (event.time <= time && is_fracture(event.kind))
       picture.fractures.push_back({event.point_in_world, event.kind});
   }
   return picture;
@@ -36,15 +39,29 @@ namespace {
 constexpr std::size_t kLargestConverted = std::size_t{20}
                                           << 20;  ///< an SVG that a converter is given [bytes]
 
+std::ptrdiff_t count_of(const Picture& picture, simulation::EventKind kind) {
+  return std::ranges::count(picture.fractures, kind, &Picture::Fracture::kind);
+}
+
+/// How many pieces went under hulls and came up until a time; empty where none went under.
+std::string words_of_ice_under_hulls(const io::Run& run, double time) {
+  const auto count = [&](simulation::EventKind kind) {
+    return std::ranges::count_if(
+        run.events, [&](const simulation::Event& event) { return event.kind == kind && event.time <= time; });
+  };
+  const auto went = count(simulation::EventKind::kSubmerge);
+  if (went == 0) return {};
+  return fmt::format("; {} {} went under the hull, {} came up", went, went == 1 ? "piece" : "pieces",
+                     count(simulation::EventKind::kResurface));
+}
+
 Picture final_picture(const io::Run& run) {
   Picture picture = picture_at(run, io::MotionIndex(run), run.end_time());
-  const auto count = [&](simulation::EventKind kind) {
-    return std::ranges::count(picture.fractures, kind, &Picture::Fracture::kind);
-  };
   picture.title = fmt::format("{} at {:.6g} s", run.label, run.end_time());
-  picture.caption = fmt::format("{} cusps broken by bending, {} splits, {} floes, {} at the start",
-                                count(simulation::EventKind::kBend), count(simulation::EventKind::kSplit),
-                                picture.floes.size(), picture.ice_at_start.size());
+  picture.caption = fmt::format("{} cusps broken by bending, {} splits, {} floes, {} at the start{}",
+                                count_of(picture, simulation::EventKind::kBend),
+                                count_of(picture, simulation::EventKind::kSplit), picture.floes.size(),
+                                picture.ice_at_start.size(), words_of_ice_under_hulls(run, run.end_time()));
   return picture;
 }
 
@@ -78,11 +95,11 @@ PictureSheet map_figure(const std::vector<io::Run>& runs, const std::vector<doub
       const double time = std::clamp(wanted, run.start_time(), run.end_time());
       Picture picture = picture_at(run, motions, time);
       add_channels(picture, run, time);
-      const auto splits =
-          std::ranges::count(picture.fractures, simulation::EventKind::kSplit, &Picture::Fracture::kind);
+      const auto splits = count_of(picture, simulation::EventKind::kSplit);
       picture.title = fmt::format("{}, {:.4g} s", run.label, time);
-      picture.caption = fmt::format("{} cusps, {} {}, {} floes", std::ssize(picture.fractures) - splits,
-                                    splits, splits == 1 ? "split" : "splits", picture.floes.size());
+      picture.caption = fmt::format(
+          "{} cusps, {} {}, {} floes{}", count_of(picture, simulation::EventKind::kBend), splits,
+          splits == 1 ? "split" : "splits", picture.floes.size(), words_of_ice_under_hulls(run, time));
       sheet.pictures.push_back(std::move(picture));
     }
   }

@@ -19,6 +19,13 @@ void draw_fracture_mark(SvgText& svg, simulation::EventKind kind, double x, doub
             y, 2.8 * size, kind == simulation::EventKind::kGrind ? kGrind : kBend, size < 0.8 ? "0" : "0.5");
 }
 
+std::string ice_under_hull_style() {
+  return fmt::format(
+      "fill='{0}' fill-opacity='0.25' fill-rule='evenodd' stroke='{0}' stroke-dasharray='3 2' "
+      "stroke-linejoin='round'",
+      kIceUnderHull);
+}
+
 namespace {
 
 MapKey area_key(const char* colour, const char* edge, const char* words) {
@@ -45,13 +52,23 @@ MapKey scale_bar(double scale, double room_on_page) {
 
 }  // namespace
 
-std::vector<MapKey> map_keys(double scale, double room, bool has_channel) {
+std::vector<MapKey> map_keys(double scale, double room, const MapContents& contents) {
   std::vector<MapKey> keys{scale_bar(scale, room), area_key(kIce, kIceEdge, "floe as in the scene"),
                            area_key(kBrokenIce, kIceEdge, "piece of a broken floe"),
                            area_key(kIceAtStart, kIceAtStart, "ice at the start, open now"),
                            area_key(kWater, kWater, "water")};
-  if (has_channel) keys.push_back(area_key(kChannel, kChannel, "channel: open water joined to the track"));
+  if (contents.has_ice_that_came_up)
+    keys.push_back(area_key(kIceCameUp, kIceEdge, "piece that came up from under the hull"));
+  if (contents.has_channel)
+    keys.push_back(area_key(kChannel, kChannel, "channel: open water joined to the track"));
   keys.push_back(area_key(kShip, kShip, "ship"));
+  if (contents.has_ice_under_hulls)
+    keys.push_back({{"ice under the hull or waiting behind it", 26}, [](SvgText& svg, geometry::Point at) {
+                      svg.add("<rect x='{0:.2f}' y='{1:.2f}' width='26' height='16' fill='{2}'/>\n", at.x,
+                              at.y - 13, kShip);
+                      svg.add("<rect x='{:.2f}' y='{:.2f}' width='18' height='8' {} stroke-width='1.2'/>\n",
+                              at.x + 4, at.y - 9, ice_under_hull_style());
+                    }});
   keys.push_back({{"its track", 30}, [](SvgText& svg, geometry::Point at) {
                     svg.add(
                         "<path d='M{:.2f} {:.2f}h30' stroke='{}' stroke-width='2' stroke-dasharray='8 4'/>\n",

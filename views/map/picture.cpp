@@ -1,6 +1,7 @@
 #include "views/map/picture.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -70,10 +71,14 @@ class SvgMap {
         "clip-path='url(#map{5})'>\n",
         frame_.left, frame_.top, frame_.width(), frame_.height(), map_colour::kWater, number_);
     draw_water();
-    draw_ice();
+    draw_ice([](const Picture::Floe& floe) { return floe.generation == 0; }, map_colour::kIce);
+    draw_ice([](const Picture::Floe& floe) { return floe.generation > 0 && !floe.came_up; },
+             map_colour::kBrokenIce);
     draw_fractures(simulation::EventKind::kBend);
     draw_fractures(simulation::EventKind::kGrind);
+    draw_ice(std::mem_fn(&Picture::Floe::came_up), map_colour::kIceCameUp);
     draw_ships();
+    draw_ice_under_hulls();
     draw_fractures(simulation::EventKind::kSplit);
     svg_.add("</g>\n");
   }
@@ -102,17 +107,23 @@ class SvgMap {
     svg_.add("</g>\n");
   }
 
-  void draw_ice() {
-    const double line = std::clamp(0.4 * frame_.scale, 0.4, 1.2);
-    for (const bool is_broken : {false, true}) {
-      svg_.add(
-          "<g fill='{}' fill-rule='evenodd' stroke='{}' stroke-width='{:.2f}' stroke-linejoin='round'>\n",
-          is_broken ? map_colour::kBrokenIce : map_colour::kIce, map_colour::kIceEdge, line);
-      for (const auto& floe : picture_.floes) {
-        if ((floe.generation > 0) == is_broken) path(floe.polygon_in_world);
-      }
-      svg_.add("</g>\n");
+  double ice_edge() const { return std::clamp(0.4 * frame_.scale, 0.4, 1.2); }  ///< [px]
+
+  template <class Condition>
+  void draw_ice(Condition condition, const char* colour) {
+    svg_.add("<g fill='{}' fill-rule='evenodd' stroke='{}' stroke-width='{:.2f}' stroke-linejoin='round'>\n",
+             colour, map_colour::kIceEdge, ice_edge());
+    for (const auto& floe : picture_.floes) {
+      if (condition(floe)) path(floe.polygon_in_world);
     }
+    svg_.add("</g>\n");
+  }
+
+  void draw_ice_under_hulls() {
+    if (picture_.ice_under_hulls.empty()) return;
+    svg_.add("<g {} stroke-width='{:.2f}'>\n", ice_under_hull_style(), ice_edge());
+    for (const auto& polygon : picture_.ice_under_hulls) path(polygon);
+    svg_.add("</g>\n");
   }
 
   void draw_ships() {
@@ -166,9 +177,13 @@ class SvgSheet {
     const std::size_t rows = rows_of(sheet_.pictures.size(), columns_);
     const double pitch = head + frame_.height() + 10;
     const double below = heading_.height() + pitch * static_cast<double>(rows);
-    const bool has_channel =
-        std::ranges::any_of(sheet_.pictures, [](const Picture& p) { return !p.channel.empty(); });
-    const std::vector<MapKey> keys = map_keys(frame_.scale, (width_ - 2 * kMargin) / 6, has_channel);
+    const auto any = [&](auto condition) { return std::ranges::any_of(sheet_.pictures, condition); };
+    const MapContents contents{
+        .has_channel = any([](const Picture& p) { return !p.channel.empty(); }),
+        .has_ice_under_hulls = any([](const Picture& p) { return !p.ice_under_hulls.empty(); }),
+        .has_ice_that_came_up =
+            any([](const Picture& p) { return std::ranges::any_of(p.floes, &Picture::Floe::came_up); })};
+    const std::vector<MapKey> keys = map_keys(frame_.scale, (width_ - 2 * kMargin) / 6, contents);
     std::vector<Legend::Entry> entries;
     for (const MapKey& key : keys) entries.push_back(key.entry);
     const Legend legend(entries, kMargin, width_ - kMargin);

@@ -15,6 +15,7 @@ struct Picture {
   struct Floe {
     geometry::Polygon polygon_in_world;  ///< [m]
     int generation = 0;
+    bool came_up = false;  ///< from under a hull
   };
   struct Ship {
     geometry::Ring waterline_in_world;   ///< [m]
@@ -28,6 +29,7 @@ struct Picture {
   std::string caption;
   std::vector<geometry::Polygon> ice_at_start;  ///< drawn faintly, so that the channel shows
   std::vector<Floe> floes;
+  std::vector<geometry::Polygon> ice_under_hulls;  ///< drawn through the ships [m]
   std::vector<Ship> ships;
   std::vector<Fracture> fractures;
   std::vector<geometry::Polygon> channel;  ///< open water along the track, drawn darker [m]
