@@ -8,7 +8,7 @@
 # In the order they stand in the page.
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
 set(POLYNYA_PLAYER_SCRIPTS numbers.js floe_shapes.js run_data.js motion.js breakage.js palette.js map_view.js floe_raster.js draw_ice.js still_ice.js
-  floe_card.js shown_floe.js channel.js contact_forces.js contact_circles.js draw_marks.js draw_ship.js legend.js map_picture.js
+  under_hull.js floe_card.js shown_floe.js channel.js contact_forces.js contact_circles.js draw_marks.js draw_ship.js legend.js map_picture.js
   plot_scale.js plot_curves.js plot_reading.js plot_off_scale.js plot_chart.js plot_gestures.js plot.js plot_panel.js timeline.js gestures.js keyboard.js page.js
   actions.js draw_loop.js player.js)
 

@@ -6,7 +6,7 @@ const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
 const { startBrowser, openPage } = require("./browser.js");
-const { makeRun, makePage, polynya, smallScene, ship } = require("./runs.js");
+const { makeRun, makePage, readNdjson, polynya, smallScene, ship } = require("./runs.js");
 
 let folder, browser;
 before(async () => {
@@ -146,6 +146,61 @@ test("there is no channel ahead of the ship", async () => {
     // The stem is 20 m before the centre, which goes from -20 m to 0 in 10 s.
     assert.equal(await colourAt(0, 10), await colourAt(5, 15), "still ahead of it both times");
     assert.notEqual(await colourAt(5, 15), await colourAt(10, -10), "behind it");
+  });
+});
+
+test("ice under the hull is drawn through it, counted, and known by a click; what came up is ice again", async () => {
+  const icebreaker = { ...ship("icebreaker", 0), hull: { ...ship("", 0).hull, draught_m: 2 } };
+  const plate = { rectangle: { corner_m: [0, -40], size_m: [200, 80] } };
+  const run = makeRun(folder, smallScene("under-hull", { floes: [plate], ships: [icebreaker], time: { until_s: 60 } }));
+  const events = readNdjson(run, "events.ndjson");
+  const floes = readNdjson(run, "floes.ndjson");
+  const [went, up] = ["submerge", "resurface"].map((kind) => new Map(events.filter((e) => e.kind === kind).map((e) => [e.floe, e])));
+  const ended = new Map(events.filter(({ kind }) => !["submerge", "rejected_cut", "ship_contact"].includes(kind)).map((e) => [e.floe, e.t_s]));
+  assert.ok(went.size > 20 && up.size > 10);
+  const stays = (floe, time) => !(ended.get(floe) <= time);
+  await withPage(makePage(run, "--every", "2"), {}, async (page) => {
+    for (const time of [10, 30, 60]) {
+      await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
+      await page.waitForTimeout(100);
+      const under = [...went.values()].filter(({ t_s: at, floe }) => at <= time && stays(floe, time)).map(({ floe }) => floe).sort((a, b) => a - b);
+      assert.deepEqual(await page.evaluate(() => [...window.polynyaPlayer.places.under].sort((a, b) => a - b)), under);
+      assert.equal(await page.locator("#under-now").textContent(), String(under.length));
+      assert.equal(await page.locator("#came-up-now").textContent(), String([...up.values()].filter(({ t_s: at }) => at <= time).length));
+      const there = floes.filter(({ born_s: born, floe_id: floe }) => born <= time && stays(floe, time));
+      assert.equal(await living(page), there.length - under.length, "what floats");
+    }
+    const time = 20;
+    await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
+    await page.evaluate(() => window.polynyaPlayer.actions.setFollow(0));
+    await page.waitForTimeout(100);
+    // One that comes up, and that is on top where its centre is.
+    const came = [...up.values()].filter(({ floe, children, t_s: at }) => children.length > 0 && went.get(floe).t_s < time && time < at);
+    const onTop = await page.evaluate((candidates) => candidates.find((floe) => {
+      const { view, places, state, actions } = window.polynyaPlayer;
+      actions.hover(...view.toScreen(places.x[floe], places.y[floe]));
+      return state.hovered === floe;
+    }), came.map(({ floe }) => floe));
+    const clicked = up.get(onTop);
+    const colourAt = (id) => page.evaluate((floe) => {
+      const { view, places } = window.polynyaPlayer;
+      const [px, py] = view.toScreen(places.x[floe], places.y[floe]);
+      return [...document.getElementById("marks").getContext("2d").getImageData(px * view.ratio, py * view.ratio, 1, 1).data].join();
+    }, id);
+    const drawn = await colourAt(clicked.floe);
+    const box = await page.locator("#stage").boundingBox();
+    const [x, y] = await page.evaluate((floe) => { const { view, places } = window.polynyaPlayer; return view.toScreen(places.x[floe], places.y[floe]); }, clicked.floe);
+    await page.mouse.click(box.x + x, box.y + y);
+    await page.waitForFunction((floe) => window.polynyaPlayer.state.selected === floe, clicked.floe);
+    const card = await page.locator("#floe-card").textContent();
+    assert.match(card, /under the hullsince [\d.]+ s/);
+    assert.ok(card.includes(`as floe ${clicked.children[0]}`), card);
+    assert.match(await page.locator("#legend").textContent(), /ice under the hull.*/);
+    await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), clicked.t_s + 1e-6);
+    await page.waitForTimeout(100);
+    assert.equal(await page.evaluate((child) => window.polynyaPlayer.colourings.breakage.value(child), clicked.children[0]), 4);
+    assert.notEqual(await colourAt(clicked.floe), drawn);
+    assert.equal(await page.locator('#quantity option:text-is("Ice under the hull")').count(), 1);
   });
 });
 

@@ -87,8 +87,11 @@ test("what became of a floe follows from its lineage and its area", () => {
   });
   const oldest = [];
   rows.forEach(([parent], id) => oldest.push(parent < 0 ? id : oldest[parent]));
-  const floes = { count: rows.length, parent: rows.map(([parent]) => parent), area: rows.map(([, , area]) => area), oldest, children };
+  const floes = { count: rows.length, parent: rows.map(([parent]) => parent), area: rows.map(([, , area]) => area), oldest, children,
+    cameUp: rows.map(() => 0) };
   assert.deepEqual(Array.from(breakagesOf({ floes, info: { events }, breakOf })), rows.map(([, , , expected]) => expected));
+  floes.cameUp[3] = floes.cameUp[6] = 1; // whatever broke it, and its largest piece
+  assert.deepEqual(Array.from(breakagesOf({ floes, info: { events }, breakOf }).subarray(2, 8)), [1, 4, 1, 3, 4, 3]);
 });
 
 test("the scale of loads leaves out only few and far larger rows", () => {

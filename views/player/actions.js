@@ -60,12 +60,13 @@ function eventActions({ run, state, view }, actions) {
       showEventCard(byId("event-card"), run, event);
     },
     stepEvent(step) {
-      let index = state.event;
-      if (index === null || Math.abs(events[index].t_s - state.time) > 1e-6) {
-        const after = events.findIndex((event) => event.t_s > state.time);
-        index = step > 0 ? (after < 0 ? events.length : after) : (after < 0 ? events.length : after) - 1;
-      } else index += step;
-      actions.goToEvent(Math.min(events.length - 1, Math.max(0, index)));
+      const marked = Array.from(events.keys()).filter((index) => isMarked(events[index]));
+      let at = marked.indexOf(state.event);
+      if (at < 0 || Math.abs(events[state.event].t_s - state.time) > 1e-6) {
+        const after = marked.findIndex((index) => events[index].t_s > state.time);
+        at = step > 0 ? (after < 0 ? marked.length : after) : (after < 0 ? marked.length : after) - 1;
+      } else at += step;
+      actions.goToEvent(marked[Math.min(marked.length - 1, Math.max(0, at))]);
     },
   };
 }
@@ -136,9 +137,9 @@ function floeActions(player, actions) {
       state.marksDirty = true;
       player.cardIsStale = true;
     },
-    /** Chooses a floe, and moves to its time if it does not live now. */
+    /** Chooses a floe, and moves to its time if it is not there now. */
     visit(id) {
-      if (!places.isAlive(id, state.time)) {
+      if (!places.isThere(id, state.time)) {
         actions.play(false);
         actions.goTo(Math.max(range[0], run.floes.born[id]));
       }

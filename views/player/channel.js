@@ -164,6 +164,7 @@ function opening(run, places, cell) {
   };
   for (let n = 0; n < places.count; ++n) {
     const id = places.living[n];
+    if (floes.cameUp[id]) continue; // brash lies in the channel
     const dx = places.x[id] - cell.x;
     const dy = places.y[id] - cell.y;
     const reach = floes.reach[id];

@@ -21,13 +21,14 @@ function neighbourOrder(floes) {
   return Int32Array.from({ length: floes.count }, (_, i) => i).sort((a, b) => keys[a] - keys[b] || a - b);
 }
 
-/** The floes alive now and where they are. */
+/** The floes that float now, those that are under hulls or wait behind them, and where they are. */
 function makePlaces(run, motions) {
   const { floes } = run;
   const order = neighbourOrder(floes);
   const places = {
     living: new Int32Array(floes.count),
     count: 0,
+    under: [],
     x: new Float64Array(floes.count),
     y: new Float64Array(floes.count),
     cos: new Float64Array(floes.count),
@@ -46,14 +47,18 @@ function makePlaces(run, motions) {
     places.vy[id] = m[4];
     places.spin[id] = m[5];
   };
-  places.isAlive = (id, time) => floes.born[id] <= time && time < floes.died[id];
+  places.isAlive = (id, time) => floes.born[id] <= time && time < floes.floatsUntil[id];
+  places.isUnder = (id, time) => floes.wentUnder[id] <= time && time < floes.died[id];
+  places.isThere = (id, time) => places.isAlive(id, time) || places.isUnder(id, time);
   places.setTime = (time) => {
     motions.setTime(time);
     places.count = 0;
+    places.under = [];
     for (const i of order) {
-      if (!places.isAlive(i, time)) continue;
+      if (!places.isThere(i, time)) continue;
       places.place(i);
-      places.living[places.count++] = i;
+      if (places.isAlive(i, time)) places.living[places.count++] = i;
+      else places.under.push(i);
     }
   };
   return places;

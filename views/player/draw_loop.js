@@ -10,11 +10,12 @@ function playOn({ state, range, actions }, passed) {
   state.iceDirty = true;
 }
 
-function showNumbers({ state, places, plotPanel, timeline }) {
+function showNumbers({ run, state, places, plotPanel, timeline }) {
   const words = `${state.time.toFixed(1)} s`;
   byId("now").textContent = words;
   byId("living").textContent = String(places.count);
   byId("living-word").textContent = places.count === 1 ? "floe" : "floes";
+  if (run.under.went > 0) showCountsUnderHulls(run, places, state.time);
   plotPanel.setTime(state.time);
   timeline.setTime(state.time, `${words}, ${places.count} floes`);
 }

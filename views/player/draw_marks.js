@@ -84,7 +84,7 @@ function drawAncestors(context, view, run, places, id, colours) {
 }
 
 function drawEventMark(context, x, y, kind, size, colours) {
-  context.fillStyle = colours[kind];
+  context.fillStyle = colours[kind] ?? colours["under-hull"];
   context.strokeStyle = "#ffffff";
   context.lineWidth = 1;
   context.beginPath();
@@ -105,7 +105,7 @@ function drawEventMark(context, x, y, kind, size, colours) {
 function drawFractures(context, view, run, time, colours) {
   for (const event of run.info.events) {
     if (event.t_s > time) break;
-    drawEventMark(context, ...view.toScreen(...event.point_m), event.kind, event.kind === "split" ? 6 : 3, colours);
+    if (isMarked(event)) drawEventMark(context, ...view.toScreen(...event.point_m), event.kind, event.kind === "split" ? 6 : 3, colours);
   }
 }
 

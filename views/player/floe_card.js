@@ -1,11 +1,14 @@
 // Which floe is under a point, and what is known of it.
 
-/** The floe at a point of the world, the smallest where several overlap; −1 where there is water. */
+/** The floe at a point of the world, the smallest where several overlap, else what is under a hull there; −1 where there is water. */
 function floeAt(run, places, x, y) {
-  const { floes } = run;
+  const found = floeAmong(run, places, places.living.subarray(0, places.count), x, y);
+  return found >= 0 ? found : floeAmong(run, places, places.under, x, y);
+}
+
+function floeAmong({ floes }, places, ids, x, y) {
   let best = -1;
-  for (let n = 0; n < places.count; ++n) {
-    const id = places.living[n];
+  for (const id of ids) {
     const dx = x - places.x[id];
     const dy = y - places.y[id];
     if (dx * dx + dy * dy > floes.reach[id] ** 2) continue;
@@ -41,18 +44,18 @@ function lineageOf(floes, id) {
   return ids;
 }
 
-/** A floe's stand-in at a time: itself while it lives; before, what it was part of; later, its largest piece. */
+/** A floe's stand-in at a time: itself while it is there; before, what it was part of; later, its largest piece. */
 function standIn(run, places, id, time) {
   const { floes } = run;
   for (let at = id; at >= 0; at = floes.parent[at]) {
-    if (places.isAlive(at, time)) return at;
+    if (places.isThere(at, time)) return at;
     if (floes.born[at] <= time) break;
   }
   let best = id;
   const queue = [id];
   while (queue.length > 0) {
     const at = queue.pop();
-    if (places.isAlive(at, time) && (best === id || floes.area[at] > floes.area[best])) best = at;
+    if (places.isThere(at, time) && (best === id || floes.area[at] > floes.area[best])) best = at;
     queue.push(...(floes.children.get(at) ?? []));
   }
   return best;
@@ -70,7 +73,7 @@ function floeFacts(run, places, motions, id) {
     mass: [`${sixDigits(floes.mass[id])} kg`, floes.mass[id]],
     speed: [speed === null ? "\u2013 (lived between two frames)" : `${speed.toFixed(5)} m/s`, speed],
     born: [`${sixDigits(floes.born[id])} s`, floes.born[id]],
-    broke: [Number.isFinite(floes.died[id]) ? `${sixDigits(floes.died[id])} s` : "not in this run", floes.died[id]],
+    ...lastFacts(run, id),
   };
 }
 
@@ -81,7 +84,7 @@ function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
     return;
   }
   const facts = floeFacts(run, places, motions, id);
-  if (!places.isAlive(id, time)) facts.speed = ["\u2013 (not alive now)", null];
+  if (!places.isThere(id, time)) facts.speed = ["\u2013 (not alive now)", null];
   const list = make("dl");
   for (const [name, [words, value]] of Object.entries(facts))
     list.append(make("dt", {}, name), make("dd", { "data-fact": name, "data-value": String(value) }, words));
@@ -142,7 +145,8 @@ function showEventCard(host, run, event) {
     at: `(${event.point_m.map((v) => minus(v.toFixed(1))).join(", ")}) m`,
   };
   if (event.kind === "grind") rows["overlap ground"] = `${shortNumber(event.overlap_area_m2)} m\u00b2`;
-  else Object.assign(rows, { load: inUnit(event.load_N), capacity: inUnit(event.capacity_N) });
+  else if ("path_m" in event) Object.assign(rows, pathRows(event));
+  else Object.assign(rows, { load: inUnit(event.load_N), capacity: inUnit(event.capacity_N), ...tiltRows(event) });
   if (event.reason) rows.reason = event.reason;
   const list = make("dl");
   for (const [name, words] of Object.entries(rows)) list.append(make("dt", {}, name), make("dd", {}, words));

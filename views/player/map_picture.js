@@ -57,8 +57,10 @@ function makeMarksPicture(player, canvas) {
     marks.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     if (shown >= 0) drawLineage(marks, view, run, places, shown, state.time, colours);
     if (state.layers.fractures) drawFractures(marks, view, run, state.time, colours);
-    if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== shown && places.isAlive(state.hovered, state.time)) outline(state.hovered);
+    if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== shown && places.isThere(state.hovered, state.time)) outline(state.hovered);
     drawShips(marks, view, run, motions, state.time, state.layers, colours);
+    drawIceUnderHulls(marks, view, run, places, colours);
+    if (places.under.includes(shown)) outline(shown);
     const notices = [];
     if (state.layers.circles) notices.push(drawCircles(marks, view, run, circlesOf, places, motions, colours));
     if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours, forceScale));

@@ -12,15 +12,17 @@ function fillPage({ run, range, state, plot, actions }) {
     byId("badge").hidden = false;
     byId("badge").textContent = `unfinished: ${range[1].toFixed(1)} of ${info.until_s} s` + (info.stopped_by ? `, stopped by ${info.stopped_by}` : "");
   }
-  const counts = { bend: 0, split: 0, grind: 0, rejected_cut: 0 };
+  const counts = { bend: 0, split: 0, grind: 0, rejected_cut: 0, submerge: 0, resurface: 0, stay_under: 0 };
   for (const event of info.events) ++counts[event.kind];
   const facts = {
     "floes in all": floes.count, bends: counts.bend, splits: counts.split, ...(counts.grind && { ground: counts.grind }), "rejected cuts": counts.rejected_cut,
+    ...(counts.submerge && { "went under": counts.submerge, "came up": counts.resurface, ...(counts.stay_under && { "stayed under": counts.stay_under }) }),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
     frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}`,
     seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
   };
   byId("facts").replaceChildren(...Object.entries(facts).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, String(value))]));
+  if (counts.submerge) byId("facts").prepend(...rowsUnderHulls());
 
   const onClick = {
     play: actions.togglePlay, "event-before": () => actions.stepEvent(-1), "event-after": () => actions.stepEvent(1),

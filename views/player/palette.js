@@ -2,7 +2,7 @@
 // survives greyscale and colour blindness; marks are in the Okabe–Ito palette.
 
 const ramps = {
-  breakage: ["#ffffff", "#f6e3a8", "#dd9a45", "#8f4a1c"],
+  breakage: ["#ffffff", "#f6e3a8", "#dd9a45", "#8f4a1c", "#edc7dd"],
   generation: ["#ffffff", "#fdf1c9", "#fbdd92", "#f2bd60", "#d98b3b", "#ad5f27"],
   speed: ["#ffffff", "#e9e4f2", "#d2c6e6", "#9c88c4", "#70539d", "#402468"],
   size: ["#0d4a35", "#2d7a55", "#58a173", "#b5dcbb", "#dcf0df", "#ffffff"],
@@ -41,8 +41,8 @@ function makeColourings(run, places) {
   const speeds = roundEdges(fastest || 1);
   const breakageOf = breakagesOf(run);
   return {
-    breakage: { title: "Ice", edges: [1, 2, 3], colours: ramps.breakage, value: (id) => breakageOf[id], isUsed: (k) => breakageOf.includes(k),
-      words: ["whole", "cut: what is left of a floe", "split off", "broken off by bending"] },
+    breakage: { title: "Ice", edges: [1, 2, 3, 4], colours: ramps.breakage, value: (id) => breakageOf[id], isUsed: (k) => breakageOf.includes(k),
+      words: ["whole", "cut: what is left of a floe", "split off", "broken off by bending", "came up from under the hull"] },
     generation: { title: "Fractures since the scene", edges: generations, colours: ramps.generation, value: (id) => floes.generation[id],
       words: ["none", ...generations.map((edge, k) => countWords(edge, generations[k + 1]))] },
     speed: { title: "Speed [m/s]", edges: speeds, colours: ramps.speed, value: (id) => Math.hypot(places.vx[id], places.vy[id]),
@@ -56,6 +56,6 @@ function themeColours() {
   const style = getComputedStyle(document.documentElement);
   const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "deck", "deck-house", "track", "ink", "panel", "muted",
     "accent", "highlight", "line", "family",
-    "bend", "split", "grind", "rejected_cut", "paper-load", "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
+    "bend", "split", "grind", "rejected_cut", "under-hull", "paper-load", "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }

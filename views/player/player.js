@@ -4,7 +4,10 @@
 function readPlayedRun() {
   const run = readRun();
   run.breakOf = new Map();
-  run.info.events.forEach((event, index) => { if (event.kind !== "rejected_cut") run.breakOf.set(event.floe, index); });
+  run.info.events.forEach((event, index) => {
+    if (event.kind !== "rejected_cut" && event.kind !== "submerge") run.breakOf.set(event.floe, index);
+  });
+  run.under = readIceUnderHulls(run.info.events);
   run.carry = makeCarrier(run.info.water);
   return run;
 }

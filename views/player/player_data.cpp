@@ -57,20 +57,31 @@ void write_force_columns(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
+void write_criterion(io::JsonWriter& json, const simulation::Event& event) {
+  using enum simulation::EventKind;
+  const auto& c = event.criteria;
+  if (event.kind == kSubmerge) {
+    json.key("load_N").value(event.tilting.vertical_force).key("capacity_N").value(event.tilting.capacity);
+    json.key("deflection_m").value(event.tilting.deflection);
+    json.key("least_deflection_m").value(event.tilting.least_deflection);
+  } else if (event.kind == kResurface || event.kind == kStayUnder) {
+    json.key("path_m").value(event.resurfacing.path).key("waited_s").value(event.resurfacing.waited);
+  } else if (event.grinding.least_width > 0) {
+    json.key("overlap_area_m2").value(event.grinding.overlap_area);
+  } else {
+    const bool is_split = event.kind == kSplit;
+    json.key("load_N").value(is_split ? c.collision_force : c.vertical_force);
+    json.key("capacity_N").value(is_split ? c.splitting_force : c.bending_capacity);
+  }
+}
+
 void write_events(io::JsonWriter& json, const io::Run& run) {
   json.key("events").open('[');
   for (const simulation::Event& event : run.events) {
     json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
     json.key("ship").value(event.ship).key("floe").value(event.floe).key("children").list(event.children);
     json.key("point_m").value(event.point_in_world);
-    const auto& c = event.criteria;
-    const bool is_split = event.kind == simulation::EventKind::kSplit;
-    if (event.grinding.least_width > 0) {
-      json.key("overlap_area_m2").value(event.grinding.overlap_area);
-    } else {
-      json.key("load_N").value(is_split ? c.collision_force : c.vertical_force);
-      json.key("capacity_N").value(is_split ? c.splitting_force : c.bending_capacity);
-    }
+    write_criterion(json, event);
     if (!event.reason.empty()) json.key("reason").value(event.reason);
     json.close('}');
   }

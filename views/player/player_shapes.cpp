@@ -87,6 +87,8 @@ void add_floes(ColumnWriter& columns, const io::Run& run) {
   add("generation", &BirthRecord::generation);
   add("born_s", &BirthRecord::time);
   columns.add("died_s", run.floes, &io::RunFloe::died);
+  columns.add("went_under_s", run.floes, &io::RunFloe::went_under);
+  columns.add("came_up", run.floes, &io::RunFloe::came_up);
   add("area_m2", &BirthRecord::area);
   add("mass_kg", &BirthRecord::mass);
   add("centroid_x_m", [](const BirthRecord& birth) { return birth.centroid_in_body.x; });

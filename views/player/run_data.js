@@ -29,6 +29,9 @@ function readFloes(columns) {
     generation: columns.generation,
     born: columns.born_s,
     died: columns.died_s,
+    wentUnder: columns.went_under_s,
+    floatsUntil: Float64Array.from(columns.died_s, (died, i) => Math.min(died, columns.went_under_s[i])),
+    cameUp: columns.came_up, // from under a hull, or what came up broke into it
     area: columns.area_m2,
     mass: columns.mass_kg,
     cx: columns.centroid_x_m,

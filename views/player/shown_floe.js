@@ -21,7 +21,7 @@ function makeShownFloe(player) {
     chip.hidden = id < 0;
     if (id < 0) return;
     const facts = floeFacts(run, places, motions, id);
-    chip.textContent = `floe ${id} \u00b7 ${sixDigits(run.floes.area[id])} m\u00b2 \u00b7 ${places.isAlive(id, state.time) ? facts.speed[0] : "not alive now"}`;
+    chip.textContent = `floe ${id} \u00b7 ${sixDigits(run.floes.area[id])} m\u00b2 \u00b7 ${places.isThere(id, state.time) ? facts.speed[0] : "not alive now"}`;
   }
   return { shown, showCard };
 }

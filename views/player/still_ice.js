@@ -19,7 +19,7 @@ function makeStillIce(run, places, motions) {
     const still = [];
     kept.loose = [];
     for (const id of places.living.subarray(0, places.count)) {
-      if (floes.died[id] > until && stays(id, view, until - time, endFrame)) still.push(id);
+      if (floes.floatsUntil[id] > until && stays(id, view, until - time, endFrame)) still.push(id);
       else kept.loose.push(id);
     }
     for (const child of bornBetween(time, until)) kept.loose.push(child);

@@ -1,7 +1,10 @@
-// The timeline: a slider with a mark for every event. A click on a mark goes there.
+// The timeline: a slider with a mark for every fracture and rejected cut. A click on a mark goes there.
 
 const nearMark = 5; // [px]
 const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18 }; // of each kind of mark, from the top [px]
+
+/** Whether an event has a mark. What goes under hulls and comes up has none: there is one for each cusp. */
+const isMarked = ({ kind }) => kind in markHeights;
 
 /** The slider; `pixelOf` and `timeOf` convert between times [s] and pixels from its left. */
 function makeTimeline(run, track, range, actions) {
@@ -49,7 +52,7 @@ function drawTimeline(track, { width, pixelOf }, events, colours) {
   context.fillRect(0, height - 6, width, 3);
   context.globalAlpha = 0.75;
   for (const event of events) {
-    if (event.kind === "split") continue;
+    if (event.kind === "split" || !isMarked(event)) continue;
     context.fillStyle = colours[event.kind];
     context.fillRect(pixelOf(event.t_s) - 0.75, 13, 1.5, 9);
   }
@@ -64,6 +67,7 @@ function eventAt(events, { pixelOf }, px, py) {
   let best = null;
   let least = nearMark;
   events.forEach((event, index) => {
+    if (!isMarked(event)) return;
     const distance = Math.abs(pixelOf(event.t_s) - px) + (Math.abs(markHeights[event.kind] - py) > 9 ? 3 : 0);
     if (distance < least) {
       least = distance;
@@ -99,7 +103,8 @@ function watchTimeline(track, timeline, run, actions) {
   for (const name of ["pointerup", "pointercancel"]) track.addEventListener(name, () => { isDown = false; });
 }
 
-const kindWords = { bend: "bend", split: "split", grind: "grinding", rejected_cut: "rejected cut" };
+const kindWords = { bend: "bend", split: "split", grind: "grinding", rejected_cut: "rejected cut", submerge: "going under", resurface: "coming up",
+  stay_under: "staying under" };
 
 function eventWords(run, event) {
   return `${event.t_s.toFixed(2)} s: ${kindWords[event.kind]} of floe ${event.floe}`;
