@@ -192,6 +192,7 @@ function pageActions(player, actions) {
     zoomPlot: (from = range[0], until = range[1]) => plot.show(from, until),
     plotQuantity(name) {
       plot.quantity = name;
+      byId("quantity").value = name;
       player.plotPanel.rebuild();
     },
   };
