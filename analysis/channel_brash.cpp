@@ -17,6 +17,7 @@ using geometry::Ring;
 
 std::vector<PlacedIce> with_boxes(const std::vector<Polygon>& polygons) {
   std::vector<PlacedIce> boxed;
+  boxed.reserve(polygons.size());
   for (const Polygon& polygon : polygons) boxed.push_back({nullptr, polygon, bounding_box(polygon.outer)});
   return boxed;
 }

@@ -25,20 +25,11 @@ constexpr auto kLongestWait = std::chrono::seconds(1);
 
 /// What a file that grows begins with.
 std::string header_of(std::size_t file) {
-  switch (file) {
-    case kForces:
-      return forces_header();
-    case kFrames:
-      return FrameEncoder::header();
-    case kContacts:
-      return std::string(contacts_header());
-    case kCrushed:
-      return std::string(crushed_header());
-    case kStates:
-      return std::string(states_header());
-    default:
-      return "";
-  }
+  if (file == kForces) return forces_header();
+  if (file == kFrames) return FrameEncoder::header();
+  if (file == kContacts) return std::string(contacts_header());
+  if (file == kCrushed) return std::string(crushed_header());
+  return std::string(file == kStates ? states_header() : "");
 }
 
 /// The floes and those under hulls, by id.

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
+#include "../io/temporary_folder.hpp"
 #include <gtest/gtest.h>
 
 #include "io/text/json_parser.hpp"
 #include "views/export/geojson_export.hpp"
+#include "views/export/vtk_export.hpp"
 
 namespace polynya::views {
 namespace {
@@ -310,6 +314,21 @@ TEST(Figures, IceUnderAHullHasALayerOfItsOwn) {
   EXPECT_EQ(count_of(layers[5].second, "\"floe_id\""), 1U);
   EXPECT_EQ(count_of(layers[5].second, "\"went_under_s\":5"), 1U);
   EXPECT_EQ(geojson_layers(run_with_energy("plain"), 10, {}).size(), 5U);
+}
+
+TEST(Figures, IceUnderAHullIsAPartOfTheVtkExport) {
+  const tests::TemporaryFolder folder;
+  ASSERT_TRUE(export_vtk(run_with_ice_under_a_hull(), {}, folder.path()).has_value());
+  const auto count = [&](const char* file, const std::string& words) {
+    std::ifstream stream(folder.path() / file);
+    EXPECT_TRUE(stream) << file;
+    return count_of({std::istreambuf_iterator<char>(stream), {}}, words);
+  };
+  EXPECT_EQ(count("run.pvd", "under-hull-"), 2U);
+  EXPECT_EQ(count("under-hull-00000.vtp", "NumberOfLines=\"0\""), 1U);
+  EXPECT_EQ(count("under-hull-00001.vtp", "NumberOfLines=\"1\""), 1U);
+  EXPECT_EQ(count("ice-00001.vtp", "NumberOfLines=\"4\""), 1U);
+  EXPECT_EQ(count("loads-00001.vtp", "NumberOfVerts=\"4\""), 1U) << "three ships and one fracture";
 }
 
 TEST(Figures, ALegendKeepsEachSwatchBesideItsWords) {

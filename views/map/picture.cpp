@@ -185,6 +185,7 @@ class SvgSheet {
             any([](const Picture& p) { return std::ranges::any_of(p.floes, &Picture::Floe::came_up); })};
     const std::vector<MapKey> keys = map_keys(frame_.scale, (width_ - 2 * kMargin) / 6, contents);
     std::vector<Legend::Entry> entries;
+    entries.reserve(keys.size());
     for (const MapKey& key : keys) entries.push_back(key.entry);
     const Legend legend(entries, kMargin, width_ - kMargin);
     SvgText svg(width_, below + legend.height());
