@@ -166,10 +166,11 @@ FloeState state_of(const World& world, FloeId id) {
   return state;
 }
 
-std::vector<FloeState> states_where(const World& world, bool is_under) {
+template <class Condition>
+std::vector<FloeState> states_where(const World& world, Condition is_wanted) {
   std::vector<FloeState> states;
   for (FloeId id = 0; id < world.population.floe_count(); ++id) {
-    if (world.population.is_alive(id) && world.population.floes[id].is_under == is_under)
+    if (world.population.is_alive(id) && is_wanted(world.population.floes[id]))
       states.push_back(state_of(world, id));
   }
   return states;
@@ -178,11 +179,11 @@ std::vector<FloeState> states_where(const World& world, bool is_under) {
 }  // namespace
 
 std::vector<FloeState> Simulation::floe_states() const {
-  return states_where(*world_, false);
+  return states_where(*world_, [](const Floe& floe) { return !floe.is_under; });
 }
 
-std::vector<FloeState> Simulation::states_under_hull() const {
-  return states_where(*world_, true);
+std::vector<FloeState> Simulation::all_states() const {
+  return states_where(*world_, [](const Floe&) { return true; });
 }
 
 namespace {

@@ -97,8 +97,8 @@ class Simulation {
   AreaLedger area_ledger() const;
   Audit audit() const;  ///< of energy and momentum
   Counts counts() const;
-  std::vector<FloeState> floe_states() const;        ///< of floes that float and have not broken, in id order
-  std::vector<FloeState> states_under_hull() const;  ///< of those under hulls, and waiting behind them
+  std::vector<FloeState> floe_states() const;  ///< of floes that float and have not broken, in id order
+  std::vector<FloeState> all_states() const;   ///< of these and those under hulls, in id order
   std::vector<ShipState> ship_states() const;
   /// Those contacts of the last step that the scene has recorded, ships' first, in the order of their
   /// bodies. None before the first step and right after a resume.

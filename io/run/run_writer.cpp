@@ -32,15 +32,6 @@ std::string header_of(std::size_t file) {
   return std::string(file == kStates ? states_header() : "");
 }
 
-/// The floes and those under hulls, by id.
-std::vector<simulation::FloeState> all_ice(const simulation::Simulation& simulation) {
-  std::vector<simulation::FloeState> ice = simulation.floe_states();
-  const std::vector<simulation::FloeState> under = simulation.states_under_hull();
-  ice.insert(ice.end(), under.begin(), under.end());
-  std::ranges::sort(ice, {}, &simulation::FloeState::floe);
-  return ice;
-}
-
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
   return {transform(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity,
           floe.angular_velocity};
@@ -136,7 +127,7 @@ Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, cons
   RunWriter writer(scene, std::move(files), std::move(lock));
   writer.frames_ = FrameEncoder(progress.recorded);
   writer.peaks_ = progress.peaks;
-  for (const simulation::FloeState& floe : all_ice(simulation))
+  for (const simulation::FloeState& floe : simulation.all_states())
     writer.add_floe(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
   return writer;
 }
@@ -219,7 +210,7 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
     ships.push_back({ship.world_from_ship.position, ship.heading, ship.velocity, ship.angular_velocity});
   }
   std::vector<FloeMotion> floes;
-  for (const simulation::FloeState& floe : all_ice(simulation)) {
+  for (const simulation::FloeState& floe : simulation.all_states()) {
     floes.push_back({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
   }
   file(kFrames).append(frames_.encode(simulation.time(), ships, floes));
