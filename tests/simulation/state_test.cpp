@@ -15,6 +15,7 @@ namespace {
 Scene broken_plate() {
   Scene scene = paper_scene();
   scene.time.step = 0.01;
+  scene.fracture.radial_cracks = fracture::RadialCracks::kSplitWedge;
   scene.ships = {icebreaker({-0.5, 0}, ConstantThrust{5e5}, 2)};
   scene.floes = {floe(rectangle(0, -40, 60, 40)), floe(rectangle(60.5, -40, 140, 40))};
   for (int i = 0; i < 6; ++i)
@@ -48,7 +49,8 @@ TEST(State, AResumedRunContinuesBitByBitFromAnyStep) {
       auto again = Simulation::resumed(scene, whole.state());
       ASSERT_TRUE(again.has_value()) << again.error();
       resumed.push_back(std::move(*again));
-      ASSERT_EQ(resumed.back().state(), whole.state()) << "what is read back is what was written";
+      // Not the bytes: read back, bodies' boxes are new, so that more pairs may be near each other.
+      ASSERT_EQ(resumed.back().state_hash(), whole.state_hash()) << "what is read back is what was written";
     }
     whole.step();
     whole.journal().clear();
