@@ -45,23 +45,42 @@ Place scattered(const dynamics::Bodies& bodies, BodyIndex body, double size, dou
   return {{centre - rotate(rotation, bodies.centroid[body] - Point{}), rotation}, angle};
 }
 
-enum class Blocked { kNot, kByShip, kByIce };
+bool is_clear_of(const Population& population, BodyIndex other, const geometry::Boundary& piece,
+                 const Pose& water_from_piece) {
+  const Pose water_from_other = dynamics::water_from_body(population.bodies, other);
+  return is_clear(*population.bodies.boundary[other], piece,
+                  relative_pose(water_from_other, water_from_piece));
+}
 
-/// What is where a piece would come up.
-Blocked blocked_at(const Population& population, const geometry::Boundary& piece,
+bool is_under_ship(const Population& population, const geometry::Boundary& piece,
                    const Pose& water_from_piece) {
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship)
+    if (!is_clear_of(population, ship, piece, water_from_piece)) return true;
+  return false;
+}
+
+/// Whether no body is where a piece would come up.
+bool has_room(const Population& population, const geometry::Boundary& piece, const Pose& water_from_piece) {
   geometry::Ring ring;
   for (const Point p : piece.edges.vertices) ring.push_back(transform(water_from_piece, p));
-  Blocked blocked = Blocked::kNot;
+  bool has_room = true;
   population.pairs.for_bodies_near(bounding_box(ring), [&](BodyIndex other) {
-    const bool is_ship = population.is_ship(other);
-    if (blocked == Blocked::kByShip || (blocked == Blocked::kByIce && !is_ship)) return;
-    const Pose other_from_piece =
-        relative_pose(dynamics::water_from_body(population.bodies, other), water_from_piece);
-    if (is_clear(*population.bodies.boundary[other], piece, other_from_piece)) return;
-    blocked = is_ship ? Blocked::kByShip : Blocked::kByIce;
+    has_room = has_room && is_clear_of(population, other, piece, water_from_piece);
   });
-  return blocked;
+  return has_room;
+}
+
+/// Whether a piece would come up where another is that has not come up yet: that one keeps its room.
+bool is_over_another(const Population& population, const Tile& tile, const geometry::Boundary& piece,
+                     const Pose& water_from_piece, Point centre) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double radius = bodies.bounding_radius[population.body_of(tile.floe)];
+  return std::ranges::any_of(population.tiles, [&](const Tile& other) {
+    const BodyIndex body = population.body_of(other.floe);
+    if (other.floe == tile.floe || !population.floes[other.floe].is_under) return false;
+    if (distance(bodies.position[body], centre) > radius + bodies.bounding_radius[body]) return false;
+    return !is_clear_of(population, body, piece, water_from_piece);
+  });
 }
 
 Event event_of(const Setup& setup, const Clock& clock, const Population& population, const Tile& tile,
@@ -117,14 +136,16 @@ class Resurfacing {
         shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
     const geometry::Boundary boundary = geometry::make_outline(polygon);
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
-    if (blocked_at(population_, boundary, in_place) == Blocked::kByShip) return false;  // not behind it yet
+    if (is_under_ship(population_, boundary, in_place)) return false;  // not behind it yet
     Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(tile.floe) << 32U) ^
                   static_cast<std::uint64_t>(clock_.steps));
     for (int i = 0; i < kPlaces; ++i) {
       const double share = 1 - static_cast<double>(i) / (kPlaces - 1);
       const Place place =
           scattered(population_.bodies, body, std::sqrt(floe.area), share * settings_.scatter, random);
-      if (blocked_at(population_, boundary, place.water_from_body) != Blocked::kNot) continue;
+      if (!has_room(population_, boundary, place.water_from_body)) continue;
+      const Point centre = transform(place.water_from_body, population_.bodies.centroid[body]);
+      if (share > 0 && is_over_another(population_, tile, boundary, place.water_from_body, centre)) continue;
       come_up(tile, polygon, place);
       return true;
     }
