@@ -102,7 +102,7 @@ void BroadPhase::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
   Pair& pair = pairs_[slot];
   pair.a = a;
   pair.b = b;
-  pair.is_dropped = false;
+  pair.is_dropped = pair.is_outside = false;
   pair.near.distance = pair.apart.distance = pair.near_bound = -1;
   pair.near_circles.clear();
   pair.near_edges = {};

@@ -16,11 +16,17 @@ struct PairState {
 };
 
 /// An overlap that has pressed, of a body that breaks.
-struct Inheritance {
+struct PressedOverlap {
   BodyIndex other = 0;
   geometry::Point place;   ///< in the water frame [m]
   double reach = 0;        ///< [m]
   double loaded_area = 0;  ///< [m²]
+};
+
+/// What is known of a body that breaks, and holds of its pieces too.
+struct Inheritance {
+  std::vector<PressedOverlap> pressed;
+  std::vector<BodyIndex> outside;  ///< bodies that it does not touch, neither inside the other; ascending
 };
 
 /// Finds which bodies overlap. A grid finds the pairs whose grown boxes meet; each pair keeps the edges that
@@ -35,10 +41,10 @@ class BroadPhase {
   void add(const Bodies& bodies, BodyIndex body);
   /// Removes a body and its pairs.
   void remove(BodyIndex body);
-  /// What has pressed against a body, in water: for the pieces that it breaks into.
-  std::vector<Inheritance> inheritance_of(const Bodies& bodies, BodyIndex body) const;
+  /// What has pressed against a body, in water, and what is outside it: for the pieces that it breaks into.
+  Inheritance inheritance_of(const Bodies& bodies, BodyIndex body) const;
   /// Passes it on to a piece that was added and woken.
-  void inherit(const Bodies& bodies, BodyIndex piece, const std::vector<Inheritance>& inheritance);
+  void inherit(const Bodies& bodies, BodyIndex piece, const Inheritance& inheritance);
   /// Pairs are kept only where one of the two is awake.
   void wake(const Bodies& bodies, BodyIndex body);
   void sleep(const Bodies& bodies, BodyIndex body);

@@ -45,16 +45,18 @@ void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch
 }
 
 /// Two bodies whose boundaries do not cross: notes where one is inside the other.
-void take_inside(const Bodies& bodies, const Pair& pair, const Pose& pose, PairScratch& scratch) {
+void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, PairScratch& scratch) {
+  if (pair.is_outside) return;
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
-  if (!is_one_inside(*bodies.boundary[pair.a], *bodies.boundary[pair.b], a_from_b)) return;
+  pair.is_outside = !is_one_inside(*bodies.boundary[pair.a], *bodies.boundary[pair.b], a_from_b);
+  if (pair.is_outside) return;
   const BodyIndex inner = bodies.bounding_radius[pair.a] < bodies.bounding_radius[pair.b] ? pair.a : pair.b;
   scratch.blind.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
 }
 
 /// Appends the contacts of a pair among its near edges. Returns whether the two are apart.
-bool collect(const Bodies& bodies, const Pair& pair, const Pose& pose, bool is_circle_centres,
-             PairScratch& scratch, std::vector<Contact>& contacts) {
+bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, bool is_circle_centres, PairScratch& scratch,
+             std::vector<Contact>& contacts) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
@@ -125,6 +127,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
     ContactTracker(pair.records, scratch.records, rule.circle_radius, dt)
         .update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
     pair.apart.distance = -1;
+    pair.is_outside = false;
     return -1;
   }
   // Circles lie inside the ice: no two can overlap while the boundaries are apart.

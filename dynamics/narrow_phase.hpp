@@ -22,6 +22,7 @@ struct alignas(64) Pair {
   double near_bound = -1;   ///< `near` holds at least until the two have travelled this far together [m]
   Clearance apart;          ///< statement: they do not touch
   bool is_dropped = false;  ///< its slot is freed when the lists of pairs are cleaned up
+  bool is_outside = false;  ///< neither is inside the other: so it stays until they touch
   // The first line ends here.
   Clearance near;  ///< statement: only the near circles and edges can meet
   std::vector<PersistentContact> records;

@@ -54,7 +54,8 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
                        Journal& journal) {
   Event& event = breakage.event;
   NewFloe child = child_of(population, event.floe);
-  const auto pressed = population.pairs.inheritance_of(population.bodies, population.body_of(event.floe));
+  const dynamics::Inheritance inheritance =
+      population.pairs.inheritance_of(population.bodies, population.body_of(event.floe));
   retire_floe(event.floe, population, journal);
   std::vector<Event> submersions;  // of pieces that go under the hull
   double& energy_sink = accounts.audit.energy.*breakage.energy_sink;
@@ -80,7 +81,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
       continue;
     }
     wake(population.body_of(id), population);
-    population.pairs.inherit(population.bodies, population.body_of(id), pressed);
+    population.pairs.inherit(population.bodies, population.body_of(id), inheritance);
     accounts.counts.floated_cusps += is_inside ? 1 : 0;
   }
   event.brash_area += cut.ledger.area_slivers;
