@@ -139,7 +139,7 @@ TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
     scene.ships[0].hull.waterline = rectangle(-60, -40, 60, 40).outer;
     Simulation simulation(scene);
     while (simulation.time() < 0.1) simulation.step();
-    const FloeState& state = simulation.floe_states()[0];
+    const FloeState state = simulation.floe_states()[0];
     EXPECT_NEAR(state.velocity.x, 0, 0.01) << friction;
     EXPECT_NEAR(state.velocity.y, 0.5 - friction, 0.02) << friction;
   }
