@@ -11,17 +11,16 @@ these differ a little with the speed (not with where in a straight edge the ship
 """
 import argparse
 import concurrent.futures
-import csv
 import json
 import math
 import os
-import subprocess
 
 import numpy as np
 
-LENGTH, BEAM, ENTRANCE, STEM = 120, 24, math.radians(27), math.radians(30)
+from study import BEAM, ENTRANCE, FLEXURAL, G, LENGTH, POISSON, RHO_W, SHIP, YOUNG, rows_of, run_scene
+from study import lindqvist as lindqvist_by_part
+
 BOW = BEAM / 2 / math.tan(ENTRANCE)
-YOUNG, POISSON, FLEXURAL, RHO_W, FRICTION, G = 5.4e9, 0.3, 0.8e6, 1000, 0.2, 9.81
 SHARES = (0.97, 0.99, 1.01, 1.03)
 START, GAP, WAY_IN, WAY = -62, 2, 30, 120  # [m]: the ship, then water, ice before and while it is measured
 FRAME = 0.025  # [m] of way
@@ -32,15 +31,8 @@ def scene(h, v, bending):
     return {"name": "level-ice", "time": {"step_s": 0.005 / max(1, v), "until_s": (GAP + WAY_IN + WAY) / v},
             "ice": {"thickness_m": h}, "fracture": {"bending": bending, "splitting": {"shape_factor": 100}},
             "record": {"forces_interval_s": 0.1 / v, "frames_interval_s": FRAME / v},
-            "ships": [{"name": "icebreaker", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
-                       "hull": {"length_m": LENGTH, "beam_m": BEAM, "entrance_angle_deg": 27, "stem_angle_deg": 30},
-                       "position_m": [START, 0], "propulsion": {"constant_speed_m_per_s": v}}],
+            "ships": [SHIP | {"position_m": [START, 0], "propulsion": {"constant_speed_m_per_s": v}}],
             "floes": [{"rectangle": {"corner_m": [0, -4000], "size_m": [8000, 8000]}}]}
-
-
-def rows_of(folder, name):
-    with open(os.path.join(folder, name), encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def by_place(folder, v, start):
@@ -61,11 +53,7 @@ def by_place(folder, v, start):
 
 
 def run(arguments, name, one):
-    path = os.path.join(arguments.work, name)
-    with open(path + ".json", "w", encoding="utf-8") as file:
-        json.dump(one, file)
-    subprocess.run([arguments.polynya, "run", path + ".json", "--out", path, "--overwrite", "--progress", "none"],
-                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    path, _ = run_scene(arguments, name, one)
     v, scale = one["ships"][0]["propulsion"]["constant_speed_m_per_s"], FLEXURAL * one["ice"]["thickness_m"] ** 2
     start = (GAP + WAY_IN) / v
     surge = [-float(row["surge_N"]) for row in rows_of(path, "forces.csv") if float(row["t_s"]) > start]
@@ -104,14 +92,8 @@ def characteristic_length(h):
 
 
 def lindqvist(h, v):
-    """R_c and R_b with the speed's factor [N]; [Lindqvist1989] (recall)."""
-    psi = math.atan(math.tan(STEM) / math.sin(ENTRANCE))
-    crushing = 0.5 * FLEXURAL * h ** 2 * (math.tan(STEM) + FRICTION * math.cos(STEM) / math.cos(psi)) / (
-        1 - FRICTION * math.sin(STEM) / math.cos(psi))
-    bending = (27 / 64) * FLEXURAL * BEAM * h ** 1.5 / math.sqrt(YOUNG / (12 * (1 - POISSON ** 2) * RHO_W * G)) * (
-        math.tan(psi) + FRICTION * math.cos(STEM) / (math.sin(ENTRANCE) * math.cos(psi))) * (1 + 1 / math.cos(psi))
-    factor = 1 + 1.4 * v / math.sqrt(G * h)
-    return crushing * factor, bending * factor
+    """R_c and R_b with the speed's factor [N]."""
+    return lindqvist_by_part(h, v)[:2]
 
 
 def name_of(bending):

@@ -10,17 +10,11 @@ Options of all: --polynya PROGRAM, --work FOLDER (run folders; they are overwrit
 needs matplotlib.
 """
 import argparse
-import concurrent.futures
-import csv
-import json
 import os
-import subprocess
 
 import numpy as np
 
-SHIP = {"name": "icebreaker", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
-        "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30}}
-
+from study import FEW_RECORDS, SHIP, rows_of, run_all, run_scene
 
 def ship(x, y, speed):
     return SHIP | {"position_m": [x, y], "propulsion": {"constant_speed_m_per_s": speed}}
@@ -56,31 +50,16 @@ def confined(cover, seed, law, sweeps=100, tolerance=1e-4):
 
 def run(arguments, name, scene):
     """Runs a scene; the surge of the ship by record [N], its time [s] and the summary."""
-    path = os.path.join(arguments.work, name)
-    with open(path + ".json", "w", encoding="utf-8") as file:
-        json.dump(scene | {"record": {"forces_interval_s": 0.1, "frames_interval_s": 60, "contacts": "none"}}, file)
-    subprocess.run([arguments.polynya, "run", path + ".json", "--out", path, "--overwrite", "--progress", "none"],
-                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    with open(os.path.join(path, "forces.csv"), encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if row["ship"] == "icebreaker"]
-    with open(os.path.join(path, "summary.json"), encoding="utf-8") as file:
-        summary = json.load(file)
+    folder, summary = run_scene(arguments, name, scene | FEW_RECORDS)
+    rows = [row for row in rows_of(folder, "forces.csv") if row["ship"] == "icebreaker"]
     return (np.array([float(row["t_s"]) for row in rows]), -np.array([float(row["surge_N"]) for row in rows]),
             max(-float(row["surge_max_N"]) for row in rows), summary)
-
-
-def run_all(arguments, scenes):
-    """The results of all scenes, by their keys."""
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        futures = {key: pool.submit(run, arguments, "-".join(str(part) for part in key), scene)
-                   for key, scene in scenes.items()}
-        return {key: future.result() for key, future in futures.items()}
 
 
 def study_step(arguments):
     speeds, offsets = (0.5, 1, 2), (0, 0.3, 0.7, 1.1)
     steps = (0.00125, 0.0025, 0.005, 0.01, 0.02)
-    results = run_all(arguments, {("step", v, y, dt): level_ice(v, y, dt)
+    results = run_all(arguments, run, {("step", v, y, dt): level_ice(v, y, dt)
                                   for v in speeds for y in offsets for dt in steps})
     means = {}
     print("| v [m/s] | " + " | ".join(f"Δt {dt:g} s" for dt in steps) + " |")
@@ -115,7 +94,7 @@ def draw_steps(path, speeds, steps, means):
 def study_squeeze(arguments):
     cases = [(1, 1e-4, 100, "last-step"), (4, 1e-4, 100, "last-step"), (8, 1e-4, 100, "last-step"),
              (1, 1e-6, 100, "last-step"), (1, 1e-4, 400, "last-step"), (1, 1e-4, 100, "zero")]
-    results = run_all(arguments, {("squeeze", *case): squeeze(*case) for case in cases})
+    results = run_all(arguments, run, {("squeeze", *case): squeeze(*case) for case in cases})
     print("| substeps | tolerance [m/s] | sweeps | start | mean [kN] | largest 0.1 s mean [MN] | unconverged steps |\n"
           "|---|---|---|---|---|---|---|")
     for case in cases:
@@ -128,7 +107,7 @@ def study_jams(arguments):
     cases = [(cover, law, sweeps) for cover in arguments.covers for law, sweeps in (("crush", 100), ("impulse", 300))]
     scenes = {("jam", *case, seed): confined(case[0], seed, case[1], case[2])
               for case in cases for seed in range(1, arguments.seeds + 1)}
-    results = run_all(arguments, scenes)
+    results = run_all(arguments, run, scenes)
     print("| cover | law | mean [kN] | median seed | largest seed | largest single step [MN] | converged steps, worst seed "
           "| energy created, worst seed [J] |\n|---|---|---|---|---|---|---|---|")
     for case in cases:

@@ -9,47 +9,28 @@
 Options of all: --polynya PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. Needs numpy.
 """
 import argparse
-import concurrent.futures
-import csv
 import json
 import math
 import os
-import subprocess
 
 import numpy as np
 
-HULL = {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6}
-SHIP = {"name": "icebreaker", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "hull": HULL}
-L, B, T, PHI, ALPHA, MU = 120, 24, 6, math.radians(30), math.radians(27), 0.2
-G, RHO_I, RHO_W, E, NU, SIGMA_F = 9.81, 900, 1000, 5.4e9, 0.3, 0.8e6
-
-
-def lindqvist(h, v):
-    """Crushing and bending, and submersion, of [Lindqvist1989] [N]."""
-    psi = math.atan(math.tan(PHI) / math.sin(ALPHA))
-    r_c = 0.5 * SIGMA_F * h**2 * (math.tan(PHI) + MU * math.cos(PHI) / math.cos(psi)) / (1 - MU * math.sin(PHI) / math.cos(psi))
-    r_b = (27 / 64 * SIGMA_F * B * h**1.5 / math.sqrt(E / (12 * (1 - NU**2) * RHO_W * G))
-           * (math.tan(psi) + MU * math.cos(PHI) / (math.sin(ALPHA) * math.cos(psi))) * (1 + 1 / math.cos(psi)))
-    rise = T * (B + T) / (B + 2 * T)
-    slide = (0.7 * L - T / math.tan(PHI) - B / (4 * math.tan(ALPHA))
-             + T * math.cos(PHI) * math.cos(psi) * math.sqrt(1 / math.sin(PHI)**2 + 1 / math.tan(ALPHA)**2))
-    r_s = (RHO_W - RHO_I) * G * h * B * (rise + MU * slide)
-    return (r_c + r_b) * (1 + 1.4 * v / math.sqrt(G * h)), r_s * (1 + 9.4 * v / math.sqrt(G * L))
+from study import BEAM, FEW_RECORDS, G, HULL, RHO_I, SHIP, lindqvist, rows_of, run_all, run_scene
 
 
 def colbourne(cover, h, v, k, b, n):
     """Pack ice after [Colbourne2000], ½ k Fr^b ρ_i B h v² C^n [N]."""
-    return 0.5 * k * (v / math.sqrt(G * h * cover))**b * RHO_I * B * h * v**2 * cover**n
+    return 0.5 * k * (v / math.sqrt(G * h * cover))**b * RHO_I * BEAM * h * v**2 * cover**n
 
 
 def zuev(cover, h, v):
     """Small broken ice after Zuev [N]."""
     fr = v / math.sqrt(G * h)
-    return RHO_I * G * B * h**2 * (0.13 * B / h + 1.3 * fr + 0.5 * fr**2) * (2 - cover) * cover**2
+    return RHO_I * G * BEAM * h**2 * (0.13 * BEAM / h + 1.3 * fr + 0.5 * fr**2) * (2 - cover) * cover**2
 
 
 def ship(x, y, speed, **other):
-    return SHIP | {"position_m": [x, y], "propulsion": {"constant_speed_m_per_s": speed}} | other
+    return SHIP | {"hull": HULL | {"draught_m": 6}, "position_m": [x, y], "propulsion": {"constant_speed_m_per_s": speed}} | other
 
 
 def level_ice(h, v, y=0.0, **settings):
@@ -98,30 +79,15 @@ def without_tilting(scene):
 
 def run(arguments, name, scene):
     """Runs a scene: rows of forces by ship, and the summary."""
-    path = os.path.join(arguments.work, name)
-    with open(path + ".json", "w", encoding="utf-8") as file:
-        json.dump(scene | {"record": {"forces_interval_s": 0.1, "frames_interval_s": 60, "contacts": "none"}}, file)
-    subprocess.run([arguments.polynya, "run", path + ".json", "--out", path, "--overwrite", "--progress", "none"],
-                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    folder, summary = run_scene(arguments, name, scene | FEW_RECORDS)
     columns = {}
-    with open(os.path.join(path, "forces.csv"), encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            of_ship = columns.setdefault(row["ship"], {"t": [], "contact": [], "under": []})
-            of_ship["t"].append(float(row["t_s"]))
-            of_ship["contact"].append(-float(row["surge_N"]))
-            of_ship["under"].append(-float(row["surge_from_submerged_ice_N"]))
-    with open(os.path.join(path, "summary.json"), encoding="utf-8") as file:
-        summary = json.load(file)
+    for row in rows_of(folder, "forces.csv"):
+        of_ship = columns.setdefault(row["ship"], {"t": [], "contact": [], "under": []})
+        of_ship["t"].append(float(row["t_s"]))
+        of_ship["contact"].append(-float(row["surge_N"]))
+        of_ship["under"].append(-float(row["surge_from_submerged_ice_N"]))
     assert summary["audit_closed"], name
     return {name: {key: np.array(column) for key, column in of.items()} for name, of in columns.items()}, summary
-
-
-def run_all(arguments, scenes):
-    """The results of all scenes, by their keys."""
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        futures = {key: pool.submit(run, arguments, "-".join(str(part) for part in key), scene)
-                   for key, scene in scenes.items()}
-        return {key: future.result() for key, future in futures.items()}
 
 
 def mean_after(forces, time, until=math.inf):
@@ -133,13 +99,14 @@ def mean_after(forces, time, until=math.inf):
 def study_level(arguments):
     cases = [(0.5, v) for v in (0.5, 1, 2, 3)] + [(h, 1) for h in (0.25, 0.75, 1, 1.5)]
     offsets = (0, 0.7)
-    results = run_all(arguments, {("level", h, v, y): level_ice(h, v, y) for h, v in cases for y in offsets})
+    results = run_all(arguments, run, {("level", h, v, y): level_ice(h, v, y) for h, v in cases for y in offsets})
     print("| h [m] | v [m/s] | crushing and bending | submersion | sum | Lindqvist: R_c + R_b | R_s | sum | × real time |")
     print("|---|---|---|---|---|---|---|---|---|")
     for h, v in cases:
         each = [mean_after(results["level", h, v, y][0]["icebreaker"], 182 / v) for y in offsets]
         contact, under = np.mean(each, axis=0)
-        breaking, submersion = (r / 1e3 for r in lindqvist(h, v))
+        crushing, bending, submersion = (r / 1e3 for r in lindqvist(h, v))
+        breaking = crushing + bending
         factor = np.median([results["level", h, v, y][1]["real_time_factor"] for y in offsets])
         print(f"| {h:g} | {v:g} | {contact:.0f} | {under:.0f} | {contact + under:.0f} | {breaking:.0f} | {submersion:.0f} "
               f"| {breaking + submersion:.0f} | {factor:.0f} |")
@@ -152,7 +119,7 @@ def study_pack(arguments):
     covers, seeds = (0.3, 0.5, 0.7, 0.8, 0.9), range(1, 7)
     scenes = {("pack", c, s): pack(c, s) for c in covers for s in seeds}
     scenes |= {("pack-up", c, s): without_tilting(pack(c, s)) for c in covers for s in seeds}
-    results = run_all(arguments, scenes)
+    results = run_all(arguments, run, scenes)
     print("| C | contact | submersion | sum | without tilting | floes under | Colbourne slender | blunt | Zuev | unconverged |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     for c in covers:
@@ -171,7 +138,7 @@ def study_pack(arguments):
 def study_special(arguments):
     scenes = {("plug",): plug(arguments.plug), ("pinned",): pinned(), ("follower",): follower()}
     scenes |= {(key[0], "up"): without_tilting(scene) for key, scene in scenes.items() if key[0] != "follower"}
-    results = run_all(arguments, scenes)
+    results = run_all(arguments, run, scenes)
     print("| scene | contact, mean [kN] | largest .1 s [kN] | submersion, mean [kN] | bends | tilted under |")
     print("|---|---|---|---|---|---|")
     for key, (forces, summary) in results.items():
@@ -190,7 +157,7 @@ def study_sensitivity(arguments):
     variants |= {("step", factor): {"time": {"step_s": 0.01 * factor, "until_s": 300}} for factor in (0.5, 2)}
     variants |= {("circle_radius", factor): {"contact": {"circle_radius_m": factor}} for factor in (0.5, 2)}
     covers, seeds = (0.7, 0.9), range(1, 7)
-    results = run_all(arguments, {(*variant, c, s): pack(c, s, **settings) for variant, settings in variants.items()
+    results = run_all(arguments, run, {(*variant, c, s): pack(c, s, **settings) for variant, settings in variants.items()
                                   for c in covers for s in seeds})
     print("| variant | " + " | ".join(f"C {c:g}: sum [kN], floes under" for c in covers) + " |")
     print("|---|" + "---|" * len(covers))
