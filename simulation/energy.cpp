@@ -39,6 +39,16 @@ void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums) {
   sums.initial_momentum = momentum(bodies);
 }
 
+void stop(dynamics::Bodies& bodies, BodyIndex floe, double& energy_sink, AuditSums& sums) {
+  const Vector left = bodies.mass[floe] * bodies.velocity[floe];
+  const double omega = bodies.angular_velocity[floe];
+  energy_sink += 0.5 * (dot(left, bodies.velocity[floe]) + bodies.moment[floe] * omega * omega);
+  sums.momentum.removed += left;
+  sums.impulses += length(left);
+  bodies.velocity[floe] = {};
+  bodies.angular_velocity[floe] = 0;
+}
+
 bool Audit::is_closed() const {
   return std::abs(energy_imbalance) <= kTolerance * turnover &&
          length(momentum_imbalance) <= kTolerance * momentum_turnover;

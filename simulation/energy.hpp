@@ -60,6 +60,9 @@ geometry::Vector momentum(const dynamics::Bodies& bodies);  ///< of the same [N 
 /// Opens the accounts, before the first step.
 void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums);
 
+/// Stops a floe: its energy goes to the sink, one of the sums' flows [J], its momentum to what was removed.
+void stop(dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy_sink, AuditSums& sums);
+
 /// Closes the sums against the bodies' kinetic energy [J] and momentum [N s].
 Audit audit(const AuditSums& sums, double kinetic_energy, geometry::Vector momentum);
 

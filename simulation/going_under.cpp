@@ -8,21 +8,6 @@
 namespace polynya::simulation {
 namespace {
 
-using geometry::Vector;
-
-/// Enters the motion of a floe that leaves the contact world, and stops it.
-void stop(dynamics::Bodies& bodies, BodyIndex body, AuditSums& audit) {
-  const Vector carried = bodies.mass[body] * bodies.velocity[body];
-  const double omega = bodies.angular_velocity[body];
-  audit.energy.submersion +=
-      0.5 * (dot(carried, bodies.velocity[body]) + bodies.moment[body] * omega * omega);
-  audit.momentum.removed += carried;
-  audit.impulses += length(carried);
-  bodies.velocity[body] = {};
-  bodies.angular_velocity[body] = 0;
-  bodies.rim_speed[body] = 0;
-}
-
 /// δρ g h times the area that the hull's beam passes over [N].
 double weight_under(const Setup& setup, const Population& population, FloeId floe, int ship) {
   const dynamics::Bodies& bodies = population.bodies;
@@ -53,7 +38,8 @@ void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Pop
               Accounts& accounts) {
   const BodyIndex body = population.body_of(floe);
   leave_contacts(floe, population);
-  stop(population.bodies, body, accounts.audit);
+  stop(population.bodies, body, accounts.audit.energy.submersion, accounts.audit);
+  population.bodies.rim_speed[body] = 0;
   population.bodies.drag[body].reset();
   population.floes[floe].is_under = true;
   population.tiles.push_back({.floe = floe,

@@ -58,17 +58,6 @@ void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, 
   bodies.velocity[ship] += change;
 }
 
-/// Stops a floe and enters the motion that it had left.
-void stop(dynamics::Bodies& bodies, BodyIndex i, AuditSums& audit) {
-  const Vector left = bodies.mass[i] * bodies.velocity[i];
-  const double omega = bodies.angular_velocity[i];
-  audit.energy.rest += 0.5 * (dot(left, bodies.velocity[i]) + bodies.moment[i] * omega * omega);
-  audit.momentum.removed += left;
-  audit.impulses += length(left);
-  bodies.velocity[i] = {};
-  bodies.angular_velocity[i] = 0;
-}
-
 }  // namespace
 
 void find_pairs(Population& population) {
@@ -143,7 +132,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
     if (population.is_ship(i) || step.touched_at_step[i] == clock.steps) return false;
     if (bodies.rim_speed[i] >= kRestSpeed) return false;
     if (!is_current_still_at(i, setup, bodies)) return false;  // it would not stay at rest
-    stop(bodies, i, audit);
+    stop(bodies, i, audit.energy.rest, audit);
     bodies.is_awake[i] = 0;
     population.pairs.sleep(bodies, i);
     return true;
