@@ -48,7 +48,12 @@ void BroadPhase::place(const Bodies& bodies, BodyIndex body) {
 
 void BroadPhase::remove(BodyIndex body) {
   Entry& entry = entries_[body];
-  while (!entry.pairs.empty()) drop_pair(entry.pairs.back());
+  for (const std::uint32_t slot : entry.pairs) {
+    const Pair& pair = pairs_[slot];
+    std::erase(entries_[pair.a == body ? pair.b : pair.a].pairs, slot);
+    mark_dropped(slot);
+  }
+  entry.pairs.clear();
   if (entry.is_in) grid_.remove(body, entry.box);
   entry.is_in = false;
 }
@@ -118,7 +123,11 @@ void BroadPhase::drop_pair(std::uint32_t slot) {
     auto& own = entries_[body].pairs;
     own.erase(std::find(own.begin(), own.end(), slot));
   }
-  pair.is_dropped = true;
+  mark_dropped(slot);
+}
+
+void BroadPhase::mark_dropped(std::uint32_t slot) {
+  pairs_[slot].is_dropped = true;
   ++dropped_;
 }
 

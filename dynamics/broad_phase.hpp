@@ -23,10 +23,16 @@ struct PressedOverlap {
   double loaded_area = 0;  ///< [m²]
 };
 
+/// A body that one that breaks does not touch, neither inside the other.
+struct Outside {
+  BodyIndex other = 0;
+  double clearance = 0;  ///< how far the two can move without touching [m]
+};
+
 /// What is known of a body that breaks, and holds of its pieces too.
 struct Inheritance {
   std::vector<PressedOverlap> pressed;
-  std::vector<BodyIndex> outside;  ///< bodies that it does not touch, neither inside the other; ascending
+  std::vector<Outside> outside;  ///< by other
 };
 
 /// Finds which bodies overlap. A grid finds the pairs whose grown boxes meet; each pair keeps the edges that
@@ -104,6 +110,7 @@ class BroadPhase {
   void add_pairs_of(const Bodies& bodies, BodyIndex body);
   void add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b);
   void drop_pair(std::uint32_t pair);
+  void mark_dropped(std::uint32_t pair);
   void merge_new();
   void erase_dropped(std::vector<ActivePair>& list);
   struct Share;

@@ -216,12 +216,17 @@ void come_up(const Setup& setup, const Clock& clock, Population& population, Acc
              Journal& journal) {
   if (population.tiles.empty()) return;
   Resurfacing resurfacing(setup, clock, population, accounts, journal);
-  std::vector<Tile> left;
-  left.reserve(population.tiles.size());
+  std::vector<FloeId> ended;  // in the order of the tiles
   for (Tile& tile : population.tiles) {
-    if (!resurfacing.ends(tile)) left.push_back(tile);
+    if (resurfacing.ends(tile)) ended.push_back(tile.floe);
   }
-  population.tiles = std::move(left);
+  if (ended.empty()) return;
+  auto next = ended.begin();
+  std::erase_if(population.tiles, [&](const Tile& tile) {
+    const bool has_ended = next != ended.end() && *next == tile.floe;
+    if (has_ended) ++next;
+    return has_ended;
+  });
 }
 
 }  // namespace polynya::simulation

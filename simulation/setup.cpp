@@ -34,6 +34,8 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   separation.time = scene.contact.separation_time;
   for (const ShipSpec& ship : scene.ships) underwater.push_back(underwater_of(ship.hull));
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
+  if (scene.contact.law == ContactLaw::kCrush)
+    steps_per_rest = std::max<std::int64_t>(1, std::llround(kRestInterval / scene.time.step));
 }
 
 Underwater underwater_of(const Hull& hull) {

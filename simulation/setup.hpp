@@ -19,6 +19,11 @@ struct Underwater {
   bool can_take_ice = false;  ///< it has a draught
 };
 
+/// Floes are put to rest once in this time [s]. A plate that a ship breaks is still and untouched between
+/// most of its contacts: at rest in each of them, it would lose its pairs with all the brash around, and find
+/// them again. Rigid impulses put to rest in every step, as the replicas of the paper have it.
+inline constexpr double kRestInterval = 1;
+
 /// What a run is computed with, the same from its first step to its last.
 struct Setup {
   explicit Setup(Scene scene, Shortcuts shortcuts = {});
@@ -31,6 +36,7 @@ struct Setup {
   dynamics::SeparationSettings separation;
   std::vector<Underwater> underwater;  ///< per ship
   std::int64_t steps_per_sample = 1;
+  std::int64_t steps_per_rest = 1;  ///< between two steps that put floes to rest
 };
 
 /// A hull's underwater form by its waterline, stem angle and draught. Its entrance angle is the mean one of

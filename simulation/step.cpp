@@ -121,7 +121,7 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
 
 void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
                  AuditSums& audit) {
-  if (!setup.shortcuts.sleeps) return;
+  if (!setup.shortcuts.sleeps || clock.steps % setup.steps_per_rest != 0) return;
   dynamics::Bodies& bodies = population.bodies;
   step.touched_at_step.resize(static_cast<std::size_t>(bodies.size()), -1);
   for (const dynamics::Contact& c : step.contacts) {

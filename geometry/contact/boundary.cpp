@@ -8,25 +8,48 @@ namespace polynya::geometry {
 namespace {
 
 constexpr std::uint32_t kLeafCircles = 4;
+constexpr std::uint32_t kTightCircles = 64;  ///< nodes of at most that many have the least reach
 
-/// Builds the node over bounding circles [first, first + count) and everything below it; returns its index.
-std::uint32_t build_node(Boundary& boundary, std::uint32_t first, std::uint32_t count) {
-  const auto index = static_cast<std::uint32_t>(boundary.tree.size());
+/// Centres and radii of some bounding circles.
+struct Extent {
+  Box centres;
+  double reach = 0;  ///< the largest
+};
+
+/// The least reach of a node that covers its circles.
+double tight_reach(const Boundary& boundary, const CircleNode& node) {
+  double reach = 0;
+  for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+    const BoundingCircle& circle = boundary.bounding_circles[i];
+    reach = std::max(reach, distance(node.centre, circle.centre) + circle.reach);
+  }
+  return reach;
+}
+
+/// Builds the node over bounding circles [first, first + count) and everything below it.
+Extent build_node(Boundary& boundary, std::uint32_t first, std::uint32_t count) {
+  const std::size_t index = boundary.tree.size();
   boundary.tree.push_back({});
-  const auto begin = boundary.bounding_circles.begin() + first;
-  Box box{begin->centre, begin->centre};
-  for (auto c = begin; c != begin + count; ++c) extend(box, c->centre);
-  CircleNode node{midpoint(box.low, box.high), 0, first, count, 0};
-  for (auto c = begin; c != begin + count; ++c) {
-    node.reach = std::max(node.reach, distance(node.centre, c->centre) + c->reach);
-  }
-  node.reach *= 1 + 1e-12;
+  CircleNode node{{}, 0, first, count, 0};
+  Extent extent{{boundary.bounding_circles[first].centre, boundary.bounding_circles[first].centre}, 0};
   if (count > kLeafCircles) {
-    build_node(boundary, first, count / 2);
-    node.right = build_node(boundary, first + count / 2, count - count / 2);
+    extent = build_node(boundary, first, count / 2);
+    node.right = static_cast<std::uint32_t>(boundary.tree.size());
+    const Extent other = build_node(boundary, first + count / 2, count - count / 2);
+    extend(extent.centres, other.centres);
+    extent.reach = std::max(extent.reach, other.reach);
+  } else {
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      extend(extent.centres, boundary.bounding_circles[i].centre);
+      extent.reach = std::max(extent.reach, boundary.bounding_circles[i].reach);
+    }
   }
+  node.centre = midpoint(extent.centres.low, extent.centres.high);
+  node.reach = count <= kTightCircles ? tight_reach(boundary, node)
+                                      : distance(node.centre, extent.centres.high) + extent.reach;
+  node.reach *= 1 + 1e-12;
   boundary.tree[index] = node;
-  return index;
+  return extent;
 }
 
 double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/floe_field.hpp"
+#include "simulation/world.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {
@@ -144,6 +145,23 @@ TEST(Shortcuts, WhereNothingComesToRestSleepChangesNoByte) {
   const Outcome with = outcome_of(pile_in_shear(), {}, 30);
   const Outcome without = outcome_of(pile_in_shear(), {.culls = false, .sleeps = false}, 30);
   EXPECT_TRUE(with.record.is_same(without.record));
+}
+
+TEST(Shortcuts, FloesComeToRestOnceASecondWhereIceCrushesAndInEachStepOfTheImpulseLaw) {
+  for (const ContactLaw law : {ContactLaw::kCrush, ContactLaw::kImpulse}) {
+    Scene scene = paper_scene();
+    scene.contact.law = law;
+    scene.time.step = 0.01;
+    scene.floes = {floe(rectangle(0, 0, 10, 10))};
+    scene.floes.front().velocity = {0.5 * kRestSpeed, 0};
+    Simulation simulation(scene);
+    const int steps = law == ContactLaw::kCrush ? 100 : 1;
+    for (int i = 1; i <= steps; ++i) {
+      EXPECT_EQ(simulation.world().population.awake.size(), 1u) << i;
+      simulation.step();
+    }
+    EXPECT_TRUE(simulation.world().population.awake.empty());
+  }
 }
 
 double farthest_apart(const Outcome& p, const Outcome& q) {
