@@ -42,23 +42,6 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   return bodies.size() - 1;
 }
 
-namespace {
-
-/// The rotation by `turn` after r, for the small turns of a step [rad]. Cayley's form: a rotation to the last
-/// bit or two however many follow one another, by 2 atan(turn/2), which is turn³/12 short: 1e-14 at 0.01
-/// rad/s and 5 ms.
-geometry::Rotation turned(geometry::Rotation r, double turn) {
-  const double h = 0.5 * turn;
-  const double hh = h * h;
-  // 1 / (1 + h²): for all that turns by less than 6 mrad in a step its series is exact to the last bit.
-  const double scale = hh < 1e-5 ? 1 - hh * (1 - hh * (1 - hh)) : 1 / (1 + hh);
-  const double cosine = (1 - hh) * scale;
-  const double sine = 2 * h * scale;
-  return {r.cosine * cosine - r.sine * sine, r.sine * cosine + r.cosine * sine};
-}
-
-}  // namespace
-
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn) {
   bodies.position[i] += shift;
   bodies.travel[i] += length(shift) + std::abs(turn) * bodies.bounding_radius[i];

@@ -8,9 +8,9 @@ namespace polynya::simulation {
 /// water frame, of everything whose motion is not prescribed. Each entry is measured where it happens; that
 /// they account for the kinetic energy is audited, not arranged (audit).
 struct EnergyFlows {
-  double thrust = 0;    ///< in: by thrust, and by bodies of prescribed motion
+  double thrust = 0;    ///< in: by thrust and moorings, and by bodies of prescribed motion
   double current = 0;   ///< in: by a sheared current carrying ice along
-  double drag = 0;      ///< out: relative to the water around
+  double drag = 0;      ///< out: to the water around, of ships with the inertia that it has
   double friction = 0;  ///< out: along contact lines
   double restitution =
       0;                  ///< out: across contact lines that did not crush, which restitution does not return
@@ -26,8 +26,8 @@ struct EnergyFlows {
 /// Impulses from outside on everything free to move, summed over all steps [N s]. In the water frame.
 struct MomentumFlows {
   geometry::Vector thrust;   ///< of ships' propellers
-  geometry::Vector held;     ///< through contacts with bodies of prescribed motion
-  geometry::Vector water;    ///< of drag and current, and of the ice under hulls
+  geometry::Vector held;     ///< of moorings, and through contacts with bodies of prescribed motion
+  geometry::Vector water;    ///< of drag and current, on hulls and rudders, and of the ice under hulls
   geometry::Vector removed;  ///< with what left the floe list, and what rest took
 };
 

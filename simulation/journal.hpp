@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/planar.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/shape/point.hpp"
@@ -153,8 +154,17 @@ struct ShipSample {
   double surge_from_submerged = 0;  ///< of the ice under the hull, mean over the interval [N]
   double yaw_from_submerged = 0;    ///< likewise [N m]
   double submerged_area = 0;        ///< ice under the hull, at the sampled step [m²]
-  int contacts = 0;                 ///< with ice, at the sampled step
-  int contacts_with_ships = 0;      ///< with other ships and structures, at the sampled step
+  // Of ships with water around the hull, an engine or a mooring:
+  dynamics::Planar friction_of_ice;  ///< its share of the force of the ice [N, N m]
+  dynamics::Planar from_water;       ///< on the hull, the inertia of the water with it [N, N m]
+  dynamics::Planar from_engine;      ///< [N, N m]
+  dynamics::Planar from_rudder;      ///< [N, N m]
+  dynamics::Planar from_mooring;     ///< [N, N m]
+  double lever = 0;                  ///< of the thrust, at the sampled step, −1 to 1
+  double steering_angle = 0;         ///< of rudder or thrusters, to port [rad]
+  double delivered_power = 0;        ///< by the lever, of the installed power; 0 where that is not known [W]
+  int contacts = 0;                  ///< with ice, at the sampled step
+  int contacts_with_ships = 0;       ///< with other ships and structures, at the sampled step
 };
 
 /// What happened since the caller last cleared it; the vectors keep their capacity.

@@ -40,12 +40,20 @@ struct Tile {
   double waited = 0;    ///< clear of the hull, for room [s]
 };
 
+/// How a ship is steered, and what it may lose.
+struct Helm {
+  double lever = 0;           ///< of the thrust, −1 to 1
+  double steering_angle = 0;  ///< of the rudder or the thrusters; to port [rad]
+  bool is_adrift = false;     ///< its mooring broke
+};
+
 /// The ships and floes of a run, where they are and how they move.
 struct Population {
   explicit Population(const Setup& setup);
 
   int ship_count = 0;
   dynamics::Bodies bodies;         ///< the ships first, then floes by id
+  std::vector<Helm> helms;         ///< per ship
   std::vector<Floe> floes;         ///< by id
   std::vector<BodyIndex> awake;    ///< ascending
   dynamics::BroadPhase pairs;      ///< of bodies that may touch, with the memory of their contacts

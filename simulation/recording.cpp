@@ -20,16 +20,17 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
   const dynamics::Bodies& bodies = population.bodies;
   const bool is_with_ship = population.is_ship(ship == c.a ? c.b : c.a);
   ContactLoads& loads = is_with_ship ? ship_loads.ships : ship_loads.ice;
-  const auto add = [&](geometry::Point at, Vector impulse) {
+  const auto add = [&](geometry::Point at, Vector impulse, bool is_slip) {
     const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
     const double moment = cross(at - bodies.position[ship], impulse);
     loads.impulse += in_ship;
     loads.angular_impulse += moment;
     loads.steady_impulse += c.steady_share * in_ship;
     loads.steady_angular_impulse += c.steady_share * moment;
+    if (is_slip) loads.friction += {in_ship.x, in_ship.y, moment};
   };
-  for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal);
-  add(c.middle(), sign * c.slip_impulse * perpendicular(c.normal));
+  for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal, false);
+  add(c.middle(), sign * c.slip_impulse * perpendicular(c.normal), true);
   ++loads.contacts;
 }
 
@@ -51,8 +52,32 @@ void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
   sum.peak_moment = larger(sum.peak_moment, step.peak_moment);
 }
 
-ShipSample sample_of(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies, BodyIndex ship,
-                     const ShipLoads& loads) {
+/// What the helm is at, and what moved the ship beside ice and other ships.
+void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval,
+                 ShipSample& sample) {
+  ShipSample& s = sample;
+  const auto mean = [&](dynamics::Planar impulse) { return (1 / interval) * impulse; };
+  s.friction_of_ice = mean(loads.ice_friction);
+  s.from_water = mean(loads.water);
+  s.from_engine = mean(loads.engine);
+  s.from_rudder = mean(loads.rudder);
+  s.from_mooring = mean(loads.mooring);
+  s.lever = helm.lever;
+  s.steering_angle = helm.steering_angle;
+  const auto& engine = setup.sailing[s.ship].engine;
+  s.delivered_power = engine ? std::abs(helm.lever) * engine->power : 0;
+}
+
+double thrust_of(const Setup& setup, const ShipSample& s) {
+  const Propulsion& propulsion = setup.scene.ships[s.ship].propulsion;
+  if (const auto* constant = std::get_if<ConstantThrust>(&propulsion)) return constant->thrust;
+  if (std::holds_alternative<Engine>(propulsion)) return s.from_engine.surge;
+  return -(s.surge_force + s.surge_from_ships + s.surge_from_submerged + s.from_water.surge);
+}
+
+ShipSample sample_of(const Setup& setup, const Clock& clock, const Population& population, BodyIndex ship,
+                     const ShipLoads& loads, const SailingLoads& sailing) {
+  const dynamics::Bodies& bodies = population.bodies;
   const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
   ShipSample sample;
   sample.time = clock.time();
@@ -76,12 +101,11 @@ ShipSample sample_of(const Setup& setup, const Clock& clock, const dynamics::Bod
   sample.heading = bodies.angle[ship];
   sample.velocity_in_world = bodies.velocity[ship] + clock.water_drift;
   sample.yaw_rate = bodies.angular_velocity[ship];
-  const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion);
   sample.surge_from_submerged = -loads.submerged.impulse / interval;
   sample.yaw_from_submerged = loads.submerged.angular_impulse / interval;
   sample.submerged_area = loads.submerged.area;
-  const double resisted = sample.surge_force + sample.surge_from_ships + sample.surge_from_submerged;
-  sample.thrust = thrust != nullptr ? thrust->thrust : -resisted;
+  add_sailing(setup, population.helms[ship], sailing, interval, sample);
+  sample.thrust = thrust_of(setup, sample);
   sample.contacts = loads.ice.contacts;
   sample.contacts_with_ships = loads.ships.contacts;
   return sample;
@@ -99,14 +123,18 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
 
 void record(const Setup& setup, const Clock& clock, const Population& population,
             const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal) {
-  for (std::size_t ship = 0; ship < step_loads.size(); ++ship)
+  for (std::size_t ship = 0; ship < step_loads.size(); ++ship) {
     add_step(accounts.loads[ship], step_loads[ship], setup.scene.time.step);
+    if (setup.sailing[ship].is_active) accounts.sailing[ship].ice_friction += step_loads[ship].ice.friction;
+  }
   Counts& counts = accounts.counts;
   counts.peak_awake = std::max(counts.peak_awake, static_cast<std::int64_t>(population.awake.size()));
   if (clock.steps % setup.steps_per_sample != 0) return;
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
-    journal.samples.push_back(sample_of(setup, clock, population.bodies, ship, accounts.loads[ship]));
+    journal.samples.push_back(
+        sample_of(setup, clock, population, ship, accounts.loads[ship], accounts.sailing[ship]));
     accounts.loads[ship] = {};
+    accounts.sailing[ship] = {};
   }
 }
 

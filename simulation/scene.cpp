@@ -28,6 +28,10 @@ bool has_draught(const Scene& scene) {
   return std::ranges::any_of(scene.ships, [](const ShipSpec& ship) { return ship.hull.draught > 0; });
 }
 
+bool sails(const ShipSpec& ship) {
+  return ship.water.acts || std::holds_alternative<Engine>(ship.propulsion) || ship.mooring.has_value();
+}
+
 geometry::Ring cylinder_waterline(double radius) {
   constexpr double kSagitta = 0.01;  // [m]
   const double half_turn = std::acos(std::max(-1.0, 1 - kSagitta / radius));

@@ -12,6 +12,7 @@
 #include "fracture/splitting.hpp"
 #include "fracture/tilting.hpp"
 #include "geometry/shape/polygon.hpp"
+#include "simulation/sailing_settings.hpp"
 
 namespace polynya::simulation {
 
@@ -119,7 +120,8 @@ struct ConstantSpeed {
 };
 /// A structure that stands on the ground. Its mass is infinite.
 struct FixedInPlace {};
-using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace>;
+using dynamics::Engine;
+using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace, Engine>;
 
 /// A ship, or a structure: a ship that does not move.
 struct ShipSpec {
@@ -131,6 +133,9 @@ struct ShipSpec {
   double heading = 0;                 ///< from the x axis, counter-clockwise [rad]
   double speed = 0;                   ///< along the heading over ground at the start [m/s]
   Propulsion propulsion;
+  HullWaterSettings water;
+  Steering steering;
+  std::optional<MooringSettings> mooring;
 };
 
 struct FloeSpec {
@@ -185,6 +190,10 @@ struct Shortcuts {
   bool culls = true;   ///< pairs of bodies are not collided while they cannot touch
   bool sleeps = true;  ///< floes at rest that touch nothing are not stepped
 };
+
+/// Whether anything beside ice, other ships and a prescribed thrust or speed moves the ship: water around the
+/// hull, an engine, a mooring.
+bool sails(const ShipSpec& ship);
 
 /// Whether ice can go under a ship's hull.
 bool has_draught(const Scene& scene);

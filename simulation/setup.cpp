@@ -32,7 +32,10 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   solver.restitution = scene.contact.restitution;
   solver.max_iterations = scene.contact.iterations;
   separation.time = scene.contact.separation_time;
-  for (const ShipSpec& ship : scene.ships) underwater.push_back(underwater_of(ship.hull));
+  for (const ShipSpec& ship : scene.ships) {
+    underwater.push_back(underwater_of(ship.hull));
+    sailing.push_back(sailing_of(ship, scene.water.water.density));
+  }
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
   if (scene.contact.law == ContactLaw::kCrush)
     steps_per_rest = std::max<std::int64_t>(1, std::llround(kRestInterval / scene.time.step));

@@ -8,6 +8,7 @@
 #include "dynamics/submerged_ice.hpp"
 #include "dynamics/water_drag.hpp"
 #include "fracture/bending/bending_model.hpp"
+#include "simulation/sailing.hpp"
 #include "simulation/scene.hpp"
 
 namespace polynya::simulation {
@@ -35,6 +36,7 @@ struct Setup {
   dynamics::SolverSettings solver;
   dynamics::SeparationSettings separation;
   std::vector<Underwater> underwater;  ///< per ship
+  std::vector<Sailing> sailing;        ///< per ship
   std::int64_t steps_per_sample = 1;
   std::int64_t steps_per_rest = 1;  ///< between two steps that put floes to rest
 };

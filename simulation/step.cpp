@@ -139,7 +139,8 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 19> kStages = {{
+const std::array<Stage, 21> kStages = {{
+    {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
     {"find pairs", [](World& w) { find_pairs(w.population); }},
     {"find contacts",
      [](World& w) {
@@ -157,6 +158,7 @@ const std::array<Stage, 19> kStages = {{
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
     {"pull of submerged ice",
      [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},
+    {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
     {"integrate",
      [](World& w) {
        auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);

@@ -10,6 +10,9 @@ namespace polynya::simulation {
 // The stages of one time step. A stage reads what it takes as const and changes only what it takes as a
 // plain reference.
 
+/// Keeps the ships' motion before the step's impulses.
+void keep_motion(const Population& population, StepData& step);
+
 void find_pairs(Population& population);
 
 void find_contacts(const Setup& setup, int threads, Population& population,
@@ -41,6 +44,11 @@ void apply_forces(const Setup& setup, int threads, Population& population, Audit
 /// Brakes ships by the ice under their hulls, and moves that ice along its path.
 void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads,
                            AuditSums& audit);
+
+/// Moves ships by water, engine, steering and mooring (sailing.hpp). After all other impulses of the step,
+/// since the water shares those too.
+void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+          Accounts& accounts);
 
 /// Returns why the numbers cannot be trusted any more, where a body has no finite speed below kRunawaySpeed.
 std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
@@ -82,7 +90,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 19> kStages;
+extern const std::array<Stage, 21> kStages;
 
 /// One time step: all stages.
 void step(World& world);

@@ -7,6 +7,8 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
       clock{0, setup.scene.time.step, setup.scene.water.drift},
       population(setup) {
   accounts.loads.resize(setup.scene.ships.size());
+  accounts.sailing.resize(setup.scene.ships.size());
+  for (const ShipSpec& ship : setup.scene.ships) population.helms.push_back(helm_of(ship));
   if (start == Start::kEmpty) return;
   add_scene(setup, clock, population, journal);
   for (const Floe& floe : population.floes) accounts.ledger.initial_ice_area += floe.area;

@@ -22,6 +22,7 @@ struct ContactLoads {
   double steady_angular_impulse = 0;  ///< likewise [N m s]
   geometry::Vector largest;           ///< single-step true force, component by component [N]
   double largest_moment = 0;          ///< [N m]
+  dynamics::Planar friction;          ///< of the present step: what slip gave of the impulse [N s, N m s]
   int contacts = 0;                   ///< at the last step
 };
 
@@ -39,6 +40,15 @@ struct ShipLoads {
   SubmergedLoads submerged;
   geometry::Vector peak;   ///< the paper's j/τ_c of contacts with ice, component by component [N]
   double peak_moment = 0;  ///< [N m]
+};
+
+/// What moves a ship that sails, beside ice and other ships. Over a recording interval, in the ship's frame.
+struct SailingLoads {
+  dynamics::Planar water;         ///< on the hull, the inertia of the water with it [N s, N m s]
+  dynamics::Planar engine;        ///< [N s, N m s]
+  dynamics::Planar rudder;        ///< [N s, N m s]
+  dynamics::Planar mooring;       ///< [N s, N m s]
+  dynamics::Planar ice_friction;  ///< of the contacts with ice, their slip [N s, N m s]
 };
 
 /// A fracture decided in this step, to be applied at its end.
@@ -72,6 +82,12 @@ struct PendingSubmersion {
   TiltCriterion criterion;
 };
 
+/// A ship's velocity in the water frame [m/s, rad/s].
+struct ShipMotion {
+  geometry::Vector velocity;
+  double angular_velocity = 0;
+};
+
 /// What one step works out; of the step before, between two steps.
 struct StepData {
   std::vector<dynamics::Contact> contacts;
@@ -80,6 +96,7 @@ struct StepData {
   std::vector<PendingFracture> fractures;
   std::vector<PendingSubmersion> submersions;
   std::vector<ShipLoads> loads;               ///< per ship
+  std::vector<ShipMotion> start;              ///< per ship: its motion before the step's impulses
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
   dynamics::ImpulseSolver solver;             ///< its reusable memory
   dynamics::CrushSolver crush_solver;         ///< likewise
@@ -91,6 +108,7 @@ struct Accounts {
   AuditSums audit;
   Counts counts;
   std::vector<ShipLoads> loads;                                       ///< per ship, since the last sample
+  std::vector<SailingLoads> sailing;                                  ///< per ship, since the last sample
   std::vector<ShipContact> ship_contacts;                             ///< the first one of each pair of ships
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut
 };

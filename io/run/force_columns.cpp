@@ -34,28 +34,59 @@ constexpr ForceColumn column(std::string_view name, std::string_view unit, std::
 
 template <double ShipSample::*Member>
 constexpr ForceColumn in_degrees(std::string_view name, std::string_view unit, std::string_view meaning) {
-  return {name, unit, meaning, [](const ShipSample& s) { return kDegrees * s.*Member; },
-          [](ShipSample& s, double value) { s.*Member = kRadians * value; }};
+  return {.name = name,
+          .unit = unit,
+          .meaning = meaning,
+          .read = [](const ShipSample& s) { return kDegrees * s.*Member; },
+          .store = [](ShipSample& s, double value) { s.*Member = kRadians * value; }};
 }
 
 template <auto Pair, auto Component>
 constexpr ForceColumn component(std::string_view name, std::string_view unit, std::string_view meaning) {
-  return {name, unit, meaning, [](const ShipSample& s) { return s.*Pair.*Component; },
-          [](ShipSample& s, double value) { s.*Pair.*Component = value; }};
+  return {.name = name,
+          .unit = unit,
+          .meaning = meaning,
+          .read = [](const ShipSample& s) { return s.*Pair.*Component; },
+          .store = [](ShipSample& s, double value) { s.*Pair.*Component = value; }};
 }
 
 using S = ShipSample;
+using dynamics::Planar;
 using geometry::Point;
 using geometry::Vector;
 using enum ShownWhere;
 using enum CurveKind;
+
+/// Whether older runs do not have what is shown there.
+constexpr bool is_of_newer_runs(ShownWhere where) {
+  return where != kAlways && where != kWhereItSplits;
+}
+
+/// A load of ships that sail, component by component.
+template <auto Load, double dynamics::Planar::*Component>
+constexpr ForceColumn sailing(std::string_view name, std::string_view unit, std::string_view meaning,
+                              ShownWhere where, std::string_view plot) {
+  ForceColumn load = component<Load, Component>(name, unit, meaning);
+  load.is_optional = true;
+  load.peak = where;
+  load.plot = plot;
+  return load;
+}
+
+/// Of the helm; without a peak.
+constexpr ForceColumn of_helm(ForceColumn column, ShownWhere where, std::string_view plot) {
+  column.is_optional = true;
+  column.plotted = where;
+  column.plot = plot;
+  return column;
+}
 
 /// A load, with its peak and its plot; older runs do not have those of ships.
 template <double S::*Member>
 constexpr ForceColumn load(std::string_view name, std::string_view unit, std::string_view meaning,
                            ShownWhere where, std::string_view plot, CurveKind curve = kMean) {
   ForceColumn load = column<Member>(name, unit, meaning);
-  load.is_optional = where == kAmongShips || where == kUnderHulls;
+  load.is_optional = is_of_newer_runs(where);
   load.peak = where;
   load.plot = plot;
   load.curve = curve;
@@ -120,6 +151,55 @@ constexpr ForceColumn kColumns[] = {
     in_degrees<&S::yaw_rate>("yaw_rate_deg_per_s", "°/s", "counter-clockwise"),
     column<&S::thrust>("thrust_N", "N",
                        "along the heading; of a ship at constant speed what it takes to hold it", "Thrust"),
+    sailing<&S::from_engine, &Planar::sway>("sway_from_thrusters_N", "N",
+                                            "of turned thrusters to port, mean of the interval",
+                                            kWithThrusters, "Sway force of thrusters"),
+    sailing<&S::from_engine, &Planar::yaw>("yaw_from_thrusters_Nm", "N·m",
+                                           "their moment counter-clockwise, likewise", kWithThrusters,
+                                           "Yaw moment of thrusters"),
+    sailing<&S::from_water, &Planar::surge>(
+        "surge_from_water_N", "N",
+        "force of the water on the hull forward, its inertia with it, mean of the interval", kInWater,
+        "Surge force of the water"),
+    sailing<&S::from_water, &Planar::sway>("sway_from_water_N", "N", "to port, likewise", kInWater,
+                                           "Sway force of the water"),
+    sailing<&S::from_water, &Planar::yaw>("yaw_from_water_Nm", "N·m", "moment counter-clockwise, likewise",
+                                          kInWater, "Yaw moment of the water"),
+    sailing<&S::from_rudder, &Planar::surge>("surge_from_rudder_N", "N",
+                                             "force of the rudder forward, mean of the interval",
+                                             kWithRudders, "Surge force of the rudder"),
+    sailing<&S::from_rudder, &Planar::sway>("sway_from_rudder_N", "N",
+                                            "to port, with the hull's share, likewise", kWithRudders,
+                                            "Sway force of the rudder"),
+    sailing<&S::from_rudder, &Planar::yaw>("yaw_from_rudder_Nm", "N·m", "moment counter-clockwise, likewise",
+                                           kWithRudders, "Yaw moment of the rudder"),
+    sailing<&S::from_mooring, &Planar::surge>("surge_from_mooring_N", "N",
+                                              "force of the mooring forward, mean of the interval", kMoored,
+                                              "Surge force of the mooring"),
+    sailing<&S::from_mooring, &Planar::sway>("sway_from_mooring_N", "N", "to port, likewise", kMoored,
+                                             "Sway force of the mooring"),
+    sailing<&S::from_mooring, &Planar::yaw>("yaw_from_mooring_Nm", "N·m",
+                                            "moment counter-clockwise, likewise", kMoored,
+                                            "Yaw moment of the mooring"),
+    sailing<&S::friction_of_ice, &Planar::surge>(
+        "surge_from_ice_friction_N", "N",
+        "share of surge_N that friction along the waterline has; the rest presses", kInWater,
+        "Surge force of the ice's friction"),
+    sailing<&S::friction_of_ice, &Planar::sway>("sway_from_ice_friction_N", "N", "of sway_N, likewise",
+                                                kInWater, "Sway force of the ice's friction"),
+    sailing<&S::friction_of_ice, &Planar::yaw>("yaw_from_ice_friction_Nm", "N·m", "of yaw_Nm, likewise",
+                                               kInWater, "Yaw moment of the ice's friction"),
+    of_helm(column<&S::lever>("lever", "",
+                              "of the thrust, a share of the power: −1 full astern to 1 full ahead, at the "
+                              "end of the interval"),
+            kWithEngines, "Thrust lever"),
+    of_helm(in_degrees<&S::steering_angle>("steering_deg", "°",
+                                           "angle of rudder or thrusters, to port, at the end of the "
+                                           "interval"),
+            kWithEngines, "Steering angle"),
+    of_helm(column<&S::delivered_power>("delivered_power_W", "W",
+                                        "power of the engine at that lever; 0 where none is given"),
+            kWithEngines, "Delivered power"),
     column<&S::contacts>("contacts", "", "with ice, at the end of the interval", "Contacts at the hull"),
     column<&S::contacts_with_ships>("contacts_with_ships", "",
                                     "with other ships and structures, at the end of the interval", "",
@@ -147,6 +227,18 @@ std::string_view name_of(CurveKind kind) {
 bool is_shown(ShownWhere where, const simulation::Scene& scene) {
   if (where == kAmongShips) return scene.ships.size() > 1;
   if (where == kUnderHulls) return has_draught(scene);
+  const auto any_ship = [&](auto condition) { return std::ranges::any_of(scene.ships, condition); };
+  using Ship = simulation::ShipSpec;
+  if (where == kInWater) return any_ship(simulation::sails);
+  if (where == kWithEngines)
+    return any_ship([](const Ship& s) { return std::holds_alternative<simulation::Engine>(s.propulsion); });
+  if (where == kWithRudders)
+    return any_ship(
+        [](const Ship& s) { return std::holds_alternative<simulation::RudderSettings>(s.steering); });
+  if (where == kWithThrusters)
+    return any_ship(
+        [](const Ship& s) { return std::holds_alternative<simulation::AzimuthSettings>(s.steering); });
+  if (where == kMoored) return any_ship([](const Ship& s) { return s.mooring.has_value(); });
   return where == kAlways || splits_by_j_over_tau_c(scene);
 }
 
@@ -156,8 +248,8 @@ std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene) {
 
 std::vector<const ForceColumn*> plotted_columns(const simulation::Scene& scene) {
   return columns_where([&](const ForceColumn& c) {
-    const bool is_optional = c.peak == kAmongShips || c.peak == kUnderHulls;
-    return !c.plot.empty() && (!is_optional || is_shown(*c.peak, scene));
+    const std::optional<ShownWhere> where = c.plotted ? c.plotted : c.peak;
+    return !c.plot.empty() && (!where || !is_of_newer_runs(*where) || is_shown(*where, scene));
   });
 }
 

@@ -14,9 +14,14 @@ namespace polynya::io {
 /// Where the views show a load.
 enum class ShownWhere {
   kAlways,
-  kAmongShips,    ///< in scenes of several ships and structures
-  kUnderHulls,    ///< in scenes with ships that ice can go under
-  kWhereItSplits  ///< in scenes where j/τ_c decides splits
+  kAmongShips,     ///< in scenes of several ships and structures
+  kUnderHulls,     ///< in scenes with ships that ice can go under
+  kInWater,        ///< in scenes with ships that water acts on, or that have an engine or a mooring
+  kWithEngines,    ///< in scenes with ships that have one
+  kWithThrusters,  ///< in scenes with ships that are steered by thrusters
+  kWithRudders,    ///< in scenes with ships that are steered by rudders
+  kMoored,         ///< in scenes with moored ships
+  kWhereItSplits   ///< in scenes where j/τ_c decides splits
 };
 
 /// Which curve of its plot a column is.
@@ -32,10 +37,11 @@ struct ForceColumn {
   std::string_view meaning;  ///< as docs/run-folder.md has it
   double (*read)(const simulation::ShipSample& row);
   void (*store)(simulation::ShipSample& row, double value);
-  std::optional<ShownWhere> peak = {};  ///< where summary.json has its largest value by magnitude
-  std::string_view plot = {};           ///< title of its plot in the player; empty: none
-  CurveKind curve = CurveKind::kMean;   ///< in that plot
-  bool is_optional = false;             ///< older runs do not have it
+  std::optional<ShownWhere> peak = {};     ///< where summary.json has its largest value by magnitude
+  std::optional<ShownWhere> plotted = {};  ///< where it has a plot, if that is not where it has a peak
+  std::string_view plot = {};              ///< title of its plot in the player; empty: none
+  CurveKind curve = CurveKind::kMean;      ///< in that plot
+  bool is_optional = false;                ///< older runs do not have it
 };
 
 /// All of them, as they follow the columns t_s and ship.

@@ -29,6 +29,14 @@ struct FloeGroup {
   double angular_velocity = 0;  ///< [rad/s]
 };
 
+/// A ship's engine while it is read: the bollard pull follows from the rest where it is not given.
+struct DriveDraft {
+  double power = 0;               ///< [W]
+  double propeller_diameter = 0;  ///< of one [m]
+  int propellers = 1;
+  bool has_nozzles = false;
+};
+
 /// Where a ship or a floe of the scene stands in the text, for messages.
 struct Origin {
   std::size_t source = 0;       ///< index in the ProblemCollector's sources
@@ -46,6 +54,7 @@ struct SceneDraft {
   double hull_length = 0;  ///< of the ship being read; 0 where its waterline is given point by point [m]
   double hull_beam = 0;    ///< [m]
   double hull_entrance_angle = 0;  ///< [rad]
+  DriveDraft drive;                ///< of the ship being read
   double structure_radius = 0;     ///< of the structure being read; 0 where its outline is given [m]
   double structure_slope = 0;      ///< of its wall from the vertical [rad]
   FloeGroup group;

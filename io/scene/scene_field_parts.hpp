@@ -63,6 +63,10 @@ const Object& contact_object();
 const Object& fracture_object();
 const Object& record_object();
 const Object& ship_object();
+const Object& hull_water_object();
+const Object& engine_object();
+const Object& steering_object();
+const Object& mooring_object();
 const Object& structure_object();
 const Object& floes_object();
 

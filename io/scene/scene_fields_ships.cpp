@@ -36,6 +36,9 @@ const Object kHull{
      field("draught_m", Kind::kNumber, "m", above(0, 1000), kLeftOut,
            "T: ice goes under the hull and comes up behind it; without it none does",
            [](Draft& d, const Value& v) { d.ship().hull.draught = v.number(); }),
+     field("block_coefficient", Kind::kNumber, "", from(0.2, 1), kLeftOut,
+           "C_B, displaced volume over length, beam and draught; if not given, by the mass",
+           [](Draft& d, const Value& v) { d.ship().water.block_coefficient = v.number(); }),
      field("submersion_speed_factor", Kind::kChoice, "", {}, "\"lindqvist\"",
            "how the load of ice under the hull grows with speed: by 1 + 9.4 v/√(gL), or not",
            [](Draft& d, const Value& v) { d.ship().hull.has_speed_factor = v.text() == "lindqvist"; },
@@ -50,18 +53,22 @@ const Object kPropulsion{
          "constant_speed_m_per_s", Kind::kNumber, "m/s", from(-20, 20), "",
          "velocity over ground and heading are held; the forces reported are what it takes to hold them",
          [](Draft& d, const Value& v) { d.ship().propulsion = ConstantSpeed{v.number()}; }, {},
-         "constant speed")},
-    {"thrust", "constant speed"}};
+         "constant speed"),
+     field("engine", Kind::kObject, "", {}, "", "propellers, and what drives them", nullptr, {}, "engine",
+           &engine_object())},
+    {"thrust", "constant speed", "engine"}};
 
 const Object kShip{
     {field("name", Kind::kName, "", {}, "\"ship-#\"", "its name in the outputs; # is its number",
            [](Draft& d, const Value& v) { d.ship().name = v.text(); }),
      field("hull", Kind::kObject, "", {}, "", "the waterline, by its main dimensions or point by point",
            nullptr, {}, "", &kHull),
-     field("mass_kg", Kind::kNumber, "kg", from(1, 1e12), "", "displacement",
+     field("mass_kg", Kind::kNumber, "kg", from(1, 1e12), kLeftOut,
+           "displacement; if not given, of the water that draught and block coefficient displace",
            [](Draft& d, const Value& v) { d.ship().mass = v.number(); }),
-     field("moment_of_inertia_kg_m2", Kind::kNumber, "kg m²", from(1e-3, 1e16), "",
-           "about the vertical through the centre of gravity",
+     field("moment_of_inertia_kg_m2", Kind::kNumber, "kg m²", from(1e-3, 1e16), kLeftOut,
+           "about the vertical through the centre of gravity; if not given, of a radius of gyration of a "
+           "quarter of the length",
            [](Draft& d, const Value& v) { d.ship().moment_of_inertia = v.number(); }),
      field("position_m", Kind::kVector, "m", coordinate(), "[0, 0]",
            "of the centre of gravity at the start (amidships for a wedge bow)",
@@ -71,12 +78,18 @@ const Object kShip{
      field("speed_m_per_s", Kind::kNumber, "m/s", from(-20, 20), "0",
            "along the heading over ground at the start; of a ship at constant speed, that speed",
            [](Draft& d, const Value& v) { d.ship().speed = v.number(); }),
-     field("propulsion", Kind::kObject, "", {}, "", "constant thrust or constant speed", nullptr, {}, "",
-           &kPropulsion)},
+     field("propulsion", Kind::kObject, "", {}, "", "constant thrust, constant speed or an engine", nullptr,
+           {}, "", &kPropulsion),
+     section("water", hull_water_object()),
+     field("steering", Kind::kObject, "", {}, kLeftOut, "a rudder or thrusters that turn; needs an engine",
+           nullptr, {}, "", &steering_object()),
+     field("mooring", Kind::kObject, "", {}, kLeftOut, "what holds the ship in its place", nullptr, {}, "",
+           &mooring_object())},
     {},
     [](Draft& d) {
       d.scene.ships.emplace_back();
       d.hull_length = 0;
+      d.drive = {};
     }};
 
 const Object kStructure{

@@ -48,11 +48,19 @@ bool is_fixed(const ShipSpec& ship) {
   return std::holds_alternative<simulation::FixedInPlace>(ship.propulsion);
 }
 bool is_prescribed(const ShipSpec& ship) {
-  return !std::holds_alternative<simulation::ConstantThrust>(ship.propulsion);
+  return is_fixed(ship) || std::holds_alternative<simulation::ConstantSpeed>(ship.propulsion);
 }
 double thrust_of(const ShipSpec& ship) {
   const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
-  return constant ? constant->thrust : 0;
+  const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
+  return constant ? constant->thrust : engine ? engine->bollard_pull : 0;
+}
+bool is_steered(const ShipSpec& ship) {
+  return !std::holds_alternative<simulation::NoSteering>(ship.steering);
+}
+/// Whether water slows the ship.
+bool is_slowed(const ShipSpec& ship) {
+  return ship.water.acts || std::holds_alternative<simulation::Engine>(ship.propulsion);
 }
 
 class Hinter {
@@ -133,11 +141,11 @@ class Hinter {
       return add(Severity::kHint, i, key,
                  fmt::format("{:.4g} m/s ({:.3g} kn): {}", ship.speed, ship.speed * kKnots, most));
     const double gained = thrust_of(ship) / ship.mass * scene_.time.until;
-    if (!too_fast(ship.speed + gained)) return;
+    if (is_slowed(ship) || !too_fast(ship.speed + gained)) return;
     add(Severity::kHint, i, "propulsion",
         fmt::format(
-            "where no ice stops it this thrust takes the ship to {:.3g} m/s by {:g} s, since water does not "
-            "slow ships here; {}",
+            "where no ice stops it this thrust takes the ship to {:.3g} m/s by {:g} s, since no water slows "
+            "it (water.model none); {}",
             ship.speed + gained, scene_.time.until, most));
   }
 
@@ -148,7 +156,7 @@ class Hinter {
                               std::ranges::any_of(scene_.floes, [](const simulation::FloeSpec& floe) {
                                 return floe.velocity != Vector{};
                               });
-    if (scene_.floes.empty() || is_ice_moved) return;
+    if (scene_.floes.empty() || is_ice_moved || ship.mooring || is_steered(ship)) return;
     const double drift = dot(scene_.water.drift, ahead_of(ship));
     const double speed = ship.speed - drift, thrust = thrust_of(ship);
     if ((speed == 0 && thrust == 0) || speed * thrust < 0) return;

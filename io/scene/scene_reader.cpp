@@ -10,6 +10,7 @@
 #include "io/scene/scene_check.hpp"
 #include "io/scene/scene_hints.hpp"
 #include "io/scene/scene_resolve.hpp"
+#include "io/scene/ship_completion.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 
@@ -57,7 +58,9 @@ class SceneReader {
     if (resolved_.members().empty()) return tl::unexpected(problems_.take());
     hold_constant_speeds(document.root);
     choose_fate_of_ice(document.root);
+    choose_hull_water(document.root, resolved_);
     build();
+    fill_in_masses(draft_, resolved_);
     check_scene(draft_, resolved_, problems_);
     if (problems_.count() > 0) return tl::unexpected(problems_.take());
     add_scene_hints(draft_, resolved_, problems_);
@@ -156,6 +159,7 @@ class SceneReader {
       if (angles.size() == given) angles.resize(hull.waterline.size());
       if (hull.waterline.front() != outline.outer.front()) std::ranges::reverse(angles);
     }
+    complete_ship(item, fmt::format("ships[{}]", index), draft_, problems_);
     draft_.ship_origins.push_back({.offset = item.offset, .group = index});
   }
 

@@ -18,7 +18,9 @@ using geometry::Point;
 /// At the start [m/s].
 double speed_of(const simulation::Scene& scene, const simulation::ShipSpec& ship) {
   const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
-  const double gained = constant ? std::abs(constant->thrust) / ship.mass * scene.time.step : 0;
+  const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
+  const double thrust = constant ? std::abs(constant->thrust) : engine ? engine->bollard_pull : 0;
+  const double gained = thrust / ship.mass * scene.time.step;
   return std::abs(ship.speed) + gained;
 }
 

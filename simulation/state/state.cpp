@@ -45,7 +45,10 @@ template <class Archive>
 void write(Archive& archive, const World& world, const std::vector<dynamics::PairState>& pairs) {
   const Population& population = world.population;
   archive(world.clock.steps, world.accounts, std::uint64_t{population.floes.size()});
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) archive(motion_of(population.bodies, ship));
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+    archive(motion_of(population.bodies, ship));
+    if (world.setup.sailing[ship].is_active) archive(population.helms[ship], world.accounts.sailing[ship]);
+  }
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     const Floe& floe = population.floes[id];
     archive(
@@ -147,6 +150,7 @@ class StateLoader {
     const BodyMotion motion = load_motion(population_.bodies.bounding_radius[ship]);
     bytes_.require(motion.is_awake, "a ship asleep");
     place(ship, motion);
+    if (world_.setup.sailing[ship].is_active) bytes_(population_.helms[ship], world_.accounts.sailing[ship]);
   }
 
   FloeHead load_head(FloeId id) {

@@ -81,6 +81,18 @@ void fields(Archive& archive, Is<ShipLoads> auto& l) {
   archive(l.ice, l.ships, l.submerged, l.peak, l.peak_moment);
 }
 template <class Archive>
+void fields(Archive& archive, Is<dynamics::Planar> auto& p) {
+  archive(p.surge, p.sway, p.yaw);
+}
+template <class Archive>
+void fields(Archive& archive, Is<SailingLoads> auto& l) {
+  archive(l.water, l.engine, l.rudder, l.mooring, l.ice_friction);
+}
+template <class Archive>
+void fields(Archive& archive, Is<Helm> auto& h) {
+  archive(h.lever, h.steering_angle, h.is_adrift);
+}
+template <class Archive>
 void fields(Archive& archive, Is<AreaLedger> auto& l) {
   archive(l.initial_ice_area, l.under_ice_area, l.submerged_area, l.brash_area,
           l.rounding_defect);  // the rest is derived

@@ -30,6 +30,21 @@ Defect check_columns(const World& world) {
   return {};
 }
 
+Defect check_helms(const World& world) {
+  const std::size_t ships = world.setup.scene.ships.size();
+  if (world.population.helms.size() != ships || world.accounts.sailing.size() != ships)
+    return "helms of other ships than there are";
+  for (std::size_t i = 0; i < ships; ++i) {
+    const Helm& helm = world.population.helms[i];
+    if (!(std::abs(helm.lever) <= 1)) return fmt::format("ship {} has its lever beyond full", i);
+    if (!(std::abs(helm.steering_angle) <= world.setup.sailing[i].steering_most))
+      return fmt::format("ship {} has its rudder beyond the stop", i);
+    if (helm.is_adrift && !world.setup.scene.ships[i].mooring)
+      return fmt::format("ship {} is adrift and was not moored", i);
+  }
+  return {};
+}
+
 Defect check_awake(const Population& population) {
   std::size_t awake = 0;
   for (BodyIndex i = 0; i < population.bodies.size(); ++i)
@@ -132,6 +147,7 @@ Defect check_sums(const World& world) {
 std::optional<std::string> validate_world(const World& world) {
   const Population& population = world.population;
   if (auto defect = check_columns(world)) return defect;
+  if (auto defect = check_helms(world)) return defect;
   if (auto defect = check_awake(population)) return defect;
   if (auto defect = check_sums(world)) return defect;
   if (auto defect = check_pairs(population)) return defect;

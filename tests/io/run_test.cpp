@@ -170,8 +170,8 @@ TEST(Run, ForcesAreReadByTheirColumnsNames) {
 
 TEST(Run, ColumnsOfForcesNameTheirUnitsOnce) {
   const std::map<std::string_view, std::string_view> suffixes{
-      {"N", "_N"},         {"N·m", "_Nm"},        {"m", "_m"}, {"°", "_deg"},
-      {"m²", "_m2"}, {"m/s", "_m_per_s"}, {"°/s", "_deg_per_s"}, {"", ""}};
+      {"N", "_N"},         {"N·m", "_Nm"},        {"m", "_m"}, {"°", "_deg"}, {"m²", "_m2"},
+      {"m/s", "_m_per_s"}, {"°/s", "_deg_per_s"}, {"W", "_W"}, {"", ""}};
   std::set<std::string_view> names;
   for (const ForceColumn& column : force_columns()) {
     ASSERT_TRUE(suffixes.contains(column.unit)) << column.name;

@@ -14,6 +14,24 @@ inline std::string text_of(const geometry::Ring& ring) {
   return text;
 }
 
+inline std::string sailing_fingerprint(const simulation::ShipSpec& ship) {
+  const auto& w = ship.water;
+  std::string text = fmt::format(" water {} {} {} {} {}", w.acts, w.block_coefficient, w.cross_flow_drag,
+                                 w.surge_added_mass, w.resistance_coefficient);
+  if (const auto* e = std::get_if<simulation::Engine>(&ship.propulsion))
+    text += fmt::format(" engine {} {} {} {} {} {}", e->bollard_pull, e->open_water_speed, e->astern_share,
+                        e->lever_rate, e->power, e->propeller_area);
+  if (const auto* r = std::get_if<simulation::RudderSettings>(&ship.steering))
+    text += fmt::format(" rudder {} {} {} {}", r->area, r->aspect_ratio, r->rate, r->most);
+  if (const auto* a = std::get_if<simulation::AzimuthSettings>(&ship.steering))
+    text += fmt::format(" azimuth {} {}", a->rate, a->most);
+  if (const auto& m = ship.mooring)
+    text += fmt::format(" mooring {} {} {} {} {} {} {} {} {} {}", m->position_in_world.x,
+                        m->position_in_world.y, m->heading, m->surge_stiffness, m->sway_stiffness,
+                        m->yaw_stiffness, m->surge_damping, m->sway_damping, m->yaw_damping, m->break_load);
+  return text;
+}
+
 /// Everything a scene holds, as text: two scenes are the same where their fingerprints are.
 inline std::string fingerprint(const simulation::Scene& s) {
   std::string text = fmt::format("{} {} {} {}\n", s.name, s.seed, s.time.step, s.time.until);
@@ -50,6 +68,7 @@ inline std::string fingerprint(const simulation::Scene& s) {
                         ship.hull.stem_angle);
     text += text_of(ship.hull.waterline);
     for (const double angle : ship.hull.angles_from_vertical) text += fmt::format(" {}", angle);
+    text += sailing_fingerprint(ship);
     if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&ship.propulsion))
       text += fmt::format(" thrust {}\n", thrust->thrust);
     else if (const auto* held = std::get_if<simulation::ConstantSpeed>(&ship.propulsion))
