@@ -16,6 +16,25 @@ void add_run_folder(CLI::App& command, std::string& folder) {
   option(command, "run", folder, "RUN", "The run folder")->required();
 }
 
+void add_set(CLI::App& command, std::vector<io::Assignment>& assignments) {
+  const auto is_assignment = [](std::string& word) -> std::string {
+    const auto assignment = io::parse_assignment(word);
+    return assignment ? "" : assignment.error();
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&assignments](const std::vector<std::string>& words) {
+            for (const std::string& word : words)
+              if (auto assignment = io::parse_assignment(word)) assignments.push_back(std::move(*assignment));
+          },
+          "A scene key's value instead of the scene's, by its path: --set ice.thickness_m=0.7; may be "
+          "repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->check(CLI::Validator(is_assignment, ""));
+}
+
 void add_progress(CLI::App& command, ProgressKind& kind) {
   set_choices<ProgressKind>(
       *command.add_option("--progress", kind,

@@ -12,6 +12,7 @@
 
 #include "app/command_line.hpp"
 #include "app/progress.hpp"
+#include "io/scene/scene_assign.hpp"
 
 namespace polynya::app {
 
@@ -25,6 +26,8 @@ CLI::Option* option(CLI::App& command, const char* name, Value& value, const cha
 /// The positionals SCENE and RUN.
 void add_scene(CLI::App& command, std::string& scene);
 void add_run_folder(CLI::App& command, std::string& folder);
+/// --set, which every command that reads a scene to run or check it has.
+void add_set(CLI::App& command, std::vector<io::Assignment>& assignments);
 /// --progress, as every long command has it.
 void add_progress(CLI::App& command, ProgressKind& kind);
 

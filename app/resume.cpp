@@ -66,14 +66,14 @@ std::string no_run_in(const fs::path& folder) {
 }
 
 /// A kill between the end of a run and the end of the command leaves checkpoints, or no picture.
-int report_finished(const fs::path& folder) {
+int report_finished(const fs::path& folder, bool no_map) {
   print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
   const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg);
   if (is_drawn && io::checkpoints_in(folder).empty()) return kDone;
   const auto lock = io::RunLock::take(folder);
   if (!lock) return kDone;                            // another polynya holds it and does what is left
   static_cast<void>(io::remove_checkpoints(folder));  // a later command tries again
-  if (is_drawn) return kDone;
+  if (is_drawn || no_map) return kDone;
   const DrawnMap map = draw_map(folder);
   if (map.end != io::RunEnd::kFinished) fail(kInputOutput, map.reason);
   return exit_code_of(map.end);
@@ -107,10 +107,11 @@ int resume(const ResumeOptions& options) {
     const auto scene = load_scene(scene_file.string());
     return scene ? repeat_failure(*scene, folder) : scene.error();
   }
-  if (io::is_finished_run(folder)) return report_finished(folder);
+  if (io::is_finished_run(folder)) return report_finished(folder, options.driver.no_map);
   auto lock = io::RunLock::take(folder);
   if (!lock) return fail(kInputOutput, lock.error());
-  if (io::is_finished_run(folder)) return report_finished(folder);  // by another polynya meanwhile
+  if (io::is_finished_run(folder))
+    return report_finished(folder, options.driver.no_map);  // by another polynya meanwhile
   watch_signals();
   const auto scene = load_scene(scene_file.string());
   return scene ? resume_from_checkpoint(*scene, std::move(*lock), options) : scene.error();

@@ -21,6 +21,7 @@ struct RunOptions {
   std::string out;              ///< empty: runs/<scene name>
   std::optional<double> until;  ///< [s]
   std::optional<std::uint64_t> seed;
+  std::vector<io::Assignment> set;
   bool overwrite = false;
   DriverOptions driver;
 };
@@ -33,7 +34,8 @@ struct Start {
 
 tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
   try {
-    auto loaded = load_scene(options.scene, {.until = options.until, .seed = options.seed});
+    auto loaded =
+        load_scene(options.scene, {.until = options.until, .seed = options.seed, .assignments = options.set});
     if (!loaded) return tl::unexpected(loaded.error());
     print_hints(*loaded);
     if (!may_fit(loaded->scene, options.scene, memory_available())) return tl::unexpected(kOutOfMemory);
@@ -64,7 +66,8 @@ Command add_run(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  polynya run scenes/sawamura2017-fig4b.json\n"
-      "  polynya run scenes/level-plate.json --until 60 --out /tmp/plate --overwrite\n");
+      "  polynya run scenes/level-plate.json --until 60 --out /tmp/plate --overwrite\n"
+      "  polynya run scenes/level-plate.json --set ice.thickness_m=0.7 --set ships[0].position_m[1]=5\n");
   auto options = std::make_shared<RunOptions>();
   add_scene(*command, options->scene);
   option(*command, "--out", options->out, "DIR", "The run folder; runs/<scene name> if not given");
@@ -72,6 +75,7 @@ Command add_run(CLI::App& app) {
          between(1e-9, 1e7));
   option(*command, "--seed", options->seed, "N", "Seed instead of the scene's",
          CLI::Range(0.0, 9007199254740991.0));
+  add_set(*command, options->set);
   add_run_options(*command, options->driver);
   command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
   return {command, [options] { return run(*options); }};

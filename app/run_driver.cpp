@@ -54,10 +54,10 @@ void report_dump(const std::string& folder, const io::Result<>& dump) {
     print_err("polynya: the failure could not be dumped: {}\n", in_words(dump.error()));
 }
 
-ExitCode report(io::ActiveRun& run, io::RunResult result) {
+ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
   { const simulation::Simulation freed = std::move(run.simulation); }  // makes room for the map
   const std::filesystem::path& folder = run.writer.folder();
-  const DrawnMap map = result.end == RunEnd::kFolderFailure ? DrawnMap{} : draw_map(folder);
+  const DrawnMap map = no_map || result.end == RunEnd::kFolderFailure ? DrawnMap{} : draw_map(folder);
   if (map.end != RunEnd::kFinished) {
     result.end = map.end;
     result.reason = map.reason;
@@ -127,6 +127,7 @@ void add_run_options(CLI::App& command, DriverOptions& options) {
          "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
   command.add_flag("--check", control.check,
                    "Recompute every cross-index and sum after every step; stop if one differs");
+  command.add_flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
   add_progress(command, options.progress);
 }
 
@@ -137,7 +138,7 @@ ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
   control.stop = reason_to_stop;
   const io::RunResult result = run_to_end(run, control);
   progress.finish(result.summary.sim_time, io::fractures_of(result.summary.counts));
-  return result.is_cut_off ? report_cut_off(run, result) : report(run, result);
+  return result.is_cut_off ? report_cut_off(run, result) : report(run, result, options.no_map);
 }
 
 }  // namespace polynya::app

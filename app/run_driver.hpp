@@ -30,6 +30,7 @@ ExitCode exit_code_of(io::RunEnd end);
 struct DriverOptions {
   io::RunControl control;
   ProgressKind progress = ProgressKind::kAuto;
+  bool no_map = false;  ///< leave out the picture of the end
 };
 void add_run_options(CLI::App& command, DriverOptions& options);
 

@@ -5,6 +5,7 @@
 #include "app/console.hpp"
 #include "app/load_scene.hpp"
 #include "app/options.hpp"
+#include "app/validate_cases.hpp"
 
 namespace polynya::app {
 namespace {
@@ -13,18 +14,26 @@ constexpr auto kExamples =
     "Examples:\n"
     "  polynya validate scene.json\n"
     "  polynya validate scene.json --resolved   with every default filled in\n"
+    "  polynya validate scene.json --set ice.thickness_m=0.7\n"
+    "  polynya validate scene.json --cases cases.ndjson   each line as many --set: {\"ice.thickness_m\": "
+    "0.7}\n"
     "  polynya validate scene.json --json       the problems as a JSON array, for editors\n"
     "  make-scene | polynya validate -          a scene from stdin\n";
 
 struct Options {
   std::string scene;
+  std::vector<io::Assignment> set;
+  std::string cases;      ///< a file of them; empty: none
   bool resolved = false;  ///< print the scene with every default filled in
   bool json = false;      ///< print its problems as a JSON array
 };
 
 int validate(const Options& options) {
-  const auto loaded =
-      load_scene(options.scene, {}, options.json ? ProblemFormat::kJson : ProblemFormat::kText);
+  const ProblemFormat format = options.json ? ProblemFormat::kJson : ProblemFormat::kText;
+  io::SceneOverrides overrides;
+  overrides.assignments = options.set;
+  if (!options.cases.empty()) return validate_cases(options.scene, options.cases, overrides, format);
+  const auto loaded = load_scene(options.scene, overrides, format);
   if (!loaded) return loaded.error();
   if (options.json) {
     write_out(io::to_json_text(loaded->hints));
@@ -61,8 +70,13 @@ Command add_validate(CLI::App& app) {
   command->footer(kExamples);
   auto options = std::make_shared<Options>();
   add_scene(*command, options->scene);
+  add_set(*command, options->set);
+  auto* cases =
+      option(*command, "--cases", options->cases, "FILE",
+             "Check the scene once for each line of this file, an object of paths and values", not_empty());
   auto* resolved =
       command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  resolved->excludes(cases);
   command->add_flag("--json", options->json, "Print the problems as a JSON array; [] for none")
       ->excludes(resolved);
   return {command, [options] { return validate(*options); }};

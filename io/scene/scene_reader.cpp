@@ -52,6 +52,7 @@ class SceneReader {
     problems_.add_faults(0, document.faults);
     if (std::ranges::any_of(document.faults, [](const JsonFault& fault) { return fault.path.empty(); }))
       return tl::unexpected(problems_.take());
+    assign(document.root, overrides.assignments, problems_);
     if (!document.root.find("name")) put(document.root, "name", default_name);
     override_scene(document.root, overrides);
     resolved_ = resolve_scene(document.root, problems_);

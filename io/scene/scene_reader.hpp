@@ -8,6 +8,7 @@
 
 #include <tl/expected.hpp>
 
+#include "io/scene/scene_assign.hpp"
 #include "io/text/problem.hpp"
 #include "simulation/floe_field.hpp"
 #include "simulation/scene.hpp"
@@ -40,6 +41,7 @@ struct LoadedScene {
 struct SceneOverrides {
   std::optional<double> until;  ///< [s]
   std::optional<std::uint64_t> seed;
+  std::vector<Assignment> assignments;  ///< put before the others
 };
 
 using SceneOutcome = tl::expected<LoadedScene, std::vector<Problem>>;

@@ -30,15 +30,34 @@ void ProblemCollector::add_faults(std::size_t source, const std::vector<JsonFaul
         {.path = fault.path, .found = fault.found, .allowed = fault.allowed, .sentence = fault.sentence});
 }
 
+std::uint32_t ProblemCollector::add_overlay(PlacedText text) {
+  const std::size_t begin = overlays_.empty() ? sources_[0].text.size() + 1
+                                              : overlays_.back().begin + overlays_.back().text.length + 1;
+  overlays_.push_back({static_cast<std::uint32_t>(begin), std::move(text)});
+  return overlays_.back().begin;
+}
+
+void ProblemCollector::place(const Entry& entry, Problem& problem) const {
+  const SourceText& source = sources_[entry.source];
+  const auto behind = std::ranges::upper_bound(overlays_, entry.offset, {}, &Overlay::begin);
+  if (entry.source == 0 && behind != overlays_.begin()) {
+    const Overlay& overlay = *std::prev(behind);
+    problem.file = overlay.text.name;
+    problem.line = overlay.text.line;
+    problem.column = problem.line > 0 ? static_cast<int>(entry.offset - overlay.begin) + 1 : 0;
+    return;
+  }
+  const auto place = line_and_column(source.text, entry.offset);
+  problem.file = source.name;
+  problem.line = place.line;
+  problem.column = place.column;
+}
+
 std::vector<Problem> ProblemCollector::take() {
   std::ranges::stable_sort(entries_, {}, [](const Entry& e) { return std::tuple(e.source, e.offset); });
   std::vector<Problem> problems;
   for (Entry& entry : entries_) {
-    const SourceText& source = sources_[entry.source];
-    const auto place = line_and_column(source.text, entry.offset);
-    entry.problem.file = source.name;
-    entry.problem.line = place.line;
-    entry.problem.column = place.column;
+    place(entry, entry.problem);
     problems.push_back(std::move(entry.problem));
   }
   if (beyond_ > 0)

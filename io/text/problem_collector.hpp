@@ -10,6 +10,13 @@
 
 namespace polynya::io {
 
+/// A text beside a source, put in place of a part of it: an option of the command line, or a line of a file.
+struct PlacedText {
+  std::string name;        ///< as shown to people
+  int line = 0;            ///< in the file of that name; 0: the name alone is the place
+  std::size_t length = 0;  ///< [bytes]
+};
+
 /// Gathers everything wrong in a scene and in the files it names, so that it can be reported at once.
 class ProblemCollector {
  public:
@@ -22,6 +29,8 @@ class ProblemCollector {
     sources_.push_back(std::move(source));
     return sources_.size() - 1;
   }
+  /// Adds a text to the first source; its bytes have the offsets from the returned one on.
+  std::uint32_t add_overlay(PlacedText text);
   const SourceText& source(std::size_t index) const { return sources_[index]; }
 
   void add(std::size_t source, std::uint32_t offset, Problem problem);
@@ -40,7 +49,13 @@ class ProblemCollector {
     std::uint32_t offset;
     Problem problem;
   };
+  struct Overlay {
+    std::uint32_t begin;
+    PlacedText text;
+  };
+  void place(const Entry& entry, Problem& problem) const;
   std::vector<SourceText> sources_;
+  std::vector<Overlay> overlays_;  ///< of the first source, by their offsets, all behind its text
   std::vector<Entry> entries_;
   std::size_t beyond_ = 0;
 };

@@ -60,7 +60,8 @@ TEST(Golden, EverySceneEndsInItsState) {
   std::ostringstream renewed;
   std::size_t scenes = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kSource / "scenes")) {
-    if (entry.path().extension() != ".json") continue;
+    const bool is_study = entry.path().parent_path().filename() == "studies";  // and what only studies run
+    if (entry.path().extension() != ".json" || is_study) continue;
     ++scenes;
     const std::string name = entry.path().stem().string();
     const auto golden = goldens.find(name);

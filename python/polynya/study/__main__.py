@@ -1,0 +1,140 @@
+"""`polynya study …` (app/study.cpp starts it)."""
+import os
+import pathlib
+import sys
+
+from . import archive, gather, jobs, plan, slurm
+from .case import DONE, INPUT_OUTPUT, STOPPED, program
+from .folder import PLAN, counted, numbers_of_list, open_study, planned_folder
+from .located_json import StudyError
+from .options import PROCESSORS, command_line
+
+
+def run(options):
+    study = planned(options)
+    if options.case is not None:
+        return run_one(study, options)
+    if options.chunk_to_run is not None:
+        if not 0 <= options.chunk_to_run < study.chunks:
+            raise StudyError(f"there is no chunk {options.chunk_to_run}; the study has 0 to {study.chunks - 1}", 2)
+        return slurm.run_chunk(study, options.chunk_to_run, lambda numbers: run_cases(study, numbers, options))
+    if options.cases:
+        return run_cases(study, numbers_of_list(options.cases, study.count, "case"), options)
+    codes = run_cases(study, range(study.count), options)
+    if codes != STOPPED and study.plan["archive"]:
+        for chunk in range(study.chunks):
+            if not study.archive(chunk).exists():
+                archive.pack(study, chunk)
+    print(f"table       polynya study gather {study.folder}", file=sys.stderr)
+    return codes
+
+
+def run_cases(study, numbers, options):
+    return jobs.run_cases(
+        study, numbers, options.jobs, keep=options.keep, retries_failed=options.retry_failed, is_quiet=options.quiet
+    )
+
+
+def run_one(study, options):
+    number = options.case
+    if not 0 <= number < study.count:
+        raise StudyError(f"there is no case {number}; the study has 0 to {study.count - 1}", 2)
+    chunk = number // study.chunk_size
+    if study.archive(chunk).exists():
+        result = archive.results_of(study, chunk)[number - chunk * study.chunk_size]
+        return result.get("exit_code", DONE)
+    stop = jobs.Stop()
+    stop.raise_on_signals()
+    code, message = jobs.run_case(study, number, stop.reader, options.keep)
+    if message:
+        print(f"polynya study: {message}", file=sys.stderr)
+    if code == DONE and not options.quiet:
+        print(f"case {number}: finished, {study.case_folder(number)}")
+    return code
+
+
+def planned(options):
+    """The study, planned first where its file is given and it is not."""
+    given = pathlib.Path(options.study)
+    if given.is_file() and not (planned_folder(given) / PLAN).exists():
+        defaults = command_line().parse_args(["plan", options.study, "--trial-seconds", "0"])
+        return plan.plan_study(given, defaults)
+    return open_study(given)
+
+
+def make_plan(options):
+    study = plan.plan_study(options.study, options)
+    folder = study.folder
+    print(f"study       {folder}: {counted(study.count, 'case')} in {counted(study.chunks, 'chunk')}")
+    print(f"run it      polynya study run {folder} --jobs {PROCESSORS}, or polynya study slurm {folder} --submit")
+    return DONE
+
+
+def send(options):
+    study = open_study(options.study)
+    array, gathering, tasks = slurm.write_scripts(study, options)
+    if not tasks:
+        print(f"{study.folder}: every case has ended; polynya study gather {study.folder}")
+        return DONE
+    print(f"scripts     {array}, {gathering}: {counted(tasks, 'task')}")
+    if options.submit:
+        job, gather_job = slurm.submit(array, gathering)
+        print(f"submitted   job {job}, and {gather_job} to gather after it")
+    else:
+        print(f"submit      polynya study slurm {study.folder} --submit")
+    return DONE
+
+
+def spread(options):
+    study = open_study(options.study)
+    chunks, line = slurm.parallel_line(study, [host for host in options.hosts.split(",") if host], options.jobs)
+    if chunks:
+        print(line)
+    else:
+        print(f"{study.folder}: every case has ended; polynya study gather {study.folder}", file=sys.stderr)
+    return DONE
+
+
+def report(options):
+    try:
+        from . import report as made
+    except ImportError as error:
+        raise StudyError(
+            f"report needs {error.name}, which is not installed: ./setup.sh python, or "
+            "apt-get install python3-numpy python3-scipy python3-matplotlib",
+            INPUT_OUTPUT,
+        ) from None
+    return made.report(open_study(options.study), options.players)
+
+
+def main(words=None):
+    options = command_line().parse_args(words)
+    actions = {
+        "plan": make_plan,
+        "run": run,
+        "slurm": send,
+        "parallel": spread,
+        "report": report,
+        "gather": lambda given: gather.gather(open_study(given.study)),
+    }
+    try:
+        return actions[options.action](options)
+    except StudyError as error:
+        for problem in error.problems:
+            print(problem, file=sys.stderr)
+        if error.code == 3:
+            print(f"polynya study: {counted(len(error.problems), 'problem')}; nothing was planned", file=sys.stderr)
+        return error.code
+    except FileNotFoundError as error:
+        if error.filename == program():
+            print(f"polynya study: {program()} is not there; start studies by `polynya study`", file=sys.stderr)
+            return INPUT_OUTPUT
+        print(f"polynya study: {error.filename}: {error.strerror}", file=sys.stderr)
+        return INPUT_OUTPUT
+    except OSError as error:
+        print(f"polynya study: {error.filename or ''}: {error.strerror}", file=sys.stderr)
+        return INPUT_OUTPUT
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,162 @@
+"""One case: run, resumed or found finished, in its own folder."""
+import ctypes
+import fcntl
+import json
+import os
+import select
+import shutil
+import signal
+import subprocess
+import time
+
+from . import measures
+from .folder import RESULT, RUN, write_atomically
+
+DONE, FAILED, INPUT_OUTPUT, STOPPED = 0, 4, 5, 75
+KEPT_WORDS = 2000  # of a failed run's messages [characters]
+PR_SET_PDEATHSIG = 1
+LIBC = ctypes.CDLL(None)
+
+
+def die_with_parent(number):
+    """Has the kernel send this process a signal when its parent ends, however that comes."""
+    LIBC.prctl(PR_SET_PDEATHSIG, number)
+
+
+def program():
+    return os.environ.get("POLYNYA_PROGRAM", "polynya")
+
+
+def state_of(folder):
+    """\"finished\", \"failed\", \"unfinished\" or \"missing\", and the result where there is one."""
+    try:
+        result = json.loads((folder / RESULT).read_text(encoding="utf-8"))
+        return result["state"], result
+    except FileNotFoundError:
+        return ("unfinished" if (folder / RUN).exists() else "missing"), None
+    except (OSError, ValueError, KeyError):
+        return "unfinished", None
+
+
+def run_case(study, number, stop=None, keep=None):
+    """Brings a case to its end and returns (exit code, message). A finished one returns at once. `stop` is a file
+    descriptor: when it can be read, the run is stopped with a checkpoint. `keep` "all" brings back the run folder of a
+    case whose records were thinned."""
+    if stop is not None and select.select([stop], [], [], 0)[0]:
+        return STOPPED, ""
+    folder = study.case_folder(number)
+    folder.mkdir(parents=True, exist_ok=True)
+    keep = keep or study.plan["keep"]
+    lock = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return INPUT_OUTPUT, f"case {number}: another process runs it"
+        state, _ = state_of(folder)
+        if state == "finished" and (keep == "summary" or (folder / RUN).exists()):
+            return DONE, ""
+        return carry(study, number, folder, lock, stop, keep)
+    finally:
+        os.close(lock)
+
+
+def carry(study, number, folder, lock, stop, keep):
+    """Runs or resumes, then measures and writes the result."""
+    run, began = folder / RUN, time.monotonic()
+    (folder / RESULT).unlink(missing_ok=True)
+    summary = summary_of(run)
+    if not (summary and summary["finished"]):
+        code, words = run_program(command_of(study, number, run), lock, stop)
+        if code == STOPPED:
+            return STOPPED, f"case {number}: stopped; it continues from its checkpoint"
+        if code < 0:
+            return STOPPED, f"case {number}: killed by signal {-code}; it continues from its newest checkpoint"
+        if code != DONE:
+            return failed(study, number, folder, code, words)
+        summary = summary_of(run)
+    try:
+        found = measures.measure(run, study.plan["collect"], program())
+    except (OSError, ValueError, KeyError) as error:
+        return failed(study, number, folder, INPUT_OUTPUT, f"its measures: {error}")
+    result = {
+        "state": "finished",
+        **case_in_words(study, number),
+        "measures": found,
+        "version": summary["version"],
+        "scene_hash": summary["scene_hash"],
+        "warnings": summary["warnings"],
+        "wall_time_s": summary["wall_time_s"],
+        "elapsed_s": round(time.monotonic() - began, 3),
+    }
+    write_atomically(folder / RESULT, json.dumps(result) + "\n")
+    if keep == "summary":
+        shutil.rmtree(run, ignore_errors=True)
+    return DONE, ""
+
+
+def case_in_words(study, number):
+    scene, values = study.case(number)
+    return {"case": number, "scene": scene.stem, "set": values}
+
+
+def failed(study, number, folder, code, words):
+    """Records a failure that another try would repeat. What the machine is to blame for, a full disk or too little
+    memory, leaves the case unfinished."""
+    words = words.strip()[-KEPT_WORDS:] or f"exit code {code}"
+    if code == INPUT_OUTPUT or (summary_of(folder / RUN) or {}).get("stopped_by") == "memory":
+        return code, f"case {number}: {words.splitlines()[-1]}"
+    result = {"state": "failed", **case_in_words(study, number), "exit_code": code, "message": words}
+    write_atomically(folder / RESULT, json.dumps(result) + "\n")
+    return code, f"case {number}: {words.splitlines()[-1]}"
+
+
+def summary_of(run):
+    try:
+        return json.loads((run / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+
+
+def command_of(study, number, run):
+    if (run / "scene.json").exists():
+        return [program(), "resume", run, "--no-map", "--progress", "none"]
+    scene, values = study.case(number)
+    words = [program(), "run", scene, "--out", run, "--overwrite", "--no-map", "--progress", "none"]
+    for path, value in values.items():
+        words += ["--set", f"{path}={json.dumps(value)}"]
+    return words
+
+
+def run_program(words, lock, stop):
+    """The exit code of a program and what it wrote to stderr. It holds the case's lock as long as it lives, and stops
+    with a checkpoint where we are killed."""
+
+    def in_child():
+        die_with_parent(signal.SIGHUP)
+        for number in (signal.SIGINT, signal.SIGHUP):  # a shell's background job ignores them, and polynya would too
+            signal.signal(number, signal.SIG_DFL)
+
+    with open(os.path.join(f"/proc/self/fd/{lock}", "messages.txt"), "w+b") as messages:
+        child = subprocess.Popen(
+            words,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=messages,
+            start_new_session=True,
+            pass_fds=[lock],
+            preexec_fn=in_child,
+        )
+        ended = os.pidfd_open(child.pid)
+        try:
+            ready, _, _ = select.select([ended] + ([stop] if stop is not None else []), [], [])
+            if ended not in ready:
+                # Not SIGTERM: Slurm sends that to every process of a job, and polynya ends at once on a second one.
+                child.send_signal(signal.SIGINT)
+            code = child.wait()
+        finally:
+            os.close(ended)
+        messages.seek(0)
+        text = messages.read().decode("utf-8", "replace")
+    os.unlink(os.path.join(f"/proc/self/fd/{lock}", "messages.txt"))
+    return code, text

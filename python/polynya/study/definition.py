@@ -1,0 +1,282 @@
+"""A study's file: its keys, and everything that is wrong with one (docs/studies.md)."""
+import dataclasses
+import difflib
+import math
+import pathlib
+import re
+
+from . import draws
+from .located_json import LocatedJson, StudyError
+
+LARGEST_SEED = 2**53 - 1
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
+KEYS = (
+    "name",
+    "description",
+    "scene",
+    "set",
+    "grid",
+    "paired",
+    "draw",
+    "repetitions",
+    "seed",
+    "collect",
+    "keep",
+    "archive",
+    "report",
+)
+COLLECT_KEYS = ("ship", "from_s", "quantiles", "stop_speed_m_per_s", "channel", "time_to")
+TIME_TO_KEYS = ("x_m", "y_m", "distance_m", "point_m", "within_m")
+REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
+
+
+@dataclasses.dataclass
+class Definition:
+    """A study without fault. Paths are those of scene keys; \"scene\" itself may be varied by a list of scenes."""
+
+    file: str
+    name: str
+    folder: pathlib.Path  # in which scenes are named
+    scenes: list  # names as the file has them
+    fixed: dict
+    grid: dict  # path -> values
+    paired: dict  # path -> values, all of one length
+    draw: dict  # path -> (kind, numbers)
+    draws: int
+    method: str
+    draw_seed: int
+    repetitions: int
+    seed: int
+    collect: dict
+    keep: str
+    archive: bool
+    report: dict
+    source: LocatedJson  # for problems that a scene's check finds
+
+
+def read_definition(file):
+    """The study of a JSON file; StudyError with everything that is wrong with it."""
+    file = pathlib.Path(file)
+    try:
+        text = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
+        raise StudyError(f"{file}: {reason}", 5) from None
+    return Reader(LocatedJson(file, text)).read(file)
+
+
+class Reader:
+    """Reads one study. One use."""
+
+    def __init__(self, source):
+        self.source, self.problems = source, []
+
+    def read(self, file):
+        study = self.source.value
+        if not isinstance(study, dict):
+            raise StudyError(self.source.problem([], "found no object, allowed: a study (docs/studies.md)"))
+        self.unknown_keys(study, KEYS, [])
+        draw = self.member(study, "draw", dict, {})
+        grid = {path: self.values(spec, ["grid", path]) for path, spec in self.member(study, "grid", dict, {}).items()}
+        paired = {
+            path: self.values(spec, ["paired", path]) for path, spec in self.member(study, "paired", dict, {}).items()
+        }
+        scene = study.get("scene")
+        scenes = scene if isinstance(scene, list) else [scene]
+        if not scenes or not all(isinstance(name, str) and name for name in scenes):
+            self.report(["scene"], "found no scene, allowed: a scene's file or a list of them")
+        definition = Definition(
+            file=str(file),
+            name=self.name(study, file),
+            folder=file.parent,
+            scenes=scenes,
+            fixed=self.member(study, "set", dict, {}),
+            grid=grid,
+            paired=paired,
+            draw=self.distributions(draw),
+            draws=self.whole(draw, "count", 1, 10**8, 1, ["draw"]),
+            method=self.choice(draw, "method", ("independent", "latin_hypercube"), ["draw"]),
+            draw_seed=self.whole(draw, "seed", 0, LARGEST_SEED, 1, ["draw"]),
+            repetitions=self.whole(study, "repetitions", 1, 10**8, 1),
+            seed=self.whole(study, "seed", 0, LARGEST_SEED, 1),
+            collect=self.collect(study),
+            keep=self.choice(study, "keep", ("all", "summary")),
+            archive=self.member(study, "archive", bool, False),
+            report=self.report_keys(study),
+            source=self.source,
+        )
+        self.check_lengths(definition)
+        self.check_paths(definition)
+        if self.problems:
+            raise StudyError(self.problems)
+        return definition
+
+    def report(self, path, message):
+        self.problems.append(self.source.problem(path, message))
+
+    def unknown_keys(self, given, known, path):
+        for key in given:
+            if key not in known:
+                near = difflib.get_close_matches(key, known, 1)
+                self.report(
+                    path + [key],
+                    f"found an unknown key, allowed: {', '.join(known)}"
+                    + (f'; did you mean "{near[0]}"?' if near else ""),
+                )
+
+    def member(self, given, key, kind, default, path=()):
+        value = given.get(key, default)
+        if isinstance(value, kind):
+            return value
+        words = {dict: "an object", bool: "true or false", list: "a list", str: "text"}[kind]
+        self.report([*path, key], f"found {shown(value)}, allowed: {words}")
+        return default
+
+    def name(self, study, file):
+        default = re.sub(r"[^A-Za-z0-9._-]", "-", file.stem).lstrip("._-") or "study"
+        name = study.get("name", default)
+        if isinstance(name, str) and NAME.fullmatch(name):
+            return name
+        self.report(
+            ["name"],
+            f"found {shown(name)}, allowed: 1 to 100 letters, digits and . _ -, starting with a letter or digit",
+        )
+        return default
+
+    def whole(self, given, key, least, most, default, path=()):
+        value = given.get(key, default)
+        if isinstance(value, int) and not isinstance(value, bool) and least <= value <= most:
+            return value
+        self.report([*path, key], f"found {shown(value)}, allowed: a whole number from {least} to {most}")
+        return default
+
+    def choice(self, given, key, choices, path=()):
+        value = given.get(key, choices[0])
+        if value not in choices:
+            self.report([*path, key], f"found {shown(value)}, allowed: one of {', '.join(choices)}")
+        return value
+
+    def values(self, spec, path):
+        """A list as it is, or the values of a range."""
+        if isinstance(spec, list):
+            if not spec:
+                self.report(path, "found an empty list, allowed: at least one value")
+            return spec
+        if not isinstance(spec, dict):
+            self.report(path, f"found {shown(spec)}, allowed: a list, or a range of from, to and count or step")
+            return [None]
+        self.unknown_keys(spec, ("from", "to", "count", "step", "spacing"), path)
+        low, high = spec.get("from"), spec.get("to")
+        if not draws.is_number(low) or not draws.is_number(high):
+            self.report(path, "found a range without numbers from and to, allowed: from, to and count or step")
+            return [None]
+        if ("count" in spec) == ("step" in spec):
+            self.report(path, "found count and step together or neither, allowed: one of them")
+            return [None]
+        if "step" in spec:
+            return self.stepped(low, high, spec, path)
+        count = self.whole(spec, "count", 2, 10**8, 2, path)
+        if self.choice(spec, "spacing", ("linear", "log"), path) == "log":
+            if low <= 0 or high <= 0:
+                self.report(path, "found a range with log spacing that is not positive, allowed: from > 0 and to > 0")
+                return [None]
+            return [low * (high / low) ** (i / (count - 1)) for i in range(count)]
+        return [low + (high - low) * i / (count - 1) for i in range(count)]
+
+    def stepped(self, low, high, spec, path):
+        step = spec["step"]
+        if not draws.is_number(step) or step == 0 or (high - low) * step < 0 or (high - low) / step > 1e8:
+            self.report([*path, "step"], f"found {shown(step)}, allowed: a number that leads from {low} to {high}")
+            return [None]
+        values = [low + i * step for i in range(math.floor((high - low) / step * (1 + 1e-12) + 1e-9) + 1)]
+        return [round(value, 12) for value in values]
+
+    def distributions(self, draw):
+        self.unknown_keys(draw, ("count", "method", "seed", "of"), ["draw"])
+        found = {}
+        for path, spec in self.member(draw, "of", dict, {}, ["draw"]).items():
+            place = ["draw", "of", path]
+            if not isinstance(spec, dict) or len(spec) != 1 or next(iter(spec)) not in draws.KINDS:
+                self.report(place, f"found {shown(spec)}, allowed: one of {', '.join(draws.KINDS)} and its numbers")
+                continue
+            kind, numbers = next(iter(spec.items()))
+            fault = (
+                draws.fault_of(kind, numbers)
+                if isinstance(numbers, dict)
+                else f"found {shown(numbers)}, allowed: an object"
+            )
+            if fault:
+                self.report([*place, kind], fault)
+            else:
+                found[path] = (kind, numbers)
+        return found
+
+    def collect(self, study):
+        collect = self.member(study, "collect", dict, {})
+        self.unknown_keys(collect, COLLECT_KEYS, ["collect"])
+        for key in ("from_s", "stop_speed_m_per_s"):
+            if not draws.is_number(collect.get(key, 0)) or collect.get(key, 0) < 0:
+                self.report(["collect", key], f"found {shown(collect[key])}, allowed: a number ≥ 0")
+        quantiles = self.member(collect, "quantiles", list, [], ["collect"])
+        if not all(draws.is_number(q) and 0 < q < 1 for q in quantiles):
+            self.report(["collect", "quantiles"], "found what is no probability, allowed: numbers between 0 and 1")
+        self.member(collect, "channel", bool, False, ["collect"])
+        self.member(collect, "ship", str, "", ["collect"])
+        for name, target in self.member(collect, "time_to", dict, {}, ["collect"]).items():
+            keys = set(target) if isinstance(target, dict) else set()
+            if keys not in ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"}) or not NAME.fullmatch(name):
+                self.report(
+                    ["collect", "time_to", name], "allowed: x_m, or y_m, or distance_m, or point_m and within_m"
+                )
+        return collect
+
+    def report_keys(self, study):
+        report = self.member(study, "report", dict, {})
+        self.unknown_keys(report, REPORT_KEYS, ["report"])
+        return report
+
+    def check_lengths(self, definition):
+        lengths = {path: len(values) for path, values in definition.paired.items()}
+        if len(set(lengths.values())) > 1:
+            self.report(
+                ["paired"],
+                f"found lists of {', '.join(f'{n} ({path})' for path, n in lengths.items())}, allowed: lists of one length",
+            )
+        if definition.draw and "count" not in self.source.value["draw"]:
+            self.report(["draw"], "found no count, allowed: how many draws")
+
+        varies_seed = any(
+            "seed" in block for block in (definition.fixed, definition.grid, definition.paired, definition.draw)
+        )
+        if varies_seed and definition.repetitions > 1:
+            self.report(
+                ["repetitions"],
+                f"found {definition.repetitions} where the study sets \"seed\" itself, allowed: 1; repetitions would be copies",
+            )
+
+    def check_paths(self, definition):
+        blocks = {
+            "set": definition.fixed,
+            "grid": definition.grid,
+            "paired": definition.paired,
+            "draw": definition.draw,
+        }
+        where = {}
+        for block, paths in blocks.items():
+            for path in paths:
+                place = [block, path] if block != "draw" else ["draw", "of", path]
+                if path == "scene":
+                    self.report(place, 'found "scene", allowed: a list of scenes as "scene" of the study itself')
+                for other, first in where.items():
+                    if (
+                        path == other
+                        or path.startswith((other + ".", other + "["))
+                        or other.startswith((path + ".", path + "["))
+                    ):
+                        self.report(place, f'found what "{first}" varies too ({other}), allowed: each key once')
+                where[path] = block
+
+
+def shown(value):
+    words = {dict: "an object", list: "a list"}.get(type(value))
+    return words or repr(value)

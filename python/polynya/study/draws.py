@@ -1,0 +1,97 @@
+"""Random draws of a study's parameters: each by the inverse of its distribution, from uniform numbers that depend on the
+study's seed and the parameter's path alone. Longer studies begin with the draws of shorter ones, but by Latin hypercube."""
+import math
+import random
+import statistics
+
+STANDARD = statistics.NormalDist()
+KINDS = {  # what a distribution needs
+    "uniform": ("low", "high"),
+    "log_uniform": ("low", "high"),
+    "normal": ("mean", "sd"),
+    "log_normal": ("mean", "sd"),  # of the parameter itself, not of its logarithm
+}
+BOUNDS = ("least", "most")
+
+
+def fault_of(kind, given):
+    """What is wrong with the numbers of a distribution, or nothing."""
+    for name in KINDS[kind]:
+        if not is_number(given.get(name)):
+            return f"found {given.get(name)!r} for {name}, allowed: a number; {kind} needs {' and '.join(KINDS[kind])}"
+    for name in given:
+        if name not in KINDS[kind] + BOUNDS:
+            return f"found an unknown key {name}, allowed: {', '.join(KINDS[kind] + BOUNDS)}"
+        if not is_number(given[name]):
+            return f"found {given[name]!r} for {name}, allowed: a number"
+    positive = {"log_uniform": ("low", "high"), "normal": ("sd",), "log_normal": ("mean", "sd")}.get(kind, ())
+    for name in positive:
+        if given[name] <= 0:
+            return f"found {given[name]!r} for {name}, allowed: a number > 0"
+    if "low" in given and given["low"] >= given["high"]:
+        return f"found low {given['low']} and high {given['high']}, allowed: low < high"
+    least, most = given.get("least", -math.inf), given.get("most", math.inf)
+    if least >= most:
+        return f"found least {least} and most {most}, allowed: least < most"
+    if probability_below(kind, given, most) - probability_below(kind, given, least) < 1e-9:
+        return "found bounds that leave nothing of the distribution, allowed: bounds around a part of it"
+    return None
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def log_parameters(given):
+    """Mean and standard deviation of the logarithm of a log-normal parameter with that mean and sd."""
+    variance = math.log1p((given["sd"] / given["mean"]) ** 2)
+    return math.log(given["mean"]) - variance / 2, math.sqrt(variance)
+
+
+def value_at(kind, given, p):
+    """The value that a part p of the distribution lies below."""
+    if kind == "uniform":
+        return given["low"] + p * (given["high"] - given["low"])
+    if kind == "log_uniform":
+        return given["low"] * (given["high"] / given["low"]) ** p
+    p = min(max(p, 1e-16), 1 - 1e-16)
+    if kind == "normal":
+        return given["mean"] + given["sd"] * STANDARD.inv_cdf(p)
+    mean, sd = log_parameters(given)
+    return math.exp(mean + sd * STANDARD.inv_cdf(p))
+
+
+def probability_below(kind, given, value):
+    if value in (-math.inf, math.inf):
+        return float(value > 0)
+    if kind == "uniform":
+        return min(max((value - given["low"]) / (given["high"] - given["low"]), 0), 1)
+    if kind == "normal":
+        return STANDARD.cdf((value - given["mean"]) / given["sd"])
+    if value <= 0:
+        return 0.0
+    if kind == "log_uniform":
+        return min(max(math.log(value / given["low"]) / math.log(given["high"] / given["low"]), 0), 1)
+    mean, sd = log_parameters(given)
+    return STANDARD.cdf((math.log(value) - mean) / sd)
+
+
+def uniform_numbers(seed, path, count, method):
+    """`count` numbers in (0, 1) for one parameter."""
+    dice = random.Random(f"{seed} {path}")
+    if method == "independent":
+        return [dice.random() for _ in range(count)]
+    strata = list(range(count))  # latin_hypercube: one number in each of `count` equal parts
+    dice.shuffle(strata)
+    return [(stratum + dice.random()) / count for stratum in strata]
+
+
+def draw(seed, path, kind, given, count, method):
+    """`count` values of one parameter, by a distribution without fault."""
+    low = probability_below(kind, given, given.get("least", -math.inf))
+    high = probability_below(kind, given, given.get("most", math.inf))
+    least, most = given.get("least", -math.inf), given.get("most", math.inf)
+    return [
+        min(max(value_at(kind, given, low + u * (high - low)), least), most)
+        for u in uniform_numbers(seed, path, count, method)
+    ]

@@ -1,0 +1,46 @@
+"""A study's cases: every combination of scenes, grid, pairs and draws, each repeated with other seeds."""
+import itertools
+
+from . import draws
+
+
+def count_cases(definition):
+    count = definition.repetitions * definition.draws * len(definition.scenes) * paired_count(definition)
+    for values in definition.grid.values():
+        count *= len(values)
+    return count
+
+
+def paired_count(definition):
+    return len(next(iter(definition.paired.values()), [None]))
+
+
+def expand(definition):
+    """Every case in the order of its number: which scene, and the values by path. Repetitions are outermost and draws
+    next, so a study of more of them begins with the cases of the one of fewer."""
+    drawn = {
+        path: draws.draw(definition.draw_seed, path, kind, numbers, definition.draws, definition.method)
+        for path, (kind, numbers) in definition.draw.items()
+    }
+    sets_seed = not any(
+        "seed" in block for block in (definition.fixed, definition.grid, definition.paired, definition.draw)
+    )
+    grid_paths, pairs = list(definition.grid), range(paired_count(definition))
+    for repetition in range(definition.repetitions):
+        for k in range(definition.draws):
+            for scene in range(len(definition.scenes)):
+                for pair in pairs:
+                    for values in itertools.product(*definition.grid.values()):
+                        case = dict(zip(grid_paths, values))
+                        case.update((path, column[pair]) for path, column in definition.paired.items())
+                        case.update((path, column[k]) for path, column in drawn.items())
+                        if sets_seed:
+                            case["seed"] = definition.seed + repetition
+                        yield scene, case
+
+
+def varied_paths(definition):
+    """The paths that differ between cases, in the order of the study, \"seed\" last."""
+    paths = [*definition.grid, *definition.paired, *definition.draw]
+    has_own_seed = "seed" in paths or "seed" in definition.fixed
+    return paths if has_own_seed else [*paths, "seed"]

@@ -1,0 +1,136 @@
+"""A planned study's folder: plan.json, the cases by number, and where each case lives.
+
+    plan.json            what was planned
+    cases.ndjson         a line a case: {"scene": 0, "set": {path: value}}
+    cases.index          where each line begins: 8 bytes, little-endian
+    scenes/0/…           the scenes, with the floe files they name
+    cases/000012/000137  a case (below its chunk's folder where chunks have more than one)
+    cases/000012.tar     a chunk whose cases are packed
+"""
+import dataclasses
+import json
+import os
+import pathlib
+import struct
+
+from .located_json import StudyError
+
+PLAN, CASES, INDEX = "plan.json", "cases.ndjson", "cases.index"
+FORMAT = 1
+RESULT = "case.json"  # in a case's folder, once it is finished or has failed
+RUN = "run"  # the run folder in a case's folder
+
+
+@dataclasses.dataclass(frozen=True)
+class Study:
+    """A planned study."""
+
+    folder: pathlib.Path
+    plan: dict
+
+    @property
+    def count(self):
+        return self.plan["cases"]
+
+    @property
+    def chunk_size(self):
+        return self.plan["chunk"]
+
+    @property
+    def chunks(self):
+        return -(-self.count // self.chunk_size)
+
+    def cases_of(self, chunk):
+        return range(chunk * self.chunk_size, min((chunk + 1) * self.chunk_size, self.count))
+
+    def chunk_folder(self, chunk):
+        return self.folder / "cases" / f"{chunk:06d}"
+
+    def archive(self, chunk):
+        return self.folder / "cases" / f"{chunk:06d}.tar"
+
+    def case_folder(self, number):
+        if self.chunk_size == 1:
+            return self.folder / "cases" / f"{number:06d}"
+        return self.chunk_folder(number // self.chunk_size) / f"{number:06d}"
+
+    def case(self, number):
+        """The scene's file and all values of one case, by one read of 8 bytes and one of a line."""
+        with open(self.folder / INDEX, "rb") as index, open(self.folder / CASES, "rb") as cases:
+            index.seek(8 * number)
+            cases.seek(struct.unpack("<Q", index.read(8))[0])
+            return self._whole(json.loads(cases.readline()))
+
+    def all_cases(self):
+        """Scene and values of every case, in order."""
+        with open(self.folder / CASES, "rb") as cases:
+            for line in cases:
+                yield self._whole(json.loads(line))
+
+    def _whole(self, line):
+        return self.folder / self.plan["scenes"][line["scene"]], {**self.plan["set"], **line["set"]}
+
+
+def open_study(given):
+    """The planned study of a folder, or of a study's file, which is planned as studies/<name>."""
+    folder = planned_folder(given)
+    try:
+        plan = json.loads((folder / PLAN).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        hint = f"polynya study plan {given}" if folder != pathlib.Path(given) else "polynya study plan FILE"
+        raise StudyError(f"{folder}: no study is planned there; plan it: {hint}", 5) from None
+    except (OSError, ValueError) as error:
+        raise StudyError(f"{folder / PLAN}: {error}", 5) from None
+    if plan.get("format") != FORMAT:
+        raise StudyError(f"{folder / PLAN}: of format {plan.get('format')}; this polynya reads format {FORMAT}", 5)
+    return Study(folder, plan)
+
+
+def planned_folder(given):
+    path = pathlib.Path(given)
+    if not path.is_file():
+        return path
+    from .definition import read_definition  # only here: running a case does not need it
+
+    return pathlib.Path("studies") / read_definition(path).name
+
+
+def write_atomically(path, text):
+    """Replaces a file: a reader, or a kill, finds the old one or the new one whole."""
+    draft = path.with_name(path.name + f".{os.getpid()}.tmp")
+    with open(draft, "w", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(draft, path)
+
+
+def counted(count, noun):
+    """As in: 1 case, 2 cases."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def list_of_numbers(numbers):
+    """\"3,7-9,12\" of numbers in order."""
+    parts, numbers = [], list(numbers)
+    i = 0
+    while i < len(numbers):
+        k = i
+        while k + 1 < len(numbers) and numbers[k + 1] == numbers[k] + 1:
+            k += 1
+        parts.append(str(numbers[i]) if k == i else f"{numbers[i]}-{numbers[k]}")
+        i = k + 1
+    return ",".join(parts)
+
+
+def numbers_of_list(words, count, what):
+    """The numbers of \"3,7-9,12\", each below `count`."""
+    numbers = []
+    for part in words.split(","):
+        low, dash, high = part.partition("-")
+        if not low.isdigit() or (dash and not high.isdigit()):
+            raise StudyError(f'"{words}" is no list of {what}, as 3,7-9,12', 2)
+        numbers.extend(range(int(low), int(high or low) + 1))
+        if int(high or low) >= count:
+            raise StudyError(f"there is no {what} {high or low}; the study has 0 to {count - 1}", 2)
+    return sorted(set(numbers))

@@ -1,0 +1,186 @@
+"""Many cases on this machine: worker processes of concurrent.futures, each with one run at a time, and a live table."""
+import concurrent.futures
+import dataclasses
+import multiprocessing
+import os
+import signal
+import sys
+import time
+
+from . import archive
+from .case import DONE, FAILED, INPUT_OUTPUT, STOPPED, die_with_parent, run_case, state_of
+from .folder import RUN
+
+STUDY, STOP = None, None  # of a worker process
+
+
+class Stop:
+    """A request to stop: a pipe whose reading end becomes readable, in every process that has it, when it is raised or
+    when this process ends."""
+
+    def __init__(self):
+        self.reader, self.writer = os.pipe()
+        self.is_raised = False
+
+    def raise_on_signals(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
+            if signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, self.on_signal)
+
+    def on_signal(self, number, _frame):
+        if not self.is_raised:
+            self.is_raised = True
+            os.close(self.writer)
+
+
+def begin_worker(study, stop):
+    """In a new worker process: the study, and the reading end of the stop. Signals are its parent's."""
+    global STUDY, STOP
+    die_with_parent(signal.SIGKILL)  # else it waits for work for ever; its run then stops with a checkpoint
+    STUDY, STOP = study, stop.reader
+    os.close(stop.writer)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, lambda *_: None)  # not SIG_IGN, which polynya would inherit
+
+
+def run_in_worker(number, keep):
+    return run_case(STUDY, number, STOP, keep)
+
+
+@dataclasses.dataclass
+class Counts:
+    """How far a study is."""
+
+    total: int
+    done: int = 0
+    failed: int = 0
+    stopped: int = 0
+    running: int = 0
+    before: int = 0  # done before this command
+    began: float = dataclasses.field(default_factory=time.monotonic)
+
+    def line(self):
+        """\"61 of 205 done, 2 running, 1 failed, 3:10 left\" """
+        ended = self.done + self.failed - self.before
+        words = f"{self.done} of {self.total} done, {self.running} running, {self.failed} failed"
+        if ended > 0:
+            left = (self.total - self.done - self.failed) * (time.monotonic() - self.began) / ended
+            words += f", {clock(left)} left"
+        return words
+
+
+def clock(seconds):
+    minutes, seconds = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
+
+
+class Table:
+    """The counts on stderr: kept up to date on a terminal, else a line every ten seconds."""
+
+    def __init__(self, is_quiet):
+        self.is_live = sys.stderr.isatty()
+        self.is_quiet, self.shown = is_quiet, 0.0
+
+    def show(self, counts, at_once=False):
+        pause = 0.2 if self.is_live else 10.0
+        if self.is_quiet or (not at_once and time.monotonic() - self.shown < pause):
+            return
+        self.shown = time.monotonic()
+        print(
+            f"\r\033[K{counts.line()}" if self.is_live else counts.line(),
+            end="" if self.is_live else "\n",
+            file=sys.stderr,
+            flush=True,
+        )
+
+    def message(self, words):
+        print(f"\r\033[K{words}" if self.is_live else words, file=sys.stderr, flush=True)
+
+    def end(self, counts):
+        self.show(counts, at_once=True)
+        if self.is_live and not self.is_quiet:
+            print(file=sys.stderr)
+
+
+def exit_code(counts):
+    """Of a command that runs many cases."""
+    return STOPPED if counts.stopped else FAILED if counts.failed else DONE
+
+
+def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet=False):
+    """Runs those of the cases that have not ended, `jobs` at a time. Returns an exit code."""
+    counts, table, waiting = Counts(len(numbers)), Table(is_quiet), []
+    for number, state in states_of(study, numbers, keep):
+        counts.done += state == "finished"
+        if state == "failed" and not retries_failed:
+            counts.failed += 1
+        elif state != "finished":
+            waiting.append(number)
+    counts.before = counts.done + counts.failed
+    if waiting:
+        stop = Stop()
+        stop.raise_on_signals()
+        try:
+            run_waiting(study, waiting, jobs, keep, stop, counts, table)
+        except concurrent.futures.process.BrokenProcessPool:
+            table.message(
+                "polynya study: a worker process was killed; start the command again, its case continues from its checkpoint"
+            )
+            return INPUT_OUTPUT
+    table.end(counts)
+    return exit_code(counts)
+
+
+def states_of(study, numbers, keep):
+    """The states of some cases, of packed ones too; one without its run is missing where that is to be kept."""
+    packed_chunk, packed = None, []
+    for number in numbers:
+        chunk = number // study.chunk_size
+        if chunk != packed_chunk:
+            packed_chunk = chunk
+            packed = archive.results_of(study, chunk) if study.archive(chunk).exists() else []
+        if packed:
+            yield number, packed[number - chunk * study.chunk_size]["state"]
+            continue
+        state, _ = state_of(study.case_folder(number))
+        is_thinned = state == "finished" and keep == "all" and not (study.case_folder(number) / RUN).exists()
+        yield number, "missing" if is_thinned else state
+
+
+def run_waiting(study, waiting, jobs, keep, stop, counts, table):
+    context = multiprocessing.get_context("fork")
+    with concurrent.futures.ProcessPoolExecutor(min(jobs, len(waiting)), context, begin_worker, (study, stop)) as pool:
+        left, running = iter(waiting), {}
+        while True:
+            while len(running) < 2 * jobs and not stop.is_raised:  # some wait, so that no worker does
+                number = next(left, None)
+                if number is None:
+                    break
+                running[pool.submit(run_in_worker, number, keep)] = number
+            if not running:
+                break
+            counts.running = min(jobs, len(running))
+            table.show(counts)
+            ended, _ = concurrent.futures.wait(running, 0.2, concurrent.futures.FIRST_COMPLETED)
+            for future in ended:
+                del running[future]
+                count_end(counts, table, *future.result())
+            if stop.is_raised:
+                for future in list(running):
+                    if future.cancel():
+                        del running[future]
+        counts.running = 0
+        counts.stopped += int(stop.is_raised)
+
+
+def count_end(counts, table, code, message):
+    if message:
+        table.message(message)
+    if code == DONE:
+        counts.done += 1
+    elif code == STOPPED:
+        counts.stopped += 1
+    else:
+        counts.failed += 1

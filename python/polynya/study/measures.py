@@ -1,0 +1,175 @@
+"""What is measured of one finished run, from what it writes (docs/run-folder.md). Plain Python: a job needs little memory."""
+import csv
+import json
+import math
+import subprocess
+
+LOADS = ("surge_N", "sway_N", "yaw_Nm")
+QUANTILES = (0.5, 0.9, 0.99)
+STOP_SPEED = 0.05  # [m/s]
+TEXT_COLUMNS = {"ship"}
+
+
+def measure(run, collect, program):
+    """Measures of a finished run by name, all the same for the same run on any machine; None where there are none."""
+    summary = json.loads((run / "summary.json").read_text(encoding="utf-8"))
+    counts = summary["counts"]
+    ships = rows_by_ship(run / "forces.csv")
+    ship = collect.get("ship") or next(iter(ships), None)
+    if ship is not None and ship not in ships:
+        raise ValueError(f'the run has no ship or structure "{ship}" with a row in forces.csv')
+    found = {"sim_time_s": summary["sim_time_s"]}
+    found.update(
+        {
+            name: counts[name]
+            for name in ("bends", "splits", "rejected_cuts", "unconverged_steps", "floes_initial", "floes_final")
+        }
+    )
+    if len(ships) > 1:
+        found.update(fractures_of(run / "events.ndjson", ship))
+    if ship is not None:
+        found.update(measures_of_ship(ships[ship], collect))
+        found["outcome"] = outcome(found, ships[ship], collect)
+    if collect.get("channel"):
+        found["channel_width_m"] = channel_width(run, ship, program)
+    found["warnings"] = len(summary["warnings"])
+    return found
+
+
+def rows_by_ship(path):
+    """The columns of forces.csv by ship: name -> values."""
+    ships = {}
+    with open(path, newline="", encoding="utf-8") as file:
+        reader = csv.reader(file)
+        header = next(reader)
+        at = header.index("ship")
+        for row in reader:
+            ships.setdefault(row[at], []).append(row)
+    return {
+        ship: {
+            name: values if name in TEXT_COLUMNS else [float(value) for value in values]
+            for name, values in zip(header, zip(*rows))
+        }
+        for ship, rows in ships.items()
+    }
+
+
+def measures_of_ship(columns, collect):
+    kept = [i for i, t in enumerate(columns["t_s"]) if t > collect.get("from_s", 0)]
+
+    def of(name):
+        column = columns[name]
+        return [column[i] for i in kept]
+
+    levels = collect.get("quantiles") or QUANTILES
+    found = {}
+    ice = of("surge_from_submerged_ice_N")
+    resistance = [-(a + b) for a, b in zip(of("surge_N"), ice)]
+    found.update(of_load("resistance", "_N", resistance, resistance, levels))
+    for load in LOADS:
+        name, unit = load.rsplit("_", 1)
+        values = of(load)
+        found.update(of_load(name, "_" + unit, values, [abs(value) for value in values], levels))
+        found[f"{name}_step_peak_{unit}"] = max((abs(value) for value in of(f"{name}_max_{unit}")), default=None)
+    found.update(of_motion(columns, kept, collect))
+    for name, target in collect.get("time_to", {}).items():
+        found[f"time_to_{name}_s"] = time_to(columns, target)
+    return found
+
+
+def of_load(name, unit, values, sizes, levels):
+    """Mean and standard deviation of a load, and peak and quantiles of its size: of the resistance itself, else of the
+    magnitude."""
+    if not values:
+        return {}
+    mean = math.fsum(values) / len(values)
+    found = {
+        f"{name}_mean{unit}": mean,
+        f"{name}_sd{unit}": math.sqrt(math.fsum((v - mean) ** 2 for v in values) / max(len(values) - 1, 1)),
+    }
+    ordered = sorted(sizes)
+    for level in levels:
+        found[f"{name}_q{level * 100:g}{unit}"] = quantile(ordered, level)
+    found[f"{name}_peak{unit}"] = ordered[-1]
+    return found
+
+
+def quantile(ordered, level):
+    """By linear interpolation between the ordered values, as numpy's."""
+    at = level * (len(ordered) - 1)
+    low = int(at)
+    high = min(low + 1, len(ordered) - 1)
+    return ordered[low] + (at - low) * (ordered[high] - ordered[low])
+
+
+def of_motion(columns, kept, collect):
+    times, speeds = columns["t_s"], columns["speed_m_per_s"]
+    steps = [times[0]] + [b - a for a, b in zip(times, times[1:])]
+    span = math.fsum(steps[i] for i in kept)
+    distance = math.fsum(speeds[i] * steps[i] for i in kept)
+    work = math.fsum(columns["thrust_N"][i] * forward_speed(columns, i) * steps[i] for i in kept)
+    stop_speed = collect.get("stop_speed_m_per_s", STOP_SPEED)
+    stops, is_moving = 0, False
+    for i in kept:
+        if is_moving and speeds[i] < stop_speed:
+            stops, is_moving = stops + 1, False
+        elif speeds[i] > 2 * stop_speed:
+            is_moving = True
+    return {
+        "mean_speed_m_per_s": distance / span if span > 0 else None,
+        "distance_m": distance,
+        "stops": stops,
+        "stopped_s": math.fsum(steps[i] for i in kept if speeds[i] < stop_speed),
+        "energy_per_km_J": 1000 * work / distance if distance > 0 else None,
+        "final_x_m": columns["x_m"][-1],
+        "final_y_m": columns["y_m"][-1],
+        "final_heading_deg": columns["heading_deg"][-1],
+    }
+
+
+def forward_speed(columns, i):
+    heading = math.radians(columns["heading_deg"][i])
+    return columns["vx_m_per_s"][i] * math.cos(heading) + columns["vy_m_per_s"][i] * math.sin(heading)
+
+
+def time_to(columns, target):
+    """When the ship first comes to where the target is; None where it does not."""
+    times, xs, ys = columns["t_s"], columns["x_m"], columns["y_m"]
+    if "distance_m" in target:
+        gone, before = 0.0, 0.0
+        for t, speed in zip(times, columns["speed_m_per_s"]):
+            gone, before = gone + speed * (t - before), t
+            if gone >= target["distance_m"]:
+                return t
+        return None
+    if "point_m" in target:
+        x, y = target["point_m"]
+        return next((t for t, a, b in zip(times, xs, ys) if math.hypot(a - x, b - y) <= target["within_m"]), None)
+    values, line = (xs, target["x_m"]) if "x_m" in target else (ys, target["y_m"])
+    side = values[0] < line
+    return next((t for t, value in zip(times, values) if (value < line) != side), None)
+
+
+def outcome(found, columns, collect):
+    """In one word: stuck (it lies still at the end), split, bent, or pushed."""
+    if columns["speed_m_per_s"][-1] < collect.get("stop_speed_m_per_s", STOP_SPEED):
+        return "stuck"
+    return "split" if found["splits"] else "bent" if found["bends"] else "pushed"
+
+
+def fractures_of(path, ship):
+    kinds = {"bend": 0, "split": 0}
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            event = json.loads(line)
+            if event["kind"] in kinds and event["ship"] == ship:
+                kinds[event["kind"]] += 1
+    return {"bends": kinds["bend"], "splits": kinds["split"]}
+
+
+def channel_width(run, ship, program):
+    """Mean width of the channel behind the ship [m], by `polynya channel`; None where it has no width."""
+    printed = subprocess.run(
+        [program, "channel", run, "--json", "--ship", ship], capture_output=True, text=True, check=False
+    )
+    return json.loads(printed.stdout).get("mean_width_m") if printed.returncode == 0 else None

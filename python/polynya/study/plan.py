@@ -1,0 +1,293 @@
+"""`polynya study plan`: a study's file becomes a folder of numbered cases, every one checked."""
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+from . import trial
+from .case import program
+from .definition import LARGEST_SEED, read_definition
+from .expand import count_cases, expand, varied_paths
+from .folder import CASES, FORMAT, INDEX, PLAN, Study, list_of_numbers, write_atomically
+from .located_json import Problem, StudyError, read_json
+
+MOST_TASKS = 1000  # of an array; Slurm's MaxArraySize is 1001 where a cluster does not raise it
+MOST_SHOWN = 20  # problems
+
+
+def plan_study(file, options):
+    """Plans a study, or finds that it is planned already. Returns it."""
+    if pathlib.Path(file).is_dir():
+        raise StudyError(f"{file}: a folder; plan takes the study's JSON file", 2)
+    definition = read_definition(file)
+    folder = pathlib.Path(options.out or pathlib.Path("studies") / definition.name)
+    if count_cases(definition) > options.most:
+        raise StudyError(f"{definition.file}: {count_cases(definition)} cases, more than --most {options.most}")
+    began = time.perf_counter()
+    lines = [json.dumps({"scene": scene, "set": case}) + "\n" for scene, case in expand(definition)]
+    expanded = time.perf_counter() - began
+    old, was_there = plan_in(folder), folder.exists()
+    if was_there and old is None and any(folder.iterdir()):
+        raise StudyError(f"{folder}: not empty, and no study is planned there; choose another folder (--out)", 5)
+    folder.mkdir(parents=True, exist_ok=True)
+    draft = pathlib.Path(tempfile.mkdtemp(prefix=".plan-", dir=folder))
+    try:
+        return write_plan(definition, folder, draft, lines, old, expanded, options)
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
+        if not was_there and not (folder / PLAN).exists():
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def write_plan(definition, folder, draft, lines, old, expanded, options):
+    """Checks the cases and writes the folder; where the same is planned there, nothing. Scenes are copied into the draft
+    first: what a refused plan would change stays as it is."""
+    count, text = len(lines), "".join(lines)
+    scenes = copy_scenes(definition, draft, lines)
+    new = {
+        "format": FORMAT,
+        "name": definition.name,
+        "source": str(pathlib.Path(definition.file).absolute()),
+        "cases": count,
+        "chunk": chunk_size(options.chunk, old, count),
+        "archive": definition.archive,
+        "keep": definition.keep,
+        "set": definition.fixed,
+        "scenes": scenes,
+        "varied": varied_paths(definition),
+        "collect": definition.collect,
+        "report": definition.report,
+        "inputs": digest_of(draft, scenes),
+    }
+    if old is not None and is_same(old, new, folder, text):
+        return Study(folder, old)
+    refuse_other_cases(old, new, folder, text)
+    began = time.perf_counter()
+    checked = check_cases(definition, draft, scenes, lines, options)
+    print(
+        f"{count} cases expanded in {expanded:.2g} s; {checked} checked in {time.perf_counter() - began:.2g} s"
+        + (", the others differ from them in seeds alone" if checked < count else ""),
+        file=sys.stderr,
+    )
+    shutil.rmtree(folder / "scenes", ignore_errors=True)
+    os.rename(draft / "scenes", folder / "scenes")
+    write_cases(folder, lines)
+    write_atomically(folder / PLAN, json.dumps(new, indent=1) + "\n")
+    study = Study(folder, new)
+    if options.trial_seconds > 0:
+        trial.estimate(study, options.trial_seconds, options.jobs)
+    return study
+
+
+def plan_in(folder):
+    try:
+        return json.loads((folder / PLAN).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+
+
+def is_same(old, new, folder, text):
+    same = {"source": None, "estimate": None}
+    return {**old, **same} == {**new, **same} and (folder / CASES).read_text(encoding="utf-8") == text
+
+
+def refuse_other_cases(old, new, folder, text):
+    """Cases that have run stay those of the plan; a study may grow, and what is collected may change before any ran."""
+    has_run = (folder / "cases").exists() and any((folder / "cases").iterdir())
+    if old is None or not has_run:
+        return
+    kept = ("set", "scenes", "inputs", "collect", "chunk", "archive")
+    differs = [key for key in kept if old[key] != new[key]]
+    before = (folder / CASES).read_text(encoding="utf-8")
+    if differs or not text.startswith(before):
+        what = f"other {', '.join(differs)}" if differs else "other cases"
+        raise StudyError(
+            f"{folder}: its cases have run by an earlier plan with {what}; plan into another folder (--out) or remove it",
+            5,
+        )
+
+
+def chunk_size(given, old, count):
+    """How many cases a chunk has: so that there are at most as many as one array takes, if not given."""
+    if given:
+        return given
+    if old is not None and -(-count // old["chunk"]) <= MOST_TASKS:
+        return old["chunk"]
+    needed, size = -(-count // MOST_TASKS), 1
+    while size < needed:
+        size = (
+            size * 10
+            if str(size)[0] == "5" and size * 10 < needed
+            else next(s for s in (size * 2, size * 5, size * 10) if s >= needed or s == size * 10)
+        )
+    return size
+
+
+def copy_scenes(definition, folder, lines):
+    """Copies the scenes, and the floe files that they or the cases name: the study's folder is all that a cluster needs."""
+    names = []
+    for i, name in enumerate(definition.scenes):
+        source = definition.folder / name
+        place = ["scene", i] if len(definition.scenes) > 1 else ["scene"]
+        try:
+            scene = read_json(source)
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or error
+            raise StudyError(definition.source.problem(place, f"{source}: {reason}")) from None
+        target = folder / "scenes" / str(i) / source.name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, target)
+        for file in floe_files(scene, definition, lines):
+            if (source.parent / file).is_file():  # what is missing is found by the check
+                (target.parent / file).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(source.parent / file, target.parent / file)
+        names.append(str(target.relative_to(folder)))
+    return names
+
+
+def floe_files(scene, definition, lines):
+    groups = scene.get("floes", []) if isinstance(scene, dict) else []
+    files = {group["file"] for group in groups if isinstance(group, dict) and isinstance(group.get("file"), str)}
+    if any(path.endswith(".file") for path in [*definition.grid, *definition.paired, *definition.fixed]):
+        for line in [json.dumps({"set": definition.fixed}), *lines]:
+            files.update(
+                value
+                for path, value in json.loads(line)["set"].items()
+                if path.endswith(".file") and isinstance(value, str)
+            )
+    return sorted(file for file in files if not os.path.isabs(file) and ".." not in pathlib.Path(file).parts)
+
+
+def digest_of(folder, scenes):
+    digest = hashlib.sha256()
+    for scene in scenes:
+        for path in sorted((folder / scene).parent.rglob("*")):
+            if path.is_file():
+                digest.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+def write_cases(folder, lines):
+    offsets, at = [], 0
+    for line in lines:
+        offsets.append(struct.pack("<Q", at))
+        at += len(line.encode())
+    write_atomically(folder / CASES, "".join(lines))
+    draft = folder / (INDEX + ".tmp")
+    draft.write_bytes(b"".join(offsets))
+    os.replace(draft, folder / INDEX)
+
+
+def is_seed(path):
+    return path == "seed" or path.endswith(".field.seed")
+
+
+def check_cases(definition, folder, scenes, lines, options):
+    """Checks every case as `polynya run` would; of those that differ in seeds alone the first, and of the others the
+    seeds. Returns how many were checked in full. StudyError with all problems."""
+    tasks = [{} for _ in scenes]  # the text of a case -> the numbers of the cases it stands for
+    problems = {}
+    for number, line in enumerate(lines):
+        case = json.loads(line)
+        values = {**definition.fixed, **case["set"]}
+        for path in filter(is_seed, values):
+            if (
+                not isinstance(values[path], int)
+                or isinstance(values[path], bool)
+                or not 0 <= values[path] <= LARGEST_SEED
+            ):
+                problems.setdefault(
+                    (path, f"found {values[path]!r}, allowed: an integer ≥ 0, ≤ {LARGEST_SEED}"), []
+                ).append(number)
+        key = json.dumps(
+            values if options.check_seeds else {path: v for path, v in values.items() if not is_seed(path)}
+        )
+        group = tasks[case["scene"]].setdefault(key, (json.dumps(values), []))
+        group[1].append(number)
+    for scene, name, groups in zip(scenes, definition.scenes, tasks):
+        check_scene(folder / scene, str(definition.folder / name), list(groups.values()), problems)
+    if problems:
+        raise StudyError(in_words(definition, problems, len(lines)))
+    return sum(len(groups) for groups in tasks)
+
+
+def check_scene(scene, name, groups, problems):
+    """Checks a scene's cases by `polynya validate --cases`, on all processors. `name` is the scene's in messages."""
+    parts = max(1, min(os.cpu_count() or 1, len(groups) // 50))
+    with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(parts) as pool:
+
+        def check(part):
+            mine = groups[part::parts]
+            file = pathlib.Path(work) / f"cases-{part}.ndjson"
+            file.write_text("".join(text + "\n" for text, _ in mine), encoding="utf-8")
+            return (
+                mine,
+                file,
+                subprocess.run(
+                    [program(), "validate", scene, "--cases", file, "--json"],
+                    capture_output=True,
+                    text=True,
+                    check=False,
+                ),
+            )
+
+        for mine, file, ran in pool.map(check, range(parts)):
+            if ran.returncode not in (0, 3):
+                raise StudyError(f"polynya validate: {ran.stderr.strip() or ran.returncode}", 5)
+            for line in ran.stdout.splitlines():
+                report = json.loads(line)
+                for problem in report["problems"]:
+                    place = (
+                        ""
+                        if problem["file"] == str(file)
+                        else f" ({name}:{problem['line']}:{problem['column']})"
+                        if problem["file"] == str(scene)
+                        else f" ({problem['file']})"
+                    )
+                    problems.setdefault((problem["path"], problem["message"] + place), []).extend(
+                        mine[report["line"] - 1][1]
+                    )
+
+
+def in_words(definition, problems, count):
+    """Each problem once, at the place in the study that sets its key, with the cases that have it."""
+    words = []
+    for (path, message), numbers in list(problems.items())[:MOST_SHOWN]:
+        numbers = sorted(numbers)
+        which = list_of_numbers(numbers)
+        shown = which if len(which) <= 40 else which[:40].rsplit(",", 1)[0] + ", …"
+        cases = (
+            f"all {count} cases"
+            if len(numbers) == count and count > 1
+            else f"case {shown}"
+            if len(numbers) == 1
+            else f"{len(numbers)} of {count} cases: {shown}"
+        )
+        problem = definition.source.problem(place_of(definition, path), message)
+        words.append(Problem(problem.file, path, f"{message} [{cases}]", problem.line, problem.column))
+    if len(problems) > MOST_SHOWN:
+        words.append(f"{definition.file}: {len(problems) - MOST_SHOWN} more problems")
+    return words
+
+
+def place_of(definition, path):
+    """Where the study sets that key of the scene, or a part of it, or what it is a part of."""
+    blocks = [
+        (["set"], definition.fixed),
+        (["grid"], definition.grid),
+        (["paired"], definition.paired),
+        (["draw", "of"], definition.draw),
+    ]
+    for place, paths in blocks:
+        for known in paths:
+            longer, shorter = (known, path) if len(known) >= len(path) else (path, known)
+            if longer == shorter or longer.startswith((shorter + ".", shorter + "[")):
+                return [*place, known]
+    return ["scene"]

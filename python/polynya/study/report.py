@@ -1,0 +1,281 @@
+"""`polynya study report`: statistics, pictures, and one page from which each case opens in the player. Needs numpy, scipy
+and matplotlib."""
+import concurrent.futures
+import csv
+import html
+import os
+import subprocess
+
+from .. import statistics
+from . import pictures
+from .case import program
+from .folder import RUN, write_atomically
+from .gather import TABLE, gather
+from .sample import QUANTILE, choices_of, fits_of, read_sample
+
+PAGE = "study.html"
+MOST_PLAYERS, MOST_ROWS = 250, 2000
+RELATIVE_WIDTH = 0.05  # to which "cases needed" refers
+STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a2530}
+table{border-collapse:collapse;font-size:13px}td,th{padding:.15rem .6rem;border-bottom:1px solid #dde;text-align:right}
+th{position:sticky;top:0;background:#fff}img{max-width:100%}.wide{overflow-x:auto;max-height:32rem}code{background:#f0f3f6}"""
+
+
+def report(study, players):
+    """Gathers, draws and writes study.html. Returns gather's exit code."""
+    code = gather(study)
+    sample = read_sample(study)
+    folder = study.folder / "report"
+    if sample.size == 0:
+        print("report      no case is finished: no page")
+        return code
+    choices = choices_of(study, sample)
+    made = draw(study, sample, choices, folder)
+    statistics_rows = statistics_of(sample, choices)
+    write_csv(folder / "statistics.csv", statistics_rows)
+    make_players(study, sample, players)
+    write_atomically(study.folder / PAGE, page(study, sample, choices, made, statistics_rows))
+    print(f"page        {study.folder / PAGE}: {len(made)} pictures; report/statistics.csv")
+    return code
+
+
+def draw(study, sample, choices, folder):
+    """(file, caption) of each picture."""
+    folder.mkdir(exist_ok=True)
+    made = []
+    for measure in choices.exceedance:
+        made.append(
+            (
+                pictures.exceedance(sample, measure, choices.group_by, folder),
+                f"Probability that a run's {pictures.label_of(measure)[0]} exceeds a value, on Gumbel's probability paper.",
+            )
+        )
+    if choices.against:
+        for measure in choices.means:
+            made.append(
+                (
+                    pictures.means(sample, measure, choices.against, choices.group_by, folder),
+                    f"Mean of {pictures.label_of(measure)[0]} with its 95 % interval.",
+                )
+            )
+    if choices.map and "outcome" in sample.columns:
+        made.append(
+            (
+                pictures.outcome_map(sample, choices.map, folder),
+                "What the runs came to: most frequent outcome; paler, and in percent, where it is not that of all.",
+            )
+        )
+    chosen = spread(sample.columns["case"].astype(int).tolist(), choices.channels)
+    channels = pictures.channels(study, chosen, folder)
+    if channels:
+        made.append((channels, "The ice at the end of some runs, with the ship's track."))
+    return made
+
+
+def spread(numbers, count):
+    """`count` of the numbers, evenly."""
+    return (
+        numbers
+        if len(numbers) <= count
+        else [numbers[i * len(numbers) // count] for i in range(count)]
+        if count
+        else []
+    )
+
+
+def statistics_of(sample, choices):
+    """A row for each measure and group: mean, quantile, how many cases are needed, and the fits of peaks."""
+    rows = []
+    for measure in dict.fromkeys([*choices.means, *choices.exceedance]):
+        for value, cases in sample.groups(choices.group_by):
+            values = sample.numbers(measure, cases)
+            if len(values) < 2:
+                continue
+            mean, quantile = statistics.mean(values), statistics.quantile(values, QUANTILE)
+            bootstrap = statistics.bootstrap_mean(values)
+            row = {
+                "measure": measure,
+                "group": "" if value is None else pictures.in_words(value),
+                "cases": len(values),
+                "mean": mean.value,
+                "mean_low": mean.low,
+                "mean_high": mean.high,
+                "bootstrap_low": bootstrap.low,
+                "bootstrap_high": bootstrap.high,
+                "sd": float(values.std(ddof=1)),
+                "q99": quantile.value,
+                "q99_low": quantile.low,
+                "q99_high": quantile.high,
+                "cases_for_5_percent": statistics.cases_needed(values, RELATIVE_WIDTH * abs(mean.value))
+                if mean.value
+                else None,
+            }
+            rows.append(row)
+            if measure in choices.exceedance:
+                row.update(fit_columns(values))
+    return rows
+
+
+def fit_columns(values):
+    columns = {}
+    for name, fitted in fits_of(values).items():
+        if isinstance(fitted, str):
+            columns[f"{name}_note"] = fitted
+            continue
+        for key, interval in fitted.parameters.items():
+            columns.update(
+                {
+                    f"{name}_{key}": interval.value,
+                    f"{name}_{key}_low": interval.low,
+                    f"{name}_{key}_high": interval.high,
+                }
+            )
+        columns.update(
+            {f"{name}_ks": fitted.ks, f"{name}_ks_p": fitted.ks_p, f"{name}_ad": fitted.ad, f"{name}_ad_p": fitted.ad_p}
+        )
+        level = statistics.level_interval(name, values, 0.01)
+        columns.update(
+            {
+                f"{name}_exceeded_by_1_percent": level.value,
+                f"{name}_exceeded_by_1_percent_low": level.low,
+                f"{name}_exceeded_by_1_percent_high": level.high,
+            }
+        )
+    return columns
+
+
+def write_csv(path, rows):
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def make_players(study, sample, players):
+    """The players of kept runs that have none yet."""
+    numbers = sample.columns["case"].astype(int).tolist()
+    runs = [study.case_folder(n) / RUN for n in numbers]
+    wanted = [run for run in runs if (run / "frames.bin").exists() and not (run / "view.html").exists()]
+    if players == "none" or (players == "auto" and len(numbers) > MOST_PLAYERS):
+        return
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        codes = list(
+            pool.map(
+                lambda run: subprocess.run([program(), "view", run], capture_output=True, check=False).returncode,
+                wanted,
+            )
+        )
+    if any(codes):
+        print(
+            f"report      {sum(code != 0 for code in codes)} players could not be made; polynya view RUN explains why"
+        )
+
+
+def page(study, sample, choices, made, rows):
+    text = html.escape
+    state = sample.summary
+    lines = [
+        f"<!doctype html><meta charset='utf-8'><title>{text(study.plan['name'])}</title><style>{STYLE}</style>",
+        f"<h1>{text(study.plan['name'])}</h1>",
+        f"<p>{state['cases']} cases: {state['finished']} finished, {state['failed']} failed, {state['unfinished']} unfinished, {state['missing']} missing. "
+        + ("" if state["is_complete"] else "<b>This page shows a part of the study.</b> ")
+        + f"Table: <a href='{TABLE}'>{TABLE}</a>; statistics with their intervals: <a href='report/statistics.csv'>statistics.csv</a>.</p>",
+    ]
+    lines += [
+        f"<figure><img src='report/{name}' alt=''><figcaption>{text(caption)}</figcaption></figure>"
+        for name, caption in made
+    ]
+    lines.append(
+        "<h2>Statistics</h2><p>Means and 95 % intervals (Student); quantile with the interval of order statistics; cases that make the mean's "
+        "interval ±5 % of it; what the fit of peaks is exceeded by in one run of a hundred, with its bootstrap interval, and the "
+        "Anderson–Darling test's p.</p><div class='wide'>" + statistics_table(rows, choices.group_by) + "</div>"
+    )
+    lines.append("<h2>Cases</h2>" + case_table(study, sample))
+    return "\n".join(lines) + "\n"
+
+
+def statistics_table(rows, group_by):
+    head = [
+        "measure",
+        pictures.label_of(group_by)[0] if group_by else "",
+        "cases",
+        "mean",
+        "99 % quantile",
+        "cases for ±5 %",
+        "Gumbel 1 %",
+        "p",
+        "Weibull 1 %",
+        "p",
+    ]
+    body = []
+    for row in rows:
+        label, factor = pictures.label_of(row["measure"])
+        scaled = (
+            lambda low, value, high: f"{row[value] * factor:.4g} ({row[low] * factor:.4g} – {row[high] * factor:.4g})"
+            if value in row
+            else ""
+        )
+        cells = [
+            label,
+            row["group"],
+            row["cases"],
+            scaled("mean_low", "mean", "mean_high"),
+            scaled("q99_low", "q99", "q99_high"),
+            row["cases_for_5_percent"],
+        ]
+        for name in statistics.NAMES:
+            level = f"{name}_exceeded_by_1_percent"
+            cells += [
+                scaled(level + "_low", level, level + "_high") or row.get(f"{name}_note", ""),
+                f"{row[name + '_ad_p']:.2g}" if name + "_ad_p" in row else "",
+            ]
+        body.append(cells)
+    return table(head, body)
+
+
+def case_table(study, sample):
+    """The cases with their parameters and outcome, and each one's player, or the command that makes it."""
+    numbers = sample.columns["case"].astype(int).tolist()
+    shown = numbers[:MOST_ROWS]
+    names = [
+        *sample.varied(),
+        *(["seed"] if "seed" in sample.columns else []),
+        *[n for n in ("outcome", "resistance_mean_N", "resistance_peak_N", "bends", "splits") if n in sample.columns],
+    ]
+    body = []
+    for row, number in enumerate(shown):
+        run = study.case_folder(number) / RUN
+        page_there = run / "view.html"
+        if page_there.exists():
+            link = f"<a href='{html.escape(str(page_there.relative_to(study.folder)))}'>play</a>"
+        elif run.exists():
+            link = f"<code>polynya view {html.escape(str(run))}</code>"
+        else:
+            link = f"<code>polynya study run {html.escape(str(study.folder))} --case {number} --keep all</code>"
+        body.append([number, *(pictures.in_words(sample.columns[name][row]) for name in names), Raw(link)])
+    rest = f"<p>{len(numbers) - len(shown)} more cases are in {TABLE}.</p>" if len(numbers) > len(shown) else ""
+    return (
+        "<div class='wide'>"
+        + table(["case", *(pictures.label_of(name)[0] if "." in name else name for name in names), "player"], body)
+        + "</div>"
+        + rest
+    )
+
+
+class Raw(str):
+    """Text that is HTML already."""
+
+
+def table(head, body):
+    def cell(tag, value):
+        return f"<{tag}>{value if isinstance(value, Raw) else html.escape(str(value))}</{tag}>"
+
+    rows = ["".join(cell("td", value) for value in row) for row in body]
+    return (
+        "<table><tr>"
+        + "".join(cell("th", value) for value in head)
+        + "</tr>"
+        + "".join(f"<tr>{row}</tr>" for row in rows)
+        + "</table>"
+    )

@@ -1,0 +1,113 @@
+"""A gathered study as columns: its finished cases, grouped by parameters. Needs numpy."""
+import csv
+import dataclasses
+import json
+
+import numpy
+
+from .. import statistics
+from .gather import SUMMARY, TABLE
+
+MOST_GROUPS = 8
+LEAST_FIT = 10  # cases of a group that is fitted
+QUANTILE = 0.99
+
+
+@dataclasses.dataclass
+class Sample:
+    """The columns of the finished cases by name: numbers where all are, else words; NaN where there is none."""
+
+    columns: dict
+    parameters: list
+    summary: dict
+
+    @property
+    def size(self):
+        return len(self.columns["case"])
+
+    def values_of(self, name):
+        """The different values of a parameter, in order."""
+        return sorted(set(self.columns[name].tolist()))
+
+    def varied(self):
+        """Parameters of more than one value, seeds left out."""
+        return [
+            name
+            for name in self.parameters
+            if name in self.columns and name != "seed" and len(self.values_of(name)) > 1
+        ]
+
+    def groups(self, by):
+        """(value, cases) of a parameter; all cases where there is none to group by."""
+        if by is None:
+            return [(None, numpy.ones(self.size, dtype=bool))]
+        return [(value, self.columns[by] == value) for value in self.values_of(by)]
+
+    def numbers(self, name, cases):
+        values = self.columns[name][cases]
+        return values[numpy.isfinite(values)]
+
+    def has_numbers(self, name):
+        return name in self.columns and self.columns[name].dtype.kind == "f"
+
+
+def read_sample(study):
+    with open(study.folder / TABLE, newline="", encoding="utf-8") as file:
+        reader = csv.reader(file)
+        header = next(reader)
+        state = header.index("state")
+        rows = [row for row in reader if row[state] == "finished"]
+    summary = json.loads((study.folder / SUMMARY).read_text(encoding="utf-8"))
+    columns = {name: column(values) for name, values in zip(header, zip(*rows))} if rows else {"case": numpy.array([])}
+    return Sample(columns, summary["parameters"], summary)
+
+
+def column(values):
+    try:
+        return numpy.array([float(value) if value else numpy.nan for value in values])
+    except ValueError:
+        return numpy.array(values)
+
+
+@dataclasses.dataclass
+class Choices:
+    """What a report shows, by the study's \"report\" or, where it leaves that out, by what varies."""
+
+    against: str | None
+    means: list
+    exceedance: list
+    group_by: str | None
+    map: tuple | None
+    channels: int
+
+
+def choices_of(study, sample):
+    given, varied = study.plan["report"], sample.varied()
+    numeric = [name for name in varied if sample.has_numbers(name)]
+    against = given.get("against", numeric[0] if numeric else None)
+    few = [name for name in varied if 1 < len(sample.values_of(name)) <= MOST_GROUPS]
+    group_by = given.get("group_by", few[0] if few else None)
+    cells = [name for name in varied if len(sample.values_of(name)) <= 60]
+    over = tuple(given["map"]) if "map" in given else tuple(cells[:2]) if len(cells) >= 2 else None
+    known = lambda names: [name for name in names if sample.has_numbers(name)]
+    return Choices(
+        against if against in sample.columns else None,
+        known(given.get("means", ["resistance_mean_N", "mean_speed_m_per_s", "channel_width_m"])),
+        known(given.get("exceedance", ["resistance_peak_N"])),
+        group_by if group_by in sample.columns else None,
+        over if over and all(name in sample.columns for name in over) else None,
+        given.get("channels", 12),
+    )
+
+
+def fits_of(values, seed=0):
+    """Gumbel's and Weibull's distributions for a group's peaks, or why there is none."""
+    found = {}
+    for name in statistics.NAMES:
+        try:
+            if len(values) < LEAST_FIT:
+                raise ValueError(f"{len(values)} cases, fewer than {LEAST_FIT}")
+            found[name] = statistics.fit(name, values, seed=seed)
+        except ValueError as error:
+            found[name] = str(error)
+    return found

@@ -1,0 +1,141 @@
+"""Scripts for clusters: one Slurm job array over a study's chunks, and the line for GNU parallel."""
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+
+from . import archive
+from .case import DONE, program, state_of
+from .folder import list_of_numbers, write_atomically
+from .located_json import StudyError
+
+SCRIPT = """#!/bin/bash
+# One task runs one chunk of the study's cases. Made by `polynya study slurm`.
+#SBATCH --job-name={name}
+#SBATCH --array={array}
+#SBATCH --time={time}
+#SBATCH --mem-per-cpu={memory}
+#SBATCH --cpus-per-task={cpus}
+#SBATCH --output={folder}/slurm/%A_%a.txt
+#SBATCH --open-mode=append
+#SBATCH --requeue
+#SBATCH --signal=B:USR1@{grace}
+{more}
+# USR1 comes {grace} s before the time limit: the cases write checkpoints and the task queues again to continue. What a
+# node failure or a kill interrupts is queued again by --requeue, or by submitting again; finished cases cost nothing.
+is_late=
+{program} study run {folder} --chunk "$SLURM_ARRAY_TASK_ID" --jobs {cpus} --quiet{retry} &
+runner=$!
+trap 'is_late=1; kill -TERM $runner' USR1
+trap 'kill -TERM $runner' TERM
+wait $runner; code=$?
+while kill -0 $runner 2>/dev/null; do wait $runner; code=$?; done
+if [ -n "$is_late" ] && [ $code = 75 ]; then
+  scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}"
+fi
+exit $code
+"""
+GATHER = """#!/bin/bash
+# Gathers the study once no task of its array is left. Made by `polynya study slurm`.
+#SBATCH --job-name={name}-gather
+#SBATCH --time=1:00:00
+#SBATCH --mem-per-cpu=2G
+#SBATCH --output={folder}/slurm/gather_%j.txt
+{more}
+exec {program} study gather {folder}
+"""
+
+
+def chunks_to_run(study, retries_failed=False):
+    """The chunks with a case that has not ended, or an archive still to be packed."""
+    ended = {"finished"} if retries_failed else {"finished", "failed"}
+    chunks = []
+    for chunk in range(study.chunks):
+        if study.archive(chunk).exists():
+            continue
+        if study.plan["archive"] or any(state_of(study.case_folder(n))[0] not in ended for n in study.cases_of(chunk)):
+            chunks.append(chunk)
+    return chunks
+
+
+def run_chunk(study, chunk, run_cases):
+    """All cases of a chunk, and its archive where the study packs."""
+    code = run_cases(list(study.cases_of(chunk)))
+    if study.plan["archive"] and not study.archive(chunk).exists():
+        archive.pack(study, chunk)
+    return code
+
+
+def write_scripts(study, options):
+    """Writes array.sbatch and gather.sbatch below the study's folder; their paths, and how many tasks there are."""
+    chunks = chunks_to_run(study, options.retry_failed)
+    if not chunks:
+        return None, None, 0
+    for name in (study.folder, pathlib.Path(program())):
+        if re.search(r"\s", str(name.absolute())):
+            raise StudyError(f'{name.absolute()}: a blank in its name, which Slurm\'s scripts do not take', 2)
+    array = list_of_numbers(chunks) + (f"%{options.throttle}" if options.throttle else "")
+    values = {
+        "name": study.plan["name"],
+        "array": array,
+        "time": options.time,
+        "memory": options.memory,
+        "cpus": options.cpus,
+        "folder": study.folder.absolute(),
+        "grace": options.grace,
+        "program": program_path(),
+        "retry": " --retry-failed" if options.retry_failed else "",
+        "more": "\n".join(f"#SBATCH {line}" for line in options.sbatch),
+    }
+    folder = study.folder / "slurm"
+    folder.mkdir(exist_ok=True)
+    scripts = folder / "array.sbatch", folder / "gather.sbatch"
+    for path, text in zip(scripts, (SCRIPT, GATHER)):
+        write_atomically(path, text.format(**values))
+    return *scripts, len(chunks)
+
+
+def program_path():
+    found = shutil.which(program())
+    return pathlib.Path(found or program()).absolute()
+
+
+def submit(array, gather):
+    """Submits both; the gathering job waits until no task is left, however the tasks ended. Returns their ids."""
+    job = sbatch([array])
+    return job, sbatch([f"--dependency=afterany:{job}", gather])
+
+
+def sbatch(words):
+    if not shutil.which("sbatch"):
+        raise StudyError(
+            "sbatch is not there: submit on a machine of the cluster, or ./setup.sh slurm for one on this machine", 5
+        )
+    printed = subprocess.run(["sbatch", "--parsable", *words], capture_output=True, text=True, check=False)
+    if printed.returncode != DONE:
+        hint = ""
+        if "array" in printed.stderr.lower():
+            hint = "; where the array is larger than the cluster's MaxArraySize, plan again with a larger --chunk"
+        raise StudyError(f"sbatch: {printed.stderr.strip()}{hint}", 5)
+    return printed.stdout.strip().split(";")[0]
+
+
+def parallel_line(study, hosts, jobs):
+    """GNU parallel's line for these hosts, over the chunks that have cases to run."""
+    chunks = chunks_to_run(study)
+    login = f"--sshlogin {shlex.quote(','.join(hosts))} " if hosts else ""
+    command = (
+        f"{shlex.quote(str(program_path()))} study run {shlex.quote(str(study.folder.absolute()))} --quiet --chunk {{}}"
+    )
+    return chunks, (
+        f"parallel {login}--jobs {jobs} --workdir / --joblog {shlex.quote(str((study.folder / 'parallel.log').absolute()))} "
+        f"{command} ::: {' '.join(brace(chunks))}"
+    )
+
+
+def brace(chunks):
+    """Numbers as bash expands them: {0..23} for a stretch."""
+    for part in list_of_numbers(chunks).split(","):
+        low, dash, high = part.partition("-")
+        yield f"{{{low}..{high}}}" if dash else low

@@ -1,0 +1,80 @@
+"""What a study will take, from a trial of its first case."""
+import json
+import os
+import resource
+import sys
+import threading
+import time
+
+from .case import DONE, STOPPED, run_case, state_of, summary_of
+from .folder import PLAN, RUN, write_atomically
+from .jobs import clock
+
+
+def estimate(study, seconds, jobs):
+    """Runs the first case for at most `seconds` and prints what all of them will take; it stays where it is, finished or
+    with its checkpoint. The estimate is kept in the plan."""
+    if state_of(study.case_folder(0))[0] != "missing":
+        return
+    reader, writer = os.pipe()
+    timer = threading.Timer(seconds, os.write, (writer, b"stop"))
+    timer.start()
+    began = time.monotonic()
+    try:
+        code, message = run_case(study, 0, reader)
+    finally:
+        timer.cancel()
+        timer.join()
+        os.close(reader)
+        os.close(writer)
+    elapsed = time.monotonic() - began
+    if message and code != STOPPED:
+        print(f"polynya study: the trial: {message}", file=sys.stderr)
+    if code not in (DONE, STOPPED):
+        return
+    folder = study.case_folder(0)
+    part = part_done(folder, state_of(folder)[0])
+    if part <= 0:
+        print(f"polynya study: the trial did not come far enough in {seconds:g} s for an estimate", file=sys.stderr)
+        return
+    found = {
+        "case_s": elapsed / part,
+        "case_bytes": round(size_of(folder) / part),
+        "case_memory_bytes": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024,
+    }
+    study.plan["estimate"] = found
+    write_atomically(study.folder / PLAN, json.dumps(study.plan, indent=1) + "\n")
+    extrapolated = f", extrapolated from {100 * part:.2g} % of it" if part < 1 else ""
+    print(
+        f"a case      {found['case_s']:.2g} s, {in_bytes(found['case_bytes'])}, {in_bytes(found['case_memory_bytes'])} of memory{extrapolated}"
+    )
+    print(
+        f"all {study.count:<7} {clock(found['case_s'] * study.count / jobs)} (h:mm:ss) with --jobs {jobs}, "
+        f"{in_bytes(found['case_bytes'] * study.count)} on disk; a chunk of {study.chunk_size} takes {clock(found['case_s'] * study.chunk_size)}"
+    )
+
+
+def part_done(folder, state):
+    if state == "finished":
+        return 1.0
+    summary = summary_of(folder / RUN)
+    if not summary or summary.get("sim_time_s", 0) <= 0:
+        return 0.0
+    until = json.loads((folder / RUN / "scene.json").read_text(encoding="utf-8"))["time"]["until_s"]
+    return summary["sim_time_s"] / until
+
+
+def size_of(folder):
+    """Space on the disk [bytes]."""
+    return sum(
+        entry.stat().st_blocks * 512
+        for entry in [folder, *folder.rglob("*")]
+        if not entry.name.startswith("checkpoint-")
+    )
+
+
+def in_bytes(count):
+    for unit in ("B", "kB", "MB", "GB", "TB"):
+        if count < 1000 or unit == "TB":
+            return f"{count:.3g} {unit}"
+        count /= 1000

@@ -1,0 +1,141 @@
+"""A study's page: its pictures, its statistics, and the way from a case into the player."""
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+
+import numpy
+import pytest
+
+from polynya import statistics
+from polynya.study import pictures, sample
+from polynya.study.folder import CASES, PLAN, RESULT, open_study
+from polynya.study.plan import write_cases
+
+
+def synthetic(folder, groups=3, of_group=40):
+    """A study whose cases are written, not run: peaks of Gumbel's distribution with a location that grows with the
+    thickness."""
+    rng = numpy.random.default_rng(1)
+    folder.mkdir()
+    values = [
+        {"ice.thickness_m": 0.4 + 0.1 * (i % groups), "ice.friction": 0.1 * (1 + i // groups % 2), "seed": i}
+        for i in range(groups * of_group)
+    ]
+    write_cases(folder, [json.dumps({"scene": 0, "set": v}) + "\n" for v in values])
+    plan = {
+        "format": 1,
+        "name": "synthetic",
+        "cases": len(values),
+        "chunk": 1,
+        "archive": False,
+        "keep": "summary",
+        "set": {},
+        "source": "",
+        "scenes": ["scenes/0/a.json"],
+        "varied": ["ice.thickness_m", "ice.friction", "seed"],
+        "collect": {},
+        "report": {"group_by": "ice.thickness_m", "against": "ice.thickness_m"},
+    }
+    (folder / PLAN).write_text(json.dumps(plan))
+    study = open_study(folder)
+    for i, v in enumerate(values):
+        case = study.case_folder(i)
+        case.mkdir(parents=True)
+        measures = {
+            "resistance_mean_N": rng.normal(1e5, 1e4),
+            "resistance_peak_N": rng.gumbel(1e6 * v["ice.thickness_m"], 5e4),
+            "outcome": "bent" if v["ice.friction"] < 0.15 else "split",
+        }
+        (case / RESULT).write_text(json.dumps({"state": "finished", "case": i, "measures": measures}))
+    return study
+
+
+def command(*words, code=0):
+    ran = subprocess.run(
+        [sys.executable, "-m", "polynya.study", *map(str, words)], capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == code, ran.stdout + ran.stderr
+    return ran.stdout + ran.stderr
+
+
+def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp_path):
+    study = synthetic(tmp_path / "s")
+    command("report", study.folder)
+    page = (study.folder / "study.html").read_text()
+    shown = re.findall(r"<img src='([^']+)'", page)
+    assert {
+        "report/exceedance-resistance_peak_N.svg",
+        "report/means-resistance_mean_N.svg",
+        "report/outcomes.svg",
+    } <= set(shown)
+    for name in shown:
+        assert (study.folder / name).stat().st_size > 5000 and (study.folder / name).with_suffix(".png").exists()
+    assert "http" not in page
+    assert page.count("--keep all</code>") == 120  # thinned: the command that brings the run back
+    with open(study.folder / "report/statistics.csv", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["measure"] == "resistance_peak_N"]
+    assert [row["group"] for row in rows] == ["0.4", "0.5", "0.6"]
+    for row, thickness in zip(rows, (0.4, 0.5, 0.6)):
+        assert int(row["cases"]) == 40
+        assert float(row["gumbel_location_low"]) < 1e6 * thickness < float(row["gumbel_location_high"])
+        assert float(row["mean_low"]) < 1e6 * thickness + 0.5772 * 5e4 < float(row["mean_high"])
+
+
+def test_the_same_study_gives_the_same_page(tmp_path):
+    study = synthetic(tmp_path / "s")
+
+    def made():
+        command("report", study.folder)
+        return {p.name: p.read_bytes() for p in [study.folder / "study.html", *(study.folder / "report").iterdir()]}
+
+    assert made() == made()
+
+
+def test_a_page_of_a_part_of_the_study_says_so(tmp_path):
+    study = synthetic(tmp_path / "s")
+    for i in range(30):
+        (study.case_folder(i) / RESULT).unlink()
+        study.case_folder(i).rmdir()
+    command("report", study.folder, code=75)
+    assert "This page shows a part of the study" in (study.folder / "study.html").read_text()
+    assert "--cases 0-29" in json.loads((study.folder / "gather.json").read_text())["repair"]["missing"]
+
+
+def test_a_study_without_a_finished_case_has_no_page(tmp_path):
+    study = synthetic(tmp_path / "s", 1, 1)
+    (study.case_folder(0) / RESULT).unlink()
+    assert "no case is finished" in command("report", study.folder, code=75)
+
+
+def test_a_kept_run_opens_in_the_player(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "s.json").write_text(
+        json.dumps(
+            {
+                "scene": os.path.join(os.path.abspath(os.environ["POLYNYA_SCENES"]), "level-plate.json"),
+                "set": {"time.until_s": 10},
+                "grid": {"ice.thickness_m": [0.4, 0.5]},
+            }
+        )
+    )
+    command("run", "s.json", "--quiet")
+    command("report", "studies/s")
+    page = (tmp_path / "studies/s/study.html").read_text()
+    links = re.findall(r"<a href='([^']+view.html)'>play", page)
+    assert len(links) == 2 and all((tmp_path / "studies/s" / link).stat().st_size > 50000 for link in links)
+    assert "channels.svg" in page
+
+
+def test_labels_have_their_units():
+    assert pictures.label_of("resistance_peak_N") == ("resistance peak [MN]", 1e-6)
+    assert pictures.label_of("mean_speed_m_per_s") == ("mean speed [m/s]", 1)
+    assert pictures.label_of("floes[0].field.concentration") == ("concentration", 1)
+    assert pictures.label_of("ships[0].position_m[1]") == ("position y [m]", 1)
+
+
+def test_small_groups_are_not_fitted():
+    assert "fewer than" in sample.fits_of(numpy.arange(5.0))["gumbel"]
+    assert isinstance(sample.fits_of(numpy.random.default_rng(1).gumbel(5, 1, 30))["weibull"], statistics.Fit)

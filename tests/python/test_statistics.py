@@ -1,0 +1,168 @@
+"""Estimators on samples of known distribution: they find its parameters, their intervals cover them as often as stated,
+and they agree with scipy's own where that has one."""
+import math
+
+import numpy
+import pytest
+from scipy import stats
+
+from polynya import statistics
+
+TRIALS = 400
+
+
+def covered(interval_of, truth, trials=TRIALS, size=40, draw=None):
+    """How often the interval of a sample has the truth in it."""
+    rng = numpy.random.default_rng(7)
+    inside = 0
+    for _ in range(trials):
+        interval = interval_of(draw(rng, size))
+        inside += interval.low <= truth <= interval.high
+    return inside / trials
+
+
+def near(part, level, trials=TRIALS):
+    """Within four standard deviations of what a right interval's coverage scatters by."""
+    return abs(part - level) < 4 * math.sqrt(level * (1 - level) / trials)
+
+
+@pytest.mark.parametrize("level", [0.8, 0.95])
+def test_students_interval_covers_the_mean_of_normal_samples(level):
+    part = covered(lambda x: statistics.mean(x, level), 3, draw=lambda rng, n: rng.normal(3, 2, n), size=6)
+    assert near(part, level)
+
+
+def test_students_interval_is_that_of_scipys_t_test():
+    x = numpy.random.default_rng(1).gamma(2, 3, 25)
+    own, peer = statistics.mean(x), stats.ttest_1samp(x, 0).confidence_interval(0.95)
+    assert own.low == pytest.approx(peer.low) and own.high == pytest.approx(peer.high)
+
+
+def test_bootstrap_interval_covers_the_mean_of_skewed_samples():
+    part = covered(
+        lambda x: statistics.bootstrap_mean(x, count=400), 1, draw=lambda rng, n: rng.exponential(1, n), size=60
+    )
+    assert 0.88 < part < 0.98  # percentile intervals of skewed samples are a little short
+
+
+def test_bootstrap_depends_on_its_seed_alone():
+    x = numpy.random.default_rng(1).normal(0, 1, 30)
+    assert statistics.bootstrap_mean(x, seed=3) == statistics.bootstrap_mean(x, seed=3)
+    assert statistics.bootstrap_mean(x, seed=3) != statistics.bootstrap_mean(x, seed=4)
+
+
+@pytest.mark.parametrize("probability, size", [(0.5, 30), (0.9, 100)])
+def test_quantile_intervals_cover_at_least_as_often_as_stated(probability, size):
+    truth = stats.expon.ppf(probability)
+    part = covered(
+        lambda x: statistics.quantile(x, probability), truth, draw=lambda rng, n: rng.exponential(1, n), size=size
+    )
+    assert part > 0.95 - 4 * math.sqrt(0.95 * 0.05 / TRIALS)
+    assert part < 0.995
+
+
+def test_a_quantile_beyond_the_sample_has_no_upper_limit():
+    interval = statistics.quantile(range(10), 0.99)
+    assert interval.high == math.inf and interval.low > 0
+
+
+def test_exceedance_is_that_of_plotting_positions():
+    values, above = statistics.exceedance([3, 1, 2])
+    assert values.tolist() == [1, 2, 3] and above.tolist() == pytest.approx([0.75, 0.5, 0.25])
+
+
+def test_wilsons_interval_covers_a_proportion():
+    part = covered(
+        lambda x: statistics.proportion(int(x.sum()), x.size), 0.2, draw=lambda rng, n: rng.random(n) < 0.2, size=80
+    )
+    assert near(part, 0.95)
+    assert statistics.proportion(0, 10).low == 0 and statistics.proportion(0, 10).high > 0.2
+
+
+@pytest.mark.parametrize(
+    "name, peer",
+    [("gumbel", lambda x: stats.gumbel_r.fit(x)), ("weibull", lambda x: stats.weibull_min.fit(x, floc=0)[::2])],
+)
+@pytest.mark.parametrize("seed", range(5))
+def test_fits_are_scipys(name, peer, seed):
+    rng = numpy.random.default_rng(seed)
+    x = rng.gumbel(3e5, 4e4, 80) if name == "gumbel" else 3e5 * rng.weibull(1.6, 80)
+    assert statistics.fit(name, x, count=50).values() == pytest.approx(peer(x), rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    "name, truth, draw",
+    [
+        ("gumbel", (5, 2), lambda rng, n: rng.gumbel(5, 2, n)),
+        ("weibull", (1.6, 4), lambda rng, n: 4 * rng.weibull(1.6, n)),
+    ],
+)
+def test_fits_find_the_parameters_and_their_intervals_cover_them(name, truth, draw):
+    rng = numpy.random.default_rng(11)
+    large = statistics.fit(name, draw(rng, 20000), count=20)
+    assert large.values() == pytest.approx(truth, rel=0.03)
+    fits = [statistics.fit(name, draw(rng, 60), count=200) for _ in range(150)]
+    for k, key in enumerate(statistics.NAMES[name]):
+        part = numpy.mean([fit.parameters[key].low <= truth[k] <= fit.parameters[key].high for fit in fits])
+        assert 0.86 < part < 0.99, key
+
+
+@pytest.mark.parametrize("name", ["gumbel", "weibull"])
+def test_goodness_is_uniform_for_the_right_distribution_and_small_for_a_wrong_one(name):
+    rng = numpy.random.default_rng(5)
+    right = (lambda: rng.gumbel(5, 2, 50)) if name == "gumbel" else (lambda: 4 * rng.weibull(1.6, 50))
+    fits = [statistics.fit(name, right(), count=199) for _ in range(100)]
+    for p in ([fit.ks_p for fit in fits], [fit.ad_p for fit in fits]):
+        assert stats.kstest(p, "uniform").pvalue > 1e-3
+    wrong = numpy.concatenate([rng.normal(1, 0.05, 100), rng.normal(3, 0.05, 100)])
+    fitted = statistics.fit(name, wrong, count=199)
+    assert fitted.ad_p < 0.01 and fitted.ks_p < 0.01
+
+
+def test_the_level_of_a_probability_is_exceeded_by_it():
+    for name, x in (
+        ("gumbel", numpy.random.default_rng(2).gumbel(1, 3, 50)),
+        ("weibull", numpy.random.default_rng(2).weibull(2, 50)),
+    ):
+        fitted = statistics.fit(name, x, count=50)
+        for p in (0.5, 0.01, 1e-6):
+            assert float(fitted.exceedance(fitted.level_of(p))) == pytest.approx(p, rel=1e-9)
+
+
+def test_level_intervals_cover_the_level():
+    truth = 5 - 2 * math.log(-math.log1p(-0.01))
+    part = covered(
+        lambda x: statistics.level_interval("gumbel", x, 0.01, count=200),
+        truth,
+        trials=150,
+        size=80,
+        draw=lambda rng, n: rng.gumbel(5, 2, n),
+    )
+    assert 0.86 < part < 0.99
+
+
+def test_as_many_cases_as_are_needed_make_the_interval_narrow_enough():
+    rng = numpy.random.default_rng(3)
+    first = rng.normal(10, 2, 400)
+    n = statistics.cases_needed(first, 0.25)
+    widths = [statistics.mean(rng.normal(10, 2, n)).half_width for _ in range(50)]
+    assert numpy.mean(widths) == pytest.approx(0.25, rel=0.1)
+    assert statistics.cases_needed([1, 1, 1], 0.1) == 2
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: statistics.mean([1]),
+        lambda: statistics.mean([1, math.nan]),
+        lambda: statistics.mean([[1, 2], [3, 4]]),
+        lambda: statistics.fit("weibull", [1, 2, 3, 4, 0]),
+        lambda: statistics.fit("normal", [1, 2, 3, 4, 5]),
+        lambda: statistics.fit("gumbel", [2] * 8),
+        lambda: statistics.cases_needed([1, 2], 0),
+        lambda: statistics.proportion(3, 2),
+    ],
+)
+def test_what_is_no_sample_is_refused_with_words(call):
+    with pytest.raises(ValueError, match="found|sample"):
+        call()
