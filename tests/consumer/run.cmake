@@ -25,6 +25,7 @@ run(${WORK}/build/consumer ${WORK}/prefix/share/polynya/scenes/two-floes.json ${
 message(STATUS "${output}")
 run(${WORK}/prefix/bin/polynya validate ${WORK}/prefix/share/polynya/scenes/sawamura2017-fig4b.json)
 message(STATUS "${output}")
+run(${WORK}/prefix/bin/polynya study plan --help)  # finds the Python package below the prefix
 # What comes with the program: its manual page, and its completion, which bash itself is asked for.
 foreach(file share/man/man1/polynya.1 share/bash-completion/completions/polynya)
   if(NOT EXISTS ${WORK}/prefix/${file})

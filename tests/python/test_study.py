@@ -234,6 +234,15 @@ def test_planning_again_changes_nothing_and_a_study_may_grow(folder):
     assert "150" in (folder / "studies/s/scenes/0/plate.json").read_text()
 
 
+def test_what_only_began_by_another_plan_is_removed(folder):
+    study("plan", write_study(folder, collect={"loads": ["surge_from_moorng_N"]}), "--trial-seconds", 0)
+    assert 'forces.csv has no column "surge_from_moorng_N"' in study("run", "studies/s", code=4)
+    study("plan", write_study(folder, set={"ice.thickness_m": 0.4}), "--trial-seconds", 0)
+    assert not (folder / "studies/s/cases").exists()
+    study("run", "studies/s", "--quiet")
+    study("gather", "studies/s")
+
+
 def test_the_trial_estimates_and_is_the_first_case(folder):
     words = study("plan", write_study(folder, repetitions=3))
     assert "a case " in words and "all 3" in words and "MB of memory" in words
@@ -403,6 +412,29 @@ def test_jobs_stop_with_checkpoints_and_go_on(folder):
     assert len(list((folder / "studies/s/cases").glob("*/case.json"))) == 4
 
 
+def test_a_terminal_has_a_live_table(folder):
+    study("plan", write_study(folder, repetitions=3), "--trial-seconds", 0)
+    ours, theirs = os.openpty()
+    command = [sys.executable, "-m", "polynya.study", "run", "studies/s", "--jobs", "1"]
+    with subprocess.Popen(command, stderr=theirs) as running:
+        os.close(theirs)
+        shown = b""
+        try:
+            while part := os.read(ours, 65536):
+                shown += part
+        except OSError:  # the terminal's end
+            pass
+    os.close(ours)
+    assert running.returncode == 0
+    for words in (
+        "running          1  case 0",
+        "done             3 of 3  (100 %)",
+        "failed           0",
+        "left          0:00",
+    ):
+        assert words in shown.decode(), shown.decode()
+
+
 def test_records_can_be_thinned_to_the_summary_and_brought_back(folder):
     study("plan", write_study(folder, "thin", keep="summary"), "--trial-seconds", 0)
     study("plan", write_study(folder, "thick"), "--trial-seconds", 0)
@@ -446,7 +478,11 @@ def test_measures_are_those_of_the_run(folder):
         write_study(
             folder,
             set={"time.until_s": 30},
-            collect={"from_s": 5, "time_to": {"port": {"x_m": -51}, "never": {"x_m": 900}, "far": {"distance_m": 20}}},
+            collect={
+                "from_s": 5,
+                "loads": ["thrust_N"],
+                "time_to": {"port": {"x_m": -51}, "never": {"x_m": 900}, "far": {"distance_m": 20}},
+            },
         ),
         "--trial-seconds",
         0,
@@ -520,6 +556,15 @@ def test_the_line_for_gnu_parallel_runs_all_chunks(folder):
     )
     assert ran.returncode == 0, ran.stderr
     study("gather", "studies/s")
+
+
+def test_a_report_without_numpy_names_what_to_install(folder, monkeypatch):
+    study("plan", write_study(folder), "--trial-seconds", 0)
+    (folder / "numpy.py").write_text("raise ModuleNotFoundError(name='numpy')")
+    monkeypatch.setenv("PYTHONPATH", f"{folder}:{os.environ['PYTHONPATH']}")
+    words = study("report", "studies/s", code=5)
+    assert "report needs numpy, which is not installed: ./setup.sh python" in words
+    study("gather", "studies/s", code=75)  # does without
 
 
 def test_a_folder_without_a_plan_and_a_study_not_planned_are_named(folder):

@@ -25,7 +25,7 @@ KEYS = (
     "archive",
     "report",
 )
-COLLECT_KEYS = ("ship", "from_s", "quantiles", "stop_speed_m_per_s", "channel", "time_to")
+COLLECT_KEYS = ("ship", "from_s", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to")
 TIME_TO_KEYS = ("x_m", "y_m", "distance_m", "point_m", "within_m")
 REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
 
@@ -217,6 +217,11 @@ class Reader:
         for key in ("from_s", "stop_speed_m_per_s"):
             if not draws.is_number(collect.get(key, 0)) or collect.get(key, 0) < 0:
                 self.report(["collect", key], f"found {shown(collect[key])}, allowed: a number ≥ 0")
+        loads = self.member(collect, "loads", list, [], ["collect"])
+        if not all(isinstance(name, str) and "_" in name for name in loads):
+            self.report(
+                ["collect", "loads"], "allowed: columns of forces.csv with their units, as surge_from_mooring_N"
+            )
         quantiles = self.member(collect, "quantiles", list, [], ["collect"])
         if not all(draws.is_number(q) and 0 < q < 1 for q in quantiles):
             self.report(["collect", "quantiles"], "found what is no probability, allowed: numbers between 0 and 1")

@@ -1,7 +1,8 @@
 """`polynya study gather`: one table of all cases, a row each, and what is missing."""
 import csv
-import io
+import dataclasses
 import json
+import os
 import sys
 
 from . import archive
@@ -9,43 +10,48 @@ from .case import DONE, FAILED, STOPPED
 from .folder import counted, list_of_numbers, write_atomically
 
 TABLE, NETCDF, SUMMARY = "table.csv", "table.nc", "gather.json"
-STATES = ("finished", "failed", "unfinished", "missing")
-MOST_SHOWN = 10
+STATES = ("failed", "unfinished", "missing")  # but finished
+MOST_SHOWN = 10  # failures
+LONGEST_SHOWN = 380  # command [characters]
+MOST_NETCDF = 1_000_000  # cases
 
 
 def gather(study):
     """Writes table.csv, table.nc where xarray and netCDF4 are, and gather.json. Returns an exit code: DONE where every
-    case is finished."""
-    results = {}
-    states = []
-    for number, state, result in archive.all_states(study):
-        states.append(state)
-        if result is not None:
-            results[number] = result
-    columns, rows = table_of(study, states, results)
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows([["" if value is None else value for value in row] for row in rows])
-    write_atomically(study.folder / TABLE, text.getvalue())
-    by_state = {state: [number for number, s in enumerate(states) if s == state] for state in STATES}
+    case is finished. Case by case: only those that are not finished are kept in memory."""
+    measures = first_measures(study)
+    rest = write_table(study, measures)
+    if rest.unknown:  # some cases are of another version
+        measures += rest.unknown
+        rest = write_table(study, measures)
+    columns = ["case", "state", *parameter_columns(study), *measures]
+    finished = study.count - sum(len(numbers) for numbers in rest.by_state.values())
     summary = {
         "cases": study.count,
-        "is_complete": len(by_state["finished"]) == study.count,
-        **{state: len(numbers) for state, numbers in by_state.items()},
+        "is_complete": finished == study.count,
+        "finished": finished,
+        **{state: len(numbers) for state, numbers in rest.by_state.items()},
         "parameters": parameter_columns(study),
         "columns": columns,
-        "repair": {state: command for state, command in commands(study, by_state).items()},
+        "repair": commands(study, rest.by_state),
     }
     write_atomically(study.folder / SUMMARY, json.dumps(summary, indent=1) + "\n")
-    print(
-        f"table       {study.folder / TABLE}: {study.count} cases, {len(by_state['finished'])} finished, {len(columns)} columns"
-        + ("" if summary["is_complete"] else "; PARTIAL")
-    )
-    reason = write_netcdf(study, columns, rows, summary)
+    partial = "" if summary["is_complete"] else "; PARTIAL"
+    counts = f"{counted(study.count, 'case')}, {finished} finished, {len(columns)} columns"
+    print(f"table       {study.folder / TABLE}: {counts}{partial}")
+    reason = write_netcdf(study, summary)
     print(f"            {study.folder / NETCDF}" if reason is None else f"            no {NETCDF}: {reason}")
-    report_rest(study, by_state, results)
-    return DONE if summary["is_complete"] else FAILED if by_state["failed"] else STOPPED
+    report_rest(study, rest)
+    return DONE if summary["is_complete"] else FAILED if rest.by_state["failed"] else STOPPED
+
+
+@dataclasses.dataclass
+class Rest:
+    """What a table does not have: cases that are not finished, and measures that its header lacks."""
+
+    by_state: dict = dataclasses.field(default_factory=lambda: {state: [] for state in STATES})  # numbers
+    messages: list = dataclasses.field(default_factory=list)  # (number, words) of the first failures
+    unknown: list = dataclasses.field(default_factory=list)
 
 
 def parameter_columns(study):
@@ -53,19 +59,33 @@ def parameter_columns(study):
     return (["scene"] if many_scenes else []) + study.plan["varied"]
 
 
-def table_of(study, states, results):
-    """The header and a row for each case. A case without a result has its parameters, its state and nothing else."""
-    measures = []
-    for result in results.values():
-        known = set(measures)
-        measures += [name for name in result.get("measures", {}) if name not in known]
-    parameters = parameter_columns(study)
-    rows = []
-    for number, (scene, values) in enumerate(study.all_cases()):
-        found = results.get(number, {}).get("measures", {})
-        parts = [scene.stem if path == "scene" else cell(values.get(path)) for path in parameters]
-        rows.append([number, states[number], *parts, *(found.get(name) for name in measures)])
-    return ["case", "state", *parameters, *measures], rows
+def first_measures(study):
+    """The names that the first finished case has; all cases of a study have the same, if not by another version."""
+    for _, state, result in archive.all_states(study):
+        if state == "finished":
+            return list(result["measures"])
+    return []
+
+
+def write_table(study, measures):
+    """A row for each case. One without a result has its parameters, its state and nothing else."""
+    rest, parameters, known = Rest(), parameter_columns(study), set(measures)
+    draft = study.folder / (TABLE + ".tmp")
+    with open(draft, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["case", "state", *parameters, *measures])
+        for (number, state, result), (scene, values) in zip(archive.all_states(study), study.all_cases()):
+            found = result["measures"] if state == "finished" else {}
+            if state != "finished":
+                rest.by_state[state].append(number)
+            if state == "failed" and len(rest.messages) < MOST_SHOWN:
+                rest.messages.append((number, result["message"].splitlines()[-1]))
+            rest.unknown += [name for name in found if name not in known]
+            known.update(rest.unknown)
+            given = [scene.stem if path == "scene" else cell(values.get(path)) for path in parameters]
+            writer.writerow([number, state, *given, *(found.get(name) for name in measures)])
+    os.replace(draft, study.folder / TABLE)
+    return rest
 
 
 def cell(value):
@@ -84,47 +104,44 @@ def commands(study, by_state):
     return found
 
 
-def report_rest(study, by_state, results):
-    for state, command in commands(study, by_state).items():
-        numbers = by_state[state]
-        words = {
-            "missing": "never started",
-            "unfinished": "started and not at an end: to be continued from checkpoints",
-            "failed": "ended with a failure",
-        }[state]
-        print(f"{state:<11} {counted(len(numbers), 'case')}, {words}", file=sys.stderr)
-        if state == "failed":
-            for number in numbers[:MOST_SHOWN]:
-                print(f"            case {number}: {results[number]['message'].splitlines()[-1]}", file=sys.stderr)
-            if len(numbers) > MOST_SHOWN:
-                print(f"            and {len(numbers) - MOST_SHOWN} more; {study.folder / SUMMARY}", file=sys.stderr)
-        print(
-            f"            {command if len(command) < 400 else command[:380] + ' …  (whole in ' + SUMMARY + ')'}",
-            file=sys.stderr,
-        )
+def report_rest(study, rest):
+    words = {
+        "missing": "never started",
+        "unfinished": "started and not at an end: to be continued from checkpoints",
+        "failed": "ended with a failure",
+    }
+    for state, command in commands(study, rest.by_state).items():
+        numbers = rest.by_state[state]
+        print(f"{state:<11} {counted(len(numbers), 'case')}, {words[state]}", file=sys.stderr)
+        for number, message in rest.messages if state == "failed" else []:
+            print(f"            case {number}: {message}", file=sys.stderr)
+        if state == "failed" and len(numbers) > len(rest.messages):
+            print(f"            and {len(numbers) - len(rest.messages)} more", file=sys.stderr)
+        shown = command if len(command) < LONGEST_SHOWN else command[:LONGEST_SHOWN] + f" …  (whole in {SUMMARY})"
+        print(f"            {shown}", file=sys.stderr)
 
 
-def write_netcdf(study, columns, rows, summary):
-    """The same as a netCDF file over the dimension \"case\". Returns why there is none, or nothing."""
+def write_netcdf(study, summary):
+    """The table as a netCDF file over the dimension "case". Returns why there is none, or nothing."""
     path = study.folder / NETCDF
     path.unlink(missing_ok=True)
+    if study.count > MOST_NETCDF:
+        return f"more than {MOST_NETCDF} cases; table.csv has them"
     try:
         import netCDF4  # noqa: F401  (the engine)
         import numpy
         import xarray
     except ImportError as error:
         return f"{error.name} is not installed (apt-get install python3-xarray python3-netcdf4)"
+    with open(study.folder / TABLE, newline="", encoding="utf-8") as file:
+        names, *rows = csv.reader(file)
     variables = {}
-    for name, values in zip(columns, zip(*rows)):
-        is_text = any(isinstance(value, str) for value in values)
-        data = (
-            ["" if v is None else str(v) for v in values]
-            if is_text
-            else [float("nan") if v is None else v for v in values]
-        )
-        variables[name] = ("case", numpy.array(data, dtype=object if is_text else None))
-    data = xarray.Dataset(
-        variables, attrs={"study": study.plan["name"], "is_complete": int(summary["is_complete"])}
-    ).set_coords("case")
-    data.to_netcdf(path, engine="netcdf4")
+    for name, values in zip(names, zip(*rows)):
+        try:
+            data = numpy.array([float(value) if value else numpy.nan for value in values])
+        except ValueError:
+            data = numpy.array(values, dtype=object)
+        variables[name] = ("case", data.astype(int) if name == "case" else data)
+    attributes = {"study": study.plan["name"], "is_complete": int(summary["is_complete"])}
+    xarray.Dataset(variables, attrs=attributes).set_coords("case").to_netcdf(path, engine="netcdf4")
     return None

@@ -1,15 +1,13 @@
 """Many cases on this machine: worker processes of concurrent.futures, each with one run at a time, and a live table."""
 import concurrent.futures
-import dataclasses
 import multiprocessing
 import os
 import signal
-import sys
-import time
 
 from . import archive
 from .case import DONE, FAILED, INPUT_OUTPUT, STOPPED, die_with_parent, run_case, state_of
 from .folder import RUN
+from .table import Counts, Display
 
 STUDY, STOP = None, None  # of a worker process
 
@@ -48,62 +46,6 @@ def run_in_worker(number, keep):
     return run_case(STUDY, number, STOP, keep)
 
 
-@dataclasses.dataclass
-class Counts:
-    """How far a study is."""
-
-    total: int
-    done: int = 0
-    failed: int = 0
-    stopped: int = 0
-    running: int = 0
-    before: int = 0  # done before this command
-    began: float = dataclasses.field(default_factory=time.monotonic)
-
-    def line(self):
-        """\"61 of 205 done, 2 running, 1 failed, 3:10 left\" """
-        ended = self.done + self.failed - self.before
-        words = f"{self.done} of {self.total} done, {self.running} running, {self.failed} failed"
-        if ended > 0:
-            left = (self.total - self.done - self.failed) * (time.monotonic() - self.began) / ended
-            words += f", {clock(left)} left"
-        return words
-
-
-def clock(seconds):
-    minutes, seconds = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
-
-
-class Table:
-    """The counts on stderr: kept up to date on a terminal, else a line every ten seconds."""
-
-    def __init__(self, is_quiet):
-        self.is_live = sys.stderr.isatty()
-        self.is_quiet, self.shown = is_quiet, 0.0
-
-    def show(self, counts, at_once=False):
-        pause = 0.2 if self.is_live else 10.0
-        if self.is_quiet or (not at_once and time.monotonic() - self.shown < pause):
-            return
-        self.shown = time.monotonic()
-        print(
-            f"\r\033[K{counts.line()}" if self.is_live else counts.line(),
-            end="" if self.is_live else "\n",
-            file=sys.stderr,
-            flush=True,
-        )
-
-    def message(self, words):
-        print(f"\r\033[K{words}" if self.is_live else words, file=sys.stderr, flush=True)
-
-    def end(self, counts):
-        self.show(counts, at_once=True)
-        if self.is_live and not self.is_quiet:
-            print(file=sys.stderr)
-
-
 def exit_code(counts):
     """Of a command that runs many cases."""
     return STOPPED if counts.stopped else FAILED if counts.failed else DONE
@@ -111,7 +53,7 @@ def exit_code(counts):
 
 def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet=False):
     """Runs those of the cases that have not ended, `jobs` at a time. Returns an exit code."""
-    counts, table, waiting = Counts(len(numbers)), Table(is_quiet), []
+    counts, table, waiting = Counts(len(numbers)), Display(is_quiet), []
     for number, state in states_of(study, numbers, keep):
         counts.done += state == "finished"
         if state == "failed" and not retries_failed:
@@ -129,7 +71,7 @@ def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet
                 "polynya study: a worker process was killed; start the command again, its case continues from its checkpoint"
             )
             return INPUT_OUTPUT
-    table.end(counts)
+    table.show(counts, at_once=True)
     return exit_code(counts)
 
 
@@ -161,7 +103,7 @@ def run_waiting(study, waiting, jobs, keep, stop, counts, table):
                 running[pool.submit(run_in_worker, number, keep)] = number
             if not running:
                 break
-            counts.running = min(jobs, len(running))
+            counts.running = sorted(running.values())[:jobs]
             table.show(counts)
             ended, _ = concurrent.futures.wait(running, 0.2, concurrent.futures.FIRST_COMPLETED)
             for future in ended:
@@ -171,7 +113,7 @@ def run_waiting(study, waiting, jobs, keep, stop, counts, table):
                 for future in list(running):
                     if future.cancel():
                         del running[future]
-        counts.running = 0
+        counts.running = []
         counts.stopped += int(stop.is_raised)
 
 

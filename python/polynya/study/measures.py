@@ -58,6 +58,8 @@ def measures_of_ship(columns, collect):
     kept = [i for i, t in enumerate(columns["t_s"]) if t > collect.get("from_s", 0)]
 
     def of(name):
+        if name not in columns:
+            raise ValueError(f'forces.csv has no column "{name}"')
         column = columns[name]
         return [column[i] for i in kept]
 
@@ -66,11 +68,12 @@ def measures_of_ship(columns, collect):
     ice = of("surge_from_submerged_ice_N")
     resistance = [-(a + b) for a, b in zip(of("surge_N"), ice)]
     found.update(of_load("resistance", "_N", resistance, resistance, levels))
-    for load in LOADS:
+    for load in dict.fromkeys((*LOADS, *collect.get("loads", ()))):
         name, unit = load.rsplit("_", 1)
         values = of(load)
         found.update(of_load(name, "_" + unit, values, [abs(value) for value in values], levels))
-        found[f"{name}_step_peak_{unit}"] = max((abs(value) for value in of(f"{name}_max_{unit}")), default=None)
+        if f"{name}_max_{unit}" in columns:
+            found[f"{name}_step_peak_{unit}"] = max((abs(value) for value in of(f"{name}_max_{unit}")), default=None)
     found.update(of_motion(columns, kept, collect))
     for name, target in collect.get("time_to", {}).items():
         found[f"time_to_{name}_s"] = time_to(columns, target)
@@ -108,6 +111,7 @@ def of_motion(columns, kept, collect):
     span = math.fsum(steps[i] for i in kept)
     distance = math.fsum(speeds[i] * steps[i] for i in kept)
     work = math.fsum(columns["thrust_N"][i] * forward_speed(columns, i) * steps[i] for i in kept)
+    delivered = math.fsum(columns["delivered_power_W"][i] * steps[i] for i in kept)
     stop_speed = collect.get("stop_speed_m_per_s", STOP_SPEED)
     stops, is_moving = 0, False
     for i in kept:
@@ -121,6 +125,7 @@ def of_motion(columns, kept, collect):
         "stops": stops,
         "stopped_s": math.fsum(steps[i] for i in kept if speeds[i] < stop_speed),
         "energy_per_km_J": 1000 * work / distance if distance > 0 else None,
+        "delivered_per_km_J": 1000 * delivered / distance if distance > 0 and delivered > 0 else None,
         "final_x_m": columns["x_m"][-1],
         "final_y_m": columns["y_m"][-1],
         "final_heading_deg": columns["heading_deg"][-1],

@@ -99,19 +99,22 @@ def is_same(old, new, folder, text):
 
 
 def refuse_other_cases(old, new, folder, text):
-    """Cases that have run stay those of the plan; a study may grow, and what is collected may change before any ran."""
-    has_run = (folder / "cases").exists() and any((folder / "cases").iterdir())
-    if old is None or not has_run:
+    """Cases that have ended stay those of the plan that they ran by; a study may grow. Where none has, what they have
+    begun by another plan is removed."""
+    if old is None:
         return
     kept = ("set", "scenes", "inputs", "collect", "chunk", "archive")
     differs = [key for key in kept if old[key] != new[key]]
-    before = (folder / CASES).read_text(encoding="utf-8")
-    if differs or not text.startswith(before):
+    if not differs and text.startswith((folder / CASES).read_text(encoding="utf-8")):
+        return
+    cases = folder / "cases"
+    if any(found for pattern in ("*/case.json", "*/*/case.json", "*.tar") for found in cases.glob(pattern)):
         what = f"other {', '.join(differs)}" if differs else "other cases"
         raise StudyError(
             f"{folder}: its cases have run by an earlier plan with {what}; plan into another folder (--out) or remove it",
             5,
         )
+    shutil.rmtree(cases, ignore_errors=True)
 
 
 def chunk_size(given, old, count):

@@ -8,7 +8,7 @@ import time
 
 from .case import DONE, STOPPED, run_case, state_of, summary_of
 from .folder import PLAN, RUN, write_atomically
-from .jobs import clock
+from .table import clock
 
 
 def estimate(study, seconds, jobs):
