@@ -7,6 +7,7 @@ Everything if nothing is named. `efficiency` means something only while the mach
 """
 import argparse
 import json
+import os
 import pathlib
 import re
 import statistics
@@ -31,9 +32,12 @@ class Bench:
         )
 
     def timed(self, *words):
-        began = time.perf_counter()
+        """Elapsed time and processors' time [s]."""
+        began, used = time.perf_counter(), os.times()
         self.run(*words)
-        return time.perf_counter() - began
+        now = os.times()
+        processors = now.children_user + now.children_system - used.children_user - used.children_system
+        return time.perf_counter() - began, processors
 
     def plan(self, name, scene, *options, **keys):
         (self.work / f"{name}.json").write_text(json.dumps({"scene": str(scene), **keys}))
@@ -42,22 +46,23 @@ class Bench:
 
 
 def start(bench):
-    """Time until a run has begun and ended, and of what surrounds it."""
-    instant = {"time.until_s": 0.01}
-    plain = [bench.timed("run", PLATE, "--set", "time.until_s=0.01", "--no-map", "--overwrite") for _ in range(15)]
-    drawn = [bench.timed("run", PLATE, "--set", "time.until_s=0.01", "--overwrite") for _ in range(9)]
-    bench.plan("start", PLATE, set=instant, repetitions=60)
+    """Time of what surrounds a simulation: of the clock, and of processors, which a busy machine changes less."""
+    step = ["--set", "time.until_s=0.01", "--overwrite"]
+    plain = [bench.timed("run", PLATE, *step, "--no-map") for _ in range(15)]
+    drawn = [bench.timed("run", PLATE, *step) for _ in range(9)]
+    bench.plan("start", PLATE, set={"time.until_s": 0.01}, repetitions=60)
     alone = [bench.timed("study", "run", "studies/start", "--case", n) for n in range(10)]
     again = [bench.timed("study", "run", "studies/start", "--case", n) for n in range(10)]
-    chunk = bench.timed("study", "run", "studies/start", "--jobs", 1) / 50
+    rest = [tuple(seconds / 50 for seconds in bench.timed("study", "run", "studies/start", "--jobs", 1))]
     for what, seconds in (
-        ("polynya run of one step, with --no-map", statistics.median(plain)),
-        ("the same with its map", statistics.median(drawn)),
-        ("study run --case N of one step", statistics.median(alone)),
-        ("study run --case N of a finished case", statistics.median(again)),
-        ("study run --jobs 1, for each case of one step", chunk),
+        ("polynya run of one step, with --no-map", plain),
+        ("the same with its map", drawn),
+        ("study run --case N of one step", alone),
+        ("study run --case N of a finished case", again),
+        ("study run --jobs 1, for each case of one step", rest),
     ):
-        print(f"start       {1000 * seconds:7.1f} ms  {what}")
+        elapsed, used = (1000 * statistics.median(column) for column in zip(*seconds))
+        print(f"start       {elapsed:7.1f} ms  {used:7.1f} ms of processors  {what}")
 
 
 def size_of(path):
@@ -75,10 +80,10 @@ def disk(bench):
         ("packed-thinned", {"archive": True, "set": THIN}),
         ("packed-summary", {"archive": True, "keep": "summary"}),
     ):
-        folder = bench.plan("disk-" + name, PACK, "--chunk", 10, repetitions=10, **keys)
+        folder = bench.plan("disk-" + name, PACK, "--chunk", 4, repetitions=4, **keys)
         bench.run("study", "run", folder, "--jobs", 2)
         size, files = size_of(folder / "cases")
-        print(f"disk        {size / 10 / 1000:7.1f} kB {files / 10:5.1f} files and folders  {name}")
+        print(f"disk        {size / 4 / 1000:7.1f} kB {files / 4:5.1f} files and folders  {name}")
 
 
 def calls(bench):
@@ -133,7 +138,7 @@ def gather(bench):
         for number in range(1, study.count):
             study.case_folder(number).mkdir(parents=True)
             (study.case_folder(number) / RESULT).write_text(text)
-        print(f"gather      {bench.timed('study', 'gather', folder):7.2f} s   10 000 cases, {chunk} in a folder")
+        print(f"gather      {bench.timed('study', 'gather', folder)[0]:7.2f} s   10 000 cases, {chunk} in a folder")
 
 
 def efficiency(bench):
@@ -141,7 +146,7 @@ def efficiency(bench):
     seconds = {}
     for jobs in (1, 2):
         folder = bench.plan(f"efficiency-{jobs}", PACK, repetitions=12)
-        seconds[jobs] = bench.timed("study", "run", folder, "--jobs", jobs)
+        seconds[jobs] = bench.timed("study", "run", folder, "--jobs", jobs)[0]
     print(
         f"efficiency  {seconds[1] / (2 * seconds[2]):7.3f}     12 cases of {seconds[1] / 12:.2f} s: {seconds[1]:.1f} s by one job, {seconds[2]:.1f} s by two"
     )

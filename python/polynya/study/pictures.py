@@ -1,5 +1,4 @@
 """The pictures of a study's page, by matplotlib: SVG and PNG."""
-import json
 import math
 
 import matplotlib
@@ -7,11 +6,8 @@ import numpy
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (after the backend is chosen)
-from matplotlib.collections import PolyCollection  # noqa: E402
 
 from .. import statistics  # noqa: E402
-from .folder import RUN  # noqa: E402
-from .measures import rows_by_ship  # noqa: E402
 from .sample import fits_of  # noqa: E402
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933")  # [Okabe2008]
@@ -92,8 +88,9 @@ def exceedance(sample, measure, group_by, folder):
             lowest = min(lowest, above[-1])
             named = group_label(group_by, value) if group_by else "all cases"
             axes.plot(ordered * factor, reduced(above), "o", ms=3, color=colour, label=f"{named} ({len(values)})")
+            fits = fits_of(values)
             for name, line in (("gumbel", "-"), ("weibull", "--")):
-                fitted = fits_of(values)[name]
+                fitted = fits[name]
                 if not isinstance(fitted, str):
                     p = numpy.geomspace(min(0.02, above[-1] / 2), 0.995, 200)
                     axes.plot(fitted.level_of(p) * factor, reduced(p), line, color=colour, lw=1)
@@ -186,42 +183,3 @@ def outcome_map(sample, over, folder):
             bbox_to_anchor=(0, 1),
         )
         return save(figure, folder, "outcomes")
-
-
-def channels(study, numbers, folder):
-    """The ice at the end of some runs, small, with the ship's track; None where no run is kept."""
-    kept = [n for n in numbers if (study.case_folder(n) / RUN / "final.geojson").exists()]
-    if not kept:
-        return None
-    columns = min(4, len(kept))
-    with pyplot.rc_context({**STYLE, "axes.grid": False}):
-        figure, grid = pyplot.subplots(
-            -(-len(kept) // columns),
-            columns,
-            squeeze=False,
-            figsize=(6.7, 1.5 * -(-len(kept) // columns)),
-            sharex=True,
-            sharey=True,
-        )
-        for axes, number in zip(grid.flat, kept):
-            draw_end(axes, study.case_folder(number) / RUN)
-            axes.set_title(f"case {number}", fontsize=7, pad=2)
-        for axes in grid.flat:
-            axes.set_axis_off()
-        return save(figure, folder, "channels")
-
-
-def draw_end(axes, run):
-    features = json.loads((run / "final.geojson").read_text(encoding="utf-8"))["features"]
-    rings = []
-    for feature in features:
-        shape = feature["geometry"]
-        polygons = [shape["coordinates"]] if shape["type"] == "Polygon" else shape["coordinates"]
-        rings += [polygon[0] for polygon in polygons]
-    axes.add_collection(
-        PolyCollection(rings, facecolors="#cfe3ef", edgecolors="#5b7f95", linewidths=0.2, rasterized=True)
-    )
-    for columns in rows_by_ship(run / "forces.csv").values():
-        axes.plot(columns["x_m"], columns["y_m"], color="#d55e00", lw=0.8)
-    axes.autoscale_view()
-    axes.set_aspect("equal")

@@ -7,7 +7,7 @@ import os
 import subprocess
 
 from .. import statistics
-from . import pictures
+from . import channels, pictures
 from .case import program
 from .folder import RUN, write_atomically
 from .gather import TABLE, gather
@@ -65,22 +65,11 @@ def draw(study, sample, choices, folder):
                 "What the runs came to: most frequent outcome; paler, and in percent, where it is not that of all.",
             )
         )
-    chosen = spread(sample.columns["case"].astype(int).tolist(), choices.channels)
-    channels = pictures.channels(study, chosen, folder)
-    if channels:
-        made.append((channels, "The ice at the end of some runs, with the ship's track."))
+    chosen = channels.choose(study, sample, choices.group_by, choices.channels)
+    if chosen:
+        words = "The ice at the end of some runs, with the ships and their tracks."
+        made.append((channels.draw(study, sample, chosen, choices.group_by, folder), words))
     return made
-
-
-def spread(numbers, count):
-    """`count` of the numbers, evenly."""
-    return (
-        numbers
-        if len(numbers) <= count
-        else [numbers[i * len(numbers) // count] for i in range(count)]
-        if count
-        else []
-    )
 
 
 def statistics_of(sample, choices):

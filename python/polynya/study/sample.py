@@ -1,6 +1,7 @@
 """A gathered study as columns: its finished cases, grouped by parameters. Needs numpy."""
 import csv
 import dataclasses
+import functools
 import json
 
 import numpy
@@ -102,7 +103,12 @@ def choices_of(study, sample):
 
 def fits_of(values, seed=0):
     """Gumbel's and Weibull's distributions for a group's peaks, or why there is none."""
-    found = {}
+    return fits_of_bytes(numpy.asarray(values, dtype=float).tobytes(), seed)
+
+
+@functools.lru_cache(maxsize=256)  # pictures and tables show the same fits
+def fits_of_bytes(data, seed):
+    values, found = numpy.frombuffer(data), {}
     for name in statistics.NAMES:
         try:
             if len(values) < LEAST_FIT:

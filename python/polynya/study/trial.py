@@ -8,7 +8,6 @@ import time
 
 from .case import DONE, STOPPED, run_case, state_of, summary_of
 from .folder import PLAN, RUN, write_atomically
-from .table import clock
 
 
 def estimate(study, seconds, jobs):
@@ -45,13 +44,12 @@ def estimate(study, seconds, jobs):
     study.plan["estimate"] = found
     write_atomically(study.folder / PLAN, json.dumps(study.plan, indent=1) + "\n")
     extrapolated = f", extrapolated from {100 * part:.2g} % of it" if part < 1 else ""
-    print(
-        f"a case      {found['case_s']:.2g} s, {in_bytes(found['case_bytes'])}, {in_bytes(found['case_memory_bytes'])} of memory{extrapolated}"
-    )
-    print(
-        f"all {study.count:<7} {clock(found['case_s'] * study.count / jobs)} (h:mm:ss) with --jobs {jobs}, "
-        f"{in_bytes(found['case_bytes'] * study.count)} on disk; a chunk of {study.chunk_size} takes {clock(found['case_s'] * study.chunk_size)}"
-    )
+    each, memory = found["case_bytes"], in_bytes(found["case_memory_bytes"])
+    print(f"a case      {in_time(found['case_s'])}, {in_bytes(each)}, {memory} of memory{extrapolated}")
+    total, chunk = found["case_s"] * study.count / jobs, found["case_s"] * study.chunk_size
+    print(f"all {study.count:<7} {in_time(total)} with --jobs {jobs}, {in_bytes(each * study.count)} on disk")
+    if study.chunk_size > 1:
+        print(f"a chunk     {in_time(chunk)}: {study.chunk_size} cases")
 
 
 def part_done(folder, state):
@@ -71,6 +69,13 @@ def size_of(folder):
         for entry in [folder, *folder.rglob("*")]
         if not entry.name.startswith("checkpoint-")
     )
+
+
+def in_time(seconds):
+    for unit, size in (("days", 86400), ("h", 3600), ("min", 60)):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds:.2g} s"
 
 
 def in_bytes(count):
