@@ -25,6 +25,12 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
   return box;
 }
 
+/// Not two bodies of prescribed motion, which no impulse moves, but for a hull in fast ice: that crushes.
+bool can_press(const Bodies& bodies, BodyIndex a, BodyIndex b, bool presses_prescribed) {
+  if (bodies.inverse_mass[a] != 0 || bodies.inverse_mass[b] != 0) return true;
+  return presses_prescribed && (bodies.thickness[a] > 0) != (bodies.thickness[b] > 0);
+}
+
 }  // namespace
 
 BroadPhase::BroadPhase(const ContactRule& rule, double grid_cell) : rule_(rule), grid_(grid_cell) {}
@@ -75,7 +81,7 @@ void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
   const auto consider = [&](BodyIndex other) {
     if (other == body) return;
     if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
-    if (bodies.inverse_mass[body] == 0 && bodies.inverse_mass[other] == 0) return;  // no impulse moves them
+    if (!can_press(bodies, body, other, rule_.presses_prescribed)) return;
     const auto& smaller = entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs
                                                                                      : entries_[other].pairs;
     const BodyIndex a = std::min(body, other);

@@ -9,6 +9,9 @@ using geometry::Vector;
 
 /// Below this share of the product of its diagonal, det K counts as 0 and the ends are solved one by one.
 constexpr double kSingular = 1e-9;
+/// Stands for that of two bodies of prescribed motion, which nothing moves: far below that of any ship, so
+/// that the impulse is the law's at their speeds [1/kg].
+constexpr double kHeldInverseMass = 1e-13;
 
 }  // namespace
 
@@ -37,7 +40,8 @@ ContactConstraint make_constraint(const Bodies& bodies, const Contact& c, std::i
   k.normal = c.normal;
   const SolverBody& a = solver_bodies[k.a];
   const SolverBody& b = solver_bodies[k.b];
-  const double inverse_masses = a.inverse_mass + b.inverse_mass;
+  const bool is_held = a.inverse_mass == 0 && b.inverse_mass == 0;
+  const double inverse_masses = is_held ? kHeldInverseMass : a.inverse_mass + b.inverse_mass;
   for (int end = 0; end < 2; ++end) {
     k.arm_cross_normal_a[end] = cross(c.ends[end] - bodies.position[c.a], c.normal);
     k.arm_cross_normal_b[end] = cross(c.ends[end] - bodies.position[c.b], c.normal);

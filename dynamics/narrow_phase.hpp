@@ -36,6 +36,8 @@ struct ContactRule {
   double circle_radius = 1.0;      ///< [m]
   bool is_circle_centres = false;  ///< the paper's own normals, instead of those of the boundary
   bool is_culling = true;          ///< false: every step collides all pairs with one awake (tests)
+  bool presses_prescribed =
+      false;  ///< a body without thickness (a hull) presses ice though both motions are prescribed
 };
 
 /// Reusable memory of collide_pair.

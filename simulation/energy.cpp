@@ -40,13 +40,22 @@ void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums) {
 }
 
 void stop(dynamics::Bodies& bodies, BodyIndex floe, double& energy_sink, AuditSums& sums) {
-  const Vector left = bodies.mass[floe] * bodies.velocity[floe];
-  const double omega = bodies.angular_velocity[floe];
-  energy_sink += 0.5 * (dot(left, bodies.velocity[floe]) + bodies.moment[floe] * omega * omega);
-  sums.momentum.removed += left;
-  sums.impulses += length(left);
+  if (counts(bodies, floe)) {
+    const Vector left = bodies.mass[floe] * bodies.velocity[floe];
+    const double omega = bodies.angular_velocity[floe];
+    energy_sink += 0.5 * (dot(left, bodies.velocity[floe]) + bodies.moment[floe] * omega * omega);
+    sums.momentum.removed += left;
+    sums.impulses += length(left);
+  }
   bodies.velocity[floe] = {};
   bodies.angular_velocity[floe] = 0;
+}
+
+void enter_freed(const dynamics::Bodies& bodies, BodyIndex floe, AuditSums& sums) {
+  const Vector carried = bodies.mass[floe] * bodies.velocity[floe];
+  sums.energy.thrust += 0.5 * dot(carried, bodies.velocity[floe]);
+  sums.momentum.held += carried;
+  sums.impulses += length(carried);
 }
 
 bool Audit::is_closed() const {

@@ -26,6 +26,22 @@ NewFloe child_of(const Population& population, FloeId parent) {
   return child;
 }
 
+/// Which piece of fast ice stays fast: the largest of those that float. The others are free. Null: none.
+const geometry::Piece* still_fast(const Population& population, const Breakage& breakage,
+                                  const geometry::CutResult& cut) {
+  if (!population.is_fast(breakage.event.floe)) return nullptr;
+  const geometry::Piece* largest = nullptr;
+  double most = 0;
+  for (const geometry::Piece& piece : cut.pieces) {
+    if (piece.part == geometry::Part::kInside && breakage.inside != InsideFate::kFloats) continue;
+    const double area = geometry::measure(piece.shape.polygon).area;
+    if (area <= most) continue;
+    most = area;
+    largest = &piece;
+  }
+  return largest;
+}
+
 /// Enters the motion of ice that leaves the floe list with its parent's motion.
 void enter_removed(const NewFloe& piece, const geometry::Measures& measures, double ice_density,
                    double& energy_sink, AuditSums& audit) {
@@ -54,6 +70,8 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
                        Journal& journal) {
   Event& event = breakage.event;
   NewFloe child = child_of(population, event.floe);
+  const bool was_fast = population.is_fast(event.floe);
+  const geometry::Piece* fast = still_fast(population, breakage, cut);
   const dynamics::Inheritance inheritance =
       population.pairs.inheritance_of(population.bodies, population.body_of(event.floe));
   retire_floe(event.floe, population, journal);
@@ -68,12 +86,14 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
     if (is_submerged || is_brash) {
       (is_submerged ? event.submerged_area : event.brash_area) += measures.area;
       accounts.counts.brash_pieces += is_submerged ? 0 : 1;
-      enter_removed(child, measures, setup.scene.ice.density, energy_sink, accounts.audit);
+      if (!was_fast) enter_removed(child, measures, setup.scene.ice.density, energy_sink, accounts.audit);
       continue;
     }
     child.shape = piece.shape;
+    child.is_fast = &piece == fast;
     const FloeId id = add_floe(setup, clock, child, measures, population, journal);
     event.children.push_back(id);
+    if (was_fast && !child.is_fast) enter_freed(population.bodies, population.body_of(id), accounts.audit);
     if (is_inside && breakage.inside == InsideFate::kUnderHull) {
       event.under_hull_area += measures.area;
       submersions.push_back(submersion_event(clock, population, id, event.ship));

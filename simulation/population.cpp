@@ -26,7 +26,8 @@ double grid_cell(const Scene& scene) {
 
 dynamics::ContactRule contact_rule(const Setup& setup) {
   const ContactSettings& contact = setup.scene.contact;
-  return {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, setup.shortcuts.culls};
+  return {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, setup.shortcuts.culls,
+          contact.law == ContactLaw::kCrush};
 }
 
 /// A floe of the scene, at the start.
@@ -36,6 +37,11 @@ NewFloe new_floe_of(const FloeSpec& spec, Point centroid, const Setup& setup) {
   floe.thickness = setup.scene.ice.thickness;
   floe.angular_velocity = spec.angular_velocity;
   floe.velocity = spec.velocity;
+  floe.is_fast = spec.is_fast;
+  if (spec.is_fast) {
+    floe.velocity -= setup.scene.water.drift;
+    return floe;
+  }
   if (!setup.current.is_still()) {  // at rest in a sheared current is to go and turn with it
     floe.velocity += setup.current.velocity_at(centroid);
     floe.angular_velocity += setup.current.angular_velocity();
@@ -65,7 +71,8 @@ void add_scene(const Setup& setup, const Clock& clock, Population& population, J
   for (std::size_t i = 0; i < scene.floes.size(); ++i) {
     const FloeSpec& spec = scene.floes[i];
     const BodyIndex body = population.body_of(static_cast<FloeId>(i));
-    const bool is_moving = spec.velocity != Vector{} || spec.angular_velocity != 0;
+    const bool is_moving = spec.is_fast ? population.bodies.velocity[body] != Vector{}
+                                        : spec.velocity != Vector{} || spec.angular_velocity != 0;
     if (is_moving || !is_current_still_at(body, setup, population.bodies) || !setup.shortcuts.sleeps)
       wake(body, population);
   }
@@ -74,7 +81,8 @@ void add_scene(const Setup& setup, const Clock& clock, Population& population, J
 FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
                 const geometry::Measures& measures, Population& population, Journal& journal) {
   const FloeId id = population.floe_count();
-  dynamics::NewBody body = new_body_of(floe.shape.polygon, measures, setup.scene.ice.density, floe.thickness);
+  dynamics::NewBody body =
+      new_body_of(floe.shape.polygon, measures, setup.scene.ice.density, floe.thickness, floe.is_fast);
   body.position = transform(floe.water_from_body, body.centroid);
   body.angle = floe.angle;
   // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
@@ -154,8 +162,9 @@ dynamics::NewBody new_body_of(const ShipSpec& ship, Vector water_drift) {
 }
 
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
-                              double ice_density, double thickness) {
+                              double ice_density, double thickness, bool is_fast) {
   dynamics::NewBody body;
+  body.is_prescribed = is_fast;
   body.mass = ice_density * thickness * measures.area;
   body.moment = ice_density * thickness * measures.second_moment;
   body.centroid = measures.centroid;

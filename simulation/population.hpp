@@ -66,6 +66,7 @@ struct Population {
   FloeId floe_of(BodyIndex body) const { return body - ship_count; }
   bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
   bool is_floating(FloeId floe) const { return is_alive(floe) && !floes[floe].is_under; }
+  bool is_fast(FloeId floe) const { return bodies.inverse_mass[body_of(floe)] == 0; }
 };
 
 /// A floe to be added; the population gives it an id and a body.
@@ -78,6 +79,7 @@ struct NewFloe {
   double angle = 0;             ///< of water_from_body [rad]
   geometry::Vector velocity;    ///< of the body frame's origin relative to the water [m/s]
   double angular_velocity = 0;  ///< [rad/s]
+  bool is_fast = false;         ///< its motion is prescribed
 };
 
 /// Adds the scene's ships and floes, asleep and awake.
@@ -109,7 +111,7 @@ dynamics::NewBody new_body_of(const ShipSpec& ship, geometry::Vector water_drift
 /// The body of a floe, without its place and motion. Its thickness [m] is kept there, in Bodies::thickness:
 /// drag and fracture read it from the body, and pieces inherit it.
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
-                              double ice_density, double thickness);
+                              double ice_density, double thickness, bool is_fast);
 
 /// The scene's ice, as thick as a floe.
 fracture::Ice ice_of(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe);

@@ -142,6 +142,8 @@ struct FloeSpec {
   geometry::Polygon polygon_in_world;  ///< valid, at the start [m]
   geometry::Vector velocity;    ///< of the centre of mass relative to the water there, at the start [m/s]
   double angular_velocity = 0;  ///< relative to the water's own turning there, at the start [rad/s]
+  bool is_fast =
+      false;  ///< held at its velocity, which is then over ground, whatever pushes it; it does not turn
 };
 
 /// Which contacts are recorded at each frame.

@@ -10,10 +10,11 @@ namespace {
 
 using geometry::Vector;
 
-/// Enters what a body of prescribed motion did to another through their contact.
+/// Enters what bodies of prescribed motion did through their contact.
 void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Contact& c, AuditSums& audit) {
-  const Vector on_free = bodies.inverse_mass[c.a] == 0 ? c.impulse_on_b() : -c.impulse_on_b();
   audit.energy.thrust += c.prescribed_work;
+  if (bodies.inverse_mass[c.a] == 0 && bodies.inverse_mass[c.b] == 0) return;  // nothing is free to move
+  const Vector on_free = bodies.inverse_mass[c.a] == 0 ? c.impulse_on_b() : -c.impulse_on_b();
   audit.momentum.held += on_free;
   audit.impulses += length(on_free);
 }
@@ -131,7 +132,8 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   std::erase_if(population.awake, [&](BodyIndex i) {
     if (population.is_ship(i) || step.touched_at_step[i] == clock.steps) return false;
     if (bodies.rim_speed[i] >= kRestSpeed) return false;
-    if (!is_current_still_at(i, setup, bodies)) return false;  // it would not stay at rest
+    if (bodies.inverse_mass[i] == 0 && bodies.rim_speed[i] > 0) return false;  // its motion is prescribed
+    if (!is_current_still_at(i, setup, bodies)) return false;                  // it would not stay at rest
     stop(bodies, i, audit.energy.rest, audit);
     bodies.is_awake[i] = 0;
     population.pairs.sleep(bodies, i);

@@ -20,7 +20,8 @@ bool can_go_under(const Setup& setup, int ship) {
   return setup.scene.fracture.going_under.is_enabled && setup.underwater[ship].can_take_ice;
 }
 
-/// Calls use(pressed) for each floe in contact with a hull that it can go under, by (ship, floe).
+/// Calls use(pressed) for each floe in contact with a hull that it can go under, by (ship, floe). Fast ice
+/// cannot.
 template <class Use>
 void for_pressed(const Setup& setup, const Population& population, std::vector<Contact>& contacts,
                  const std::vector<HullSlope>& slopes, Use use) {
@@ -29,7 +30,8 @@ void for_pressed(const Setup& setup, const Population& population, std::vector<C
     const Contact& c = contacts[first];
     std::size_t end = first + 1;
     while (end < slopes.size() && contacts[end].a == c.a && contacts[end].b == c.b) ++end;
-    if (!population.is_ship(c.b) && can_go_under(setup, c.a)) {
+    const bool is_free = !population.is_ship(c.b) && !population.is_fast(population.floe_of(c.b));
+    if (is_free && can_go_under(setup, c.a)) {
       use(Pressed{c.a, population.floe_of(c.b), std::span(contacts).subspan(first, end - first),
                   std::span(slopes).subspan(first, end - first)});
     }

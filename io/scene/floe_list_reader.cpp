@@ -169,7 +169,8 @@ Result<std::filesystem::path> FloeListReader::locate(const std::string& name) co
 }
 
 void FloeListReader::add_floe(geometry::Polygon polygon, Origin origin) {
-  draft_.scene.floes.push_back({std::move(polygon), draft_.group.velocity, draft_.group.angular_velocity});
+  draft_.scene.floes.push_back(
+      {std::move(polygon), draft_.group.velocity, draft_.group.angular_velocity, draft_.group.is_fast});
   draft_.floe_origins.push_back(origin);
 }
 

@@ -27,6 +27,7 @@ struct FloeGroup {
   geometry::Vector extent;      ///< field: of its region; 0 where that is an outline [m]
   geometry::Vector velocity;    ///< relative to the water [m/s]
   double angular_velocity = 0;  ///< [rad/s]
+  bool is_fast = false;         ///< then the velocity is over ground
 };
 
 /// A ship's engine while it is read: the bollard pull follows from the rest where it is not given.

@@ -101,6 +101,11 @@ const Object kFloes{
            d.group.file = v.text();
          },
          {}, "file"),
+     field("fast_ice", Kind::kBoolean, "", {}, "false",
+           "held whatever pushes it, at its velocity, which is then over ground; of its pieces, the largest "
+           "stays "
+           "fast",
+           [](Draft& d, const Value& v) { d.group.is_fast = v.boolean(); }),
      field("velocity_m_per_s", Kind::kVector, "m/s", from(-20, 20), "[0, 0]",
            "of the centre of mass relative to the water there, at the start",
            [](Draft& d, const Value& v) { d.group.velocity = vector_of(v); }),

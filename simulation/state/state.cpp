@@ -41,6 +41,11 @@ std::vector<dynamics::PairState> touching(std::vector<dynamics::PairState> pairs
   return pairs;
 }
 
+Standing standing_of(const Population& population, FloeId id) {
+  if (population.is_fast(id)) return Standing::kFast;  // also when it has broken: its pieces follow it
+  return population.floes[id].is_under ? Standing::kUnderHull : Standing::kFree;
+}
+
 template <class Archive>
 void write(Archive& archive, const World& world, const std::vector<dynamics::PairState>& pairs) {
   const Population& population = world.population;
@@ -51,8 +56,8 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
   }
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     const Floe& floe = population.floes[id];
-    archive(
-        FloeHead{floe.parent, floe.born, floe.generation, floe.area, population.is_alive(id), floe.is_under});
+    archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, population.is_alive(id),
+                     standing_of(population, id)});
     if (!population.is_alive(id)) continue;
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
     archive(motion_of(population.bodies, population.body_of(id)));
@@ -163,14 +168,20 @@ class StateLoader {
     const int generation = is_of_scene ? 0 : population_.floes[head.parent].generation + 1;
     bytes_.require(head.generation == generation, "a generation that does not follow the parent's");
     bytes_.require(is_of_scene || !population_.is_alive(head.parent), "a parent that has not broken");
-    bytes_.require(head.is_alive || !head.is_under, "a broken floe under a hull");
+    bytes_.require(head.standing <= Standing::kFast, "a standing that there is not");
+    bytes_.require(head.is_alive || head.standing != Standing::kUnderHull, "a broken floe under a hull");
+    const bool is_fast = head.standing == Standing::kFast;
+    const bool can_be_fast = is_of_scene ? scene_.floes[id].is_fast : population_.is_fast(head.parent);
+    bytes_.require(!is_fast || can_be_fast, "a fast floe of a free one");
+    bytes_.require(is_fast || !is_of_scene || !can_be_fast, "a free floe where the scene has a fast one");
     return head;
   }
 
   void load_floe(FloeId id) {
     const FloeHead head = load_head(id);
     if (!bytes_.is_well()) return;
-    Floe floe{head.parent, head.born, head.generation, head.area, {}, head.is_under};
+    const bool is_under = head.standing == Standing::kUnderHull;
+    Floe floe{head.parent, head.born, head.generation, head.area, {}, is_under};
     if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = scene_.floes[id].polygon_in_world;
     if (head.is_alive && head.parent != kNoFloe) floe.shape = load_shape();
     if (!bytes_.is_well()) return;
@@ -180,16 +191,16 @@ class StateLoader {
     dynamics::NewBody body;
     if (head.is_alive) {
       body = new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), scene_.ice.density,
-                         thickness);
+                         thickness, head.standing == Standing::kFast);
     } else {  // its index stays, and its thickness for its pieces
       body.mass = body.moment = 1;
+      body.is_prescribed = head.standing == Standing::kFast;
       body.thickness = thickness;
       body.boundary = std::make_shared<geometry::Boundary>();
     }
     const BodyIndex index = add_body(population_.bodies, body);
     population_.floes.push_back(std::move(floe));
-    if (head.is_alive)
-      return place(index, load_motion(population_.bodies.bounding_radius[index]), head.is_under);
+    if (head.is_alive) return place(index, load_motion(population_.bodies.bounding_radius[index]), is_under);
     population_.bodies.is_alive[index] = 0;
     population_.bodies.boundary[index].reset();
   }
@@ -257,7 +268,8 @@ class StateLoader {
                      "a pair of no two bodies");
       if (!bytes_.is_well()) return;
       bytes_.require(bodies.is_awake[pair.a] || bodies.is_awake[pair.b], "a pair of two asleep");
-      bytes_.require(bodies.inverse_mass[pair.a] > 0 || bodies.inverse_mass[pair.b] > 0,
+      const bool is_held = bodies.inverse_mass[pair.a] == 0 && bodies.inverse_mass[pair.b] == 0;
+      bytes_.require(!is_held || (population_.is_ship(pair.a) && !population_.is_ship(pair.b)),
                      "a pair of two of prescribed motion");
       const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
       bytes_.require(is_next, "pairs out of their order");

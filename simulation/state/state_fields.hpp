@@ -22,6 +22,9 @@ struct BodyMotion {
   bool is_awake = false;
 };
 
+/// What holds a floe, if anything.
+enum class Standing : std::uint8_t { kFree, kUnderHull, kFast };
+
 /// A floe without its shape.
 struct FloeHead {
   FloeId parent = kNoFloe;
@@ -29,7 +32,7 @@ struct FloeHead {
   std::int32_t generation = 0;
   double area = 0;
   bool is_alive = false;
-  bool is_under = false;
+  Standing standing = Standing::kFree;
 };
 
 template <class Archive>
@@ -54,7 +57,7 @@ void fields(Archive& archive, Is<BodyMotion> auto& m) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<FloeHead> auto& f) {
-  archive(f.parent, f.born, f.generation, f.area, f.is_alive, f.is_under);
+  archive(f.parent, f.born, f.generation, f.area, f.is_alive, f.standing);
 }
 template <class Archive>
 void fields(Archive& archive, Is<TiltedFloe> auto& t) {
