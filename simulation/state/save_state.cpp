@@ -1,0 +1,61 @@
+#include "simulation/state/state.hpp"
+#include "simulation/state/state_fields.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+BodyMotion motion_of(const dynamics::Bodies& bodies, BodyIndex i) {
+  return {bodies.position[i],         bodies.angle[i],  bodies.rotation[i],  bodies.velocity[i],
+          bodies.angular_velocity[i], bodies.travel[i], bodies.rim_speed[i], bodies.is_awake[i] != 0};
+}
+
+/// Pairs that touch: the others are only near, and found again.
+std::vector<dynamics::PairState> touching(std::vector<dynamics::PairState> pairs) {
+  std::erase_if(pairs, [](const dynamics::PairState& pair) { return pair.records.empty(); });
+  return pairs;
+}
+
+Standing standing_of(const Population& population, FloeId id) {
+  if (population.is_fast(id)) return Standing::kFast;  // also when it has broken: its pieces follow it
+  return population.floes[id].is_under ? Standing::kUnderHull : Standing::kFree;
+}
+
+template <class Archive>
+void write(Archive& archive, const World& world, const std::vector<dynamics::PairState>& pairs) {
+  const Population& population = world.population;
+  archive(world.clock.steps, world.accounts, std::uint64_t{population.floes.size()});
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+    archive(motion_of(population.bodies, ship));
+    if (world.setup.sailing[ship].is_active) archive(population.helms[ship], world.accounts.sailing[ship]);
+  }
+  for (FloeId id = 0; id < population.floe_count(); ++id) {
+    const Floe& floe = population.floes[id];
+    archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, population.is_alive(id),
+                     standing_of(population, id)});
+    if (!population.is_alive(id)) continue;
+    if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
+    archive(motion_of(population.bodies, population.body_of(id)));
+  }
+  archive(population.tilted, population.tiles, pairs);
+}
+
+}  // namespace
+
+std::string save_state(const World& world) {
+  const std::vector<dynamics::PairState> pairs = world.population.pairs.pair_states();
+  std::vector<double> separation_bound;
+  separation_bound.reserve(pairs.size());
+  for (const dynamics::PairState& pair : pairs) separation_bound.push_back(pair.separation_bound);
+  ByteWriter archive;
+  write(archive, world, pairs);
+  archive(separation_bound);
+  return archive.take();
+}
+
+std::uint64_t state_hash(const World& world) {
+  HashWriter archive;
+  write(archive, world, touching(world.population.pairs.pair_states()));
+  return archive.hash();
+}
+
+}  // namespace polynya::simulation
