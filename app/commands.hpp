@@ -22,6 +22,7 @@ Command add_man(CLI::App& app);
 Command add_resume(CLI::App& app);
 Command add_run(CLI::App& app);
 Command add_schema(CLI::App& app);
+Command add_ships(CLI::App& app);
 Command add_study(CLI::App& app);
 Command add_validate(CLI::App& app);
 Command add_view(CLI::App& app);

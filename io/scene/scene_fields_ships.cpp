@@ -1,7 +1,14 @@
 #include "io/scene/scene_field_parts.hpp"
+#include "io/scene/ship_presets.hpp"
 
 namespace polynya::io {
 namespace {
+
+std::vector<std::string_view> preset_names() {
+  std::vector<std::string_view> names;
+  for (const ShipPreset& preset : ship_presets()) names.push_back(preset.name);
+  return names;
+}
 
 using simulation::ConstantSpeed;
 using simulation::ConstantThrust;
@@ -59,7 +66,11 @@ const Object kPropulsion{
     {"thrust", "constant speed", "engine"}};
 
 const Object kShip{
-    {field("name", Kind::kName, "", {}, "\"ship-#\"", "its name in the outputs; # is its number",
+    {field(
+         "ship", Kind::kChoice, "", {}, kLeftOut,
+         "a preset (`polynya ships`), whose particulars are filled in where none are given here",
+         [](Draft&, const Value&) {}, preset_names()),
+     field("name", Kind::kName, "", {}, "\"ship-#\"", "its name in the outputs; # is its number",
            [](Draft& d, const Value& v) { d.ship().name = v.text(); }),
      field("hull", Kind::kObject, "", {}, "", "the waterline, by its main dimensions or point by point",
            nullptr, {}, "", &kHull),

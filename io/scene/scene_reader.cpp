@@ -9,6 +9,7 @@
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
 #include "io/scene/scene_hints.hpp"
+#include "io/scene/scene_presets.hpp"
 #include "io/scene/scene_resolve.hpp"
 #include "io/scene/ship_completion.hpp"
 #include "io/text/json_parser.hpp"
@@ -55,6 +56,7 @@ class SceneReader {
     assign(document.root, overrides.assignments, problems_);
     if (!document.root.find("name")) put(document.root, "name", default_name);
     override_scene(document.root, overrides);
+    fill_in_presets(document.root);
     resolved_ = resolve_scene(document.root, problems_);
     if (resolved_.members().empty()) return tl::unexpected(problems_.take());
     hold_constant_speeds(document.root);

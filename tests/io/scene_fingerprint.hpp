@@ -77,7 +77,7 @@ inline std::string fingerprint(const simulation::Scene& s) {
       text += " fixed\n";
   }
   for (const auto& floe : s.floes) {
-    text += fmt::format("floe {} {} {} {}", text_of(floe.polygon_in_world.outer), floe.velocity.x,
+    text += fmt::format("floe {} {} {} {} {}", text_of(floe.polygon_in_world.outer), floe.velocity.x,
                         floe.velocity.y, floe.angular_velocity, floe.is_fast);
     for (const auto& hole : floe.polygon_in_world.holes) text += " hole " + text_of(hole);
     text += '\n';
