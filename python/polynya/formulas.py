@@ -1,0 +1,117 @@
+"""Published formulas of a ship's resistance and thrust in ice, to compare with. SI units, angles in radians.
+
+Keys resolve in docs/references.md. None of the formulas is used by the simulation itself, but for the net thrust."""
+import dataclasses
+import math
+
+G = 9.81
+
+
+@dataclasses.dataclass(frozen=True)
+class Hull:
+    """Main particulars: length, beam, draught [m], stem angle from the horizontal, entrance angle from the centre line."""
+
+    length: float
+    beam: float
+    draught: float
+    stem: float
+    entrance: float
+
+    @property
+    def bow(self):
+        """Length of the bow of a wedge [m]."""
+        return 0.5 * self.beam / math.tan(self.entrance)
+
+    @property
+    def parallel(self):
+        """Length of its parallel midbody, up to a square stern [m]."""
+        return self.length - self.bow
+
+
+@dataclasses.dataclass(frozen=True)
+class Ice:
+    """Level ice in water. Thickness [m], strength and Young's modulus [Pa], densities [kg/m³]."""
+
+    thickness: float
+    flexural_strength: float = 0.8e6
+    friction: float = 0.2
+    density: float = 900
+    water_density: float = 1000
+    young: float = 5.4e9
+    poisson: float = 0.3
+
+
+def lindqvist(hull, ice, speed):
+    """Crushing, bending and submersion of [Lindqvist1989] (recall), each with its factor of speed [N].
+
+    R = (R_c + R_b)(1 + 1.4 v/√(g h)) + R_s (1 + 9.4 v/√(g L))."""
+    stem, entrance, mu, h = hull.stem, hull.entrance, ice.friction, ice.thickness
+    psi = math.atan(math.tan(stem) / math.sin(entrance))
+    crushing = 0.5 * ice.flexural_strength * h**2 * (math.tan(stem) + mu * math.cos(stem) / math.cos(psi)) / (
+        1 - mu * math.sin(stem) / math.cos(psi))
+    modulus = ice.young / (12 * (1 - ice.poisson**2) * ice.water_density * G)
+    bending = (27 / 64) * ice.flexural_strength * hull.beam * h**1.5 / math.sqrt(modulus) * (
+        math.tan(psi) + mu * math.cos(stem) / (math.sin(entrance) * math.cos(psi))) * (1 + 1 / math.cos(psi))
+    lighter = (ice.water_density - ice.density) * G * h * hull.beam
+    submersion = lighter * (rise(hull) + mu * slide(hull))
+    factor = 1 + 1.4 * speed / math.sqrt(G * h)
+    return crushing * factor, bending * factor, submersion * (1 + 9.4 * speed / math.sqrt(G * hull.length))
+
+
+def rise(hull):
+    """z̄, how deep ice is pushed under the hull on the mean [m]."""
+    return hull.draught * (hull.beam + hull.draught) / (hull.beam + 2 * hull.draught)
+
+
+def slide(hull):
+    """s̄, how far ice slides along the hull, as friction counts it [m]."""
+    psi = math.atan(math.tan(hull.stem) / math.sin(hull.entrance))
+    return (0.7 * hull.length - hull.draught / math.tan(hull.stem) - hull.beam / (4 * math.tan(hull.entrance))
+            + hull.draught * math.cos(hull.stem) * math.cos(psi)
+            * math.sqrt(1 / math.sin(hull.stem)**2 + 1 / math.tan(hull.entrance)**2))
+
+
+def riska(hull, ice, speed, bow=None, parallel=None):
+    """[Riska1997], C1 + C2 v [N]. The lengths of the bow and of the parallel midbody are the wedge's if not given."""
+    h, b, t, length = ice.thickness, hull.beam, hull.draught, hull.length
+    bow = hull.bow if bow is None else bow
+    parallel = hull.parallel if parallel is None else parallel
+    stem = math.degrees(hull.stem)
+    fixed = 0.23 * b * parallel * h / (2 * t / b + 1) + (1 + 0.021 * stem) * (
+        4.58 * b * h**2 + 1.47 * bow * h**2 + 0.29 * b * bow * h)
+    of_speed = (1 + 0.063 * stem) * (18.9 * h**1.5 + 0.67 * b * h) + 1.55 * h * (1 + 1.2 * t / b) * b**2 / math.sqrt(length)
+    return 1e3 * (fixed + of_speed * speed)
+
+
+def spencer_jones(hull, ice, speed):
+    """[SpencerJones2001] (recall), by strength number and Froude number [N]. Speed > 0."""
+    h, b = ice.thickness, hull.beam
+    strength = speed / math.sqrt(ice.flexural_strength * h / (ice.density * b))
+    froude = speed / math.sqrt(G * h)
+    breaking = (2.73 * strength**-1.54 + 1.11 * froude**-1.157) * ice.density * b * h * speed**2
+    return breaking + 0.5 * (ice.water_density - ice.density) * G * h * b * hull.draught
+
+
+def bollard_pull(power, diameter, propellers, has_nozzles=False):
+    """K_e (P D)^⅔ [N]: power of all propellers [W], diameter of one [m]; K_e .78, .98, 1.12 for 1, 2, 3 of them."""
+    factor = {1: 0.78, 2: 0.98, 3: 1.12}[propellers] * (1.4 if has_nozzles else 1)
+    return 1e3 * factor * (1e-3 * power * diameter)**(2 / 3)
+
+
+def net_thrust(bollard, open_water_speed, speed):
+    """What the propellers leave to break ice, T_B [1 − v/(3 v_ow) − ⅔ (v/v_ow)²] [N]."""
+    share = speed / open_water_speed
+    return bollard * (1 - share / 3 - 2 / 3 * share**2)
+
+
+def equilibrium(bollard, open_water_speed, resistance):
+    """The speed at which the net thrust equals resistance(speed) [m/s]; 0 where it does not reach it at rest."""
+    def excess(speed):
+        return net_thrust(bollard, open_water_speed, speed) - resistance(speed)
+    slow, fast = 1e-3, open_water_speed
+    if excess(slow) <= 0:
+        return 0.0
+    while fast - slow > 1e-9:
+        middle = 0.5 * (slow + fast)
+        slow, fast = (middle, fast) if excess(middle) > 0 else (slow, middle)
+    return 0.5 * (slow + fast)

@@ -1,0 +1,191 @@
+"""`polynya performance SHIP` (app/performance.cpp starts it)."""
+import argparse
+import concurrent.futures
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+
+from .. import formulas
+from .curve import Curve, RunFailed
+
+DONE, USAGE, INVALID, FAILED = 0, 2, 3, 4
+KNOT = 1852 / 3600
+EXAMPLES = """Examples:
+  polynya performance polaris                       ten thicknesses, on all processors
+  polynya performance araon --flexural-strength 630e3 --friction 0.1
+  polynya performance ship.json --thickness 0.4,0.8,1.2 --out runs/our-ship
+  polynya performance oden --list                   the formulas alone, without a run
+"""
+MEANING = """The speed that a ship keeps in level ice under full power, by thickness.
+
+Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error and its
+change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes on."""
+
+
+def thicknesses(text):
+    try:
+        values = sorted({float(part) for part in text.split(",")})
+    except ValueError:
+        values = []
+    if not values or not all(0 < value <= 10 for value in values):
+        raise argparse.ArgumentTypeError(f"found {text}, allowed: thicknesses > 0, ≤ 10 [m], as 0.4,0.8,1.2")
+    return values
+
+
+def share(text):
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0
+    if not 0 < value < 1:
+        raise argparse.ArgumentTypeError(f"found {text}, allowed: a share > 0, < 1")
+    return value
+
+
+def command_line():
+    parser = argparse.ArgumentParser(prog="polynya performance", formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     description=EXAMPLES + "\n" + MEANING)
+    parser.add_argument("ship", metavar="SHIP", help="a preset (polynya ships), or a JSON file with a ship as scenes have it")
+    parser.add_argument("--thickness", type=thicknesses, metavar="LIST", help="in metres; ten up to where the formulas stop the ship if not given")
+    parser.add_argument("--flexural-strength", type=float, default=500e3, metavar="PA", help="of the ice (500e3 if not given)")
+    parser.add_argument("--friction", type=float, default=0.1, metavar="MU", help="of ice on the hull (0.1 if not given)")
+    parser.add_argument("--error", type=share, default=0.03, metavar="SHARE", help="of the mean speed (0.03 if not given)")
+    parser.add_argument("--step", type=float, default=0.01, metavar="S", help="of time (0.01 if not given)")
+    parser.add_argument("--out", metavar="DIR", help="folder of the runs, the table and the figure; runs/performance-SHIP if not given")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="runs at a time; one a processor if not given")
+    parser.add_argument("--list", action="store_true", help="print the formulas' speeds and run nothing")
+    return parser
+
+
+def fail(code, message):
+    print(f"polynya performance: {message}", file=sys.stderr)
+    return code
+
+
+def ship_of(program, name):
+    """The ship and its reported speeds: of a preset, or of a file."""
+    if os.path.exists(name):
+        with open(name, encoding="utf-8") as file:
+            ship = json.load(file)
+        if "ship" not in ship:
+            return os.path.splitext(os.path.basename(name))[0], ship, []
+        preset = preset_of(program, ship.pop("ship"))
+        return os.path.splitext(os.path.basename(name))[0], preset["ship"] | ship, preset["reported"]
+    preset = preset_of(program, name)
+    return preset["title"], preset["ship"], preset["reported"]
+
+
+def preset_of(program, name):
+    done = subprocess.run([program, "ships", name, "--json"], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise ValueError(done.stderr.strip().removeprefix("polynya ships: "))
+    return json.loads(done.stdout)
+
+
+def engine_of(ship):
+    """Bollard pull [N] and open-water speed [m/s]."""
+    engine = ship.get("propulsion", {}).get("engine")
+    if not engine:
+        raise ValueError("a ship without propulsion.engine: what it can push with is not known")
+    pull = 1e3 * engine["bollard_pull_kN"] if "bollard_pull_kN" in engine else formulas.bollard_pull(
+        1e6 * engine["power_MW"], engine["propeller_diameter_m"], engine.get("propellers", 1), engine.get("nozzles", False))
+    return {"bollard_pull": pull, "open_water_speed": engine["open_water_speed_m_per_s"]}
+
+
+def hull_of(ship):
+    hull = ship["hull"]
+    for key in ("length_m", "beam_m", "draught_m", "stem_angle_deg", "entrance_angle_deg"):
+        if key not in hull:
+            raise ValueError(f"hull.{key} is not given: the formulas and the course need it")
+    return formulas.Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], math.radians(hull["stem_angle_deg"]),
+                         math.radians(hull["entrance_angle_deg"]))
+
+
+def ten_thicknesses(curve):
+    """Evenly up to a bit less than where Lindqvist's formula stops the ship."""
+    thin, thick = 0.05, 5.0
+    while thick - thin > 0.01:
+        middle = 0.5 * (thin + thick)
+        thin, thick = (middle, thick) if curve.formula_speeds(middle)["lindqvist"] > 0.2 else (thin, middle)
+    step = max(0.05, math.floor(thin / 10 * 20) / 20)
+    return [round(step * (i + 1), 3) for i in range(10)]
+
+
+def print_table(rows):
+    print(f"{'h [m]':>7}{'v [m/s]':>10}{'± [m/s]':>10}{'[kn]':>8}   {'ice [kN]':>10}{'under hull':>12}   "
+          f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}")
+    for row in rows:
+        note = "  stops" if row["is_stuck"] else "" if row["is_steady"] else "  not steady"
+        print(f"{row['thickness_m']:7g}{row['speed_m_per_s']:10.2f}{row['error_m_per_s']:10.2f}{row['speed_m_per_s'] / KNOT:8.1f}   "
+              f"{row['ice_kN']:10.0f}{row['submerged_kN']:12.0f}   {row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}"
+              f"{row['spencer_jones_m_per_s']:15.2f}{note}")
+
+
+def run_all(curve, wanted, jobs):
+    """The rows, thinnest ice first; what is done is reported as it comes."""
+    rows = {}
+    with concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:
+        futures = {pool.submit(curve.point, h): h for h in sorted(wanted, reverse=True)}
+        try:
+            for future in concurrent.futures.as_completed(futures):
+                row = future.result()
+                rows[futures[future]] = row
+                print(f"{len(rows)} of {len(futures)}: {row['thickness_m']:g} m at {row['speed_m_per_s']:.2f} m/s", file=sys.stderr, flush=True)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return [rows[h] for h in sorted(rows)]
+
+
+def main():
+    arguments = command_line().parse_args()
+    program = os.environ.get("POLYNYA_PROGRAM", "polynya")
+    try:
+        title, ship, reported = ship_of(program, arguments.ship)
+        ice = {"flexural_strength_Pa": arguments.flexural_strength, "friction": arguments.friction, "density_kg_per_m3": 900,
+               "youngs_modulus_Pa": 5.4e9, "poisson_ratio": 0.3}
+        name = os.path.splitext(os.path.basename(arguments.ship))[0]
+        folder = arguments.out or os.path.join("runs", f"performance-{name}")
+        curve = Curve(ship, hull_of(ship), engine_of(ship), ice, folder, program, arguments.error, arguments.step)
+    except (OSError, ValueError, KeyError) as error:
+        return fail(INVALID, error)
+    wanted = arguments.thickness or ten_thicknesses(curve)
+    if arguments.list:
+        print(f"{'h [m]':>7}{'Lindqvist':>11}{'Riska':>8}{'Spencer-Jones':>15}   speeds [m/s]")
+        for h in wanted:
+            speeds = curve.formula_speeds(h)
+            print(f"{h:7g}{speeds['lindqvist']:11.2f}{speeds['riska']:8.2f}{speeds['spencer_jones']:15.2f}")
+        return DONE
+    os.makedirs(folder, exist_ok=True)
+    try:
+        rows = run_all(curve, wanted, arguments.jobs)
+    except RunFailed as error:
+        return fail(FAILED, error)
+    except KeyboardInterrupt:
+        return fail(75, "stopped; the same command goes on with the runs that are left")
+    print_table(rows)
+    for point in reported:
+        print(f"reported: {point['thickness_m']:g} m at {point['speed_m_per_s']:.2f} m/s ({point['speed_m_per_s'] / KNOT:.1f} kn), {point['source']}")
+    table = os.path.join(folder, "performance.csv")
+    with open(table, "w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
+    print(f"table   {table}")
+    try:
+        from . import figure
+    except ImportError as error:
+        print(f"figure  none: {error}; ./setup.sh python installs what it needs", file=sys.stderr)
+        return DONE
+    picture = os.path.join(folder, "performance.png")
+    strength = f"σf {arguments.flexural_strength / 1e3:g} kPa, μ {arguments.friction:g}"
+    figure.draw(rows, f"{title}: level ice, full power\n{strength}", reported, picture)
+    print(f"figure  {picture}")
+    return DONE
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,64 @@
+"""A ship under full power in level ice: the scene of one thickness, and whether its speed is steady."""
+import csv
+import math
+import os
+
+import numpy as np
+
+BLOCKS = 6  # of the measured way
+
+
+def scene(ship, thickness, speed, lengths, ice, step):
+    """The ship at speed [m/s] 2 m before a plate of fast ice, on a course of so many of its own lengths."""
+    hull = ship["hull"]
+    length, width = hull["length_m"], 5 * hull["beam_m"]
+    way = lengths * length
+    ahead = {"pilot": {"hold_heading": {"heading_deg": 0, "lever": 1}}}
+    return {
+        "name": f"level-{thickness:g}",
+        "time": {"step_s": step, "until_s": math.ceil(way / speed)},
+        "ice": ice | {"thickness_m": thickness},
+        "ships": [ship | ahead | {"name": "ship", "position_m": [-0.5 * length - 2, 0], "speed_m_per_s": speed}],
+        "floes": [{"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way + 2 * length, width]}, "fast_ice": True}],
+        "record": {"forces_interval_s": 0.5, "frames_interval_s": max(60, way / speed / 20), "contacts": "none"},
+    }
+
+
+class Measured:
+    """A run's mean speed over ground, where the hull is full of ice [m/s], its error and what pushed."""
+
+    def __init__(self, folder, ship):
+        length = ship["hull"]["length_m"]
+        with open(os.path.join(folder, "forces.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        column = lambda name: np.array([float(row[name]) for row in rows])
+        time, x = column("t_s"), column("x_m")
+        surge, submerged = column("surge_N"), column("surge_from_submerged_ice_N")
+        self.way = x[-1] - x[0]
+        self.thrust = column("thrust_N")
+        self.is_stuck = x[-1] - x[np.searchsorted(time, 0.75 * time[-1])] < 0.05 * 0.25 * time[-1]
+        is_full = x - x[0] > 2.2 * length
+        if self.is_stuck or np.count_nonzero(is_full) < 4 * BLOCKS:
+            self.speed, self.error, self.is_steady = 0.0, 0.0, self.is_stuck
+            tail = time > 0.75 * time[-1]
+            self.ice = -np.mean(surge[tail])
+            self.submerged = -np.mean(submerged[tail])
+            return
+        time, x = time[is_full], x[is_full]
+        edges = np.linspace(x[0], x[-1], BLOCKS + 1)  # blocks of equal way
+        at = np.interp(edges, x, time)
+        speeds = np.diff(edges) / np.diff(at)
+        self.speed = (x[-1] - x[0]) / (time[-1] - time[0])
+        self.error = np.std(speeds, ddof=1) / math.sqrt(BLOCKS)
+        half = BLOCKS // 2
+        trend = abs(np.mean(speeds[half:]) - np.mean(speeds[:half]))
+        self.drift = trend / self.speed
+        self.ice = -np.mean(surge[is_full])
+        self.submerged = -np.mean(submerged[is_full])
+        self.is_steady = True
+
+    def is_within(self, share):
+        """Whether the mean's standard error, and half of the change between the halves, are below that share of it."""
+        if self.is_stuck:
+            return True
+        return self.is_steady and self.error <= share * self.speed and self.drift <= 2 * share + 2 * self.error / self.speed
