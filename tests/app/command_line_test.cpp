@@ -53,7 +53,8 @@ TEST(CommandLine, UsageErrorsNameTheCommandTheFaultAndWhatWasMeant) {
     std::string message;
   };
   const std::string commands =
-      "commands: run, resume, validate, schema, init, view, channel, figures, export, inspect, cut, "
+      "commands: run, resume, validate, schema, ships, performance, init, view, channel, figures, export, "
+      "inspect, cut, "
       "database, study\n";
   for (const Case& c : std::vector<Case>{
            {{"veiw", "x"}, "polynya: no such command: veiw; did you mean view?\n" + commands},

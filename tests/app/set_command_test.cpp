@@ -58,9 +58,9 @@ TEST(StudyCommand, NamesThePythonThatIsMissing) {
   const Outcome outcome = polynya({"study", "gather", "x"}, {folder.path()});
   unsetenv("POLYNYA_PYTHON");
   EXPECT_EQ(outcome.code, 5);
-  EXPECT_NE(
-      outcome.err.find("/no/such/python3: No such file or directory; studies need Python: ./setup.sh python"),
-      std::string::npos)
+  EXPECT_NE(outcome.err.find(
+                "/no/such/python3: No such file or directory; this command needs Python: ./setup.sh python"),
+            std::string::npos)
       << outcome.err;
 }
 

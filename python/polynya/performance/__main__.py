@@ -115,12 +115,12 @@ def ten_thicknesses(curve):
 
 
 def print_table(rows):
-    print(f"{'h [m]':>7}{'v [m/s]':>10}{'± [m/s]':>10}{'[kn]':>8}   {'ice [kN]':>10}{'under hull':>12}   "
+    print(f"{'h [m]':>7}{'v [m/s]':>10}{'± [m/s]':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
           f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}")
     for row in rows:
         note = "  stops" if row["is_stuck"] else "" if row["is_steady"] else "  not steady"
         print(f"{row['thickness_m']:7g}{row['speed_m_per_s']:10.2f}{row['error_m_per_s']:10.2f}{row['speed_m_per_s'] / KNOT:8.1f}   "
-              f"{row['ice_kN']:10.0f}{row['submerged_kN']:12.0f}   {row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}"
+              f"{row['contact_kN']:13.0f}{row['submerged_kN']:12.0f}   {row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}"
               f"{row['spencer_jones_m_per_s']:15.2f}{note}")
 
 

@@ -69,5 +69,5 @@ class Curve:
             lengths *= 2
         return {"thickness_m": thickness, "speed_m_per_s": measured.speed, "error_m_per_s": measured.error,
                 "is_steady": measured.is_within(self.error), "is_stuck": bool(measured.is_stuck),
-                "ice_kN": 1e-3 * measured.ice, "submerged_kN": 1e-3 * measured.submerged, "way_m": measured.way,
+                "contact_kN": 1e-3 * measured.contact, "submerged_kN": 1e-3 * measured.submerged, "way_m": measured.way,
                 "run": name} | {f"{name}_m_per_s": value for name, value in self.formula_speeds(thickness).items()}

@@ -35,13 +35,12 @@ class Measured:
         time, x = column("t_s"), column("x_m")
         surge, submerged = column("surge_N"), column("surge_from_submerged_ice_N")
         self.way = x[-1] - x[0]
-        self.thrust = column("thrust_N")
         self.is_stuck = x[-1] - x[np.searchsorted(time, 0.75 * time[-1])] < 0.05 * 0.25 * time[-1]
         is_full = x - x[0] > 2.2 * length
         if self.is_stuck or np.count_nonzero(is_full) < 4 * BLOCKS:
             self.speed, self.error, self.is_steady = 0.0, 0.0, self.is_stuck
             tail = time > 0.75 * time[-1]
-            self.ice = -np.mean(surge[tail])
+            self.contact = -np.mean(surge[tail])
             self.submerged = -np.mean(submerged[tail])
             return
         time, x = time[is_full], x[is_full]
@@ -53,7 +52,7 @@ class Measured:
         half = BLOCKS // 2
         trend = abs(np.mean(speeds[half:]) - np.mean(speeds[:half]))
         self.drift = trend / self.speed
-        self.ice = -np.mean(surge[is_full])
+        self.contact = -np.mean(surge[is_full])
         self.submerged = -np.mean(submerged[is_full])
         self.is_steady = True
 
