@@ -7,28 +7,10 @@ import signal
 from . import archive
 from .case import DONE, FAILED, INPUT_OUTPUT, STOPPED, die_with_parent, run_case, state_of
 from .folder import RUN
+from .stop import SIGNALS, Stop
 from .table import Counts, Display
 
 STUDY, STOP = None, None  # of a worker process
-
-
-class Stop:
-    """A request to stop: a pipe whose reading end becomes readable, in every process that has it, when it is raised or
-    when this process ends."""
-
-    def __init__(self):
-        self.reader, self.writer = os.pipe()
-        self.is_raised = False
-
-    def raise_on_signals(self):
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
-            if signal.getsignal(number) != signal.SIG_IGN:
-                signal.signal(number, self.on_signal)
-
-    def on_signal(self, number, _frame):
-        if not self.is_raised:
-            self.is_raised = True
-            os.close(self.writer)
 
 
 def begin_worker(study, stop):
@@ -37,7 +19,7 @@ def begin_worker(study, stop):
     die_with_parent(signal.SIGKILL)  # else it waits for work for ever; its run then stops with a checkpoint
     STUDY, STOP = study, stop.reader
     os.close(stop.writer)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
+    for number in SIGNALS:
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, lambda *_: None)  # not SIG_IGN, which polynya would inherit
 
