@@ -24,11 +24,11 @@ SCRIPT = """#!/bin/bash
 {more}
 # USR1 comes {grace} s before the time limit: the cases write checkpoints and the task queues again to continue. What a
 # node failure or a kill interrupts is queued again by --requeue, or by submitting again; finished cases cost nothing.
-is_late=
-{program} study run {folder} --chunk "$SLURM_ARRAY_TASK_ID" --jobs {cpus} --quiet{retry} &
-runner=$!
+is_late= runner=
 trap 'is_late=1; kill -TERM $runner' USR1
 trap 'kill -TERM $runner' TERM
+{program} study run {folder} --chunk "$SLURM_ARRAY_TASK_ID" --jobs {cpus} --quiet{retry} &
+runner=$!
 wait $runner; code=$?
 while kill -0 $runner 2>/dev/null; do wait $runner; code=$?; done
 if [ -n "$is_late" ] && [ $code = 75 ]; then
