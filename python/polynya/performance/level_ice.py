@@ -13,11 +13,14 @@ def scene(ship, thickness, speed, lengths, ice, step):
     hull = ship["hull"]
     length, width = hull["length_m"], 5 * hull["beam_m"]
     way = lengths * length
-    ahead = {"pilot": {"hold_heading": {"heading_deg": 0, "lever": 1}}}
+    can_steer = "steering" in ship
+    ahead = {"pilot": {"hold_heading": {"heading_deg": 0, "lever": 1}}} if can_steer else {}
     return {
         "name": f"level-{thickness:g}",
         "time": {"step_s": step, "until_s": math.ceil(way / speed)},
         "ice": ice | {"thickness_m": thickness},
+        # A plate without end does not split; what comes up behind the stern does not load the ship.
+        "fracture": {"splitting": {"shape_factor": 100}, "resurface": {"enabled": False}},
         "ships": [ship | ahead | {"name": "ship", "position_m": [-0.5 * length - 2, 0], "speed_m_per_s": speed}],
         "floes": [{"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way + 2 * length, width]}, "fast_ice": True}],
         "record": {"forces_interval_s": 0.5, "frames_interval_s": max(60, way / speed / 20), "contacts": "none"},
