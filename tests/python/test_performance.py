@@ -73,7 +73,7 @@ def test_a_steady_run_is_measured_where_the_hull_is_full(tmp_path):
     measured = level_ice.Measured(tmp_path, SHIP)
     assert measured.speed == pytest.approx(2, abs=0.02)
     assert measured.is_within(0.03) and not measured.is_stuck
-    assert 1e-3 * measured.ice == pytest.approx(100)
+    assert 1e-3 * measured.contact == pytest.approx(100)
     assert 1e-3 * measured.submerged == pytest.approx(40)
 
 
