@@ -192,6 +192,7 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
     const [x, y] = await page.evaluate((floe) => { const { view, places } = window.polynyaPlayer; return view.toScreen(places.x[floe], places.y[floe]); }, clicked.floe);
     await page.mouse.click(box.x + x, box.y + y);
     await page.waitForFunction((floe) => window.polynyaPlayer.state.selected === floe, clicked.floe);
+    await page.waitForFunction(() => !document.querySelector("#floe-card").textContent.startsWith("Point at"));
     const card = await page.locator("#floe-card").textContent();
     assert.match(card, /under the hullsince [\d.]+ s/);
     assert.ok(card.includes(`as floe ${clicked.children[0]}`), card);
