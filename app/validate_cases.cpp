@@ -17,7 +17,7 @@ class Report {
  public:
   Report(std::string name, ProblemFormat format) : name_(std::move(name)), format_(format) {}
 
-  void add(std::size_t line, std::vector<io::Problem> problems) {
+  void add(std::size_t line, const std::vector<io::Problem>& problems) {
     if (++refused_ > kMostPrinted && format_ == ProblemFormat::kText) return;
     if (format_ == ProblemFormat::kJson) {
       std::string list = io::to_json_text(problems);
@@ -74,8 +74,8 @@ int validate_cases(const std::string& scene, const std::string& cases, const io:
   for (std::size_t begin = 0; begin < text->size();) {
     const std::size_t end = std::min(text->find('\n', begin), text->size());
     const std::string_view line = std::string_view(*text).substr(begin, end - begin);
-    auto problems = problems_of(*scene_text, scene, line, cases, ++count, overrides);
-    if (!problems.empty()) report.add(count, std::move(problems));
+    const auto problems = problems_of(*scene_text, scene, line, cases, ++count, overrides);
+    if (!problems.empty()) report.add(count, problems);
     begin = end + 1;
   }
   return report.end(count);

@@ -47,11 +47,23 @@ def lindqvist(hull, ice, speed):
     R = (R_c + R_b)(1 + 1.4 v/√(g h)) + R_s (1 + 9.4 v/√(g L))."""
     stem, entrance, mu, h = hull.stem, hull.entrance, ice.friction, ice.thickness
     psi = math.atan(math.tan(stem) / math.sin(entrance))
-    crushing = 0.5 * ice.flexural_strength * h**2 * (math.tan(stem) + mu * math.cos(stem) / math.cos(psi)) / (
-        1 - mu * math.sin(stem) / math.cos(psi))
+    crushing = (
+        0.5
+        * ice.flexural_strength
+        * h**2
+        * (math.tan(stem) + mu * math.cos(stem) / math.cos(psi))
+        / (1 - mu * math.sin(stem) / math.cos(psi))
+    )
     modulus = ice.young / (12 * (1 - ice.poisson**2) * ice.water_density * G)
-    bending = (27 / 64) * ice.flexural_strength * hull.beam * h**1.5 / math.sqrt(modulus) * (
-        math.tan(psi) + mu * math.cos(stem) / (math.sin(entrance) * math.cos(psi))) * (1 + 1 / math.cos(psi))
+    bending = (
+        (27 / 64)
+        * ice.flexural_strength
+        * hull.beam
+        * h**1.5
+        / math.sqrt(modulus)
+        * (math.tan(psi) + mu * math.cos(stem) / (math.sin(entrance) * math.cos(psi)))
+        * (1 + 1 / math.cos(psi))
+    )
     lighter = (ice.water_density - ice.density) * G * h * hull.beam
     submersion = lighter * (rise(hull) + mu * slide(hull))
     factor = 1 + 1.4 * speed / math.sqrt(G * h)
@@ -66,9 +78,15 @@ def rise(hull):
 def slide(hull):
     """s̄, how far ice slides along the hull, as friction counts it [m]."""
     psi = math.atan(math.tan(hull.stem) / math.sin(hull.entrance))
-    return (0.7 * hull.length - hull.draught / math.tan(hull.stem) - hull.beam / (4 * math.tan(hull.entrance))
-            + hull.draught * math.cos(hull.stem) * math.cos(psi)
-            * math.sqrt(1 / math.sin(hull.stem)**2 + 1 / math.tan(hull.entrance)**2))
+    return (
+        0.7 * hull.length
+        - hull.draught / math.tan(hull.stem)
+        - hull.beam / (4 * math.tan(hull.entrance))
+        + hull.draught
+        * math.cos(hull.stem)
+        * math.cos(psi)
+        * math.sqrt(1 / math.sin(hull.stem) ** 2 + 1 / math.tan(hull.entrance) ** 2)
+    )
 
 
 def riska(hull, ice, speed, bow=None, parallel=None):
@@ -78,8 +96,11 @@ def riska(hull, ice, speed, bow=None, parallel=None):
     parallel = hull.parallel if parallel is None else parallel
     stem = math.degrees(hull.stem)
     fixed = 0.23 * b * parallel * h / (2 * t / b + 1) + (1 + 0.021 * stem) * (
-        4.58 * b * h**2 + 1.47 * bow * h**2 + 0.29 * b * bow * h)
-    of_speed = (1 + 0.063 * stem) * (18.9 * h**1.5 + 0.67 * b * h) + 1.55 * h * (1 + 1.2 * t / b) * b**2 / math.sqrt(length)
+        4.58 * b * h**2 + 1.47 * bow * h**2 + 0.29 * b * bow * h
+    )
+    of_speed = (1 + 0.063 * stem) * (18.9 * h**1.5 + 0.67 * b * h) + 1.55 * h * (
+        1 + 1.2 * t / b
+    ) * b**2 / math.sqrt(length)
     return 1e3 * (fixed + of_speed * speed)
 
 
@@ -95,7 +116,7 @@ def spencer_jones(hull, ice, speed):
 def bollard_pull(power, diameter, propellers, has_nozzles=False):
     """K_e (P D)^⅔ [N]: power of all propellers [W], diameter of one [m]; K_e .78, .98, 1.12 for 1, 2, 3 of them."""
     factor = {1: 0.78, 2: 0.98, 3: 1.12}[propellers] * (1.4 if has_nozzles else 1)
-    return 1e3 * factor * (1e-3 * power * diameter)**(2 / 3)
+    return 1e3 * factor * (1e-3 * power * diameter) ** (2 / 3)
 
 
 def net_thrust(bollard, open_water_speed, speed):
@@ -106,8 +127,10 @@ def net_thrust(bollard, open_water_speed, speed):
 
 def equilibrium(bollard, open_water_speed, resistance):
     """The speed at which the net thrust equals resistance(speed) [m/s]; 0 where it does not reach it at rest."""
+
     def excess(speed):
         return net_thrust(bollard, open_water_speed, speed) - resistance(speed)
+
     slow, fast = 1e-3, open_water_speed
     if excess(slow) <= 0:
         return 0.0

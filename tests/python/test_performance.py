@@ -21,7 +21,9 @@ def test_lindqvists_resistance_of_the_reference_ship(speed, resistance):
     assert lindqvist(speed) == pytest.approx(resistance, rel=1e-3)
 
 
-@pytest.mark.parametrize("thickness, at_rest, at_1", [(0.3, 202, 293), (0.8, 751, 1044), (1.0, 1039, 1425), (1.2, 1365, 1850)])
+@pytest.mark.parametrize(
+    "thickness, at_rest, at_1", [(0.3, 202, 293), (0.8, 751, 1044), (1.0, 1039, 1425), (1.2, 1365, 1850)]
+)
 def test_lindqvists_resistance_by_thickness(thickness, at_rest, at_1):
     assert lindqvist(0, thickness) == pytest.approx(at_rest, rel=3e-3)
     assert lindqvist(1, thickness) == pytest.approx(at_1, rel=3e-3)
@@ -63,8 +65,10 @@ def write_run(folder, speeds, step=0.5):
             writer.writerow([step * (i + 1), "ship", -1e5, -4e4, x])
 
 
-SHIP = {"hull": {"length_m": 100, "beam_m": 20, "draught_m": 7, "stem_angle_deg": 25, "entrance_angle_deg": 30},
-        "propulsion": {"engine": {"bollard_pull_kN": 1000, "open_water_speed_m_per_s": 8}}}
+SHIP = {
+    "hull": {"length_m": 100, "beam_m": 20, "draught_m": 7, "stem_angle_deg": 25, "entrance_angle_deg": 30},
+    "propulsion": {"engine": {"bollard_pull_kN": 1000, "open_water_speed_m_per_s": 8}},
+}
 
 
 def test_a_steady_run_is_measured_where_the_hull_is_full(tmp_path):
@@ -101,7 +105,13 @@ def test_what_a_ship_needs_is_asked_for():
 
 
 def test_the_curve_starts_near_the_formulas(tmp_path):
-    ice = {"flexural_strength_Pa": 500e3, "friction": 0.1, "density_kg_per_m3": 900, "youngs_modulus_Pa": 5.4e9, "poisson_ratio": 0.3}
+    ice = {
+        "flexural_strength_Pa": 500e3,
+        "friction": 0.1,
+        "density_kg_per_m3": 900,
+        "youngs_modulus_Pa": 5.4e9,
+        "poisson_ratio": 0.3,
+    }
     curve = Curve(SHIP, hull_of(SHIP), engine_of(SHIP), ice, str(tmp_path), "polynya", 0.03, 0.01)
     speeds = curve.formula_speeds(0.5)
     assert min(speeds.values()) > 1

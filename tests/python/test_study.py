@@ -231,6 +231,9 @@ def test_planning_again_changes_nothing_and_a_study_may_grow(folder):
     (folder / "plate.json").write_text(SCENE.replace("150", "140"))
     words = study("plan", write_study(folder, repetitions=3, grid={"ice.thickness_m": [0.4, 0.5]}), code=5)
     assert "with other inputs" in words
+    study("plan", write_study(folder, "more", repetitions=2), "--repetitions", 5, "--trial-seconds", 0)
+    assert open_study("studies/more").count == 5
+    assert "copies" in study("plan", write_study(folder, "own", grid={"seed": [3, 4]}), "--repetitions", 5, code=2)
     assert "150" in (folder / "studies/s/scenes/0/plate.json").read_text()
 
 

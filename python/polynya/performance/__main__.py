@@ -46,16 +46,40 @@ def share(text):
 
 
 def command_line():
-    parser = argparse.ArgumentParser(prog="polynya performance", formatter_class=argparse.RawDescriptionHelpFormatter,
-                                     description=EXAMPLES + "\n" + MEANING)
-    parser.add_argument("ship", metavar="SHIP", help="a preset (polynya ships), or a JSON file with a ship as scenes have it")
-    parser.add_argument("--thickness", type=thicknesses, metavar="LIST", help="in metres; ten up to where the formulas stop the ship if not given")
-    parser.add_argument("--flexural-strength", type=float, default=500e3, metavar="PA", help="of the ice (500e3 if not given)")
-    parser.add_argument("--friction", type=float, default=0.1, metavar="MU", help="of ice on the hull (0.1 if not given)")
-    parser.add_argument("--error", type=share, default=0.03, metavar="SHARE", help="of the mean speed (0.03 if not given)")
+    parser = argparse.ArgumentParser(
+        prog="polynya performance",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=EXAMPLES + "\n" + MEANING,
+    )
+    parser.add_argument(
+        "ship", metavar="SHIP", help="a preset (polynya ships), or a JSON file with a ship as scenes have it"
+    )
+    parser.add_argument(
+        "--thickness",
+        type=thicknesses,
+        metavar="LIST",
+        help="in metres; ten up to where the formulas stop the ship if not given",
+    )
+    parser.add_argument(
+        "--flexural-strength", type=float, default=500e3, metavar="PA", help="of the ice (500e3 if not given)"
+    )
+    parser.add_argument(
+        "--friction", type=float, default=0.1, metavar="MU", help="of ice on the hull (0.1 if not given)"
+    )
+    parser.add_argument(
+        "--error", type=share, default=0.03, metavar="SHARE", help="of the mean speed (0.03 if not given)"
+    )
     parser.add_argument("--step", type=float, default=0.01, metavar="S", help="of time (0.01 if not given)")
-    parser.add_argument("--out", metavar="DIR", help="folder of the runs, the table and the figure; runs/performance-SHIP if not given")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="runs at a time; one a processor if not given")
+    parser.add_argument(
+        "--out", metavar="DIR", help="folder of the runs, the table and the figure; runs/performance-SHIP if not given"
+    )
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="runs at a time; one a processor if not given",
+    )
     parser.add_argument("--list", action="store_true", help="print the formulas' speeds and run nothing")
     return parser
 
@@ -90,8 +114,16 @@ def engine_of(ship):
     engine = ship.get("propulsion", {}).get("engine")
     if not engine:
         raise ValueError("a ship without propulsion.engine: what it can push with is not known")
-    pull = 1e3 * engine["bollard_pull_kN"] if "bollard_pull_kN" in engine else formulas.bollard_pull(
-        1e6 * engine["power_MW"], engine["propeller_diameter_m"], engine.get("propellers", 1), engine.get("nozzles", False))
+    pull = (
+        1e3 * engine["bollard_pull_kN"]
+        if "bollard_pull_kN" in engine
+        else formulas.bollard_pull(
+            1e6 * engine["power_MW"],
+            engine["propeller_diameter_m"],
+            engine.get("propellers", 1),
+            engine.get("nozzles", False),
+        )
+    )
     return {"bollard_pull": pull, "open_water_speed": engine["open_water_speed_m_per_s"]}
 
 
@@ -100,8 +132,13 @@ def hull_of(ship):
     for key in ("length_m", "beam_m", "draught_m", "stem_angle_deg", "entrance_angle_deg"):
         if key not in hull:
             raise ValueError(f"hull.{key} is not given: the formulas and the course need it")
-    return formulas.Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], math.radians(hull["stem_angle_deg"]),
-                         math.radians(hull["entrance_angle_deg"]))
+    return formulas.Hull(
+        hull["length_m"],
+        hull["beam_m"],
+        hull["draught_m"],
+        math.radians(hull["stem_angle_deg"]),
+        math.radians(hull["entrance_angle_deg"]),
+    )
 
 
 def ten_thicknesses(curve):
@@ -115,13 +152,17 @@ def ten_thicknesses(curve):
 
 
 def print_table(rows):
-    print(f"{'h [m]':>7}{'v [m/s]':>10}{'± [m/s]':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
-          f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}")
+    print(
+        f"{'h [m]':>7}{'v [m/s]':>10}{'± [m/s]':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
+        f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}"
+    )
     for row in rows:
         note = "  stops" if row["is_stuck"] else "" if row["is_steady"] else "  not steady"
-        print(f"{row['thickness_m']:7g}{row['speed_m_per_s']:10.2f}{row['error_m_per_s']:10.2f}{row['speed_m_per_s'] / KNOT:8.1f}   "
-              f"{row['contact_kN']:13.0f}{row['submerged_kN']:12.0f}   {row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}"
-              f"{row['spencer_jones_m_per_s']:15.2f}{note}")
+        print(
+            f"{row['thickness_m']:7g}{row['speed_m_per_s']:10.2f}{row['error_m_per_s']:10.2f}{row['speed_m_per_s'] / KNOT:8.1f}   "
+            f"{row['contact_kN']:13.0f}{row['submerged_kN']:12.0f}   {row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}"
+            f"{row['spencer_jones_m_per_s']:15.2f}{note}"
+        )
 
 
 def run_all(curve, wanted, jobs):
@@ -133,7 +174,11 @@ def run_all(curve, wanted, jobs):
             for future in concurrent.futures.as_completed(futures):
                 row = future.result()
                 rows[futures[future]] = row
-                print(f"{len(rows)} of {len(futures)}: {row['thickness_m']:g} m at {row['speed_m_per_s']:.2f} m/s", file=sys.stderr, flush=True)
+                print(
+                    f"{len(rows)} of {len(futures)}: {row['thickness_m']:g} m at {row['speed_m_per_s']:.2f} m/s",
+                    file=sys.stderr,
+                    flush=True,
+                )
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
@@ -145,8 +190,13 @@ def main():
     program = os.environ.get("POLYNYA_PROGRAM", "polynya")
     try:
         title, ship, reported = ship_of(program, arguments.ship)
-        ice = {"flexural_strength_Pa": arguments.flexural_strength, "friction": arguments.friction, "density_kg_per_m3": 900,
-               "youngs_modulus_Pa": 5.4e9, "poisson_ratio": 0.3}
+        ice = {
+            "flexural_strength_Pa": arguments.flexural_strength,
+            "friction": arguments.friction,
+            "density_kg_per_m3": 900,
+            "youngs_modulus_Pa": 5.4e9,
+            "poisson_ratio": 0.3,
+        }
         name = os.path.splitext(os.path.basename(arguments.ship))[0]
         folder = arguments.out or os.path.join("runs", f"performance-{name}")
         curve = Curve(ship, hull_of(ship), engine_of(ship), ice, folder, program, arguments.error, arguments.step)
@@ -168,7 +218,9 @@ def main():
         return fail(75, "stopped; the same command goes on with the runs that are left")
     print_table(rows)
     for point in reported:
-        print(f"reported: {point['thickness_m']:g} m at {point['speed_m_per_s']:.2f} m/s ({point['speed_m_per_s'] / KNOT:.1f} kn), {point['source']}")
+        print(
+            f"reported: {point['thickness_m']:g} m at {point['speed_m_per_s']:.2f} m/s ({point['speed_m_per_s'] / KNOT:.1f} kn), {point['source']}"
+        )
     table = os.path.join(folder, "performance.csv")
     with open(table, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys())

@@ -21,23 +21,35 @@ class Curve:
     def level(self, thickness):
         """The ice of the formulas."""
         given = self.ice
-        return formulas.Ice(thickness, given["flexural_strength_Pa"], given["friction"], given["density_kg_per_m3"],
-                            1000.0, given["youngs_modulus_Pa"], given["poisson_ratio"])
+        return formulas.Ice(
+            thickness,
+            given["flexural_strength_Pa"],
+            given["friction"],
+            given["density_kg_per_m3"],
+            1000.0,
+            given["youngs_modulus_Pa"],
+            given["poisson_ratio"],
+        )
 
     def formula_speeds(self, thickness):
         """The speeds at which published resistances equal the net thrust [m/s]."""
         ice = self.level(thickness)
         pull, fast = self.engine["bollard_pull"], self.engine["open_water_speed"]
-        resistances = {"lindqvist": lambda v: sum(formulas.lindqvist(self.hull, ice, v)),
-                       "riska": lambda v: formulas.riska(self.hull, ice, v),
-                       "spencer_jones": lambda v: formulas.spencer_jones(self.hull, ice, v)}
+        resistances = {
+            "lindqvist": lambda v: sum(formulas.lindqvist(self.hull, ice, v)),
+            "riska": lambda v: formulas.riska(self.hull, ice, v),
+            "spencer_jones": lambda v: formulas.spencer_jones(self.hull, ice, v),
+        }
         return {name: formulas.equilibrium(pull, fast, of) for name, of in resistances.items()}
 
     def first_speed(self, thickness):
         """A speed to start at [m/s]: where a bit less than Lindqvist's resistance equals the net thrust."""
         ice = self.level(thickness)
-        speed = formulas.equilibrium(self.engine["bollard_pull"], self.engine["open_water_speed"],
-                                     lambda v: 0.8 * sum(formulas.lindqvist(self.hull, ice, v)))
+        speed = formulas.equilibrium(
+            self.engine["bollard_pull"],
+            self.engine["open_water_speed"],
+            lambda v: 0.8 * sum(formulas.lindqvist(self.hull, ice, v)),
+        )
         return max(0.5, speed)
 
     def run(self, scene, name):
@@ -45,13 +57,20 @@ class Curve:
         path, folder = os.path.join(self.folder, name + ".json"), os.path.join(self.folder, name)
         text = json.dumps(scene, indent=1)
         if os.path.exists(os.path.join(folder, "summary.json")) and os.path.exists(path):
-            with open(path, encoding="utf-8") as file, open(os.path.join(folder, "summary.json"), encoding="utf-8") as summary:
+            with open(path, encoding="utf-8") as file, open(
+                os.path.join(folder, "summary.json"), encoding="utf-8"
+            ) as summary:
                 if file.read() == text and json.load(summary).get("finished"):
                     return folder
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
-        done = subprocess.run([self.program, "run", path, "--out", folder, "--overwrite", "--progress", "none", "--threads", "1"],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(
+            [self.program, "run", path, "--out", folder, "--overwrite", "--progress", "none", "--threads", "1"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
         if done.returncode != 0:
             raise RunFailed(f"{path}: polynya run ended with {done.returncode}\n{done.stderr.strip()}")
         return folder
@@ -62,12 +81,20 @@ class Curve:
         while True:
             name = f"level-{thickness:g}-{lengths}"
             measured = level_ice.Measured(
-                self.run(level_ice.scene(self.ship, thickness, speed, lengths, self.ice, self.step), name), self.ship)
+                self.run(level_ice.scene(self.ship, thickness, speed, lengths, self.ice, self.step), name), self.ship
+            )
             rounds += 1
             if measured.is_within(self.error) or lengths >= MOST:
                 break
             lengths *= 2
-        return {"thickness_m": thickness, "speed_m_per_s": measured.speed, "error_m_per_s": measured.error,
-                "is_steady": measured.is_within(self.error), "is_stuck": bool(measured.is_stuck),
-                "contact_kN": 1e-3 * measured.contact, "submerged_kN": 1e-3 * measured.submerged, "way_m": measured.way,
-                "run": name} | {f"{name}_m_per_s": value for name, value in self.formula_speeds(thickness).items()}
+        return {
+            "thickness_m": thickness,
+            "speed_m_per_s": measured.speed,
+            "error_m_per_s": measured.error,
+            "is_steady": measured.is_within(self.error),
+            "is_stuck": bool(measured.is_stuck),
+            "contact_kN": 1e-3 * measured.contact,
+            "submerged_kN": 1e-3 * measured.submerged,
+            "way_m": measured.way,
+            "run": name,
+        } | {f"{name}_m_per_s": value for name, value in self.formula_speeds(thickness).items()}

@@ -5,7 +5,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 KNOT = 1852 / 3600
-FORMULAS = (("lindqvist", "Lindqvist 1989", "-"), ("riska", "Riska 1997", "--"), ("spencer_jones", "Spencer, Jones 2001", ":"))
+FORMULAS = (
+    ("lindqvist", "Lindqvist 1989", "-"),
+    ("riska", "Riska 1997", "--"),
+    ("spencer_jones", "Spencer, Jones 2001", ":"),
+)
 
 
 def draw(rows, title, reported, path):
@@ -14,14 +18,37 @@ def draw(rows, title, reported, path):
     plt.rcParams.update({"font.size": 8, "axes.spines.top": False, "axes.spines.right": False})
     figure, axes = plt.subplots(figsize=(4.7, 3.4), constrained_layout=True)
     band = [[row[f"{name}_m_per_s"] for name, _, _ in FORMULAS] for row in rows]
-    axes.fill_between(thickness, [min(b) for b in band], [max(b) for b in band], color="0.9", linewidth=0, label="band of the formulas")
+    axes.fill_between(
+        thickness,
+        [min(b) for b in band],
+        [max(b) for b in band],
+        color="0.9",
+        linewidth=0,
+        label="band of the formulas",
+    )
     for name, label, style in FORMULAS:
         axes.plot(thickness, [row[f"{name}_m_per_s"] for row in rows], style, color="0.35", linewidth=0.9, label=label)
-    axes.errorbar(thickness, [row["speed_m_per_s"] for row in rows], yerr=[1.96 * row["error_m_per_s"] for row in rows],
-                  fmt="o-", color="#0072b2", markersize=3.5, linewidth=1.2, capsize=2, label="Polynya, with 95 % of its error")
+    axes.errorbar(
+        thickness,
+        [row["speed_m_per_s"] for row in rows],
+        yerr=[1.96 * row["error_m_per_s"] for row in rows],
+        fmt="o-",
+        color="#0072b2",
+        markersize=3.5,
+        linewidth=1.2,
+        capsize=2,
+        label="Polynya, with 95 % of its error",
+    )
     if reported:
-        axes.plot([r["thickness_m"] for r in reported], [r["speed_m_per_s"] for r in reported], "D", color="#d55e00",
-                  markersize=5, linestyle="none", label="reported")
+        axes.plot(
+            [r["thickness_m"] for r in reported],
+            [r["speed_m_per_s"] for r in reported],
+            "D",
+            color="#d55e00",
+            markersize=5,
+            linestyle="none",
+            label="reported",
+        )
     axes.set(xlabel="thickness of level ice [m]", ylabel="speed [m/s]", ylim=(0, None), title=title)
     right = axes.secondary_yaxis("right", functions=(lambda v: v / KNOT, lambda v: v * KNOT))
     right.set_ylabel("[kn]")

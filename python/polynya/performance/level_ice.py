@@ -22,7 +22,9 @@ def scene(ship, thickness, speed, lengths, ice, step):
         # A plate without end does not split; what comes up behind the stern does not load the ship.
         "fracture": {"splitting": {"shape_factor": 100}, "resurface": {"enabled": False}},
         "ships": [ship | ahead | {"name": "ship", "position_m": [-0.5 * length - 2, 0], "speed_m_per_s": speed}],
-        "floes": [{"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way + 2 * length, width]}, "fast_ice": True}],
+        "floes": [
+            {"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way + 2 * length, width]}, "fast_ice": True}
+        ],
         "record": {"forces_interval_s": 0.5, "frames_interval_s": max(60, way / speed / 20), "contacts": "none"},
     }
 
@@ -63,4 +65,8 @@ class Measured:
         """Whether the mean's standard error, and half of the change between the halves, are below that share of it."""
         if self.is_stuck:
             return True
-        return self.is_steady and self.error <= share * self.speed and self.drift <= 2 * share + 2 * self.error / self.speed
+        return (
+            self.is_steady
+            and self.error <= share * self.speed
+            and self.drift <= 2 * share + 2 * self.error / self.speed
+        )

@@ -6,6 +6,7 @@ import pathlib
 import re
 
 from . import draws
+from .expand import repeats_by_seed
 from .located_json import LocatedJson, StudyError
 
 LARGEST_SEED = 2**53 - 1
@@ -250,10 +251,7 @@ class Reader:
         if definition.draw and "count" not in self.source.value["draw"]:
             self.report(["draw"], "found no count, allowed: how many draws")
 
-        varies_seed = any(
-            "seed" in block for block in (definition.fixed, definition.grid, definition.paired, definition.draw)
-        )
-        if varies_seed and definition.repetitions > 1:
+        if not repeats_by_seed(definition) and definition.repetitions > 1:
             self.report(
                 ["repetitions"],
                 f"found {definition.repetitions} where the study sets \"seed\" itself, allowed: 1; repetitions would be copies",

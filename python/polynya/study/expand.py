@@ -22,9 +22,7 @@ def expand(definition):
         path: draws.draw(definition.draw_seed, path, kind, numbers, definition.draws, definition.method)
         for path, (kind, numbers) in definition.draw.items()
     }
-    sets_seed = not any(
-        "seed" in block for block in (definition.fixed, definition.grid, definition.paired, definition.draw)
-    )
+    has_own_seeds = repeats_by_seed(definition)
     grid_paths, pairs = list(definition.grid), range(paired_count(definition))
     for repetition in range(definition.repetitions):
         for k in range(definition.draws):
@@ -34,13 +32,18 @@ def expand(definition):
                         case = dict(zip(grid_paths, values))
                         case.update((path, column[pair]) for path, column in definition.paired.items())
                         case.update((path, column[k]) for path, column in drawn.items())
-                        if sets_seed:
+                        if has_own_seeds:
                             case["seed"] = definition.seed + repetition
                         yield scene, case
 
 
+def repeats_by_seed(definition):
+    """Whether repetitions set the scene's seed: where nothing else of the study does."""
+    blocks = (definition.fixed, definition.grid, definition.paired, definition.draw)
+    return not any("seed" in block for block in blocks)
+
+
 def varied_paths(definition):
-    """The paths that differ between cases, in the order of the study, \"seed\" last."""
+    """The paths that differ between cases, in the order of the study."""
     paths = [*definition.grid, *definition.paired, *definition.draw]
-    has_own_seed = "seed" in paths or "seed" in definition.fixed
-    return paths if has_own_seed else [*paths, "seed"]
+    return [*paths, "seed"] if repeats_by_seed(definition) else paths

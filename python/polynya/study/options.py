@@ -48,6 +48,8 @@ def add_plan(actions):
     add(plan, "--out", "the study's folder; studies/<name> if not given", metavar="DIR")
     meaning = "cases of one task, folder and archive; so that there are at most 1000 tasks if not given"
     add(plan, "--chunk", meaning, type=WHOLE, metavar="N")
+    meaning = "instead of the study's own; it may grow later"
+    add(plan, "--repetitions", meaning, type=WHOLE, metavar="N")
     meaning = "refuse a study of more cases; ten million if not given"
     add(plan, "--most", meaning, type=WHOLE, metavar="N", default=10_000_000)
     meaning = "how long the trial of the first case may take; 20 if not given, 0: no trial"

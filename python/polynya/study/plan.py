@@ -14,7 +14,7 @@ import time
 from . import trial
 from .case import program
 from .definition import LARGEST_SEED, read_definition
-from .expand import count_cases, expand, varied_paths
+from .expand import count_cases, expand, repeats_by_seed, varied_paths
 from .folder import CASES, FORMAT, INDEX, PLAN, Study, list_of_numbers, write_atomically
 from .located_json import Problem, StudyError, read_json
 
@@ -27,6 +27,10 @@ def plan_study(file, options):
     if pathlib.Path(file).is_dir():
         raise StudyError(f"{file}: a folder; plan takes the study's JSON file", 2)
     definition = read_definition(file)
+    if options.repetitions:
+        if not repeats_by_seed(definition):
+            raise StudyError(f"{file}: it sets the seeds itself; with --repetitions cases would be copies", 2)
+        definition.repetitions = options.repetitions
     folder = pathlib.Path(options.out or pathlib.Path("studies") / definition.name)
     if count_cases(definition) > options.most:
         raise StudyError(f"{definition.file}: {count_cases(definition)} cases, more than --most {options.most}")

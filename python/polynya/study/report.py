@@ -17,7 +17,7 @@ PAGE = "study.html"
 MOST_PLAYERS, MOST_ROWS = 250, 2000
 RELATIVE_WIDTH = 0.05  # to which "cases needed" refers
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a2530}
-table{border-collapse:collapse;font-size:13px}td,th{padding:.15rem .6rem;border-bottom:1px solid #dde;text-align:right}
+table{border-collapse:collapse;font-size:13px}td,th{white-space:nowrap;padding:.15rem .6rem;border-bottom:1px solid #dde;text-align:right}
 th{position:sticky;top:0;background:#fff}img{max-width:100%}.wide{overflow-x:auto;max-height:32rem}code{background:#f0f3f6}"""
 
 
@@ -200,27 +200,30 @@ def statistics_table(rows, group_by):
     body = []
     for row in rows:
         label, factor = pictures.label_of(row["measure"])
-        scaled = (
-            lambda low, value, high: f"{row[value] * factor:.4g} ({row[low] * factor:.4g} – {row[high] * factor:.4g})"
-            if value in row
-            else ""
-        )
         cells = [
             label,
             row["group"],
             row["cases"],
-            scaled("mean_low", "mean", "mean_high"),
-            scaled("q99_low", "q99", "q99_high"),
+            with_interval(row, "mean", factor),
+            with_interval(row, "q99", factor),
             row["cases_for_5_percent"],
         ]
         for name in statistics.NAMES:
             level = f"{name}_exceeded_by_1_percent"
             cells += [
-                scaled(level + "_low", level, level + "_high") or row.get(f"{name}_note", ""),
+                with_interval(row, level, factor) or row.get(f"{name}_note", ""),
                 f"{row[name + '_ad_p']:.2g}" if name + "_ad_p" in row else "",
             ]
         body.append(cells)
     return table(head, body)
+
+
+def with_interval(row, name, factor):
+    """ "1.2 (1.1 – 1.4)"; empty where the row has none."""
+    if name not in row:
+        return ""
+    low, high = (f"{row[name + side] * factor:.4g}".replace("inf", "∞") for side in ("_low", "_high"))
+    return f"{row[name] * factor:.4g} ({low} – {high})"
 
 
 def case_table(study, sample):
