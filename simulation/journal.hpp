@@ -162,6 +162,8 @@ struct ShipSample {
   dynamics::Planar from_mooring;     ///< [N, N m]
   double lever = 0;                  ///< of the thrust, at the sampled step, −1 to 1
   double steering_angle = 0;         ///< of rudder or thrusters, to port [rad]
+  std::int32_t rams = 0;             ///< charges after the first, of a ramming pilot
+  double gained = 0;                 ///< by them, along the heading [m]
   double delivered_power = 0;        ///< by the lever, of the installed power; 0 where that is not known [W]
   int contacts = 0;                  ///< with ice, at the sampled step
   int contacts_with_ships = 0;       ///< with other ships and structures, at the sampled step

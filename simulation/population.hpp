@@ -7,6 +7,7 @@
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/journal.hpp"
+#include "simulation/pilot.hpp"
 #include "simulation/setup.hpp"
 
 namespace polynya::simulation {
@@ -42,9 +43,12 @@ struct Tile {
 
 /// How a ship is steered, and what it may lose.
 struct Helm {
-  double lever = 0;           ///< of the thrust, −1 to 1
-  double steering_angle = 0;  ///< of the rudder or the thrusters; to port [rad]
-  bool is_adrift = false;     ///< its mooring broke
+  double lever = 0;            ///< of the thrust, −1 to 1
+  double steering_angle = 0;   ///< of the rudder or the thrusters; to port [rad]
+  bool is_adrift = false;      ///< its mooring broke
+  double adrift_since = 0;     ///< [s]
+  dynamics::Planar ice_force;  ///< of the step before [N, N m]
+  PilotMemory memory;
 };
 
 /// The ships and floes of a run, where they are and how they move.

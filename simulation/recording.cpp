@@ -64,6 +64,8 @@ void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads
   s.from_mooring = mean(loads.mooring);
   s.lever = helm.lever;
   s.steering_angle = helm.steering_angle;
+  s.rams = helm.memory.rams;
+  s.gained = helm.memory.gained;
   const auto& engine = setup.sailing[s.ship].engine;
   s.delivered_power = engine ? std::abs(helm.lever) * engine->power : 0;
 }

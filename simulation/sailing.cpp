@@ -144,6 +144,11 @@ void add(const SailingLoads& of_step, SailingLoads& sum) {
   sum.mooring += of_step.mooring;
 }
 
+void break_mooring(const Clock& clock, Helm& helm) {
+  helm.is_adrift = true;
+  helm.adrift_since = clock.time() + clock.step;
+}
+
 void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, BodyIndex i,
                Population& population, Accounts& accounts) {
   dynamics::Bodies& bodies = population.bodies;
@@ -162,7 +167,8 @@ void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, 
   add(impulses, accounts.sailing[i]);
   const auto& mooring = setup.scene.ships[i].mooring;
   const double load = std::hypot(impulses.mooring.surge, impulses.mooring.sway) / dt;
-  if (mooring && mooring->break_load > 0 && load > mooring->break_load) population.helms[i].is_adrift = true;
+  if (mooring && mooring->break_load > 0 && load > mooring->break_load)
+    break_mooring(clock, population.helms[i]);
   if (!is_free) return;
   enter_all(impulses, 0.5 * (ship.now + end), bodies.rotation[i], accounts.audit);
   bodies.velocity[i] = rotate(bodies.rotation[i], {end.surge, end.sway});
@@ -232,10 +238,6 @@ Sailing sailing_of(const ShipSpec& ship, double water_density) {
   return sailing;
 }
 
-Helm helm_of(const ShipSpec& ship) {
-  return {.lever = std::holds_alternative<Engine>(ship.propulsion) ? 1.0 : 0.0};
-}
-
 void keep_motion(const Population& population, StepData& step) {
   step.start.resize(static_cast<std::size_t>(population.ship_count));
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship)
@@ -245,7 +247,11 @@ void keep_motion(const Population& population, StepData& step) {
 void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
           Accounts& accounts) {
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
-    if (setup.sailing[ship].is_active) sail_ship(setup, clock, step.start[ship], ship, population, accounts);
+    if (!setup.sailing[ship].is_active) continue;
+    const ContactLoads& ice = step.loads[ship].ice;
+    population.helms[ship].ice_force =
+        (1 / clock.step) * Planar{ice.impulse.x, ice.impulse.y, ice.angular_impulse};
+    sail_ship(setup, clock, step.start[ship], ship, population, accounts);
   }
 }
 

@@ -26,8 +26,4 @@ dynamics::MainDimensions dimensions_of(const ShipSpec& ship, double water_densit
 
 Sailing sailing_of(const ShipSpec& ship, double water_density);
 
-/// Lever and steering at the start.
-struct Helm;
-Helm helm_of(const ShipSpec& ship);
-
 }  // namespace polynya::simulation

@@ -12,6 +12,7 @@
 #include "fracture/splitting.hpp"
 #include "fracture/tilting.hpp"
 #include "geometry/shape/polygon.hpp"
+#include "simulation/pilot_settings.hpp"
 #include "simulation/sailing_settings.hpp"
 
 namespace polynya::simulation {
@@ -135,6 +136,7 @@ struct ShipSpec {
   Propulsion propulsion;
   HullWaterSettings water;
   Steering steering;
+  PilotSettings pilot;  ///< of a ship with an engine
   std::optional<MooringSettings> mooring;
 };
 

@@ -59,6 +59,11 @@ void Simulation::set_threads(int threads) {
   thread_limit_ = threads > 1 ? std::make_unique<dynamics::ThreadLimit>(threads) : nullptr;
 }
 
+void Simulation::set_pilot(int ship, ExternalPilot pilot) {
+  world_->pilots.resize(world_->setup.scene.ships.size());
+  world_->pilots.at(static_cast<std::size_t>(ship)) = std::move(pilot);
+}
+
 namespace {
 
 /// Validates the world, in builds with assertions.

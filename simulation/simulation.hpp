@@ -10,6 +10,7 @@
 #include "geometry/shape/pose.hpp"
 #include "simulation/energy.hpp"
 #include "simulation/journal.hpp"
+#include "simulation/pilot.hpp"
 #include "simulation/scene.hpp"
 
 namespace polynya::dynamics {
@@ -83,6 +84,10 @@ class Simulation {
 
   /// The number of threads to step on from now on. Results do not depend on it.
   void set_threads(int threads);
+
+  /// Puts a pilot from outside in the place of a ship's own; none gives the ship back to its own. What an
+  /// outside pilot remembers is not in state().
+  void set_pilot(int ship, ExternalPilot pilot);
 
   /// One time step. Appends what happened in it to journal().
   void step();

@@ -141,7 +141,8 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 21> kStages = {{
+const std::array<Stage, 22> kStages = {{
+    {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
     {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
     {"find pairs", [](World& w) { find_pairs(w.population); }},
     {"find contacts",

@@ -10,6 +10,13 @@ namespace polynya::simulation {
 // The stages of one time step. A stage reads what it takes as const and changes only what it takes as a
 // plain reference.
 
+/// Puts levers and steering where the pilots' first commands want them.
+void take_helms(const Setup& setup, const Clock& clock, Population& population);
+
+/// Asks the pilots, and moves levers and steering towards their commands.
+void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external,
+           Population& population);
+
 /// Keeps the ships' motion before the step's impulses.
 void keep_motion(const Population& population, StepData& step);
 
@@ -90,7 +97,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 21> kStages;
+extern const std::array<Stage, 22> kStages;
 
 /// One time step: all stages.
 void step(World& world);

@@ -1,4 +1,4 @@
-#include "simulation/world.hpp"
+#include "simulation/step.hpp"
 
 namespace polynya::simulation {
 
@@ -8,11 +8,12 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
       population(setup) {
   accounts.loads.resize(setup.scene.ships.size());
   accounts.sailing.resize(setup.scene.ships.size());
-  for (const ShipSpec& ship : setup.scene.ships) population.helms.push_back(helm_of(ship));
+  population.helms.resize(setup.scene.ships.size());
   if (start == Start::kEmpty) return;
   add_scene(setup, clock, population, journal);
   for (const Floe& floe : population.floes) accounts.ledger.initial_ice_area += floe.area;
   accounts.counts.floes_initial = population.floe_count();
+  take_helms(setup, clock, population);
   open_accounts(population.bodies, accounts.audit);
 }
 

@@ -130,6 +130,7 @@ struct World {
   StepData step;
   Accounts accounts;
   Journal journal;
+  std::vector<ExternalPilot> pilots;   ///< per ship, those that take the place of the scene's; or fewer
   std::optional<std::string> failure;  ///< why the run cannot continue
 };
 

@@ -200,6 +200,9 @@ constexpr ForceColumn kColumns[] = {
     of_helm(column<&S::delivered_power>("delivered_power_W", "W",
                                         "power of the engine at that lever; 0 where none is given"),
             kWithEngines, "Delivered power"),
+    of_helm(column<&S::rams>("rams", "", "charges after the first, of a pilot that rams"), kRamming, "Rams"),
+    of_helm(column<&S::gained>("gained_m", "m", "by rams, from where the ship was first stuck"), kRamming,
+            "Gained by ramming"),
     column<&S::contacts>("contacts", "", "with ice, at the end of the interval", "Contacts at the hull"),
     column<&S::contacts_with_ships>("contacts_with_ships", "",
                                     "with other ships and structures, at the end of the interval", "",
@@ -238,6 +241,8 @@ bool is_shown(ShownWhere where, const simulation::Scene& scene) {
   if (where == kWithThrusters)
     return any_ship(
         [](const Ship& s) { return std::holds_alternative<simulation::AzimuthSettings>(s.steering); });
+  if (where == kRamming)
+    return any_ship([](const Ship& s) { return std::holds_alternative<simulation::RammingPilot>(s.pilot); });
   if (where == kMoored) return any_ship([](const Ship& s) { return s.mooring.has_value(); });
   return where == kAlways || splits_by_j_over_tau_c(scene);
 }

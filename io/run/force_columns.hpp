@@ -20,6 +20,7 @@ enum class ShownWhere {
   kWithEngines,    ///< in scenes with ships that have one
   kWithThrusters,  ///< in scenes with ships that are steered by thrusters
   kWithRudders,    ///< in scenes with ships that are steered by rudders
+  kRamming,        ///< in scenes with ships whose pilots ram
   kMoored,         ///< in scenes with moored ships
   kWhereItSplits   ///< in scenes where j/τ_c decides splits
 };

@@ -105,14 +105,26 @@ std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
         ships[static_cast<std::size_t>(c.ship)].name, ships[static_cast<std::size_t>(c.other)].name, c.time,
         c.closing_speed,
         c.is_prescribed ? "the motion of both is prescribed, so they pass through each other and no force is "
-                          "computed: give the ship thrust_N"
+                          "computed: give the ship thrust_N or an engine"
                         : "forces.csv has these loads apart from those of ice, in its *_from_ships columns"));
   }
   return warnings;
 }
 
+void add_mooring_warnings(const Simulation& simulation, std::vector<std::string>& warnings) {
+  const auto& ships = simulation.scene().ships;
+  const auto& helms = simulation.world().population.helms;
+  for (std::size_t i = 0; i < ships.size(); ++i) {
+    if (helms[i].is_adrift)
+      warnings.push_back(fmt::format("the mooring of {} broke at {:.6g} s, above {:.4g} kN; it is adrift",
+                                     ships[i].name, helms[i].adrift_since,
+                                     1e-3 * ships[i].mooring->break_load));
+  }
+}
+
 std::vector<std::string> warnings_of(const Simulation& simulation, const simulation::Counts& counts) {
   std::vector<std::string> warnings = ship_contact_warnings(simulation);
+  add_mooring_warnings(simulation, warnings);
   const auto warn = [&](std::int64_t count, const char* words) {
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, words));
   };

@@ -67,6 +67,7 @@ const Object& hull_water_object();
 const Object& engine_object();
 const Object& steering_object();
 const Object& mooring_object();
+const Object& pilot_object();
 const Object& structure_object();
 const Object& floes_object();
 

@@ -104,6 +104,7 @@ class Hinter {
   }
 
   void hint_at_ice() {
+    if (scene_.floes.empty() && std::ranges::any_of(scene_.ships, simulation::sails)) return;
     if (scene_.floes.empty()) {
       add(Severity::kHint, value_at("floes", ""), "floes", "there is no ice in this scene");
       return;

@@ -7,6 +7,7 @@
 
 #include "io/scene/floe_group.hpp"
 #include "io/scene/floe_list_reader.hpp"
+#include "io/scene/pilot_check.hpp"
 #include "io/scene/scene_check.hpp"
 #include "io/scene/scene_hints.hpp"
 #include "io/scene/scene_presets.hpp"
@@ -64,6 +65,7 @@ class SceneReader {
     choose_hull_water(document.root, resolved_);
     build();
     fill_in_masses(draft_, resolved_);
+    complete_pilots(resolved_, draft_, problems_);
     check_scene(draft_, resolved_, problems_);
     if (problems_.count() > 0) return tl::unexpected(problems_.take());
     add_scene_hints(draft_, resolved_, problems_);
@@ -142,7 +144,7 @@ class SceneReader {
         add_ship(index, item);
       else if (list == "structures")
         add_structure(index, item);
-      else
+      else if (list == "floes")
         reader.add(index, item);
     });
     *resolved_.find("floes") = std::move(floes);

@@ -40,15 +40,8 @@ class Completion {
 
  private:
   void report(std::string_view key, std::string found, std::string allowed) {
-    const JsonValue* at = &item_;  // the deepest part of the key that is there
-    for (std::string_view rest = key; !rest.empty();) {
-      const std::size_t dot = rest.find('.');
-      const JsonValue* member = at->is(JsonValue::Kind::kObject) ? at->find(rest.substr(0, dot)) : nullptr;
-      if (!member) break;
-      at = member;
-      rest = dot == std::string_view::npos ? "" : rest.substr(dot + 1);
-    }
-    problems_.report(0, at->offset, fmt::format("{}.{}", path_, key), std::move(found), std::move(allowed));
+    problems_.report(0, nearest_offset(item_, key), fmt::format("{}.{}", path_, key), std::move(found),
+                     std::move(allowed));
   }
 
   dynamics::MainDimensions dimensions() const { return dimensions_of(ship_, density_); }

@@ -92,8 +92,13 @@ void fields(Archive& archive, Is<SailingLoads> auto& l) {
   archive(l.water, l.engine, l.rudder, l.mooring, l.ice_friction);
 }
 template <class Archive>
+void fields(Archive& archive, Is<PilotMemory> auto& m) {
+  archive(m.heading, m.speed_integral, m.drift_angle, m.waypoint, m.from, m.is_backing, m.slow_since,
+          m.stuck_at, m.first_stuck_at, m.rams, m.gained);
+}
+template <class Archive>
 void fields(Archive& archive, Is<Helm> auto& h) {
-  archive(h.lever, h.steering_angle, h.is_adrift);
+  archive(h.lever, h.steering_angle, h.is_adrift, h.adrift_since, h.ice_force, h.memory);
 }
 template <class Archive>
 void fields(Archive& archive, Is<AreaLedger> auto& l) {

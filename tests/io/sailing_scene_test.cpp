@@ -12,6 +12,8 @@ const std::string kMass = R"("mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9)";
 const std::string kEngine =
     R"("propulsion": {"engine": {"bollard_pull_kN": 1000, "open_water_speed_m_per_s": 8}})";
 
+const std::string kRudder = R"(, "steering": {"rudder": {}})";
+
 SceneOutcome read(const std::string& ship) {
   return read_scene("{\"ships\": [{" + ship + "}]}", "ship.json", ".");
 }
@@ -85,6 +87,23 @@ TEST(SailingScene, WhatDoesNotGoTogetherIsRefusedAtItsPlace) {
        "ships[0].mooring.break_load_N", "it pulls with 3e+06 N"},
       {kHull + R"(, "propulsion": {"constant_speed_m_per_s": 1}, "mooring": {})", "ships[0].mooring",
        "speed is prescribed"},
+      {kHull + "," + thrust + R"(, "pilot": {"constant": {}})", "ships[0].pilot", "without an engine"},
+      {kHull + "," + kEngine + R"(, "pilot": {"hold_heading": {}})", "ships[0].pilot.hold_heading",
+       "nothing to steer with"},
+      {kHull + "," + kEngine + kRudder + R"(, "pilot": {"constant": {"steering_deg": 40}})",
+       "ships[0].pilot.constant.steering_deg", "40°"},
+      {kHull + "," + kEngine + kRudder +
+           R"(, "pilot": {"table": {"rows": [{"t_s": 5, "lever": 1}, {"t_s": 5, "lever": 0}]}})",
+       "ships[0].pilot.table.rows[1].t_s", "5"},
+      {kHull + "," + kEngine + kRudder +
+           R"(, "pilot": {"route": {"waypoints": [{"position_m": [-500, 0], "speed_m_per_s": 3}]}})",
+       "ships[0].pilot.route.waypoints[0].position_m", "500 m behind the ship"},
+      {kHull + "," + kEngine + kRudder + R"(, "pilot": {"constant": {}, "hold_heading": {}})",
+       "ships[0].pilot", "constant and hold_heading together"},
+      {kHull + "," + kEngine + kRudder + R"(, "pilot": {"follow": {"ship": "ship-1", "distance_m": 100}})",
+       "ships[0].pilot.follow.ship", "cannot follow itself"},
+      {kHull + "," + kEngine + kRudder + R"(, "pilot": {"follow": {"ship": "Fram", "distance_m": 100}})",
+       "ships[0].pilot.follow.ship", "the name of no ship"},
   };
   for (const auto& c : cases) {
     const auto outcome = read(c.ship);
@@ -97,6 +116,40 @@ TEST(SailingScene, WhatDoesNotGoTogetherIsRefusedAtItsPlace) {
     EXPECT_EQ(problem.line, 1);
     EXPECT_GT(problem.column, 1);
   }
+}
+
+/// The only problem of a scene.
+Problem problem_of(const std::string& text) {
+  const auto outcome = read_scene(text, "ships.json", ".");
+  EXPECT_FALSE(outcome.has_value());
+  return outcome ? Problem{} : outcome.error().front();
+}
+
+TEST(SailingScene, RoutesStayClearOfStructures) {
+  const auto scene = [&](const std::string& waypoints) {
+    return "{\"ships\": [{" + kHull + "," + kEngine + kRudder + R"(, "pilot": {"route": {"waypoints": [)" +
+           waypoints + R"(]}}}], "structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}]})";
+  };
+  const Problem through = problem_of(scene(R"({"position_m": [1000, 0], "speed_m_per_s": 3})"));
+  EXPECT_EQ(through.path, "ships[0].pilot.route.waypoints[0].position_m");
+  EXPECT_NE(through.found.find("leads through tower"), std::string::npos);
+  problem_of(scene(R"({"position_m": [600, 31], "speed_m_per_s": 3})"));  // nearer than half a beam
+  const auto around = read_scene(
+      scene(
+          R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"),
+      "s", ".");
+  EXPECT_TRUE(around.has_value());
+}
+
+TEST(SailingScene, ShipsDoNotFollowEachOtherInARing) {
+  const auto ship = [&](const std::string& name, const std::string& leader, int y) {
+    return "{" + kHull + "," + kEngine + kRudder + R"(, "name": ")" + name + R"(", "position_m": [0, )" +
+           std::to_string(y) + R"(], "pilot": {"follow": {"distance_m": 100, "ship": ")" + leader + "\"}}}";
+  };
+  const Problem ring = problem_of("{\"ships\": [" + ship("a", "b", 0) + "," + ship("b", "c", 200) + "," +
+                                  ship("c", "a", 400) + "]}");
+  EXPECT_EQ(ring.path, "ships[0].pilot.follow.ship");
+  EXPECT_NE(ring.found.find("which follows this ship"), std::string::npos);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "scene_fingerprint.hpp"
 #include "temporary_folder.hpp"
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/scene/scene_reader.hpp"
@@ -41,12 +42,29 @@ const std::string kThird = R"({
 const std::string kFourth = R"({
   "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "draught_m": 6, "block_coefficient": 0.58},
              "propulsion": {"engine": {"power_MW": 15, "propeller_diameter_m": 4, "propellers": 2, "nozzles": true, "open_water_speed_m_per_s": 8}},
-             "steering": {"rudder": {"area_m2": 12}}},
+             "steering": {"rudder": {"area_m2": 12}}, "pilot": {"constant": {}}},
             {"hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 27, "draught_m": 6}, "mass_kg": 7e6, "moment_of_inertia_kg_m2": 4e9,
              "position_m": [0, 500], "propulsion": {"engine": {"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}},
              "steering": {"azimuth": {"max_deg": 90}},
+             "pilot": {"route": {"waypoints": [{"position_m": [500, 500], "speed_m_per_s": 3}, {"position_m": [900, 400], "speed_m_per_s": 2}]}},
              "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], "heading_deg": 1}}]
 })";
+
+/// One ship for each other pilot.
+std::string fleet() {
+  std::string ships;
+  const std::vector<std::string> pilots{
+      R"("hold_speed": {"speed_m_per_s": 3, "heading_deg": 10})", R"("hold_heading": {"heading_deg": 20})",
+      R"("table": {"rows": [{"t_s": 0, "lever": 0.5}, {"t_s": 60, "lever": 1, "steering_deg": 5}]})",
+      R"("ram": {"heading_deg": 3, "back_m": 150})", R"("follow": {"ship": "ship-1", "distance_m": 100})"};
+  for (std::size_t i = 0; i < pilots.size(); ++i)
+    ships += fmt::format(
+        R"({}{{"hull": {{"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "draught_m": 6, "block_coefficient": 0.58}},
+        "propulsion": {{"engine": {{"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}}}}, "steering": {{"rudder": {{}}}},
+        "position_m": [0, {}], "pilot": {{{}}}}})",
+        i > 0 ? ", " : "", 500 * i, pilots[i]);
+  return "{\"ships\": [" + ships + "]}";
+}
 
 LoadedScene load(const std::string& text) {
   auto loaded = read_scene(text, "base.json", ".");
@@ -123,7 +141,7 @@ std::set<std::string> all_leaves(const Object& table, const std::string& path) {
 }
 
 TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
-  for (const std::string& text : {kFirst, kSecond, kThird, kFourth, commented_scene()}) {
+  for (const std::string& text : {kFirst, kSecond, kThird, kFourth, fleet(), commented_scene()}) {
     const LoadedScene once = load(text);
     const LoadedScene again = load(once.resolved_text);
     EXPECT_EQ(again.resolved_text, once.resolved_text);
@@ -136,7 +154,7 @@ TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
 /// text.
 TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   std::set<std::string> seen;
-  for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth}) {
+  for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, fleet()}) {
     const LoadedScene base = load(base_text);
     JsonValue tree = parse_json(base.resolved_text).root;
     walk(scene_object(), tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
@@ -148,6 +166,11 @@ TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
       const bool is_under_hull = path == ".fracture.cusp_fate" || path == ".fracture.going_under.enabled" ||
                                  path == ".fracture.resurface.enabled";
       if (is_under_hull && !has_draught(base.scene)) return;  // no ice can go under these hulls
+      if (path == ".ships.pilot.follow.ship") {               // it must be a ship's name
+        seen.insert(path);
+        return;
+      }
+      if (path == ".ships.name" && base_text == fleet()) return;  // one of them is followed by its name
       if (path == ".ships.water.model" && !base.scene.ships[0].water.acts) return;  // it needs a draught
       seen.insert(path);
       const auto before = value.data;

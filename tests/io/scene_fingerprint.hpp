@@ -14,6 +14,37 @@ inline std::string text_of(const geometry::Ring& ring) {
   return text;
 }
 
+/// A pilot's settings, one by one.
+struct PilotText {
+  std::string operator()(const simulation::ConstantPilot& p) const {
+    return fmt::format(" constant {} {}", p.lever, p.steering_angle);
+  }
+  std::string operator()(const simulation::SpeedPilot& p) const {
+    return fmt::format(" speed {} {}", p.speed, p.heading);
+  }
+  std::string operator()(const simulation::HeadingPilot& p) const {
+    return fmt::format(" heading {} {}", p.heading, p.lever);
+  }
+  std::string operator()(const simulation::RoutePilot& p) const {
+    std::string text = fmt::format(" route {} {}", p.look_ahead, p.arrival);
+    for (const auto& w : p.waypoints)
+      text += fmt::format(" {} {} {}", w.position_in_world.x, w.position_in_world.y, w.speed);
+    return text;
+  }
+  std::string operator()(const simulation::TablePilot& p) const {
+    std::string text = " table";
+    for (const auto& r : p.rows) text += fmt::format(" {} {} {}", r.time, r.lever, r.steering_angle);
+    return text;
+  }
+  std::string operator()(const simulation::RammingPilot& p) const {
+    return fmt::format(" ram {} {} {} {} {} {}", p.heading, p.lever_ahead, p.lever_astern, p.stuck_speed,
+                       p.stuck_time, p.back_distance);
+  }
+  std::string operator()(const simulation::FollowingPilot& p) const {
+    return fmt::format(" follow {} {}", p.ship, p.distance);
+  }
+};
+
 inline std::string sailing_fingerprint(const simulation::ShipSpec& ship) {
   const auto& w = ship.water;
   std::string text = fmt::format(" water {} {} {} {} {}", w.acts, w.block_coefficient, w.cross_flow_drag,
@@ -25,6 +56,7 @@ inline std::string sailing_fingerprint(const simulation::ShipSpec& ship) {
     text += fmt::format(" rudder {} {} {} {}", r->area, r->aspect_ratio, r->rate, r->most);
   if (const auto* a = std::get_if<simulation::AzimuthSettings>(&ship.steering))
     text += fmt::format(" azimuth {} {}", a->rate, a->most);
+  text += std::visit(PilotText{}, ship.pilot);
   if (const auto& m = ship.mooring)
     text += fmt::format(" mooring {} {} {} {} {} {} {} {} {} {}", m->position_in_world.x,
                         m->position_in_world.y, m->heading, m->surge_stiffness, m->sway_stiffness,

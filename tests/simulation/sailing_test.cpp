@@ -181,6 +181,25 @@ TEST(Sailing, TheWaterSharesABlow) {
   EXPECT_GT(wet_mass, 1.5e7);
 }
 
+TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
+  Scene scene = in_water(engine(), 2, 0.01);
+  ShipSpec other = in_water(ConstantThrust{0}, 0).ships[0];
+  other.name = "other";
+  other.position_in_world = {125, 3};
+  scene.ships.push_back(other);
+  Simulation simulation(scene);
+  const Story story = run(simulation, 10);
+  ASSERT_EQ(story.ship_contacts.size(), 1U);
+  double by_ships = 0;
+  for (const ShipSample& s : story.samples) {
+    EXPECT_EQ(s.surge_force, 0);
+    EXPECT_EQ(s.friction_of_ice, dynamics::Planar{});
+    by_ships = std::max(by_ships, std::abs(s.surge_from_ships));
+  }
+  EXPECT_GT(by_ships, 1e5);
+  EXPECT_TRUE(simulation.audit().is_closed());
+}
+
 TEST(Sailing, EquilibriumOfAPrescribedResistanceIsTheClosedForm) {
   // A mooring without stiffness is a linear resistance of 166.4 kN s/m; 391 kN are left out of T_B.
   Scene scene = in_water(engine(1e6, 8), 1, 0.1);
@@ -251,8 +270,8 @@ TurningCircle turn(double rudder_angle) {
   Scene scene = in_water(engine(314e3, 6), 6, 0.1);
   RudderSettings rudder{.area = 0.018 * kLength * 6};
   scene.ships[0].steering = rudder;
+  scene.ships[0].pilot = ConstantPilot{1, rudder_angle * kDegree};
   World world(scene);
-  world.population.helms[0].steering_angle = rudder_angle * kDegree;
   while (world.clock.time() < 2500) step(world);
   TurningCircle circle;
   const std::vector<ShipSample>& samples = world.journal.samples;

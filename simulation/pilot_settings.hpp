@@ -1,0 +1,69 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geometry/shape/point.hpp"
+
+namespace polynya::simulation {
+
+// Who works a ship's thrust lever and steering. Angles in radians, from the x axis counter-clockwise;
+// steering angles to port; levers from −1 (full astern) to 1 (full ahead); speeds ahead through the water.
+
+inline constexpr double kAsAtStart = std::numeric_limits<double>::infinity();  ///< a heading: the ship's own
+
+/// Lever and steering where they are.
+struct ConstantPilot {
+  double lever = 1;
+  double steering_angle = 0;
+};
+/// A speed, on a heading where the ship can be steered.
+struct SpeedPilot {
+  double speed = 0;  ///< [m/s]
+  double heading = kAsAtStart;
+};
+/// A heading, at a lever.
+struct HeadingPilot {
+  double heading = kAsAtStart;
+  double lever = 1;
+};
+struct Waypoint {
+  geometry::Point position_in_world;  ///< [m]
+  double speed = 0;                   ///< on the leg to it [m/s]
+};
+/// From where the ship is at the start from waypoint to waypoint along straight legs; stops after the last.
+struct RoutePilot {
+  std::vector<Waypoint> waypoints;
+  double look_ahead = 2.5;  ///< of the line of sight, of the ship's length [-]
+  double arrival = 1;       ///< a waypoint counts as reached this near to it, of the ship's length [-]
+};
+struct TableRow {
+  double time = 0;  ///< [s]
+  double lever = 0;
+  double steering_angle = 0;
+};
+/// By the clock: linear between rows, the first and last before and after them.
+struct TablePilot {
+  std::vector<TableRow> rows;  ///< ascending in time
+};
+/// On a heading ahead until the ship is stuck, back, and ahead again.
+struct RammingPilot {
+  double heading = kAsAtStart;
+  double lever_ahead = 1;
+  double lever_astern = -1;
+  double stuck_speed = 0.1;  ///< ahead over ground; slower is stuck [m/s]
+  double stuck_time = 10;    ///< for so long [s]
+  double back_distance = 0;  ///< 0: the ship's length [m]
+};
+/// Behind another ship, at a distance from its stern to the stem.
+struct FollowingPilot {
+  std::string ship;     ///< its name
+  int leader = 0;       ///< its index in the scene
+  double distance = 0;  ///< [m]
+};
+using PilotSettings = std::variant<ConstantPilot, SpeedPilot, HeadingPilot, RoutePilot, TablePilot,
+                                   RammingPilot, FollowingPilot>;
+
+}  // namespace polynya::simulation
