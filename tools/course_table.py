@@ -11,6 +11,12 @@ import statistics
 import sys
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs/paper-comparison.md"
+SECTION = """
+## On 41 courses
+
+Half a metre apart, in each scene (`polynya study run scenes/studies/sawamura2017-courses.json`; `tools/course_table.py`): how many
+courses end in how many splits, and medians (least–most). The course decides more than anything else.
+"""
 BEGIN, END = "<!-- courses: begin -->", "<!-- courses: end -->"
 HEAD = [
     "scene",
@@ -68,6 +74,8 @@ def main(folder):
         ]
     )
     page = PAGE.read_text(encoding="utf-8")
+    if BEGIN not in page:
+        page = f"{page.rstrip()}\n{SECTION}\n{BEGIN}\n{END}\n"
     PAGE.write_text(page.split(BEGIN)[0] + BEGIN + "\n\n" + text + "\n\n" + END + page.split(END)[1], encoding="utf-8")
     print(text)
 
