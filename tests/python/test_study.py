@@ -3,6 +3,7 @@ import csv
 import json
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import subprocess
@@ -157,7 +158,7 @@ def test_everything_wrong_with_a_study_is_reported_with_its_place(folder):
   "grid": {"a": [], "b": {"from": 1, "to": 2}},
   "paired": {"c": [1], "d": [1, 2]},
   "draw": {"count": 0, "of": {"e": {"normal": {"mean": 1, "sd": -1}}, "a": {"uniform": {"low": 1, "high": 2}}}},
-  "collect": {"quantiles": [1.5], "time_to": {"port": {"z_m": 1}}}
+  "report": {"map": ["a"], "channels": -1, "means": 3}, "collect": {"quantiles": [1.5], "time_to": {"port": {"z_m": 1}}}
 }'''
     )
     found = problems_of(path)
@@ -172,6 +173,9 @@ def test_everything_wrong_with_a_study_is_reported_with_its_place(folder):
         'draw.of.a: found what "grid" varies too',
         "collect.quantiles",
         "collect.time_to.port: allowed: x_m",
+        "report.map: allowed: a list of two paths",
+        "report.channels: found -1",
+        "report.means: found 3, allowed: a list",
     ):
         assert any(words in problem for problem in found), (words, found)
     path.write_text('{"scene": "plate.json",\n "grid": {"a": [1, }}')
@@ -379,6 +383,17 @@ def study_ending(given):
         text=True,
         check=False,
     ).stderr
+
+
+def test_a_case_without_room_on_the_disk_is_unfinished_and_continues(folder):
+    study("plan", write_study(folder, set={"time.until_s": 60}), "--trial-seconds", 0)
+    command = [sys.executable, "-m", "polynya.study", "run", "studies/s", "--jobs", "1", "--quiet"]
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+    ran = subprocess.run(command, capture_output=True, text=True, preexec_fn=limit, check=False)
+    assert ran.returncode != 0 and "File too large" in ran.stderr, ran.stderr
+    assert "unfinished" in study("gather", "studies/s", code=75)
+    study("run", "studies/s", "--quiet")
+    study("gather", "studies/s")
 
 
 def test_a_case_that_runs_is_refused_to_another_process(folder):

@@ -105,10 +105,17 @@ def failed(study, number, folder, code, words):
     memory, leaves the case unfinished."""
     words = words.strip()[-KEPT_WORDS:] or f"exit code {code}"
     if code == INPUT_OUTPUT or (summary_of(folder / RUN) or {}).get("stopped_by") == "memory":
-        return code, f"case {number}: {words.splitlines()[-1]}"
+        return code, f"case {number}: {gist(words)}"
     result = {"state": "failed", **case_in_words(study, number), "exit_code": code, "message": words}
     write_atomically(folder / RESULT, json.dumps(result) + "\n")
-    return code, f"case {number}: {words.splitlines()[-1]}"
+    return code, f"case {number}: {gist(words)}"
+
+
+def gist(words):
+    """The line of a program's messages that says why it ended: its own, else the first problem of a scene."""
+    lines = words.splitlines()
+    stops = [line for line in lines if line.startswith("polynya: ") and "nothing was written" not in line]
+    return (stops or lines)[0].removeprefix("polynya: ")
 
 
 def summary_of(run):

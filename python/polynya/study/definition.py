@@ -239,6 +239,14 @@ class Reader:
     def report_keys(self, study):
         report = self.member(study, "report", dict, {})
         self.unknown_keys(report, REPORT_KEYS, ["report"])
+        for key in ("against", "group_by"):
+            self.member(report, key, str, "", ["report"])
+        for key, least in (("means", 0), ("exceedance", 0), ("map", 2)):
+            names = self.member(report, key, list, [], ["report"])
+            if not all(isinstance(name, str) for name in names) or (key in report and least and len(names) != least):
+                allowed = "two paths" if key == "map" else "names of measures"
+                self.report(["report", key], f"allowed: a list of {allowed}")
+        self.whole(report, "channels", 0, 100, 12, ["report"])
         return report
 
     def check_lengths(self, definition):

@@ -6,7 +6,7 @@ import os
 import sys
 
 from . import archive
-from .case import DONE, FAILED, STOPPED
+from .case import DONE, FAILED, STOPPED, gist
 from .folder import counted, list_of_numbers, write_atomically
 
 TABLE, NETCDF, SUMMARY = "table.csv", "table.nc", "gather.json"
@@ -79,7 +79,7 @@ def write_table(study, measures):
             if state != "finished":
                 rest.by_state[state].append(number)
             if state == "failed" and len(rest.messages) < MOST_SHOWN:
-                rest.messages.append((number, result["message"].splitlines()[-1]))
+                rest.messages.append((number, gist(result["message"])))
             rest.unknown += [name for name in found if name not in known]
             known.update(rest.unknown)
             given = [scene.stem if path == "scene" else cell(values.get(path)) for path in parameters]

@@ -25,7 +25,10 @@ def begin_worker(study, stop):
 
 
 def run_in_worker(number, keep):
-    return run_case(STUDY, number, STOP, keep)
+    try:
+        return run_case(STUDY, number, STOP, keep)
+    except OSError as error:  # a full disk: the other cases go on, or fail alike
+        return INPUT_OUTPUT, f"case {number}: {error}"
 
 
 def exit_code(counts):
