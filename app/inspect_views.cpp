@@ -65,9 +65,22 @@ std::string how_it_went_under(const simulation::TiltCriterion& c) {
   return fmt::format("edge {:.3g} m down >= {:.3g} m", c.deflection, c.least_deflection);
 }
 
-std::string described(const io::Run& run, const simulation::Event& event) {
+/// Both sides of what decided a bend or a split.
+std::string decided_by(const simulation::Event& event) {
+  const simulation::DecidingLoad deciding = simulation::deciding_load(event);
+  std::string text = fmt::format("{} {:.4g} N {} {} {:.4g} N", deciding.name, deciding.load,
+                                 deciding.comparison, deciding.capacity_name, deciding.capacity);
   const auto& c = event.criteria;
-  const bool is_split = event.kind == simulation::EventKind::kSplit;
+  if (event.kind != simulation::EventKind::kSplit || c.crack_width == 0) return text;
+  text += fmt::format("; crack L {:.4g} m, W {:.4g} m", c.crack_length, c.crack_width);
+  text += fmt::format("; contact force {:.4g} N, flanks {:.4g} and {:.4g} N", c.contact_force,
+                      c.flank_forces[0], c.flank_forces[1]);
+  if (deciding.load != c.opening_force)
+    text += fmt::format(", opening {:.4g} N of {:.4g} N", c.opening_force, c.opening_capacity);
+  return text + fmt::format(", K_IC {:.4g} Pa sqrt(m)", c.fracture_toughness);
+}
+
+std::string described(const io::Run& run, const simulation::Event& event) {
   const std::string_view name = io::ship_name(run.scene.scene, event.ship);
   const bool is_by_floe = event.by_floe != simulation::kNoFloe;
   const std::string by = is_by_floe     ? fmt::format(" by floe {}", event.by_floe)
@@ -84,10 +97,7 @@ std::string described(const io::Run& run, const simulation::Event& event) {
     text += fmt::format("{:.4g} m2 overlapped, width {:.4g} m < {:.4g} m", event.grinding.overlap_area,
                         event.grinding.width, event.grinding.least_width);
   else
-    text += fmt::format("{} {:.4g} N {} {} {:.4g} N", is_split ? "collision force" : "vertical force",
-                        is_split ? c.collision_force : c.vertical_force,
-                        is_split ? ">" : ">=", is_split ? "splitting force" : "bending capacity",
-                        is_split ? c.splitting_force : c.bending_capacity);
+    text += decided_by(event);
   if (event.under_hull_area > 0) text += fmt::format("; {:.6g} m2 under the hull", event.under_hull_area);
   if (event.under_ice_area > 0) text += fmt::format("; {:.6g} m2 under the ice", event.under_ice_area);
   if (event.submerged_area > 0) text += fmt::format("; {:.6g} m2 submerged", event.submerged_area);

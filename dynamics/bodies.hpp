@@ -12,7 +12,8 @@ namespace polynya::dynamics {
 
 using BodyIndex = std::int32_t;
 
-/// The drag of a shape, without speed and thickness. Made once per shape (water_drag.hpp).
+/// The drag of a shape, without speed and, by DragArea::kEdge, thickness. Made once per shape
+/// (drag_shape.hpp). By kPlan, all widths are the area [m²] and K is ∫ r³ dA [m⁵].
 struct DragShape {
   static constexpr int kDirections = 128;
   double rotational = 0;  ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]

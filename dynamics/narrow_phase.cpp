@@ -84,6 +84,7 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, bool is_circle_
     c.b = pair.b;
     for (int end = 0; end < 2; ++end) c.ends[end] = transform(water_from_a, manifold.ends[end]);
     c.tip_of_b = transform(water_from_a, manifold.tip_of_b);
+    c.tip_of_a = transform(water_from_a, manifold.tip_of_a);
     c.normal = rotate(water_from_a.rotation, manifold.normal);
     c.width = manifold.width;
     c.depth = manifold.depth;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <boost/container/small_vector.hpp>
 
@@ -16,83 +15,6 @@ using geometry::Vector;
 namespace {
 
 constexpr int kDirections = DragShape::kDirections;
-constexpr int kAround = 2 * kDirections;  // the directions of a whole turn; k + kDirections is opposite to k
-
-/// Where a direction is among those of a whole turn, from [0, kAround). The inverse of drag_direction.
-double place_around(Vector d) {
-  const double t = std::abs(d.y) / (std::abs(d.x) + std::abs(d.y));
-  const double half_turn = d.x >= 0 ? t : 2 - t;
-  return (d.y >= 0 ? half_turn : 4 - half_turn) * (0.25 * kAround);
-}
-
-struct UnitAcross {
-  Vector across;     // unit vector, perpendicular to drag_direction(k)
-  double share = 0;  // of the mean over directions
-};
-
-std::array<UnitAcross, kDirections> make_units() {
-  std::array<UnitAcross, kDirections> units;
-  for (int k = 0; k < kDirections; ++k) {
-    const Vector along = drag_direction(k);
-    units[k].across = perpendicular(along) / length(along);
-    // The known directions are not evenly spaced in angle: each stands for dθ = |d'| / |d|² of the diamond's
-    // edge.
-    units[k].share = (2.0 / kDirections) / squared_length(along) / std::numbers::pi;
-  }
-  return units;
-}
-
-/// How far a ring reaches from a centre within its hull, along the unit vectors across all directions of a
-/// whole turn [m]. A corner is farthest out only for directions between the normals of its two edges, so each
-/// is measured along those alone, and of many corners most along none.
-std::array<double, kAround> reaches(const geometry::Ring& ring, geometry::Point centre,
-                                    const std::array<UnitAcross, kDirections>& units) {
-  constexpr double kSlack = 1e-9;  // of the places, far more than rounding can be
-  std::array<double, kAround> reach{};
-  const std::size_t count = ring.size();
-  const auto normal_place = [&](std::size_t i) {  // along, that is: across is a quarter turn on
-    return place_around(-(ring[i + 1 < count ? i + 1 : 0] - ring[i]));
-  };
-  double before = normal_place(count - 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double after = normal_place(i);
-    double turn = after - before;
-    if (turn < 0) turn += kAround;
-    if (turn <= 0.5 * kAround + kSlack || turn >= kAround - kSlack) {  // a corner that points outwards
-      const double end = turn >= kAround - kSlack ? before + kSlack : before + turn + kSlack;
-      for (int k = static_cast<int>(std::ceil(before - kSlack)); k <= end; ++k) {
-        const int at = (k + kAround) % kAround;
-        const Vector out = at < kDirections ? units[at].across : -units[at - kDirections].across;
-        reach[at] = std::max(reach[at], dot(ring[i] - centre, out));
-      }
-    }
-    before = after;
-  }
-  return reach;
-}
-
-}  // namespace
-
-DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid) {
-  static const std::array<UnitAcross, kDirections> units = make_units();
-  const std::array<double, kAround> reach = reaches(polygon.outer, centroid, units);
-  DragShape shape;
-  for (int k = 0; k < kDirections; ++k) {
-    const double high = reach[k];
-    const double low = reach[k + kDirections];
-    shape.width[k] = high + low;
-    shape.rotational += (low * low * low * low + high * high * high * high) / 4 * units[k].share;
-  }
-  shape.width[kDirections] = shape.width[0];
-  return shape;
-}
-
-Vector drag_direction(int k) {
-  const double t = 2.0 * k / DragShape::kDirections;
-  return t < 1 ? Vector{1 - t, t} : Vector{1 - t, 2 - t};
-}
-
-namespace {
 
 /// Where a direction (of any length > 0) is among those of half a turn, from [0, kDirections]. The inverse of
 /// drag_direction.
@@ -195,7 +117,7 @@ Vector flow_at(const Columns& bodies, BodyIndex i, const ShearCurrent& current) 
 }
 
 /// Writes what changes the motion of the bodies into the lanes.
-void gather(const Columns& bodies, Lanes& l, std::size_t count, double half_rate,
+void gather(const Columns& bodies, Lanes& l, std::size_t count, double half_rate, bool is_plan,
             const ShearCurrent& current) {
   const double turning = current.is_still() ? 0 : current.angular_velocity();
   for (std::size_t k = 0; k < count; ++k) {
@@ -205,7 +127,7 @@ void gather(const Columns& bodies, Lanes& l, std::size_t count, double half_rate
     l.uy[k] = u.y;
     l.cosine[k] = bodies.rotation[i].cosine;
     l.sine[k] = bodies.rotation[i].sine;
-    l.rate[k] = half_rate * bodies.thickness[i];
+    l.rate[k] = is_plan ? half_rate : half_rate * bodies.thickness[i];
     l.inverse_mass[k] = bodies.inverse_mass[i];
     l.mass[k] = bodies.mass[i];
     l.omega[k] = bodies.angular_velocity[i] - turning;
@@ -238,24 +160,24 @@ void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const She
   }
 }
 
-/// Brakes the lanes' bodies over the step; half_rate is ½ C_D ρ_w Δt.
-void brake(const Columns& bodies, Lanes& l, std::size_t count, double half_rate, const ShearCurrent& current,
+/// Brakes the lanes' bodies over the step.
+void brake(const Columns& bodies, Lanes& l, std::size_t count, const WaterDrag& water, double dt,
            WaterWork& work) {
-  gather(bodies, l, count, half_rate, current);
+  const double half_rate = 0.5 * water.drag_coefficient * water.density * dt;
+  gather(bodies, l, count, half_rate, water.area == DragArea::kPlan, water.current);
   find_places(l, count);
   for (std::size_t k = 0; k < count; ++k) {
     l.width[k] = width_at(bodies, l.body[k], l.place[k]);
     l.rotational[k] = bodies.span[l.body[k]].rotational;
   }
   brake(l, count);
-  scatter(bodies, l, count, current, work);
+  scatter(bodies, l, count, water.current, work);
 }
 
 }  // namespace
 
 WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
                            double dt, int threads) {
-  const double half_rate = 0.5 * water.drag_coefficient * water.density * dt;
   const Columns columns(bodies);
   boost::container::small_vector<WaterWork, 16> works(chunk_count(awake.size(), kBodiesPerChunk));
   for_chunks(awake.size(), kBodiesPerChunk, threads,
@@ -267,7 +189,7 @@ WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, 
                  if (columns.span[awake[k]].place >= 0 || columns.drag[awake[k]] != nullptr)
                    lanes.body[count++] = awake[k];
                  if (count < Lanes::kMost && k + 1 < end) continue;
-                 brake(columns, lanes, count, half_rate, water.current, work);
+                 brake(columns, lanes, count, water, dt, work);
                  count = 0;
                }
                works[chunk] = work;

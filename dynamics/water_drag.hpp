@@ -1,17 +1,9 @@
 #pragma once
 
 #include "dynamics/bodies.hpp"
-#include "geometry/shape/polygon.hpp"
+#include "dynamics/drag_shape.hpp"
 
 namespace polynya::dynamics {
-
-/// Width of a shape across each direction and its rotational drag integral, about `centroid` in its frame
-/// [m].
-DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid);
-
-/// The k-th of the 128 directions over half a turn at which widths are known: evenly around a diamond, since
-/// that needs no arctangent to find a direction's place among them. Not of unit length.
-geometry::Vector drag_direction(int k);
 
 /// Width across a direction in the body frame (of any length > 0), interpolated between the known ones [m]:
 /// within 2e-4 for a square, and within aspect/64 of the width of a slender piece where its kink falls
@@ -36,6 +28,7 @@ struct WaterDrag {
   double drag_coefficient = 0.5;  ///< C_D [-]
   double density = 1000;          ///< ρ_w [kg/m³]
   ShearCurrent current;
+  DragArea area = DragArea::kEdge;  ///< A, as the bodies' drag shapes have it
 };
 
 /// What the water did to the bodies over a step.
@@ -47,14 +40,14 @@ struct WaterWork {
 };
 
 /// Applies the drag of the water to every awake body over dt [s]. Eq. (6) of [Sawamura2017]:
-///   F = −½ C_D ρ_w A |u| u,   A = h × width across u,
+///   F = −½ C_D ρ_w A |u| u,   A = h × width across u (DragArea::kEdge) or the area in plan (kPlan),
 /// with u relative to the water at the centre of mass, and the same law for the rotation, ω relative to half
 /// the water's vorticity, each strip at distance s from the centre moving at ω s through the water:
-/// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions. The effect
-/// of a current's strain on rotation is left out: a long floe would not turn evenly. Deviation: the paper
-/// prints the floe's own velocity for u; a drifting floe would be braked by its own current. Solved exactly
-/// over the step for constant A, v⁺ = v / (1 + c |v| dt): stable for any step. The bodies' kinetic energy
-/// changes by by_current − lost.
+/// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions; in plan
+/// M = −½ C_D ρ_w ∫r³ dA |ω| ω. The effect of a current's strain on rotation is left out: a long floe would
+/// not turn evenly. Deviation: the paper prints the floe's own velocity for u; a drifting floe would be
+/// braked by its own current. Solved exactly over the step for constant A, v⁺ = v / (1 + c |v| dt): stable
+/// for any step. The bodies' kinetic energy changes by by_current − lost.
 WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
                            double dt, int threads = 1);
 

@@ -9,19 +9,32 @@ enum class Failure { kNone, kCrush, kBend, kSplit };
 struct FailureCriteria {
   double floe_size = 0;         ///< L = √area [m]
   double breakable_size = 0;    ///< κ l [m]
-  double collision_force = 0;   ///< j / τ_c of Eq. (5) [N]
-  double splitting_force = 0;   ///< F_s [N]; of use only where crack_length ≥ breakable_size
-  double crack_length = 0;      ///< path of the crack in ice [m]
-  bool has_ice_beside = true;   ///< ice on both sides of the crack's mouth; else it would only pare the edge
+  double contact_force = 0;     ///< the true one of the contact in the step [N]
   double vertical_force = 0;    ///< V of the crushing contact, down on the ice [N]
   double bending_capacity = 0;  ///< V_b [N]
+
+  // The crack:
+  double crack_length = 0;  ///< L, its path in ice; 0 where there is none [m]
+  double crack_width = 0;   ///< W: twice the mean width of the ice on its narrower side [m]
+  bool pares = false;       ///< it would leave a sliver: it does not count
+
+  // Splitting by Eq. (4), with j/τ_c:
+  double collision_force = 0;  ///< j / τ_c of Eq. (5) [N]
+  double splitting_force =
+      0;  ///< F_s, of use only where crack_length > 0; 0 where the rule is not in use [N]
+
+  // Splitting by the true forces, on the same crack:
+  double flank_forces[2] = {0, 0};  ///< that push the ice on its left and right apart [N]
+  double opening_force = 0;         ///< F, the lesser of them [N]
+  double opening_capacity = 0;      ///< F_max [N]
+  double fracture_toughness = 0;    ///< K_IC [Pa √m]
 };
 
 /// Small floes are pushed away; else a hard enough hit splits; else ice pressed down enough breaks off a
 /// cusp; else the contact crushes.
 constexpr Failure decide(const FailureCriteria& c) {
   if (c.floe_size < c.breakable_size) return Failure::kNone;
-  const bool can_crack = c.crack_length >= c.breakable_size && c.has_ice_beside;
+  const bool can_crack = c.crack_length > 0 && !c.pares;
   if (can_crack && c.collision_force > c.splitting_force) return Failure::kSplit;
   if (c.vertical_force > 0 && c.vertical_force >= c.bending_capacity) return Failure::kBend;
   return Failure::kCrush;

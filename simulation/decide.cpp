@@ -3,7 +3,7 @@
 
 #include "dynamics/chunks.hpp"
 #include "fracture/splitting.hpp"
-#include "geometry/contact/crack_path.hpp"
+#include "simulation/crack.hpp"
 #include "simulation/ship_contact_load.hpp"
 #include "simulation/step.hpp"
 
@@ -12,9 +12,6 @@ namespace {
 
 using dynamics::Contact;
 using geometry::Vector;
-
-/// A crack starts and ends this far outside the ice, so that it separates [m].
-constexpr double kCrackMargin = 1e-3;
 
 struct CrushingForce {
   double force = 0;      ///< [N]
@@ -50,27 +47,16 @@ void set_breaking(Contact& c, double force) {
   c.missed_impulse *= share_of_force * (exponent > 0 ? std::pow(share_of_force, 1 / exponent) : 1);
 }
 
-/// F_s along a crack of that length [m] in ice [N].
-double splitting_force(const Setup& setup, const fracture::Ice& ice, double length) {
-  const FractureSettings& fracture = setup.scene.fracture;
-  return fracture::splitting_force(fracture.splitting, ice, length, fracture.splitting_shape_factor);
-}
-
-/// The crack that would start at the contact, along the hull's normal through all ice ahead, and the force
-/// that it takes.
+/// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
+/// ahead, and the force that it takes.
 void measure_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
                    PendingFracture& pending) {
   const Contact& c = load.contact;
-  const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
-  pending.crack_in_body =
-      geometry::crack_path(*bodies.boundary[c.b], inverse_transform(water_from_floe, c.middle()),
-                           rotate_back(water_from_floe.rotation, c.normal), kCrackMargin);
-  // At the corner that an earlier crack left, the next one would run along its face and pare it strip by
-  // strip.
-  pending.criteria.has_ice_beside =
-      std::min(load.wedge.front, load.wedge.back) >= fracture::kSmallestHalfAngle;
-  pending.criteria.crack_length = pending.crack_in_body.length_in_ice;
-  pending.criteria.splitting_force = splitting_force(setup, load.ice, pending.criteria.crack_length);
+  pending.crack_in_body = crack_through(bodies, c.b, c.middle(), c.normal, geometry::CrackReach::kFarSide);
+  const double length = pending.crack_in_body.length_in_ice;
+  pending.criteria.crack_length = length;
+  pending.criteria.splitting_force =
+      fracture::michel_splitting_force(load.ice, length, setup.scene.fracture.splitting_shape_factor);
 }
 
 /// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
@@ -100,17 +86,20 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   criteria.collision_force = load.impulse / setup.scene.contact.contact_time;
   if (criteria.floe_size < criteria.breakable_size) return pending;
 
-  // Cracks shorter than κ l do not count: below the force that such a crack takes, none can split.
-  if (criteria.collision_force > splitting_force(setup, load.ice, criteria.breakable_size))
+  const bool is_michel = setup.scene.fracture.splitting == fracture::SplittingModel::kMichel;
+  if (is_michel) {  // by true forces it is decided after the solver
     measure_crack(setup, population.bodies, load, pending);
+    if (criteria.crack_length > 0 && criteria.collision_force > criteria.splitting_force)
+      measure_sides(setup, population.bodies, c.b, pending.crack_in_body, criteria);
+  }
   if (load.shares.vertical > 0) {
     const bool is_in_range = measure_bending(setup, load, pending);
     if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
   }
   pending.failure = fracture::decide(criteria);
-  // Too weak for any crack, but the record of a bend states the other criterion's two sides as well.
-  if (pending.failure == fracture::Failure::kBend && criteria.crack_length == 0)
-    measure_crack(setup, population.bodies, load, pending);
+  // The record of a bend states the other criterion's two sides as well.
+  if (is_michel && pending.failure == fracture::Failure::kBend && criteria.crack_length > 0)
+    measure_sides(setup, population.bodies, c.b, pending.crack_in_body, criteria);
   pending.ship = c.a;
   pending.floe = population.floe_of(c.b);
   pending.point_in_water = c.middle();

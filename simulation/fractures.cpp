@@ -23,6 +23,7 @@ Event event_of(const Clock& clock, const PendingFracture& pending, EventKind kin
   event.time = clock.time();
   event.kind = kind;
   event.ship = pending.ship;
+  event.by_floe = pending.by_floe;
   event.floe = pending.floe;
   event.point_in_world = pending.point_in_water + clock.drift();
   event.normal_in_world = pending.normal;

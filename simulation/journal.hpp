@@ -61,7 +61,7 @@ struct Event {
   double time = 0;  ///< [s]
   EventKind kind = EventKind::kBend;
   int ship = 0;              ///< index in the scene; -1 where a floe did it
-  FloeId by_floe = kNoFloe;  ///< the floe that ground it
+  FloeId by_floe = kNoFloe;  ///< the floe that ground or split it
   FloeId floe = kNoFloe;     ///< the floe that broke (its children's parent)
   std::vector<FloeId> children;
   geometry::Point point_in_world;      ///< contact point [m]
@@ -79,6 +79,16 @@ struct Event {
   double rounding_defect = 0;          ///< [m²]
   std::string reason;                  ///< of a rejected cut
 };
+
+/// What decided that ice bent or split, as every view shows it.
+struct DecidingLoad {
+  std::string_view name;           ///< of the load
+  std::string_view comparison;     ///< ">" or ">="
+  std::string_view capacity_name;  ///< of what it reached
+  double load = 0;                 ///< [N]
+  double capacity = 0;             ///< [N]
+};
+DecidingLoad deciding_load(const Event& event);
 
 /// The first contact of two ships, or of a ship and a structure. Written as one line of events.ndjson.
 struct ShipContact {

@@ -54,6 +54,7 @@ NewFloe new_floe_of(const FloeSpec& spec, Point centroid, const Setup& setup) {
 
 Population::Population(const Setup& setup)
     : ship_count(static_cast<int>(setup.scene.ships.size())),
+      drag_area(setup.scene.water.drag_area),
       pairs(contact_rule(setup), grid_cell(setup.scene)) {}
 
 void add_scene(const Setup& setup, const Clock& clock, Population& population, Journal& journal) {
@@ -134,8 +135,9 @@ void add_drag(BodyIndex body, Population& population) {
     population.bodies.drag[body] = none;
     return;
   }
-  population.bodies.drag[body] = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(
-      population.floes[population.floe_of(body)].shape.polygon, population.bodies.centroid[body]));
+  population.bodies.drag[body] = std::make_shared<dynamics::DragShape>(
+      dynamics::make_drag_shape(population.floes[population.floe_of(body)].shape.polygon,
+                                population.bodies.centroid[body], population.drag_area));
 }
 
 bool is_current_still_at(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dynamics/broad_phase.hpp"
+#include "dynamics/drag_shape.hpp"
 #include "fracture/tilting.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
@@ -56,6 +57,7 @@ struct Population {
   explicit Population(const Setup& setup);
 
   int ship_count = 0;
+  dynamics::DragArea drag_area;    ///< the scene's
   dynamics::Bodies bodies;         ///< the ships first, then floes by id
   std::vector<Helm> helms;         ///< per ship
   std::vector<Floe> floes;         ///< by id

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "dynamics/drag_shape.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/materials.hpp"
@@ -35,8 +36,9 @@ struct ShearSettings {
 
 struct WaterSettings {
   fracture::Water water;
-  double drag_coefficient = 0.5;  ///< C_D of Eq. (6) [-]
-  geometry::Vector drift;         ///< velocity of the water, and of all ice with it [m/s]
+  double drag_coefficient = 0.5;                             ///< C_D of Eq. (6) [-]
+  dynamics::DragArea drag_area = dynamics::DragArea::kEdge;  ///< A of Eq. (6)
+  geometry::Vector drift;  ///< velocity of the water, and of all ice with it [m/s]
   ShearSettings shear;
 };
 
@@ -95,6 +97,7 @@ struct FractureSettings {
   bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
   fracture::SplittingModel splitting = fracture::SplittingModel::kMichel;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
+  fracture::LeastPiece least_piece;      ///< that a crack leaves on either side
   CuspFate cusp_fate = CuspFate::kSubmerge;
   GoingUnderSettings going_under;
   ResurfaceSettings resurface;

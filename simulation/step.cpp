@@ -98,7 +98,8 @@ void apply_forces(const Setup& setup, int threads, Population& population, Audit
   const double dt = setup.scene.time.step;
   const WaterSettings& water = setup.scene.water;
   enter_water(apply_water_drag(population.bodies, population.awake,
-                               {water.drag_coefficient, water.water.density, setup.current}, dt, threads),
+                               {water.drag_coefficient, water.water.density, setup.current, water.drag_area},
+                               dt, threads),
               audit);
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
     if (const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion))
@@ -141,7 +142,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 22> kStages = {{
+const std::array<Stage, 23> kStages = {{
     {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
     {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
     {"find pairs", [](World& w) { find_pairs(w.population); }},
@@ -156,6 +157,7 @@ const std::array<Stage, 22> kStages = {{
     {"solve impulses",
      [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
     {"drop unbroken", [](World& w) { drop_unbroken(w.setup, w.step); }},
+    {"find splits", [](World& w) { find_splits(w.setup, w.population, w.step); }},
     {"tilt floes", [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
     {"tally loads", [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},

@@ -38,6 +38,9 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
 /// By the law of crushing ice: drops the bends whose contacts were not loaded up to V_b.
 void drop_unbroken(const Setup& setup, StepData& step);
 
+/// By true forces: the floes that their contacts split. Enters the true forces into what breaks otherwise.
+void find_splits(const Setup& setup, const Population& population, StepData& step);
+
 /// Tilts the floes that hulls press down, by the impulses found; those pressed down far enough are to go
 /// under.
 void tilt_floes(const Setup& setup, Population& population, StepData& step);
@@ -97,7 +100,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 22> kStages;
+extern const std::array<Stage, 23> kStages;
 
 /// One time step: all stages.
 void step(World& world);

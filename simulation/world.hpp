@@ -54,7 +54,8 @@ struct SailingLoads {
 /// A fracture decided in this step, to be applied at its end.
 struct PendingFracture {
   fracture::Failure failure = fracture::Failure::kNone;
-  int ship = 0;
+  int ship = 0;              ///< that breaks it; -1 where a floe does
+  FloeId by_floe = kNoFloe;  ///< that breaks it
   FloeId floe = 0;
   geometry::Point point_in_water;       ///< contact point [m]
   geometry::Point first_touch_in_body;  ///< of the floe: the cusp's centre [m]

@@ -77,12 +77,13 @@ void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>&
 
 /// Where two bodies overlap, seen as one contact. In the frame of a.
 struct ContactManifold {
-  Point ends[2];                    ///< the ends of the contact line [m]
-  Vector normal;                    ///< unit, from a into b
-  double width = 0;                 ///< length of the contact line [m]
-  double depth = 0;                 ///< extent of the overlap along the normal [m]
-  double area = 0;                  ///< of the overlap [m²]
-  Point tip_of_b;                   ///< the point of b farthest inside a [m]
+  Point ends[2];     ///< the ends of the contact line [m]
+  Vector normal;     ///< unit, from a into b
+  double width = 0;  ///< length of the contact line [m]
+  double depth = 0;  ///< extent of the overlap along the normal [m]
+  double area = 0;   ///< of the overlap [m²]
+  Point tip_of_b;    ///< the point of b farthest inside a [m]
+  Point tip_of_a;    ///< the corner of a farthest inside b; the line's middle where none is [m]
   std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
 
   // Of a pierced body, whose overlap has several stretches of a boundary:

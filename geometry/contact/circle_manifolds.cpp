@@ -26,6 +26,7 @@ void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_f
     manifold.area = 2.0 / 3.0 * depth * manifold.width;  // of a thin lens
     manifold.ends[0] = middle - half_chord * perpendicular(manifold.normal);
     manifold.ends[1] = middle + half_chord * perpendicular(manifold.normal);
+    manifold.tip_of_a = middle;
     manifold.tip_of_b = ca.centre + (centres - cb.radius) * manifold.normal;
     manifold.tip_edge_of_b = b.pieces[pair.b].first_edge;
     manifolds.push_back(manifold);

@@ -44,36 +44,72 @@ std::vector<std::uint32_t> edges_near_line(const Boundary& boundary, Point point
   return near;
 }
 
-/// Distances along the line through the point at which it crosses the boundary, in order [m].
-std::vector<double> crossings_of_line(const Boundary& boundary, Point point, Vector direction) {
+/// Where a line crosses the boundary.
+struct LineCrossing {
+  double at = 0;  ///< along the line [m]
+  std::uint32_t edge = 0;
+};
+
+/// The crossings of the line through the point with the boundary, in order.
+std::vector<LineCrossing> crossings_of_line(const Boundary& boundary, Point point, Vector direction) {
   const EdgeList& edges = boundary.edges;
-  std::vector<double> at;
+  std::vector<LineCrossing> crossings;
   for (const std::uint32_t e : edges_near_line(boundary, point, direction)) {
     const double from = cross(direction, edges.from(e) - point);
     const double to = cross(direction, edges.to(e) - point);
     if ((from > 0) == (to > 0)) continue;
     const double t = from / (from - to);
-    at.push_back(dot(direction, edges.from(e) + t * (edges.to(e) - edges.from(e)) - point));
+    crossings.push_back({dot(direction, edges.from(e) + t * (edges.to(e) - edges.from(e)) - point), e});
   }
-  std::sort(at.begin(), at.end());
-  return at;
+  std::ranges::stable_sort(crossings, {}, &LineCrossing::at);
+  return crossings;
 }
 
 }  // namespace
 
-CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin) {
-  const std::vector<double> at = crossings_of_line(boundary, point, direction);
-  CrackPath path{point - margin * direction, point + margin * direction, 0};
+CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin,
+                     CrackReach reach) {
+  const std::vector<LineCrossing> crossings = crossings_of_line(boundary, point, direction);
+  CrackPath path{point - margin * direction, point + margin * direction, 0, 0, 0};
   // The line is in ice between crossings 0–1, 2–3, …: an even count, since every ring is closed.
   double start = -margin;
-  for (std::size_t i = 0; i + 1 < at.size(); i += 2) {
-    if (at[i + 1] <= 0) continue;
-    if (at[i] <= 0) start = at[i] - margin;  // the point lies in this stretch of ice: begin behind it
-    path.length_in_ice += at[i + 1] - std::max(0.0, at[i]);
-    path.end = point + (at[i + 1] + margin) * direction;
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+    const auto [enter, first_edge] = crossings[i];
+    const auto [leave, last_edge] = crossings[i + 1];
+    if (leave <= 0) continue;
+    if (enter <= 0) start = enter - margin;  // the point lies in this stretch of ice: begin behind it
+    if (path.length_in_ice == 0) path.first_edge = first_edge;
+    path.last_edge = last_edge;
+    path.length_in_ice += leave - std::max(0.0, enter);
+    path.end = point + (leave + margin) * direction;
+    if (reach == CrackReach::kFirstEdge && boundary.edges.ring[last_edge] == 0) break;
   }
   path.start = point + start * direction;
   return path;
+}
+
+CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
+  const EdgeList& edges = boundary.edges;
+  if (path.length_in_ice <= 0 || edges.ring[path.first_edge] != 0 || edges.ring[path.last_edge] != 0)
+    return {};
+  const Vector crack = path.end - path.start;
+  const auto crossing = [&](std::uint32_t edge) {
+    const Point from = edges.from(edge);
+    const Vector along = edges.to(edge) - from;
+    return from + (cross(crack, path.start - from) / cross(crack, along)) * along;
+  };
+  const Point start = crossing(path.first_edge);
+  const Point end = crossing(path.last_edge);
+  const auto doubled = [&](Point p, Point q) { return cross(p - end, q - end); };
+  double all = 0;
+  for (std::uint32_t e = 0; e < edges.size() && edges.ring[e] == 0; ++e)
+    all += doubled(edges.from(e), edges.to(e));
+  // The left side: from the crack's end around the ice, counter-clockwise, to its start.
+  double left = 0;
+  for (std::uint32_t e = edges.next[path.last_edge]; e != path.first_edge; e = edges.next[e])
+    left += doubled(edges.from(e), edges.to(e));
+  left += doubled(edges.from(path.first_edge), start);
+  return {0.5 * left, 0.5 * (all - left)};
 }
 
 }  // namespace polynya::geometry

@@ -99,6 +99,7 @@ bool make_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, c
            enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is, scratch.side_a);
   manifold.area = on_a.area;
   manifold.depth = on_a.depth;
+  manifold.tip_of_a = on_a.tip;
   manifold.tip_of_b = midpoint(enter.point, leave.point);
   manifold.tip_edge_of_b = enter.edge_b;
   bool is_closed = on_a.is_closed;

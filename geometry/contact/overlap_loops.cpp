@@ -245,6 +245,7 @@ ContactManifold gradient_manifold(const Boundary& a, const Boundary& b, const Po
   const Point middle = centroid + std::clamp(lever, low, low + room) * along;
   manifold.ends[0] = middle - 0.5 * manifold.width * along;
   manifold.ends[1] = middle + 0.5 * manifold.width * along;
+  manifold.tip_of_a = middle;
   return manifold;
 }
 

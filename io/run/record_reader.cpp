@@ -67,6 +67,13 @@ fracture::FailureCriteria criteria_of(const JsonValue& criterion) {
   criteria.collision_force = number(criterion, "collision_force_N");
   criteria.splitting_force = number(criterion, "splitting_force_N");
   criteria.crack_length = number(criterion, "crack_length_m");
+  criteria.crack_width = number_or(criterion, "crack_width_m", 0);
+  criteria.contact_force = number_or(criterion, "contact_force_N", 0);
+  criteria.opening_force = number_or(criterion, "opening_force_N", 0);
+  criteria.opening_capacity = number_or(criterion, "opening_capacity_N", 0);
+  criteria.flank_forces[0] = number_or(criterion, "left_flank_force_N", 0);
+  criteria.flank_forces[1] = number_or(criterion, "right_flank_force_N", 0);
+  criteria.fracture_toughness = number_or(criterion, "fracture_toughness_Pa_sqrt_m", 0);
   criteria.vertical_force = number(criterion, "vertical_force_N");
   criteria.bending_capacity = number(criterion, "bending_capacity_N");
   return criteria;

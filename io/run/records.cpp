@@ -51,16 +51,19 @@ void append_criterion(JsonWriter& json, const simulation::Event& event) {
     json.key("least_area_m2").value(event.grinding.least_area).close('}');
     return;
   }
-  if (event.kind == simulation::EventKind::kSplit) {
-    json.key("kind").value("collision force > splitting force");
-    json.key("load_N").value(c.collision_force).key("capacity_N").value(c.splitting_force);
-  } else {
-    json.key("kind").value("vertical force >= bending capacity");
-    json.key("load_N").value(c.vertical_force).key("capacity_N").value(c.bending_capacity);
-  }
+  const simulation::DecidingLoad deciding = simulation::deciding_load(event);
+  json.key("kind").value(fmt::format("{} {} {}", deciding.name, deciding.comparison, deciding.capacity_name));
+  json.key("load_N").value(deciding.load).key("capacity_N").value(deciding.capacity);
   json.key("floe_size_m").value(c.floe_size).key("breakable_size_m").value(c.breakable_size);
   json.key("collision_force_N").value(c.collision_force).key("splitting_force_N").value(c.splitting_force);
-  json.key("crack_length_m").value(c.crack_length);
+  json.key("crack_length_m").value(c.crack_length).key("crack_width_m").value(c.crack_width);
+  json.key("contact_force_N").value(c.contact_force);
+  if (c.opening_capacity > 0) {
+    json.key("opening_force_N").value(c.opening_force).key("opening_capacity_N").value(c.opening_capacity);
+    json.key("left_flank_force_N").value(c.flank_forces[0]);
+    json.key("right_flank_force_N").value(c.flank_forces[1]);
+    json.key("fracture_toughness_Pa_sqrt_m").value(c.fracture_toughness);
+  }
   json.key("vertical_force_N").value(c.vertical_force).key("bending_capacity_N").value(c.bending_capacity);
   json.close('}');
 }

@@ -47,8 +47,17 @@ const Object kShear{
 const Object kWater{
     {field("density_kg_per_m3", Kind::kNumber, "kg/m³", from(500, 2000), "1000", "density ρ_w",
            [](Draft& d, const Value& v) { d.scene.water.water.density = v.number(); }),
-     field("drag_coefficient", Kind::kNumber, "", from(0, 100), "0.5", "C_D of Eq. (6), on a floe's edge",
+     field("drag_coefficient", Kind::kNumber, "", from(0, 100), "0.5", "C_D of Eq. (6)",
            [](Draft& d, const Value& v) { d.scene.water.drag_coefficient = v.number(); }),
+     field(
+         "drag_area", Kind::kChoice, "", {}, "\"edge\"",
+         "A of Eq. (6): thickness times the floe's width across its motion, or its area in plan (the reading "
+         "under which the paper's voyages come out: docs/paper-comparison.md)",
+         [](Draft& d, const Value& v) {
+           d.scene.water.drag_area =
+               v.text() == "edge" ? dynamics::DragArea::kEdge : dynamics::DragArea::kPlan;
+         },
+         {"edge", "plan"}),
      field("drift_m_per_s", Kind::kVector, "m/s", from(-10, 10), "[0, 0]",
            "velocity of the water, and of all ice with it",
            [](Draft& d, const Value& v) { d.scene.water.drift = vector_of(v); }),
@@ -115,10 +124,9 @@ const Object kContact{
      field("restitution", Kind::kNumber, "", from(0, 1), "0.1", "ε of Eq. (5)",
            [](Draft& d, const Value& v) { d.scene.contact.restitution = v.number(); }),
      field("contact_time_s", Kind::kNumber, "s", from(1e-4, 100), "0.5",
-           "τ_c, which turns an impulse j into the paper's peak force j/τ_c (it decides splits and is "
-           "reported; "
-           "the motion "
-           "does not depend on it otherwise)",
+           "τ_c, which turns an impulse j into the paper's peak force j/τ_c (by "
+           "splitting.model michel it decides splits, and it is reported; the motion does not depend on it "
+           "otherwise)",
            [](Draft& d, const Value& v) { d.scene.contact.contact_time = v.number(); }),
      field("separation_time_s", Kind::kNumber, "s", from(1e-3, 1e4), "1",
            "time over which overlap that nothing presses together any more decays",
@@ -152,14 +160,23 @@ const Object kBending{
 
 const Object kSplitting{
     {field("model", Kind::kChoice, "", {}, "\"michel\"",
-           "force that splits a floe: Eq. (4), F_s = n L h σ_t, or linear elastic fracture mechanics",
+           "what splits a floe: the paper's j/τ_c against Eq. (4), F_s = n L h σ_t, or the true forces that "
+           "open a "
+           "crack, of ships, structures and floes, by linear elastic fracture mechanics",
            [](Draft& d, const Value& v) {
              d.scene.fracture.splitting =
                  v.text() == "michel" ? SplittingModel::kMichel : SplittingModel::kLefm;
            },
            {"michel", "lefm"}),
      field("shape_factor", Kind::kNumber, "", above(0, 100), "0.25", "n of Eq. (4)",
-           [](Draft& d, const Value& v) { d.scene.fracture.splitting_shape_factor = v.number(); })}};
+           [](Draft& d, const Value& v) { d.scene.fracture.splitting_shape_factor = v.number(); }),
+     field(
+         "least_piece_width_over_l", Kind::kNumber, "", from(0, 1000), "0.5",
+         "a crack that leaves ice narrower than this on either side (area over the crack's length) does not "
+         "run: it would pare the floe's edge; l = (D/ρ_w g)^¼",
+         [](Draft& d, const Value& v) { d.scene.fracture.least_piece.width_over_l = v.number(); }),
+     field("least_piece_area_over_l2", Kind::kNumber, "", from(0, 1e6), "0.5", "the same of its area, by l²",
+           [](Draft& d, const Value& v) { d.scene.fracture.least_piece.area_over_l2 = v.number(); })}};
 
 const Object kGoingUnder{
     {field("enabled", Kind::kBoolean, "", {}, "false",

@@ -213,5 +213,24 @@ TEST_F(InspectCommand, WrongUsageIsTwoAndNoRunIsFive) {
   EXPECT_EQ(inspect({}, "run/scene.json").code, 5);
 }
 
+TEST(InspectSplit, TheLineageAndThePlayerStateBothSidesOfASplitByTrueForces) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "square.json",
+             R"({"time": {"step_s": 0.005, "until_s": 1}, "fracture": {"splitting": {"model": "lefm"}},
+        "ships": [{"hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30}, "mass_kg": 3e6,
+          "moment_of_inertia_kg_m2": 8e8, "position_m": [-30.01, 0], "propulsion": {"constant_speed_m_per_s": 1}}],
+        "floes": [{"rectangle": {"corner_m": [0, -8], "size_m": [16, 16]}}]})");
+  ASSERT_EQ(polynya({"run", "square.json", "--out", "run"}, {folder.path()}).code, 0);
+  const std::string tree = polynya({"inspect", "run", "--lineage", "1"}, {folder.path()}).out;
+  for (const char* part : {"split by", "opening force", ">= opening capacity", "crack L 15.", "contact force",
+                           "flanks", "K_IC 1.5e+05 Pa sqrt(m)"})
+    EXPECT_NE(tree.find(part), std::string::npos) << part << "\n" << tree;
+  ASSERT_EQ(polynya({"view", "run"}, {folder.path()}).code, 0);
+  const std::string page = read_file(folder.path() / "run/view.html");
+  for (const char* key :
+       {"\"flank_forces_N\":", "\"opening_capacity_N\":", "\"fracture_toughness_Pa_sqrt_m\":150000"})
+    EXPECT_NE(page.find(key), std::string::npos) << key;
+}
+
 }  // namespace
 }  // namespace polynya::tests

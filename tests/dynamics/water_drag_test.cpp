@@ -177,5 +177,58 @@ TEST(WaterDrag, BodiesOfPrescribedMotionKeepTheirVelocity) {
   EXPECT_EQ(bodies.angular_velocity[0], 0.1);
 }
 
+/// ∫ r³ dA over a rectangle about a point, by Gauss's rule of 3 × 3 points in many cells.
+double third_moment_of_rectangle(Point low, Point high, Point about) {
+  constexpr int kCells = 200;
+  const double x[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
+  const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  const double dx = (high.x - low.x) / kCells;
+  const double dy = (high.y - low.y) / kCells;
+  double sum = 0;
+  for (int i = 0; i < kCells * 3; ++i) {
+    for (int j = 0; j < kCells * 3; ++j) {
+      const Point p{low.x + (i / 3 + x[i % 3]) * dx, low.y + (j / 3 + x[j % 3]) * dy};
+      sum += weight[i % 3] * weight[j % 3] * std::pow(distance(p, about), 3) * dx * dy;
+    }
+  }
+  return sum;
+}
+
+TEST(PlanDrag, TheRotationalIntegralIsExactForDiscRingAndRectangles) {
+  const auto moment = [](const geometry::Polygon& polygon, Point about) {
+    return make_drag_shape(polygon, about, DragArea::kPlan).rotational;
+  };
+  const auto of_disc = [](double radius) { return 2 * std::numbers::pi * std::pow(radius, 5) / 5; };
+  geometry::Polygon ring = regular(4096, 7);
+  EXPECT_NEAR(moment(ring, {}) / of_disc(7), 1, 3e-6);
+  ring.holes = {regular(4096, 5).outer};
+  std::ranges::reverse(ring.holes[0]);
+  EXPECT_NEAR(moment(ring, {}) / (of_disc(7) - of_disc(5)), 1, 5e-6);
+  for (const Point about : {Point{}, Point{0.3, 1}, Point{5, 3}, Point{20, -7}})  // inside, on a corner, out
+    EXPECT_NEAR(moment(rectangle(10, 6), about) / third_moment_of_rectangle({-5, -3}, {5, 3}, about), 1,
+                1e-9);
+}
+
+TEST(PlanDrag, AFreeFloeSlowsAsTheClosedFormWhateverItsCourseAndThickness) {
+  // m v' = −½ C_D ρ_w A v², A = 60 m² in plan, and I ω' = −½ C_D ρ_w ∫r³dA ω².
+  Random random(4);
+  for (const double dt : {0.005, 0.5, 50.0}) {
+    Bodies bodies = one_floe(rectangle(10, 6), random.angle());
+    bodies.drag[0] = std::make_shared<DragShape>(make_drag_shape(rectangle(10, 6), {}, DragArea::kPlan));
+    const double course = random.angle();
+    bodies.velocity[0] = 1.5 * Vector{std::cos(course), std::sin(course)};
+    bodies.angular_velocity[0] = -0.2;
+    bodies.thickness[0] = random.between(0.1, 3);
+    const double braking = kDrag * kWater * 60 / (2 * bodies.mass[0]);
+    const double turning =
+        kDrag * kWater * third_moment_of_rectangle({-5, -3}, {5, 3}, {}) / (2 * bodies.moment[0]);
+    for (int step = 0; step < 2000; ++step)
+      apply_water_drag(bodies, {0}, {kDrag, kWater, {}, DragArea::kPlan}, dt);
+    const double time = 2000 * dt;
+    EXPECT_NEAR(length(bodies.velocity[0]) * (1 + braking * 1.5 * time) / 1.5, 1, 1e-9) << dt;
+    EXPECT_NEAR(-bodies.angular_velocity[0] * (1 + turning * 0.2 * time) / 0.2, 1, 1e-9) << dt;
+  }
+}
+
 }  // namespace
 }  // namespace polynya::dynamics

@@ -147,5 +147,57 @@ TEST(CrackPath, CutAlongItAFloeSeparatesWithoutLossOfArea) {
   }
 }
 
+TEST(CrackPath, ToTheFirstEdgeEndsAtAnotherChannelButNotAtAHole) {
+  // A plate of 100 m with a slot from the far side's bottom up to y = 40, and a hole ahead of it.
+  const Polygon plate{{{0, -50}, {60, -50}, {60, 40}, {70, 40}, {70, -50}, {100, -50}, {100, 50}, {0, 50}},
+                      {{{20, -5}, {20, 5}, {30, 5}, {30, -5}}}};
+  const Boundary boundary = make_outline(plate);
+  const auto length = [&](double y, CrackReach reach) {
+    return crack_path(boundary, {0, y}, {1, 0}, 1e-3, reach).length_in_ice;
+  };
+  EXPECT_NEAR(length(20, CrackReach::kFarSide), 90, 1e-12);
+  EXPECT_NEAR(length(20, CrackReach::kFirstEdge), 60, 1e-12);
+  EXPECT_NEAR(length(0, CrackReach::kFirstEdge), 50, 1e-12);
+  EXPECT_NEAR(length(45, CrackReach::kFirstEdge), 100, 1e-12);
+}
+
+TEST(CrackPath, HasTheAreasOfTheTwoPiecesThatItLeaves) {
+  Random random(9);
+  int pairs = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Polygon floe = random_star(random, 4 + random.below(20), 4, 12);
+    const Boundary boundary = make_outline(floe);
+    const auto edge = static_cast<std::uint32_t>(random.below(static_cast<int>(boundary.edges.size())));
+    const Point from = midpoint(boundary.edges.from(edge), boundary.edges.to(edge));
+    const double slant = random.between(-0.5, 0.5);
+    const Vector direction = rotate(Rotation::by(slant), (Point{} - from) / length(Point{} - from));
+    const CrackPath path = crack_path(boundary, from, direction, 1e-3, CrackReach::kFirstEdge);
+    const CutOutcome outcome = cut_along({floe}, {path.start, path.end});
+    if (!outcome || outcome->pieces.size() != 2) continue;
+    ++pairs;
+    const CrackSides sides = sides_of_crack(boundary, path);
+    double left = 0;
+    for (const auto& piece : outcome->pieces) {
+      // Around the ice, counter-clockwise, the corner after the crack's end is on its left.
+      const Ring& ring = piece.shape.polygon.outer;
+      if (std::ranges::find(ring, boundary.edges.to(path.last_edge)) != ring.end())
+        left = measure(piece.shape.polygon).area;
+    }
+    ASSERT_NEAR(sides.left, left, 1e-9) << i;
+    ASSERT_NEAR(sides.left + sides.right, signed_area(floe.outer), 1e-9);
+  }
+  EXPECT_GT(pairs, 200);
+}
+
+TEST(CrackPath, OutOfAHolePartsNothing) {
+  Polygon plate = rectangle(100, 100);
+  plate.holes = {{{-10, -10}, {-10, 10}, {10, 10}, {10, -10}}};
+  const Boundary boundary = make_outline(plate);
+  const CrackPath path = crack_path(boundary, {10.5, 0}, {1, 0}, 1e-3);
+  EXPECT_NEAR(path.length_in_ice, 39.5, 1e-12);
+  EXPECT_EQ(sides_of_crack(boundary, path).left, 0);
+  EXPECT_EQ(sides_of_crack(boundary, path).right, 0);
+}
+
 }  // namespace
 }  // namespace polynya::geometry

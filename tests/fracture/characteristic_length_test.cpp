@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/splitting.hpp"
-
 namespace polynya::fracture {
 namespace {
 
@@ -34,21 +32,6 @@ TEST(CharacteristicLength, GrowsWithThicknessToTheThreeQuarters) {
   Ice stiff = papers_ice();
   stiff.youngs_modulus *= 16;
   EXPECT_NEAR(characteristic_length(stiff, {}) / characteristic_length(papers_ice(), {}), 2, 1e-12);
-}
-
-TEST(Splitting, ThePapersPlateNeedsElevenMeganewtons) {
-  EXPECT_NEAR(michel_splitting_force(papers_ice(), 110, 0.25), 11e6, 1e-3);
-}
-
-TEST(Splitting, MichelGrowsWithTheCrackAndLefmWithItsRoot) {
-  const Ice ice = papers_ice();
-  const auto ratio = [&](SplittingModel model) {
-    return splitting_force(model, ice, 400, 0.25) / splitting_force(model, ice, 100, 0.25);
-  };
-  EXPECT_NEAR(ratio(SplittingModel::kMichel), 4, 1e-12);
-  EXPECT_NEAR(ratio(SplittingModel::kLefm), 2, 1e-12);
-  // 0.209 · 0.5 m · 150 kPa √m · √100 m
-  EXPECT_NEAR(lefm_splitting_force(ice, 100), 156.75e3, 1e-6);
 }
 
 }  // namespace

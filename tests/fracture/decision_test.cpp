@@ -7,14 +7,14 @@ namespace polynya::fracture {
 namespace {
 
 struct Case {
-  bool is_large, has_long_crack, is_hit_hard, is_pressed_down, is_over_capacity;
+  bool is_large, has_crack, is_hit_hard, is_pressed_down, is_over_capacity;
 };
 
 FailureCriteria criteria_of(const Case& c) {
   FailureCriteria criteria;
   criteria.breakable_size = 10;
   criteria.floe_size = c.is_large ? 10 : 9.999;
-  criteria.crack_length = c.has_long_crack ? 10 : 9.999;
+  criteria.crack_length = c.has_crack ? 5 : 0;
   criteria.splitting_force = 1e6;
   criteria.collision_force = c.is_hit_hard ? 1.001e6 : 1e6;
   criteria.vertical_force = c.is_pressed_down ? 5e4 : -5e4;
@@ -28,10 +28,18 @@ TEST(Decision, FollowsItsTruthTable) {
     const Case c{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0};
     Failure expected = Failure::kCrush;
     if (c.is_pressed_down && c.is_over_capacity) expected = Failure::kBend;
-    if (c.has_long_crack && c.is_hit_hard) expected = Failure::kSplit;  // a split comes before a bend
-    if (!c.is_large) expected = Failure::kNone;                         // and a small floe never breaks
+    if (c.has_crack && c.is_hit_hard) expected = Failure::kSplit;  // a split comes before a bend
+    if (!c.is_large) expected = Failure::kNone;                    // and a small floe never breaks
     EXPECT_EQ(decide(criteria_of(c)), expected) << "case " << bits;
   }
+}
+
+TEST(Decision, ACrackThatParesDoesNotCountAndOneShorterThanTheBreakableSizeDoes) {
+  FailureCriteria criteria = criteria_of({true, true, true, false, false});
+  ASSERT_LT(criteria.crack_length, criteria.breakable_size);
+  EXPECT_EQ(decide(criteria), Failure::kSplit);
+  criteria.pares = true;
+  EXPECT_EQ(decide(criteria), Failure::kCrush);
 }
 
 TEST(Decision, AForceThatEqualsTheSplittingForceDoesNotSplitButOneThatEqualsTheCapacityBends) {

@@ -10,6 +10,7 @@
 #include "geometry/exact/measures.hpp"
 #include "io/run/force_columns.hpp"
 #include "io/run/motion_index.hpp"
+#include "io/run/record_reader.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"
@@ -89,6 +90,45 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
   return recorded;
 }
 
+TEST(Run, AnEventOfASplitStatesAndReadsBackBothSides) {
+  simulation::Event split;
+  split.kind = simulation::EventKind::kSplit;
+  split.ship = -1;
+  split.by_floe = 7;
+  split.floe = 8;
+  fracture::FailureCriteria& c = split.criteria;
+  c.contact_force = 1e5 / 3;
+  c.crack_length = 50.1;
+  c.crack_width = 60.2;
+  c.flank_forces[0] = 2e5 / 3;
+  c.flank_forces[1] = 4e5 / 3;
+  c.opening_force = 2e5 / 3;
+  c.opening_capacity = 65e3;
+  c.fracture_toughness = 115e3;
+  const LoadedScene scene = load();
+  const auto again = [&](std::string_view kind) {
+    std::string text;
+    append_event(text, split, "", simulation::kNoFloe);
+    EXPECT_NE(text.find(kind), std::string::npos) << text;
+    return event_of(json_of(text), scene.scene);
+  };
+  const simulation::Event read = again("\"opening force >= opening capacity\"");
+  EXPECT_EQ(read.ship, -1);
+  EXPECT_EQ(read.by_floe, 7);
+  EXPECT_EQ(read.criteria.contact_force, c.contact_force);
+  EXPECT_EQ(read.criteria.crack_length, c.crack_length);
+  EXPECT_EQ(read.criteria.crack_width, c.crack_width);
+  EXPECT_EQ(read.criteria.flank_forces[0], c.flank_forces[0]);
+  EXPECT_EQ(read.criteria.flank_forces[1], c.flank_forces[1]);
+  EXPECT_EQ(read.criteria.opening_force, c.opening_force);
+  EXPECT_EQ(read.criteria.opening_capacity, c.opening_capacity);
+  EXPECT_EQ(read.criteria.fracture_toughness, c.fracture_toughness);
+  EXPECT_EQ(simulation::deciding_load(read).load, c.opening_force);
+  c.splitting_force = 10e6;
+  c.collision_force = 11e6;
+  EXPECT_EQ(simulation::deciding_load(again("\"collision force > splitting force\"")).load, 11e6);
+}
+
 TEST(Run, ReadsBackWhatWasWritten) {
   const TemporaryFolder folder;
   const LoadedScene scene = load();
@@ -110,6 +150,8 @@ TEST(Run, ReadsBackWhatWasWritten) {
     EXPECT_EQ(a.normal_in_world, b.normal_in_world);
     EXPECT_EQ(a.criteria.vertical_force, b.criteria.vertical_force);
     EXPECT_EQ(a.criteria.bending_capacity, b.criteria.bending_capacity);
+    EXPECT_EQ(a.criteria.contact_force, b.criteria.contact_force);
+    EXPECT_GT(a.criteria.contact_force, 0);
     EXPECT_EQ(a.submerged_area, b.submerged_area);
     EXPECT_EQ(a.rounding_defect, b.rounding_defect);
   }

@@ -69,9 +69,10 @@ inline std::string fingerprint(const simulation::Scene& s) {
   std::string text = fmt::format("{} {} {} {}\n", s.name, s.seed, s.time.step, s.time.until);
   if (s.origin)
     text += fmt::format("origin {} {} {}\n", s.origin->latitude, s.origin->longitude, s.origin->heading);
-  text += fmt::format("water {} {} {} {} {} {} {} {}\n", s.water.water.density, s.water.drag_coefficient,
-                      s.water.drift.x, s.water.drift.y, s.water.shear.rate, s.water.shear.direction,
-                      s.water.shear.origin.x, s.water.shear.origin.y);
+  text +=
+      fmt::format("water {} {} {} {} {} {} {} {} {}\n", s.water.water.density, s.water.drag_coefficient,
+                  static_cast<int>(s.water.drag_area), s.water.drift.x, s.water.drift.y, s.water.shear.rate,
+                  s.water.shear.direction, s.water.shear.origin.x, s.water.shear.origin.y);
   text +=
       fmt::format("ice {} {} {} {} {} {} {} {} {}\n", s.ice.thickness, s.ice.density, s.ice.youngs_modulus,
                   s.ice.poisson_ratio, s.ice.flexural_strength, s.ice.compressive_strength,
@@ -80,11 +81,12 @@ inline std::string fingerprint(const simulation::Scene& s) {
                       s.contact.substeps, s.contact.is_warm_started, s.contact.tolerance,
                       s.contact.circle_radius, static_cast<int>(s.contact.normal), s.contact.restitution,
                       s.contact.contact_time, s.contact.separation_time, s.contact.iterations);
-  text += fmt::format("fracture {} {} {} {} {} {} {} {} {} {}\n",
+  text += fmt::format("fracture {} {} {} {} {} {} {} {} {} {} {} {}\n",
                       static_cast<int>(s.fracture.characteristic_length), s.fracture.breakable_size_factor,
                       static_cast<int>(s.fracture.bending), static_cast<int>(s.fracture.radial_cracks),
                       s.fracture.follows_deflection, static_cast<int>(s.fracture.splitting),
-                      s.fracture.splitting_shape_factor, static_cast<int>(s.fracture.cusp_fate),
+                      s.fracture.splitting_shape_factor, s.fracture.least_piece.width_over_l,
+                      s.fracture.least_piece.area_over_l2, static_cast<int>(s.fracture.cusp_fate),
                       s.fracture.cusp_sagitta, s.fracture.smallest_floe_area);
   const auto& under = s.fracture.going_under;
   const auto& up = s.fracture.resurface;

@@ -64,17 +64,22 @@ TEST(Decision, ThePapersPlateIsKnifeEdge) {
   }
 }
 
-TEST(Decision, LefmSplitsWhereMichelDoesNot) {
+TEST(Decision, LefmSplitsWhereMichelDoesNotAndStatesBothSides) {
   for (const auto model : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {
     Scene scene = ship_against(icebreaker({0, 0}, ConstantThrust{0}, 0.5), rectangle(0.001, -30, 50.001, 30));
     scene.fracture.splitting = model;
+    scene.ice.fracture_toughness = 50e3;
     Simulation simulation(scene);
     const Story story = run(simulation, 1);
-    EXPECT_EQ(simulation.counts().splits > 0, model == fracture::SplittingModel::kLefm);
+    const bool is_lefm = model == fracture::SplittingModel::kLefm;
+    EXPECT_EQ(simulation.counts().splits > 0, is_lefm);
     for (const Event& event : story.events) {
+      EXPECT_GT(event.criteria.contact_force, 0);
+      EXPECT_EQ(event.criteria.splitting_force > 0, !is_lefm) << "F_s of Eq. (4)";
       if (event.kind != EventKind::kSplit) continue;
-      EXPECT_GT(event.criteria.collision_force, event.criteria.splitting_force);
-      EXPECT_GE(event.criteria.crack_length, event.criteria.breakable_size);
+      EXPECT_GE(event.criteria.opening_force, event.criteria.opening_capacity);
+      EXPECT_GT(event.criteria.opening_capacity, 0);
+      EXPECT_FALSE(event.criteria.pares);
       EXPECT_GE(event.criteria.floe_size, event.criteria.breakable_size);
     }
   }

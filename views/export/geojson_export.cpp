@@ -51,6 +51,7 @@ std::string fractures_layer(const io::Run& run, double time, const Project& proj
     io::JsonWriter& json = layer.start();
     json.key("t_s").value(event.time).key("kind").value(name_of(event.kind));
     json.key("ship").value(io::ship_name(run.scene.scene, event.ship)).key("floe_id").value(event.floe);
+    json.key("contact_force_N").value(event.criteria.contact_force);
     json.key("collision_force_N").value(event.criteria.collision_force);
     json.key("vertical_force_N").value(event.criteria.vertical_force);
     json.key("submerged_area_m2").value(event.submerged_area);

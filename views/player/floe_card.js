@@ -130,6 +130,19 @@ function button(words, onClick) {
   return element;
 }
 
+/** Of a split: its crack, and the true forces at it beside what decided. */
+function crackRows(event, inUnit) {
+  if (!("crack_width_m" in event)) return {};
+  const rows = {
+    crack: `L ${shortNumber(event.crack_length_m)} m, W ${shortNumber(event.crack_width_m)} m`,
+    "contact force": inUnit(event.contact_force_N),
+    flanks: event.flank_forces_N.map(inUnit).join(" and "),
+  };
+  if (event.load_name !== "opening force") rows["opening force"] = `${inUnit(event.opening_force_N)} of ${inUnit(event.opening_capacity_N)}`;
+  rows["K_IC"] = `${shortNumber(event.fracture_toughness_Pa_sqrt_m / 1e3)} kPa \u221am`;
+  return rows;
+}
+
 function showEventCard(host, run, event) {
   if (!event) {
     host.replaceChildren(make("p", { class: "hint" }, run.info.events.length > 0
@@ -140,13 +153,18 @@ function showEventCard(host, run, event) {
   const unit = loadUnit(Math.max(event.load_N ?? 0, event.capacity_N ?? 0), "N");
   const inUnit = (value) => ((value ?? null) === null ? "\u2013" : `${shortNumber(value * unit.factor)} ${unit.name}`);
   const rows = {
-    event: kindWords[event.kind], time: `${event.t_s.toFixed(3)} s`, ship: ship ? ship.name : "\u2013",
+    event: kindWords[event.kind], time: `${event.t_s.toFixed(3)} s`,
+    ...("by_floe" in event ? { by: `floe ${event.by_floe}` } : { ship: ship ? ship.name : "\u2013" }),
     floe: String(event.floe), pieces: event.children.join(", ") || "\u2013",
     at: `(${event.point_m.map((v) => minus(v.toFixed(1))).join(", ")}) m`,
   };
   if (event.kind === "grind") rows["overlap ground"] = `${shortNumber(event.overlap_area_m2)} m\u00b2`;
   else if ("path_m" in event) Object.assign(rows, pathRows(event));
-  else Object.assign(rows, { load: inUnit(event.load_N), capacity: inUnit(event.capacity_N), ...tiltRows(event) });
+  else if ("load_name" in event) {
+    rows[event.load_name] = inUnit(event.load_N);
+    rows[event.capacity_name] = inUnit(event.capacity_N);
+    Object.assign(rows, crackRows(event, inUnit));
+  } else Object.assign(rows, { load: inUnit(event.load_N), capacity: inUnit(event.capacity_N), ...tiltRows(event) });
   if (event.reason) rows.reason = event.reason;
   const list = make("dl");
   for (const [name, words] of Object.entries(rows)) list.append(make("dt", {}, name), make("dd", {}, words));

@@ -69,9 +69,15 @@ void write_criterion(io::JsonWriter& json, const simulation::Event& event) {
   } else if (event.grinding.least_width > 0) {
     json.key("overlap_area_m2").value(event.grinding.overlap_area);
   } else {
-    const bool is_split = event.kind == kSplit;
-    json.key("load_N").value(is_split ? c.collision_force : c.vertical_force);
-    json.key("capacity_N").value(is_split ? c.splitting_force : c.bending_capacity);
+    const simulation::DecidingLoad deciding = simulation::deciding_load(event);
+    json.key("load_name").value(deciding.name).key("load_N").value(deciding.load);
+    json.key("capacity_name").value(deciding.capacity_name).key("capacity_N").value(deciding.capacity);
+    if (event.kind != kSplit || c.crack_width == 0) return;
+    json.key("crack_length_m").value(c.crack_length).key("crack_width_m").value(c.crack_width);
+    json.key("contact_force_N").value(c.contact_force);
+    json.key("opening_force_N").value(c.opening_force).key("opening_capacity_N").value(c.opening_capacity);
+    json.key("flank_forces_N").list(c.flank_forces);
+    json.key("fracture_toughness_Pa_sqrt_m").value(c.fracture_toughness);
   }
 }
 
@@ -79,7 +85,9 @@ void write_events(io::JsonWriter& json, const io::Run& run) {
   json.key("events").open('[');
   for (const simulation::Event& event : run.events) {
     json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-    json.key("ship").value(event.ship).key("floe").value(event.floe).key("children").list(event.children);
+    json.key("ship").value(event.ship);
+    if (event.by_floe != simulation::kNoFloe) json.key("by_floe").value(event.by_floe);
+    json.key("floe").value(event.floe).key("children").list(event.children);
     json.key("point_m").value(event.point_in_world);
     write_criterion(json, event);
     if (!event.reason.empty()) json.key("reason").value(event.reason);

@@ -1,0 +1,32 @@
+#include "simulation/crack.hpp"
+
+#include <algorithm>
+
+#include "fracture/characteristic_length.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+/// A crack starts and ends this far outside the ice, so that it separates [m].
+constexpr double kCrackMargin = 1e-3;
+
+}  // namespace
+
+geometry::CrackPath crack_through(const dynamics::Bodies& bodies, BodyIndex floe, geometry::Point point,
+                                  geometry::Vector direction, geometry::CrackReach reach) {
+  const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, floe);
+  return geometry::crack_path(*bodies.boundary[floe], inverse_transform(water_from_floe, point),
+                              rotate_back(water_from_floe.rotation, direction), kCrackMargin, reach);
+}
+
+void measure_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+                   const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
+  const geometry::CrackSides sides = sides_of_crack(*bodies.boundary[floe], path);
+  const double l = fracture::characteristic_length(ice_of(setup, bodies, floe), setup.scene.water.water);
+  criteria.crack_length = path.length_in_ice;
+  criteria.crack_width = 2 * std::max(0.0, std::min(sides.left, sides.right)) / path.length_in_ice;
+  criteria.pares =
+      fracture::pares(setup.scene.fracture.least_piece, l, path.length_in_ice, sides.left, sides.right);
+}
+
+}  // namespace polynya::simulation
