@@ -49,8 +49,8 @@ void set_breaking(Contact& c, double force) {
 
 /// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
 /// ahead, and the force that it takes.
-void measure_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
-                   PendingFracture& pending) {
+void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+                PendingFracture& pending) {
   const Contact& c = load.contact;
   pending.crack_in_body = crack_through(bodies, c.b, c.middle(), c.normal, geometry::CrackReach::kFarSide);
   const double length = pending.crack_in_body.length_in_ice;
@@ -88,7 +88,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
 
   const bool is_michel = setup.scene.fracture.splitting == fracture::SplittingModel::kMichel;
   if (is_michel) {  // by true forces it is decided after the solver
-    measure_crack(setup, population.bodies, load, pending);
+    find_crack(setup, population.bodies, load, pending);
     if (criteria.crack_length > 0 && criteria.collision_force > criteria.splitting_force)
       measure_sides(setup, population.bodies, c.b, pending.crack_in_body, criteria);
   }
@@ -97,9 +97,12 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
     if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
   }
   pending.failure = fracture::decide(criteria);
-  // The record of a bend states the other criterion's two sides as well.
-  if (is_michel && pending.failure == fracture::Failure::kBend && criteria.crack_length > 0)
+  // The record states both sides of the criterion by true forces as well.
+  if (criteria.crack_length > 0 &&
+      (pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit)) {
+    measure_crack(population.bodies, c.b, pending.crack_in_body, criteria);
     measure_sides(setup, population.bodies, c.b, pending.crack_in_body, criteria);
+  }
   pending.ship = c.a;
   pending.floe = population.floe_of(c.b);
   pending.point_in_water = c.middle();

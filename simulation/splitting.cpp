@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 
-#include "fracture/characteristic_length.hpp"
 #include "fracture/opening.hpp"
 #include "simulation/crack.hpp"
 #include "simulation/ship_contact_load.hpp"
@@ -140,20 +139,19 @@ std::optional<Candidate> candidate_of(const Setup& setup, const dynamics::Bodies
   fracture::FailureCriteria& criteria = candidate.criteria;
   candidate.path_in_body =
       crack_through(bodies, floe, mouth.point, direction, geometry::CrackReach::kFirstEdge);
-  const double length = candidate.path_in_body.length_in_ice;
-  const double least_width = 2 * setup.scene.fracture.least_piece.width_over_l *
-                             fracture::characteristic_length(ice, setup.scene.water.water);
-  if (length <= 0 || opening.force() < least_share * fracture::lefm_splitting_force(ice, length, least_width))
-    return std::nullopt;
-  measure_sides(setup, bodies, floe, candidate.path_in_body, criteria);
-  if (criteria.pares) return std::nullopt;
+  if (candidate.path_in_body.length_in_ice <= 0) return std::nullopt;
+  measure_crack(bodies, floe, candidate.path_in_body, criteria);
   criteria.flank_forces[0] = opening.left;
   criteria.flank_forces[1] = opening.right;
   criteria.opening_force = opening.force();
   criteria.opening_capacity =
       fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
   criteria.fracture_toughness = ice.fracture_toughness;
-  if (candidate.share() < least_share) return std::nullopt;
+  if (!(candidate.share() >= least_share)) return std::nullopt;
+  measure_sides(setup, bodies, floe, candidate.path_in_body, criteria);
+  criteria.opening_capacity =
+      fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+  if (criteria.pares || !(candidate.share() >= least_share)) return std::nullopt;
   return candidate;
 }
 

@@ -66,19 +66,22 @@ def study_crossover(arguments):
 def draw(path, curves):
     import matplotlib
     matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "polynya"
+    matplotlib.rcParams |= {"svg.hashsalt": "polynya", "svg.fonttype": "none"}
     import matplotlib.pyplot as plt
     figure, panels = plt.subplots(1, len(TOUGHNESSES), figsize=(9, 3.8), sharey=True, layout="constrained")
     colours = dict(zip(THICKNESSES, ("#4c78a8", "#e45756", "#54a24b")))
     for panel, k in zip(panels, TOUGHNESSES):
         for h in THICKNESSES:
             events = {s: e for s, e in sorted(curves[h, int(k / 1e3)].items()) if e}
-            panel.plot(list(events), [0.187 * h * k * s**0.5 / 1e3 for s in events], "-", color=colours[h], lw=1)
+            panel.plot(list(events), [0.187 * h * k * s**0.5 / 1e3 for s in events], "-", color=colours[h], lw=1,
+                       label="F$_{max}$ = 0.187 h K √side" if h == THICKNESSES[0] else None)
             for kind, marker, filled in (("split", "o", True), ("bend", "s", False)):
                 points = [(s, e["criterion"]["opening_force_N"] / 1e3) for s, e in events.items() if e["kind"] == kind]
                 panel.plot(*zip(*points) if points else ((), ()), marker, ms=4, color=colours[h],
                            mfc=colours[h] if filled else "none", label=f"h {h} m, {kind} first")
         panel.set(xscale="log", yscale="log", xlabel="side of the floe, m", title=f"K$_{{IC}}$ {k / 1e3:g} kPa√m")
+        panel.set_xticks([10, 20, 50, 100, 200, 400], ["10", "20", "50", "100", "200", "400"])
+        panel.set_yticks([20, 50, 100, 200, 500], ["20", "50", "100", "200", "500"])
         panel.grid(alpha=0.3, which="both", lw=0.4)
     panels[0].set_ylabel("force that opens the crack at the first fracture, kN")
     panels[0].legend(fontsize=7)

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/contact/crack_path.hpp"
+#include "geometry/contact/crack_width.hpp"
 #include "geometry/cut/cut.hpp"
 #include "tests/dynamics/scenery.hpp"
 
@@ -187,6 +187,31 @@ TEST(CrackPath, HasTheAreasOfTheTwoPiecesThatItLeaves) {
     ASSERT_NEAR(sides.left + sides.right, signed_area(floe.outer), 1e-9);
   }
   EXPECT_GT(pairs, 200);
+}
+
+TEST(CrackPath, ItsWidthIsTwiceTheIceOnItsNarrowerSide) {
+  const Boundary boundary = make_outline(rectangle(110, 200));
+  const auto width = [&](double y, double turn, double share) {
+    const CrackPath path = crack_path(boundary, {-55, y}, {std::cos(turn), std::sin(turn)}, 0);
+    return crack_width(boundary, path, share);
+  };
+  EXPECT_NEAR(width(0, 0, 0.15), 200, 1e-9);
+  EXPECT_NEAR(width(70, 0, 0.15), 60, 1e-9);
+  const double slant = 0.3;  // ends at the side y = 100: at a tenth of its way 27 m from there
+  EXPECT_NEAR(width(70, slant, 0.1), 2 * 27 / std::cos(slant), 1e-9);
+  Polygon plate = rectangle(110, 200);
+  plate.holes = {{{-45, 10}, {-45, 15}, {-30, 15}, {-30, 10}}};
+  const Boundary holed = make_outline(plate);
+  EXPECT_NEAR(crack_width(holed, crack_path(holed, {-55, 0}, {1, 0}, 0), 0.15), 20, 1e-9)
+      << "a hole beside it";
+}
+
+TEST(CrackPath, FromTheWaterBeforeTheIceItBeginsAtTheEdgeWhereItRunsToTheFirstEdge) {
+  const Boundary boundary = make_outline(rectangle(110, 200));
+  const CrackPath path = crack_path(boundary, {-65, 20}, {1, 0}, 1e-3, CrackReach::kFirstEdge);
+  EXPECT_NEAR(path.length_in_ice, 110, 1e-12);
+  EXPECT_NEAR(distance(path.start, {-55 - 1e-3, 20}), 0, 1e-12);
+  EXPECT_NEAR(crack_path(boundary, {-65, 20}, {1, 0}, 1e-3).start.x, -65 - 1e-3, 1e-12) << "the paper's";
 }
 
 TEST(CrackPath, OutOfAHolePartsNothing) {

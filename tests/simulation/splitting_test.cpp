@@ -38,7 +38,9 @@ Event first_fracture(Simulation& simulation, double until) {
     for (const Event& event : story.events)
       if (is_fracture(event.kind)) return event;
   }
-  return {.time = -1};
+  Event none;
+  none.time = -1;
+  return none;
 }
 
 double largest_force(const Simulation& simulation) {
