@@ -7,11 +7,10 @@ import subprocess
 import sys
 
 import numpy
-import pytest
 
 from polynya import statistics
 from polynya.study import pictures, sample
-from polynya.study.folder import CASES, PLAN, RESULT, open_study
+from polynya.study.folder import PLAN, RESULT, open_study
 from polynya.study.plan import write_cases
 
 

@@ -541,6 +541,31 @@ def test_a_chunk_is_packed_into_one_file_and_read_from_it(folder):
     assert sorted(p.name for p in (folder / "studies/s/cases").iterdir()) == ["000000.tar", "000001.tar", "000002.tar"]
 
 
+def test_what_a_kill_leaves_of_a_packed_chunk_is_removed_and_its_archive_stays(folder):
+    study("plan", write_study(folder, repetitions=4, archive=True), "--chunk", 2, "--trial-seconds", 0)
+    study("run", "studies/s", "--chunk", 0, "--quiet")
+    archive = folder / "studies/s/cases/000000.tar"
+    packed = archive.read_bytes()
+    left = folder / "studies/s/cases/000000/000001"
+    left.mkdir(parents=True)
+    (left / "case.json").write_text("{")
+    study("run", "studies/s", "--chunk", 0, "--quiet")
+    assert not left.exists() and archive.read_bytes() == packed
+    study("run", "studies/s", "--quiet")
+    study("gather", "studies/s")
+
+
+def test_a_packed_case_can_run_again(folder):
+    study("plan", write_study(folder, repetitions=4, archive=True, keep="summary"), "--chunk", 2, "--trial-seconds", 0)
+    study("run", "studies/s", "--quiet")
+    cases = folder / "studies/s/cases"
+    study("run", "studies/s", "--case", 3, "--keep", "all")
+    assert (cases / "000001/000003/run/frames.bin").exists() and not (cases / "000001.tar").exists()
+    study("run", "studies/s", "--quiet")
+    assert sorted(p.name for p in cases.iterdir()) == ["000000.tar", "000001.tar"]
+    study("gather", "studies/s")
+
+
 def test_slurms_script_has_the_chunks_that_are_left(folder):
     study("plan", write_study(folder, repetitions=8), "--chunk", 2, "--trial-seconds", 0)
     study("run", "studies/s", "--cases", "2-3", "--quiet")

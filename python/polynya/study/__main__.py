@@ -2,11 +2,10 @@
 
 What an action alone needs is imported there: a case starts in half the time and memory.
 """
-import os
 import pathlib
 import sys
 
-from .case import DONE, INPUT_OUTPUT, STOPPED, program, run_case
+from .case import DONE, INPUT_OUTPUT, program, run_case
 from .folder import PLAN, counted, numbers_of_list, open_study, planned_folder
 from .located_json import StudyError
 from .options import PROCESSORS, command_line
@@ -15,25 +14,29 @@ from .stop import Stop
 
 def run(options):
     study = planned(options)
-    if options.case is not None:
-        return run_one(study, options)
     if options.chunk_to_run is not None:
         if not 0 <= options.chunk_to_run < study.chunks:
             raise StudyError(f"there is no chunk {options.chunk_to_run}; the study has 0 to {study.chunks - 1}", 2)
-        from . import slurm
-
-        return slurm.run_chunk(study, options.chunk_to_run, lambda numbers: run_cases(study, numbers, options))
-    if options.cases:
-        return run_cases(study, numbers_of_list(options.cases, study.count, "case"), options)
-    codes = run_cases(study, range(study.count), options)
-    if codes != STOPPED and study.plan["archive"]:
+        numbers = study.cases_of(options.chunk_to_run)
+    elif options.case is not None:
+        if not 0 <= options.case < study.count:
+            raise StudyError(f"there is no case {options.case}; the study has 0 to {study.count - 1}", 2)
+        numbers = range(options.case, options.case + 1)
+    else:
+        numbers = numbers_of_list(options.cases, study.count, "case") if options.cases else range(study.count)
+    if study.plan["archive"]:
         from . import archive
 
-        for chunk in range(study.chunks):
-            if not study.archive(chunk).exists():
-                archive.pack(study, chunk)
-    print(f"table       polynya study gather {study.folder}", file=sys.stderr)
-    return codes
+        archive.unpack_to_run(study, numbers, options.keep, options.retry_failed)
+    if options.case is not None:
+        return run_one(study, options)
+    code = run_cases(study, numbers, options)
+    if study.plan["archive"]:
+        for chunk in archive.chunks_of(study, numbers):
+            archive.pack(study, chunk)
+    if options.chunk_to_run is None and not options.quiet:
+        print(f"table       polynya study gather {study.folder}", file=sys.stderr)
+    return code
 
 
 def run_cases(study, numbers, options):
@@ -46,8 +49,6 @@ def run_cases(study, numbers, options):
 
 def run_one(study, options):
     number = options.case
-    if not 0 <= number < study.count:
-        raise StudyError(f"there is no case {number}; the study has 0 to {study.count - 1}", 2)
     chunk = number // study.chunk_size
     if study.archive(chunk).exists():
         from . import archive

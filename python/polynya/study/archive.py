@@ -11,33 +11,76 @@ ROWS = "results.ndjson"  # first in an archive: the results of its cases, a line
 
 
 def pack(study, chunk):
-    """Packs a chunk whose cases have all ended, and removes its folders. False where one has not."""
+    """Packs a chunk whose cases have all ended, and removes its folders. False where one has not. Of two processes that
+    pack a chunk, the second finds the first one's archive and leaves it."""
+    if study.archive(chunk).exists():
+        remove_folders(study, chunk)  # a kill may have left some
+        return True
     results = []
     for number in study.cases_of(chunk):
         state, result = state_of(study.case_folder(number))
         if state not in ("finished", "failed"):
-            return False
+            return study.archive(chunk).exists()
         results.append(json.dumps(result) + "\n")
-    archive = study.archive(chunk)
-    draft = archive.with_suffix(f".{os.getpid()}.tmp")
+    draft = study.archive(chunk).with_suffix(f".{os.getpid()}.tmp")
+    try:
+        write_archive(study, chunk, draft, "".join(results).encode())
+        os.link(draft, study.archive(chunk))  # unlike a rename, never replaces one
+    except (FileNotFoundError, FileExistsError):
+        if not study.archive(chunk).exists():
+            raise
+    finally:
+        draft.unlink(missing_ok=True)
+    remove_folders(study, chunk)
+    return True
+
+
+def write_archive(study, chunk, draft, results):
     with open(draft, "wb") as file:
         with tarfile.open(fileobj=file, mode="w") as tar:
-            text = "".join(results).encode()
             info = tarfile.TarInfo(ROWS)
-            info.size = len(text)
-            tar.addfile(info, io.BytesIO(text))
+            info.size = len(results)
+            tar.addfile(info, io.BytesIO(results))
             for number in study.cases_of(chunk):
                 folder = study.case_folder(number)
                 tar.add(folder, arcname=folder.name)
         file.flush()
         os.fsync(file.fileno())
-    os.replace(draft, archive)
+
+
+def unpack(study, chunk):
+    """Makes an archive the folders that it was, to run a case of it again."""
+    home = study.chunk_folder(chunk) if study.chunk_size > 1 else study.folder / "cases"
     remove_folders(study, chunk)
-    return True
+    draft = study.archive(chunk).with_suffix(f".{os.getpid()}.tmp")
+    with tarfile.open(study.archive(chunk), "r") as tar:
+        tar.extractall(draft)
+    (draft / ROWS).unlink()
+    home.mkdir(exist_ok=True)
+    for folder in list(draft.iterdir()):
+        os.rename(folder, home / folder.name)
+    draft.rmdir()
+    study.archive(chunk).unlink()
+
+
+def chunks_of(study, numbers):
+    """The chunks of some cases, in order."""
+    return sorted({number // study.chunk_size for number in numbers})
+
+
+def unpack_to_run(study, numbers, keep, retries_failed):
+    """Unpacks the chunks of which a case is to run again: to keep its run, or because it failed."""
+    for chunk in chunks_of(study, numbers) if keep == "all" or retries_failed else []:
+        if not study.archive(chunk).exists():
+            continue
+        mine = [result for result in results_of(study, chunk) if result["case"] in numbers]
+        is_thinned = keep == "all" and study.plan["keep"] == "summary"
+        if is_thinned or any(result["state"] == "failed" for result in mine):
+            unpack(study, chunk)
 
 
 def remove_folders(study, chunk):
-    """Removes a packed chunk's folders; a kill may have left some of them."""
+    """Removes a packed chunk's folders."""
     if study.chunk_size > 1:
         shutil.rmtree(study.chunk_folder(chunk), ignore_errors=True)
     else:

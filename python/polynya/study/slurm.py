@@ -5,7 +5,6 @@ import shlex
 import shutil
 import subprocess
 
-from . import archive
 from .case import DONE, program, state_of
 from .folder import list_of_numbers, write_atomically
 from .located_json import StudyError
@@ -57,14 +56,6 @@ def chunks_to_run(study, retries_failed=False):
         if study.plan["archive"] or any(state_of(study.case_folder(n))[0] not in ended for n in study.cases_of(chunk)):
             chunks.append(chunk)
     return chunks
-
-
-def run_chunk(study, chunk, run_cases):
-    """All cases of a chunk, and its archive where the study packs."""
-    code = run_cases(list(study.cases_of(chunk)))
-    if study.plan["archive"] and not study.archive(chunk).exists():
-        archive.pack(study, chunk)
-    return code
 
 
 def write_scripts(study, options):
