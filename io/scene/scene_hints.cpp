@@ -20,6 +20,7 @@ using simulation::ShipSpec;
 // Block coefficients are those of fine-lined and of full ships; a draught is most often a third of the beam.
 constexpr double kLeastBlock = 0.4, kMostBlock = 0.9;                          // [-]
 constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
+constexpr double kMassError = 0.05;    ///< of what the hull displaces [-]
 constexpr double kFastestShip = 12;    ///< icebreakers reach 11 m/s in open water [m/s]
 constexpr double kFastestIce = 3;      ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
 constexpr double kThinnestIce = 0.01;  ///< thinner ice is grease and slush [m]
@@ -122,6 +123,13 @@ class Hinter {
   void hint_at_mass(std::size_t i) {
     const ShipSpec& ship = scene_.ships[i];
     const auto [length, beam] = size_of(ship);
+    const double displaced =
+        scene_.water.water.density * ship.water.block_coefficient * length * beam * ship.hull.draught;
+    if (displaced > 0 && std::abs(ship.mass / displaced - 1) > kMassError)
+      add(Severity::kWarning, i, "mass_kg",
+          fmt::format("{:.4g} kg, and draught and block coefficient displace {:.4g} kg of water", ship.mass,
+                      displaced));
+    if (displaced > 0) return;
     const double shallow = kLeastDraughtOfBeam * beam, deep = kMostDraughtOfBeam * beam;
     const double area = scene_.water.water.density * length * beam;
     const double least = kLeastBlock * area * shallow, most = kMostBlock * area * deep;

@@ -152,5 +152,15 @@ TEST(SailingScene, ShipsDoNotFollowEachOtherInARing) {
   EXPECT_NE(ring.found.find("which follows this ship"), std::string::npos);
 }
 
+TEST(SailingScene, AMassThatTheHullDoesNotDisplaceIsAWarning) {
+  const auto loaded = read(kHull + R"(, "mass_kg": 1.2e7, )" + kEngine);
+  ASSERT_TRUE(loaded.has_value());
+  ASSERT_EQ(loaded->hints.size(), 1U);
+  EXPECT_EQ(loaded->hints[0].path, "ships[0].mass_kg");
+  EXPECT_NE(loaded->hints[0].sentence.find("displace 1.002e+07 kg"), std::string::npos);
+  EXPECT_EQ(loaded->hints[0].severity, Severity::kWarning);
+  EXPECT_TRUE(read(kHull + "," + kEngine)->hints.empty());
+}
+
 }  // namespace
 }  // namespace polynya::io
