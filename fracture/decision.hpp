@@ -15,7 +15,7 @@ struct FailureCriteria {
 
   // The crack:
   double crack_length = 0;  ///< L, its path in ice; 0 where there is none [m]
-  double crack_width = 0;   ///< W: twice the mean width of the ice on its narrower side [m]
+  double crack_width = 0;   ///< W: twice the ice on its narrower side, where the force peaks [m]
   bool pares = false;       ///< it would leave a sliver: it does not count
 
   // Splitting by Eq. (4), with j/τ_c:
