@@ -18,6 +18,31 @@ geometry::CutOutcome cut(const Setup& setup, const geometry::Shape& shape, const
   return geometry::cut_along(shape, {pending.crack_in_body.start, pending.crack_in_body.end});
 }
 
+/// Whether the ice where the hull first touched has broken off with other cusps since: a fast ship goes
+/// metres between two cusps of thin ice.
+bool misses_its_cusp(const geometry::CutOutcome& outcome, const PendingFracture& pending) {
+  return !outcome && outcome.error().reason == geometry::CutFailure::kMisses &&
+         pending.failure == fracture::Failure::kBend;
+}
+
+/// The ice nearest to the contact, on the floe's boundary. The middle of a contact line may lie between two
+/// spikes.
+geometry::Point nearest_ice(const Population& population, const PendingFracture& pending) {
+  const geometry::Pose pose = dynamics::water_from_body(population.bodies, population.body_of(pending.floe));
+  const geometry::Point contact = inverse_transform(pose, pending.point_in_water);
+  const geometry::Polygon& polygon = population.floes[pending.floe].shape.polygon;
+  geometry::Point nearest = polygon.outer.front();
+  const auto consider = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const geometry::Point p = nearest_on_segment(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], contact);
+      if (distance(p, contact) < distance(nearest, contact)) nearest = p;
+    }
+  };
+  consider(polygon.outer);
+  for (const geometry::Ring& hole : polygon.holes) consider(hole);
+  return nearest;
+}
+
 Event event_of(const Clock& clock, const PendingFracture& pending, EventKind kind) {
   Event event;
   event.time = clock.time();
@@ -73,11 +98,15 @@ Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFractu
 void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
                      Population& population, Accounts& accounts, Journal& journal) {
   std::ranges::stable_sort(fractures, {}, &PendingFracture::floe);
-  for (const PendingFracture& pending : fractures) {
+  for (PendingFracture& pending : fractures) {
     if (!population.is_floating(pending.floe))
       continue;  // it broke in this step already; its pieces may break in the next
     const geometry::Shape& shape = population.floes[pending.floe].shape;
-    const geometry::CutOutcome outcome = cut(setup, shape, pending);
+    geometry::CutOutcome outcome = cut(setup, shape, pending);
+    if (misses_its_cusp(outcome, pending)) {
+      pending.first_touch_in_body = nearest_ice(population, pending);
+      outcome = cut(setup, shape, pending);
+    }
     if (outcome) {
       replace_by_pieces(setup, clock, breakage_of(setup, clock, pending), *outcome, population, accounts,
                         journal);

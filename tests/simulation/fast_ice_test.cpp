@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/state/state.hpp"
+#include "simulation/step.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {
@@ -111,6 +112,25 @@ TEST(FastIce, ItsPiecesAreFreeAndMoveOnAsItDid) {
   expect_closed(simulation);
   const BodyIndex body = population.body_of(fast_floe(simulation));
   EXPECT_EQ(population.bodies.velocity[body], (geometry::Vector{-0.35, 0.1}));
+}
+
+TEST(Cusp, WhoseFirstTouchHasBrokenOffIsCentredAtTheIceNearestToTheContact) {
+  World world(in_ice(ConstantSpeed{8}, fast(rectangle(0, -60, 200, 60))));
+  dynamics::PersistentContact record;
+  PendingFracture pending;
+  pending.failure = fracture::Failure::kBend;
+  pending.floe = 0;
+  pending.point_in_water = {-3, 5};
+  pending.first_touch_in_body = {-4, 0};  // with the radius below, it reaches no ice
+  pending.normal = {1, 0};
+  pending.cusp_radius = 2;
+  pending.record = &record;
+  std::vector<PendingFracture> fractures{pending};
+  apply_fractures(world.setup, world.clock, fractures, world.population, world.accounts, world.journal);
+  EXPECT_EQ(world.accounts.counts.bends, 1);
+  EXPECT_EQ(world.accounts.counts.rejected_cuts, 0);
+  EXPECT_FALSE(record.was_refused);
+  EXPECT_NEAR(world.accounts.ledger.submerged_area, std::numbers::pi * 2, 0.1) << "half a disc about (0, 5)";
 }
 
 TEST(FastIce, IsSavedWithItsPieces) {

@@ -80,9 +80,9 @@ class Curve:
         speed, lengths, rounds = self.first_speed(thickness), FIRST, 0
         while True:
             name = f"level-{thickness:g}-{lengths}"
-            measured = level_ice.Measured(
-                self.run(level_ice.scene(self.ship, thickness, speed, lengths, self.ice, self.step), name), self.ship
-            )
+            scene = level_ice.scene(self.ship, thickness, speed, lengths, self.ice, self.step)
+            way = scene["floes"][0]["rectangle"]["size_m"][0]
+            measured = level_ice.Measured(self.run(scene, name), self.ship, way)
             rounds += 1
             if measured.is_within(self.error) or lengths >= MOST:
                 break

@@ -12,7 +12,7 @@ def scene(ship, thickness, speed, lengths, ice, step):
     """The ship at speed [m/s] 2 m before a plate of fast ice, on a course of so many of its own lengths."""
     hull = ship["hull"]
     length, width = hull["length_m"], 5 * hull["beam_m"]
-    way = lengths * length
+    way = (lengths + 1) * length
     can_steer = "steering" in ship
     ahead = {"pilot": {"hold_heading": {"heading_deg": 0, "lever": 1}}} if can_steer else {}
     return {
@@ -23,22 +23,25 @@ def scene(ship, thickness, speed, lengths, ice, step):
         "fracture": {"splitting": {"shape_factor": 100}, "resurface": {"enabled": False}},
         "ships": [ship | ahead | {"name": "ship", "position_m": [-0.5 * length - 2, 0], "speed_m_per_s": speed}],
         "floes": [
-            {"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way + 2 * length, width]}, "fast_ice": True}
+            {"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way, width]}, "fast_ice": True}
         ],
         "record": {"forces_interval_s": 0.5, "frames_interval_s": max(60, way / speed / 20), "contacts": "none"},
     }
 
 
 class Measured:
-    """A run's mean speed over ground, where the hull is full of ice [m/s], its error and what pushed."""
+    """A run's mean speed over ground, where the hull is full of ice and its stem within a plate as long as the way [m],
+    its error [m/s], and what braked it [N]."""
 
-    def __init__(self, folder, ship):
+    def __init__(self, folder, ship, way=math.inf):
         length = ship["hull"]["length_m"]
         with open(os.path.join(folder, "forces.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         column = lambda name: np.array([float(row[name]) for row in rows])
         time, x = column("t_s"), column("x_m")
         surge, submerged = column("surge_N"), column("surge_from_submerged_ice_N")
+        is_in_ice = x + 0.5 * length < way - 0.1 * length
+        time, x, surge, submerged = (values[is_in_ice] for values in (time, x, surge, submerged))
         self.way = x[-1] - x[0]
         self.is_stuck = x[-1] - x[np.searchsorted(time, 0.75 * time[-1])] < 0.05 * 0.25 * time[-1]
         is_full = x - x[0] > 2.2 * length
