@@ -165,6 +165,18 @@ def print_table(rows):
         )
 
 
+def report_progress(done, total, row):
+    """A bar that is drawn over on a terminal; a line each elsewhere."""
+    last = f"{row['thickness_m']:g} m at {row['speed_m_per_s']:.2f} m/s"
+    if sys.stderr.isatty():
+        filled = 30 * done // total
+        bar = "#" * filled + "." * (30 - filled)
+        end = "\n" if done == total else ""
+        print(f"\r[{bar}] {done} of {total}  {last:<24}", end=end, file=sys.stderr, flush=True)
+    else:
+        print(f"{done} of {total}: {last}", file=sys.stderr, flush=True)
+
+
 def run_all(curve, wanted, jobs):
     """The rows, thinnest ice first; what is done is reported as it comes."""
     rows = {}
@@ -174,11 +186,7 @@ def run_all(curve, wanted, jobs):
             for future in concurrent.futures.as_completed(futures):
                 row = future.result()
                 rows[futures[future]] = row
-                print(
-                    f"{len(rows)} of {len(futures)}: {row['thickness_m']:g} m at {row['speed_m_per_s']:.2f} m/s",
-                    file=sys.stderr,
-                    flush=True,
-                )
+                report_progress(len(rows), len(futures), row)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
