@@ -6,6 +6,7 @@ import subprocess
 from .. import formulas
 from . import level_ice
 
+STOPPED = 75  # polynya's exit code
 FIRST, MOST = 5, 20  # lengths of the course
 
 
@@ -71,6 +72,8 @@ class Curve:
             text=True,
             check=False,
         )
+        if done.returncode == STOPPED:  # Ctrl-C reaches the run too
+            raise KeyboardInterrupt
         if done.returncode != 0:
             raise RunFailed(f"{path}: polynya run ended with {done.returncode}\n{done.stderr.strip()}")
         return folder
