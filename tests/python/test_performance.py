@@ -118,5 +118,5 @@ def test_the_curve_starts_near_the_formulas(tmp_path):
     assert speeds["lindqvist"] < curve.first_speed(0.5) < 8
     assert curve.first_speed(4) == 0.5, "a ship that the formulas stop is tried all the same"
     scene = level_ice.scene(SHIP, 0.5, 2, 8, ice, 0.01)
-    assert scene["floes"][0]["fast_ice"] and scene["time"]["until_s"] == 400
+    assert scene["floes"][0]["fast_ice"] and scene["time"]["until_s"] == 450
     assert scene["ice"]["thickness_m"] == 0.5
