@@ -25,9 +25,9 @@ bool misses_its_cusp(const geometry::CutOutcome& outcome, const PendingFracture&
          pending.failure == fracture::Failure::kBend;
 }
 
-/// The ice nearest to the contact, on the floe's boundary. The middle of a contact line may lie between two
-/// spikes.
-geometry::Point nearest_ice(const Population& population, const PendingFracture& pending) {
+/// Centres a cusp at the ice nearest to the contact, on the floe's boundary, if that is within the
+/// penetration. The middle of a contact line may lie between two spikes.
+void recentre(const Population& population, PendingFracture& pending) {
   const geometry::Pose pose = dynamics::water_from_body(population.bodies, population.body_of(pending.floe));
   const geometry::Point contact = inverse_transform(pose, pending.point_in_water);
   const geometry::Polygon& polygon = population.floes[pending.floe].shape.polygon;
@@ -40,7 +40,7 @@ geometry::Point nearest_ice(const Population& population, const PendingFracture&
   };
   consider(polygon.outer);
   for (const geometry::Ring& hole : polygon.holes) consider(hole);
-  return nearest;
+  if (distance(nearest, contact) <= pending.penetration) pending.first_touch_in_body = nearest;
 }
 
 Event event_of(const Clock& clock, const PendingFracture& pending, EventKind kind) {
@@ -104,7 +104,7 @@ void apply_fractures(const Setup& setup, const Clock& clock, std::vector<Pending
     const geometry::Shape& shape = population.floes[pending.floe].shape;
     geometry::CutOutcome outcome = cut(setup, shape, pending);
     if (misses_its_cusp(outcome, pending)) {
-      pending.first_touch_in_body = nearest_ice(population, pending);
+      recentre(population, pending);
       outcome = cut(setup, shape, pending);
     }
     if (outcome) {

@@ -20,6 +20,7 @@ PendingFracture misplaced(fracture::Failure failure, dynamics::PersistentContact
   PendingFracture pending;
   pending.failure = failure;
   pending.first_touch_in_body = {50, 5};
+  pending.point_in_water = {50, 5};
   pending.cusp_radius = 3;
   pending.crack_in_body.start = {-1, 5};
   pending.crack_in_body.end = {1.0 / 3, 5};

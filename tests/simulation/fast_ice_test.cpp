@@ -124,6 +124,7 @@ TEST(Cusp, WhoseFirstTouchHasBrokenOffIsCentredAtTheIceNearestToTheContact) {
   pending.first_touch_in_body = {-4, 0};  // with the radius below, it reaches no ice
   pending.normal = {1, 0};
   pending.cusp_radius = 2;
+  pending.penetration = 3;
   pending.record = &record;
   std::vector<PendingFracture> fractures{pending};
   apply_fractures(world.setup, world.clock, fractures, world.population, world.accounts, world.journal);
