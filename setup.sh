@@ -9,7 +9,8 @@ declare -A packages=(
            nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev librsvg2-bin"
   [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3 strace"
   [view]="chromium nodejs npm"
-  [python]="python3 python3-numpy python3-scipy python3-matplotlib python3-pytest"
+  [python]="python3 python3-numpy python3-scipy python3-matplotlib python3-pytest
+           python3-dev pybind11-dev"
   [slurm]="slurmctld slurmd slurm-client munge"
   [export]="python3-vtk9 python3-pandas gdal-bin"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"

@@ -23,6 +23,7 @@ FLOORS = {
     "views/player": 11,
     "views/export": 11,
     "app": 12,
+    "python/module": 13,
 }
 # Header of a package -> the only folders, or files, that include it.
 PACKAGES = {
@@ -35,7 +36,8 @@ PACKAGES = {
     r"boost/crc": ["io/run/"],
     r"nlohmann/": ["io/text/"],
     r"CLI/": ["app/command_line.hpp"],
-    r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/"],
+    r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/", "python/module/"],
+    r"pybind11/": ["python/module/"],
     r"tl/expected": [""],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')

@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app"]
+ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "python"]
 SUFFIXES = {".cpp", ".hpp", ".js"}
 MOST_LINES_OF_FILE = 300
 MOST_LINES_OF_FUNCTION = 50

@@ -1,5 +1,55 @@
-"""Polynya in Python.
+"""Polynya in Python: exact fracture of ice by icebreakers (docs/python.md).
 
-`polynya.study` plans, runs and gathers many runs of one scene (docs/studies.md); `polynya.statistics` has the estimators
-of its reports. The simulator itself is the program `polynya`.
+    import polynya
+    simulation = polynya.Simulation("scenes/two-floes.json")
+    simulation.run(until=5)
+    print(simulation.time, simulation.floes.poses)
+
+`Scene` and `Simulation` step the simulator in this process, `cut` cuts polygons exactly; these need the compiled module.
+`polynya.study` plans, runs and gathers many runs of one scene (docs/studies.md), `polynya.statistics` has the estimators of its reports;
+these need plain Python and the program `polynya`.
 """
+import os as _os
+
+TYPE_CHECKING = False  # typing's, without its import: every case of a study starts with this file
+if TYPE_CHECKING:
+    from polynya._core import Floes, PilotView, Scene, SeenShip, Ship, Simulation
+    from polynya.cutting import Cut, cut
+    from polynya.errors import Problem, SceneError, SimulationError
+
+__all__ = ["Cut", "Floes", "PilotView", "Problem", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "cut"]
+
+# The compiled module lies beside the folder that this package is in: that may be a link into the source tree, so its own
+# path is not resolved.
+__path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))), "python_core"))
+
+_COMPILED = {"Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
+_ERRORS = {"Problem", "SceneError", "SimulationError"}
+
+
+def _compiled():
+    try:
+        from polynya import _core
+    except ImportError as error:
+        raise ImportError(
+            f"polynya's compiled module cannot be imported ({error}): install what it needs with ./setup.sh python, build Polynya "
+            "again (cmake --preset dev && cmake --build --preset dev), and have build/dev/python in PYTHONPATH, not the source's "
+            "python folder") from error
+    return _core
+
+
+def __getattr__(name):
+    if name in _COMPILED:
+        return getattr(_compiled(), name)
+    if name in ("Cut", "cut"):
+        _compiled()
+        from polynya import cutting
+        return getattr(cutting, name)
+    if name in _ERRORS:
+        from polynya import errors
+        return getattr(errors, name)
+    raise AttributeError(f"module 'polynya' has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted(set(globals()) | set(__all__))

@@ -1,0 +1,197 @@
+#include <array>
+#include <string>
+#include <vector>
+
+#include "python/module/simulation.hpp"
+#include <pybind11/numpy.h>
+
+#include "io/run/force_columns.hpp"
+#include "simulation/world.hpp"
+
+namespace polynya::python {
+namespace {
+
+using Numbers = py::array_t<double>;
+using Integers = py::array_t<std::int64_t>;
+
+/// A copy of the floes' state, an array a quantity.
+struct Floes {
+  Integers ids, parents, generations;
+  py::array_t<bool> is_under;
+  Numbers poses, velocities;  ///< n × 3
+  Numbers thickness, areas, masses;
+  Numbers vertices, world_vertices;  ///< m × 2
+  Integers ring_offsets, floe_offsets;
+};
+
+/// A copy of a ship's state.
+struct Ship {
+  std::string name;
+  Numbers position, velocity;
+  double heading = 0, yaw_rate = 0, lever = 0, steering_angle = 0;
+  py::dict forces;
+};
+
+Numbers pair_of(double x, double y) {
+  const std::array<double, 2> values{x, y};
+  return Numbers(2, values.data());
+}
+
+py::dict forces_of(const simulation::ShipSample& sample) {
+  py::dict forces;
+  forces["t_s"] = sample.time;
+  for (const io::ForceColumn& column : io::force_columns())
+    forces[py::str(column.name.data(), column.name.size())] = column.read(sample);
+  return forces;
+}
+
+py::list ships_of(const Simulation& python) {
+  const simulation::Simulation& simulation = python.between_steps();
+  const std::vector<simulation::ShipState> states = simulation.ship_states();
+  py::list ships;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const simulation::ShipState& state = states[i];
+    const auto& helm = simulation.world().population.helms[i];
+    const geometry::Point at = state.world_from_ship.position;
+    const auto& sample = python.last_sample(i);
+    ships.append(Ship{simulation.scene().ships[i].name, pair_of(at.x, at.y),
+                      pair_of(state.velocity.x, state.velocity.y), state.heading, state.angular_velocity,
+                      helm.lever, helm.steering_angle, sample ? forces_of(*sample) : py::dict()});
+  }
+  return ships;
+}
+
+/// Rings of all floes one after the other, in the body's frame and in the world's.
+struct Rings {
+  std::vector<double> in_body, in_world;
+  std::vector<std::int64_t> ring_offsets{0}, floe_offsets{0};
+
+  void add(const geometry::Ring& ring, const geometry::Pose& world_from_body) {
+    for (const geometry::Point p : ring) {
+      const geometry::Point q = transform(world_from_body, p);
+      in_body.insert(in_body.end(), {p.x, p.y});
+      in_world.insert(in_world.end(), {q.x, q.y});
+    }
+    ring_offsets.push_back(static_cast<std::int64_t>(in_body.size() / 2));
+  }
+  void add(const simulation::FloeState& floe) {
+    add(floe.polygon_in_body->outer, floe.world_from_body);
+    for (const geometry::Ring& hole : floe.polygon_in_body->holes) add(hole, floe.world_from_body);
+    floe_offsets.push_back(static_cast<std::int64_t>(ring_offsets.size()) - 1);
+  }
+};
+
+Numbers table(const std::vector<double>& values, py::ssize_t columns) {
+  return Numbers({static_cast<py::ssize_t>(values.size()) / columns, columns}, values.data());
+}
+Integers array_of(const std::vector<std::int64_t>& values) {
+  return Integers(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+template <class Value, class Read>
+py::array_t<Value> column(const std::vector<simulation::FloeState>& states, Read read) {
+  py::array_t<Value> values(static_cast<py::ssize_t>(states.size()));
+  Value* at = values.mutable_data();
+  for (const simulation::FloeState& state : states) *at++ = read(state);
+  return values;
+}
+
+template <class Read>
+Numbers rows_of_three(const std::vector<simulation::FloeState>& states, Read read) {
+  std::vector<double> values;
+  values.reserve(3 * states.size());
+  for (const simulation::FloeState& state : states)
+    for (const double value : read(state)) values.push_back(value);
+  return table(values, 3);
+}
+
+Floes floes_of(const Simulation& python) {
+  using State = simulation::FloeState;
+  using Three = std::array<double, 3>;
+  const simulation::Simulation& simulation = python.between_steps();
+  const simulation::Population& population = simulation.world().population;
+  const std::vector<State> states = simulation.all_states();
+  Rings rings;
+  for (const State& state : states) rings.add(state);
+  const auto integers = [&](auto read) { return column<std::int64_t>(states, read); };
+  const auto numbers = [&](auto read) { return column<double>(states, read); };
+  return {
+      .ids = integers([](const State& s) { return s.floe; }),
+      .parents = integers([](const State& s) { return s.parent; }),
+      .generations = integers([](const State& s) { return static_cast<std::int64_t>(s.generation); }),
+      .is_under = column<bool>(states, [&](const State& s) { return population.floes[s.floe].is_under; }),
+      .poses = rows_of_three(states,
+                             [](const State& s) {
+                               const geometry::Point at = s.world_from_body.position;
+                               return Three{at.x, at.y, s.angle};
+                             }),
+      .velocities = rows_of_three(states,
+                                  [](const State& s) {
+                                    return Three{s.velocity.x, s.velocity.y, s.angular_velocity};
+                                  }),
+      .thickness =
+          numbers([&](const State& s) { return population.bodies.thickness[population.body_of(s.floe)]; }),
+      .areas = numbers([](const State& s) { return s.area; }),
+      .masses = numbers([](const State& s) { return s.mass; }),
+      .vertices = table(rings.in_body, 2),
+      .world_vertices = table(rings.in_world, 2),
+      .ring_offsets = array_of(rings.ring_offsets),
+      .floe_offsets = array_of(rings.floe_offsets),
+  };
+}
+
+void bind_ship(py::module_& module) {
+  py::class_<Ship>(module, "Ship", "A ship or structure between two steps: a copy.")
+      .def_readonly("name", &Ship::name)
+      .def_readonly("position", &Ship::position, "Of its centre of gravity, x and y [m].")
+      .def_readonly("heading", &Ship::heading, "From the x axis, counter-clockwise [rad].")
+      .def_readonly("velocity", &Ship::velocity, "Over ground, x and y [m/s].")
+      .def_readonly("yaw_rate", &Ship::yaw_rate, "Counter-clockwise [rad/s].")
+      .def_readonly("lever", &Ship::lever, "Of the thrust, -1 full astern to 1 full ahead.")
+      .def_readonly("steering_angle", &Ship::steering_angle, "Of rudder or thrusters, to port [rad].")
+      .def_readonly("forces", &Ship::forces,
+                    "The last row of forces.csv: a dict by its columns (docs/run-folder.md), forces by what\n"
+                    "causes them, means over the recording interval that ends at t_s. Empty before the\n"
+                    "first interval has ended.")
+      .def("__repr__", [](const Ship& s) {
+        return py::str("polynya.Ship({!r}, position {}, heading {:.4f} rad)")
+            .format(s.name, s.position, s.heading);
+      });
+}
+
+void bind_floes(py::module_& module) {
+  py::class_<Floes>(
+      module, "Floes",
+      "The floes between two steps, in the order of their ids: numpy arrays, copies.\n\n"
+      "Floe i has the rings floe_offsets[i] to floe_offsets[i + 1], the outer one first, holes after it;\n"
+      "ring r has the vertices ring_offsets[r] to ring_offsets[r + 1], the first not repeated.")
+      .def_readonly("ids", &Floes::ids, "Never reused; as in floes.ndjson and events.")
+      .def_readonly("parents", &Floes::parents, "Ids of the floes that they broke from; -1: of the scene.")
+      .def_readonly("generations", &Floes::generations, "Fractures since the scene's floe.")
+      .def_readonly("is_under", &Floes::is_under, "Whether under a hull, or the ice behind it.")
+      .def_readonly("poses", &Floes::poses,
+                    "n x 3: the body frame's origin in the world, x and y [m], and its angle [rad].")
+      .def_readonly("velocities", &Floes::velocities,
+                    "n x 3: of the centre of mass over ground, x and y [m/s]; turning [rad/s].")
+      .def_readonly("thickness", &Floes::thickness, "[m]")
+      .def_readonly("areas", &Floes::areas, "[m2]")
+      .def_readonly("masses", &Floes::masses, "[kg]")
+      .def_readonly("vertices", &Floes::vertices,
+                    "m x 2: in the body's frame, where a floe's shape never changes [m].")
+      .def_readonly("world_vertices", &Floes::world_vertices, "m x 2: the same in the world [m].")
+      .def_readonly("ring_offsets", &Floes::ring_offsets, "Of the rings in vertices; one more than rings.")
+      .def_readonly("floe_offsets", &Floes::floe_offsets,
+                    "Of the floes in ring_offsets; one more than floes.")
+      .def("__len__", [](const Floes& floes) { return floes.ids.size(); });
+}
+
+}  // namespace
+
+void bind_arrays(py::module_& module, py::class_<Simulation>& simulation) {
+  bind_ship(module);
+  bind_floes(module);
+  simulation.def_property_readonly("ships", &ships_of, "Ships and structures, in the scene's order: Ship.")
+      .def_property_readonly("floes", &floes_of, "The floes' state as numpy arrays: Floes.");
+}
+
+}  // namespace polynya::python

@@ -1,0 +1,89 @@
+#include "python/module/pilot.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+namespace polynya::python {
+namespace {
+
+/// A number of a command, which must be finite.
+double number_of(const py::handle& value, const char* name) {
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+  if (!std::isfinite(number)) throw py::value_error(fmt::format("the pilot's {} is {}", name, number));
+  return number;
+}
+
+py::tuple pair_of(geometry::Point p) {
+  return py::make_tuple(p.x, p.y);
+}
+py::tuple pair_of(geometry::Vector v) {
+  return py::make_tuple(v.x, v.y);
+}
+py::tuple three_of(const dynamics::Planar& p) {
+  return py::make_tuple(p.surge, p.sway, p.yaw);
+}
+
+void bind_seen_ship(py::module_& module) {
+  using simulation::SeenShip;
+  py::class_<SeenShip>(module, "SeenShip", "A ship or structure as pilots see it.")
+      .def_property_readonly(
+          "position", [](const SeenShip& s) { return pair_of(s.position_in_world); },
+          "Of its centre of gravity, x and y [m].")
+      .def_readonly("heading", &SeenShip::heading, "[rad]")
+      .def_property_readonly(
+          "velocity", [](const SeenShip& s) { return pair_of(s.velocity); }, "Over ground, x and y [m/s].")
+      .def_readonly("length", &SeenShip::length, "Of its waterline [m].");
+}
+
+/// A number of the view.
+template <auto Member>
+double read(const PilotView& view) {
+  return view.values.*Member;
+}
+
+}  // namespace
+
+simulation::Command ask(const py::object& pilot, const simulation::PilotView& view) {
+  const py::object command = pilot(PilotView(view));
+  if (command.is_none()) return {view.lever, view.steering_angle};
+  if (!py::isinstance<py::sequence>(command) || py::len(command) != 2)
+    throw py::type_error(fmt::format("the pilot returned {}, allowed: (lever, steering angle [rad]) or None",
+                                     py::repr(command).cast<std::string>()));
+  return {number_of(command[py::int_(0)], "lever"), number_of(command[py::int_(1)], "steering angle")};
+}
+
+void bind_pilot(py::module_& module) {
+  using V = simulation::PilotView;
+  bind_seen_ship(module);
+  py::class_<PilotView>(module, "PilotView", "What a pilot knows of its ship in a step: a copy.")
+      .def_property_readonly("time", &read<&V::time>, "[s]")
+      .def_property_readonly("step", &read<&V::step>, "To the next command [s].")
+      .def_property_readonly(
+          "ship", [](const PilotView& v) { return v.values.ship; }, "Its own index in ships.")
+      .def_readonly("ships", &PilotView::ships, "All ships and structures: SeenShip.")
+      .def_property_readonly(
+          "position", [](const PilotView& v) { return pair_of(v.own().position_in_world); },
+          "Of its centre of gravity, x and y [m].")
+      .def_property_readonly(
+          "heading", [](const PilotView& v) { return v.own().heading; }, "[rad]")
+      .def_property_readonly(
+          "velocity", [](const PilotView& v) { return pair_of(v.own().velocity); },
+          "Over ground, x and y [m/s].")
+      .def_property_readonly(
+          "through_water", [](const PilotView& v) { return three_of(v.values.through_water); },
+          "Ahead and to port [m/s], turning [rad/s].")
+      .def_property_readonly("speed_over_ground", &read<&V::speed_over_ground>, "Ahead [m/s].")
+      .def_property_readonly("lever", &read<&V::lever>, "Where it is, -1 to 1.")
+      .def_property_readonly("steering_angle", &read<&V::steering_angle>, "Where it is, to port [rad].")
+      .def_property_readonly("steering_most", &read<&V::steering_most>, "To either side [rad].")
+      .def_property_readonly(
+          "ice_force", [](const PilotView& v) { return three_of(v.values.ice_force); },
+          "On the ship in the step before: ahead and to port [N], moment [N m].")
+      .def_property_readonly("mass", &read<&V::mass>, "With the water's inertia ahead [kg].");
+}
+
+}  // namespace polynya::python

@@ -1,0 +1,233 @@
+#include "python/module/simulation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "io/run/active_run.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/records.hpp"
+#include "simulation/world.hpp"
+
+namespace polynya::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Ctrl-C waits at most this long, and progress is reported as often.
+constexpr auto kBetweenReports = std::chrono::milliseconds(50);
+constexpr double kMostSteps = 1e15;
+
+int checked_threads(int threads) {
+  if (threads < 1 || threads > 1024)
+    throw py::value_error(fmt::format("threads: found {}, allowed: 1 to 1024", threads));
+  return threads;
+}
+
+simulation::Simulation start(const io::LoadedScene& loaded) {
+  const py::gil_scoped_release release;
+  return simulation::Simulation(loaded.scene);
+}
+
+simulation::Simulation resumed(const io::LoadedScene& loaded, const std::string& bytes) {
+  const auto checkpoint = io::read_checkpoint(bytes);
+  if (!checkpoint) throw py::value_error("cannot resume: " + checkpoint.error());
+  if (checkpoint->scene_hash != loaded.hash)
+    throw py::value_error(fmt::format("cannot resume: saved of a scene of hash {}, this one has {}",
+                                      checkpoint->scene_hash, loaded.hash));
+  auto simulation = io::simulation_at(loaded, *checkpoint);
+  if (!simulation) throw py::value_error("cannot resume: " + simulation.error());
+  return *std::move(simulation);
+}
+
+/// Raises KeyboardInterrupt after Ctrl-C, and calls back.
+void report(const py::object& progress, double time) {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (!progress.is_none()) progress(time);
+}
+
+}  // namespace
+
+/// Marks a simulation as being stepped; the GIL is held where it is made and where it ends.
+class Simulation::Stepping {
+ public:
+  explicit Stepping(Simulation& simulation) : simulation_(simulation) { simulation.is_stepping_ = true; }
+  ~Stepping() { simulation_.is_stepping_ = false; }
+  Stepping(const Stepping&) = delete;
+  Stepping& operator=(const Stepping&) = delete;
+
+ private:
+  Simulation& simulation_;
+};
+
+Simulation::Simulation(std::shared_ptr<Scene> scene, int threads)
+    : Simulation(scene, start(scene->loaded()), threads) {}
+
+Simulation::Simulation(std::shared_ptr<Scene> scene, simulation::Simulation simulation, int threads)
+    : scene_(std::move(scene)),
+      simulation_(std::move(simulation)),
+      samples_(scene_->loaded().scene.ships.size()),
+      pilots_(samples_.size(), py::none()) {
+  simulation_.set_threads(checked_threads(threads));
+  simulation_.journal().clear();
+}
+
+std::unique_ptr<Simulation> Simulation::resume(std::shared_ptr<Scene> scene, const py::bytes& bytes,
+                                               int threads) {
+  simulation::Simulation simulation = resumed(scene->loaded(), bytes);
+  return std::unique_ptr<Simulation>(new Simulation(std::move(scene), std::move(simulation), threads));
+}
+
+const simulation::Simulation& Simulation::between_steps() const {
+  if (is_broken_)
+    throw std::runtime_error(
+        "an earlier error left a step of this simulation unfinished; resume a saved one");
+  if (!is_pilot_asked_) refuse_while_stepping();
+  return simulation_;
+}
+
+void Simulation::refuse_while_stepping() const {
+  if (is_stepping_)
+    throw std::runtime_error("this simulation is being stepped; wait for its step() or run()");
+}
+
+void Simulation::take_journal() {
+  simulation::Journal& journal = simulation_.journal();
+  const simulation::Scene& scene = simulation_.scene();
+  const auto& floes = simulation_.world().population.floes;
+  for (const simulation::Event& event : journal.events) {
+    const simulation::FloeId parent =
+        event.floe == simulation::kNoFloe ? simulation::kNoFloe : floes[event.floe].parent;
+    io::append_event(events_, event, io::ship_name(scene, event.ship), parent);
+    events_.back() = ',';  // in place of the line's end
+  }
+  for (const simulation::ShipContact& contact : journal.ship_contacts) {
+    io::append_ship_contact(events_, contact, io::ship_name(scene, contact.ship),
+                            io::ship_name(scene, contact.other));
+    events_.back() = ',';
+  }
+  for (const simulation::ShipSample& sample : journal.samples) samples_[sample.ship] = sample;
+  journal.clear();
+}
+
+void Simulation::step_once() {
+  try {
+    simulation_.step();
+    take_journal();
+  } catch (...) {  // memory ran out
+    is_broken_ = true;
+    throw;
+  }
+}
+
+void Simulation::raise_failure() {
+  if (const auto failure = simulation_.numerical_failure())
+    raise("SimulationError",
+          py::str(fmt::format("numerical failure at {:.6g} s: {}", simulation_.time(), *failure)));
+}
+
+void Simulation::advance_to(std::int64_t last_step, const py::object& progress) {
+  refuse_while_stepping();
+  between_steps();
+  raise_failure();
+  const Stepping stepping(*this);
+  {
+    const py::gil_scoped_release release;
+    auto last_report = Clock::now();
+    while (simulation_.steps() < last_step && !simulation_.numerical_failure()) {
+      step_once();
+      if (pilot_error_) break;
+      if (const auto now = Clock::now(); now - last_report >= kBetweenReports) {
+        last_report = now;
+        const py::gil_scoped_acquire acquire;
+        report(progress, simulation_.time());
+      }
+    }
+  }
+  if (pilot_error_) std::rethrow_exception(std::exchange(pilot_error_, nullptr));
+  raise_failure();
+}
+
+void Simulation::step(std::int64_t count) {
+  if (count < 0) throw py::value_error(fmt::format("step: found {} steps, allowed: 0 or more", count));
+  const std::int64_t done = between_steps().steps();
+  if (static_cast<double>(done) + static_cast<double>(count) > kMostSteps)
+    throw py::value_error(fmt::format("step: found {} steps, allowed: at most {}", count, kMostSteps));
+  advance_to(done + count, py::none());
+}
+
+void Simulation::run(std::optional<double> until, const py::object& progress) {
+  if (!progress.is_none() && !PyCallable_Check(progress.ptr()))
+    throw py::type_error("run: progress is a callable that takes the time [s], or None");
+  const simulation::StepSettings& time = between_steps().scene().time;
+  const double steps = std::ceil(until.value_or(time.until) / time.step - 1e-9);
+  if (!(std::abs(steps) <= kMostSteps))
+    throw py::value_error(fmt::format("run: until is {} s, allowed: a finite time of at most {} steps",
+                                      until.value_or(time.until), kMostSteps));
+  advance_to(static_cast<std::int64_t>(steps), progress);
+  report(progress, simulation_.time());
+}
+
+py::list Simulation::events() {
+  between_steps();
+  std::string text = "[" + std::exchange(events_, {});
+  if (text.size() > 1) text.pop_back();
+  return py::module_::import("json").attr("loads")(text + "]");
+}
+
+py::bytes Simulation::save() const {
+  refuse_while_stepping();  // also to pilots: the levers of the ships before theirs have moved
+  return py::bytes(io::checkpoint_bytes(io::checkpoint_of(between_steps(), scene(), {}, 0)));
+}
+
+std::size_t Simulation::index_of(const py::object& ship) const {
+  const auto& ships = simulation_.scene().ships;
+  const auto count = static_cast<std::int64_t>(ships.size());
+  if (py::isinstance<py::int_>(ship)) {
+    const auto index = ship.cast<std::int64_t>();
+    if (index < 0 || index >= count)
+      throw py::index_error(fmt::format("ship {}: the scene has {} ships and structures", index, count));
+    return static_cast<std::size_t>(index);
+  }
+  if (!py::isinstance<py::str>(ship)) throw py::type_error("set_pilot: a ship is an index or a name");
+  const auto name = ship.cast<std::string>();
+  const auto found = std::ranges::find(ships, name, &simulation::ShipSpec::name);
+  if (found == ships.end()) throw py::value_error(fmt::format("the scene has no ship named \"{}\"", name));
+  return static_cast<std::size_t>(found - ships.begin());
+}
+
+void Simulation::set_pilot(const py::object& ship, const py::object& pilot) {
+  refuse_while_stepping();
+  const std::size_t index = index_of(ship);
+  const simulation::ShipSpec& spec = simulation_.scene().ships[index];
+  if (!std::holds_alternative<simulation::Engine>(spec.propulsion))
+    throw py::value_error(fmt::format(
+        "ship \"{}\" has no engine to command: give it propulsion.engine (docs/scene.md)", spec.name));
+  if (!pilot.is_none() && !PyCallable_Check(pilot.ptr()))
+    throw py::type_error("set_pilot: a pilot is a callable that takes a PilotView, or None");
+  pilots_[index] = pilot;
+  simulation::ExternalPilot external;
+  if (!pilot.is_none())
+    external = [this, index](const simulation::PilotView& view) { return command_of(index, view); };
+  simulation_.set_pilot(static_cast<int>(index), std::move(external));
+}
+
+/// What a pilot raises ends the stepping after this step; the step itself is whole, levers where they are.
+simulation::Command Simulation::command_of(std::size_t ship, const simulation::PilotView& view) {
+  simulation::Command command{view.lever, view.steering_angle};
+  if (pilot_error_) return command;
+  const py::gil_scoped_acquire acquire;
+  is_pilot_asked_ = true;
+  try {
+    command = ask(pilots_[ship], view);
+  } catch (...) {
+    pilot_error_ = std::current_exception();
+  }
+  is_pilot_asked_ = false;
+  return command;
+}
+
+}  // namespace polynya::python

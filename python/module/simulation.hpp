@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "python/module/pilot.hpp"
+#include "python/module/scene.hpp"
+
+#include "simulation/simulation.hpp"
+
+namespace polynya::python {
+
+/// A simulation owned by Python. Every method is called with the GIL held; steps release it.
+class Simulation {
+ public:
+  Simulation(std::shared_ptr<Scene> scene, int threads);
+  /// Continues from the bytes of save(). Raises ValueError where they do not fit.
+  static std::unique_ptr<Simulation> resume(std::shared_ptr<Scene> scene, const py::bytes& bytes,
+                                            int threads);
+
+  void step(std::int64_t count);
+  /// To a time [s], the scene's own end if none is given. `progress` is None or a callable.
+  void run(std::optional<double> until, const py::object& progress);
+  py::list events();
+  py::bytes save() const;
+  /// Puts a callable in the place of a ship's own pilot; None gives the ship back to its own. The ship is an
+  /// index or a name.
+  void set_pilot(const py::object& ship, const py::object& pilot);
+  /// What Python's garbage collector follows and clears.
+  std::vector<py::object>& pilots() { return pilots_; }
+
+  /// The simulation between two steps or before one, to be read. Raises RuntimeError while it is stepped,
+  /// but for its pilots, which are asked before anything moves.
+  const simulation::Simulation& between_steps() const;
+  /// The last recorded row of a ship; none before the first.
+  const std::optional<simulation::ShipSample>& last_sample(std::size_t ship) const { return samples_[ship]; }
+  const io::LoadedScene& scene() const { return scene_->loaded(); }
+
+ private:
+  class Stepping;
+  Simulation(std::shared_ptr<Scene> scene, simulation::Simulation simulation, int threads);
+  void advance_to(std::int64_t last_step, const py::object& progress);
+  void step_once();
+  void refuse_while_stepping() const;
+  std::size_t index_of(const py::object& ship) const;
+  simulation::Command command_of(std::size_t ship, const simulation::PilotView& view);
+  void take_journal();
+  void raise_failure();
+
+  std::shared_ptr<Scene> scene_;
+  simulation::Simulation simulation_;
+  std::string events_;  ///< since the last call of events(): JSON objects, a comma behind each
+  std::vector<std::optional<simulation::ShipSample>> samples_;  ///< per ship
+  std::vector<py::object> pilots_;                              ///< per ship; None: its own
+  std::exception_ptr pilot_error_;  ///< raised by one in a step, to be raised after it
+  bool is_stepping_ = false;
+  bool is_pilot_asked_ = false;
+  bool is_broken_ = false;  ///< an exception left a step unfinished
+};
+
+void bind_simulation(py::module_& module);
+/// Ship, Floes and how they are read from a simulation.
+void bind_arrays(py::module_& module, py::class_<Simulation>& simulation);
+void bind_cut(py::module_& module);
+
+}  // namespace polynya::python

@@ -1,0 +1,76 @@
+"""Exact cuts of polygons, from numpy rings or anything with __geo_interface__."""
+import collections.abc
+import json
+import typing
+
+import numpy
+
+from polynya import _core
+
+
+class Cut(typing.NamedTuple):
+    """What a cut made. area_of_pieces_m2 + removed_m2 = area_m2 + rounding_defect_m2, all of them in the ledger (docs/cut.md)."""
+
+    pieces: list  #: polygons: lists of numpy rings (n x 2) [m], the outer one first; open and counter-clockwise, holes clockwise
+    parts: list  #: "inside" or "outside" the tool, piece by piece
+    ledger: dict  #: of the floe: where every square metre went
+
+
+def _ring(ring):
+    points = numpy.asarray(ring, dtype=float)
+    if points.ndim != 2 or points.shape[1] < 2 or len(points) < 3:
+        raise ValueError(f"a ring is an array of n x 2 numbers, n at least 3, not of shape {points.shape}")
+    if not numpy.isfinite(points[:, :2]).all():
+        raise ValueError("a ring has a coordinate that is no finite number")
+    closed = points[:, :2].tolist()
+    return closed if closed[0] == closed[-1] else closed + closed[:1]
+
+
+def _geometry(shape):
+    """GeoJSON of a polygon: a ring, a list of rings, or what has __geo_interface__."""
+    given = getattr(shape, "__geo_interface__", shape)
+    if isinstance(given, collections.abc.Mapping):
+        given = given.get("geometry", given) if given.get("type") == "Feature" else given
+        if given.get("type") == "MultiPolygon":
+            polygons = [[_ring(ring) for ring in polygon] for polygon in given["coordinates"]]
+            return {"type": "MultiPolygon", "coordinates": polygons}
+        if given.get("type") != "Polygon":
+            raise ValueError(f"a polygon is needed, not a {given.get('type')}")
+        return {"type": "Polygon", "coordinates": [_ring(ring) for ring in given["coordinates"]]}
+    is_ring = len(given) > 0 and len(given[0]) > 0 and numpy.ndim(given[0][0]) == 0
+    return {"type": "Polygon", "coordinates": [_ring(ring) for ring in ([given] if is_ring else given)]}
+
+
+def _numbers(name, values, count):
+    numbers = numpy.asarray(values, dtype=float)
+    if numbers.shape != (count,) or not numpy.isfinite(numbers).all():
+        raise ValueError(f"{name} has {count} finite numbers, found {values!r}")
+    return numbers.tolist()
+
+
+def cut(polygon, *, disc=None, crack=None, by=None, keep="both", repair=None):
+    """Cuts a polygon exactly, and accounts for every square metre.
+
+    polygon: a ring (n x 2 numbers [m]), a list of rings (holes after the outer one), or what has __geo_interface__.
+    One tool of: disc=(x, y, radius [m]); crack=(x, y, angle in degrees from the x axis), the straight line through a point;
+    by=another polygon. keep: "both", "outside" or "inside" of a disc or polygon. repair: "even-odd" or "non-zero" for a polygon
+    that is not valid; without it, it is refused.
+    Returns a Cut. Raises ValueError for what cannot be cut, with the reason.
+    """
+    tools = {"disc": disc, "crack": crack, "polygon": by}
+    given = [name for name, tool in tools.items() if tool is not None]
+    if len(given) != 1:
+        raise TypeError(f"one of disc, crack and by is needed, {len(given)} are given")
+    name = given[0]
+    tool = _geometry(by) if name == "polygon" else _numbers(name, tools[name], 3)
+    operation = {name: tool} if name == "crack" else {name: tool, "keep": keep}
+    shape = _geometry(polygon)
+    if shape["type"] != "Polygon":
+        raise ValueError("one polygon is cut at a time, not a MultiPolygon")
+    feature = {"type": "Feature", "properties": {}, "geometry": shape}
+    pieces, ledger = map(json.loads, _core.cut_geojson(json.dumps(feature), json.dumps([operation]), repair or ""))
+    floe = ledger["floes"][0]
+    if floe.get("rejected"):
+        raise ValueError("the polygon cannot be cut: {reason}: {detail}".format(**{"detail": "", **floe["rejected"]}))
+    rings = [[numpy.array(ring[:-1]) for ring in piece["geometry"]["coordinates"]] for piece in pieces["features"]]
+    return Cut(rings, [piece["properties"]["part"] for piece in pieces["features"]], floe)

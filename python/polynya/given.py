@@ -1,0 +1,31 @@
+"""What a scene may be given as."""
+import collections.abc
+import errno
+import json
+import os
+
+
+def _plain(value):
+    """numpy's arrays and numbers, and paths, as JSON has them."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise TypeError(f"a scene has no {type(value).__name__}: {value!r}")
+
+
+def scene_parts(given):
+    """A scene's file and its JSON text, of which one is empty, and whether the text is the caller's own, with lines to name."""
+    if isinstance(given, collections.abc.Mapping):
+        try:
+            return "", json.dumps(dict(given), default=_plain, allow_nan=False), False
+        except RecursionError:
+            raise ValueError("the scene holds itself, or is nested too deep") from None
+    if isinstance(given, str) and "{" in given:
+        return "", given, True
+    if not isinstance(given, (str, os.PathLike)):
+        raise TypeError(f"a scene is a dict, JSON text or a path, not {type(given).__name__}")
+    path = os.fsdecode(given)
+    if not os.path.exists(path):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
+    return path, "", True

@@ -1,0 +1,343 @@
+"""The compiled module: the command line's bits, from Python."""
+import csv
+import gc
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import threading
+import weakref
+
+import numpy
+import pytest
+
+import polynya
+
+PROGRAM = os.environ["POLYNYA_PROGRAM"]
+SCENES = pathlib.Path(os.environ["POLYNYA_SCENES"])
+SOURCE_PACKAGE = SCENES.parent / "python"
+
+ICE = {
+    "name": "from-python",
+    "time": {"step_s": 0.01, "until_s": 12},
+    "record": {"forces_interval_s": 0.1, "frames_interval_s": 4},
+    "ships": [{"name": "breaker", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
+               "position_m": [-31, 0], "speed_m_per_s": 3, "propulsion": {"constant_speed_m_per_s": 3}}],
+    "fracture": {"cusp_fate": "float"},
+    "floes": [{"rectangle": {"corner_m": [0, -40], "size_m": [120, 80]}}],
+}
+SEA = {
+    "time": {"step_s": 0.05, "until_s": 60},
+    "ships": [{"name": "sailing",
+               "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "draught_m": 6, "block_coefficient": 0.579},
+               "speed_m_per_s": 6, "propulsion": {"engine": {"bollard_pull_kN": 314, "open_water_speed_m_per_s": 6}},
+               "steering": {"rudder": {"area_m2": 13}}}],
+}
+
+
+def endless():
+    """Steps until it is stopped, in no time each."""
+    return polynya.Simulation({**json.loads(json.dumps(SEA)), "time": {"step_s": 0.05, "until_s": 1e6}})
+
+
+@pytest.fixture(scope="module")
+def command_lines_run(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    (folder / "scene.json").write_text(json.dumps(ICE))
+    subprocess.run([PROGRAM, "run", folder / "scene.json", "--out", folder / "run", "--no-map"], check=True, capture_output=True)
+    return folder / "run"
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_state_events_and_forces_are_those_of_the_command_line(command_lines_run):
+    simulation = polynya.Simulation(ICE)
+    for row in rows(command_lines_run / "states.csv"):
+        simulation.run(until=float(row["t_s"]))
+        assert (simulation.steps, simulation.state_hash) == (int(row["steps"]), row["state_hash"])
+    events = [json.loads(line) for line in (command_lines_run / "events.ndjson").read_text().splitlines()]
+    assert any(event["kind"] == "bend" for event in events)
+    assert simulation.events() == events
+    assert simulation.events() == []
+    written = rows(command_lines_run / "forces.csv")[-1]
+    forces = simulation.ships[0].forces
+    assert {key: forces[key] for key in written if key != "ship"} == {
+        key: pytest.approx(float(value), rel=1e-5) for key, value in written.items() if key != "ship"}
+
+
+def test_a_saved_simulation_continues_bit_for_bit():
+    whole, first = polynya.Simulation(ICE), polynya.Simulation(ICE)
+    whole.run(until=6)
+    first.run(until=3)
+    second = polynya.Simulation.resume(ICE, first.save())
+    assert (second.time, second.state_hash) == (first.time, first.state_hash)
+    second.run(until=6)
+    assert second.state_hash == whole.state_hash
+    with pytest.raises(ValueError, match="hash"):
+        polynya.Simulation.resume(SEA, first.save())
+    damaged = bytearray(first.save())
+    damaged[len(damaged) // 2] ^= 1
+    with pytest.raises(ValueError, match="cannot resume"):
+        polynya.Simulation.resume(ICE, bytes(damaged))
+
+
+def test_a_scene_from_a_dict_a_text_and_a_file_is_the_same(tmp_path):
+    file = tmp_path / "scene.json"
+    file.write_text("// a comment\n" + json.dumps(ICE))
+    hashes = {polynya.Scene(given).hash for given in (ICE, json.dumps(ICE), file, str(file))}
+    assert len(hashes) == 1
+    with_numpy = {**ICE, "floes": [{"rectangle": {"corner_m": numpy.array([0.0, -40.0]), "size_m": (numpy.float64(120), 80)}}]}
+    assert polynya.Scene(with_numpy).hash in hashes
+    assert polynya.Scene(ICE).resolved["ice"]["thickness_m"] > 0
+
+
+def test_a_wrong_scene_lists_its_problems_with_their_places(tmp_path):
+    wrong = {**ICE, "ice": {"thicknes_m": 1, "friction": -1}}
+    problems = polynya.Scene(wrong).validate()
+    assert {problem.path for problem in problems} == {"ice.thicknes_m", "ice.friction"}
+    assert all(problem.severity == "error" and problem.line is None for problem in problems)
+    with pytest.raises(polynya.SceneError) as raised:
+        polynya.Simulation(wrong)
+    assert raised.value.problems == problems
+    assert "ice.friction" in str(raised.value)
+    of_text = polynya.Scene(json.dumps(wrong, indent=1)).validate()
+    lines = json.dumps(wrong, indent=1).splitlines()
+    assert all(problem.path.split(".")[1] in lines[problem.line - 1] for problem in of_text)
+    friction = next(problem for problem in of_text if problem.path == "ice.friction")
+    assert friction.found == "-1" and friction.allowed
+    assert [problem.severity for problem in polynya.Scene('{"floes": ').validate()] == ["error"]
+    with pytest.raises(FileNotFoundError):
+        polynya.Scene(tmp_path / "none.json")
+
+
+@pytest.mark.parametrize("wrong, error", [
+    (lambda: polynya.Scene(3), TypeError),
+    (lambda: polynya.Scene({"seed": object()}), TypeError),
+    (lambda: polynya.Scene({"seed": float("nan")}), ValueError),
+    (lambda: polynya.Simulation(None), TypeError),
+    (lambda: polynya.Simulation(SEA, threads=0), ValueError),
+    (lambda: polynya.Simulation(SEA).step(-1), ValueError),
+    (lambda: polynya.Simulation(SEA).step(1.5), TypeError),
+    (lambda: polynya.Simulation(SEA).run(until=float("nan")), ValueError),
+    (lambda: polynya.Simulation(SEA).run(until=1, progress=3), TypeError),
+    (lambda: polynya.Simulation(SEA).set_pilot(1, print), IndexError),
+    (lambda: polynya.Simulation(SEA).set_pilot("none", print), ValueError),
+    (lambda: polynya.Simulation(SEA).set_pilot(0, 3), TypeError),
+    (lambda: polynya.Simulation(ICE).set_pilot(0, print), ValueError),
+])
+def test_wrong_arguments_are_refused(wrong, error):
+    with pytest.raises(error):
+        wrong()
+
+
+def test_floes_are_arrays_of_one_length():
+    simulation = polynya.Simulation(ICE)
+    simulation.run()
+    floes = simulation.floes
+    count = len(floes)
+    assert count > 2 and any(event["kind"] == "bend" for event in simulation.events())
+    for name in ("ids", "parents", "generations", "is_under", "thickness", "areas", "masses"):
+        assert getattr(floes, name).shape == (count,)
+    assert floes.poses.shape == floes.velocities.shape == (count, 3)
+    assert floes.floe_offsets.shape == (count + 1,) and floes.floe_offsets[-1] == len(floes.ring_offsets) - 1
+    assert floes.vertices.shape == floes.world_vertices.shape == (floes.ring_offsets[-1], 2)
+    assert (numpy.diff(floes.ids) > 0).all()
+    density = polynya.Scene(ICE).resolved["ice"]["density_kg_per_m3"]
+    numpy.testing.assert_allclose(floes.masses, density * floes.thickness * floes.areas, rtol=1e-12)
+    for i in range(count):  # each shape has the area that is given for it, wherever it is
+        area = 0
+        for ring in range(floes.floe_offsets[i], floes.floe_offsets[i + 1]):
+            x, y = floes.world_vertices[floes.ring_offsets[ring]:floes.ring_offsets[ring + 1]].T
+            x, y = x - x[0], y - y[0]
+            area += 0.5 * (x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1))
+        assert area == pytest.approx(floes.areas[i], rel=1e-9)
+    ship = simulation.ships[0]
+    assert ship.name == "breaker" and ship.position.shape == ship.velocity.shape == (2,)
+    ship.position[0] = floes.poses[0, 0] = 1e9  # copies
+    assert simulation.ships[0].position[0] < 1e3 and simulation.floes.poses[0, 0] < 1e3
+
+
+def test_a_python_pilot_steers():
+    seen = []
+
+    def to_port(view):
+        seen.append((view.time, view.position, view.lever, len(view.ships), view.ice_force))
+        return (0.5, view.steering_most)
+
+    simulation = polynya.Simulation(SEA)
+    simulation.set_pilot("sailing", to_port)
+    simulation.step(400)
+    assert len(seen) == 400 and seen[1][0] == pytest.approx(0.05)
+    assert simulation.ships[0].heading > 0.1 and simulation.ships[0].lever == pytest.approx(0.5)
+    simulation.set_pilot(0, None)
+    simulation.step()
+    assert len(seen) == 400
+
+
+def test_what_a_pilot_raises_comes_out_of_step_after_a_whole_step():
+    simulation = polynya.Simulation(SEA)
+    simulation.set_pilot(0, lambda view: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        simulation.step(10)
+    assert simulation.steps == 1
+    for wrong in ((1,), "ab", 3, (float("nan"), 0)):
+        simulation.set_pilot(0, lambda view: wrong)
+        with pytest.raises((TypeError, ValueError)):
+            simulation.step()
+    simulation.set_pilot(0, lambda view: None)
+    simulation.step(5)
+    assert simulation.steps == 10
+
+
+def test_a_pilot_reads_its_simulation_but_does_not_step_it():
+    simulation = polynya.Simulation(SEA)
+    positions = []
+
+    def curious(view):
+        positions.append((view.position[0], simulation.ships[0].position[0], len(simulation.floes)))
+        simulation.step()
+
+    simulation.set_pilot(0, curious)
+    with pytest.raises(RuntimeError, match="being stepped"):
+        simulation.step()
+    assert positions[0][0] == positions[0][1]
+    simulation.set_pilot(0, lambda view: simulation.save())
+    with pytest.raises(RuntimeError, match="being stepped"):
+        simulation.step()
+
+
+def test_progress_is_called_and_ends_the_run_where_it_raises():
+    times = []
+    simulation = polynya.Simulation(SEA)
+    simulation.run(until=2, progress=times.append)
+    assert times[-1] == pytest.approx(2) and simulation.steps == 40
+
+    def stop(at):
+        raise StopIteration(at)
+
+    with pytest.raises(StopIteration):
+        endless().run(progress=stop)
+
+
+def test_ctrl_c_ends_a_run_between_two_steps():
+    code = ("import polynya, signal, sys, json\n"
+            "simulation = polynya.Simulation(json.loads(sys.argv[1]))\n"
+            "shown = False\n"
+            "def progress(time):\n"
+            "    global shown\n"
+            "    shown or print('running', flush=True)\n"
+            "    shown = True\n"
+            "try:\n"
+            "    simulation.run(progress=progress)\n"
+            "except KeyboardInterrupt:\n"
+            "    before = simulation.steps\n"
+            "    simulation.step(3)\n"
+            "    print(simulation.steps - before)\n")
+    scene = json.dumps({**SEA, "time": {"step_s": 0.05, "until_s": 1e6}})
+    with subprocess.Popen([sys.executable, "-c", code, scene], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "running\n"
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=60)[0] == "3\n"
+        assert process.returncode == 0
+
+
+def test_two_simulations_in_two_threads_give_the_same_state():
+    alone = polynya.Simulation(ICE)
+    alone.run(until=5)
+    pair = [polynya.Simulation(ICE), polynya.Simulation(ICE)]
+    threads = [threading.Thread(target=simulation.run, args=(5,)) for simulation in pair]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert {simulation.state_hash for simulation in pair} == {alone.state_hash}
+
+
+def test_the_interpreter_runs_while_a_simulation_steps_and_may_not_touch_it():
+    simulation = endless()
+    is_running, is_enough = threading.Event(), False
+
+    def progress(at):
+        is_running.set()
+        if is_enough:
+            raise StopIteration
+
+    def run():
+        with pytest.raises(StopIteration):
+            simulation.run(progress=progress)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    assert is_running.wait(60)
+    for touch in (lambda: simulation.time, lambda: simulation.floes, simulation.step, simulation.save, simulation.events):
+        with pytest.raises(RuntimeError, match="being stepped"):
+            touch()
+    is_enough = True
+    thread.join(60)
+    assert not thread.is_alive() and simulation.time > 0
+
+
+def test_a_simulation_that_its_pilot_refers_to_is_collected_in_another_thread():
+    class Captain:
+        def __call__(self, view):
+            return None
+
+    captain = Captain()
+    captain.simulation = polynya.Simulation(SEA)
+    captain.simulation.set_pilot(0, captain)
+    captain.simulation.step(3)
+    alive = weakref.ref(captain)
+    del captain
+    collector = threading.Thread(target=gc.collect)
+    collector.start()
+    collector.join()
+    assert alive() is None
+
+
+def test_without_the_module_studies_work_and_the_error_names_what_to_do():
+    code = ("import polynya, polynya.study\n"
+            "try:\n    polynya.Simulation\nexcept ImportError as error:\n    print(error)\n")
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE_PACKAGE)}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert "./setup.sh python" in done.stdout
+
+
+SQUARE = numpy.array([[0, 0], [10, 0], [10, 10], [0, 10]])
+
+
+def area_of(rings):
+    return sum(0.5 * (x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)) for x, y in (ring.T for ring in rings))
+
+
+@pytest.mark.parametrize("tool", [{"disc": (10, 5, 3)}, {"crack": (5, 5, 30)}, {"by": SQUARE + 4},
+                                  {"by": {"type": "Polygon", "coordinates": [(SQUARE / 2 + 2).tolist()]}}])
+def test_a_cut_accounts_for_every_square_metre(tool):
+    cut = polynya.cut(SQUARE, **tool)
+    assert len(cut.pieces) == len(cut.parts) == cut.ledger["pieces"] == 2
+    assert cut.ledger["exact_defect_m2"] == "0"
+    assert sum(map(area_of, cut.pieces)) == pytest.approx(100, rel=1e-12)
+
+
+def test_a_cut_takes_shapes_with_holes_and_refuses_what_is_none():
+    class Shape:
+        __geo_interface__ = {"type": "Polygon", "coordinates": [SQUARE.tolist(), (SQUARE[::-1] / 5 + 4).tolist()]}
+
+    for shape in (Shape(), [SQUARE, SQUARE[::-1] / 5 + 4]):
+        assert sum(map(area_of, polynya.cut(shape, crack=(5, 5, 90)).pieces)) == pytest.approx(96)
+    assert len(polynya.cut(SQUARE, disc=(10, 5, 3), keep="outside").pieces) == 1
+    bow_tie = SQUARE[[0, 2, 1, 3]]
+    with pytest.raises(ValueError, match="self-crossing"):
+        polynya.cut(bow_tie, crack=(5, 5, 0))
+    assert polynya.cut(bow_tie, crack=(5, 0, 90), repair="even-odd").pieces
+    for wrong in (numpy.zeros((4, 1)), numpy.full((4, 2), numpy.nan), SQUARE[:2]):
+        with pytest.raises(ValueError):
+            polynya.cut(wrong, disc=(0, 0, 1))
+    with pytest.raises(ValueError):
+        polynya.cut(SQUARE, disc=(0, 0))
+    with pytest.raises(TypeError):
+        polynya.cut(SQUARE)
