@@ -14,6 +14,7 @@ namespace {
 
 using simulation::ShipSpec;
 
+constexpr double kLargestRudder = 0.2;        ///< A_R of L T; rudders have a tenth of that [-]
 constexpr double kRudderShare = 0.018;        ///< A_R of L T [-]
 constexpr double kPropellerOfDraught = 0.65;  ///< D of T (recall) [-]
 constexpr double kGyrationOfLength = 0.25;    ///< [-]
@@ -119,10 +120,15 @@ class Completion {
       return report("steering", "a rudder or thrusters without an engine",
                     "propulsion.engine, or no steering");
     auto* rudder = std::get_if<simulation::RudderSettings>(&ship_.steering);
-    if (!rudder || rudder->area > 0) return;
+    if (!rudder) return;
+    const auto d = dimensions();
+    const double most = kLargestRudder * d.length * d.draught;
+    if (rudder->area > 0 && most > 0 && rudder->area > most)
+      return report("steering.rudder.area_m2", fmt::format("{:g}", rudder->area),
+                    fmt::format("at most a fifth of length times draught, {:.4g} [m²]", most));
+    if (rudder->area > 0) return;
     if (ship_.hull.draught <= 0)
       return report("steering.rudder.area_m2", "nothing, and no hull.draught_m", "an area, or a draught");
-    const auto d = dimensions();
     rudder->area = kRudderShare * d.length * d.draught;
   }
 

@@ -85,6 +85,8 @@ TEST(SailingScene, WhatDoesNotGoTogetherIsRefusedAtItsPlace) {
       {kHull + "," + thrust +
            R"(, "mooring": {"sway_stiffness_N_per_m": 1e5, "position_m": [0, 30], "break_load_N": 2e6})",
        "ships[0].mooring.break_load_N", "it pulls with 3e+06 N"},
+      {kHull + "," + kEngine + R"(, "steering": {"rudder": {"area_m2": 150}})",
+       "ships[0].steering.rudder.area_m2", "150"},
       {kHull + R"(, "propulsion": {"constant_speed_m_per_s": 1}, "mooring": {})", "ships[0].mooring",
        "speed is prescribed"},
       {kHull + "," + thrust + R"(, "pilot": {"constant": {}})", "ships[0].pilot", "without an engine"},
