@@ -142,7 +142,7 @@ Floes floes_of(const Simulation& python) {
 
 void bind_ship(py::module_& module) {
   py::class_<Ship>(module, "Ship", "A ship or structure between two steps: a copy.")
-      .def_readonly("name", &Ship::name)
+      .def_readonly("name", &Ship::name, "As in the scene.")
       .def_readonly("position", &Ship::position, "Of its centre of gravity, x and y [m].")
       .def_readonly("heading", &Ship::heading, "From the x axis, counter-clockwise [rad].")
       .def_readonly("velocity", &Ship::velocity, "Over ground, x and y [m/s].")

@@ -1,4 +1,5 @@
 """The compiled module: the command line's bits, from Python."""
+import ast
 import csv
 import gc
 import json
@@ -297,6 +298,23 @@ def test_a_simulation_that_its_pilot_refers_to_is_collected_in_another_thread():
     collector.start()
     collector.join()
     assert alive() is None
+
+
+def public(names):
+    return {name for name in names if not name.startswith("_")}
+
+
+def test_the_stub_has_every_public_name_and_each_has_a_docstring():
+    from polynya import _core
+    stub = {node.name: node for node in ast.parse((SOURCE_PACKAGE / "polynya" / "_core.pyi").read_text()).body if hasattr(node, "name")}
+    assert public(vars(_core)) == public(stub)
+    for name in public(vars(_core)):
+        compiled = getattr(_core, name)
+        assert compiled.__doc__
+        if isinstance(compiled, type):
+            assert public(vars(compiled)) == public(member.name for member in stub[name].body)
+            assert all(getattr(compiled, member).__doc__ for member in public(vars(compiled)))
+    assert public(dir(polynya)) >= set(polynya.__all__)
 
 
 def test_without_the_module_studies_work_and_the_error_names_what_to_do():
