@@ -25,6 +25,9 @@ bool misses_its_cusp(const geometry::CutOutcome& outcome, const PendingFracture&
          pending.failure == fracture::Failure::kBend;
 }
 
+/// Of a contact's middle from its ice, in radii of its cusp: farther off, the contact is not with this ice.
+constexpr double kFarthestIce = 10;
+
 /// Centres a cusp at the ice nearest to the contact, on the floe's boundary, if that is within the
 /// penetration. The middle of a contact line may lie between two spikes.
 void recentre(const Population& population, PendingFracture& pending) {
@@ -40,7 +43,7 @@ void recentre(const Population& population, PendingFracture& pending) {
   };
   consider(polygon.outer);
   for (const geometry::Ring& hole : polygon.holes) consider(hole);
-  if (distance(nearest, contact) <= pending.penetration) pending.first_touch_in_body = nearest;
+  if (distance(nearest, contact) <= kFarthestIce * pending.cusp_radius) pending.first_touch_in_body = nearest;
 }
 
 Event event_of(const Clock& clock, const PendingFracture& pending, EventKind kind) {
