@@ -10,13 +10,11 @@
 namespace polynya::app {
 namespace {
 
-constexpr double kKnot = 1852.0 / 3600;  // [m/s]
-
 std::string reported_of(const io::ShipPreset& ship) {
   std::string text;
   for (const io::ReportedSpeed& speed : ship.reported)
-    text +=
-        fmt::format("{}{:g} m at {:.1f} kn", text.empty() ? "" : ", ", speed.thickness, speed.speed / kKnot);
+    text += fmt::format("{}{:g} m at {:.1f} kn", text.empty() ? "" : ", ", speed.thickness,
+                        speed.speed / io::kKnot);
   return text;
 }
 
@@ -39,8 +37,8 @@ void print_ship(const io::ShipPreset& ship) {
     const std::string strength = speed.flexural_strength > 0 ? fmt::format(", flexural strength {:g} kPa",
                                                                            1e-3 * speed.flexural_strength)
                                                              : "";
-    print_out("{:g} m at {:.2f} m/s ({:.1f} kn){}: {}\n", speed.thickness, speed.speed, speed.speed / kKnot,
-              strength, speed.source);
+    print_out("{:g} m at {:.2f} m/s ({:.1f} kn){}: {}\n", speed.thickness, speed.speed,
+              speed.speed / io::kKnot, strength, speed.source);
   }
   print_out("\nassumed: nobody has published it. recall: from memory. Sources: docs/references.md.\n");
 }

@@ -12,7 +12,6 @@ constexpr Basis kPublished = Basis::kPublished;
 constexpr Basis kEstimated = Basis::kEstimated;
 constexpr Basis kAssumed = Basis::kAssumed;
 constexpr Basis kRecall = Basis::kRecall;
-constexpr double kKnot = 1852.0 / 3600;  // [m/s]
 
 constexpr std::string_view kPaper = "[Sawamura2017]";
 constexpr std::string_view kArctia = "[Arctia2016]";

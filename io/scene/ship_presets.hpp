@@ -8,6 +8,8 @@
 
 namespace polynya::io {
 
+inline constexpr double kKnot = 1852.0 / 3600;  ///< [m/s]
+
 /// Where a ship's particular comes from.
 enum class Basis {
   kPublished,  ///< by its owner, yard or operator
