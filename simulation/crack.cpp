@@ -40,4 +40,10 @@ void measure_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex
       fracture::pares(setup.scene.fracture.least_piece, l, path.length_in_ice, sides.left, sides.right);
 }
 
+void measure_crack_and_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+                             const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
+  measure_crack(bodies, floe, path, criteria);
+  measure_sides(setup, bodies, floe, path, criteria);
+}
+
 }  // namespace polynya::simulation

@@ -23,4 +23,8 @@ void measure_crack(const dynamics::Bodies& bodies, BodyIndex floe, const geometr
 void measure_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
                    const geometry::CrackPath& path, fracture::FailureCriteria& criteria);
 
+/// Both, one after the other.
+void measure_crack_and_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+                             const geometry::CrackPath& path, fracture::FailureCriteria& criteria);
+
 }  // namespace polynya::simulation

@@ -90,19 +90,13 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   if (is_michel) {  // by true forces it is decided after the solver
     find_crack(setup, population.bodies, load, pending);
     if (criteria.crack_length > 0 && criteria.collision_force > criteria.splitting_force)
-      measure_sides(setup, population.bodies, c.b, pending.crack_in_body, criteria);
+      measure_crack_and_sides(setup, population.bodies, c.b, pending.crack_in_body, criteria);
   }
   if (load.shares.vertical > 0) {
     const bool is_in_range = measure_bending(setup, load, pending);
     if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
   }
   pending.failure = fracture::decide(criteria);
-  // The record states both sides of the criterion by true forces as well.
-  if (criteria.crack_length > 0 &&
-      (pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit)) {
-    measure_crack(population.bodies, c.b, pending.crack_in_body, criteria);
-    measure_sides(setup, population.bodies, c.b, pending.crack_in_body, criteria);
-  }
   pending.ship = c.a;
   pending.floe = population.floe_of(c.b);
   pending.point_in_water = c.middle();

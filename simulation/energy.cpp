@@ -39,23 +39,19 @@ void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums) {
   sums.initial_momentum = momentum(bodies);
 }
 
-void stop(dynamics::Bodies& bodies, BodyIndex floe, double& energy_sink, AuditSums& sums) {
-  if (counts(bodies, floe)) {
-    const Vector left = bodies.mass[floe] * bodies.velocity[floe];
-    const double omega = bodies.angular_velocity[floe];
-    energy_sink += 0.5 * (dot(left, bodies.velocity[floe]) + bodies.moment[floe] * omega * omega);
-    sums.momentum.removed += left;
-    sums.impulses += length(left);
-  }
-  bodies.velocity[floe] = {};
-  bodies.angular_velocity[floe] = 0;
+void enter_motion(const dynamics::Bodies& bodies, BodyIndex floe, double& energy, Vector& momentum,
+                  AuditSums& sums) {
+  const Vector carried = bodies.mass[floe] * bodies.velocity[floe];
+  const double omega = bodies.angular_velocity[floe];
+  energy += 0.5 * (dot(carried, bodies.velocity[floe]) + bodies.moment[floe] * omega * omega);
+  momentum += carried;
+  sums.impulses += length(carried);
 }
 
-void enter_freed(const dynamics::Bodies& bodies, BodyIndex floe, AuditSums& sums) {
-  const Vector carried = bodies.mass[floe] * bodies.velocity[floe];
-  sums.energy.thrust += 0.5 * dot(carried, bodies.velocity[floe]);
-  sums.momentum.held += carried;
-  sums.impulses += length(carried);
+void stop(dynamics::Bodies& bodies, BodyIndex floe, double& energy_sink, AuditSums& sums) {
+  if (counts(bodies, floe)) enter_motion(bodies, floe, energy_sink, sums.momentum.removed, sums);
+  bodies.velocity[floe] = {};
+  bodies.angular_velocity[floe] = 0;
 }
 
 bool Audit::is_closed() const {

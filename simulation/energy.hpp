@@ -60,11 +60,12 @@ geometry::Vector momentum(const dynamics::Bodies& bodies);  ///< of the same [N 
 /// Opens the accounts, before the first step.
 void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums);
 
+/// Enters the motion of a floe: its energy into one of the sums' flows [J], its momentum into another [N s].
+void enter_motion(const dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy,
+                  geometry::Vector& momentum, AuditSums& sums);
+
 /// Stops a floe: its energy goes to the sink, one of the sums' flows [J], its momentum to what was removed.
 void stop(dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy_sink, AuditSums& sums);
-
-/// Enters the motion of a floe that came off fast ice, whose motion is prescribed and does not turn.
-void enter_freed(const dynamics::Bodies& bodies, dynamics::BodyIndex floe, AuditSums& sums);
 
 /// Closes the sums against the bodies' kinetic energy [J] and momentum [N s].
 Audit audit(const AuditSums& sums, double kinetic_energy, geometry::Vector momentum);

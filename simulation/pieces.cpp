@@ -93,7 +93,9 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
     child.is_fast = &piece == fast;
     const FloeId id = add_floe(setup, clock, child, measures, population, journal);
     event.children.push_back(id);
-    if (was_fast && !child.is_fast) enter_freed(population.bodies, population.body_of(id), accounts.audit);
+    if (was_fast && !child.is_fast)  // the fast ice gave it, as bodies of prescribed motion do
+      enter_motion(population.bodies, population.body_of(id), accounts.audit.energy.thrust,
+                   accounts.audit.momentum.held, accounts.audit);
     if (is_inside && breakage.inside == InsideFate::kUnderHull) {
       event.under_hull_area += measures.area;
       submersions.push_back(submersion_event(clock, population, id, event.ship));

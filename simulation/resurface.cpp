@@ -193,13 +193,8 @@ class Resurfacing {
   /// Awake, it is paired with the bodies around it. A sheared current carries it along.
   void wake_and_enter(BodyIndex body) {
     wake(body, population_);
-    const dynamics::Bodies& bodies = population_.bodies;
-    const Vector carried = bodies.mass[body] * bodies.velocity[body];
-    const double omega = bodies.angular_velocity[body];
-    accounts_.audit.energy.current +=
-        0.5 * (dot(carried, bodies.velocity[body]) + bodies.moment[body] * omega * omega);
-    accounts_.audit.momentum.water += carried;
-    accounts_.audit.impulses += length(carried);
+    AuditSums& audit = accounts_.audit;
+    enter_motion(population_.bodies, body, audit.energy.current, audit.momentum.water, audit);
   }
 
   const Setup& setup_;

@@ -232,6 +232,9 @@ void enter_true_forces(const Setup& setup, const dynamics::Bodies& bodies,
     criteria.opening_force = crack->criteria.opening_force;
     criteria.opening_capacity = crack->criteria.opening_capacity;
   } else if (criteria.crack_length > 0) {
+    if (pending.failure ==
+        fracture::Failure::kBend)  // only now: most bends that are pending do not come about
+      measure_crack_and_sides(setup, bodies, c->b, pending.crack_in_body, criteria);
     const fracture::Opening opening = fracture::opening_of(pressing.pushes, c->middle(), c->normal);
     criteria.flank_forces[0] = opening.left;
     criteria.flank_forces[1] = opening.right;
