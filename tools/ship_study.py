@@ -10,20 +10,14 @@ Options of all: --polynya PROGRAM, --work FOLDER (run folders; they are overwrit
 import argparse
 import csv
 import json
-import math
 import os
-import pathlib
 import subprocess
-import sys
 
 import numpy as np
 
-from study import BEAM, DRAUGHT, FEW_RECORDS, HULL, LENGTH, SHIP, rows_of, run_all, run_scene
+from study import DRAUGHT, FEW_RECORDS, HULL, LENGTH, REFERENCE, SHIP, formulas, rows_of, run_all, run_scene
+from polynya.performance.level_ice import ENDLESS  # study.py has found the package
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "python"))
-from polynya import formulas  # noqa: E402
-
-REFERENCE = formulas.Hull(LENGTH, BEAM, DRAUGHT, math.radians(30), math.radians(27))
 FULL, MEASURED = 2 * LENGTH, 120  # way until the hull is full, and after it [m]
 KEINONEN = "330-510"  # at .5 m and 1 m/s, of the project's physics notes (recall)
 
@@ -32,7 +26,7 @@ def level_ice(h, v, **ice):
     """The reference ship at constant speed in a plate of fast ice that does not split; nothing comes up behind it."""
     way = FULL + MEASURED
     return {"name": "level", "time": {"step_s": min(0.01, 0.01 / v), "until_s": (way + 2) / v}, "ice": {"thickness_m": h} | ice,
-            "fracture": {"splitting": {"shape_factor": 100}, "resurface": {"enabled": False}},
+            "fracture": ENDLESS,
             "ships": [SHIP | {"hull": HULL | {"draught_m": DRAUGHT}, "position_m": [-62, 0], "propulsion": {"constant_speed_m_per_s": v}}],
             "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [way + LENGTH, 150]}, "fast_ice": True}]}
 

@@ -9,7 +9,7 @@ import argparse
 import json
 import os
 
-from study import SHIP, run_all, run_scene
+from study import FEW_RECORDS, SHIP, run_all, run_scene
 
 THICKNESSES = (0.3, 0.5, 0.8)
 TOUGHNESSES = (115e3, 250e3)
@@ -20,11 +20,10 @@ RATIO, MOST = 1.12, 400
 def square(side, h, toughness):
     """The reference ship sails at 1 m/s with its stem at the middle of a floe's side. The floe is free."""
     return {"name": "square", "time": {"step_s": 0.002, "until_s": 6},
-            "record": {"forces_interval_s": 0.1, "frames_interval_s": 60, "contacts": "none"},
             "ice": {"thickness_m": h, "fracture_toughness_Pa_sqrt_m": toughness},
             "fracture": {"splitting": {"model": "lefm"}},
             "ships": [SHIP | {"position_m": [-60.01, 0], "speed_m_per_s": 1, "propulsion": {"constant_speed_m_per_s": 1}}],
-            "floes": [{"rectangle": {"corner_m": [0, -side / 2], "size_m": [side, side]}}]}
+            "floes": [{"rectangle": {"corner_m": [0, -side / 2], "size_m": [side, side]}}]} | FEW_RECORDS
 
 
 def first_fracture(arguments, name, scene):

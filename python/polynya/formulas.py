@@ -5,6 +5,7 @@ import dataclasses
 import math
 
 G = 9.81
+KNOT = 1852 / 3600  # [m/s]
 
 
 @dataclasses.dataclass(frozen=True)

@@ -6,7 +6,7 @@ import pytest
 
 from polynya import formulas
 from polynya.performance import level_ice
-from polynya.performance.__main__ import engine_of, hull_of, thicknesses
+from polynya.performance.__main__ import engine_of, hull_of, ship_of, thicknesses
 from polynya.performance.curve import Curve
 
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
@@ -105,18 +105,22 @@ def test_what_a_ship_needs_is_asked_for():
 
 
 def test_the_curve_starts_near_the_formulas(tmp_path):
-    ice = {
-        "flexural_strength_Pa": 500e3,
-        "friction": 0.1,
-        "density_kg_per_m3": 900,
-        "youngs_modulus_Pa": 5.4e9,
-        "poisson_ratio": 0.3,
-    }
+    ice = formulas.Ice(0, flexural_strength=500e3, friction=0.1)
     curve = Curve(SHIP, hull_of(SHIP), engine_of(SHIP), ice, str(tmp_path), "polynya", 0.03, 0.01)
     speeds = curve.formula_speeds(0.5)
     assert min(speeds.values()) > 1
     assert speeds["lindqvist"] < curve.first_speed(0.5) < 8
     assert curve.first_speed(4) == 0.5, "a ship that the formulas stop is tried all the same"
-    scene = level_ice.scene(SHIP, 0.5, 2, 8, ice, 0.01)
+    scene = level_ice.scene(SHIP, curve.level(0.5), 2, 8, 0.01)
     assert scene["floes"][0]["fast_ice"] and scene["time"]["until_s"] == 450
     assert scene["ice"]["thickness_m"] == 0.5
+
+
+def test_a_file_that_names_a_preset_starts_from_all_of_it(tmp_path):
+    path = tmp_path / "deeper.json"
+    path.write_text('{"ship": "polaris", // as scenes have it\n "hull": {"draught_m": 8.5}}')
+    title, ship, reported = ship_of(str(path))
+    _, polaris, _ = ship_of("polaris")
+    assert title == "deeper" and reported
+    assert ship["hull"] == polaris["hull"] | {"draught_m": 8.5}
+    assert ship["propulsion"] == polaris["propulsion"]

@@ -3,8 +3,6 @@ import csv
 import json
 import os
 import re
-import subprocess
-import sys
 
 import numpy
 
@@ -12,6 +10,7 @@ from polynya import statistics
 from polynya.study import pictures, sample
 from polynya.study.folder import PLAN, RESULT, open_study
 from polynya.study.plan import write_cases
+from study_command import study as study_command
 
 
 def synthetic(folder, groups=3, of_group=40):
@@ -52,17 +51,9 @@ def synthetic(folder, groups=3, of_group=40):
     return study
 
 
-def command(*words, code=0):
-    ran = subprocess.run(
-        [sys.executable, "-m", "polynya.study", *map(str, words)], capture_output=True, text=True, check=False
-    )
-    assert ran.returncode == code, ran.stdout + ran.stderr
-    return ran.stdout + ran.stderr
-
-
 def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp_path):
     study = synthetic(tmp_path / "s")
-    command("report", study.folder)
+    study_command("report", study.folder)
     page = (study.folder / "study.html").read_text()
     shown = re.findall(r"<img src='([^']+)'", page)
     assert {
@@ -87,7 +78,7 @@ def test_the_same_study_gives_the_same_page(tmp_path):
     study = synthetic(tmp_path / "s")
 
     def made():
-        command("report", study.folder)
+        study_command("report", study.folder)
         return {p.name: p.read_bytes() for p in [study.folder / "study.html", *(study.folder / "report").iterdir()]}
 
     assert made() == made()
@@ -98,7 +89,7 @@ def test_a_page_of_a_part_of_the_study_says_so(tmp_path):
     for i in range(30):
         (study.case_folder(i) / RESULT).unlink()
         study.case_folder(i).rmdir()
-    command("report", study.folder, code=75)
+    study_command("report", study.folder, code=75)
     assert "This page shows a part of the study" in (study.folder / "study.html").read_text()
     assert "--cases 0-29" in json.loads((study.folder / "gather.json").read_text())["repair"]["missing"]
 
@@ -106,7 +97,7 @@ def test_a_page_of_a_part_of_the_study_says_so(tmp_path):
 def test_a_study_without_a_finished_case_has_no_page(tmp_path):
     study = synthetic(tmp_path / "s", 1, 1)
     (study.case_folder(0) / RESULT).unlink()
-    assert "no case is finished" in command("report", study.folder, code=75)
+    assert "no case is finished" in study_command("report", study.folder, code=75)
 
 
 def test_a_kept_run_opens_in_the_player(tmp_path, monkeypatch):
@@ -120,8 +111,8 @@ def test_a_kept_run_opens_in_the_player(tmp_path, monkeypatch):
             }
         )
     )
-    command("run", "s.json", "--quiet")
-    command("report", "studies/s")
+    study_command("run", "s.json", "--quiet")
+    study_command("report", "studies/s")
     page = (tmp_path / "studies/s/study.html").read_text()
     links = re.findall(r"<a href='([^']+view.html)'>play", page)
     assert len(links) == 2 and all((tmp_path / "studies/s" / link).stat().st_size > 50000 for link in links)

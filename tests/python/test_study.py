@@ -17,6 +17,7 @@ from polynya.study.definition import read_definition
 from polynya.study.expand import count_cases, expand
 from polynya.study.folder import list_of_numbers, numbers_of_list, open_study
 from polynya.study.located_json import StudyError
+from study_command import study
 
 SCENES = pathlib.Path(os.environ["POLYNYA_SCENES"]).resolve()
 SHIP = '''{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
@@ -40,14 +41,6 @@ def write_study(folder, name="s", **keys):
     path = folder / f"{name}.json"
     path.write_text(json.dumps({"scene": "plate.json", **keys}))
     return path
-
-
-def study(*words, code=0):
-    ran = subprocess.run(
-        [sys.executable, "-m", "polynya.study", *map(str, words)], capture_output=True, text=True, check=False
-    )
-    assert ran.returncode == code, ran.stdout + ran.stderr
-    return ran.stdout + ran.stderr
 
 
 def problems_of(path):

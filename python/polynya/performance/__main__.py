@@ -5,24 +5,17 @@ import csv
 import json
 import math
 import os
+import pathlib
 import subprocess
 import sys
 
 from .. import formulas
+from ..formulas import KNOT
+from ..study.case import DONE, FAILED, STOPPED, program
+from ..study.located_json import read_json
 from .curve import Curve, RunFailed
 
-DONE, USAGE, INVALID, FAILED = 0, 2, 3, 4
-KNOT = 1852 / 3600
-EXAMPLES = """Examples:
-  polynya performance polaris                       ten thicknesses, on all processors
-  polynya performance araon --flexural-strength 630e3 --friction 0.1
-  polynya performance ship.json --thickness 0.4,0.8,1.2 --out runs/our-ship
-  polynya performance oden --list                   the formulas alone, without a run
-"""
-MEANING = """The speed that a ship keeps in level ice under full power, by thickness.
-
-Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error and its
-change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes on."""
+INVALID = 3
 
 
 def thicknesses(text):
@@ -46,41 +39,17 @@ def share(text):
 
 
 def command_line():
-    parser = argparse.ArgumentParser(
-        prog="polynya performance",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        description=EXAMPLES + "\n" + MEANING,
-    )
-    parser.add_argument(
-        "ship", metavar="SHIP", help="a preset (polynya ships), or a JSON file with a ship as scenes have it"
-    )
-    parser.add_argument(
-        "--thickness",
-        type=thicknesses,
-        metavar="LIST",
-        help="in metres; ten up to where the formulas stop the ship if not given",
-    )
-    parser.add_argument(
-        "--flexural-strength", type=float, default=500e3, metavar="PA", help="of the ice (500e3 if not given)"
-    )
-    parser.add_argument(
-        "--friction", type=float, default=0.1, metavar="MU", help="of ice on the hull (0.1 if not given)"
-    )
-    parser.add_argument(
-        "--error", type=share, default=0.03, metavar="SHARE", help="of the mean speed (0.03 if not given)"
-    )
-    parser.add_argument("--step", type=float, default=0.01, metavar="S", help="of time (0.01 if not given)")
-    parser.add_argument(
-        "--out", metavar="DIR", help="folder of the runs, the table and the figure; runs/performance-SHIP if not given"
-    )
-    parser.add_argument(
-        "--jobs",
-        type=int,
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="runs at a time; one a processor if not given",
-    )
-    parser.add_argument("--list", action="store_true", help="print the formulas' speeds and run nothing")
+    """What app/performance.cpp passes on; it has the help."""
+    parser = argparse.ArgumentParser(prog="polynya performance")
+    parser.add_argument("ship")
+    parser.add_argument("--thickness", type=thicknesses)
+    parser.add_argument("--flexural-strength", type=float, default=500e3)
+    parser.add_argument("--friction", type=float, default=0.1)
+    parser.add_argument("--error", type=share, default=0.03)
+    parser.add_argument("--step", type=float, default=0.01)
+    parser.add_argument("--out")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--list", action="store_true")
     return parser
 
 
@@ -89,21 +58,30 @@ def fail(code, message):
     return code
 
 
-def ship_of(program, name):
-    """The ship and its reported speeds: of a preset, or of a file."""
-    if os.path.exists(name):
-        with open(name, encoding="utf-8") as file:
-            ship = json.load(file)
-        if "ship" not in ship:
-            return os.path.splitext(os.path.basename(name))[0], ship, []
-        preset = preset_of(program, ship.pop("ship"))
-        return os.path.splitext(os.path.basename(name))[0], preset["ship"] | ship, preset["reported"]
-    preset = preset_of(program, name)
-    return preset["title"], preset["ship"], preset["reported"]
+def ship_of(name):
+    """A title, the ship and its reported speeds: of a preset, or of a file."""
+    if not os.path.exists(name):
+        preset = preset_of(name)
+        return preset["title"], preset["ship"], preset["reported"]
+    ship = read_json(pathlib.Path(name))
+    title = pathlib.Path(name).stem
+    if "ship" not in ship:
+        return title, ship, []
+    preset = preset_of(ship.pop("ship"))
+    return title, filled_in(ship, preset["ship"]), preset["reported"]
 
 
-def preset_of(program, name):
-    done = subprocess.run([program, "ships", name, "--json"], capture_output=True, text=True, check=False)
+def filled_in(own, preset):
+    """What a preset has and the ship does not give itself, as scenes fill it in (io/scene/scene_presets.cpp)."""
+    merged = preset | own
+    for key in own.keys() & preset.keys():
+        if isinstance(own[key], dict) and isinstance(preset[key], dict):
+            merged[key] = filled_in(own[key], preset[key])
+    return merged
+
+
+def preset_of(name):
+    done = subprocess.run([program(), "ships", name, "--json"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise ValueError(done.stderr.strip().removeprefix("polynya ships: "))
     return json.loads(done.stdout)
@@ -195,19 +173,14 @@ def run_all(curve, wanted, jobs):
 
 def main():
     arguments = command_line().parse_args()
-    program = os.environ.get("POLYNYA_PROGRAM", "polynya")
     try:
-        title, ship, reported = ship_of(program, arguments.ship)
-        ice = {
-            "flexural_strength_Pa": arguments.flexural_strength,
-            "friction": arguments.friction,
-            "density_kg_per_m3": 900,
-            "youngs_modulus_Pa": 5.4e9,
-            "poisson_ratio": 0.3,
-        }
+        title, ship, reported = ship_of(arguments.ship)
+        ice = formulas.Ice(
+            thickness=0, flexural_strength=arguments.flexural_strength, friction=arguments.friction
+        )  # of each thickness in turn
         name = os.path.splitext(os.path.basename(arguments.ship))[0]
         folder = arguments.out or os.path.join("runs", f"performance-{name}")
-        curve = Curve(ship, hull_of(ship), engine_of(ship), ice, folder, program, arguments.error, arguments.step)
+        curve = Curve(ship, hull_of(ship), engine_of(ship), ice, folder, program(), arguments.error, arguments.step)
     except (OSError, ValueError, KeyError) as error:
         return fail(INVALID, error)
     wanted = arguments.thickness or ten_thicknesses(curve)
@@ -223,7 +196,7 @@ def main():
     except RunFailed as error:
         return fail(FAILED, error)
     except KeyboardInterrupt:
-        return fail(75, "stopped; the same command goes on with the runs that are left")
+        return fail(STOPPED, "stopped; the same command goes on with the runs that are left")
     print_table(rows)
     for point in reported:
         print(

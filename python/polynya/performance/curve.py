@@ -1,12 +1,13 @@
 """The runs of a curve: one a thickness, longer until the speed is steady. Finished runs are kept and used again."""
+import dataclasses
 import json
-import os
+import pathlib
 import subprocess
 
 from .. import formulas
+from ..study.case import DONE, STOPPED, summary_of
 from . import level_ice
 
-STOPPED = 75  # polynya's exit code
 FIRST, MOST = 5, 20  # lengths of the course
 
 
@@ -17,20 +18,11 @@ class RunFailed(Exception):
 class Curve:
     def __init__(self, ship, hull, engine, ice, folder, program, error, step):
         self.ship, self.hull, self.engine, self.ice = ship, hull, engine, ice
-        self.folder, self.program, self.error, self.step = folder, program, error, step
+        self.folder, self.program, self.error, self.step = pathlib.Path(folder), program, error, step
 
     def level(self, thickness):
-        """The ice of the formulas."""
-        given = self.ice
-        return formulas.Ice(
-            thickness,
-            given["flexural_strength_Pa"],
-            given["friction"],
-            given["density_kg_per_m3"],
-            1000.0,
-            given["youngs_modulus_Pa"],
-            given["poisson_ratio"],
-        )
+        """The ice of that thickness."""
+        return dataclasses.replace(self.ice, thickness=thickness)
 
     def formula_speeds(self, thickness):
         """The speeds at which published resistances equal the net thrust [m/s]."""
@@ -55,16 +47,12 @@ class Curve:
 
     def run(self, scene, name):
         """The run's folder; of a run that is there already, at once."""
-        path, folder = os.path.join(self.folder, name + ".json"), os.path.join(self.folder, name)
+        path, folder = self.folder / (name + ".json"), self.folder / name
         text = json.dumps(scene, indent=1)
-        if os.path.exists(os.path.join(folder, "summary.json")) and os.path.exists(path):
-            with open(path, encoding="utf-8") as file, open(
-                os.path.join(folder, "summary.json"), encoding="utf-8"
-            ) as summary:
-                if file.read() == text and json.load(summary).get("finished"):
-                    return folder
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+        summary = summary_of(folder)
+        if summary and summary["finished"] and path.exists() and path.read_text(encoding="utf-8") == text:
+            return folder
+        path.write_text(text, encoding="utf-8")
         done = subprocess.run(
             [self.program, "run", path, "--out", folder, "--overwrite", "--progress", "none", "--threads", "1"],
             stdout=subprocess.DEVNULL,
@@ -74,19 +62,18 @@ class Curve:
         )
         if done.returncode == STOPPED:  # Ctrl-C reaches the run too
             raise KeyboardInterrupt
-        if done.returncode != 0:
+        if done.returncode != DONE:
             raise RunFailed(f"{path}: polynya run ended with {done.returncode}\n{done.stderr.strip()}")
         return folder
 
     def point(self, thickness):
         """One row of the curve."""
-        speed, lengths, rounds = self.first_speed(thickness), FIRST, 0
+        speed, lengths = self.first_speed(thickness), FIRST
         while True:
             name = f"level-{thickness:g}-{lengths}"
-            scene = level_ice.scene(self.ship, thickness, speed, lengths, self.ice, self.step)
+            scene = level_ice.scene(self.ship, self.level(thickness), speed, lengths, self.step)
             way = scene["floes"][0]["rectangle"]["size_m"][0]
             measured = level_ice.Measured(self.run(scene, name), self.ship, way)
-            rounds += 1
             if measured.is_within(self.error) or lengths >= MOST:
                 break
             lengths *= 2

@@ -4,7 +4,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-KNOT = 1852 / 3600
+from ..formulas import KNOT  # noqa: E402
+
 FORMULAS = (
     ("lindqvist", "Lindqvist 1989", "-"),
     ("riska", "Riska 1997", "--"),

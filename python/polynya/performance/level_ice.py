@@ -1,14 +1,29 @@
 """A ship under full power in level ice: the scene of one thickness, and whether its speed is steady."""
-import csv
 import math
-import os
+import pathlib
 
 import numpy as np
 
+from ..study.measures import rows_by_ship
+
 BLOCKS = 6  # of the measured way
+# A plate without end does not split; what comes up behind the stern does not load the ship.
+ENDLESS = {"splitting": {"shape_factor": 100}, "resurface": {"enabled": False}}
 
 
-def scene(ship, thickness, speed, lengths, ice, step):
+def ice_keys(ice):
+    """A scene's ice."""
+    return {
+        "thickness_m": ice.thickness,
+        "flexural_strength_Pa": ice.flexural_strength,
+        "friction": ice.friction,
+        "density_kg_per_m3": ice.density,
+        "youngs_modulus_Pa": ice.young,
+        "poisson_ratio": ice.poisson,
+    }
+
+
+def scene(ship, ice, speed, lengths, step):
     """The ship at speed [m/s] 2 m before a plate of fast ice, on a course of so many of its own lengths."""
     hull = ship["hull"]
     length, width = hull["length_m"], 5 * hull["beam_m"]
@@ -16,11 +31,10 @@ def scene(ship, thickness, speed, lengths, ice, step):
     can_steer = "steering" in ship
     ahead = {"pilot": {"hold_heading": {"heading_deg": 0, "lever": 1}}} if can_steer else {}
     return {
-        "name": f"level-{thickness:g}",
+        "name": f"level-{ice.thickness:g}",
         "time": {"step_s": step, "until_s": math.ceil(way / speed)},
-        "ice": ice | {"thickness_m": thickness},
-        # A plate without end does not split; what comes up behind the stern does not load the ship.
-        "fracture": {"splitting": {"shape_factor": 100}, "resurface": {"enabled": False}},
+        "ice": ice_keys(ice),
+        "fracture": ENDLESS,
         "ships": [ship | ahead | {"name": "ship", "position_m": [-0.5 * length - 2, 0], "speed_m_per_s": speed}],
         "floes": [
             {"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way, width]}, "fast_ice": True}
@@ -35,11 +49,9 @@ class Measured:
 
     def __init__(self, folder, ship, way=math.inf):
         length = ship["hull"]["length_m"]
-        with open(os.path.join(folder, "forces.csv"), encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        column = lambda name: np.array([float(row[name]) for row in rows])
-        time, x = column("t_s"), column("x_m")
-        surge, submerged = column("surge_N"), column("surge_from_submerged_ice_N")
+        (columns,) = rows_by_ship(pathlib.Path(folder) / "forces.csv").values()
+        names = ("t_s", "x_m", "surge_N", "surge_from_submerged_ice_N")
+        time, x, surge, submerged = (np.array(columns[name]) for name in names)
         is_in_ice = x + 0.5 * length < way - 0.1 * length
         time, x, surge, submerged = (values[is_in_ice] for values in (time, x, surge, submerged))
         self.way = x[-1] - x[0]
