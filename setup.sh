@@ -12,7 +12,7 @@ declare -A packages=(
   [python]="python3 python3-numpy python3-scipy python3-matplotlib python3-pytest
            python3-dev pybind11-dev"
   [slurm]="slurmctld slurmd slurm-client munge"
-  [export]="python3-vtk9 python3-pandas gdal-bin"
+  [export]="python3-vtk9 python3-pandas python3-shapely gdal-bin"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"
 )
 

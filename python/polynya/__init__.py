@@ -6,6 +6,7 @@
     print(simulation.time, simulation.floes.poses)
 
 `Scene` and `Simulation` step the simulator in this process, `cut` cuts polygons exactly; these need the compiled module.
+`Run` and `Study` read the folders of runs and studies back; these need numpy.
 `polynya.study` plans, runs and gathers many runs of one scene (docs/studies.md), `polynya.statistics` has the estimators of its reports;
 these need plain Python and the program `polynya`.
 """
@@ -15,16 +16,20 @@ TYPE_CHECKING = False  # typing's, without its import: every case of a study sta
 if TYPE_CHECKING:
     from polynya._core import Floes, PilotView, Scene, SeenShip, Ship, Simulation
     from polynya.cutting import Cut, cut
-    from polynya.errors import Problem, SceneError, SimulationError
+    from polynya.errors import (
+        FolderError, NotARunError, NotAStudyError, Problem, SceneError, SimulationError, UnfinishedError, VersionError)
+    from polynya.results.run import Run
+    from polynya.results.study import Study
 
-__all__ = ["Cut", "Floes", "PilotView", "Problem", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "cut"]
+__all__ = ["Cut", "Floes", "PilotView", "Problem", "Run", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
+__all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError"]
 
 # The compiled module lies beside the folder that this package is in: that may be a link into the source tree, so its own
 # path is not resolved.
 __path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))), "python_core"))
 
 _COMPILED = {"Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
-_ERRORS = {"Problem", "SceneError", "SimulationError"}
+_ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneError", "SimulationError", "UnfinishedError", "VersionError"}
 
 
 def _compiled():
@@ -45,6 +50,12 @@ def __getattr__(name):
         _compiled()
         from polynya import cutting
         return getattr(cutting, name)
+    if name == "Run":
+        from polynya.results import run
+        return run.Run
+    if name == "Study":
+        from polynya.results import study as of_studies
+        return of_studies.Study
     if name in _ERRORS:
         from polynya import errors
         return getattr(errors, name)

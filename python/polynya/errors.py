@@ -36,3 +36,23 @@ class SceneError(ValueError):
 
 class SimulationError(RuntimeError):
     """A run that cannot continue: numbers that are none, or a runaway speed."""
+
+
+class FolderError(ValueError):
+    """A folder of a run or a study that cannot be read. The message has the file, what is wrong and what to do."""
+
+
+class NotARunError(FolderError):
+    """A folder that holds no run."""
+
+
+class NotAStudyError(FolderError):
+    """A folder that holds no study."""
+
+
+class UnfinishedError(FolderError):
+    """A run or a study that is not finished, read without `unfinished=True`."""
+
+
+class VersionError(FolderError):
+    """A folder of a version that this polynya does not read, or of one that did not record what is asked for."""

@@ -1,0 +1,103 @@
+"""Where everything is at any time of a run: frames.bin (docs/run-folder.md), between frames along straight lines."""
+from __future__ import annotations
+
+import numpy
+
+from polynya.errors import FolderError, VersionError
+
+HEAD, FRAME_HEAD, SHIP, FLOE = 16, 24, 48, 56  # [bytes]
+VERSION = 1
+FLOE_RECORD = numpy.dtype([("floe", "<i8"), ("motion", "<f8", 6)])
+
+
+class Motions:
+    """The records of a run's frames: of ships x, y [m], heading [rad] and their rates, of floes likewise."""
+
+    def __init__(self, path, floes):
+        with open(path, "rb") as file:
+            data = file.read()
+        if data[:8] != b"PLYNYFRM" or len(data) < HEAD:
+            raise FolderError(f"{path}: not a file of frames")
+        version = int.from_bytes(data[8:12], "little")
+        if version != VERSION:
+            raise VersionError(f"{path}: frames of version {version}; this polynya reads version {VERSION}")
+        times, ships, records = [], [], []
+        at = HEAD
+        while at + FRAME_HEAD <= len(data):
+            if data[at : at + 4] != b"FRAM":
+                raise FolderError(f"{path}: a damaged frame at byte {at}")
+            ship_count, floe_count = numpy.frombuffer(data, "<u4", 2, at + 4).tolist()
+            end = at + FRAME_HEAD + SHIP * ship_count + FLOE * floe_count
+            if end > len(data):
+                break  # the part of a frame that a killed run leaves
+            times.append(float(numpy.frombuffer(data, "<f8", 1, at + 16)[0]))
+            ships.append(numpy.frombuffer(data, "<f8", 6 * ship_count, at + FRAME_HEAD).reshape(ship_count, 6))
+            records.append(numpy.frombuffer(data, FLOE_RECORD, floe_count, at + FRAME_HEAD + SHIP * ship_count))
+            at = end
+        self.times = numpy.array(times)
+        self._ships = ships
+        self._index(records, floes)
+
+    def _index(self, records, floes):
+        """Orders the records by floe, then by frame."""
+        frame = numpy.repeat(numpy.arange(len(records)), [len(of) for of in records])
+        floe = numpy.concatenate([of["floe"] for of in records]) if records else numpy.empty(0, numpy.int64)
+        motion = numpy.concatenate([of["motion"] for of in records]) if records else numpy.empty((0, 6))
+        is_known = (floe >= 0) & (floe < floes)
+        frame, floe, motion = frame[is_known], floe[is_known], motion[is_known]
+        order = numpy.lexsort((frame, floe))
+        self._frame, self._motion = frame[order], motion[order]
+        self._keys = floe[order] * max(1, len(records)) + self._frame
+        self._first = numpy.searchsorted(floe[order], numpy.arange(floes + 1))
+
+    def _last_record(self, floes, frame):
+        """Index of each floe's last record up to a frame, or its first one; -1 where it has none."""
+        first, after = self._first[floes], self._first[floes + 1]
+        found = numpy.searchsorted(self._keys, floes * max(1, len(self.times)) + frame, side="right") - 1
+        return numpy.where(after > first, numpy.maximum(found, first), -1)
+
+    def floes_at(self, floes, time):
+        """An array of n × 6 for the floes of these ids: x, y [m], turn [rad] and their rates; NaN where no frame has a floe."""
+        found = numpy.full((len(floes), 6), numpy.nan)
+        if len(self._motion) == 0:
+            return found
+        here = int(numpy.searchsorted(self.times, time, side="right")) - 1
+        last = self._last_record(floes, here)
+        is_recorded = last >= 0
+        last, floes = last[is_recorded], floes[is_recorded]
+        recorded_at = self.times[self._frame[last]]
+        moved = carried_on(self._motion[last], time - recorded_at)
+        if 0 <= here < len(self.times) - 1:
+            following = self._last_record(floes, here + 1)
+            between = (following != last) & (recorded_at <= time)
+            start, end = self.times[here], self.times[here + 1]
+            begin = carried_on(self._motion[last], start - recorded_at)
+            part = (time - start) / (end - start)
+            moved = numpy.where(between[:, None], begin + part * (self._motion[following] - begin), moved)
+        found[is_recorded] = moved
+        return found
+
+    def ships_at(self, time):
+        """The same of every ship and structure; none where there is no frame."""
+        if len(self.times) == 0:
+            return numpy.empty((0, 6))
+        after = int(numpy.searchsorted(self.times, time, side="right"))
+        if after == 0:
+            return self._ships[0]
+        if after == len(self.times):
+            return carried_on(self._ships[-1], numpy.full(len(self._ships[-1]), time - self.times[-1]))
+        start, end = self.times[after - 1], self.times[after]
+        return self._ships[after - 1] + (time - start) / (end - start) * (self._ships[after] - self._ships[after - 1])
+
+
+def carried_on(motions, durations):
+    """Motions of some time ago [s], at their velocities."""
+    later = motions.copy()
+    later[:, :3] += numpy.asarray(durations)[:, None] * motions[:, 3:]
+    return later
+
+
+def placed(ring, x, y, angle):
+    """A ring of a body in the world."""
+    c, s = numpy.cos(angle), numpy.sin(angle)
+    return numpy.column_stack((x + c * ring[:, 0] - s * ring[:, 1], y + s * ring[:, 0] + c * ring[:, 1]))

@@ -1,0 +1,222 @@
+"""A run folder read back."""
+from __future__ import annotations
+
+import functools
+import math
+import os
+import pathlib
+from typing import Any, Optional, Union
+
+import numpy
+
+from polynya.errors import FolderError, NotARunError, UnfinishedError, VersionError
+
+from . import channel as channels
+from .frame import Frame, Frames
+from .hulls import waterline
+from .motions import Motions
+from .shapes import Shapes
+from .tables import NONE, event_columns, read_csv, read_json, read_lines, table
+
+VERSION = 4  # of run folders, kRunFolderVersion of io/run/summary.hpp
+
+
+class Run:
+    """A folder that `polynya run` wrote (docs/run-folder.md), read as its parts are asked for.
+
+    Tables are pandas' frames, or numpy's structured arrays where pandas is not installed (`pandas=True` insists on frames, `False`
+    on arrays). Their columns are those of the files, with their units in their names, and each number is the file's. Floes are shapely's
+    polygons, or GeoJSON's where shapely is not installed (`shapely=` likewise).
+
+    Raises NotARunError, UnfinishedError (but with `unfinished=True`, which reads what is there), VersionError, and FolderError with the
+    file where one is missing or damaged."""
+
+    def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False, pandas: Optional[bool] = None, shapely: Optional[bool] = None):
+        self.folder = pathlib.Path(folder)
+        self.pandas, self.shapely = pandas, shapely
+        if not (self.folder / "scene.json").is_file():
+            what = "does not exist" if not self.folder.exists() else "has no scene.json" if self.folder.is_dir() else "is a file"
+            raise NotARunError(f"not a run folder: {self.folder} {what}")
+        self.scene: dict = read_json(self.folder / "scene.json")  #: with every default filled in
+        self.summary: dict = read_json(self.folder / "summary.json")  #: how it went
+        if not isinstance(self.scene, dict) or not isinstance(self.summary, dict):
+            raise NotARunError(f"not a run folder: {self.folder}: scene.json and summary.json are objects")
+        self.version: int = self.summary.get("folder_version", 1)  #: of the folder
+        if not isinstance(self.version, int) or not 1 <= self.version <= VERSION:
+            raise VersionError(
+                f"{self.folder / 'summary.json'}: a run folder of version {self.version}; this polynya reads 1 to {VERSION}: read it with the "
+                f"polynya that wrote it ({self.summary.get('version', 'unknown')}), or run its scene.json again")
+        if not self.is_finished and not unfinished:
+            stopped = self.summary.get("stopped_by")
+            raise UnfinishedError(
+                f"{self.folder}: the run is not finished" + (f" (stopped by {stopped})" if stopped else "") +
+                f": polynya resume {self.folder} continues it; Run(folder, unfinished=True) reads what is there")
+
+    def __repr__(self):
+        state = "" if self.is_finished else ", not finished"
+        return f"<polynya run {self.name} in {self.folder}: {self.start_time:g} to {self.end_time:g} s, {len(self.times)} frames{state}>"
+
+    @property
+    def name(self) -> str:
+        """The scene's."""
+        return self.scene.get("name", self.folder.name)
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether it ran to its end."""
+        return bool(self.summary.get("finished", True))
+
+    @property
+    def ship_names(self) -> list[str]:
+        """Of ships, then of structures: their order everywhere."""
+        return list(self.waterlines)
+
+    @functools.cached_property
+    def waterlines(self) -> dict[str, numpy.ndarray]:
+        """Of ships and structures, in their own frames [m], by name."""
+        return {body["name"]: waterline(body) for body in self._bodies}
+
+    @property
+    def _bodies(self):
+        return [*self.scene.get("ships", []), *self.scene.get("structures", [])]
+
+    # Tables
+
+    @property
+    def forces(self) -> Any:
+        """forces.csv: loads and motion, a row for each ship or structure and interval."""
+        return table(self.force_columns, self.pandas)
+
+    @property
+    def events(self) -> Any:
+        """events.ndjson, a row an event: `point_m` as `x_m`, `y_m`, `normal` as `normal_x`, `normal_y`, the members of `criterion` by their names,
+        its kind as `criterion`; -1 where there is no floe, NaN where there is no number. `children` holds tuples."""
+        return table(self.event_columns, self.pandas)
+
+    @property
+    def contacts(self) -> Any:
+        """contacts.csv: who touched whom at every frame; -1 where a body is no floe."""
+        return self._table("contacts.csv", "runs of early versions")
+
+    @property
+    def crushed(self) -> Any:
+        """crushed.csv: how much of their overlap two bodies have crushed."""
+        return self._table("crushed.csv", "run folders of version 2 and before")
+
+    @property
+    def states(self) -> Any:
+        """states.csv: a hash of everything that moves, of every frame."""
+        return self._table("states.csv", "runs of early versions")
+
+    @property
+    def channel(self) -> Any:
+        """channel.csv, a row a station, where `polynya channel` wrote it; `measure_channel` measures at any time."""
+        if not (self.folder / "channel.csv").exists():
+            raise FolderError(f"{self.folder / 'channel.csv'}: is not there: polynya channel {self.folder} writes it; "
+                              "Run.measure_channel() measures without writing")
+        return table(read_csv(self.folder / "channel.csv"), self.pandas)
+
+    def measure_channel(self, time: Optional[float] = None, ship: Optional[str] = None) -> channels.Channel:
+        """The channel behind a ship (the first one) at a time [s] (the end), by the program `polynya channel`."""
+        return channels.measure(self.folder, ship, time, self.pandas)
+
+    @property
+    def floes(self) -> Any:
+        """floes.ndjson: every floe that there was, with `died_s`, when it broke, and `went_under_s`, when it went under a hull (infinite where it
+        did not), and whether it, or one that it broke from, `came_up` from there. The shapes are in `frame(time)`."""
+        return table(self.births, self.pandas)
+
+    def _table(self, name, lacking):
+        if not (self.folder / name).exists():
+            raise VersionError(f"{self.folder / name}: is not there; {lacking} did not record it: run its scene.json again")
+        return table(read_csv(self.folder / name), self.pandas)
+
+    @functools.cached_property
+    def force_columns(self) -> dict[str, numpy.ndarray]:
+        """The columns of `forces`."""
+        return read_csv(self.folder / "forces.csv")
+
+    @functools.cached_property
+    def event_columns(self) -> dict[str, numpy.ndarray]:
+        """The columns of `events`."""
+        return event_columns(read_lines(self.folder / "events.ndjson"))
+
+    # Frames
+
+    @property
+    def times(self) -> numpy.ndarray:
+        """Of the recorded frames [s]."""
+        return self.motions.times
+
+    @property
+    def start_time(self) -> float:
+        """Of the first frame [s]."""
+        return float(self.times[0]) if len(self.times) else 0.0
+
+    @property
+    def end_time(self) -> float:
+        """Of the last frame [s]."""
+        return float(self.times[-1]) if len(self.times) else 0.0
+
+    @property
+    def frames(self) -> Frames:
+        """The recorded frames: `frames[-1]`, `for frame in frames`."""
+        return Frames(self)
+
+    def frame(self, time: float) -> Frame:
+        """The run at a time [s] between its first and its last frame."""
+        if not self.start_time <= time <= self.end_time:
+            raise ValueError(f"time {time:g}: the run goes from {self.start_time:g} to {self.end_time:g} s")
+        return Frame(self, time)
+
+    @functools.cached_property
+    def _lines(self):
+        lines = read_lines(self.folder / "floes.ndjson")
+        for i, line in enumerate(lines):
+            if line.get("floe_id") != i:
+                raise FolderError(f"{self.folder / 'floes.ndjson'}:{i + 1}: floes are not in the order of their ids")
+        return lines
+
+    @functools.cached_property
+    def shapes(self) -> Shapes:
+        """Of floes, in their body frames."""
+        return Shapes(self._lines, self.folder / "floes.ndjson")
+
+    @functools.cached_property
+    def motions(self) -> Motions:
+        """The records of frames.bin."""
+        return Motions(self.folder / "frames.bin", len(self._lines))
+
+    @functools.cached_property
+    def centroids(self) -> numpy.ndarray:
+        """Of floes, in their body frames, n × 2 [m]."""
+        return numpy.array([line["centroid_m"] for line in self._lines], dtype=float).reshape(-1, 2)
+
+    @functools.cached_property
+    def births(self) -> dict[str, numpy.ndarray]:
+        """The columns of `floes`, by floe id."""
+        lines = self._lines
+        columns = {"floe_id": numpy.arange(len(lines))}
+        columns["parent_id"] = numpy.array([NONE if line["parent_id"] is None else line["parent_id"] for line in lines], dtype=numpy.int64)
+        for name, kind in (("born_s", float), ("generation", numpy.int64), ("area_m2", float), ("mass_kg", float)):
+            columns[name] = numpy.array([line[name] for line in lines], dtype=kind)
+        died, went_under = numpy.full(len(lines), numpy.inf), numpy.full(len(lines), numpy.inf)
+        came_up = numpy.zeros(len(lines), dtype=bool)
+        events = self.event_columns
+        for time, kind, floe, children in zip(events["t_s"], events["kind"], events["floe"].tolist(), events["children"]):
+            if not 0 <= floe < len(lines):
+                continue  # of ships that touch
+            if kind == "submerge":
+                went_under[floe] = time
+            elif kind != "rejected_cut":
+                died[floe] = time
+            for child in children:
+                if child < len(lines):
+                    came_up[child] = kind == "resurface" or came_up[floe]
+        return {**columns, "died_s": died, "went_under_s": went_under, "came_up": came_up}
+
+    @property
+    def first_motions(self) -> numpy.ndarray:
+        """Where the scene puts ships and structures, at rest: x, y, heading and their rates."""
+        return numpy.array([
+            [*body.get("position_m", (0, 0)), math.radians(body.get("heading_deg", 0)), 0, 0, 0] for body in self._bodies]).reshape(-1, 6)

@@ -1,0 +1,84 @@
+"""The shapes of a run's floes, in their body frames: whole rings, or parts of their parents' (docs/run-folder.md, "floes.ndjson")."""
+from __future__ import annotations
+
+import numpy
+
+from polynya.errors import FolderError
+
+MOST_KEPT = 8 << 20  # vertices of assembled shapes, 128 MB
+
+
+class Shapes:
+    """Assembles shapes as they are asked for, and keeps the newest."""
+
+    def __init__(self, births, path):
+        self._births, self._path = births, path
+        self._kept, self._vertices = {}, 0
+
+    def of(self, floes):
+        """{id: [outer ring, holes …]} of some floes, each ring an array of n × 2 [m]."""
+        wanted = {int(floe) for floe in floes}
+        needed, waiting = set(), list(wanted)
+        while waiting:
+            floe = waiting.pop()
+            if floe in needed:
+                continue
+            needed.add(floe)
+            if floe not in self._kept and "ring_parts_m" in self._births[floe]:
+                waiting.append(self._parent_of(floe))
+        found, children = {}, {}
+        for floe in needed:
+            if floe not in self._kept and "ring_parts_m" in self._births[floe]:
+                parent = self._parent_of(floe)
+                children[parent] = children.get(parent, 0) + 1
+        for floe in sorted(needed):  # a parent is older than its child
+            found[floe] = self._kept[floe] if floe in self._kept else self._assembled(floe, found, children, wanted)
+        shapes = {floe: found[floe] for floe in wanted}
+        self._keep(shapes)
+        return shapes
+
+    def _parent_of(self, floe):
+        parent = self._births[floe]["parent_id"]
+        if parent is None or not 0 <= parent < floe:
+            raise FolderError(f"{self._path}:{floe + 1}: parts of a parent that is not on a line before")
+        return parent
+
+    def _assembled(self, floe, found, children, wanted):
+        birth = self._births[floe]
+        try:
+            if "ring_parts_m" not in birth:
+                return [ring_of(ring) for ring in (birth["ring_m"], *birth["holes_m"])]
+            parent = birth["parent_id"]
+            rings = [
+                numpy.concatenate([vertices(part, found[parent]) for part in ring])
+                for ring in (birth["ring_parts_m"], *birth["hole_parts_m"])
+            ]
+        except (IndexError, KeyError, TypeError, ValueError) as error:
+            raise FolderError(f"{self._path}:{floe + 1}: no shape of a floe: {error!r}") from None
+        children[parent] -= 1
+        if children[parent] == 0 and parent not in wanted:
+            del found[parent]
+        return rings
+
+    def _keep(self, shapes):
+        for floe, rings in shapes.items():
+            if floe not in self._kept:
+                self._kept[floe] = rings
+                self._vertices += sum(map(len, rings))
+        while self._vertices > MOST_KEPT and len(self._kept) > 1:
+            self._vertices -= sum(map(len, self._kept.pop(next(iter(self._kept)))))
+
+
+def ring_of(points):
+    ring = numpy.array(points, dtype=float)
+    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not numpy.isfinite(ring).all():
+        raise ValueError("a ring has three points or more, of two finite coordinates each")
+    return ring
+
+
+def vertices(part, parent):
+    """A part of a ring: new vertices, or a stretch of one of the parent's rings."""
+    if isinstance(part[0], list):
+        return numpy.array(part, dtype=float)
+    ring, first, count = part
+    return numpy.take(parent[ring], numpy.arange(first, first + count), axis=0, mode="wrap")

@@ -1,0 +1,90 @@
+"""A study's folder read back."""
+from __future__ import annotations
+
+import csv
+import os
+import pathlib
+from typing import Any, Optional, Union
+
+import numpy
+
+from polynya.errors import FolderError, NotAStudyError, UnfinishedError, VersionError
+from polynya.study import archive, folder as folders
+from polynya.study.gather import SUMMARY, TABLE
+from polynya.study.located_json import StudyError
+
+from .run import Run
+from .tables import number, read_json, table
+
+
+class Study:
+    """A folder that `polynya study` planned, ran and gathered (docs/studies.md).
+
+    Raises NotAStudyError, VersionError, FolderError where the table is not gathered, and UnfinishedError where it lacks cases, but with
+    `unfinished=True`: `table["state"]` then has which are "finished", "failed", "unfinished" or "missing"."""
+
+    def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False, pandas: Optional[bool] = None):
+        self.folder = pathlib.Path(folder)
+        self._pandas = pandas
+        if not (self.folder / folders.PLAN).is_file():
+            what = "does not exist" if not self.folder.exists() else f"has no {folders.PLAN}" if self.folder.is_dir() else "is a file"
+            raise NotAStudyError(f"not a study's folder: {self.folder} {what}: polynya study plan FILE makes one")
+        try:
+            self._study = folders.open_study(self.folder)
+        except StudyError as error:
+            raise VersionError(str(error)) from None
+        if not (self.folder / SUMMARY).is_file() or not (self.folder / TABLE).is_file():
+            raise FolderError(f"{self.folder}: the study has no table: polynya study gather {self.folder} makes it")
+        self.plan: dict = self._study.plan  #: what was planned
+        self.summary: dict = read_json(self.folder / SUMMARY)  #: of the table: how many cases have which state
+        if not self.summary["is_complete"] and not unfinished:
+            raise UnfinishedError(
+                f"{self.folder}: {self.summary['finished']} of {self.summary['cases']} cases are in the table: polynya study run {self.folder} and "
+                f"polynya study gather {self.folder} continue it; Study(folder, unfinished=True) reads what is there")
+
+    def __repr__(self):
+        return f"<polynya study {self.name} in {self.folder}: {self.summary['finished']} of {self.summary['cases']} cases>"
+
+    @property
+    def name(self) -> str:
+        """The study's, not its folder's."""
+        return self.plan["name"]
+
+    @property
+    def parameters(self) -> list[str]:
+        """Names of the columns with what the study varies."""
+        return list(self.summary["parameters"])
+
+    @property
+    def measures(self) -> list[str]:
+        """Names of the columns with what it measured."""
+        return [name for name in self.summary["columns"] if name not in ("case", "state", *self.parameters)]
+
+    @property
+    def table(self) -> Any:
+        """table.csv, a row a case: a pandas frame, or a structured array. Columns are numbers where all values are, else words; NaN where
+        there is none."""
+        with open(self.folder / TABLE, newline="", encoding="utf-8") as file:
+            names, *rows = csv.reader(file)
+        cells = list(zip(*rows)) if rows else [()] * len(names)
+        return table({name: values_of(name, of) for name, of in zip(names, cells)}, self._pandas)
+
+    def run(self, case: int, **options: Any) -> Run:
+        """A case's run, where the study keeps runs (`keep`) and the case is not packed; options as those of Run."""
+        if not 0 <= case < self._study.count:
+            raise IndexError(f"there is no case {case}; the study has 0 to {self._study.count - 1}")
+        found = self._study.case_folder(case) / folders.RUN
+        if not found.exists():
+            chunk = case // self._study.chunk_size
+            why = f"is packed in {self._study.archive(chunk)}" if self._study.archive(chunk).exists() else archive.state_of(found.parent)[0]
+            raise FolderError(f"{found}: is not there: case {case} {'' if why.startswith('is ') else 'is '}{why}")
+        return Run(found, **{"pandas": self._pandas, **options})
+
+
+def values_of(name, cells):
+    if name == "case":
+        return numpy.array([int(cell) for cell in cells], dtype=numpy.int64)
+    try:
+        return numpy.array([number(cell) for cell in cells], dtype=float)
+    except ValueError:
+        return numpy.array(cells, dtype=object)

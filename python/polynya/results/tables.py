@@ -1,0 +1,141 @@
+"""Columns of files, and the tables they become: pandas' frames, or numpy's structured arrays."""
+from __future__ import annotations
+
+import csv
+import importlib
+import json
+
+import numpy
+
+from polynya.errors import FolderError
+
+NONE = -1  #: the id of no floe
+WORDS = {"ship", "by_ship", "state_hash"}
+WHOLE = {"floe_id", "by_floe_id", "steps", "station", "contacts", "contacts_with_ships", "rams"}
+
+
+def optional(name, wanted):
+    """A module where it is installed and `wanted` is None, one that must be there where it is True, none where it is False."""
+    if wanted is False:
+        return None
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        if wanted:
+            package = {"pandas": "python3-pandas", "shapely.geometry": "python3-shapely"}[name]
+            raise ImportError(f"{name} is wanted and not installed: apt-get install {package} ({error})") from error
+        return None
+
+
+def table(columns, pandas=None):
+    """Columns of equal length as a pandas.DataFrame, or as a structured array where pandas is not installed or False."""
+    frames = optional("pandas", pandas)
+    if frames:
+        return frames.DataFrame(columns)
+    size = len(next(iter(columns.values()))) if columns else 0
+    rows = numpy.empty(size, dtype=[(name, values.dtype) for name, values in columns.items()])
+    for name, values in columns.items():
+        rows[name] = values
+    return rows
+
+
+def whole_lines(path):
+    """The lines of a file; a last one that is cut short is left out."""
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            text = file.read()
+    except FileNotFoundError:
+        raise FolderError(f"{path}: is not there") from None
+    return text[: text.rfind("\n") + 1].splitlines()
+
+
+def number(text):
+    return float(text) if text not in ("", "null") else numpy.nan
+
+
+def column(name, cells):
+    """The values of a column, by its name (docs/run-folder.md): words, whole numbers (-1 where there is none), yes or no, else numbers."""
+    if name in WORDS:
+        return numpy.array(cells, dtype=object)
+    if name in WHOLE:
+        return numpy.array([int(cell) if cell else NONE for cell in cells], dtype=numpy.int64)
+    if name.startswith(("is_", "has_")):
+        return numpy.array([cell == "1" for cell in cells], dtype=bool)
+    return numpy.array([number(cell) for cell in cells], dtype=float)
+
+
+def read_csv(path):
+    """The columns of a run's table by name, each number as it is in the file."""
+    lines = whole_lines(path)
+    if not lines:
+        raise FolderError(f"{path}: has no header")
+    names, *rows = csv.reader(lines)
+    for i, row in enumerate(rows):
+        if len(row) != len(names):
+            raise FolderError(f"{path}:{i + 2}: {len(row)} cells below a header of {len(names)}")
+    cells = list(zip(*rows)) if rows else [()] * len(names)
+    try:
+        return {name: column(name, of) for name, of in zip(names, cells)}
+    except ValueError as error:
+        raise FolderError(f"{path}: {error}") from None
+
+
+def read_lines(path):
+    """The objects of a file of JSON lines."""
+    found = []
+    for i, line in enumerate(whole_lines(path)):
+        try:
+            found.append(json.loads(line))
+        except ValueError as error:
+            raise FolderError(f"{path}:{i + 1}: {error}") from None
+    return found
+
+
+def read_json(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except FileNotFoundError:
+        raise FolderError(f"{path}: is not there") from None
+    except ValueError as error:
+        raise FolderError(f"{path}: {error}") from None
+
+
+FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "parent": int, "by_floe": int, "children": tuple}
+
+
+def flattened(event):
+    """An event's members in one row: its point and normal by coordinates, what decided it by name, with the rule as `criterion`."""
+    row = {}
+    for key, value in event.items():
+        if key == "point_m":
+            row["x_m"], row["y_m"] = value
+        elif key == "normal":
+            row["normal_x"], row["normal_y"] = value
+        elif key == "criterion":
+            row.update({"criterion" if name == "kind" else name: of for name, of in value.items()})
+        else:
+            row[key] = value
+    return row
+
+
+def event_columns(events):
+    """Columns of events.ndjson: -1 where there is no floe, NaN where there is no number, an empty word where there is none."""
+    rows = [flattened(event) for event in events]
+    kinds = dict(FIRST)
+    kinds.update({name: float for name in ("x_m", "y_m", "normal_x", "normal_y")})
+    for row in rows:
+        for name, value in row.items():
+            kinds.setdefault(name, bool if isinstance(value, bool) else str if isinstance(value, str) else float)
+    columns = {}
+    for name, kind in kinds.items():
+        absent = {float: numpy.nan, int: NONE, bool: False}.get(kind, kind())
+        given = [row.get(name) for row in rows]
+        values = [absent if value is None else value for value in given]
+        if kind in (str, tuple):
+            columns[name] = numpy.empty(len(values), dtype=object)
+            for i, value in enumerate(values):
+                columns[name][i] = kind(value)
+        else:
+            columns[name] = numpy.array(values, dtype={float: float, int: numpy.int64, bool: bool}[kind])
+    return columns

@@ -1,0 +1,263 @@
+"""Runs and studies read back: every number is the file's, and where floes and ships are is what `polynya export` writes."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+
+import numpy
+import pytest
+
+import polynya
+
+PROGRAM = os.environ["POLYNYA_PROGRAM"]
+UNTIL = 20
+SCENE = {
+    "name": "read-back",
+    "time": {"step_s": 0.01, "until_s": UNTIL},
+    "record": {"forces_interval_s": 0.1, "frames_interval_s": 2, "contacts": "all"},
+    "ships": [{"name": "breaker", "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4, "stem_angle_deg": 25},
+               "mass_kg": 2e6, "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1], "speed_m_per_s": 3,
+               "propulsion": {"constant_speed_m_per_s": 3}}],
+    "structures": [{"name": "pile", "radius_m": 5, "position_m": [75, 30]}],
+    "water": {"drift_m_per_s": [0.1, 0.3]},
+    "ice": {"thickness_m": 0.5},
+    "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}}, {"rectangle": {"corner_m": [42, -1], "size_m": 5}},
+              {"polygon": {"outer_m": [[62, -9], [80, -9], [80, 9], [62, 9]], "holes_m": [[[68, -3], [68, 3], [74, 3], [74, -3]]]}}],
+}
+STUDY = {"name": "thicknesses", "scene": "scene.json", "grid": {"ice.thickness_m": [0.4, 0.8]}, "set": {"time.until_s": 2}, "keep": "all"}
+
+
+def polynya_program(*words, cwd):
+    subprocess.run([PROGRAM, *map(str, words)], cwd=cwd, check=True, capture_output=True, env={**os.environ, "POLYNYA_PYTHON": ""})
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    home = tmp_path_factory.mktemp("results")
+    (home / "scene.json").write_text(json.dumps(SCENE))
+    polynya_program("run", "scene.json", "--out", "run", "--no-map", cwd=home)
+    return home / "run"
+
+
+@pytest.fixture
+def copy(folder, tmp_path):
+    return pathlib.Path(shutil.copytree(folder, tmp_path / "copy"))
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def lines(path):
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+@pytest.fixture(params=[False, True], ids=["numpy", "pandas"])
+def run(request, folder):
+    if request.param:
+        pytest.importorskip("pandas")
+    return polynya.Run(folder, pandas=request.param)
+
+
+def columns_of(table):
+    return {name: numpy.asarray(table[name]) for name in (getattr(table, "columns", None) if hasattr(table, "columns") else table.dtype.names)}
+
+
+@pytest.mark.parametrize("name", ["forces", "contacts", "crushed", "states"])
+def test_every_number_of_a_table_is_the_files(run, folder, name):
+    columns, written = columns_of(getattr(run, name)), rows(folder / f"{name}.csv")
+    assert list(columns) == list(written[0])
+    for column, values in columns.items():
+        assert len(values) == len(written)
+        for value, row in zip(values.tolist(), written):
+            text = row[column]
+            assert value == text if isinstance(value, str) else value == (float(text) if text else -1)
+
+
+def test_events_have_all_that_their_lines_have(run, folder):
+    columns, written = columns_of(run.events), lines(folder / "events.ndjson")
+    assert {"bend", "submerge"} <= set(columns["kind"])
+    for i, event in enumerate(written):
+        row = {name: values[i] for name, values in columns.items()}
+        assert (row["t_s"], row["kind"], row["ship"], row["floe"]) == (event["t_s"], event["kind"], event["ship"], event["floe"])
+        assert row["parent"] == (-1 if event["parent"] is None else event["parent"])
+        assert row["children"] == tuple(event["children"])
+        assert [row["x_m"], row["y_m"]] == event["point_m"] and [row["normal_x"], row["normal_y"]] == event["normal"]
+        assert all(row["criterion" if name == "kind" else name] == value for name, value in event["criterion"].items())
+        assert ("load_N" in event["criterion"]) == bool(numpy.isfinite(row["load_N"]))
+
+
+@pytest.mark.parametrize("time", [0, 1.3, 8, 13.7, UNTIL])
+def test_floes_and_ships_are_where_the_program_puts_them(folder, tmp_path, time):
+    polynya_program("export", folder, "--geojson", tmp_path, "--metres", "--at", time, cwd=tmp_path)
+    frame = polynya.Run(folder, pandas=False, shapely=False).frame(time)
+    ids, found = frame.floes["floe_id"].tolist(), dict(zip(frame.floes["floe_id"].tolist(), frame.polygons))
+    layers = {}
+    for layer in ("floes", "under-hull"):
+        for feature in json.loads((tmp_path / f"{layer}.geojson").read_text())["features"]:
+            layers[feature["properties"]["floe_id"]] = layer, feature
+    assert sorted(layers) == ids
+    for i, floe in enumerate(ids):
+        layer, feature = layers[floe]
+        assert frame.floes["is_under"][i] == (layer == "under-hull")
+        assert frame.floes["area_m2"][i] == feature["properties"]["area_m2"]
+        assert found[floe]["type"] == feature["geometry"]["type"] == "Polygon"
+        for ring, written in zip(found[floe]["coordinates"], feature["geometry"]["coordinates"], strict=True):
+            numpy.testing.assert_allclose(ring, written, rtol=0, atol=2e-6)
+    hulls = {f["properties"]["ship"]: f["geometry"]["coordinates"][0] for f in json.loads((tmp_path / "ships.geojson").read_text())["features"]}
+    assert list(frame.hulls) == ["breaker", "pile"] == frame.ships["ship"].tolist()
+    for name, ring in frame.hulls.items():
+        assert {tuple(p) for p in numpy.round(ring, 3)} == {tuple(p) for p in numpy.round(hulls[name], 3)}
+
+
+def test_some_ice_is_under_a_hull_and_some_has_holes(folder):
+    run = polynya.Run(folder, pandas=False)
+    assert any(frame.is_under.any() for frame in run.frames)
+    assert any(len(rings) == 2 for rings in run.frames[0].rings)
+    assert [frame.time for frame in run.frames] == run.times.tolist() == [row["t_s"] for row in run.states]
+    births = lines(folder / "floes.ndjson")
+    assert [floe["area_m2"] for floe in births] == run.floes["area_m2"].tolist()
+    assert run.floes["parent_id"].tolist() == [-1 if floe["parent_id"] is None else floe["parent_id"] for floe in births]
+
+
+def test_floes_are_shapely_polygons_where_it_is_installed(folder):
+    pytest.importorskip("shapely")
+    frame = polynya.Run(folder).frame(13.7)
+    for polygon, area in zip(frame.polygons, numpy.asarray(frame.floes["area_m2"])):
+        assert polygon.is_valid and polygon.area == pytest.approx(area, rel=1e-9)
+
+
+def test_a_channel_is_that_of_the_command(copy):
+    with pytest.raises(polynya.FolderError, match="polynya channel"):
+        polynya.Run(copy).channel
+    measured = polynya.Run(copy, pandas=False).measure_channel()
+    assert not (copy / "channel.csv").exists()
+    polynya_program("channel", copy, cwd=copy)
+    run = polynya.Run(copy, pandas=False)
+    assert columns_of(run.channel).keys() == columns_of(measured.stations).keys()
+    written = rows(copy / "channel.csv")
+    assert run.channel["width_m"].tolist() == [float(row["width_m"]) for row in written] == measured.stations["width_m"].tolist()
+    assert set(measured.parts) >= {"open water", "swept band"}
+    with pytest.raises(polynya.FolderError, match="no ship"):
+        run.measure_channel(ship="nobody")
+
+
+def test_what_is_no_run_is_refused_with_what_it_is(tmp_path):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "file").write_text("")
+    for name, words in (("nowhere", "does not exist"), ("empty", "has no scene.json"), ("file", "is a file")):
+        with pytest.raises(polynya.NotARunError, match=f"not a run folder: .*{name} {words}"):
+            polynya.Run(tmp_path / name)
+    with pytest.raises(polynya.NotAStudyError, match="has no plan.json"):
+        polynya.Study(tmp_path / "empty")
+
+
+def change(path, **members):
+    path.write_text(json.dumps({**json.loads(path.read_text()), **members}))
+
+
+def test_an_unfinished_run_is_read_where_that_is_wanted(copy):
+    change(copy / "summary.json", finished=False, stopped_by="SIGINT")
+    with pytest.raises(polynya.UnfinishedError, match=r"stopped by SIGINT\): polynya resume"):
+        polynya.Run(copy)
+    with open(copy / "forces.csv", "a") as file:
+        file.write("99,brea")
+    frames = (copy / "frames.bin").read_bytes()
+    (copy / "frames.bin").write_bytes(frames[:-10])
+    run = polynya.Run(copy, unfinished=True, pandas=False)
+    assert not run.is_finished and len(run.forces) == len(rows(copy / "forces.csv")) - 1
+    assert run.end_time < UNTIL
+    with pytest.raises(ValueError, match="the run goes from 0 to"):
+        run.frame(UNTIL)
+
+
+def test_other_versions_are_named(copy):
+    (copy / "crushed.csv").unlink()
+    change(copy / "summary.json", folder_version=2)
+    run = polynya.Run(copy)
+    assert len(run.forces) > 0
+    with pytest.raises(polynya.VersionError, match="version 2 and before did not record it"):
+        run.crushed
+    change(copy / "summary.json", folder_version=5)
+    with pytest.raises(polynya.VersionError, match="a run folder of version 5; this polynya reads 1 to 4"):
+        polynya.Run(copy)
+
+
+@pytest.mark.parametrize("file, old, new, words", [
+    ("floes.ndjson", '"ring_m":[[0,-30],', '"ring_m":[[1e999,0],', r"floes.ndjson:1: no shape of a floe"),
+    ("forces.csv", "breaker,", "breaker,none", r"forces.csv: could not convert string to float"),
+    ("frames.bin", "PLYNYFRM", "PLYNYXXX", "not a file of frames"),
+    ("events.ndjson", '{"t_s"', '"t_s"', r"events.ndjson:1: "),
+])
+def test_a_damaged_file_is_named(copy, file, old, new, words):
+    data = (copy / file).read_bytes()
+    assert old.encode() in data
+    (copy / file).write_bytes(data.replace(old.encode(), new.encode(), 1))
+    run = polynya.Run(copy)
+    with pytest.raises(polynya.FolderError, match=words):
+        run.forces, run.events, run.frame(0).polygons
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    home = tmp_path_factory.mktemp("study")
+    (home / "scene.json").write_text(json.dumps(SCENE))
+    (home / "study.json").write_text(json.dumps(STUDY))
+    polynya_program("study", "plan", "study.json", "--trial-seconds", "0", cwd=home)
+    with pytest.raises(polynya.FolderError, match="polynya study gather"):
+        polynya.Study(home / "studies/thicknesses")
+    polynya_program("study", "run", "studies/thicknesses", "--jobs", "1", "--quiet", cwd=home)
+    polynya_program("study", "gather", "studies/thicknesses", cwd=home)
+    return home / "studies/thicknesses"
+
+
+@pytest.mark.parametrize("pandas", [False, True])
+def test_a_studys_table_is_the_files(study, pandas):
+    if pandas:
+        pytest.importorskip("pandas")
+    found = polynya.Study(study, pandas=pandas)
+    assert (found.name, found.parameters) == ("thicknesses", ["ice.thickness_m", "seed"])
+    columns, written = columns_of(found.table), rows(study / "table.csv")
+    assert list(columns) == list(written[0]) == ["case", "state", *found.parameters, *found.measures]
+    for name, values in columns.items():
+        for value, row in zip(values.tolist(), written):
+            assert value == row[name] if isinstance(value, str) else str(value) == "nan" and row[name] == "" or value == float(row[name])
+    assert found.run(1).end_time == 2
+    with pytest.raises(IndexError, match="0 to 1"):
+        found.run(2)
+
+
+def test_a_partial_study_is_read_where_that_is_wanted(study, tmp_path):
+    copied = pathlib.Path(shutil.copytree(study, tmp_path / "study"))
+    (copied / "cases/000001/case.json").unlink()
+    subprocess.run([PROGRAM, "study", "gather", copied], capture_output=True, check=False)
+    with pytest.raises(polynya.UnfinishedError, match="1 of 2 cases"):
+        polynya.Study(copied)
+    found = polynya.Study(copied, unfinished=True, pandas=False)
+    assert found.table["state"].tolist() == ["finished", "unfinished"]
+    shutil.rmtree(copied / "cases/000001/run")
+    with pytest.raises(polynya.FolderError, match="case 1 is missing"):
+        found.run(1)
+
+
+def test_what_is_wanted_and_not_installed_is_named(folder, monkeypatch):
+    import sys
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    monkeypatch.setitem(sys.modules, "shapely.geometry", None)
+    assert polynya.Run(folder).forces.dtype.names[:2] == ("t_s", "ship")
+    assert polynya.Run(folder).frame(0).polygons[0]["type"] == "Polygon"
+    with pytest.raises(ImportError, match="apt-get install python3-pandas"):
+        polynya.Run(folder, pandas=True).forces
+    with pytest.raises(ImportError, match="apt-get install python3-shapely"):
+        polynya.Run(folder, shapely=True).frame(0).polygons
+
+
+def test_the_classes_are_documented():
+    for documented in (polynya.Run, polynya.Study):
+        members = {name: value for name, value in vars(documented).items() if not name.startswith("_") and callable(getattr(value, "fget", value))}
+        assert len(members) >= 5
+        undocumented = [name for name, value in members.items() if not value.__doc__]
+        assert documented.__doc__ and not undocumented
