@@ -10,6 +10,7 @@ namespace polynya::fracture {
 enum class SplittingModel {
   kMichel,  ///< the paper's: j/τ_c of Eq. (5) against F_s of Eq. (4)
   kLefm,    ///< the true forces that open a crack against linear elastic fracture mechanics
+  kNone,    ///< no floe splits
 };
 
 /// Force that splits a floe along a path of the given length [m], F_s = n L h σ_t [N].

@@ -95,7 +95,7 @@ struct FractureSettings {
   BendingModelKind bending = BendingModelKind::kFsiDatabase;
   fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;  ///< of kFsiDatabase
   bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
-  fracture::SplittingModel splitting = fracture::SplittingModel::kMichel;
+  fracture::SplittingModel splitting = fracture::SplittingModel::kLefm;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
   fracture::LeastPiece least_piece;      ///< that a crack leaves on either side
   CuspFate cusp_fate = CuspFate::kSubmerge;

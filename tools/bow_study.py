@@ -29,7 +29,7 @@ FRAME = 0.025  # [m] of way
 def scene(h, v, bending):
     """Level ice that does not split, and has too much mass to be pushed along."""
     return {"name": "level-ice", "time": {"step_s": 0.005 / max(1, v), "until_s": (GAP + WAY_IN + WAY) / v},
-            "ice": {"thickness_m": h}, "fracture": {"bending": bending, "splitting": {"shape_factor": 100}},
+            "ice": {"thickness_m": h}, "fracture": {"bending": bending, "splitting": {"model": "none"}},
             "record": {"forces_interval_s": 0.1 / v, "frames_interval_s": FRAME / v},
             "ships": [SHIP | {"position_m": [START, 0], "propulsion": {"constant_speed_m_per_s": v}}],
             "floes": [{"rectangle": {"corner_m": [0, -4000], "size_m": [8000, 8000]}}]}

@@ -23,7 +23,7 @@ def ship(x, y, speed):
 def level_ice(speed, offset, step, substeps=1):
     """120 m of half a metre of level ice, after 20 m in which the bow breaks its way in."""
     return {"name": "level-ice", "time": {"step_s": step, "until_s": 142 / speed},
-            "contact": {"law": "crush", "substeps": substeps},
+            "contact": {"law": "crush", "substeps": substeps}, "fracture": {"splitting": {"model": "none"}},
             "ships": [ship(-62, offset, speed)],
             "floes": [{"rectangle": {"corner_m": [0, -100], "size_m": [400, 200]}}]}
 
@@ -33,6 +33,7 @@ def squeeze(substeps, tolerance, sweeps, start):
     return {"name": "squeeze", "time": {"step_s": 0.005, "until_s": 1680}, "ice": {"thickness_m": 1.5},
             "contact": {"law": "crush", "substeps": substeps, "tolerance_m_per_s": tolerance, "iterations": sweeps,
                         "start": start},
+            "fracture": {"splitting": {"model": "none"}},
             "ships": [ship(-62, 0, 0.25)],
             "floes": [{"rectangle": {"corner_m": [0, -2000], "size_m": [4000, 4000]}}]}
 
@@ -42,6 +43,7 @@ def confined(cover, seed, law, sweeps=100, tolerance=1e-4):
     wall = lambda x0, y0, x1, y1: {"waterline_m": [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]}
     return {"name": "confined", "seed": seed, "time": {"step_s": 0.01, "until_s": 100},
             "contact": {"law": law, "iterations": sweeps, "tolerance_m_per_s": tolerance},
+            "fracture": {"splitting": {"model": "michel"}},  # both laws break floes by one rule
             "ships": [ship(-62, 0, 1)],
             "structures": [wall(0, 60, 310, 70), wall(0, -70, 310, -60), wall(300, -60, 310, 60)],
             "floes": [{"field": {"corner_m": [0, -60], "extent_m": [300, 120], "floe_size_m": 15,

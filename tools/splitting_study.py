@@ -21,7 +21,6 @@ def square(side, h, toughness):
     """The reference ship sails at 1 m/s with its stem at the middle of a floe's side. The floe is free."""
     return {"name": "square", "time": {"step_s": 0.002, "until_s": 6},
             "ice": {"thickness_m": h, "fracture_toughness_Pa_sqrt_m": toughness},
-            "fracture": {"splitting": {"model": "lefm"}},
             "ships": [SHIP | {"position_m": [-60.01, 0], "speed_m_per_s": 1, "propulsion": {"constant_speed_m_per_s": 1}}],
             "floes": [{"rectangle": {"corner_m": [0, -side / 2], "size_m": [side, side]}}]} | FEW_RECORDS
 

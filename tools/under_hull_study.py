@@ -36,7 +36,7 @@ def ship(x, y, speed, **other):
 def level_ice(h, v, y=0.0, **settings):
     """A plate so heavy that it stays; the ship goes in by its length and 60 m, then 150 m are measured."""
     return {"name": "level", "time": {"step_s": min(0.01, 0.01 / v), "until_s": (182 + 150) / v},
-            "ice": {"thickness_m": h}, "ships": [ship(-62, y, v)],
+            "ice": {"thickness_m": h}, "fracture": {"splitting": {"model": "none"}}, "ships": [ship(-62, y, v)],
             "floes": [{"rectangle": {"corner_m": [0, -1500], "size_m": [3000, 3000]}}]} | settings
 
 

@@ -159,15 +159,17 @@ const Object kBending{
            {"followed", "ignored"})}};
 
 const Object kSplitting{
-    {field("model", Kind::kChoice, "", {}, "\"michel\"",
-           "what splits a floe: the paper's j/τ_c against Eq. (4), F_s = n L h σ_t, or the true forces that "
-           "open a "
-           "crack, of ships, structures and floes, by linear elastic fracture mechanics",
+    {field("model", Kind::kChoice, "", {}, "\"lefm\"",
+           "what splits a floe: lefm, the true forces of ships, structures and floes that open a crack, by "
+           "linear "
+           "elastic fracture mechanics; michel, the paper's j/τ_c against Eq. (4), F_s = n L h σ_t; none, "
+           "nothing",
            [](Draft& d, const Value& v) {
-             d.scene.fracture.splitting =
-                 v.text() == "michel" ? SplittingModel::kMichel : SplittingModel::kLefm;
+             d.scene.fracture.splitting = v.text() == "michel" ? SplittingModel::kMichel
+                                          : v.text() == "none" ? SplittingModel::kNone
+                                                               : SplittingModel::kLefm;
            },
-           {"michel", "lefm"}),
+           {"lefm", "michel", "none"}),
      field("shape_factor", Kind::kNumber, "", above(0, 100), "0.25", "n of Eq. (4)",
            [](Draft& d, const Value& v) { d.scene.fracture.splitting_shape_factor = v.number(); }),
      field(

@@ -488,7 +488,7 @@ def test_measures_are_those_of_the_run(folder):
         "plan",
         write_study(
             folder,
-            set={"time.until_s": 30},
+            set={"time.until_s": 30, "fracture.splitting.model": "none"},
             collect={
                 "from_s": 5,
                 "loads": ["thrust_N"],

@@ -19,7 +19,7 @@ Scene corner_under_a_wall() {
   Scene scene = without_drag();
   scene.contact = {};
   scene.fracture = {};
-  scene.fracture.splitting_shape_factor = 100;
+  scene.fracture.splitting = fracture::SplittingModel::kNone;
   scene.time.step = 0.005;
   scene.ships = {barge({-0.001, 0}, ConstantSpeed{kSpeed}, kSpeed)};
   scene.ships[0].hull.angles_from_vertical.assign(4, kHullAngle);

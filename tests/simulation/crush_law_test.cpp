@@ -213,6 +213,7 @@ double mean_load_in_level_ice(double step, int substeps, double offset) {
   scene.time.step = step;
   scene.contact.law = ContactLaw::kCrush;
   scene.contact.substeps = substeps;
+  scene.fracture.splitting = fracture::SplittingModel::kNone;  // it stands for ice without end
   scene.ships = {icebreaker({-1, offset}, ConstantSpeed{1})};
   scene.floes = {floe(rectangle(0, -100, 300, 100))};
   Simulation simulation(scene);

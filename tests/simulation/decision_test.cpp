@@ -105,7 +105,7 @@ TEST(Decision, AnInclinedBowBendsWhenItsVerticalForceReachesTheCapacity) {
 
 TEST(Decision, AVerticalHullOnlyCrushes) {
   Scene scene = ship_against(barge({0, 0}, ConstantSpeed{0.3}), rectangle(0.1, -100, 60.1, 100));
-  scene.fracture.splitting_shape_factor = 1e3;
+  scene.fracture.splitting = fracture::SplittingModel::kNone;
   Simulation simulation(scene);
   const Story story = run(simulation, 20);
   EXPECT_TRUE(story.events.empty());

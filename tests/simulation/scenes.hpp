@@ -73,11 +73,12 @@ inline Story run(Simulation& simulation, double until) {
   return story;
 }
 
-/// A scene whose contacts are the paper's: rigid impulses with restitution.
+/// A scene whose contacts and splits are the paper's: rigid impulses with restitution, j/τ_c.
 inline Scene paper_scene() {
   Scene scene;
   scene.contact.law = ContactLaw::kImpulse;
   scene.fracture.radial_cracks = fracture::RadialCracks::kIgnored;
+  scene.fracture.splitting = fracture::SplittingModel::kMichel;
   scene.contact.iterations = 30;
   return scene;
 }

@@ -82,6 +82,24 @@ TEST(Splitting, APlateOfTwentyKilometresSplitsWhenTheForceHasGrownToWhatItTakes)
   EXPECT_EQ(c.fracture_toughness, scene.ice.fracture_toughness);
 }
 
+TEST(Splitting, ByTrueForcesUnlessAnotherRuleIsChosenAndNeverByNone) {
+  EXPECT_EQ(Scene{}.fracture.splitting, fracture::SplittingModel::kLefm);
+  for (const auto model : {fracture::SplittingModel::kLefm, fracture::SplittingModel::kMichel,
+                           fracture::SplittingModel::kNone}) {
+    Scene scene = lefm_scene({floe(rectangle(0.05, -15, 30.05, 15))});
+    scene.ships = {wedge_ship(ConstantSpeed{4}, 4)};
+    scene.fracture.splitting = model;
+    Simulation simulation(scene);
+    while (simulation.time() < 3) simulation.step();
+    if (model == fracture::SplittingModel::kNone) {
+      EXPECT_EQ(simulation.counts().splits, 0);
+      EXPECT_GT(simulation.counts().crush_contacts, 0);
+    } else {
+      EXPECT_GT(simulation.counts().splits, 0) << static_cast<int>(model);
+    }
+  }
+}
+
 TEST(Splitting, AFlatPushClosesTheMouthHoweverHard) {
   Scene scene = lefm_scene({floe(rectangle(0.05, -10, 20.05, 10))});
   scene.ships = {barge({0, 0}, ConstantSpeed{1})};

@@ -70,6 +70,7 @@ TEST(Figures, EveryShipAndStructureHasItsLoads) {
 TEST(Figures, LeadWithTheTrueForce) {
   std::vector<io::Run> runs;
   runs.push_back(run_of_three("harbour"));
+  runs[0].scene.scene.fracture.splitting = fracture::SplittingModel::kMichel;
   for (simulation::ShipSample& sample : runs[0].samples) {
     sample.surge_force = -7e3;
     sample.surge_peak = -1e9;

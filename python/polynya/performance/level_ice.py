@@ -8,7 +8,7 @@ from ..study.measures import rows_by_ship
 
 BLOCKS = 6  # of the measured way
 # A plate without end does not split; what comes up behind the stern does not load the ship.
-ENDLESS = {"splitting": {"shape_factor": 100}, "resurface": {"enabled": False}}
+ENDLESS = {"splitting": {"model": "none"}, "resurface": {"enabled": False}}
 
 
 def ice_keys(ice):
