@@ -125,17 +125,10 @@ def means(sample, measure, against, group_by, folder):
                     estimates.append(statistics.mean(values) if len(values) > 1 else single)
             middle = numpy.array([e.value for e in estimates]) * factor
             half = numpy.array([e.half_width for e in estimates]) * factor
-            axes.errorbar(
-                xs,
-                middle,
-                half,
-                fmt="o-",
-                ms=3,
-                lw=1,
-                capsize=2,
-                color=colour,
-                label=None if group_by is None else group_label(group_by, value),
-            )
+            label_of_group = None if group_by is None else group_label(group_by, value)
+            axes.plot(xs, middle, "o-", ms=3, lw=1, color=colour, label=label_of_group)
+            many = numpy.isfinite(half)  # a single case has no interval
+            axes.errorbar(numpy.array(xs)[many], middle[many], half[many], fmt="none", lw=1, capsize=2, ecolor=colour)
         axes.set(xlabel=label_of(against)[0], ylabel="mean of " + label)
         if group_by is not None:
             axes.legend(frameon=False, fontsize=7)
