@@ -16,6 +16,7 @@ Command add_database_show(CLI::App& app);
 Command add_database_study(CLI::App& app);
 Command add_export(CLI::App& app);
 Command add_figures(CLI::App& app);
+Command add_import(CLI::App& app);
 Command add_init(CLI::App& app);
 Command add_inspect(CLI::App& app);
 Command add_man(CLI::App& app);

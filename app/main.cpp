@@ -19,10 +19,10 @@ namespace {
 using AddCommand = Command (*)(CLI::App&);
 
 /// In the order of the help.
-constexpr AddCommand kCommands[] = {add_run,         add_resume,    add_validate, add_schema,   add_ships,
-                                    add_performance, add_init,      add_view,     add_channel,  add_figures,
-                                    add_export,      add_inspect,   add_cut,      add_database, add_study,
-                                    add_man,         add_completion};
+constexpr AddCommand kCommands[] = {add_run,         add_resume,  add_validate,  add_schema,  add_ships,
+                                    add_performance, add_init,    add_view,      add_channel, add_figures,
+                                    add_export,      add_inspect, add_cut,       add_import,  add_database,
+                                    add_study,       add_man,     add_completion};
 
 constexpr auto kExamples =
     "Examples:\n"
@@ -35,6 +35,7 @@ constexpr auto kExamples =
     "  polynya figures runs/my-scene                  pictures for print: ice, loads, motion, sizes\n"
     "  polynya export runs/my-scene --vtk paraview    for ParaView; --geojson for QGIS\n"
     "  polynya cut floes.geojson --disc 10,5,3        cut floes outside any simulation\n"
+    "  polynya import mapped.shp --origin 78.2,15.6 --out floes.geojson   mapped ice as a floe file\n"
     "  polynya study plan study.json                  many runs of one scene, on this machine or a cluster\n"
     "\n"
     "Polynya simulates an icebreaker in pack ice: floes are pushed, plates break by bending and splitting.\n";

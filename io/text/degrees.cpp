@@ -21,7 +21,9 @@ constexpr std::string_view kGeographic[] = {
     "4617",  "4619",   "4283",  "7844",  "4167", "4490", "4612", "6668", "4674", "4148",
     "4162",  "4170",   "4202",  "4203",  "4230", "4277", "4284", "4314", "4313", "4322"};
 
-std::string name_in(const JsonValue& crs) {
+}  // namespace
+
+std::string crs_name(const JsonValue& crs) {
   const JsonValue* properties = crs.find("properties");
   if (!properties) return "";
   for (const char* key : {"name", "code"}) {  // of type "name", and of type "EPSG" in older files
@@ -32,10 +34,8 @@ std::string name_in(const JsonValue& crs) {
   return "";
 }
 
-}  // namespace
-
 std::string geographic_crs(const JsonValue& crs) {
-  const std::string name = name_in(crs);
+  const std::string name = crs_name(crs);
   std::string code = name.substr(name.find_last_of(":/#") + 1);  // npos + 1 is 0
   std::ranges::transform(code, code.begin(),
                          [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c; });

@@ -7,6 +7,9 @@
 
 namespace polynya::io {
 
+/// The name that a GeoJSON crs member gives its system; "" where it gives none.
+std::string crs_name(const JsonValue& crs);
+
 /// The name of a GeoJSON crs member (of 2008; RFC 7946 has none) that is in longitude and latitude, "" for
 /// every other: those are taken to be metres.
 std::string geographic_crs(const JsonValue& crs);

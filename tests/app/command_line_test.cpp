@@ -54,7 +54,7 @@ TEST(CommandLine, UsageErrorsNameTheCommandTheFaultAndWhatWasMeant) {
   };
   const std::string commands =
       "commands: run, resume, validate, schema, ships, performance, init, view, channel, figures, export, "
-      "inspect, cut, "
+      "inspect, cut, import, "
       "database, study\n";
   for (const Case& c : std::vector<Case>{
            {{"veiw", "x"}, "polynya: no such command: veiw; did you mean view?\n" + commands},

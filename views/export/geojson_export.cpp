@@ -1,10 +1,11 @@
 #include "views/export/geojson_export.hpp"
 
+#include <memory>
 #include <numbers>
 
+#include "io/import/projection.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/run/records.hpp"
-#include "io/scene/geographic.hpp"
 #include "io/text/geojson_layer.hpp"
 
 namespace polynya::views {
@@ -17,8 +18,8 @@ using io::Project;
 
 Project projection(const std::optional<simulation::GeographicOrigin>& origin) {
   if (!origin) return {};
-  return [place = *origin](geometry::Point p) {
-    const io::Geographic at = io::geographic_of(place, p);
+  return [plane = std::make_shared<io::GeographicPlane>(*origin)](geometry::Point p) {
+    const io::Geographic at = plane->geographic_of(p);
     return geometry::Point{kDegrees * at.longitude, kDegrees * at.latitude};
   };
 }

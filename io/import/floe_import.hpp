@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/cut/repair.hpp"
+#include "io/import/plane.hpp"
+
+namespace polynya::io {
+
+/// What is done to the floes of a file.
+struct ImportSettings {
+  PlaneSettings plane;
+  std::optional<geometry::FillRule> repair;  ///< of outlines that are not valid; none: they are refused
+  double simplify = 0;                       ///< how far a vertex that is left out may lie from the rest [m]
+  double least_area = 0;                     ///< smaller floes are dropped [m²]
+  double gap = 0;                            ///< least distance between floes [m]
+};
+
+/// A floe in the plane; several may be of one floe of the file.
+struct ImportedFloe {
+  geometry::Polygon polygon;  ///< valid, in house notation [m]
+  std::size_t source = 0;     ///< index in the file's floes
+};
+
+/// What happened to a floe of the file that is not as it was read. Areas in m².
+struct ImportItem {
+  std::size_t source = 0;
+  std::string refused;                                  ///< why; empty: it was not
+  std::string defect;                                   ///< of its outline, repaired; empty: it had none
+  double repaired = 0;                                  ///< area that the repair added
+  std::size_t vertices_before = 0, vertices_after = 0;  ///< of a simplified outline; equal: it was not
+  double simplified = 0;                                ///< area that leaving out vertices added
+  double trimmed = 0;                                   ///< area that went to larger floes, or to the gap
+  std::vector<std::size_t> yields;                      ///< to these, by their index in the file
+  double dropped = 0;                                   ///< area of its pieces below the least area
+  std::size_t dropped_pieces = 0;
+  double area_before = 0;  ///< as read, in the plane; of a refused one 0
+  double area_after = 0;
+  std::size_t pieces = 0;  ///< it became
+};
+
+/// Counts of floes of the file, and sums that are computed exactly and rounded once each [m²].
+struct ImportTotals {
+  std::size_t read = 0, refused = 0, repaired = 0, simplified = 0, trimmed = 0, dropped = 0, written = 0;
+  double area_read = 0;  ///< of all that were not refused
+  double area_repaired = 0, area_simplified = 0, area_trimmed = 0, area_dropped = 0;
+  double area_written = 0;
+  double area_change = 0;  ///< written − read
+};
+
+struct ImportOutcome {
+  std::vector<ImportedFloe> floes;  ///< by source
+  std::vector<ImportItem> items;    ///< of those that did not stay as they were, by source
+  PlaneReport plane;
+  ImportTotals totals;
+};
+
+/// Brings floes to the plane, repairs or refuses outlines that are not valid, simplifies them, and takes
+/// overlaps from the smaller of two (geometry/cut/disjoint.hpp). `refused` has what is known to be wrong with
+/// floes before, by their index, "" elsewhere; it may be empty. The floes' properties are left in `floes`.
+tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes,
+                                                     const std::vector<std::string>& refused,
+                                                     const std::string& crs, const ImportSettings& settings);
+
+}  // namespace polynya::io

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/shape/point.hpp"
+#include "io/text/json_value.hpp"
+#include "io/text/result.hpp"
+
+namespace polynya::io {
+
+/// What a floe file states of a floe beside its outline. What it does not state is the scene's.
+struct FloeProperties {
+  std::optional<std::int64_t> floe_id;
+  std::optional<double> thickness;             ///< [m]
+  std::optional<double> density;               ///< [kg/m³]
+  std::optional<double> flexural_strength;     ///< [Pa]
+  std::optional<double> compressive_strength;  ///< [Pa]
+  std::optional<double> tensile_strength;      ///< [Pa]
+  std::optional<double> fracture_toughness;    ///< [Pa √m]
+  std::optional<double> velocity_x;            ///< over ground, along the coordinates' first axis [m/s]
+  std::optional<double> velocity_y;            ///< [m/s]
+  std::optional<double> angular_velocity;      ///< counter-clockwise [rad/s]
+};
+
+/// A number among the properties. The names and ranges are those of the scene's keys.
+struct FloeProperty {
+  std::string_view key;   ///< in the file
+  std::string_view unit;  ///< as shown to people
+  double low = 0;         ///< least value
+  double high = 0;
+  double to_si = 1;  ///< factor
+  std::optional<double> FloeProperties::*member = nullptr;
+};
+std::span<const FloeProperty> floe_properties();
+
+/// Under which other names, and in which other units, a file has a property.
+struct PropertyName {
+  std::string name;   ///< in the file
+  double factor = 1;  ///< of its values
+};
+using PropertyNames = std::map<std::string, PropertyName, std::less<>>;  ///< by Polynya's key
+
+/// "thickness_m=THICK_CM*0.01": a property's key, the file's name for it, and a factor where one is needed.
+Result<> add_property_name(std::string_view words, PropertyNames& names);
+
+/// A property that a floe cannot have.
+struct BadProperty {
+  const JsonValue* value = nullptr;
+  std::string key;      ///< in the file
+  std::string found;    ///< "-0.4"
+  std::string allowed;  ///< "a number from 0.001 to 20 [m]"
+};
+
+/// Reads the properties of a feature; null is none. The bad ones are appended.
+FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names,
+                                    std::vector<BadProperty>& bad);
+
+}  // namespace polynya::io

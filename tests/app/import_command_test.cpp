@@ -1,0 +1,174 @@
+// `polynya import` as a user calls it.
+#include <cstdlib>
+
+#include "program.hpp"
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "geometry/exact/measures.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/json_parser.hpp"
+
+namespace polynya::tests {
+namespace {
+
+class Import : public testing::Test {
+ protected:
+  Outcome import(const std::string& text, std::vector<std::string> more = {}) const {
+    write_file(folder / "mapped.geojson", text);
+    std::vector<std::string> words{"import", "mapped.geojson", "--out", "floes.geojson"};
+    words.insert(words.end(), more.begin(), more.end());
+    return polynya(words, {folder.path()});
+  }
+  /// Has a program of Debian's gdal-bin been installed?
+  static bool has_gdal() { return std::system("ogr2ogr --version >/dev/null 2>&1") == 0; }
+  bool convert(const std::string& words) const {
+    return std::system(
+               ("cd '" + folder.path().string() + "' && ogr2ogr " + words + " 2>/dev/null").c_str()) == 0;
+  }
+  /// The floes that a scene reads from the file that was written.
+  io::SceneOutcome scene() const {
+    return io::read_scene(R"({"floes": [{"file": "floes.geojson"}]})", "scene.json", folder.path());
+  }
+  TemporaryFolder folder;
+};
+
+std::string square(double x, double y, double side, const std::string& properties = "") {
+  return fmt::format(R"({{"type":"Feature","properties":{{{}}},"geometry":{{"type":"Polygon","coordinates":)"
+                     R"([[[{},{}],[{},{}],[{},{}],[{},{}],[{},{}]]]}}}})",
+                     properties, x, y, x + side, y, x + side, y + side, x, y + side, x, y);
+}
+std::string collection(const std::string& features, const std::string& members = "") {
+  return R"({"type":"FeatureCollection",)" + members + R"("features":[)" + features + "]}\n";
+}
+void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+double area_of(const simulation::Scene& scene) {
+  double sum = 0;
+  for (const simulation::FloeSpec& floe : scene.floes) sum += geometry::measure(floe.polygon_in_world).area;
+  return sum;
+}
+
+const std::string kSvalbard =
+    collection(square(15.60, 78.2000, 0.002, R"("floe_id":7,"thickness_m":0.8)") + ",\n" +
+               square(15.61, 78.2010, 0.002, R"("floe_id":9,"sensor":"S1A")") + ",\n" +
+               square(15.6019, 78.2001, 0.001, R"("floe_id":8)"));
+
+TEST_F(Import, DegreesBecomeAFloeFileThatAScenesReads) {
+  const Outcome done = import(kSvalbard, {"--origin", "78.2,15.6"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  expect_parts(done.err, {"feature 2, polygon 0: trimmed", "to feature 0",
+                          "3 floes read, 1 trimmed; 3 written", "projected about 78.2, 15.6", " m2 written"});
+  const std::string floes = read_file(folder / "floes.geojson");
+  expect_parts(floes, {R"("floe_id":7)", R"("thickness_m":0.8)", R"("sensor":"S1A")",
+                       R"("origin":{"latitude_deg":78.2)"});
+  const io::JsonDocument report = io::parse_json(done.out);
+  EXPECT_TRUE(report.faults.empty()) << done.out;
+  EXPECT_EQ(report.root.find("floes")->find("trimmed")->number(), 1);
+  const auto read = scene();
+  ASSERT_TRUE(read) << to_string(read.error().front());
+  EXPECT_EQ(read->scene.floes.size(), 3U);
+  // Again: nothing is left to do.
+  write_file(folder / "mapped.geojson", floes);
+  const Outcome again = polynya({"import", "mapped.geojson", "--out", "again.geojson"}, {folder.path()});
+  expect_parts(again.err, {"3 floes read; 3 written"});
+}
+
+TEST_F(Import, RefusedFloesAreNamedAndTheOthersWritten) {
+  const std::string bow = R"({"type":"Polygon","coordinates":[[[60,0],[64,3],[64,0],[60,3],[60,0]]]})";
+  const std::string text = "{\"type\":\"FeatureCollection\",\"features\":[\n" + square(0, 0, 10) + ",\n" +
+                           R"({"type":"Feature","geometry":)" + bow + "},\n" +
+                           square(100, 0, 10, R"("thickness_m":-2)") + ",\n" +
+                           R"({"type":"Feature","geometry":{"type":"Point","coordinates":[1,2]}}]})";
+  const Outcome refused = import(text);
+  EXPECT_EQ(refused.code, 4);
+  expect_parts(refused.err,
+               {"mapped.geojson:3: feature 1, polygon 0: refused: self-crossing at (62, 1.5)",
+                "mapped.geojson:4: feature 2, polygon 0: refused: property thickness_m: found -2, allowed: a "
+                "number from 0.001 to 20 [m]",
+                "mapped.geojson:5: feature 3, polygon 0: refused: not-a-polygon", "3 refused; 1 written",
+                "--repair non-zero"});
+  expect_parts(import(text, {"--repair", "even-odd"}).err, {"1 repaired, 2 refused; 3 written"});
+}
+
+TEST_F(Import, WhatCannotBeReadIsRefusedInOneSentence) {
+  for (const auto& [text, more, code, part] :
+       std::vector<std::tuple<std::string, std::vector<std::string>, int, std::string>>{
+           {kSvalbard, {}, 4, "--origin 78.201,15.605 projects them"},
+           {kSvalbard, {"--origin", "-75,15.6"}, 4, "in the other hemisphere"},
+           {kSvalbard, {"--origin", "15.6,78.2"}, 4, "exchanged"},
+           {kSvalbard, {"--origin", "north"}, 2, "not LATITUDE,LONGITUDE"},
+           {kSvalbard, {"--origin", "78.2,15.6", "--crs", "EPSG:3413"}, 2, "either about a place"},
+           {kSvalbard, {"--crs", "EPSG:4326"}, 4, "not a plane in metres"},
+           {kSvalbard, {"--crs", "EPSG:3413"}, 4, "--shift moves the floes"},
+           {kSvalbard,
+            {"--origin", "78.2,15.6", "--property", "thicknes_m=H"},
+            2,
+            "did you mean thickness_m?"},
+           {"{\"type\":", {}, 5, "mapped.geojson:1"},
+           {"hello", {}, 5, "neither GeoJSON"}}) {
+    const Outcome outcome = import(text, more);
+    EXPECT_EQ(outcome.code, code) << part << outcome.err;
+    expect_parts(outcome.err, {part});
+    EXPECT_FALSE(std::filesystem::exists(folder / "floes.geojson")) << part;
+  }
+  const Outcome none = polynya({"import", "nowhere.shp", "--out", "floes.geojson"}, {folder.path()});
+  EXPECT_EQ(none.code, 5);
+  expect_parts(none.err, {"nowhere.shp: "});
+}
+
+TEST_F(Import, AFileWithoutFloesGivesOneWithoutFloes) {
+  for (const char* text : {"", "\n", R"({"type":"FeatureCollection","features":[]})"}) {
+    const Outcome outcome = import(text);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    expect_parts(outcome.err, {"no floes in it", "0 floes read; 0 written"});
+  }
+}
+
+TEST_F(Import, APlaneOfASystemAndAShift) {
+  const Outcome done = import(kSvalbard, {"--crs", "EPSG:3413", "--shift"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  expect_parts(done.err, {"in the plane of EPSG:3413, shifted by (-"});
+  EXPECT_TRUE(scene());
+}
+
+TEST_F(Import, ShapefilesGeoPackagesAndFlatGeobufsAreReadByGdal) {
+  if (!has_gdal()) GTEST_SKIP() << "gdal-bin is not installed";
+  import(kSvalbard, {"--crs", "EPSG:3413", "--shift"});
+  const auto expected = scene();
+  ASSERT_TRUE(expected);
+  for (const std::string name : {"mapped.shp", "mapped.gpkg", "mapped.fgb"}) {
+    ASSERT_TRUE(convert("-t_srs EPSG:3413 " + name + " mapped.geojson")) << name;
+    const Outcome done = polynya({"import", name, "--shift", "--out", "floes.geojson"}, {folder.path()});
+    EXPECT_EQ(done.code, 0) << done.err;
+    expect_parts(done.err, {name + ": WGS 84 / NSIDC Sea Ice Polar Stereographic North", "3 written"});
+    const auto read = scene();
+    ASSERT_TRUE(read) << to_string(read.error().front());
+    EXPECT_NEAR(area_of(read->scene), area_of(expected->scene), 1e-3) << name;
+  }
+  // A system without a code is converted; a file without a system is not in degrees.
+  ASSERT_TRUE(convert("-t_srs '+proj=laea +lat_0=78 +lon_0=15 +datum=WGS84' own.shp mapped.geojson"));
+  const Outcome own =
+      polynya({"import", "own.shp", "--origin", "78.2,15.6", "--out", "floes.geojson"}, {folder.path()});
+  EXPECT_EQ(own.code, 0) << own.err;
+  expect_parts(own.err, {"3 floes read, 1 trimmed; 3 written"});
+  write_file(folder / "broken.shp", read_file(folder / "mapped.shp").substr(0, 60));
+  const Outcome broken = polynya({"import", "broken.shp", "--out", "floes.geojson"}, {folder.path()});
+  EXPECT_EQ(broken.code, 5);
+  expect_parts(broken.err, {"broken.shp: ogr2ogr could not read it: "});
+}
+
+TEST_F(Import, WithoutOgr2ogrAMessageNamesThePackage) {
+  write_file(folder / "mapped.gpkg", "SQLite format 3\0 and more");
+  const Outcome outcome =
+      polynya({"import", "mapped.gpkg", "--out", "floes.geojson"},
+              {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/nowhere", 1); }});
+  EXPECT_EQ(outcome.code, 5);
+  expect_parts(outcome.err, {"mapped.gpkg: a GeoPackage is read by GDAL's ogr2ogr, which is not there",
+                             "apt-get install gdal-bin"});
+}
+
+}  // namespace
+}  // namespace polynya::tests

@@ -1,0 +1,286 @@
+// Floes of files from elsewhere: where they come to in the plane, what is repaired, trimmed and refused.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "geometry/cut/overlapping_pairs.hpp"
+#include "geometry/exact/exact_area.hpp"
+#include "io/import/floe_import.hpp"
+#include "io/text/json_parser.hpp"
+
+namespace polynya::io {
+namespace {
+
+using geometry::Point;
+using geometry::Polygon;
+
+constexpr double kRad = std::numbers::pi / 180;
+
+SourceFloe square(double x, double y, double side) {
+  return {{{{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}}, {}}, {}};
+}
+simulation::GeographicOrigin origin(double latitude, double longitude, double heading = 90) {
+  return {latitude * kRad, longitude * kRad, heading * kRad};
+}
+PlaneSettings plane() {
+  PlaneSettings settings;
+  settings.origin_in_words = [](double lat, double lon) {
+    return "origin " + std::to_string(lat).substr(0, 5) + "," + std::to_string(lon).substr(0, 5);
+  };
+  settings.shift_in_words = "shift them";
+  settings.source_in_words = "name it";
+  return settings;
+}
+PlaneSettings about(double latitude, double longitude, double heading = 90) {
+  PlaneSettings settings = plane();
+  settings.origin = origin(latitude, longitude, heading);
+  return settings;
+}
+
+/// The polar stereographic of EPSG:3413 in closed form (Snyder 1987, 21-33 to 21-40), true at 70° N, 45° W
+/// down.
+Point polar_stereographic(double latitude, double longitude) {
+  const double a = 6378137, e = 0.0818191908426215;
+  const auto t = [&](double lat) {
+    const double s = e * std::sin(lat);
+    return std::tan(std::numbers::pi / 4 - lat / 2) / std::pow((1 - s) / (1 + s), e / 2);
+  };
+  const double true_at = 70 * kRad;
+  const double m = std::cos(true_at) / std::sqrt(1 - std::pow(e * std::sin(true_at), 2));
+  const double rho = a * m * t(latitude * kRad) / t(true_at);
+  const double angle = (longitude + 45) * kRad;
+  return {rho * std::sin(angle), -rho * std::cos(angle)};
+}
+
+TEST(Projection, OfPolarStereographicIsItsClosedForm) {
+  const auto steps = Projection::between("OGC:CRS84", "EPSG:3413");
+  ASSERT_TRUE(steps) << steps.error();
+  for (const auto& [latitude, longitude] :
+       {std::pair{78.2, 15.6}, {70.0, -45.0}, {89.0, 170.0}, {65.0, -100.0}}) {
+    std::vector<Point> points{{longitude, latitude}};
+    steps->apply(points);
+    const Point expected = polar_stereographic(latitude, longitude);
+    EXPECT_NEAR(points[0].x, expected.x, 1e-5);
+    EXPECT_NEAR(points[0].y, expected.y, 1e-5);
+    steps->apply_inverse(points);
+    EXPECT_NEAR(points[0].x, longitude, 1e-11);
+    EXPECT_NEAR(points[0].y, latitude, 1e-11);
+  }
+}
+
+TEST(GeographicPlane, ThereAndBackIsTheSamePlace) {
+  for (const auto& at : {origin(78.2, 15.6, 30), origin(-64, 179.9), origin(90, 0), origin(0, -30, 200)}) {
+    const GeographicPlane plane_about(at);
+    for (const Point p : {Point{0, 0}, Point{12345.678, -400}, Point{-3e4, 4e4}}) {
+      const Geographic place = plane_about.geographic_of(p);
+      std::vector<Point> back{{place.longitude / kRad, place.latitude / kRad}};
+      plane_about.place(back);
+      EXPECT_NEAR(back[0].x, p.x, 1e-6);
+      EXPECT_NEAR(back[0].y, p.y, 1e-6);
+    }
+  }
+}
+
+TEST(Crs, IsKnownByItsNames) {
+  EXPECT_TRUE(find_crs("urn:ogc:def:crs:OGC:1.3:CRS84")->is_geographic);
+  EXPECT_TRUE(find_crs("EPSG:4326")->is_geographic);
+  const auto polar = find_crs("urn:ogc:def:crs:EPSG::3413");
+  ASSERT_TRUE(polar);
+  EXPECT_TRUE(polar->is_projected && polar->is_metric && !polar->is_geographic);
+  EXPECT_FALSE(find_crs("EPSG:2229")->is_metric);  // California, in feet
+  for (const char* nothing : {"EPSG:1", "metres of the ice tank", ""}) EXPECT_FALSE(find_crs(nothing));
+}
+
+TEST(Plane, DegreesComeToMetresAboutTheOrigin) {
+  // By the radii of curvature a thousandth of a degree of latitude is 111.6468 m at 78.2°, of
+  // longitude 22.8378 m.
+  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.001)};
+  const auto report = bring_to_plane(floes, "", about(78.2, 15.6));
+  ASSERT_TRUE(report) << report.error().words;
+  EXPECT_EQ(report->system, "WGS 84 (CRS84)");
+  const Polygon& floe = floes[0].polygon;
+  EXPECT_NEAR(floe.outer[0].x, 0, 1e-6);
+  EXPECT_NEAR(floe.outer[0].y, 0, 1e-6);
+  EXPECT_NEAR(floe.outer[1].x, 22.8378, 1e-3);
+  EXPECT_NEAR(floe.outer[3].y, 111.6468, 1e-3);
+}
+
+TEST(Plane, ARunsCoordinatesAcrossTheAntimeridianStayTogether) {
+  std::vector<SourceFloe> floes{square(179.999, 70, 0.002)};
+  floes[0].polygon.outer[1].x = floes[0].polygon.outer[2].x = -179.999;
+  ASSERT_TRUE(bring_to_plane(floes, "EPSG:4326", about(70, 180)));
+  EXPECT_LT(std::abs(floes[0].polygon.outer[1].x - floes[0].polygon.outer[0].x), 80);
+}
+
+TEST(Plane, MetresOfThePlaneStayAsTheyAre) {
+  const std::vector<SourceFloe> before{square(100.1, -7.3, 800)};
+  for (const PlaneSettings& settings : {plane(), about(78.2, 15.6)}) {
+    std::vector<SourceFloe> floes = before;
+    ASSERT_TRUE(bring_to_plane(floes, "", settings));
+    EXPECT_EQ(floes[0].polygon, before[0].polygon);
+  }
+  std::vector<SourceFloe> floes = before;
+  const auto report = bring_to_plane(floes, "EPSG:3413", plane());
+  ASSERT_TRUE(report) << report.error().words;
+  EXPECT_EQ(floes[0].polygon, before[0].polygon);
+  EXPECT_EQ(report->target, "EPSG:3413");
+}
+
+TEST(Plane, AShiftIsOfWholeMetres) {
+  std::vector<SourceFloe> floes{square(1104312.5, -512345.25, 800)};
+  PlaneSettings settings = plane();
+  settings.is_shifted = true;
+  const auto report = bring_to_plane(floes, "EPSG:3413", settings);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->shift, (geometry::Vector{-1104713, 511945}));
+  EXPECT_EQ(floes[0].polygon.outer[0], (Point{-400.5, -400.25}));
+}
+
+TEST(Plane, VelocitiesTurnWithTheAxes) {
+  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.001)};
+  floes[0].properties.velocity_x = 0.3;                                   // east
+  floes[0].properties.velocity_y = 0.1;                                   // north
+  ASSERT_TRUE(bring_to_plane(floes, "EPSG:4326", about(78.2, 15.6, 0)));  // x is north, y west
+  EXPECT_NEAR(*floes[0].properties.velocity_x, 0.1, 1e-6);
+  EXPECT_NEAR(*floes[0].properties.velocity_y, -0.3, 1e-6);
+}
+
+/// What is refused, with place, number and what would do.
+TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
+  struct Case {
+    SourceFloe floe;
+    const char* crs;
+    PlaneSettings settings;
+    std::vector<std::string> parts;
+  };
+  PlaneSettings to_degrees = plane(), to_nowhere = plane(), to_polar = plane(), from_polar = plane();
+  to_degrees.target = "EPSG:4326";
+  to_nowhere.target = "EPSG:99";
+  to_polar.target = "EPSG:3413";
+  from_polar.source = "EPSG:3413";
+  for (const Case& c : std::vector<Case>{
+           {square(15.6, 78.2, 0.01),
+            "",
+            plane(),
+            {"look like longitude and latitude", "0.0001 m²", "origin 78.20,15.60"}},
+           {square(15.6, 78.2, 0.01), "EPSG:4326", plane(), {"no origin", "origin 78.20"}},
+           {square(15.6, -75.1, 0.01),
+            "EPSG:4326",
+            about(78.2, 15.6),
+            {"75.1° S, 15.6° E lies 17", "km from the origin at 78.2° N", "in the other hemisphere",
+             "origin -75.1"}},
+           {square(78.2, 15.6, 0.01), "EPSG:4326", about(78.2, 15.6), {"exchanged", "[longitude, latitude]"}},
+           {square(15.6, 110, 0.01),
+            "EPSG:4326",
+            about(78.2, 15.6),
+            {"[15.6, 110]", "-90 to 90", "latitude seems to come first"}},
+           {square(0, 0, 800), "", to_polar, {"names no coordinate system", "name it"}},
+           {square(15.6, 78.2, 0.01),
+            "EPSG:4326",
+            to_degrees,
+            {"EPSG:4326 (WGS 84) is not a plane in metres"}},
+           {square(15.6, 78.2, 0.01),
+            "EPSG:4326",
+            to_nowhere,
+            {"PROJ knows no coordinate system \"EPSG:99\""}},
+           {square(15.6, 78.2, 0.01),
+            "EPSG:4326",
+            from_polar,
+            {"names its own coordinate system, EPSG:4326"}},
+           {square(1.2e6, 0, 800),
+            "EPSG:3413",
+            plane(),
+            {"found [1200000, 0]", "-1e+06 to 1e+06", "shift them"}},
+           {square(6e6, 2e6, 900), "EPSG:2229", plane(), {"not in metres"}}}) {
+    std::vector<SourceFloe> floes{c.floe};
+    const auto report = bring_to_plane(floes, c.crs, c.settings);
+    ASSERT_FALSE(report) << c.parts[0];
+    for (const std::string& part : c.parts)
+      EXPECT_NE(report.error().words.find(part), std::string::npos) << part << "\n" << report.error().words;
+  }
+}
+
+TEST(FloeProperties, WrongTypesAndSignsAreRefusedWithWhatIsAllowed) {
+  const JsonDocument json = parse_json(
+      R"({"thickness_m": -0.4, "flexural_strength_Pa": "0.8 MPa", "vx_m_per_s": 0.2, "density_kg_per_m3": null,
+          "floe_id": 3.5, "THICK": 80})");
+  std::vector<BadProperty> bad;
+  const FloeProperties properties = read_floe_properties(json.root, {}, bad);
+  ASSERT_EQ(bad.size(), 3U);
+  EXPECT_EQ(bad[0].key + bad[0].found, "floe_id3.5");
+  EXPECT_EQ(bad[1].found + ", " + bad[1].allowed, "-0.4, a number from 0.001 to 20 [m]");
+  EXPECT_EQ(bad[2].found, "\"0.8 MPa\"");
+  EXPECT_EQ(properties.velocity_x, 0.2);
+  EXPECT_FALSE(properties.density || properties.thickness || properties.floe_id);
+
+  PropertyNames names;
+  ASSERT_TRUE(add_property_name("thickness_m=THICK*0.01", names));
+  bad.clear();
+  EXPECT_NEAR(*read_floe_properties(parse_json(R"({"THICK": 80})").root, names, bad).thickness, 0.8, 1e-15);
+  EXPECT_FALSE(read_floe_properties(parse_json(R"({"THICK": 0})").root, names, bad).thickness);
+  EXPECT_EQ(bad.at(0).found, "0, which is 0");
+  for (const char* wrong :
+       {"thickness_m", "thicknes_m=H", "thickness_m=", "thickness_m=H*much", "thickness_m=H*0"})
+    EXPECT_FALSE(add_property_name(wrong, names)) << wrong;
+}
+
+/// Areas of an import are sums computed exactly, and nothing is missing between them.
+TEST(FloeImport, EveryChangeIsItemisedAndTheAreasAddUp) {
+  std::vector<SourceFloe> floes{square(0, 0, 100),
+                                square(90, 10, 30),
+                                square(300, 0, 40),
+                                square(300, 0, 40),
+                                square(500, 0, 1),
+                                {},
+                                {}};
+  floes[5].polygon.outer = {{600, 0}, {640, 30}, {640, 0}, {600, 30}};  // a bow tie
+  floes[6].polygon.outer = {{700, 0}, {750, 0.1}, {800, 0}, {800, 50}, {700, 50}};
+  ImportSettings settings;
+  settings.plane = plane();
+  settings.repair = geometry::FillRule::kEvenOdd;
+  settings.least_area = 4;
+  settings.simplify = 0.2;
+  std::vector<std::string> refused(floes.size());
+  const auto imported = import_floes(floes, refused, "", settings);
+  ASSERT_TRUE(imported);
+  const ImportTotals& totals = imported->totals;
+  EXPECT_EQ(totals.read, 7U);
+  EXPECT_EQ(totals.refused, 0U);
+  EXPECT_EQ(totals.repaired, 1U);
+  EXPECT_EQ(totals.simplified, 1U);
+  EXPECT_EQ(totals.trimmed, 2U);
+  EXPECT_EQ(totals.dropped, 2U);  // the copy, and the square of 1 m²
+  EXPECT_EQ(totals.written, 6U);
+  EXPECT_EQ(totals.area_trimmed, 300 + 1600);
+  EXPECT_EQ(totals.area_dropped, 1);
+  EXPECT_EQ(totals.area_repaired, 600);
+  EXPECT_EQ(totals.area_read, 10000 + 900 + 1600 + 1600 + 1 + 0 + geometry::exact_area(floes[6].polygon));
+  EXPECT_NEAR(totals.area_written,
+              totals.area_read + totals.area_repaired + totals.area_simplified - totals.area_trimmed -
+                  totals.area_dropped,
+              1e-9);
+  EXPECT_EQ(imported->items.size(), 5U);
+  EXPECT_EQ(imported->items[0].yields, std::vector<std::size_t>{0});
+  std::vector<Polygon> written;
+  for (const ImportedFloe& floe : imported->floes) written.push_back(floe.polygon);
+  EXPECT_TRUE(geometry::find_overlapping_pairs(written, 1).empty());
+}
+
+TEST(FloeImport, WithoutARuleCrossingOutlinesAreRefusedAndTheOthersKept) {
+  std::vector<SourceFloe> floes{square(0, 0, 10), {}, square(50, 0, 10), square(80, 0, 10)};
+  floes[1].polygon.outer = {{600, 0}, {640, 30}, {640, 0}, {600, 30}};
+  ImportSettings settings;
+  settings.plane = plane();
+  const auto imported = import_floes(floes, {"", "", "property thickness_m: found -1", ""}, "", settings);
+  ASSERT_TRUE(imported);
+  EXPECT_EQ(imported->totals.refused, 2U);
+  EXPECT_EQ(imported->floes.size(), 2U);
+  EXPECT_NE(imported->items[0].refused.find("self-crossing at (620, 15)"), std::string::npos)
+      << imported->items[0].refused;
+  EXPECT_EQ(imported->items[1].refused, "property thickness_m: found -1");
+  EXPECT_EQ(imported->totals.area_read, 200);
+}
+
+}  // namespace
+}  // namespace polynya::io
