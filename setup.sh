@@ -10,7 +10,7 @@ declare -A packages=(
   [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3 strace"
   [view]="chromium nodejs npm"
   [python]="python3 python3-numpy python3-scipy python3-matplotlib python3-pytest
-           python3-dev pybind11-dev"
+           python3-dev pybind11-dev ffmpeg"
   [slurm]="slurmctld slurmd slurm-client munge"
   [export]="python3-vtk9 python3-pandas python3-shapely gdal-bin"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"

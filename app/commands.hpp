@@ -20,6 +20,7 @@ Command add_import(CLI::App& app);
 Command add_init(CLI::App& app);
 Command add_inspect(CLI::App& app);
 Command add_man(CLI::App& app);
+Command add_movie(CLI::App& app);
 Command add_performance(CLI::App& app);
 Command add_resume(CLI::App& app);
 Command add_run(CLI::App& app);

@@ -19,10 +19,10 @@ namespace {
 using AddCommand = Command (*)(CLI::App&);
 
 /// In the order of the help.
-constexpr AddCommand kCommands[] = {add_run,         add_resume,  add_validate,  add_schema,  add_ships,
-                                    add_performance, add_init,    add_view,      add_channel, add_figures,
-                                    add_export,      add_inspect, add_cut,       add_import,  add_database,
-                                    add_study,       add_man,     add_completion};
+constexpr AddCommand kCommands[] = {add_run,         add_resume, add_validate, add_schema,    add_ships,
+                                    add_performance, add_init,   add_view,     add_channel,   add_figures,
+                                    add_movie,       add_export, add_inspect,  add_cut,       add_import,
+                                    add_database,    add_study,  add_man,      add_completion};
 
 constexpr auto kExamples =
     "Examples:\n"

@@ -53,7 +53,8 @@ TEST(CommandLine, UsageErrorsNameTheCommandTheFaultAndWhatWasMeant) {
     std::string message;
   };
   const std::string commands =
-      "commands: run, resume, validate, schema, ships, performance, init, view, channel, figures, export, "
+      "commands: run, resume, validate, schema, ships, performance, init, view, channel, figures, movie, "
+      "export, "
       "inspect, cut, import, "
       "database, study\n";
   for (const Case& c : std::vector<Case>{

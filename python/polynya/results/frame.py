@@ -59,6 +59,16 @@ class Frame:
         """Which of the floes are under a hull, or wait behind it for room."""
         return self._run.births["went_under_s"][self._ids] <= self.time
 
+    @property
+    def ids(self) -> numpy.ndarray:
+        """Of the floes."""
+        return self._ids
+
+    @property
+    def poses(self) -> numpy.ndarray:
+        """Of each floe's body frame in the world, n × 3: x, y [m], angle [rad]; its shape is in `run.shapes`."""
+        return self._poses
+
     @functools.cached_property
     def _ids(self):
         births = self._run.births

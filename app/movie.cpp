@@ -1,0 +1,62 @@
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/commands.hpp"
+#include "app/options.hpp"
+#include "app/python.hpp"
+
+namespace polynya::app {
+namespace {
+
+struct Option {
+  const char* name;
+  const char* value;
+  const char* meaning;
+};
+
+/// polynya.movie (python/polynya/movie) reads and checks their values.
+constexpr std::array kOptions{
+    Option{"--out", "FILE", "The film: .mp4, .gif, or .png, the picture at --from; voyage.mp4 if not given"},
+    Option{"--from", "S", "Simulated time at which it begins; the run's start if not given"},
+    Option{"--to", "S", "Simulated time at which it ends; the run's end if not given"},
+    Option{"--speed", "X",
+           "Simulated seconds a second of the film; one for about half a minute if not given"},
+    Option{"--size", "WxH", "In pixels; 1280x720 if not given"},
+    Option{"--follow", "SHIP", "The ship that the map goes with, by its name; all of the run if not given"},
+};
+
+}  // namespace
+
+Command add_movie(CLI::App& app) {
+  auto* command = app.add_subcommand("movie", "Make a film of a run: the ice, and the force on the ship");
+  command->footer(
+      "Examples:\n"
+      "  polynya movie runs/sawamura2017-fig4b --out voyage.mp4\n"
+      "  polynya movie runs/sawamura2017-fig4b --out voyage.gif --size 800x450 --from 100 --to 300 --speed "
+      "20\n"
+      "  polynya movie runs/sawamura2017-fig4b --out voyage.mp4 --follow icebreaker\n"
+      "  polynya movie runs/sawamura2017-fig4b --out frame.png --from 330          one picture, without "
+      "ffmpeg\n"
+      "\n"
+      "Needs Python 3 with numpy and matplotlib, and ffmpeg (./setup.sh python). A film that is stopped "
+      "leaves "
+      "no file.\n"
+      "Exit codes: 0 done, 2 usage, 5 input/output.\n");
+  auto run = std::make_shared<std::string>();
+  auto values = std::make_shared<std::array<std::string, kOptions.size()>>();
+  option(*command, "run", *run, "RUN", "The run folder; a run that is not finished is shown as far as it got")
+      ->required();
+  for (std::size_t i = 0; i < kOptions.size(); ++i)
+    option(*command, kOptions[i].name, (*values)[i], kOptions[i].value, kOptions[i].meaning);
+  return {command, [run, values] {
+            std::vector<std::string> words{*run};
+            for (std::size_t i = 0; i < kOptions.size(); ++i)
+              if (!(*values)[i].empty())
+                words.push_back(fmt::format("{}={}", kOptions[i].name, (*values)[i]));
+            return become_python("polynya.movie", words);
+          }};
+}
+
+}  // namespace polynya::app

@@ -1,0 +1,102 @@
+"""Pictures into a film, by ffmpeg."""
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+
+import numpy
+
+MISSING = "ffmpeg is not installed: ./setup.sh python, or apt-get install ffmpeg (a picture, --out frame.png, needs none)"
+SAMPLES = 8  # pictures that the colours of a GIF are chosen from
+
+
+class FilmError(Exception):
+    """A film that could not be written, with the reason."""
+
+
+def ffmpeg():
+    """The program's path. Raises FilmError where it is missing."""
+    found = shutil.which("ffmpeg")
+    if found is None:
+        raise FilmError(MISSING)
+    return found
+
+
+def input_of(size, rate):
+    """ffmpeg's words for pictures of rows × columns × 4 bytes that come through its stdin."""
+    return ["-f", "rawvideo", "-pixel_format", "rgb0", "-video_size", "{}x{}".format(*size), "-framerate", f"{rate:g}", "-i", "-"]
+
+
+def palette(pictures, size, folder):
+    """A PNG with the colours of some pictures, as GIFs need."""
+    path = os.path.join(folder, "palette.png")
+    words = [ffmpeg(), "-v", "error", "-y", *input_of(size, 1), "-vf", "palettegen=stats_mode=full", "-frames:v", "1", "-update", "1", path]
+    done = subprocess.run(words, input=b"".join(numpy.ascontiguousarray(p).tobytes() for p in pictures), stderr=subprocess.PIPE, check=False)
+    if done.returncode != 0:
+        raise FilmError(f"ffmpeg: {last_line(done.stderr)}")
+    return path
+
+
+def last_line(text):
+    lines = text.decode(errors="replace").strip().splitlines()
+    return lines[-1] if lines else "it failed without a message"
+
+
+class Encoder:
+    """A film while it is written, beside its place under a hidden name: it gets its own when it is whole, and nothing stays of one that
+    is not. ffmpeg has a session of its own, so that Ctrl-C reaches this process alone."""
+
+    def __init__(self, path, size, rate, samples=()):
+        """`samples` are pictures that the colours of a GIF are chosen from."""
+        self._path = os.path.realpath(path)
+        folder, name = os.path.split(self._path)
+        self._draft = os.path.join(folder, f".{name}.{os.getpid()}.part")
+        self._scratch = tempfile.TemporaryDirectory(prefix="polynya-movie-")
+        self._errors = open(os.path.join(self._scratch.name, "errors"), "wb+")  # noqa: SIM115, closed in _end
+        words = [ffmpeg(), "-v", "error", "-y", *input_of(size, rate)]
+        if path.lower().endswith(".gif"):
+            colours = palette(samples, size, self._scratch.name)
+            words += ["-i", colours, "-filter_complex", "paletteuse=dither=none:diff_mode=rectangle", "-f", "gif"]
+        else:
+            words += ["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
+        self._process = subprocess.Popen([*words, self._draft], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._errors,
+                                         start_new_session=True)
+
+    def add(self, pixels):
+        """The next picture."""
+        try:
+            self._process.stdin.write(numpy.ascontiguousarray(pixels))
+        except BrokenPipeError:
+            self._process.wait()
+            raise FilmError(f"ffmpeg: {self._message()}") from None
+
+    def _message(self):
+        self._errors.seek(0)
+        return last_line(self._errors.read())
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *error):
+        try:
+            if kind is None:
+                self._finish()
+        finally:
+            if self._process.poll() is None:
+                self._process.kill()
+                self._process.wait()
+            if os.path.exists(self._draft):
+                os.remove(self._draft)
+            self._errors.close()
+            self._scratch.cleanup()
+
+    def _finish(self):
+        try:
+            self._process.stdin.close()
+        except BrokenPipeError:
+            pass
+        if self._process.wait() != 0:
+            raise FilmError(f"ffmpeg: {self._message()}")
+        os.replace(self._draft, self._path)

@@ -1,0 +1,83 @@
+"""The force of the ice on a ship against time: pale all of it, in full what has passed."""
+from __future__ import annotations
+
+import numpy
+
+CURVES = (("surge_N", "surge", "#000000"), ("sway_N", "sway", "#d55e00"))
+CURSOR = numpy.array([0x00, 0x72, 0xB2, 0xFF], dtype=numpy.uint8)
+PALE = 0.22
+
+
+def thinned(times, values, bins):
+    """At most two points a stretch of time: its least and largest value, in their order."""
+    if len(times) <= 2 * bins:
+        return times, values
+    edges = numpy.linspace(0, len(times), bins + 1).astype(int)[:-1]
+    stretches = numpy.split(values, edges[1:])
+    kept = [start + numpy.sort([part.argmin(), part.argmax()]) for start, part in zip(edges, stretches)]
+    indices = numpy.unique(numpy.concatenate(kept))
+    return times[indices], values[indices]
+
+
+def unit_of(largest):
+    """A force's unit [N] and its name."""
+    return next((unit, name) for unit, name in ((1e6, "MN"), (1e3, "kN"), (1.0, "N")) if largest >= 0.5 * unit or unit == 1.0)
+
+
+class History:
+    """A chart at a place of a figure, [x, y, width, height] as shares of it."""
+
+    def __init__(self, run, ship, look, figure, place, font):
+        self.look = look
+        columns = run.force_columns
+        own = columns["ship"] == ship
+        self.start = run.start_time if look.start is None else look.start
+        self.end = run.end_time if look.end is None else look.end
+        x, y, width, height = place
+        left, right, foot, top = 0.075, 0.02, 0.28, 0.14  # of the place
+        self.axes = figure.add_axes((x + left * width, y + foot * height, (1 - left - right) * width, (1 - foot - top) * height))
+        times = columns["t_s"][own]
+        shown = (times >= self.start) & (times <= self.end)
+        values = [columns[name][own][shown] for name, _, _ in CURVES]
+        largest = max((float(numpy.abs(of).max()) for of in values if len(of)), default=0.0)
+        unit, unit_name = unit_of(largest)
+        self.curves = []
+        for (_, name, colour), of in zip(CURVES, values):
+            at, force = thinned(times[shown], of / unit, look.size[0])
+            self.curves += self.axes.plot(at, force, color=colour, linewidth=0.055 * font, label=name, zorder=2 if name == "surge" else 1)
+        self._dress(ship, unit_name, font, len(run.ship_names) > 1)
+
+    def _dress(self, ship, unit, font, has_others):
+        axes, small = self.axes, 0.85 * font
+        axes.set_xlim(self.start, self.end)
+        axes.margins(y=0.06)
+        axes.axhline(0, color="#888888", linewidth=0.03 * font, zorder=0)
+        for side in ("top", "right"):
+            axes.spines[side].set_visible(False)
+        axes.tick_params(labelsize=small, width=0.05 * font, length=0.25 * font)
+        axes.locator_params(axis="y", nbins=4)
+        axes.set_xlabel("time [s]", fontsize=small, labelpad=0.1 * font)
+        axes.set_ylabel(f"ice force\n[{unit}]", fontsize=small)
+        legend = axes.legend(loc="lower right", bbox_to_anchor=(1, 1.06), ncols=2, fontsize=small, frameon=False, borderaxespad=0, borderpad=0,
+                             title=f"on {ship}" if has_others else None, title_fontsize=small)
+        for line in legend.get_lines():
+            line.set_linewidth(0.14 * font)
+
+    def prepare(self, canvas):
+        """Keeps the picture of the whole curve, and draws it pale from then on."""
+        self._full = numpy.asarray(canvas.buffer_rgba()).copy()
+        box = self.axes.get_window_extent()
+        rows = len(self._full)
+        self._left, self._right = int(numpy.floor(box.x0)), int(numpy.ceil(box.x1))
+        self._rows = slice(max(0, rows - int(numpy.ceil(box.y1))), rows - int(numpy.floor(box.y0)))
+        inside = self._full[self._rows, self._left + 2 : self._right].astype(float)
+        self._pale = (255 - PALE * (255 - inside)).astype(numpy.uint8)
+
+    def draw(self, pixels, time):
+        """Onto a picture of the figure that has the whole curve."""
+        share = (time - self.start) / (self.end - self.start) if self.end > self.start else 1.0
+        now = self._left + round(min(max(share, 0.0), 1.0) * (self._right - self._left))
+        first = max(now, self._left + 2)
+        pixels[self._rows, first : self._right] = self._pale[:, first - self._left - 2 :]
+        thick = max(1, round(len(pixels) / 480))
+        pixels[self._rows, max(self._left, now - thick // 2) : min(now - thick // 2 + thick, pixels.shape[1])] = CURSOR

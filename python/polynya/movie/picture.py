@@ -1,0 +1,195 @@
+"""The pictures of a film: a map and below it the force on the ship."""
+from __future__ import annotations
+
+import dataclasses
+from typing import Optional
+
+import matplotlib
+import numpy
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+
+from .history import History
+from .scenery import NOTHING, Scenery
+
+WATER, ICE_AT_START, EDGE, HULL, TRACK = "#8fb8d0", "#a9cadd", "#3d5261", "#2b2b2b", "#d55e00"  # as the maps' (views/map/map_marks.hpp)
+FLOES = (("ice", "#ffffff"), ("broken off", "#fbeec2"), ("come up from under a hull", "#f0c987"), ("under a hull", "#56b4e9"))
+FRACTURES = (("bend", "cusp bends off", "o", "#0072b2"), ("split", "floe splits", "^", "#d55e00"), ("grind", "ice grinds", "s", "#7a5c2e"))
+HEAD, KEY, CHART = 0.07, 0.055, 0.25  # of a picture's height
+FOLLOWED = 2.0  # lengths of the ship that a map which follows it shows at least
+SHOWN = 0.8  # how long a fracture's mark stays in a film [s of the film]
+POINTS_PER_HEIGHT = 0.0195 * 72  # size of text, of the picture's height in inches
+
+
+@dataclasses.dataclass(frozen=True)
+class Look:
+    """Of a film."""
+
+    size: tuple = (1280, 720)  #: [px]
+    follow: Optional[str] = None  #: the ship that the map goes with; all of the run if None
+    start: Optional[float] = None  #: of the force's axis [s]; the run's
+    end: Optional[float] = None
+    speed: float = 1.0  #: simulated seconds a second of the film
+    is_film: bool = True  #: else a picture by itself, which names no speed
+
+    @property
+    def dots(self):
+        """An inch."""
+        return 100
+
+
+def bar_length(room):
+    """The longest of 1, 2, 5 · 10ⁿ metres within some metres."""
+    power = 10.0 ** numpy.floor(numpy.log10(room))
+    return float(max(step * power for step in (1, 2, 5) if step * power <= room))
+
+
+class Picture:
+    """Draws a run at one time after another. What stays is drawn once."""
+
+    def __init__(self, run, look):
+        self.run, self.look = run, look
+        self.scenery = Scenery(run)
+        if look.follow is not None and look.follow not in run.ship_names:
+            raise ValueError(f"there is no ship {look.follow!r}: the run has {', '.join(run.ship_names) or 'none'}")
+        self._font = POINTS_PER_HEIGHT * look.size[1] / look.dots
+        with matplotlib.rc_context({"font.family": "DejaVu Sans", "font.size": self._font, "axes.linewidth": 0.05 * self._font}):
+            self._lay_out()
+
+    def _lay_out(self):
+        width, height = self.look.size
+        self.figure = Figure(figsize=(width / self.look.dots, height / self.look.dots), dpi=self.look.dots)
+        self.canvas = FigureCanvasAgg(self.figure)
+        ship = self.look.follow or (self.run.ship_names or [None])[0]
+        chart = CHART if ship is not None and len(self.run.force_columns["t_s"]) else 0.0
+        self._map = self.figure.add_axes((0, chart + KEY, 1, 1 - HEAD - KEY - chart), facecolor=WATER)
+        self._map.set(xticks=(), yticks=())
+        for side in self._map.spines.values():
+            side.set_visible(False)
+        self._set_window()
+        self._artists = [*self._make_ice(), *self._make_marks()]
+        self._clock = self.figure.text(1 - 0.015, 1 - HEAD / 2, "", ha="right", va="center", animated=True)
+        self._head()
+        self._draw_key(chart)
+        self.history = History(self.run, ship, self.look, self.figure, (0, 0, 1, chart), self._font) if chart else None
+        self.canvas.draw()
+        self._still = numpy.asarray(self.canvas.buffer_rgba()).copy()
+        self._background = self.canvas.copy_from_bbox(self.figure.bbox)
+        if self.history:
+            self.history.prepare(self.canvas)
+
+    def _head(self):
+        name = self.figure.text(0.015, 1 - HEAD / 2, self.run.name, ha="left", va="center", fontweight="bold", fontsize=1.1 * self._font)
+        room = 0.62 * self.look.size[0]
+        taken = name.get_window_extent().width
+        if taken > room:
+            name.set_fontsize(1.1 * self._font * room / taken)
+
+    def _set_window(self):
+        """Metres across and up, and where the map begins; all of the run, in its middle, if it follows no ship."""
+        box = self._map.get_window_extent()
+        if self.look.follow is None:
+            x0, y0, x1, y1 = self.scenery.extent
+            scale = min(box.width / (x1 - x0), box.height / (y1 - y0))
+            self._middle = numpy.array([(x0 + x1) / 2, (y0 + y1) / 2])
+        else:
+            length = numpy.ptp(self.run.waterlines[self.look.follow], axis=0).max()
+            scale = min(box.width, box.height) / (FOLLOWED * length)
+        self._half = numpy.array([box.width, box.height]) / scale / 2
+        self._metre = scale  # [px]
+        if self.look.follow is None:
+            self._move_to(self._middle)
+
+    def _move_to(self, middle):
+        (x0, y0), (x1, y1) = middle - self._half, middle + self._half
+        self._map.set_xlim(x0, x1)
+        self._map.set_ylim(y0, y1)
+
+    def _patch(self, **style):
+        patch = PathPatch(NOTHING, animated=True, joinstyle="round", **style)
+        self._map.add_patch(patch)
+        return patch
+
+    def _make_ice(self):
+        edge = float(numpy.clip(0.12 * self._metre, 0.35, 1.0)) * self.look.size[1] / 720
+        self._at_start = self._patch(facecolor=ICE_AT_START, linewidth=0)
+        self._floes = [self._patch(facecolor=colour, edgecolor=EDGE, linewidth=edge) for _, colour in FLOES[:3]]
+        self._hulls = self._patch(facecolor=HULL, edgecolor="#ffffff", linewidth=1.2 * edge, alpha=0.88)
+        self._under = self._patch(facecolor=FLOES[3][1], edgecolor="#ffffff", linewidth=edge, linestyle="--", alpha=0.45)
+        self._tracks = LineCollection([], colors=TRACK, linewidths=1.4 * self.look.size[1] / 720, linestyles="--", animated=True)
+        self._map.add_collection(self._tracks)
+        self._at_start.set_path(self.scenery.ice_at_start)
+        return [self._at_start, *self._floes, self._tracks, self._hulls, self._under]
+
+    def _make_marks(self):
+        size = 0.9 * self._font**2
+        self._marks = {
+            kind: self._map.scatter([], [], s=size * (0.5 if kind == "bend" else 1), marker=marker, c=colour, edgecolors="#ffffff",
+                                    linewidths=0.05 * self._font, animated=True)
+            for kind, _, marker, colour in FRACTURES
+        }
+        return list(self._marks.values())
+
+    def _draw_key(self, chart):
+        """The scale bar and what the colours and marks mean, in one line."""
+        axes = self.figure.add_axes((0, chart, 1, KEY))
+        axes.set(xlim=(0, self.look.size[0]), ylim=(-1, 1))
+        axes.set_axis_off()
+        small = 0.85 * self._font
+        bar = bar_length(0.2 * self.look.size[0] / self._metre)
+        x, gap = 0.015 * self.look.size[0], 0.02 * self.look.size[0]
+        axes.plot([x, x + bar * self._metre], [0, 0], color="#000000", linewidth=0.18 * self._font, solid_capstyle="butt")
+        x += bar * self._metre + gap / 2
+        x = self._word(axes, x, f"{bar:g} m" if bar < 1000 else f"{bar / 1000:g} km", small) + gap
+        for word, handle in self._keys():
+            axes.add_line(Line2D([x + 0.3 * gap], [0], linestyle="", markersize=0.75 * small, **handle))
+            x = self._word(axes, x + 0.8 * gap, word, small) + gap
+
+    def _word(self, axes, x, word, size):
+        text = axes.text(x, 0, word, fontsize=size, va="center_baseline")
+        return x + text.get_window_extent().width
+
+    def _keys(self):
+        """Of what the run has."""
+        births, kinds = self.run.births, set(self.run.event_columns["kind"])
+        has = (True, bool((births["generation"] > 0).any()), bool(births["came_up"].any()), bool(numpy.isfinite(births["went_under_s"]).any()))
+        for (word, colour), is_there in zip(FLOES, has):
+            if is_there:
+                yield word, {"marker": "s", "color": colour, "markeredgecolor": EDGE, "markeredgewidth": 0.06 * self._font}
+        for kind, word, marker, colour in FRACTURES:
+            if kind in kinds:
+                yield word, {"marker": marker, "color": colour, "markeredgewidth": 0}
+
+    def draw(self, time):
+        """The picture of a time [s]: rows × columns × 4 bytes, valid until the next one."""
+        frame = self.run.frame(time)
+        if self.look.follow is not None:
+            names = self.run.ship_names
+            self._move_to(frame.ship_motions[names.index(self.look.follow), :2])
+        paths = self.scenery.floes(frame)
+        for patch, path in zip((*self._floes, self._under), paths):
+            patch.set_path(path)
+        self._hulls.set_path(self.scenery.hulls(frame))
+        self._tracks.set_segments(self.scenery.tracks(time))
+        for kind, marks in self._marks.items():
+            self._show_fractures(marks, kind, time)
+        self._clock.set_text((f"{self.look.speed:g} × real time     " if self.look.is_film else "") + f"{time:.1f} s")
+        self.canvas.restore_region(self._background)
+        for artist in self._artists:
+            if not (isinstance(artist, PathPatch) and len(artist.get_path().vertices) == 0):
+                self._map.draw_artist(artist)
+        self.figure.draw_artist(self._clock)
+        pixels = numpy.asarray(self.canvas.buffer_rgba())
+        if self.history:
+            self.history.draw(pixels, time)
+        return pixels
+
+    def _show_fractures(self, marks, kind, time):
+        """Those just made; their marks fade."""
+        stays = SHOWN * self.look.speed
+        points, age = self.scenery.fractures(kind, time - stays, time)
+        marks.set_offsets(points if len(points) else numpy.empty((0, 2)))
+        marks.set_alpha(1 - 0.8 * age / stays if len(points) else None)

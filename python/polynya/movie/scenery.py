@@ -1,0 +1,97 @@
+"""What a film shows of a run at a time, as few paths in the world [m]."""
+from __future__ import annotations
+
+import functools
+
+import numpy
+from matplotlib.path import Path
+
+WHOLE, BROKEN, CAME_UP, UNDER = range(4)
+NOTHING = Path(numpy.empty((0, 2)), numpy.empty(0, Path.code_type))
+
+
+class Scenery:
+    """The floes, hulls and fractures of a run, ready to be drawn at any of its times."""
+
+    def __init__(self, run):
+        self.run = run
+        self._outlines = {}
+        events = run.event_columns
+        is_fracture = numpy.isin(events["kind"], ("bend", "split", "grind"))
+        order = numpy.flatnonzero(is_fracture)
+        self._fracture_times = events["t_s"][order]
+        self._fracture_kinds = events["kind"][order]
+        self._fracture_points = numpy.column_stack((events["x_m"][order], events["y_m"][order])).astype(float)
+
+    def floes(self, frame):
+        """Floes as one path a kind: whole as in the scene, broken, come up from under a hull, and under one."""
+        births, ids = self.run.births, frame.ids
+        kinds = numpy.where(births["generation"][ids] == 0, WHOLE, numpy.where(births["came_up"][ids], CAME_UP, BROKEN))
+        kinds[frame.is_under] = UNDER
+        return [self._path(ids[kinds == kind], frame.poses[kinds == kind]) for kind in range(4)]
+
+    def _path(self, ids, poses):
+        """The floes' outlines in the world, one compound path."""
+        if len(ids) == 0:
+            return NOTHING
+        outlines = self._outlines_of(ids)
+        counts = [len(codes) for _, codes in outlines]
+        x, y, angle = numpy.repeat(poses, counts, axis=0).T
+        in_body = numpy.concatenate([points for points, _ in outlines])
+        c, s = numpy.cos(angle), numpy.sin(angle)
+        in_world = numpy.column_stack((x + c * in_body[:, 0] - s * in_body[:, 1], y + s * in_body[:, 0] + c * in_body[:, 1]))
+        return Path(in_world, numpy.concatenate([codes for _, codes in outlines]))
+
+    def _outlines_of(self, ids):
+        """Closed rings one after the other and their codes, of each floe, in its body frame."""
+        missing = [floe for floe in ids.tolist() if floe not in self._outlines]
+        for floe, rings in self.run.shapes.of(missing).items() if missing else ():
+            points = numpy.concatenate([ring[numpy.r_[: len(ring), 0]] for ring in rings])
+            self._outlines[floe] = points, numpy.concatenate([codes_of(len(ring) + 1) for ring in rings])
+        return [self._outlines[floe] for floe in ids.tolist()]
+
+    def forget(self, time):
+        """Drops the outlines of floes that broke before a time [s]."""
+        died = self.run.births["died_s"]
+        self._outlines = {floe: outline for floe, outline in self._outlines.items() if died[floe] > time}
+
+    @functools.cached_property
+    def ice_at_start(self):
+        """As one path."""
+        frame = self.run.frame(self.run.start_time)
+        return self._path(frame.ids, frame.poses)
+
+    def hulls(self, frame):
+        """Ships and structures as one path."""
+        rings = [numpy.concatenate([ring, ring[:1]]) for ring in frame.hulls.values()]
+        return Path(numpy.concatenate(rings), numpy.concatenate([codes_of(len(ring)) for ring in rings])) if rings else NOTHING
+
+    def tracks(self, time):
+        """Of ships and structures up to a time [s], each n × 2."""
+        past = [*self.run.times[self.run.times < time], time]
+        places = numpy.array([self.run.motions.ships_at(at)[:, :2] for at in past])
+        return list(numpy.swapaxes(places, 0, 1))
+
+    def fractures(self, kind, start, end):
+        """Where ice broke so between two times [s], n × 2, and how long before the end."""
+        among = (self._fracture_kinds == kind) & (self._fracture_times > start) & (self._fracture_times <= end)
+        return self._fracture_points[among], end - self._fracture_times[among]
+
+    @functools.cached_property
+    def extent(self):
+        """Of ice at the start and end and of all tracks: x0, y0, x1, y1 [m]."""
+        end = self.run.frame(self.run.end_time)
+        pieces = [self.ice_at_start.vertices, *(path.vertices for path in self.floes(end)), self.hulls(end).vertices,
+                  self.hulls(self.run.frame(self.run.start_time)).vertices, *self.tracks(self.run.end_time)]
+        points = numpy.concatenate([piece for piece in pieces if len(piece)] or [numpy.array([[0.0, 0.0], [100.0, 100.0]])])
+        low, high = points.min(axis=0), points.max(axis=0)
+        room = max(1.0, 0.02 * (high - low).max())
+        return (*(low - room), *(high + room))
+
+
+@functools.lru_cache(maxsize=None)
+def codes_of(count):
+    """Of a closed ring of so many points, the first of them repeated."""
+    codes = numpy.full(count, Path.LINETO, Path.code_type)
+    codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
+    return codes
