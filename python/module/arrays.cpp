@@ -2,17 +2,14 @@
 #include <string>
 #include <vector>
 
+#include "python/module/numpy_arrays.hpp"
 #include "python/module/simulation.hpp"
-#include <pybind11/numpy.h>
 
 #include "io/run/force_columns.hpp"
 #include "simulation/world.hpp"
 
 namespace polynya::python {
 namespace {
-
-using Numbers = py::array_t<double>;
-using Integers = py::array_t<std::int64_t>;
 
 /// A copy of the floes' state, an array a quantity.
 struct Floes {
@@ -61,33 +58,6 @@ py::list ships_of(const Simulation& python) {
   return ships;
 }
 
-/// Rings of all floes one after the other, in the body's frame and in the world's.
-struct Rings {
-  std::vector<double> in_body, in_world;
-  std::vector<std::int64_t> ring_offsets{0}, floe_offsets{0};
-
-  void add(const geometry::Ring& ring, const geometry::Pose& world_from_body) {
-    for (const geometry::Point p : ring) {
-      const geometry::Point q = transform(world_from_body, p);
-      in_body.insert(in_body.end(), {p.x, p.y});
-      in_world.insert(in_world.end(), {q.x, q.y});
-    }
-    ring_offsets.push_back(static_cast<std::int64_t>(in_body.size() / 2));
-  }
-  void add(const simulation::FloeState& floe) {
-    add(floe.polygon_in_body->outer, floe.world_from_body);
-    for (const geometry::Ring& hole : floe.polygon_in_body->holes) add(hole, floe.world_from_body);
-    floe_offsets.push_back(static_cast<std::int64_t>(ring_offsets.size()) - 1);
-  }
-};
-
-Numbers table(const std::vector<double>& values, py::ssize_t columns) {
-  return Numbers({static_cast<py::ssize_t>(values.size()) / columns, columns}, values.data());
-}
-Integers array_of(const std::vector<std::int64_t>& values) {
-  return Integers(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
 template <class Value, class Read>
 py::array_t<Value> column(const std::vector<simulation::FloeState>& states, Read read) {
   py::array_t<Value> values(static_cast<py::ssize_t>(states.size()));
@@ -102,7 +72,7 @@ Numbers rows_of_three(const std::vector<simulation::FloeState>& states, Read rea
   values.reserve(3 * states.size());
   for (const simulation::FloeState& state : states)
     for (const double value : read(state)) values.push_back(value);
-  return table(values, 3);
+  return table(std::move(values), 3);
 }
 
 Floes floes_of(const Simulation& python) {
@@ -111,8 +81,11 @@ Floes floes_of(const Simulation& python) {
   const simulation::Simulation& simulation = python.between_steps();
   const simulation::Population& population = simulation.world().population;
   const std::vector<State> states = simulation.all_states();
-  Rings rings;
-  for (const State& state : states) rings.add(state);
+  PolygonTable in_body, in_world;
+  for (const State& state : states) {
+    in_body.add(*state.polygon_in_body, {});
+    in_world.add(*state.polygon_in_body, state.world_from_body);
+  }
   const auto integers = [&](auto read) { return column<std::int64_t>(states, read); };
   const auto numbers = [&](auto read) { return column<double>(states, read); };
   return {
@@ -133,10 +106,10 @@ Floes floes_of(const Simulation& python) {
           numbers([&](const State& s) { return population.bodies.thickness[population.body_of(s.floe)]; }),
       .areas = numbers([](const State& s) { return s.area; }),
       .masses = numbers([](const State& s) { return s.mass; }),
-      .vertices = table(rings.in_body, 2),
-      .world_vertices = table(rings.in_world, 2),
-      .ring_offsets = array_of(rings.ring_offsets),
-      .floe_offsets = array_of(rings.floe_offsets),
+      .vertices = table(std::move(in_body.vertices), 2),
+      .world_vertices = table(std::move(in_world.vertices), 2),
+      .ring_offsets = column_of(std::move(in_body.ring_offsets)),
+      .floe_offsets = column_of(std::move(in_body.polygon_offsets)),
   };
 }
 

@@ -89,6 +89,8 @@ void bind_simulation(py::module_& module) {
           [](const Simulation& s) { return fmt::format("{:016x}", s.between_steps().state_hash()); },
           "A hash of all the state: 16 hexadecimal digits, as in the run folder's states.csv.");
   bind_arrays(module, type);
+  bind_floe_memory(module, type);
+  bind_occupancy(type);
 }
 
 }  // namespace polynya::python

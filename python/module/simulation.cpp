@@ -89,6 +89,19 @@ const simulation::Simulation& Simulation::between_steps() const {
   return simulation_;
 }
 
+const simulation::Simulation& Simulation::at_rest() const {
+  refuse_while_stepping();
+  return between_steps();
+}
+
+void Simulation::refuse_while_viewed() const {
+  if (*views_ > 0)
+    throw py::buffer_error(
+        fmt::format("{} arrays of floe_memory live: a step would move what they show; delete them, or copy "
+                    "what is to last",
+                    *views_));
+}
+
 void Simulation::refuse_while_stepping() const {
   if (is_stepping_)
     throw std::runtime_error("this simulation is being stepped; wait for its step() or run()");
@@ -130,8 +143,8 @@ void Simulation::raise_failure() {
 }
 
 void Simulation::advance_to(std::int64_t last_step, const py::object& progress) {
-  refuse_while_stepping();
-  between_steps();
+  at_rest();
+  refuse_while_viewed();
   raise_failure();
   const Stepping stepping(*this);
   {
@@ -183,7 +196,7 @@ py::bytes Simulation::save() const {
   return py::bytes(io::checkpoint_bytes(io::checkpoint_of(between_steps(), scene(), {}, 0)));
 }
 
-std::size_t Simulation::index_of(const py::object& ship) const {
+std::size_t Simulation::index_of(const py::object& ship, const char* caller) const {
   const auto& ships = simulation_.scene().ships;
   const auto count = static_cast<std::int64_t>(ships.size());
   if (py::isinstance<py::int_>(ship)) {
@@ -192,7 +205,8 @@ std::size_t Simulation::index_of(const py::object& ship) const {
       throw py::index_error(fmt::format("ship {}: the scene has {} ships and structures", index, count));
     return static_cast<std::size_t>(index);
   }
-  if (!py::isinstance<py::str>(ship)) throw py::type_error("set_pilot: a ship is an index or a name");
+  if (!py::isinstance<py::str>(ship))
+    throw py::type_error(fmt::format("{}: a ship is an index or a name", caller));
   const auto name = ship.cast<std::string>();
   const auto found = std::ranges::find(ships, name, &simulation::ShipSpec::name);
   if (found == ships.end()) throw py::value_error(fmt::format("the scene has no ship named \"{}\"", name));
@@ -201,7 +215,7 @@ std::size_t Simulation::index_of(const py::object& ship) const {
 
 void Simulation::set_pilot(const py::object& ship, const py::object& pilot) {
   refuse_while_stepping();
-  const std::size_t index = index_of(ship);
+  const std::size_t index = index_of(ship, "set_pilot");
   const simulation::ShipSpec& spec = simulation_.scene().ships[index];
   if (!std::holds_alternative<simulation::Engine>(spec.propulsion))
     throw py::value_error(fmt::format(

@@ -37,6 +37,12 @@ class Simulation {
   /// The simulation between two steps or before one, to be read. Raises RuntimeError while it is stepped,
   /// but for its pilots, which are asked before anything moves.
   const simulation::Simulation& between_steps() const;
+  /// The same, refused to pilots too: to be read as long as views() is not 0.
+  const simulation::Simulation& at_rest() const;
+  /// How many arrays on this simulation's own memory live (FloeMemory); it is not stepped meanwhile.
+  const std::shared_ptr<std::int64_t>& views() const { return views_; }
+  /// Of a ship given by an index or a name; `caller` is named in what it raises.
+  std::size_t index_of(const py::object& ship, const char* caller) const;
   /// The last recorded row of a ship; none before the first.
   const std::optional<simulation::ShipSample>& last_sample(std::size_t ship) const { return samples_[ship]; }
   const io::LoadedScene& scene() const { return scene_->loaded(); }
@@ -47,7 +53,7 @@ class Simulation {
   void advance_to(std::int64_t last_step, const py::object& progress);
   void step_once();
   void refuse_while_stepping() const;
-  std::size_t index_of(const py::object& ship) const;
+  void refuse_while_viewed() const;
   simulation::Command command_of(std::size_t ship, const simulation::PilotView& view);
   void take_journal();
   void raise_failure();
@@ -58,6 +64,7 @@ class Simulation {
   std::vector<std::optional<simulation::ShipSample>> samples_;  ///< per ship
   std::vector<py::object> pilots_;                              ///< per ship; None: its own
   std::exception_ptr pilot_error_;  ///< raised by one in a step, to be raised after it
+  std::shared_ptr<std::int64_t> views_ = std::make_shared<std::int64_t>(0);
   bool is_stepping_ = false;
   bool is_pilot_asked_ = false;
   bool is_broken_ = false;  ///< an exception left a step unfinished
@@ -66,6 +73,9 @@ class Simulation {
 void bind_simulation(py::module_& module);
 /// Ship, Floes and how they are read from a simulation.
 void bind_arrays(py::module_& module, py::class_<Simulation>& simulation);
+/// FloeMemory: the floes without a copy.
+void bind_floe_memory(py::module_& module, py::class_<Simulation>& simulation);
+void bind_occupancy(py::class_<Simulation>& simulation);
 void bind_cut(py::module_& module);
 
 }  // namespace polynya::python

@@ -14,21 +14,21 @@ import os as _os
 
 TYPE_CHECKING = False  # typing's, without its import: every case of a study starts with this file
 if TYPE_CHECKING:
-    from polynya._core import Floes, PilotView, Scene, SeenShip, Ship, Simulation
+    from polynya._core import FloeMemory, Floes, PilotView, Scene, SeenShip, Ship, Simulation
     from polynya.cutting import Cut, cut
     from polynya.errors import (
         FolderError, NotARunError, NotAStudyError, Problem, SceneError, SimulationError, UnfinishedError, VersionError)
     from polynya.results.run import Run
     from polynya.results.study import Study
 
-__all__ = ["Cut", "Floes", "PilotView", "Problem", "Run", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
+__all__ = ["Cut", "FloeMemory", "Floes", "PilotView", "Problem", "Run", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
 __all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError"]
 
 # The compiled module lies beside the folder that this package is in: that may be a link into the source tree, so its own
 # path is not resolved.
 __path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))), "python_core"))
 
-_COMPILED = {"Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
+_COMPILED = {"FloeMemory", "Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
 _ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneError", "SimulationError", "UnfinishedError", "VersionError"}
 
 

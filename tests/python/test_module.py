@@ -300,6 +300,147 @@ def test_a_simulation_that_its_pilot_refers_to_is_collected_in_another_thread():
     assert alive() is None
 
 
+def test_views_of_the_simulations_own_memory_are_what_the_copies_are():
+    simulation = polynya.Simulation({**ICE, "water": {"drift_m_per_s": [0.2, -0.1]}})
+    simulation.run(until=6)
+    copies, memory = simulation.floes, simulation.floe_memory
+    alive = memory.is_alive
+    assert alive.dtype == bool and len(alive) == len(memory) > len(copies)
+    assert numpy.flatnonzero(alive).tolist() == copies.ids.tolist()
+    for name in ("parents", "generations", "areas", "masses", "thickness", "is_under"):
+        numpy.testing.assert_array_equal(getattr(memory, name)[alive], getattr(copies, name))
+    numpy.testing.assert_allclose(memory.velocities[alive] + memory.water_velocity, copies.velocities[:, :2], rtol=1e-12, atol=1e-15)
+    numpy.testing.assert_array_equal(memory.turning[alive], copies.velocities[:, 2])
+    numpy.testing.assert_array_equal(memory.angles[alive], copies.poses[:, 2])
+    c, s = numpy.cos(copies.poses[:, 2]), numpy.sin(copies.poses[:, 2])
+    x, y = memory.centroids[alive].T
+    centres = copies.poses[:, :2] + numpy.column_stack((c * x - s * y, s * x + c * y))
+    numpy.testing.assert_allclose(memory.centres[alive] + memory.water_shift, centres, atol=1e-9)
+    for i, floe in enumerate(copies.ids):
+        first = copies.ring_offsets[copies.floe_offsets[i]]
+        rings = memory.shape(floe)
+        numpy.testing.assert_array_equal(numpy.concatenate(rings), copies.vertices[first:copies.ring_offsets[copies.floe_offsets[i + 1]]])
+    with pytest.raises(ValueError, match="has broken"):
+        memory.shape(int(numpy.flatnonzero(~alive)[0]))
+    with pytest.raises(IndexError):
+        memory.shape(len(memory))
+
+
+def test_views_share_memory_and_cannot_be_written():
+    memory = polynya.Simulation(ICE).floe_memory
+    assert numpy.shares_memory(memory.centres, memory.centres)
+    for array in (memory.centres, memory.areas, memory.is_alive, memory.shape(0)[0]):
+        assert not array.flags.owndata
+        with pytest.raises(ValueError):
+            array[0] = 1
+        with pytest.raises(ValueError):
+            array.setflags(write=True)
+
+
+def test_a_simulation_is_not_stepped_while_a_view_of_it_lives():
+    simulation = polynya.Simulation(ICE)
+    part = simulation.floe_memory.centres[0]
+    for step in (simulation.step, simulation.run):
+        with pytest.raises(BufferError, match="delete them, or copy"):
+            step()
+    assert simulation.steps == 0 and simulation.save() and simulation.floes is not None
+    copied = part.copy()
+    del part
+    simulation.step(3)
+    assert simulation.steps == 3 and copied.shape == (2,)
+
+
+def test_a_view_outlives_its_simulation():
+    simulation = polynya.Simulation(ICE)
+    areas, shape = simulation.floe_memory.areas, simulation.floe_memory.shape(0)[0]
+    before = areas.copy(), shape.copy()
+    alive = weakref.ref(simulation) if hasattr(simulation, "__weakref__") else None
+    del simulation
+    gc.collect()
+    polynya.Simulation(ICE).step(10)  # takes memory
+    assert alive is None or alive() is not None
+    numpy.testing.assert_array_equal(areas, before[0])
+    numpy.testing.assert_array_equal(shape, before[1])
+
+
+def test_a_pilot_gets_no_views():
+    simulation = polynya.Simulation(SEA)
+    memory = simulation.floe_memory
+    simulation.set_pilot(0, lambda view: memory.centres)
+    with pytest.raises(RuntimeError, match="being stepped"):
+        simulation.step()
+    simulation.set_pilot(0, None)
+    simulation.step()
+
+
+def covered(polygons, pose, shape, cell, ahead, lines=8):
+    """The share of each cell that polygons cover: points of a fine grid in them."""
+    from matplotlib.path import Path
+    rows, columns = shape
+    along = ahead + cell * (rows / 2 - (numpy.arange(rows * lines) + 0.5) / lines)
+    across = cell * (columns / 2 - (numpy.arange(columns * lines) + 0.5) / lines)
+    grid = numpy.stack(numpy.meshgrid(along, across, indexing="ij"), axis=-1).reshape(-1, 2)
+    x, y, angle = pose
+    c, s = numpy.cos(angle), numpy.sin(angle)
+    points = grid @ numpy.array([[c, s], [-s, c]]) + (x, y)
+    inside = numpy.zeros(len(points), dtype=bool)
+    for rings in polygons:
+        odd = numpy.zeros(len(points), dtype=bool)
+        for ring in rings:
+            odd ^= Path(ring).contains_points(points)
+        inside |= odd
+    return inside.reshape(rows, lines, columns, lines).mean(axis=(1, 3))
+
+
+def test_the_occupancy_image_is_the_share_of_each_cell_that_is_covered():
+    pytest.importorskip("matplotlib")
+    turned = {**ICE["ships"][0], "heading_deg": 25, "position_m": [-40, -20]}
+    other = {**ICE["ships"][0], "name": "other", "position_m": [20, 90], "heading_deg": 100}
+    holed = {"polygon": {"outer_m": [[-60, 30], [-20, 30], [-20, 60], [-60, 60]], "holes_m": [[[-50, 36], [-30, 36], [-30, 54], [-50, 54]]]}}
+    scene = {**ICE, "ships": [turned, other], "floes": [*ICE["floes"], holed]}
+    simulation = polynya.Simulation(scene)
+    simulation.run(until=3)
+    floes, ship = simulation.floes, simulation.ships[0]
+    polygons = [[floes.world_vertices[floes.ring_offsets[r]:floes.ring_offsets[r + 1]] for r in range(floes.floe_offsets[i], floes.floe_offsets[i + 1])]
+                for i in range(len(floes))]
+    pose = (*ship.position, ship.heading)
+    image = simulation.occupancy("breaker", shape=(40, 60), cell_m=3, ahead_m=30)
+    assert image.shape == (2, 40, 60) and image.dtype == numpy.float32
+    expected = covered(polygons, pose, (40, 60), 3, 30)
+    assert 0.2 < expected.mean() < 0.8 and image[1].sum() > 0
+    assert numpy.abs(image[0] - expected).max() < 0.2 and numpy.abs(image[0] - expected).mean() < 0.005
+    whole = simulation.occupancy(1, shape=(400, 400), cell_m=1.0)  # all ice is within it
+    assert whole[0].sum() == pytest.approx(floes.areas.sum(), rel=2e-3)
+    assert whole[1].sum() == pytest.approx(60 * 14 - 7 * 7 / numpy.tan(numpy.radians(30)), rel=1e-2)
+    for wrong in ({"shape": (0, 3)}, {"shape": (9999, 3)}, {"cell_m": 0}, {"cell_m": float("nan")}, {"ahead_m": float("inf")}):
+        with pytest.raises(ValueError):
+            simulation.occupancy(**wrong)
+    with pytest.raises(IndexError):
+        simulation.occupancy(7)
+    with pytest.raises(TypeError):
+        simulation.occupancy(shape="ab")
+
+
+def test_the_image_has_the_way_ahead_on_top_and_port_on_the_left():
+    ship = {**ICE["ships"][0], "position_m": [0, 0], "heading_deg": 90}
+    floe = {"rectangle": {"corner_m": [-70, 100], "size_m": [10, 10]}}  # ahead, to port
+    image = polynya.Simulation({**ICE, "ships": [ship], "floes": [floe]}).occupancy(shape=(60, 60), cell_m=5)[0]
+    rows, columns = numpy.nonzero(image)
+    assert rows.tolist() == [8, 8, 9, 9] and columns.tolist() == [16, 17, 16, 17] and image.max() == 1
+
+
+def test_the_last_reference_may_be_dropped_in_another_thread():
+    kept = [polynya.Simulation(ICE)]
+    kept[0].run(until=2)
+    kept.append(kept[0].floe_memory.centres)
+    dropping = threading.Thread(target=kept.clear)
+    other = polynya.Simulation(ICE)
+    dropping.start()
+    other.run(until=2)
+    dropping.join()
+    assert not kept and other.steps == 200
+
+
 def public(names):
     return {name for name in names if not name.startswith("_")}
 
@@ -359,3 +500,27 @@ def test_a_cut_takes_shapes_with_holes_and_refuses_what_is_none():
         polynya.cut(SQUARE, disc=(0, 0))
     with pytest.raises(TypeError):
         polynya.cut(SQUARE)
+
+
+def test_a_cut_of_shapelys_polygon():
+    geometry = pytest.importorskip("shapely.geometry")
+    holed = geometry.Polygon(SQUARE, [SQUARE / 5 + 4])
+    cut = polynya.cut(holed, by=geometry.box(5, -1, 11, 11))
+    assert sorted(round(area_of(piece), 9) for piece in cut.pieces) == [48, 48]
+    with pytest.raises(ValueError, match="not a LineString"):
+        polynya.cut(geometry.LineString(SQUARE), disc=(0, 0, 1))
+
+
+@pytest.mark.parametrize("wrong, error", [
+    (lambda: polynya.cut(None, disc=(0, 0, 1)), TypeError),
+    (lambda: polynya.cut("floe", disc=(0, 0, 1)), ValueError),
+    (lambda: polynya.cut([], disc=(0, 0, 1)), ValueError),
+    (lambda: polynya.cut(SQUARE, disc="abc"), ValueError),
+    (lambda: polynya.cut(SQUARE, disc=(0, 0, -1)), ValueError),
+    (lambda: polynya.cut(SQUARE, disc=(10, 5, 3), keep="left"), ValueError),
+    (lambda: polynya.cut(SQUARE, disc=(10, 5, 3), repair="maybe"), ValueError),
+    (lambda: polynya.cut({"type": "MultiPolygon", "coordinates": [[SQUARE.tolist()]]}, disc=(0, 0, 1)), ValueError),
+])
+def test_wrong_cuts_are_refused(wrong, error):
+    with pytest.raises(error):
+        wrong()

@@ -1,0 +1,164 @@
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "python/module/simulation.hpp"
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+
+#include "simulation/world.hpp"
+
+namespace polynya::python {
+
+/// A simulation's own memory of its floes as numpy arrays, without a copy (docs/python.md, "Without a copy"):
+/// while one of them lives, the simulation refuses to step.
+class FloeMemory {
+ public:
+  explicit FloeMemory(const Simulation& simulation) : simulation_(simulation) {}
+  const Simulation& simulation() const { return simulation_; }
+
+ private:
+  const Simulation& simulation_;  ///< which Python keeps alive
+};
+
+namespace {
+
+using dynamics::Bodies;
+using geometry::Point;
+using simulation::Floe;
+
+// x and y lie one after the other: a vector of points is an array of n × 2.
+static_assert(sizeof(Point) == 2 * sizeof(double) && sizeof(geometry::Vector) == 2 * sizeof(double));
+static_assert(sizeof(bool) == 1);
+
+const simulation::Population& population_of(const FloeMemory& memory) {
+  return memory.simulation().at_rest().world().population;
+}
+
+/// Counts a view of a simulation's memory as long as it lives, and keeps that memory.
+struct Hold {
+  explicit Hold(const FloeMemory& memory)
+      : simulation(py::cast(&memory.simulation())), views(memory.simulation().views()) {
+    ++*views;
+  }
+  ~Hold() { --*views; }
+  Hold(const Hold&) = delete;
+  Hold& operator=(const Hold&) = delete;
+
+  py::object simulation;
+  std::shared_ptr<std::int64_t> views;
+};
+
+py::array view(const FloeMemory& memory, const py::dtype& type, std::vector<py::ssize_t> shape,
+               std::vector<py::ssize_t> strides, const void* first) {
+  if (first == nullptr) return py::array(type, std::move(shape));  // no floes
+  auto hold = std::make_unique<Hold>(memory);
+  const py::capsule base(hold.get(), [](void* p) { delete static_cast<Hold*>(p); });
+  hold.release();
+  py::array array(type, std::move(shape), std::move(strides), first, base);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+py::array points(const FloeMemory& memory, const double* first, std::size_t count) {
+  constexpr py::ssize_t kNumber = sizeof(double);
+  return view(memory, py::dtype::of<double>(), {static_cast<py::ssize_t>(count), 2}, {2 * kNumber, kNumber},
+              first);
+}
+
+/// A quantity of bodies, from the first floe on.
+template <auto Member>
+py::array of_bodies(const FloeMemory& memory) {
+  const simulation::Population& population = population_of(memory);
+  const auto& all = population.bodies.*Member;
+  const auto rows = std::span(all).subspan(static_cast<std::size_t>(population.ship_count));
+  using Value = typename decltype(rows)::value_type;
+  if constexpr (sizeof(Value) == 2 * sizeof(double)) {
+    return points(memory, rows.empty() ? nullptr : &rows.front().x, rows.size());
+  } else {
+    const auto type = sizeof(Value) == 1 ? py::dtype("?") : py::dtype::of<double>();
+    return view(memory, type, {static_cast<py::ssize_t>(rows.size())},
+                {static_cast<py::ssize_t>(sizeof(Value))}, rows.empty() ? nullptr : &rows.front());
+  }
+}
+
+/// A quantity of the floes' cold data, which lies between others: an array with strides.
+template <auto Member>
+py::array of_floes(const FloeMemory& memory) {
+  const std::vector<Floe>& floes = population_of(memory).floes;
+  using Value = std::remove_cvref_t<decltype(floes.front().*Member)>;
+  const auto type = std::is_same_v<Value, bool> ? py::dtype("?") : py::dtype::of<Value>();
+  return view(memory, type, {static_cast<py::ssize_t>(floes.size())},
+              {static_cast<py::ssize_t>(sizeof(Floe))}, floes.empty() ? nullptr : &(floes.front().*Member));
+}
+
+py::list shape_of(const FloeMemory& memory, std::int64_t id) {
+  const simulation::Population& population = population_of(memory);
+  if (id < 0 || id >= population.floe_count())
+    throw py::index_error(fmt::format("floe {}: ids go from 0 to {}", id, population.floe_count() - 1));
+  if (!population.is_alive(id)) throw py::value_error(fmt::format("floe {} has broken", id));
+  const geometry::Polygon& polygon = population.floes[static_cast<std::size_t>(id)].shape.polygon;
+  py::list rings;
+  rings.append(points(memory, &polygon.outer.front().x, polygon.outer.size()));
+  for (const geometry::Ring& hole : polygon.holes) rings.append(points(memory, &hole.front().x, hole.size()));
+  return rings;
+}
+
+py::tuple pair_of(geometry::Vector v) {
+  return py::make_tuple(v.x, v.y);
+}
+
+constexpr auto kMemoryDoc =
+    "The simulation's own memory of its floes, without a copy: read-only numpy arrays, a row for each floe\n"
+    "that there was, by its id. Rows of floes that broke, which is_alive marks, have what they had then.\n\n"
+    "While one of the arrays lives, or a part of one, step() and run() raise a BufferError: delete it, or "
+    "copy\n"
+    "what is to outlast a step. An array keeps its simulation.\n\n"
+    "Places and velocities are those of centres of mass in the water's frame: add water_shift and\n"
+    "water_velocity for those over ground.";
+
+void bind_bodies(py::class_<FloeMemory>& type) {
+  type.def_property_readonly("is_alive", &of_bodies<&Bodies::is_alive>, "Whether the floe has not broken.")
+      .def_property_readonly("centres", &of_bodies<&Bodies::position>,
+                             "n x 2: centres of mass in the water's frame [m].")
+      .def_property_readonly("angles", &of_bodies<&Bodies::angle>, "Of the bodies' frames [rad].")
+      .def_property_readonly("velocities", &of_bodies<&Bodies::velocity>,
+                             "n x 2: of the centres of mass, relative to the water [m/s].")
+      .def_property_readonly("turning", &of_bodies<&Bodies::angular_velocity>, "Counter-clockwise [rad/s].")
+      .def_property_readonly("masses", &of_bodies<&Bodies::mass>, "[kg]")
+      .def_property_readonly("thickness", &of_bodies<&Bodies::thickness>, "[m]")
+      .def_property_readonly("radii", &of_bodies<&Bodies::bounding_radius>,
+                             "Of the circles about the centres of mass that hold the floes [m].")
+      .def_property_readonly("centroids", &of_bodies<&Bodies::centroid>,
+                             "n x 2: centres of mass in the bodies' frames [m].");
+}
+
+}  // namespace
+
+void bind_floe_memory(py::module_& module, py::class_<Simulation>& simulation) {
+  py::class_<FloeMemory> type(module, "FloeMemory", kMemoryDoc);
+  bind_bodies(type);
+  type.def_property_readonly("parents", &of_floes<&Floe::parent>,
+                             "Ids of the floes that they broke from; -1: of the scene.")
+      .def_property_readonly("generations", &of_floes<&Floe::generation>, "Fractures since the scene's floe.")
+      .def_property_readonly("areas", &of_floes<&Floe::area>, "[m2]")
+      .def_property_readonly("is_under", &of_floes<&Floe::is_under>,
+                             "Whether under a hull, or the ice behind it.")
+      .def("shape", &shape_of, py::arg("id"),
+           "shape(id)\n\nThe rings of a floe that has not broken, n x 2 each, in its body's frame [m]: the "
+           "outer one,\nthen its holes.")
+      .def_property_readonly(
+          "water_shift",
+          [](const FloeMemory& m) { return pair_of(m.simulation().at_rest().world().clock.drift()); },
+          "How far the water has gone over ground, x and y [m].")
+      .def_property_readonly(
+          "water_velocity",
+          [](const FloeMemory& m) { return pair_of(m.simulation().at_rest().world().clock.water_drift); },
+          "Over ground, x and y [m/s].")
+      .def("__len__", [](const FloeMemory& m) { return population_of(m).floe_count(); });
+  simulation.def_property_readonly(
+      "floe_memory", [](const Simulation& s) { return FloeMemory(s); }, py::keep_alive<0, 1>(),
+      "The floes' state as arrays on the simulation's own memory: FloeMemory.");
+}
+
+}  // namespace polynya::python

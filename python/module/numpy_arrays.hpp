@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "python/module/scene.hpp"
+#include <pybind11/numpy.h>
+
+#include "geometry/shape/polygon.hpp"
+
+namespace polynya::python {
+
+using Numbers = py::array_t<double>;
+using Integers = py::array_t<std::int64_t>;
+
+/// An array of a shape that takes the vector's memory over, without a copy.
+template <class Value>
+py::array_t<Value> array_of(std::vector<Value> values, std::vector<py::ssize_t> shape) {
+  auto kept = std::make_unique<std::vector<Value>>(std::move(values));
+  Value* const data = kept->data();
+  if (data == nullptr) return py::array_t<Value>(std::move(shape));  // nothing to keep
+  const py::capsule owner(kept.release(), [](void* p) { delete static_cast<std::vector<Value>*>(p); });
+  return py::array_t<Value>(std::move(shape), data, owner);
+}
+
+/// Rows of so many numbers.
+inline Numbers table(std::vector<double> values, py::ssize_t columns) {
+  const py::ssize_t rows = static_cast<py::ssize_t>(values.size()) / columns;
+  return array_of(std::move(values), {rows, columns});
+}
+template <class Value>
+py::array_t<Value> column_of(std::vector<Value> values) {
+  const auto size = static_cast<py::ssize_t>(values.size());
+  return array_of(std::move(values), {size});
+}
+
+/// The rings of polygons one after the other: ring r of all has the vertices ring_offsets[r] to
+/// ring_offsets[r + 1], polygon i the rings polygon_offsets[i] to polygon_offsets[i + 1], its outer one
+/// first.
+struct PolygonTable {
+  std::vector<double> vertices;  ///< x, y, x, y, … [m]
+  std::vector<std::int64_t> ring_offsets{0}, polygon_offsets{0};
+
+  void add(const geometry::Polygon& polygon, const geometry::Pose& frame_from_body) {
+    add_ring(polygon.outer, frame_from_body);
+    for (const geometry::Ring& hole : polygon.holes) add_ring(hole, frame_from_body);
+    polygon_offsets.push_back(static_cast<std::int64_t>(ring_offsets.size()) - 1);
+  }
+
+ private:
+  void add_ring(const geometry::Ring& ring, const geometry::Pose& frame_from_body) {
+    for (const geometry::Point p : ring) {
+      const geometry::Point q = transform(frame_from_body, p);
+      vertices.insert(vertices.end(), {q.x, q.y});
+    }
+    ring_offsets.push_back(static_cast<std::int64_t>(vertices.size() / 2));
+  }
+};
+
+}  // namespace polynya::python

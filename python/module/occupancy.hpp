@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+#include "geometry/shape/pose.hpp"
+
+namespace polynya::python {
+
+/// An image from above in a ship's frame: its first row is the farthest ahead, its first column to port.
+struct ImageFrame {
+  std::size_t rows = 0, columns = 0;
+  double cell = 1;   ///< [m]
+  double ahead = 0;  ///< of its middle, from the ship's centre of gravity [m]
+
+  /// Of a circle about the middle that holds the image [m].
+  double radius() const;
+};
+
+/// The share of each cell that polygons cover. Along a row it is exact on each of kLines lines a cell; cells
+/// on which polygons overlap are 1 at most. Outer rings run counter-clockwise, holes clockwise.
+class CoverImage {
+ public:
+  static constexpr int kLines = 4;
+
+  explicit CoverImage(const ImageFrame& frame);
+  void add(const geometry::Polygon& polygon, const geometry::Pose& ship_from_body);
+  /// Row by row, into rows × columns numbers.
+  void write(float* cells) const;
+
+ private:
+  void add_ring(const geometry::Ring& ring, const geometry::Pose& ship_from_body);
+  void add_edge(geometry::Point a, geometry::Point b);
+  void add_crossing(std::size_t row, double x, double share);
+
+  ImageFrame frame_;
+  std::vector<double> steps_;  ///< of the share, from each cell of a row to the next; one more than columns
+};
+
+}  // namespace polynya::python
