@@ -1,0 +1,169 @@
+"""A ship that an agent steers through ice."""
+from __future__ import annotations
+
+import copy
+import typing
+
+import numpy
+
+import polynya
+
+from .spaces import Box, Dict, Env
+
+WATER, ICE, OTHERS, OWN = (numpy.array(colour, dtype=float) for colour in ((143, 184, 208), (255, 255, 255), (122, 92, 46), (43, 43, 43)))
+MOST_SEED = 2**31
+
+
+class Change(typing.NamedTuple):
+    """What a step did: what rewards are made of."""
+
+    progress: float  #: made good to the goal, or along the first heading [m]
+    ice_work: float  #: that the ship lost to the ice: minus force times velocity, means of the step [J]
+    seconds: float  #: simulated
+    reached: bool  #: the goal
+    ship: polynya.Ship  #: after the step; its forces are those of the step
+    events: list  #: of the step, as the lines of events.ndjson
+
+
+def metres_less_work(change):
+    """The default reward: metres made good, less the work of the ice at 1 m a megajoule."""
+    return change.progress - 1e-6 * change.ice_work
+
+
+class ShipInIce(Env):
+    """A ship with an engine in a scene, in Gymnasium's convention.
+
+    scene: what polynya.Scene takes, or a callable that makes it of a seed. Of the former reset(seed) replaces the scene's `seed`, which
+    its random fields of floes follow.
+    ship: index or name. goal: x, y [m], reached within `goal_radius` (a length of 100 m if not given); without one the ship is to go
+    along its first heading. seconds: simulated, a step; a whole number of the scene's time steps. shape, cell_m, ahead_m: of the image,
+    as in Simulation.occupancy. time_limit: simulated [s]; the scene's until_s if not given. reward: a callable of a Change.
+
+    Action: lever and steering angle, each from -1 to 1; the angle in shares of the largest, to port positive. Both go there as fast
+    as the scene's ship lets them.
+    Observation: "image", 2 x rows x columns, the share of each cell that ice covers, and that other ships and structures cover, ahead on
+    top, port on the left; "ship": speed ahead and to port [m/s], yaw rate [rad/s], lever, steering angle in shares, and where the
+    goal is: ahead and to port [m] (0 without one).
+    `simulation` is the Simulation that is stepped."""
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+
+    def __init__(self, scene, *, ship=0, goal=None, goal_radius=100.0, seconds=0.5, shape=(96, 96), cell_m=4.0, ahead_m=0.0, time_limit=None,
+                 reward=metres_less_work, threads=1, render_mode=None):
+        if render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode is {render_mode!r}, allowed: None, 'rgb_array'")
+        self.render_mode = render_mode
+        self._make_scene = scene if callable(scene) else _seeded(polynya.Scene(scene))
+        self._given_ship, self.seconds = ship, float(seconds)
+        self.goal = None if goal is None else numpy.array(goal, dtype=float)
+        if self.goal is not None and (self.goal.shape != (2,) or not numpy.isfinite(self.goal).all()):
+            raise ValueError(f"goal is {goal!r}, allowed: x, y [m]")
+        self.goal_radius, self._time_limit, self._reward, self._threads = goal_radius, time_limit, reward, threads
+        self._view = {"shape": tuple(shape), "cell_m": cell_m, "ahead_m": ahead_m}
+        self.action_space = Box(-1.0, 1.0, (2,), numpy.float32)
+        self.observation_space = Dict({
+            "image": Box(0.0, 1.0, (2, *self._view["shape"]), numpy.float32),
+            "ship": Box(-numpy.inf, numpy.inf, (7,), numpy.float32),
+        })
+        self.simulation = None
+
+    def reset(self, *, seed=None, options=None):
+        """A new simulation. The scene's seed is `seed`, or one drawn where it is None. Returns observation and info: `scene_seed`, `time_s`."""
+        super().reset(seed=seed)
+        self.scene_seed = int(self.np_random.integers(MOST_SEED)) if seed is None else seed
+        given = self._make_scene(self.scene_seed)
+        resolved = copy.copy(given if isinstance(given, dict) and "time" in given else polynya.Scene(given).resolved)
+        resolved["record"] = {**resolved.get("record", {}), "forces_interval_s": self.seconds}
+        scene = polynya.Scene(resolved)
+        time = scene.resolved["time"]
+        self._steps = round(self.seconds / time["step_s"])
+        if self._steps < 1 or abs(self._steps * time["step_s"] - self.seconds) > 1e-9 * self.seconds:
+            raise ValueError(f"a step of {self.seconds:g} s is no whole number of the scene's time steps of {time['step_s']:g} s")
+        self._end = time["until_s"] if self._time_limit is None else self._time_limit
+        self.simulation = polynya.Simulation(scene, threads=self._threads)
+        names = [ship.name for ship in self.simulation.ships]
+        self._ship = names.index(self._given_ship) if self._given_ship in names else self._given_ship
+        self._command, self._steering_most = (0.0, 0.0), 0.0
+        self.simulation.set_pilot(self._ship, self._pilot)
+        self._now = self.simulation.ships[self._ship]
+        self._waterline, self._course = None, self._now.heading
+        return self._observation(), {"scene_seed": self.scene_seed, "time_s": self.simulation.time}
+
+    def _pilot(self, view):
+        self._steering_most = view.steering_most
+        lever, share = self._command
+        return lever, share * view.steering_most
+
+    def step(self, action):
+        """Observation, reward, whether the goal is reached, whether the time is over, and info: `time_s`, `progress_m`, `ice_work_J`, `events`."""
+        if self.simulation is None:
+            raise RuntimeError("reset() comes before the first step()")
+        wanted = numpy.asarray(action, dtype=float)
+        if wanted.shape != (2,) or not numpy.isfinite(wanted).all():
+            raise ValueError(f"an action is lever and steering, two numbers from -1 to 1, found {action!r}")
+        self._command = tuple(numpy.clip(wanted, -1.0, 1.0).tolist())
+        before = self._now
+        self.simulation.step(self._steps)
+        self._now = self.simulation.ships[self._ship]
+        change = self._change(before)
+        info = {"time_s": self.simulation.time, "progress_m": change.progress, "ice_work_J": change.ice_work, "events": change.events}
+        is_over = self.simulation.time >= self._end - 1e-9
+        return self._observation(), float(self._reward(change)), change.reached, is_over, info
+
+    def _change(self, before):
+        after, forces = self._now, self._now.forces
+        if self.goal is None:
+            ahead = numpy.array([numpy.cos(self._course), numpy.sin(self._course)])
+            progress, reached = float((after.position - before.position) @ ahead), False
+        else:
+            left = numpy.hypot(*(self.goal - after.position))
+            progress, reached = float(numpy.hypot(*(self.goal - before.position)) - left), bool(left <= self.goal_radius)
+        surge, sway = _in_ship(0.5 * (before.velocity + after.velocity), after.heading)
+        turning = 0.5 * (before.yaw_rate + after.yaw_rate)
+        work = -self.seconds * (forces["surge_N"] * surge + forces["sway_N"] * sway + forces["yaw_Nm"] * turning)
+        return Change(progress, float(work), self.seconds, reached, after, self.simulation.events())
+
+    def _observation(self):
+        ship = self._now
+        to_goal = (0.0, 0.0) if self.goal is None else _in_ship(self.goal - ship.position, ship.heading)
+        share = ship.steering_angle / self._steering_most if self._steering_most else 0.0
+        state = (*_in_ship(ship.velocity, ship.heading), ship.yaw_rate, ship.lever, share, *to_goal)
+        return {"image": self.simulation.occupancy(self._ship, **self._view), "ship": numpy.array(state, dtype=numpy.float32)}
+
+    def render(self):
+        """The image in colours, with the ship: rows x columns x 3 bytes."""
+        if self.render_mode is None:
+            return None
+        ice, others = self.simulation.occupancy(self._ship, **self._view)
+        picture = WATER + ice[..., None] * (ICE - WATER)
+        picture += others[..., None] * (OTHERS - picture)
+        picture[self._own_hull()] = OWN
+        return picture.astype(numpy.uint8)
+
+    def _own_hull(self):
+        """Cells whose middle is in the ship's waterline."""
+        if self._waterline is None:
+            from matplotlib.path import Path
+
+            from polynya.results.hulls import waterline
+
+            (rows, columns), cell, ahead = self._view["shape"], self._view["cell_m"], self._view["ahead_m"]
+            along = ahead + cell * (rows / 2 - numpy.arange(rows) - 0.5)
+            across = cell * (columns / 2 - numpy.arange(columns) - 0.5)
+            scene = polynya.Scene(self._make_scene(self.scene_seed)).resolved
+            hull = Path(waterline([*scene.get("ships", []), *scene.get("structures", [])][self._ship]))
+            cells = numpy.stack(numpy.meshgrid(along, across, indexing="ij"), axis=-1).reshape(-1, 2)
+            self._waterline = hull.contains_points(cells).reshape(rows, columns)
+        return self._waterline
+
+
+def _seeded(scene):
+    """Makes the scene with another seed."""
+    resolved = scene.resolved
+    return lambda seed: {**resolved, "seed": seed}
+
+
+def _in_ship(vector, heading):
+    """Ahead and to port."""
+    c, s = numpy.cos(heading), numpy.sin(heading)
+    return float(c * vector[0] + s * vector[1]), float(-s * vector[0] + c * vector[1])

@@ -1,0 +1,83 @@
+"""Gymnasium's base class and spaces, or what an environment needs of them where Gymnasium is not installed."""
+import numpy
+
+try:
+    from gymnasium import Env
+    from gymnasium.spaces import Box, Dict
+
+    HAS_GYMNASIUM = True
+except ImportError:
+    HAS_GYMNASIUM = False
+
+    class Box:
+        """Arrays of one shape within bounds."""
+
+        def __init__(self, low, high, shape, dtype=numpy.float32):
+            self.shape, self.dtype = tuple(shape), numpy.dtype(dtype)
+            self.low = numpy.full(shape, low, dtype)
+            self.high = numpy.full(shape, high, dtype)
+            self._random = numpy.random.default_rng()
+
+        def seed(self, seed=None):
+            self._random = numpy.random.default_rng(seed)
+            return [seed]
+
+        def sample(self):
+            """Evenly between the bounds; normally where there are none."""
+            bounded = numpy.isfinite(self.low) & numpy.isfinite(self.high)
+            even = self._random.uniform(numpy.where(bounded, self.low, 0), numpy.where(bounded, self.high, 1))
+            return numpy.where(bounded, even, self._random.normal(size=self.shape)).astype(self.dtype)
+
+        def contains(self, x):
+            return (isinstance(x, numpy.ndarray) and x.shape == self.shape and numpy.can_cast(x.dtype, self.dtype)
+                    and bool(((x >= self.low) & (x <= self.high)).all()))
+
+        def __repr__(self):
+            return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
+
+    class Dict(dict):
+        """Spaces by name."""
+
+        def __init__(self, spaces):
+            super().__init__(spaces)
+            self.spaces = dict(self)
+
+        def seed(self, seed=None):
+            return [space.seed(seed) for space in self.values()]
+
+        def sample(self):
+            return {name: space.sample() for name, space in self.items()}
+
+        def contains(self, x):
+            return isinstance(x, dict) and x.keys() == self.keys() and all(space.contains(x[name]) for name, space in self.items())
+
+    class Env:
+        """As Gymnasium's, without its registry."""
+
+        metadata = {"render_modes": []}
+        render_mode = None
+        spec = None
+        _np_random = None
+
+        @property
+        def unwrapped(self):
+            return self
+
+        @property
+        def np_random(self):
+            if self._np_random is None:
+                self._np_random = numpy.random.default_rng()
+            return self._np_random
+
+        def reset(self, *, seed=None, options=None):  # noqa: ARG002, options are for those that have some
+            if seed is not None:
+                self._np_random = numpy.random.default_rng(seed)
+
+        def close(self):
+            pass
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *error):
+            self.close()

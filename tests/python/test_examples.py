@@ -1,0 +1,45 @@
+"""The scripts of examples/, in their short forms: each runs, prints and draws."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
+DRAWN = {
+    "first_run.py": "first-run.png",
+    "python_pilot.py": "python-pilot.png",
+    "loads_over_seeds.py": "loads-over-seeds.png",
+    "cut_floe_outlines.py": "cut-floe-outlines.png",
+    "h_v_curve.py": "h-v-curve.png",
+    "film.py": "film.png",
+}
+
+
+@pytest.mark.parametrize("script", DRAWN)
+def test_an_example_runs_and_draws(script, tmp_path):
+    done = subprocess.run([sys.executable, EXAMPLES / script, "--short", "--out", tmp_path], capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[-1] == str(tmp_path / DRAWN[script])
+    assert (tmp_path / DRAWN[script]).read_bytes()[:4] == b"\x89PNG"
+
+
+def test_each_example_begins_with_what_it_shows_and_its_command():
+    assert {path.name for path in EXAMPLES.glob("*.py")} == DRAWN.keys()
+    for path in EXAMPLES.glob("*.py"):
+        lines = path.read_text().splitlines()
+        assert lines[0] == "#!/usr/bin/python3" and lines[1].startswith('"""') and lines[1].endswith(".")
+        assert lines[3].strip().startswith(f"python3 examples/{path.name} ") and os.access(path, os.X_OK)
+
+
+def test_the_film_is_a_film(tmp_path):
+    if shutil.which("ffmpeg") is None:
+        pytest.skip("ffmpeg is missing (./setup.sh python)")
+    code = ("import sys, pathlib; sys.path.insert(0, sys.argv[1]); import film as example\n"
+            "from polynya.movie import film, picture; import polynya\n"
+            "out = pathlib.Path(sys.argv[2]); run = polynya.Run(example.run_into(out, 4), pandas=False)\n"
+            "film.write(run, str(out / 'film.mp4'), film.chosen_times(run, speed=4), picture.Look(size=(320, 320), speed=4))\n")
+    subprocess.run([sys.executable, "-c", code, EXAMPLES, tmp_path], check=True, capture_output=True)
+    assert (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp"
