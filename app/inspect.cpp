@@ -41,7 +41,7 @@ std::string unknown_floe(const io::Run& run, FloeId id) {
 int print_floe(const io::Run& run, const Options& options) {
   const io::RunFloe* floe = run.floe(*options.floe);
   if (!floe) return fail(kUsage, unknown_floe(run, *options.floe));
-  ShapeView view{floe->birth, *run.shape(*options.floe), {}};
+  ShapeView view{floe->birth, ice_of(run.scene.scene, floe->birth.own_ice), *run.shape(*options.floe), {}};
   if (options.at) {
     if (!run.is_alive(floe->birth.floe, *options.at)) {
       const std::string end =

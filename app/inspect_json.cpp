@@ -2,6 +2,7 @@
 
 #include "app/inspect_views.hpp"
 #include "io/run/records.hpp"
+#include "io/scene/floe_ice.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::app {
@@ -47,6 +48,7 @@ std::string floes_json(const std::vector<FloeRow>& rows, double time) {
     json.key("born_s").value(row.birth.time).key("area_m2").value(row.birth.area);
     json.key("perimeter_m").value(row.perimeter).key("vertices").value(row.vertices);
     json.key("holes").value(row.holes).key("mass_kg").value(row.birth.mass);
+    io::append_ice(json, row.ice);
     json.key("speed_m_per_s").value(row.speed).key("valid").value(row.validity).close('}');
   }
   json.close(']').close('}');

@@ -8,6 +8,7 @@
 #include "geometry/exact/validity.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
+#include "io/scene/floe_ice.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
 #include "io/text/wkt.hpp"
@@ -31,6 +32,7 @@ std::string as_geojson(const ShapeView& view) {
   json.key("parent_id").value(io::id_or_none(birth.parent));
   json.key("born_s").value(birth.time).key("generation").value(birth.generation);
   json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
+  io::append_ice(json, view.ice);
   json.key("frame").value(view.time_in_world ? "world" : "body");
   if (view.time_in_world) json.key("t_s").value(*view.time_in_world);
   json.close('}').key("geometry").polygon(view.polygon).close('}');
@@ -123,6 +125,7 @@ std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
     if (!run.is_alive(birth.floe, time)) continue;
     const auto polygon = run.shape(birth.floe);
     FloeRow& row = rows.emplace_back(FloeRow{.birth = birth,
+                                             .ice = ice_of(run.scene.scene, birth.own_ice),
                                              .perimeter = perimeter(*polygon),
                                              .vertices = vertex_count(*polygon),
                                              .holes = polygon->holes.size(),
@@ -134,15 +137,16 @@ std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
 }
 
 std::string floe_table(const std::vector<FloeRow>& rows) {
-  std::string text =
-      fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>9} {}\n", "floe", "parent",
-                  "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "m_per_s", "valid");
+  std::string text = fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>11} {:>9} {}\n",
+                                 "floe", "parent", "born_s", "area_m2", "perimeter_m", "vertices", "holes",
+                                 "mass_kg", "thickness_m", "m_per_s", "valid");
   for (const FloeRow& row : rows) {
     const simulation::BirthRecord& birth = row.birth;
-    text += fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>9} {}\n",
-                        birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
-                        birth.time, birth.area, row.perimeter, row.vertices, row.holes, birth.mass,
-                        row.speed ? fmt::format("{:.5f}", *row.speed) : "-", row.validity);
+    text +=
+        fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>11.4g} {:>9} {}\n",
+                    birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
+                    birth.time, birth.area, row.perimeter, row.vertices, row.holes, birth.mass,
+                    row.ice.thickness, row.speed ? fmt::format("{:.5f}", *row.speed) : "-", row.validity);
   }
   return text;
 }

@@ -18,6 +18,7 @@ enum class ShapeFormat { kWkt, kGeojson, kSvg };
 /// A floe's shape in its body frame, or in the world at a time.
 struct ShapeView {
   const simulation::BirthRecord& birth;
+  const fracture::Ice& ice;
   geometry::Polygon polygon;
   std::optional<double> time_in_world;  ///< [s]; none: the body frame
 };
@@ -27,6 +28,7 @@ std::string to_text(const ShapeView& view, ShapeFormat format);
 /// A floe alive at some time.
 struct FloeRow {
   const simulation::BirthRecord& birth;
+  const fracture::Ice& ice;
   double perimeter = 0;  ///< [m]
   std::size_t vertices = 0;
   std::size_t holes = 0;

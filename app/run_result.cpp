@@ -80,6 +80,11 @@ void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
       "{:.1e} m2)\n",
       ledger.initial_ice_area, ledger.floe_area, submerged, ledger.brash_area, ledger.imbalance,
       ledger.rounding_defect);
+  const auto& masses = summary.masses;
+  print_out("            {:.6g} t = {:.6g} floes + {:.6g} submerged + {:.6g} brash (imbalance {:.1e} t)\n",
+            1e-3 * masses.initial_ice_mass, 1e-3 * masses.floe_mass,
+            1e-3 * (masses.submerged_mass + masses.under_hull_mass + masses.under_ice_mass),
+            1e-3 * masses.brash_mass, 1e-3 * masses.imbalance);
   const simulation::EnergyFlows& energy = summary.audit.sums.energy;
   print_out(
       "energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "

@@ -6,6 +6,7 @@
 #include "app/load_scene.hpp"
 #include "app/options.hpp"
 #include "app/validate_cases.hpp"
+#include "io/scene/floe_ice.hpp"
 
 namespace polynya::app {
 namespace {
@@ -59,6 +60,14 @@ int validate(const Options& options) {
     print_out("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
               field.group, outcome.count, outcome.mean_size, 100 * outcome.size_spread,
               100 * outcome.concentration(), outcome.region_area, outcome.left_out);
+  }
+  for (const io::IceReport& report : loaded->ice) {
+    const io::FloeIceProperty& property = io::floe_ice_properties()[report.property];
+    const fracture::ScatterMeasures& drawn = report.measures;
+    print_out(
+        "floes[{}].ice.{}: {} drawn, {:.4g} {} ± {:.3g} %, from {:.4g} to {:.4g}, {:.2g} off the law (KS)\n",
+        report.group, property.key, drawn.count, drawn.mean, property.unit, 100 * drawn.spread, drawn.least,
+        drawn.most, drawn.distance);
   }
   return kDone;
 }

@@ -33,7 +33,7 @@ PACKAGES = {
     r"(tbb|oneapi)/": ["dynamics/"],
     r"Eigen/": ["fracture/bending/", "dynamics/internal/jam_matrix"],
     r"boost/container/": ["dynamics/"],
-    r"boost/math/": ["fracture/bending/"],
+    r"boost/math/": ["fracture/bending/", "fracture/scatter"],
     r"boost/crc": ["io/run/"],
     r"nlohmann/": ["io/text/"],
     r"proj\.h$": ["io/import/projection.cpp"],

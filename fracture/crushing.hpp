@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "fracture/materials.hpp"
 
 namespace polynya::fracture {
@@ -65,6 +67,13 @@ CrushingShares crushing_shares(double hull_angle, double friction, double approa
 /// F_n = σ_c A_c [N]. Eq. (1) of [Sawamura2017].
 inline double crushing_force(const Ice& ice, double area) {
   return ice.compressive_strength * area;
+}
+
+/// What crushes where two floes meet: the weaker ice, as high as the thinner floe, which is all that touches.
+inline Ice crushed_between(const Ice& a, const Ice& b) {
+  Ice ice = b.thickness < a.thickness ? b : a;
+  ice.compressive_strength = std::min(a.compressive_strength, b.compressive_strength);
+  return ice;
 }
 
 }  // namespace polynya::fracture

@@ -7,11 +7,12 @@ enum class Failure { kNone, kCrush, kBend, kSplit };
 
 /// Both sides of each criterion at one contact, so that a record can state them.
 struct FailureCriteria {
-  double floe_size = 0;         ///< L = √area [m]
-  double breakable_size = 0;    ///< κ l [m]
-  double contact_force = 0;     ///< the true one of the contact in the step [N]
-  double vertical_force = 0;    ///< V of the crushing contact, down on the ice [N]
-  double bending_capacity = 0;  ///< V_b [N]
+  double floe_size = 0;          ///< L = √area [m]
+  double breakable_size = 0;     ///< κ l [m]
+  double contact_force = 0;      ///< the true one of the contact in the step [N]
+  double vertical_force = 0;     ///< V of the crushing contact, down on the ice [N]
+  double bending_capacity = 0;   ///< V_b [N]
+  double flexural_strength = 0;  ///< σ_f that V_b is of, with the scatter of bending events; 0: no bend [Pa]
 
   // The crack:
   double crack_length = 0;  ///< L, its path in ice; 0 where there is none [m]

@@ -30,20 +30,21 @@ void measure_crack(const dynamics::Bodies& bodies, BodyIndex floe, const geometr
   criteria.crack_width = geometry::crack_width(*bodies.boundary[floe], path, kPeak);
 }
 
-void measure_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+void measure_sides(const Setup& setup, const Population& population, BodyIndex floe,
                    const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
-  const geometry::CrackSides sides = sides_of_crack(*bodies.boundary[floe], path);
-  const double l = fracture::characteristic_length(ice_of(setup, bodies, floe), setup.scene.water.water);
+  const geometry::CrackSides sides = sides_of_crack(*population.bodies.boundary[floe], path);
+  const double l =
+      fracture::characteristic_length(ice_of_body(setup, population, floe), setup.scene.water.water);
   const double mean_width = 2 * std::min(sides.left, sides.right) / path.length_in_ice;
   criteria.crack_width = std::max(criteria.crack_width, mean_width);
   criteria.pares =
       fracture::pares(setup.scene.fracture.least_piece, l, path.length_in_ice, sides.left, sides.right);
 }
 
-void measure_crack_and_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+void measure_crack_and_sides(const Setup& setup, const Population& population, BodyIndex floe,
                              const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
-  measure_crack(bodies, floe, path, criteria);
-  measure_sides(setup, bodies, floe, path, criteria);
+  measure_crack(population.bodies, floe, path, criteria);
+  measure_sides(setup, population, floe, path, criteria);
 }
 
 }  // namespace polynya::simulation

@@ -20,11 +20,11 @@ void measure_crack(const dynamics::Bodies& bodies, BodyIndex floe, const geometr
 /// Enters whether the crack would pare the floe's edge, and its width: at least twice the mean one of the ice
 /// on the narrower side, since a crack that leaves an edge at a slant has that edge beside it. Takes a walk
 /// around the floe; after measure_crack.
-void measure_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+void measure_sides(const Setup& setup, const Population& population, BodyIndex floe,
                    const geometry::CrackPath& path, fracture::FailureCriteria& criteria);
 
 /// Both, one after the other.
-void measure_crack_and_sides(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+void measure_crack_and_sides(const Setup& setup, const Population& population, BodyIndex floe,
                              const geometry::CrackPath& path, fracture::FailureCriteria& criteria);
 
 }  // namespace polynya::simulation

@@ -63,6 +63,7 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipCo
 bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFracture& pending) {
   const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
   pending.criteria.bending_capacity = capacity.vertical_force;
+  pending.criteria.flexural_strength = load.ice.flexural_strength;
   pending.cusp_radius = capacity.cusp_radius;
   if (is_crush_law(setup)) {  // the solver finds whether the load comes to V_b
     pending.criteria.vertical_force = capacity.vertical_force;
@@ -90,7 +91,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   if (is_michel) {  // by true forces it is decided after the solver
     find_crack(setup, population.bodies, load, pending);
     if (criteria.crack_length > 0 && criteria.collision_force > criteria.splitting_force)
-      measure_crack_and_sides(setup, population.bodies, c.b, pending.crack_in_body, criteria);
+      measure_crack_and_sides(setup, population, c.b, pending.crack_in_body, criteria);
   }
   if (load.shares.vertical > 0) {
     const bool is_in_range = measure_bending(setup, load, pending);
@@ -121,12 +122,11 @@ bool is_just_born(const Population& population, const Clock& clock, BodyIndex bo
   return !population.is_ship(body) && population.floes[population.floe_of(body)].born == clock.time();
 }
 
-/// Of floe against floe: vertical walls; the thinner one crushes.
+/// Of floe against floe: vertical walls.
 void decide_between_floes(const Setup& setup, const Clock& clock, const Population& population, Contact& c) {
-  const dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
-  const BodyIndex thinner = bodies.thickness[c.b] < bodies.thickness[c.a] ? c.b : c.a;
-  const fracture::Ice ice = ice_of(setup, bodies, thinner);
+  const fracture::Ice ice =
+      fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
   if (is_crush_law(setup))
     set_crushing(c, deepest_crushing_force(ice, c, 0), dt,
                  is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b));

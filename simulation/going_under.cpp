@@ -17,8 +17,9 @@ double weight_under(const Setup& setup, const Population& population, FloeId flo
   const double under_beam =
       geometry::area_in_band(transform(ship_from_floe, population.floes[floe].shape.polygon),
                              0.5 * setup.underwater[ship].form.beam);
-  const double lighter = setup.scene.water.water.density - setup.scene.ice.density;
-  return lighter * fracture::kGravity * bodies.thickness[body] * std::max(0.0, under_beam);
+  const fracture::Ice& ice = ice_of_floe(setup, population, floe);
+  const double lighter = setup.scene.water.water.density - ice.density;
+  return lighter * fracture::kGravity * ice.thickness * std::max(0.0, under_beam);
 }
 
 }  // namespace

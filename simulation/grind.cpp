@@ -12,11 +12,17 @@ using dynamics::BlindOverlap;
 /// Blind overlaps smaller than this share of the smaller body are left: what contacts part soon.
 constexpr double kLeastShare = 0.005;
 
-/// Which of two bodies is ground: the floe in a ship or structure; of two floes the thinner, or the smaller.
-BodyIndex ground_of(const Population& population, const BlindOverlap& overlap) {
+/// What a floe's edge bears per metre before it crushes, σ_c h [N/m].
+double crushing_line_load(const fracture::Ice& ice) {
+  return ice.compressive_strength * ice.thickness;
+}
+
+/// Which of two bodies is ground: the floe in a ship or structure; of two floes the weaker, or the smaller.
+BodyIndex ground_of(const Setup& setup, const Population& population, const BlindOverlap& overlap) {
   if (population.is_ship(overlap.a)) return overlap.b;
-  const double thicker = population.bodies.thickness[overlap.a] - population.bodies.thickness[overlap.b];
-  if (thicker != 0) return thicker > 0 ? overlap.b : overlap.a;
+  const double stronger = crushing_line_load(ice_of_body(setup, population, overlap.a)) -
+                          crushing_line_load(ice_of_body(setup, population, overlap.b));
+  if (stronger != 0) return stronger > 0 ? overlap.b : overlap.a;
   return population.bodies.area[overlap.a] < population.bodies.area[overlap.b] ? overlap.a : overlap.b;
 }
 
@@ -76,7 +82,7 @@ void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vec
     if (std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end()) continue;
     const GrindCriterion criterion = criterion_of(population, overlap);
     if (criterion.overlap_area < criterion.least_area) continue;
-    const BodyIndex ground = ground_of(population, overlap);
+    const BodyIndex ground = ground_of(setup, population, overlap);
     const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
     const geometry::Pose ground_from_by =
         relative_pose(dynamics::water_from_body(bodies, ground), dynamics::water_from_body(bodies, by));

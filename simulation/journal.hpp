@@ -110,6 +110,7 @@ struct BirthRecord {
   double area = 0;                   ///< [m²]
   double mass = 0;                   ///< [kg]
   geometry::Point centroid_in_body;  ///< [m]
+  std::int32_t own_ice = -1;         ///< index in Scene::own_ice; −1: it is the scene's
 };
 
 /// The same with its shape. Written as one line of floes.ndjson.
@@ -208,6 +209,18 @@ struct AreaLedger {
   double brash_area = 0;
   double rounding_defect = 0;  ///< what rounding added (+) or took (−)
   double imbalance = 0;        ///< the sum of all places − rounding − initial
+};
+
+/// The same by mass [kg], each floe with its own density and thickness.
+struct MassLedger {
+  double initial_ice_mass = 0;
+  double floe_mass = 0;
+  double under_hull_mass = 0;
+  double under_ice_mass = 0;
+  double submerged_mass = 0;
+  double brash_mass = 0;
+  double rounding_mass = 0;
+  double imbalance = 0;
 };
 
 struct Counts {

@@ -68,6 +68,8 @@ constexpr double kBesides = 1.8;
 MemoryEstimate estimate_memory(const Scene& scene) {
   MemoryEstimate estimate;
   const double drag = block(sizeof(dynamics::DragShape));
+  const double own_ice = 2 * sizeof(fracture::Ice) * static_cast<double>(scene.own_ice.size());
+  estimate.at_start = estimate.all_moving = own_ice;
   for (const FloeSpec& floe : scene.floes) {
     const bool is_moving =
         floe.velocity != geometry::Vector{} || floe.angular_velocity != 0 || scene.water.shear.rate != 0;

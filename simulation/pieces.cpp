@@ -15,7 +15,7 @@ NewFloe child_of(const Population& population, FloeId parent) {
   const dynamics::Bodies& bodies = population.bodies;
   const BodyIndex body = population.body_of(parent);
   NewFloe child;
-  child.thickness = bodies.thickness[body];
+  child.own_ice = population.floes[parent].own_ice;
   child.parent = parent;
   child.generation = population.floes[parent].generation + 1;
   child.water_from_body = dynamics::water_from_body(bodies, body);
@@ -43,9 +43,8 @@ const geometry::Piece* still_fast(const Population& population, const Breakage& 
 }
 
 /// Enters the motion of ice that leaves the floe list with its parent's motion.
-void enter_removed(const NewFloe& piece, const geometry::Measures& measures, double ice_density,
+void enter_removed(const NewFloe& piece, const geometry::Measures& measures, double mass_per_area,
                    double& energy_sink, AuditSums& audit) {
-  const double mass_per_area = ice_density * piece.thickness;
   const geometry::Vector arm =
       transform(piece.water_from_body, measures.centroid) - piece.water_from_body.position;
   const geometry::Vector velocity = piece.velocity + cross(piece.angular_velocity, arm);
@@ -56,11 +55,15 @@ void enter_removed(const NewFloe& piece, const geometry::Measures& measures, dou
   audit.impulses += length(carried);
 }
 
-void enter_areas(const Event& event, const geometry::CutLedger& cut, Accounts& accounts) {
+void enter_areas(const Event& event, const geometry::CutLedger& cut, double mass_per_area,
+                 Accounts& accounts) {
   accounts.counts.snap_rounded += cut.snap_rounded;
   accounts.ledger.submerged_area += event.submerged_area;
   accounts.ledger.brash_area += event.brash_area;
   accounts.ledger.rounding_defect += event.rounding_defect;
+  accounts.masses.submerged_mass += mass_per_area * event.submerged_area;
+  accounts.masses.brash_mass += mass_per_area * event.brash_area;
+  accounts.masses.rounding_mass += mass_per_area * event.rounding_defect;
 }
 
 }  // namespace
@@ -71,6 +74,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   Event& event = breakage.event;
   NewFloe child = child_of(population, event.floe);
   const bool was_fast = population.is_fast(event.floe);
+  const double own_mass_per_area = mass_per_area(ice_of_floe(setup, population, event.floe));
   const geometry::Piece* fast = still_fast(population, breakage, cut);
   const dynamics::Inheritance inheritance =
       population.pairs.inheritance_of(population.bodies, population.body_of(event.floe));
@@ -86,7 +90,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
     if (is_submerged || is_brash) {
       (is_submerged ? event.submerged_area : event.brash_area) += measures.area;
       accounts.counts.brash_pieces += is_submerged ? 0 : 1;
-      if (!was_fast) enter_removed(child, measures, setup.scene.ice.density, energy_sink, accounts.audit);
+      if (!was_fast) enter_removed(child, measures, own_mass_per_area, energy_sink, accounts.audit);
       continue;
     }
     child.shape = piece.shape;
@@ -108,7 +112,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   }
   event.brash_area += cut.ledger.area_slivers;
   event.rounding_defect = cut.ledger.rounding_defect;
-  enter_areas(event, cut.ledger, accounts);
+  enter_areas(event, cut.ledger, own_mass_per_area, accounts);
   ++(accounts.counts.*breakage.count);
   journal.events.push_back(std::move(event));
   for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));

@@ -34,7 +34,7 @@ dynamics::ContactRule contact_rule(const Setup& setup) {
 NewFloe new_floe_of(const FloeSpec& spec, Point centroid, const Setup& setup) {
   NewFloe floe;
   floe.shape.polygon = spec.polygon_in_world;
-  floe.thickness = setup.scene.ice.thickness;
+  floe.own_ice = spec.own_ice;
   floe.angular_velocity = spec.angular_velocity;
   floe.velocity = spec.velocity;
   floe.is_fast = spec.is_fast;
@@ -83,19 +83,24 @@ FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
                 const geometry::Measures& measures, Population& population, Journal& journal) {
   const FloeId id = population.floe_count();
   dynamics::NewBody body =
-      new_body_of(floe.shape.polygon, measures, setup.scene.ice.density, floe.thickness, floe.is_fast);
+      new_body_of(floe.shape.polygon, measures, ice_of(setup.scene, floe.own_ice), floe.is_fast);
   body.position = transform(floe.water_from_body, body.centroid);
   body.angle = floe.angle;
   // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
   body.angular_velocity = floe.angular_velocity;
-  population.floes.push_back({floe.parent, clock.time(), floe.generation, measures.area, floe.shape, false});
+  population.floes.push_back({.parent = floe.parent,
+                              .born = clock.time(),
+                              .generation = floe.generation,
+                              .own_ice = floe.own_ice,
+                              .area = measures.area,
+                              .shape = floe.shape});
   const BodyIndex index = add_body(population.bodies, body);
   assert(population.floe_of(index) == id);
   population.pairs.add(population.bodies, index);
-  journal.births.push_back(
-      {{id, floe.parent, clock.time(), floe.generation, measures.area, body.mass, body.centroid},
-       floe.shape.polygon});
+  journal.births.push_back({{id, floe.parent, clock.time(), floe.generation, measures.area, body.mass,
+                             body.centroid, floe.own_ice},
+                            floe.shape.polygon});
   return id;
 }
 
@@ -169,21 +174,15 @@ dynamics::NewBody new_body_of(const ShipSpec& ship, Vector water_drift) {
 }
 
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
-                              double ice_density, double thickness, bool is_fast) {
+                              const fracture::Ice& ice, bool is_fast) {
   dynamics::NewBody body;
   body.is_prescribed = is_fast;
-  body.mass = ice_density * thickness * measures.area;
-  body.moment = ice_density * thickness * measures.second_moment;
+  body.mass = ice.density * ice.thickness * measures.area;
+  body.moment = ice.density * ice.thickness * measures.second_moment;
   body.centroid = measures.centroid;
-  body.thickness = thickness;
+  body.thickness = ice.thickness;
   body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline(polygon_in_body));
   return body;
-}
-
-fracture::Ice ice_of(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe) {
-  fracture::Ice ice = setup.scene.ice;
-  ice.thickness = bodies.thickness[floe];
-  return ice;
 }
 
 }  // namespace polynya::simulation

@@ -18,9 +18,10 @@ using dynamics::BodyIndex;
 /// A floe's cold data. Its body is at index ships + floe id; both are never reused.
 struct Floe {
   FloeId parent = kNoFloe;
-  double born = 0;        ///< [s]
-  int generation = 0;     ///< fractures since the scene's floe
-  double area = 0;        ///< [m²]
+  double born = 0;                   ///< [s]
+  int generation = 0;                ///< fractures since the scene's floe
+  std::int32_t own_ice = kSceneIce;  ///< index in Scene::own_ice, as its parent's
+  double area = 0;                   ///< [m²]
   geometry::Shape shape;  ///< body frame: the scene's coordinates of its oldest ancestor; empty once it broke
   bool is_under = false;  ///< a tile under a hull: it meets no body, and rests in the water
 };
@@ -78,7 +79,7 @@ struct Population {
 /// A floe to be added; the population gives it an id and a body.
 struct NewFloe {
   geometry::Shape shape;
-  double thickness = 0;  ///< [m]
+  std::int32_t own_ice = kSceneIce;  ///< index in Scene::own_ice
   FloeId parent = kNoFloe;
   int generation = 0;
   geometry::Pose water_from_body;
@@ -114,13 +115,23 @@ bool is_current_still_at(BodyIndex body, const Setup& setup, const dynamics::Bod
 /// The body of a ship where the scene has it.
 dynamics::NewBody new_body_of(const ShipSpec& ship, geometry::Vector water_drift);
 
-/// The body of a floe, without its place and motion. Its thickness [m] is kept there, in Bodies::thickness:
-/// drag and fracture read it from the body, and pieces inherit it.
+/// The body of a floe, without its place and motion. Its thickness is kept there too, in Bodies::thickness,
+/// where drag reads it.
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
-                              double ice_density, double thickness, bool is_fast);
+                              const fracture::Ice& ice, bool is_fast);
 
-/// The scene's ice, as thick as a floe.
-fracture::Ice ice_of(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe);
+/// The ice of a floe: its own where it has that, else the scene's.
+inline const fracture::Ice& ice_of_floe(const Setup& setup, const Population& population, FloeId floe) {
+  return ice_of(setup.scene, population.floes[floe].own_ice);
+}
+inline const fracture::Ice& ice_of_body(const Setup& setup, const Population& population, BodyIndex body) {
+  return ice_of_floe(setup, population, population.floe_of(body));
+}
+
+/// ρ h of a floe [kg/m²].
+inline double mass_per_area(const fracture::Ice& ice) {
+  return ice.density * ice.thickness;
+}
 
 /// Floes slower than this, all their points included, that touch nothing are at rest with the water [m/s].
 /// Quadratic drag alone never brings anything to rest.

@@ -123,6 +123,7 @@ class Resurfacing {
     Event event = event_of(setup_, clock_, population_, tile, EventKind::kStayUnder);
     event.under_ice_area = population_.floes[tile.floe].area;
     accounts_.ledger.under_ice_area += event.under_ice_area;
+    accounts_.masses.under_ice_mass += population_.bodies.mass[population_.body_of(tile.floe)];
     ++accounts_.counts.stayed_under;
     retire_floe(tile.floe, population_, journal_);
     journal_.events.push_back(std::move(event));
@@ -164,6 +165,8 @@ class Resurfacing {
     if (is_floe) event.children.push_back(add_piece(tile, polygon, measures, place));
     accounts_.counts.brash_pieces += is_floe ? 0 : 1;
     accounts_.ledger.brash_area += event.brash_area;
+    accounts_.masses.brash_mass +=
+        mass_per_area(ice_of_floe(setup_, population_, tile.floe)) * event.brash_area;
     ++accounts_.counts.came_up;
     retire_floe(tile.floe, population_, journal_);
     journal_.events.push_back(std::move(event));
@@ -174,7 +177,7 @@ class Resurfacing {
                    const Place& place) {
     NewFloe piece;
     piece.shape = {polygon, true};
-    piece.thickness = population_.bodies.thickness[population_.body_of(tile.floe)];
+    piece.own_ice = population_.floes[tile.floe].own_ice;
     piece.parent = tile.floe;
     piece.generation = population_.floes[tile.floe].generation + 1;
     piece.water_from_body = place.water_from_body;

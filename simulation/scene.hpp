@@ -95,6 +95,7 @@ struct FractureSettings {
   BendingModelKind bending = BendingModelKind::kFsiDatabase;
   fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;  ///< of kFsiDatabase
   bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
+  double bending_scatter = 0;  ///< deviation / mean of each bending event's flexural strength, log-normal [-]
   fracture::SplittingModel splitting = fracture::SplittingModel::kLefm;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
   fracture::LeastPiece least_piece;      ///< that a crack leaves on either side
@@ -143,12 +144,15 @@ struct ShipSpec {
   std::optional<MooringSettings> mooring;
 };
 
+inline constexpr std::int32_t kSceneIce = -1;  ///< instead of an index in Scene::own_ice
+
 struct FloeSpec {
   geometry::Polygon polygon_in_world;  ///< valid, at the start [m]
   geometry::Vector velocity;    ///< of the centre of mass relative to the water there, at the start [m/s]
   double angular_velocity = 0;  ///< relative to the water's own turning there, at the start [rad/s]
   bool is_fast =
       false;  ///< held at its velocity, which is then over ground, whatever pushes it; it does not turn
+  std::int32_t own_ice = kSceneIce;  ///< index in Scene::own_ice
 };
 
 /// Which contacts are recorded at each frame.
@@ -183,7 +187,14 @@ struct Scene {
   RecordSettings record;
   std::vector<ShipSpec> ships;  ///< and then the structures
   std::vector<FloeSpec> floes;
+  /// Of floes whose thickness, density, strengths or toughness are not the scene's; the rest of it is.
+  std::vector<fracture::Ice> own_ice;
 };
+
+/// The ice of a floe by its index in the scene's own_ice.
+inline const fracture::Ice& ice_of(const Scene& scene, std::int32_t own_ice) {
+  return own_ice == kSceneIce ? scene.ice : scene.own_ice[static_cast<std::size_t>(own_ice)];
+}
 
 /// What a row of forces.csv covers: a whole number of steps [s].
 double recording_interval(const Scene& scene);

@@ -7,6 +7,7 @@
 #include "fracture/bending/edge_deflection.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "simulation/hull_angle.hpp"
+#include "simulation/ice_scatter.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -94,7 +95,9 @@ fracture::BendingLoad bending_load(const Setup& setup, const ShipContactLoad& lo
 
 ShipContactLoad load_of(const Setup& setup, const Population& population, const Contact& c) {
   const dynamics::Bodies& bodies = population.bodies;
-  ShipContactLoad load{.contact = c, .ice = ice_of(setup, bodies, c.b)};
+  ShipContactLoad load{.contact = c, .ice = ice_of_body(setup, population, c.b)};
+  if (const double scatter = setup.scene.fracture.bending_scatter; scatter > 0)
+    load.ice.flexural_strength *= strength_factor(setup.scene.seed, c.record->first_touch_in_b, scatter);
   load.impulse = eq5_impulse(setup, bodies, c);
   load.hull_angle = hull_angle_at(setup.scene.ships[c.a].hull, bodies, c);
   load.shares = fracture::crushing_shares(load.hull_angle, load.ice.friction, c.approach_speed, c.slip_speed);

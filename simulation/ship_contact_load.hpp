@@ -12,7 +12,7 @@ namespace polynya::simulation {
 /// One contact of a ship with ice, as the fracture laws see it.
 struct ShipContactLoad {
   const dynamics::Contact& contact;
-  fracture::Ice ice;              ///< of the floe
+  fracture::Ice ice;              ///< of the floe, with the flexural strength of this contact
   double impulse = 0;             ///< j of Eq. (5) [N s]
   double hull_angle = 0;          ///< θ_s [rad]
   geometry::WedgeAngles wedge{};  ///< of the ice, where its floe is large enough to break

@@ -147,6 +147,20 @@ AreaLedger Simulation::area_ledger() const {
   return ledger;
 }
 
+MassLedger Simulation::mass_ledger() const {
+  const Population& population = world_->population;
+  MassLedger ledger = world_->accounts.masses;
+  for (FloeId id = 0; id < population.floe_count(); ++id) {
+    if (!population.is_alive(id)) continue;
+    (population.floes[id].is_under ? ledger.under_hull_mass : ledger.floe_mass) +=
+        population.bodies.mass[population.body_of(id)];
+  }
+  ledger.imbalance = ledger.floe_mass + ledger.under_hull_mass + ledger.under_ice_mass +
+                     ledger.submerged_mass + ledger.brash_mass - ledger.rounding_mass -
+                     ledger.initial_ice_mass;
+  return ledger;
+}
+
 Counts Simulation::counts() const {
   const Population& population = world_->population;
   Counts counts = world_->accounts.counts;
@@ -177,6 +191,7 @@ FloeState state_of(const World& world, FloeId id) {
   }
   state.area = floe.area;
   state.mass = bodies.mass[body];
+  state.ice = &ice_of_floe(world.setup, world.population, id);
   state.polygon_in_body = &floe.shape.polygon;
   return state;
 }

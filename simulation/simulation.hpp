@@ -33,6 +33,7 @@ struct FloeState {
   double angular_velocity = 0;                         ///< [rad/s]
   double area = 0;                                     ///< [m²]
   double mass = 0;                                     ///< [kg]
+  const fracture::Ice* ice = nullptr;                  ///< valid as long as the simulation
   const geometry::Polygon* polygon_in_body = nullptr;  ///< valid as long as the floe
 };
 
@@ -100,6 +101,7 @@ class Simulation {
   const Scene& scene() const;
   Journal& journal();
   AreaLedger area_ledger() const;
+  MassLedger mass_ledger() const;
   Audit audit() const;  ///< of energy and momentum
   Counts counts() const;
   std::vector<FloeState> floe_states() const;  ///< of floes that float and have not broken, in id order

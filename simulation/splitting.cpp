@@ -126,11 +126,12 @@ Pressing press(const Setup& setup, const dynamics::Bodies& bodies, std::span<con
 
 /// The crack from a mouth along a direction, where it can run: it does not pare, and it is no less than a
 /// share of its way to F_max.
-std::optional<Candidate> candidate_of(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+std::optional<Candidate> candidate_of(const Setup& setup, const Population& population, BodyIndex floe,
                                       const Pressing& pressing, const Mouth& mouth, Vector direction,
                                       double least_share) {
+  const dynamics::Bodies& bodies = population.bodies;
   const fracture::Opening opening = fracture::opening_of(pressing.pushes, mouth.point, direction);
-  const fracture::Ice ice = ice_of(setup, bodies, floe);
+  const fracture::Ice& ice = ice_of_body(setup, population, floe);
   if (opening.force() <= 0 ||
       opening.force() < least_share * fracture::lefm_splitting_force(ice, ice.thickness, ice.thickness))
     return std::nullopt;
@@ -148,7 +149,7 @@ std::optional<Candidate> candidate_of(const Setup& setup, const dynamics::Bodies
       fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
   criteria.fracture_toughness = ice.fracture_toughness;
   if (!(candidate.share() >= least_share)) return std::nullopt;
-  measure_sides(setup, bodies, floe, candidate.path_in_body, criteria);
+  measure_sides(setup, population, floe, candidate.path_in_body, criteria);
   criteria.opening_capacity =
       fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
   if (criteria.pares || !(candidate.share() >= least_share)) return std::nullopt;
@@ -156,7 +157,7 @@ std::optional<Candidate> candidate_of(const Setup& setup, const dynamics::Bodies
 }
 
 /// The crack that is nearest to running.
-std::optional<Candidate> first_to_run(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex floe,
+std::optional<Candidate> first_to_run(const Setup& setup, const Population& population, BodyIndex floe,
                                       const Pressing& pressing, double least_share) {
   std::optional<Candidate> best;
   for (const Mouth& mouth : pressing.mouths) {
@@ -165,7 +166,7 @@ std::optional<Candidate> first_to_run(const Setup& setup, const dynamics::Bodies
       const double turn = ((k + 1) / 2) * (k % 2 == 0 ? -kBetweenDirections : kBetweenDirections);
       const Vector direction = rotate(geometry::Rotation::by(turn), mouth.direction);
       const double share = best ? std::max(least_share, best->share()) : least_share;
-      auto candidate = candidate_of(setup, bodies, floe, pressing, mouth, direction, share);
+      auto candidate = candidate_of(setup, population, floe, pressing, mouth, direction, share);
       if (candidate && (!best || candidate->share() > best->share())) best = candidate;
     }
   }
@@ -176,7 +177,7 @@ std::optional<Candidate> first_to_run(const Setup& setup, const dynamics::Bodies
 std::optional<PendingFracture> split_of(const Setup& setup, const Population& population,
                                         std::span<const Contact> contacts, BodyIndex floe) {
   const dynamics::Bodies& bodies = population.bodies;
-  const fracture::Ice ice = ice_of(setup, bodies, floe);
+  const fracture::Ice& ice = ice_of_body(setup, population, floe);
   const double size = floe_size(population, floe);
   if (size < breakable_size(setup, ice)) return std::nullopt;
   const Pressing pressing = press(setup, bodies, contacts, floe);
@@ -184,7 +185,7 @@ std::optional<PendingFracture> split_of(const Setup& setup, const Population& po
   if (pressing.mouths.empty() ||
       pressing.most < fracture::lefm_splitting_force(ice, ice.thickness, ice.thickness))
     return std::nullopt;
-  const auto crack = first_to_run(setup, bodies, floe, pressing, 1);
+  const auto crack = first_to_run(setup, population, floe, pressing, 1);
   if (!crack) return std::nullopt;
   const Contact& c = *crack->mouth.contact;
   const BodyIndex by = other_of(c, floe);
@@ -216,15 +217,17 @@ std::span<const Contact> contacts_beside(const std::vector<Contact>& contacts, c
 }
 
 /// Enters the forces that there were into a fracture that another rule decided.
-void enter_true_forces(const Setup& setup, const dynamics::Bodies& bodies,
-                       const std::vector<Contact>& contacts, PendingFracture& pending) {
+void enter_true_forces(const Setup& setup, const Population& population, const std::vector<Contact>& contacts,
+                       PendingFracture& pending) {
+  const dynamics::Bodies& bodies = population.bodies;
   const auto c = std::ranges::find(contacts, pending.record, &Contact::record);
   if (c == contacts.end()) return;
+  const fracture::Ice& ice = ice_of_body(setup, population, c->b);
   fracture::FailureCriteria& criteria = pending.criteria;
   criteria.contact_force = length(force_on(*c, c->b, setup.scene.time.step));
   const Pressing pressing = press(setup, bodies, contacts_beside(contacts, *c), c->b);
   if (setup.scene.fracture.splitting == fracture::SplittingModel::kLefm) {
-    const auto crack = first_to_run(setup, bodies, c->b, pressing, 0);
+    const auto crack = first_to_run(setup, population, c->b, pressing, 0);
     if (!crack) return;
     criteria.crack_length = crack->criteria.crack_length;
     criteria.crack_width = crack->criteria.crack_width;
@@ -234,22 +237,22 @@ void enter_true_forces(const Setup& setup, const dynamics::Bodies& bodies,
   } else if (criteria.crack_length > 0) {
     if (pending.failure ==
         fracture::Failure::kBend)  // only now: most bends that are pending do not come about
-      measure_crack_and_sides(setup, bodies, c->b, pending.crack_in_body, criteria);
+      measure_crack_and_sides(setup, population, c->b, pending.crack_in_body, criteria);
     const fracture::Opening opening = fracture::opening_of(pressing.pushes, c->middle(), c->normal);
     criteria.flank_forces[0] = opening.left;
     criteria.flank_forces[1] = opening.right;
     criteria.opening_force = opening.force();
-    criteria.opening_capacity = fracture::lefm_splitting_force(ice_of(setup, bodies, c->b),
-                                                               criteria.crack_length, criteria.crack_width);
+    criteria.opening_capacity =
+        fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
   }
-  criteria.fracture_toughness = setup.scene.ice.fracture_toughness;
+  criteria.fracture_toughness = ice.fracture_toughness;
 }
 
 }  // namespace
 
 void find_splits(const Setup& setup, const Population& population, StepData& step) {
   for (PendingFracture& pending : step.fractures)
-    enter_true_forces(setup, population.bodies, step.contacts, pending);
+    enter_true_forces(setup, population, step.contacts, pending);
   if (setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) return;
   std::vector<PendingFracture> splits;
   for (std::size_t i = 0; i < step.contacts.size();) {

@@ -40,8 +40,8 @@ void for_pressed(const Setup& setup, const Population& population, std::vector<C
 }
 
 fracture::TiltResistance resistance_of(const Setup& setup, const Population& population, FloeId floe) {
-  return fracture::tilt_resistance(ice_of(setup, population.bodies, population.body_of(floe)),
-                                   setup.scene.water.water, population.floes[floe].area,
+  return fracture::tilt_resistance(ice_of_floe(setup, population, floe), setup.scene.water.water,
+                                   population.floes[floe].area,
                                    setup.scene.fracture.going_under.tilting.added_mass_factor);
 }
 
@@ -96,8 +96,7 @@ void tilt(const Setup& setup, const Population& population, const Pressed& press
   const fracture::EdgeMotion edge =
       fracture::tilted(resistance, before, vertical_force, settings.damping, dt);
   if (edge.deflection > 0) tilted.push_back({pressed.floe, pressed.ship, edge});
-  const double least =
-      settings.edge_deflection * population.bodies.thickness[population.body_of(pressed.floe)];
+  const double least = settings.edge_deflection * ice_of_floe(setup, population, pressed.floe).thickness;
   if (edge.deflection < least) return;
   submersions.push_back({.floe = pressed.floe,
                          .ship = pressed.ship,

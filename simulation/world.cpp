@@ -11,7 +11,10 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
   population.helms.resize(setup.scene.ships.size());
   if (start == Start::kEmpty) return;
   add_scene(setup, clock, population, journal);
-  for (const Floe& floe : population.floes) accounts.ledger.initial_ice_area += floe.area;
+  for (FloeId id = 0; id < population.floe_count(); ++id) {
+    accounts.ledger.initial_ice_area += population.floes[id].area;
+    accounts.masses.initial_ice_mass += population.bodies.mass[population.body_of(id)];
+  }
   accounts.counts.floes_initial = population.floe_count();
   take_helms(setup, clock, population);
   open_accounts(population.bodies, accounts.audit);

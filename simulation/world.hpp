@@ -106,6 +106,7 @@ struct StepData {
 /// What has happened so far, in sums.
 struct Accounts {
   AreaLedger ledger;  ///< initial, submerged, brash, rounding; the rest is derived
+  MassLedger masses;  ///< likewise
   AuditSums audit;
   Counts counts;
   std::vector<ShipLoads> loads;                                       ///< per ship, since the last sample

@@ -17,6 +17,7 @@ void LastWholeStep::take(const simulation::Simulation& simulation, std::int64_t 
   counts_.steps = world.clock.steps;
   time_ = world.clock.time();
   ledger_ = world.accounts.ledger;
+  masses_ = world.accounts.masses;
   sums_ = world.accounts.audit;
 }
 
@@ -25,9 +26,12 @@ void LastWholeStep::fill(RunSummary& summary) const {
   summary.steps = counts_.steps;
   summary.sim_time = time_;
   summary.ledger = ledger_;
-  summary.ledger.floe_area =
-      ledger_.initial_ice_area + ledger_.rounding_defect - ledger_.submerged_area - ledger_.brash_area;
+  summary.ledger.floe_area = ledger_.initial_ice_area + ledger_.rounding_defect - ledger_.submerged_area -
+                             ledger_.brash_area - ledger_.under_ice_area;
   summary.ledger.imbalance = 0;
+  summary.masses = masses_;
+  summary.masses.floe_mass = masses_.initial_ice_mass + masses_.rounding_mass - masses_.submerged_mass -
+                             masses_.brash_mass - masses_.under_ice_mass;
   const simulation::Audit at_rest = audit(sums_, 0, {});
   summary.audit = audit(sums_, -at_rest.energy_imbalance, -at_rest.momentum_imbalance);
 }

@@ -22,6 +22,7 @@ class LastWholeStep {
   double time_ = 0;  ///< [s]
   simulation::Counts counts_;
   simulation::AreaLedger ledger_;
+  simulation::MassLedger masses_;
   simulation::AuditSums sums_;
 };
 

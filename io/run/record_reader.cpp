@@ -76,6 +76,7 @@ fracture::FailureCriteria criteria_of(const JsonValue& criterion) {
   criteria.fracture_toughness = number_or(criterion, "fracture_toughness_Pa_sqrt_m", 0);
   criteria.vertical_force = number(criterion, "vertical_force_N");
   criteria.bending_capacity = number(criterion, "bending_capacity_N");
+  criteria.flexural_strength = number_or(criterion, "flexural_strength_Pa", 0);
   return criteria;
 }
 

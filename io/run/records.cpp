@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "io/run/force_columns.hpp"
+#include "io/scene/floe_ice.hpp"
 #include "io/text/csv_row.hpp"
 #include "io/text/geojson_layer.hpp"
 #include "io/text/json_writer.hpp"
@@ -65,6 +66,7 @@ void append_criterion(JsonWriter& json, const simulation::Event& event) {
     json.key("fracture_toughness_Pa_sqrt_m").value(c.fracture_toughness);
   }
   json.key("vertical_force_N").value(c.vertical_force).key("bending_capacity_N").value(c.bending_capacity);
+  if (c.flexural_strength > 0) json.key("flexural_strength_Pa").value(c.flexural_strength);
   json.close('}');
 }
 
@@ -133,11 +135,13 @@ void append_state(std::string& text, double time, std::int64_t steps, std::uint6
   text += fmt::format(",{},{:016x}\n", steps, hash);
 }
 
-void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent) {
+void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent,
+                  const fracture::Ice* own_ice) {
   JsonWriter json(text);
   json.open('{').key("floe_id").value(birth.floe).key("parent_id").value(id_or_none(birth.parent));
   json.key("born_s").value(birth.time).key("generation").value(birth.generation);
   json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
+  if (own_ice) append_ice(json, *own_ice);
   json.key("centroid_m").value(birth.centroid_in_body);
   append_shape(json, parent ? parts_of(birth.polygon_in_body, *parent) : whole(birth.polygon_in_body));
   json.close('}');
@@ -184,6 +188,7 @@ std::string to_geojson(const std::vector<simulation::FloeState>& floes, double t
     json.key("floe_id").value(floe.floe).key("parent_id").value(id_or_none(floe.parent));
     json.key("born_s").value(floe.born).key("generation").value(floe.generation);
     json.key("area_m2").value(floe.area).key("mass_kg").value(floe.mass);
+    append_ice(json, *floe.ice);
     json.key("speed_m_per_s").value(geometry::length(floe.velocity));
     json.key("vx_m_per_s").value(floe.velocity.x).key("vy_m_per_s").value(floe.velocity.y);
     json.key("angular_velocity_deg_per_s").value(kDegrees * floe.angular_velocity);

@@ -41,7 +41,8 @@ std::string_view states_header();
 void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash);
 
 /// `parent` is the shape of the floe that it broke from; null where it is of the scene.
-void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent);
+void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent,
+                  const fracture::Ice* own_ice = nullptr);
 
 /// `parent` is the parent of the floe that broke.
 void append_event(std::string& text, const simulation::Event& event, std::string_view ship_name,

@@ -62,7 +62,11 @@ void check_version(const Run& run) {
 void read_floes(Run& run) {
   for_lines(run.folder, run_file::kFloes, [&](std::string_view line, int) {
     const JsonValue json = json_of(line);
-    const simulation::BirthRecord birth = birth_of(json);
+    simulation::BirthRecord birth = birth_of(json);
+    if (const RunFloe* parent = run.floe(birth.parent))
+      birth.own_ice = parent->birth.own_ice;
+    else if (birth.floe < std::ssize(run.scene.scene.floes))
+      birth.own_ice = run.scene.scene.floes[static_cast<std::size_t>(birth.floe)].own_ice;
     if (birth.floe != static_cast<FloeId>(run.floes.size()))
       throw ReadError("floes are not in the order of their ids");
     auto shape = read_shape(json);

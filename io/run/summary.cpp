@@ -1,11 +1,14 @@
 #include "io/run/summary.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "io/run/run_folder.hpp"
 #include "io/run/run_writer.hpp"
+#include "io/scene/floe_ice.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/source_text.hpp"
@@ -27,13 +30,38 @@ void append(JsonWriter& json, const ShipPeaks& peaks, const std::vector<const Fo
   json.close('}');
 }
 
-void append(JsonWriter& json, const simulation::AreaLedger& ledger) {
+void append(JsonWriter& json, const simulation::AreaLedger& ledger, const simulation::MassLedger& masses) {
   json.key("ledger").open('{');
   json.key("initial_ice_area_m2").value(ledger.initial_ice_area).key("floe_area_m2").value(ledger.floe_area);
   json.key("under_hull_area_m2").value(ledger.under_hull_area);
   json.key("under_ice_area_m2").value(ledger.under_ice_area);
   json.key("submerged_area_m2").value(ledger.submerged_area).key("brash_area_m2").value(ledger.brash_area);
   json.key("rounding_defect_m2").value(ledger.rounding_defect).key("imbalance_m2").value(ledger.imbalance);
+  json.key("initial_ice_mass_kg").value(masses.initial_ice_mass).key("floe_mass_kg").value(masses.floe_mass);
+  json.key("under_hull_mass_kg").value(masses.under_hull_mass);
+  json.key("under_ice_mass_kg").value(masses.under_ice_mass);
+  json.key("submerged_mass_kg").value(masses.submerged_mass).key("brash_mass_kg").value(masses.brash_mass);
+  json.key("rounding_mass_kg").value(masses.rounding_mass).key("imbalance_kg").value(masses.imbalance);
+  json.close('}');
+}
+
+/// Of the scene's floes, where they do not all have the scene's ice.
+void append_ice_of_floes(JsonWriter& json, const simulation::Scene& scene) {
+  if (scene.own_ice.empty()) return;
+  const auto own = std::ranges::count_if(
+      scene.floes, [](const simulation::FloeSpec& floe) { return floe.own_ice != simulation::kSceneIce; });
+  json.key("ice").open('{').key("floes_with_own_ice").value(static_cast<std::int64_t>(own));
+  for (const FloeIceProperty& property : floe_ice_properties()) {
+    double least = std::numeric_limits<double>::infinity(), most = 0, mean = 0;
+    for (const simulation::FloeSpec& floe : scene.floes) {
+      const double value = ice_of(scene, floe.own_ice).*property.value;
+      least = std::min(least, value);
+      most = std::max(most, value);
+      mean += value / static_cast<double>(scene.floes.size());
+    }
+    json.key(property.key).open('{').key("least").value(least).key("mean").value(mean);
+    json.key("most").value(most).close('}');
+  }
   json.close('}');
 }
 
@@ -154,6 +182,7 @@ RunSummary summarise(const Simulation& simulation, const RunWriter& writer, cons
   summary.sim_time = simulation.time();
   summary.wall_time = wall_time;
   summary.ledger = simulation.area_ledger();
+  summary.masses = simulation.mass_ledger();
   summary.audit = simulation.audit();
   summary.peaks = writer.peaks();
   summary.warnings = warnings_of(simulation, summary.counts);
@@ -191,7 +220,8 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);
   for (const ShipPeaks& peaks : summary.peaks) append(json, peaks, columns);
   json.close(']');
-  append(json, summary.ledger);
+  append(json, summary.ledger, summary.masses);
+  append_ice_of_floes(json, scene.scene);
   append(json, summary.audit);
   append(json, summary.counts);
   json.key("warnings").list(summary.warnings).close('}');

@@ -45,6 +45,7 @@ struct RunSummary {
   double sim_time = 0;   ///< [s]
   double wall_time = 0;  ///< [s]
   simulation::AreaLedger ledger;
+  simulation::MassLedger masses;
   simulation::Audit audit;
   simulation::Counts counts;
   std::vector<ShipPeaks> peaks;

@@ -33,6 +33,14 @@ JsonValue to_json(const geometry::Polygon& polygon) {
 }  // namespace
 
 void FloeListReader::add(std::size_t index, const JsonValue& item) {
+  auto ice = GroupIce::of(draft_, fmt::format("floes[{}]", index), problems_);
+  if (!ice) return;
+  ice_ = std::move(*ice);
+  add_floes(index, item);
+  for (IceReport& report : ice_.reports(index)) ice_reports_.push_back(report);
+}
+
+void FloeListReader::add_floes(std::size_t index, const JsonValue& item) {
   const std::string path = fmt::format("floes[{}]", index);
   const FloeGroup& group = draft_.group;
   if (group.form == FloeGroup::Form::kFile) return add_file(index, item);
@@ -144,12 +152,15 @@ void FloeListReader::add_file(std::size_t index, const JsonValue& item) {
   if (!has_room_for(polygons.size(), item, path)) return;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     add_floe(polygons[i].polygon,
-             {.source = source, .offset = polygons[i].offset, .group = index, .member = static_cast<int>(i)});
+             {.source = source, .offset = polygons[i].offset, .group = index, .member = static_cast<int>(i)},
+             polygons[i].ice);
     JsonValue spelled_out{JsonValue::Object{}, item.offset};
     spelled_out.members().push_back({"polygon", 0, to_json(polygons[i].polygon)});
     for (const JsonMember& member : item.members()) {
-      if (member.key != "file") spelled_out.members().push_back(member);
+      if (member.key != "file" && member.key != "ice") spelled_out.members().push_back(member);
     }
+    JsonValue ice = ice_.spelled_out(draft_.scene, polygons[i].ice);
+    if (!ice.is_null()) spelled_out.members().push_back({"ice", 0, std::move(ice)});
     resolved_.items().push_back(std::move(spelled_out));
   }
 }
@@ -168,9 +179,10 @@ Result<std::filesystem::path> FloeListReader::locate(const std::string& name) co
   return folder_ / name;
 }
 
-void FloeListReader::add_floe(geometry::Polygon polygon, Origin origin) {
-  draft_.scene.floes.push_back(
-      {std::move(polygon), draft_.group.velocity, draft_.group.angular_velocity, draft_.group.is_fast});
+void FloeListReader::add_floe(geometry::Polygon polygon, Origin origin, const GivenIce& given) {
+  const std::int32_t own_ice = ice_.add_to(draft_.scene, given);
+  draft_.scene.floes.push_back({std::move(polygon), draft_.group.velocity, draft_.group.angular_velocity,
+                                draft_.group.is_fast, own_ice});
   draft_.floe_origins.push_back(origin);
 }
 

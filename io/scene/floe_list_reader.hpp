@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scene/floe_ice.hpp"
 #include "io/scene/scene_draft.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_value.hpp"
@@ -18,8 +19,13 @@ class FloeListReader {
  public:
   /// All of these outlive it. `folder` is the scene's.
   FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, ProblemCollector& problems,
-                 JsonValue& resolved, std::vector<FieldReport>& fields)
-      : folder_(folder), draft_(draft), problems_(problems), resolved_(resolved), fields_(fields) {}
+                 JsonValue& resolved, std::vector<FieldReport>& fields, std::vector<IceReport>& ice)
+      : folder_(folder),
+        draft_(draft),
+        problems_(problems),
+        resolved_(resolved),
+        fields_(fields),
+        ice_reports_(ice) {}
 
   /// Adds the floes of one item of the list, which the draft's group holds.
   void add(std::size_t index, const JsonValue& item);
@@ -27,7 +33,8 @@ class FloeListReader {
  private:
   void add_field(std::size_t index, const JsonValue& item);
   void add_file(std::size_t index, const JsonValue& item);
-  void add_floe(geometry::Polygon polygon, Origin origin);
+  void add_floes(std::size_t index, const JsonValue& item);
+  void add_floe(geometry::Polygon polygon, Origin origin, const GivenIce& given = {});
   void complete(simulation::FloeField& field) const;
   bool check_rings(const simulation::FloeField& field, const JsonValue& json, const std::string& path);
   bool check_lattice(const JsonValue& item, const std::string& path);
@@ -42,6 +49,8 @@ class FloeListReader {
   ProblemCollector& problems_;
   JsonValue& resolved_;
   std::vector<FieldReport>& fields_;
+  std::vector<IceReport>& ice_reports_;
+  GroupIce ice_;  ///< of the item at hand
 };
 
 }  // namespace polynya::io

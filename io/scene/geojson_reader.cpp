@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/scene/floe_group.hpp"
+#include "io/scene/floe_ice.hpp"
 #include "io/scene/scene_resolve.hpp"
 #include "io/text/degrees.hpp"
 #include "io/text/json_parser.hpp"
@@ -106,7 +107,9 @@ class GeojsonReader {
     if (area) own_area_ += area->number();
     if (!geometry || geometry->is_null())
       return report(value, path, "a feature without geometry", "a Polygon or MultiPolygon");
+    if (properties) ice_ = read_given_ice(*properties, source_, path + ".properties", problems_);
     read(*geometry, path + ".geometry");
+    ice_.clear();
   }
 
   void read_polygon(const JsonValue& value, const std::string& path) {
@@ -119,7 +122,7 @@ class GeojsonReader {
       (&item == &value.items().front() ? polygon.outer : polygon.holes.emplace_back()) = std::move(*ring);
     }
     evidence_.add(polygon);
-    floes.polygons.push_back({in_house_notation(std::move(polygon)), value.offset});
+    floes.polygons.push_back({in_house_notation(std::move(polygon)), value.offset, ice_});
   }
 
   std::optional<geometry::Ring> read_ring(const JsonValue& value, const std::string& path) {
@@ -163,6 +166,7 @@ class GeojsonReader {
   std::size_t source_;
   ProblemCollector& problems_;
   CoordinateEvidence evidence_;
+  GivenIce ice_;         ///< of the feature at hand
   double own_area_ = 0;  ///< Σ of the features' area_m2 [m²]
   std::size_t large_count_ = 0;
   std::uint32_t large_offset_ = 0;  ///< of the first too large position, its path and itself

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -36,6 +37,23 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, Pr
   if (scene.ships.empty() && scene.floes.empty() && problems.count() == 0)
     problems.add(0, resolved.offset,
                  {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
+}
+
+/// The first floe of each entry whose own ice sinks.
+void check_own_density(const SceneDraft& draft, ProblemCollector& problems) {
+  const double water = draft.scene.water.water.density;
+  std::optional<std::size_t> last;  // entry that has its report
+  for (std::size_t i = 0; i < draft.scene.floes.size(); ++i) {
+    const std::int32_t own_ice = draft.scene.floes[i].own_ice;
+    const Origin& origin = draft.floe_origins[i];
+    if (own_ice == simulation::kSceneIce || last == origin.group) continue;
+    const double density = ice_of(draft.scene, own_ice).density;
+    if (density < water) continue;
+    last = origin.group;
+    problems.report(origin.source, origin.offset, floe_path(draft, i) + ": ice.density_kg_per_m3",
+                    fmt::format("{:g}: this ice sinks", density),
+                    fmt::format("numbers < the water's density, {:g} [kg/m³]; `most` bounds a law", water));
+  }
 }
 
 /// Fast ice does not turn, and what rigid impulses do between two prescribed motions is not defined.
@@ -204,6 +222,7 @@ Polygon waterline_in_world(const simulation::ShipSpec& ship) {
 
 void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
   check_water_and_time(draft, resolved, problems);
+  if (problems.count() == 0) check_own_density(draft, problems);
   check_fast_ice(draft, resolved, problems);
   std::vector<Named> named;
   std::vector<Polygon> outlines;

@@ -1,15 +1,31 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "fracture/scatter.hpp"
 #include "geometry/shape/polygon.hpp"
+#include "io/text/json_value.hpp"
 #include "simulation/floe_field.hpp"
 #include "simulation/scene.hpp"
 
 namespace polynya::io {
+
+inline constexpr std::size_t kFloeIceProperties = 6;  ///< of ice, that a floe may have of its own
+
+/// Properties that a feature of a floe file gives, by their numbers (floe_ice.hpp).
+using GivenIce = std::vector<std::pair<std::uint8_t, double>>;
+
+/// The "ice" of such an entry as it is written: numbers and laws.
+struct IceDraft {
+  std::array<std::optional<JsonValue>, kFloeIceProperties> properties;
+  std::uint64_t seed = 0;
+};
 
 /// One entry of the scene's "floes" while it is read. The fields of the chosen form are filled in.
 struct FloeGroup {
@@ -28,6 +44,7 @@ struct FloeGroup {
   geometry::Vector velocity;    ///< relative to the water [m/s]
   double angular_velocity = 0;  ///< [rad/s]
   bool is_fast = false;         ///< then the velocity is over ground
+  IceDraft ice;
 };
 
 /// A ship's engine while it is read: the bollard pull follows from the rest where it is not given.
@@ -46,6 +63,13 @@ struct Origin {
   int member = -1;              ///< which floe of a lattice or file; −1: the only one
   bool is_known_valid = false;  ///< by construction
   bool is_structure = false;
+};
+
+/// How a property of the floes of one entry came out that was drawn.
+struct IceReport {
+  std::size_t group = 0;     ///< index in the scene's "floes"
+  std::size_t property = 0;  ///< its number (floe_ice.hpp)
+  fracture::ScatterMeasures measures;
 };
 
 /// A scene while it is read: the field table's setters write into it.

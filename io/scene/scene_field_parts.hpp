@@ -70,5 +70,6 @@ const Object& mooring_object();
 const Object& pilot_object();
 const Object& structure_object();
 const Object& floes_object();
+const Object& floe_ice_object();
 
 }  // namespace polynya::io

@@ -20,7 +20,7 @@ const Object kScene{
      field("description", Kind::kText, "", {}, "\"\"", "for people",
            [](Draft& d, const Value& v) { d.description = v.text(); }),
      field("seed", Kind::kInteger, "", from(0, 9007199254740991), "1",
-           "of whatever is random: the floe fields",
+           "of whatever is random: floe fields, ice that scatters, where ice comes up",
            [](Draft& d, const Value& v) { d.scene.seed = static_cast<std::uint64_t>(v.number()); }),
      field("origin", Kind::kObject, "", {}, kLeftOut,
            "where the scene lies on the Earth, for `polynya export --geojson`; nothing else depends on it",
@@ -67,6 +67,8 @@ std::string describe_allowed(const Field& field) {
       return "true or false";
     case Kind::kChoice:
       return fmt::format("one of {}", fmt::join(field.choices, ", "));
+    case Kind::kNumberOrLaw:
+      return "a number" + describe_range(field) + ", or a law of such";
     case Kind::kVector:
       return "[x, y], each" + describe_range(field);
     case Kind::kNumberOrVector:

@@ -19,6 +19,7 @@ enum class FieldKind {
   kNumber,
   kBoolean,
   kChoice,          ///< one of a few words
+  kNumberOrLaw,     ///< one number, or the fields of law_object(), by which each floe's is drawn
   kVector,          ///< [x, y]
   kNumberOrVector,  ///< [x, y], or one number for both; resolved to [x, y]
   kNumbers,         ///< a list of numbers
@@ -62,6 +63,9 @@ struct Object {
 
 /// The whole scene.
 const Object& scene_object();
+
+/// A law of scatter; the range of its numbers, but for the spread, is that of the field it is given for.
+const Object& law_object();
 
 /// "a number > 0, ≤ 20 [m]", "one of nevel, kashtelyan".
 std::string describe_allowed(const Field& field);

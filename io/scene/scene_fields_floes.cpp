@@ -84,6 +84,42 @@ const Object kPolygon{{field("outer_m", Kind::kRing, "m", coordinate(), "",
                                  d.group.polygon.holes.push_back(ring_of(hole));
                              })}};
 
+/// Of ice's properties, by their numbers in floe_ice.hpp.
+template <std::size_t kProperty>
+void set_ice(Draft& d, const Value& v) {
+  d.group.ice.properties[kProperty] = v;
+}
+
+const Object kLaw{{field("law", Kind::kChoice, "", {}, "\"log_normal\"",
+                         "constant; uniform between least and most; normal or log_normal, cut off at them",
+                         nullptr, {"constant", "uniform", "normal", "log_normal"}),
+                   field("mean", Kind::kNumber, "", {}, kLeftOut,
+                         "of the law before it is cut off; if not given, the scene's", nullptr),
+                   field("spread", Kind::kNumber, "", from(0, 2), kLeftOut,
+                         "standard deviation / mean, likewise; normal and log_normal need it", nullptr),
+                   field("least", Kind::kNumber, "", {}, kLeftOut,
+                         "no floe has less; if not given, 3 deviations below the mean (normal), or the least "
+                         "allowed; uniform "
+                         "needs it",
+                         nullptr),
+                   field("most", Kind::kNumber, "", {}, kLeftOut, "no floe has more; likewise", nullptr)}};
+
+const Object kOwnIce{
+    {field("thickness_m", Kind::kNumberOrLaw, "m", from(1e-3, 20), kLeftOut, "thickness h", set_ice<0>),
+     field("density_kg_per_m3", Kind::kNumberOrLaw, "kg/m³", from(100, 1100), kLeftOut,
+           "density ρ_i, less than the water's", set_ice<1>),
+     field("flexural_strength_Pa", Kind::kNumberOrLaw, "Pa", from(1, 1e9), kLeftOut, "flexural strength σ_f",
+           set_ice<2>),
+     field("compressive_strength_Pa", Kind::kNumberOrLaw, "Pa", from(1, 1e10), kLeftOut,
+           "compressive strength σ_c; of two floes the weaker ice crushes", set_ice<3>),
+     field("tensile_strength_Pa", Kind::kNumberOrLaw, "Pa", from(1, 1e9), kLeftOut, "tensile strength σ_t",
+           set_ice<4>),
+     field("fracture_toughness_Pa_sqrt_m", Kind::kNumberOrLaw, "Pa √m", from(1, 1e9), kLeftOut,
+           "fracture toughness K_IC", set_ice<5>),
+     field("seed", Kind::kInteger, "", from(0, 9007199254740991), "0",
+           "another one draws other floes' ice; the scene's seed is added",
+           [](Draft& d, const Value& v) { d.group.ice.seed = static_cast<std::uint64_t>(v.number()); })}};
+
 const Object kFloes{
     {field("lattice", Kind::kObject, "", {}, "", "rows and columns of equal rectangles", nullptr, {},
            "lattice", &kLattice),
@@ -111,12 +147,21 @@ const Object kFloes{
            [](Draft& d, const Value& v) { d.group.velocity = vector_of(v); }),
      field("angular_velocity_deg_per_s", Kind::kNumber, "°/s", from(-360, 360), "0",
            "counter-clockwise, at the start; a shear's own turning comes on top",
-           [](Draft& d, const Value& v) { d.group.angular_velocity = radians(v); })},
+           [](Draft& d, const Value& v) { d.group.angular_velocity = radians(v); }),
+     field("ice", Kind::kObject, "", {}, kLeftOut,
+           "what of their ice is not the scene's: given, or drawn floe by floe; pieces have their floe's",
+           nullptr, {}, "", &floe_ice_object())},
     {"lattice", "rectangle", "polygon", "field", "file"},
     [](Draft& d) { d.group = {}; }};
 
 }  // namespace
 
+const Object& law_object() {
+  return kLaw;
+}
+const Object& floe_ice_object() {
+  return kOwnIce;
+}
 const Object& floes_object() {
   return kFloes;
 }

@@ -156,7 +156,11 @@ const Object kBending{
            "of contact law crush: whether ice that bends under a hull recedes from it, so "
            "that the hull comes farther before a cusp breaks, or only crushes until then",
            [](Draft& d, const Value& v) { d.scene.fracture.follows_deflection = v.text() == "followed"; },
-           {"followed", "ignored"})}};
+           {"followed", "ignored"}),
+     field("strength_spread", Kind::kNumber, "", from(0, 2), "0",
+           "each bending event's flexural strength scatters by this (standard deviation / the floe's own, "
+           "log-normal), by the place that the hull first touched and the seed; 0: not",
+           [](Draft& d, const Value& v) { d.scene.fracture.bending_scatter = v.number(); })}};
 
 const Object kSplitting{
     {field("model", Kind::kChoice, "", {}, "\"lefm\"",

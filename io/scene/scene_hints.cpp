@@ -110,14 +110,26 @@ class Hinter {
       add(Severity::kHint, value_at("floes", ""), "floes", "there is no ice in this scene");
       return;
     }
-    const double h = scene_.ice.thickness;
+    hint_at_thickness(scene_.ice.thickness, value_at("ice", "thickness_m"), "ice.thickness_m");
+    std::optional<std::size_t> last;  // entry that has its hint
+    for (std::size_t i = 0; i < scene_.floes.size(); ++i) {
+      const Origin& origin = draft_.floe_origins[i];
+      const double h = ice_of(scene_, scene_.floes[i].own_ice).thickness;
+      if (h == scene_.ice.thickness || last == origin.group) continue;
+      if (hint_at_thickness(h, value_at("floes", ""), floe_path(draft_, i) + ": ice.thickness_m"))
+        last = origin.group;
+    }
+  }
+
+  bool hint_at_thickness(double h, const JsonValue& at, const std::string& path) {
     if (h > kThickestIce)
-      add(Severity::kHint, value_at("ice", "thickness_m"), "ice.thickness_m",
+      add(Severity::kHint, at, path,
           fmt::format("{:g} m: level ice is {:g} m at most, and bends as plates only to there", h,
                       kThickestIce));
-    if (h < kThinnestIce)
-      add(Severity::kHint, value_at("ice", "thickness_m"), "ice.thickness_m",
+    else if (h < kThinnestIce)
+      add(Severity::kHint, at, path,
           fmt::format("{:g} m: ice under {:g} m is slush and no plate", h, kThinnestIce));
+    return h > kThickestIce || h < kThinnestIce;
   }
 
   void hint_at_mass(std::size_t i) {
@@ -221,15 +233,18 @@ class Hinter {
     for (const simulation::FloeSpec& floe : scene_.floes) speed = std::max(speed, length(floe.velocity));
     if (speed == 0 || scene_.floes.empty()) return;
     const double way = speed * scene_.time.step;
-    const double of_ice = kLongestWayOfThickness * scene_.ice.thickness;
+    double thickness = ice_of(scene_, scene_.floes.front().own_ice).thickness;  // of the thinnest
+    for (const simulation::FloeSpec& floe : scene_.floes)
+      thickness = std::min(thickness, ice_of(scene_, floe.own_ice).thickness);
+    const double of_ice = kLongestWayOfThickness * thickness;
     const double of_circle = kLongestWayOfCircle * scene_.contact.circle_radius;
     if (way <= 1.005 * std::min(of_ice, of_circle))
       return;  // what the sentence below gives, rounded, will do
-    const std::string why = of_ice < of_circle
-                                ? fmt::format("{:g} of the ice's thickness of {:g} m", kLongestWayOfThickness,
-                                              scene_.ice.thickness)
-                                : fmt::format("{:g} of contact.circle_radius_m {:g}", kLongestWayOfCircle,
-                                              scene_.contact.circle_radius);
+    const std::string why =
+        of_ice < of_circle
+            ? fmt::format("{:g} of the ice's thickness of {:g} m", kLongestWayOfThickness, thickness)
+            : fmt::format("{:g} of contact.circle_radius_m {:g}", kLongestWayOfCircle,
+                          scene_.contact.circle_radius);
     add(Severity::kWarning, value_at("time", "step_s"), "time.step_s",
         fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
                     "give {:.3g} s or less",

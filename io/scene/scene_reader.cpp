@@ -72,7 +72,8 @@ class SceneReader {
     std::vector<Problem> hints = problems_.take();
     LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description),
                        to_json_text(resolved_), "",
-                       std::move(fields_),      std::move(hints)};
+                       std::move(fields_),      std::move(ice_),
+                       std::move(hints)};
     if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
       report(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
              fmt::format("at most {} bytes: fewer floes, or coordinates of fewer digits", longest));
@@ -138,7 +139,7 @@ class SceneReader {
 
   void build() {
     JsonValue floes{JsonValue::Array{}, resolved_.find("floes")->offset};
-    FloeListReader reader{folder_, draft_, problems_, floes, fields_};
+    FloeListReader reader{folder_, draft_, problems_, floes, fields_, ice_};
     bind_scene(resolved_, draft_, [&](std::string_view list, std::size_t index, const JsonValue& item) {
       if (list == "ships")
         add_ship(index, item);
@@ -186,6 +187,7 @@ class SceneReader {
   JsonValue resolved_;
   SceneDraft draft_;
   std::vector<FieldReport> fields_;
+  std::vector<IceReport> ice_;
 };
 
 /// A file's stem as a scene's name.

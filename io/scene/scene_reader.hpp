@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 
 #include "io/scene/scene_assign.hpp"
+#include "io/scene/scene_draft.hpp"
 #include "io/text/problem.hpp"
 #include "simulation/floe_field.hpp"
 #include "simulation/scene.hpp"
@@ -34,6 +35,7 @@ struct LoadedScene {
       resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
   std::string hash;   ///< of resolved_text: 16 hexadecimal digits, FNV-1a
   std::vector<FieldReport> fields;
+  std::vector<IceReport> ice;  ///< what was drawn of it, by floe groups and properties
   std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_hints.hpp)
 };
 

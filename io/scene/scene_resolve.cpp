@@ -131,6 +131,7 @@ class Resolver {
   std::optional<JsonValue> checked(const Field& field, const JsonValue& value, const std::string& path) {
     if (field.kind == FieldKind::kObject) return object(*field.object, value, path);
     if (field.kind == FieldKind::kList) return list(field, value, path);
+    if (field.kind == FieldKind::kNumberOrLaw && value.is(JsonKind::kObject)) return law(field, value, path);
     if (field.kind == FieldKind::kNumberOrVector && value.is(JsonKind::kNumber)) {
       return checked_deep(field, {JsonValue::Array{value, value}, value.offset}, path);
     }
@@ -152,6 +153,21 @@ class Resolver {
       auto item = object(*field.object, value.items()[i], fmt::format("{}[{}]", path, i));
       resolved.items().push_back(item ? std::move(*item) : JsonValue{nullptr, value.items()[i].offset});
     }
+    return resolved;
+  }
+
+  /// The numbers of a law are in the unit and range of its field.
+  std::optional<JsonValue> law(const Field& field, const JsonValue& value, const std::string& path) {
+    std::optional<JsonValue> resolved = object(law_object(), value, path);
+    if (!resolved) return resolved;
+    Field number = field;
+    number.kind = FieldKind::kNumber;
+    bool is_whole = true;
+    for (const std::string_view key : {"mean", "least", "most"}) {
+      const JsonValue* member = resolved->find(key);
+      if (member && !checked_deep(number, *member, join(path, key))) is_whole = false;
+    }
+    if (!is_whole) return std::nullopt;
     return resolved;
   }
 
@@ -189,6 +205,7 @@ class Resolver {
       case FieldKind::kInteger:
         return number(value) || value.number() != std::floor(value.number()) ? &value : nullptr;
       case FieldKind::kNumber:
+      case FieldKind::kNumberOrLaw:
         return number(value);
       case FieldKind::kBoolean:
         return value.is(JsonKind::kBoolean) ? nullptr : &value;

@@ -1,5 +1,6 @@
 #include "io/scene/scene_schema.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -71,6 +72,13 @@ void write_type(JsonWriter& json, const Field& field) {
       write_vector(json, field);
       json.close('}').close(']');
       return;
+    case Kind::kNumberOrLaw:
+      json.key("oneOf").open('[').open('{');
+      write_number(json, field, "number");
+      json.close('}').open('{');
+      write_object(json, law_object());
+      json.close('}').close(']');
+      return;
     case Kind::kNumbers:
       return write_list(json, 0, 0, [&] { write_number(json, field, "number"); });
     case Kind::kRing:
@@ -114,7 +122,8 @@ void write_object(JsonWriter& json, const Object& object) {
           .value(field.unit.empty() ? std::string(field.meaning)
                                     : fmt::format("{} [{}]", field.meaning, field.unit));
     // A default that is filled in from elsewhere ("ship-#", objects) is no default of the schema's.
-    if (!field.default_json.empty() && field.kind != Kind::kObject && field.kind != Kind::kName)
+    if (!field.default_json.empty() && field.default_json != kLeftOut && field.kind != Kind::kObject &&
+        field.kind != Kind::kName)
       json.key("default").json(field.default_json);
     write_type(json, field);
     json.close('}');
@@ -143,6 +152,8 @@ void append_table(std::string& text, const Object& object, const std::string& pa
                         field.meaning);
   }
   text += '\n';
+  const auto is_law = [](const Field& field) { return field.kind == Kind::kNumberOrLaw; };
+  if (std::ranges::any_of(object.fields, is_law)) append_table(text, law_object(), join(path, "*"));
   for (const Field& field : object.fields) {
     if (field.object == nullptr) continue;
     append_table(text, *field.object, join(path, field.key) + (field.kind == Kind::kList ? "[]" : ""));

@@ -16,7 +16,9 @@ struct Floes {
   Integers ids, parents, generations;
   py::array_t<bool> is_under;
   Numbers poses, velocities;  ///< n × 3
-  Numbers thickness, areas, masses;
+  Numbers thickness, densities, flexural_strengths, compressive_strengths, tensile_strengths,
+      fracture_toughnesses;
+  Numbers areas, masses;
   Numbers vertices, world_vertices;  ///< m × 2
   Integers ring_offsets, floe_offsets;
 };
@@ -102,8 +104,12 @@ Floes floes_of(const Simulation& python) {
                                   [](const State& s) {
                                     return Three{s.velocity.x, s.velocity.y, s.angular_velocity};
                                   }),
-      .thickness =
-          numbers([&](const State& s) { return population.bodies.thickness[population.body_of(s.floe)]; }),
+      .thickness = numbers([](const State& s) { return s.ice->thickness; }),
+      .densities = numbers([](const State& s) { return s.ice->density; }),
+      .flexural_strengths = numbers([](const State& s) { return s.ice->flexural_strength; }),
+      .compressive_strengths = numbers([](const State& s) { return s.ice->compressive_strength; }),
+      .tensile_strengths = numbers([](const State& s) { return s.ice->tensile_strength; }),
+      .fracture_toughnesses = numbers([](const State& s) { return s.ice->fracture_toughness; }),
       .areas = numbers([](const State& s) { return s.area; }),
       .masses = numbers([](const State& s) { return s.mass; }),
       .vertices = table(std::move(in_body.vertices), 2),
@@ -147,6 +153,11 @@ void bind_floes(py::module_& module) {
       .def_readonly("velocities", &Floes::velocities,
                     "n x 3: of the centre of mass over ground, x and y [m/s]; turning [rad/s].")
       .def_readonly("thickness", &Floes::thickness, "[m]")
+      .def_readonly("densities", &Floes::densities, "[kg/m3]")
+      .def_readonly("flexural_strengths", &Floes::flexural_strengths, "[Pa]")
+      .def_readonly("compressive_strengths", &Floes::compressive_strengths, "[Pa]")
+      .def_readonly("tensile_strengths", &Floes::tensile_strengths, "[Pa]")
+      .def_readonly("fracture_toughnesses", &Floes::fracture_toughnesses, "[Pa m^0.5]")
       .def_readonly("areas", &Floes::areas, "[m2]")
       .def_readonly("masses", &Floes::masses, "[kg]")
       .def_readonly("vertices", &Floes::vertices,

@@ -58,6 +58,7 @@ class StateLoader {
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_ice_at_hulls();
     if (bytes_.is_well()) load_pairs();
+    bytes_(world_.accounts.masses);
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
     if (bytes_.is_well()) {
       if (auto defect = validate_world(world_)) bytes_.fail(*std::move(defect));
@@ -146,21 +147,25 @@ class StateLoader {
     const FloeHead head = load_head(id);
     if (!bytes_.is_well()) return;
     const bool is_under = head.standing == Standing::kUnderHull;
-    Floe floe{head.parent, head.born, head.generation, head.area, {}, is_under};
+    Floe floe{
+        .parent = head.parent,
+        .born = head.born,
+        .generation = head.generation,
+        .own_ice = head.parent == kNoFloe ? scene_.floes[id].own_ice : population_.floes[head.parent].own_ice,
+        .area = head.area,
+        .is_under = is_under};
     if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = scene_.floes[id].polygon_in_world;
     if (head.is_alive && head.parent != kNoFloe) floe.shape = load_shape();
     if (!bytes_.is_well()) return;
-    const double thickness = head.parent == kNoFloe
-                                 ? scene_.ice.thickness
-                                 : population_.bodies.thickness[population_.body_of(head.parent)];
+    const fracture::Ice& ice = ice_of(scene_, floe.own_ice);
     dynamics::NewBody body;
     if (head.is_alive) {
-      body = new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), scene_.ice.density,
-                         thickness, head.standing == Standing::kFast);
-    } else {  // its index stays, and its thickness for its pieces
+      body = new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), ice,
+                         head.standing == Standing::kFast);
+    } else {  // its index stays
       body.mass = body.moment = 1;
       body.is_prescribed = head.standing == Standing::kFast;
-      body.thickness = thickness;
+      body.thickness = ice.thickness;
       body.boundary = std::make_shared<geometry::Boundary>();
     }
     const BodyIndex index = add_body(population_.bodies, body);

@@ -105,6 +105,11 @@ void fields(Archive& archive, Is<AreaLedger> auto& l) {
   archive(l.initial_ice_area, l.under_ice_area, l.submerged_area, l.brash_area,
           l.rounding_defect);  // the rest is derived
 }
+/// In checkpoints alone: it follows from the areas where all ice is alike.
+template <class Archive>
+void fields(Archive& archive, Is<MassLedger> auto& l) {
+  archive(l.initial_ice_mass, l.under_ice_mass, l.submerged_mass, l.brash_mass, l.rounding_mass);
+}
 template <class Archive>
 void fields(Archive& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.ground, c.tilted_under, c.went_under, c.came_up,

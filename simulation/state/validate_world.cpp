@@ -95,7 +95,10 @@ Defect check_floe(const Population& population, const Setup& setup, FloeId id) {
   if (b.is_awake[body] != 0 && b.drag[body] == nullptr)
     return fmt::format("floe {} is awake without drag", id);
   const geometry::Measures measures = geometry::measure(floe.shape.polygon);
-  const double mass = setup.scene.ice.density * b.thickness[body] * measures.area;
+  const fracture::Ice& ice = ice_of_floe(setup, population, id);
+  const double mass = ice.density * ice.thickness * measures.area;
+  if (b.thickness[body] != ice.thickness)
+    return fmt::format("floe {} has another thickness than its ice", id);
   if (measures.area != floe.area || !(floe.area > 0))
     return fmt::format("floe {} has another area than its shape", id);
   if (b.mass[body] != mass || (!population.is_fast(id) && b.inverse_mass[body] != 1 / mass) ||
@@ -118,9 +121,11 @@ Defect check_pairs(const Population& population) {
 Defect check_sums(const World& world) {
   const Population& population = world.population;
   double area = 0;
+  double mass = 0;
   std::int64_t broken = 0;
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     if (population.is_floating(id)) area += population.floes[id].area;
+    if (population.is_alive(id)) mass += population.bodies.mass[population.body_of(id)];
     broken += population.is_alive(id) ? 0 : 1;
   }
   for (const Tile& tile : population.tiles) {
@@ -137,6 +142,11 @@ Defect check_sums(const World& world) {
                       ledger.rounding_defect - ledger.initial_ice_area;
   if (!(std::abs(lost) <= kAreaTolerance * ledger.initial_ice_area))
     return fmt::format("{} m² of ice too much", lost);
+  const MassLedger& masses = world.accounts.masses;
+  const double lost_mass = mass + masses.under_ice_mass + masses.submerged_mass + masses.brash_mass -
+                           masses.rounding_mass - masses.initial_ice_mass;
+  if (!(std::abs(lost_mass) <= kAreaTolerance * masses.initial_ice_mass))
+    return fmt::format("{} kg of ice too much", lost_mass);
   const Counts& counts = world.accounts.counts;
   const std::int64_t fractures =
       counts.bends + counts.splits + counts.ground + counts.came_up + counts.stayed_under;

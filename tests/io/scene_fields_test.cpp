@@ -22,7 +22,9 @@ using tests::fingerprint;
 const std::string kFirst = R"({
   "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
              "position_m": [-500, 0], "propulsion": {"thrust_N": 2e4}}],
-  "floes": [{"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}}, {"rectangle": {"corner_m": [100, 0], "size_m": 10}}]
+  "floes": [{"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}}, {"rectangle": {"corner_m": [100, 0], "size_m": 10},
+             "ice": {"thickness_m": 0.7, "density_kg_per_m3": 890, "flexural_strength_Pa": 6e5, "compressive_strength_Pa": 2e6,
+                     "tensile_strength_Pa": {"mean": 7e5, "spread": 0.2}, "fracture_toughness_Pa_sqrt_m": 1.2e5, "seed": 4}}]
 })";
 const std::string kSecond = R"({
   "origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30},
@@ -102,6 +104,10 @@ void change(const Field& field, JsonValue& value) {
       return change_number(field, value.items()[1]);
     case FieldKind::kNumbers:
       return change_number(field, value.items()[0]);
+    case FieldKind::kNumberOrLaw: {
+      JsonValue* mean = value.find("mean");
+      return change_number(field, mean ? *mean : value);
+    }
     case FieldKind::kRing:
       return change_number(field, value.items()[0].items()[0]);
     case FieldKind::kRings:

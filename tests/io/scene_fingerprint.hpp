@@ -81,7 +81,7 @@ inline std::string fingerprint(const simulation::Scene& s) {
                       s.contact.substeps, s.contact.is_warm_started, s.contact.tolerance,
                       s.contact.circle_radius, static_cast<int>(s.contact.normal), s.contact.restitution,
                       s.contact.contact_time, s.contact.separation_time, s.contact.iterations);
-  text += fmt::format("fracture {} {} {} {} {} {} {} {} {} {} {} {}\n",
+  text += fmt::format("fracture {} {} {} {} {} {} {} {} {} {} {} {} {}\n", s.fracture.bending_scatter,
                       static_cast<int>(s.fracture.characteristic_length), s.fracture.breakable_size_factor,
                       static_cast<int>(s.fracture.bending), static_cast<int>(s.fracture.radial_cracks),
                       s.fracture.follows_deflection, static_cast<int>(s.fracture.splitting),
@@ -113,6 +113,9 @@ inline std::string fingerprint(const simulation::Scene& s) {
   for (const auto& floe : s.floes) {
     text += fmt::format("floe {} {} {} {} {}", text_of(floe.polygon_in_world.outer), floe.velocity.x,
                         floe.velocity.y, floe.angular_velocity, floe.is_fast);
+    const fracture::Ice& ice = ice_of(s, floe.own_ice);
+    text += fmt::format(" {} {} {} {} {} {}", ice.thickness, ice.density, ice.flexural_strength,
+                        ice.compressive_strength, ice.tensile_strength, ice.fracture_toughness);
     for (const auto& hole : floe.polygon_in_world.holes) text += " hole " + text_of(hole);
     text += '\n';
   }

@@ -6,6 +6,7 @@
 #include "io/import/projection.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/run/records.hpp"
+#include "io/scene/floe_ice.hpp"
 #include "io/text/geojson_layer.hpp"
 
 namespace polynya::views {
@@ -38,6 +39,7 @@ std::string floes_layer(const io::Run& run, const std::vector<io::PlacedFloe>& f
     json.key("floe_id").value(birth.floe).key("parent_id").value(io::id_or_none(birth.parent));
     json.key("born_s").value(birth.time).key("generation").value(birth.generation);
     json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass).key("t_s").value(time);
+    io::append_ice(json, ice_of(run.scene.scene, birth.own_ice));
     json.key("speed_m_per_s").value(speed_of(floe)).key("came_up").value(of_run.came_up);
     if (run.is_under(birth.floe, time)) json.key("went_under_s").value(of_run.went_under);
     layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));

@@ -11,6 +11,7 @@
 
 #include "geometry/shape/triangulation.hpp"
 #include "io/run/placed_floes.hpp"
+#include "io/scene/floe_ice.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/vtk_file.hpp"
 
@@ -54,6 +55,8 @@ class IceExport {
                       {"area_m2", {}, 1, false},       {"mass_kg", {}, 1, false},
                       {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false},
                       {"is_outline", {}, 1, true},     {"came_up", {}, 1, true}};
+    for (const io::FloeIceProperty& property : io::floe_ice_properties())
+      data.cell_data.push_back({std::string(property.key), {}, 1, false});
     for (const io::PlacedFloe& floe : floes) {
       for (std::size_t ring = 0; ring <= floe.polygon_in_body->holes.size(); ++ring)
         add_cell(data, floe, true);
@@ -97,10 +100,13 @@ class IceExport {
   void add_cell(VtkPolyData& data, const io::PlacedFloe& floe, bool is_outline) const {
     const simulation::BirthRecord& birth = *floe.birth;
     const geometry::Vector velocity = floe.motion ? floe.motion->velocity : geometry::Vector{kNan, kNan};
-    add_row(data.cell_data, {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
-                             static_cast<double>(birth.generation), birth.time, birth.area, birth.mass,
-                             length(velocity), velocity.x, velocity.y, 0.0, is_outline ? 1.0 : 0.0,
-                             run_.floe(birth.floe)->came_up ? 1.0 : 0.0});
+    const fracture::Ice& ice = ice_of(run_.scene.scene, birth.own_ice);
+    add_row(data.cell_data,
+            {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
+             static_cast<double>(birth.generation), birth.time, birth.area, birth.mass, length(velocity),
+             velocity.x, velocity.y, 0.0, is_outline ? 1.0 : 0.0, run_.floe(birth.floe)->came_up ? 1.0 : 0.0,
+             ice.thickness, ice.density, ice.flexural_strength, ice.compressive_strength,
+             ice.tensile_strength, ice.fracture_toughness});
   }
 
   const io::Run& run_;

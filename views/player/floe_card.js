@@ -71,6 +71,8 @@ function floeFacts(run, places, motions, id) {
     generation: [String(floes.generation[id]), floes.generation[id]],
     area: [`${floes.area[id].toFixed(6)} m\u00b2`, floes.area[id]],
     mass: [`${sixDigits(floes.mass[id])} kg`, floes.mass[id]],
+    thickness: [`${sixDigits(floes.thickness[id])} m`, floes.thickness[id]],
+    "flexural strength": [`${sixDigits(floes.flexuralStrength[id] / 1e3)} kPa`, floes.flexuralStrength[id]],
     speed: [speed === null ? "\u2013 (lived between two frames)" : `${speed.toFixed(5)} m/s`, speed],
     born: [`${sixDigits(floes.born[id])} s`, floes.born[id]],
     ...lastFacts(run, id),

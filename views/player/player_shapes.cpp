@@ -91,6 +91,10 @@ void add_floes(ColumnWriter& columns, const io::Run& run) {
   columns.add("came_up", run.floes, &io::RunFloe::came_up);
   add("area_m2", &BirthRecord::area);
   add("mass_kg", &BirthRecord::mass);
+  const simulation::Scene& scene = run.scene.scene;
+  add("thickness_m", [&](const BirthRecord& birth) { return ice_of(scene, birth.own_ice).thickness; });
+  add("flexural_strength_Pa",
+      [&](const BirthRecord& birth) { return ice_of(scene, birth.own_ice).flexural_strength; });
   add("centroid_x_m", [](const BirthRecord& birth) { return birth.centroid_in_body.x; });
   add("centroid_y_m", [](const BirthRecord& birth) { return birth.centroid_in_body.y; });
   ShapeColumns shapes(run);

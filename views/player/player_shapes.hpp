@@ -45,9 +45,9 @@ class ColumnWriter {
 };
 
 /// Every floe of the run: parent, generation, born_s, died_s, went_under_s, came_up, area_m2, mass_kg,
-/// centroid, reach_m (of its farthest vertex from its centroid), and its shape: the ends of its rings,
-/// counted from its first vertex, and its vertices, or of one that is parts of its parent's the parts and its
-/// new vertices.
+/// thickness_m, flexural_strength_Pa, centroid, reach_m (of its farthest vertex from its centroid), and its
+/// shape: the ends of its rings, counted from its first vertex, and its vertices, or of one that is parts of
+/// its parent's the parts and its new vertices.
 void add_floes(ColumnWriter& columns, const io::Run& run);
 
 }  // namespace polynya::views

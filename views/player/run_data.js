@@ -34,6 +34,8 @@ function readFloes(columns) {
     cameUp: columns.came_up, // from under a hull, or what came up broke into it
     area: columns.area_m2,
     mass: columns.mass_kg,
+    thickness: columns.thickness_m,
+    flexuralStrength: columns.flexural_strength_Pa,
     cx: columns.centroid_x_m,
     cy: columns.centroid_y_m,
     ringsOf: columns.rings_of,

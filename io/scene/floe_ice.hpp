@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fracture/scatter.hpp"
+#include "io/scene/scene_draft.hpp"
+#include "io/scene/scene_fields.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/problem_collector.hpp"
+
+namespace polynya::io {
+
+/// A property of ice that a floe may have of its own: a key of the scene's "ice", of an entry of "floes" and
+/// of a feature's properties in a floe file, and of the floes that a run writes.
+struct FloeIceProperty {
+  std::string_view key;
+  std::string_view unit;
+  Range range;
+  double fracture::Ice::*value;
+};
+const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties();
+
+/// Of a feature of a floe file, by the properties' numbers. Null is as not given; what is no number in range
+/// is a problem of that source, `path` that of the feature's properties.
+GivenIce read_given_ice(const JsonValue& properties, std::size_t source, const std::string& path,
+                        ProblemCollector& problems);
+
+/// Writes all of them as members of the object at hand.
+void append_ice(JsonWriter& json, const fracture::Ice& ice);
+
+/// The ice of one entry of the scene's "floes". What a floe's feature gives comes before the entry's own, and
+/// that before the scene's.
+class GroupIce {
+ public:
+  /// The scene's ice is complete. Nothing where the entry's is wrong, which is reported; `path` is the
+  /// entry's.
+  static std::optional<GroupIce> of(const SceneDraft& draft, const std::string& path,
+                                    ProblemCollector& problems);
+
+  /// The index in the scene's own_ice of the floe that is added next.
+  std::int32_t add_to(simulation::Scene& scene, const GivenIce& given);
+
+  /// What was drawn of each law, in the order of the properties.
+  std::vector<IceReport> reports(std::size_t group) const;
+
+  /// The entry's and the feature's properties of the floe that was added last; null where it has none.
+  JsonValue spelled_out(const simulation::Scene& scene, const GivenIce& given) const;
+
+ private:
+  struct Law {
+    std::size_t property = 0;
+    fracture::ScatterLaw law;
+    std::vector<double> drawn;
+  };
+  std::vector<Law> laws_;
+  std::uint64_t seed_ = 0;
+};
+
+}  // namespace polynya::io
