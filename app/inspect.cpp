@@ -17,6 +17,7 @@ constexpr auto kExamples =
     "  polynya inspect runs/level-plate --at 30                at 30 s\n"
     "  polynya inspect runs/level-plate --floe 17 --format svg > floe-17.svg\n"
     "  polynya inspect runs/level-plate --lineage 17           the fractures that led to it\n"
+    "  polynya inspect runs/level-plate --events               what broke, met and went under\n"
     "  polynya inspect runs/level-plate --check                validity, areas, overlaps, exactly\n"
     "  polynya inspect runs/level-plate --fsd                  floe size distribution\n"
     "  polynya inspect runs/level-plate --json                 each of these but a shape as JSON\n"
@@ -29,6 +30,7 @@ struct Options {
   std::optional<FloeId> floe;  ///< its shape
   ShapeFormat format = ShapeFormat::kWkt;
   std::optional<FloeId> lineage;  ///< the fractures that led to it
+  bool events = false;
   bool check = false;
   bool fsd = false;
   bool json = false;  ///< the report as JSON; a floe's shape has its own formats
@@ -73,6 +75,10 @@ int print(const io::Run& run, const Options& options) {
     write_out(options.json ? lineage_json(run, *options.lineage) : lineage_tree(run, *options.lineage));
     return kDone;
   }
+  if (options.events) {
+    write_out(options.json ? events_json(run) : event_list(run));
+    return kDone;
+  }
   if (options.check) {
     const analysis::RunCheck check = analysis::check_run(run, options.at);
     write_out(options.json ? check_json(check, run.scene.scene.ships)
@@ -106,6 +112,8 @@ Command add_inspect(CLI::App& app) {
                       "The shape of one floe: in its body frame, or with --at where it was in the world");
   auto* lineage =
       option(*command, "--lineage", options->lineage, "N", "The tree of fractures that led to a floe");
+  auto* events = command->add_flag("--events", options->events,
+                                   "Every event of the run: fractures, ships that meet, moorings that break");
   auto* check =
       command->add_flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
   auto* fsd = command->add_flag("--fsd", options->fsd, "The distribution of floe sizes");
@@ -115,8 +123,9 @@ Command add_inspect(CLI::App& app) {
       *format, {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}});
   auto* json =
       command->add_flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
-  floe->excludes(lineage)->excludes(check)->excludes(fsd)->excludes(json);
-  lineage->excludes(check)->excludes(fsd);
+  floe->excludes(lineage)->excludes(events)->excludes(check)->excludes(fsd)->excludes(json);
+  lineage->excludes(events)->excludes(check)->excludes(fsd);
+  events->excludes(check)->excludes(fsd);
   check->excludes(fsd);
   return {command, [options] { return inspect(*options); }};
 }

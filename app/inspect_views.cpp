@@ -62,51 +62,6 @@ std::string as_svg(const ShapeView& view) {
   return text;
 }
 
-std::string how_it_went_under(const simulation::TiltCriterion& c) {
-  if (c.least_deflection == 0) return "a cusp broken off at the hull";
-  return fmt::format("edge {:.3g} m down >= {:.3g} m", c.deflection, c.least_deflection);
-}
-
-/// Both sides of what decided a bend or a split.
-std::string decided_by(const simulation::Event& event) {
-  const simulation::DecidingLoad deciding = simulation::deciding_load(event);
-  std::string text = fmt::format("{} {:.4g} N {} {} {:.4g} N", deciding.name, deciding.load,
-                                 deciding.comparison, deciding.capacity_name, deciding.capacity);
-  const auto& c = event.criteria;
-  if (event.kind != simulation::EventKind::kSplit || c.crack_width == 0) return text;
-  text += fmt::format("; crack L {:.4g} m, W {:.4g} m", c.crack_length, c.crack_width);
-  text += fmt::format("; contact force {:.4g} N, flanks {:.4g} and {:.4g} N", c.contact_force,
-                      c.flank_forces[0], c.flank_forces[1]);
-  if (deciding.load != c.opening_force)
-    text += fmt::format(", opening {:.4g} N of {:.4g} N", c.opening_force, c.opening_capacity);
-  return text + fmt::format(", K_IC {:.4g} Pa sqrt(m)", c.fracture_toughness);
-}
-
-std::string described(const io::Run& run, const simulation::Event& event) {
-  const std::string_view name = io::ship_name(run.scene.scene, event.ship);
-  const bool is_by_floe = event.by_floe != simulation::kNoFloe;
-  const std::string by = is_by_floe     ? fmt::format(" by floe {}", event.by_floe)
-                         : name.empty() ? ""
-                                        : fmt::format(" by {}", name);
-  std::string text = fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): ", event.time, name_of(event.kind), by,
-                                 event.point_in_world.x, event.point_in_world.y);
-  if (event.kind == simulation::EventKind::kSubmerge)
-    text += how_it_went_under(event.tilting);
-  else if (event.resurfacing.longest_wait > 0 || event.resurfacing.path != 0)
-    text += fmt::format("{:.4g} m after the stem, {:.4g} s for room", event.resurfacing.path,
-                        event.resurfacing.waited);
-  else if (event.grinding.least_width > 0)
-    text += fmt::format("{:.4g} m2 overlapped, width {:.4g} m < {:.4g} m", event.grinding.overlap_area,
-                        event.grinding.width, event.grinding.least_width);
-  else
-    text += decided_by(event);
-  if (event.under_hull_area > 0) text += fmt::format("; {:.6g} m2 under the hull", event.under_hull_area);
-  if (event.under_ice_area > 0) text += fmt::format("; {:.6g} m2 under the ice", event.under_ice_area);
-  if (event.submerged_area > 0) text += fmt::format("; {:.6g} m2 submerged", event.submerged_area);
-  if (event.brash_area > 0) text += fmt::format("; {:.6g} m2 brash", event.brash_area);
-  return text;
-}
-
 }  // namespace
 
 std::string to_text(const ShapeView& view, ShapeFormat format) {

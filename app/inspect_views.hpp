@@ -38,6 +38,12 @@ struct FloeRow {
 std::vector<FloeRow> floe_rows(const io::Run& run, double time);
 std::string floe_table(const std::vector<FloeRow>& rows);
 
+/// What happened, where and what decided it, in a line.
+std::string described(const io::Run& run, const simulation::Event& event);
+
+/// Every event of the run in a line, as time goes: of ice, of ships that meet, of moorings that break.
+std::string event_list(const io::Run& run);
+
 /// The trunk from the scene's floe down to this one: each fracture with what decided it, and the pieces
 /// beside.
 std::string lineage_tree(const io::Run& run, simulation::FloeId floe);
@@ -52,6 +58,8 @@ std::string floes_json(const std::vector<FloeRow>& rows, double time);
 std::string size_json(const analysis::SizeDistribution& sizes);
 /// The floes from the scene's down to this one; of each the fracture that broke it, as in events.ndjson.
 std::string lineage_json(const io::Run& run, simulation::FloeId floe);
+/// The lines of events.ndjson as time goes.
+std::string events_json(const io::Run& run);
 std::string check_json(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships);
 
 }  // namespace polynya::app

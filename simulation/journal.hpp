@@ -101,6 +101,16 @@ struct ShipContact {
   bool is_prescribed = false;      ///< the motion of both is: they pass through each other without a force
 };
 
+/// A mooring that broke; its ship is adrift. Written as one line of events.ndjson.
+struct MooringBreak {
+  double time = 0;                          ///< end of the step in which it broke [s]
+  int ship = 0;                             ///< index in the scene
+  geometry::Point point_in_world;           ///< centre of gravity of the ship [m]
+  geometry::Vector offset_in_moored_place;  ///< of it from the moored place, along and across its heading [m]
+  double force = 0;                         ///< with which the mooring held the ship, horizontal [N]
+  double break_load = 0;                    ///< which that force exceeds [N]
+};
+
 /// A floe at its birth, without its shape.
 struct BirthRecord {
   FloeId floe = 0;
@@ -184,6 +194,7 @@ struct ShipSample {
 struct Journal {
   std::vector<Event> events;
   std::vector<ShipContact> ship_contacts;
+  std::vector<MooringBreak> mooring_breaks;
   std::vector<Birth> births;
   std::vector<Death> deaths;
   std::vector<ShipSample> samples;
@@ -191,6 +202,7 @@ struct Journal {
   void clear() {
     events.clear();
     ship_contacts.clear();
+    mooring_breaks.clear();
     rejected_cuts.clear();
     births.clear();
     deaths.clear();

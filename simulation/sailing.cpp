@@ -144,13 +144,24 @@ void add(const SailingLoads& of_step, SailingLoads& sum) {
   sum.mooring += of_step.mooring;
 }
 
-void break_mooring(const Clock& clock, Helm& helm) {
+/// The mooring breaks where it held the ship with more than it can. `velocity` is the ship's in the water at
+/// the end of the step: the pull is that of the place where the step takes the ship.
+void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar impulse, Vector velocity,
+                   BodyIndex i, Population& population, Journal& journal) {
+  const double force = std::hypot(impulse.surge, impulse.sway) / clock.step;
+  if (mooring.break_load <= 0 || force <= mooring.break_load) return;
+  Helm& helm = population.helms[i];
   helm.is_adrift = true;
   helm.adrift_since = clock.time() + clock.step;
+  const geometry::Point place =
+      population.bodies.position[i] + clock.drift() + clock.step * (velocity + clock.water_drift);
+  const Vector offset =
+      rotate_back(geometry::Rotation::by(mooring.heading), place - mooring.position_in_world);
+  journal.mooring_breaks.push_back({helm.adrift_since, i, place, offset, force, mooring.break_load});
 }
 
 void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, BodyIndex i,
-               Population& population, Accounts& accounts) {
+               Population& population, Accounts& accounts, Journal& journal) {
   dynamics::Bodies& bodies = population.bodies;
   const double dt = clock.step;
   const bool is_free = bodies.inverse_mass[i] != 0;
@@ -165,13 +176,12 @@ void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, 
   impulses.water = dt * forces.water.at(end);
   if (is_free) impulses.water += added_mass * (ship.before_turn - end);
   add(impulses, accounts.sailing[i]);
-  const auto& mooring = setup.scene.ships[i].mooring;
-  const double load = std::hypot(impulses.mooring.surge, impulses.mooring.sway) / dt;
-  if (mooring && mooring->break_load > 0 && load > mooring->break_load)
-    break_mooring(clock, population.helms[i]);
+  const Vector velocity = rotate(bodies.rotation[i], {end.surge, end.sway});
+  if (const auto& mooring = setup.scene.ships[i].mooring)
+    break_mooring(*mooring, clock, impulses.mooring, velocity, i, population, journal);
   if (!is_free) return;
   enter_all(impulses, 0.5 * (ship.now + end), bodies.rotation[i], accounts.audit);
-  bodies.velocity[i] = rotate(bodies.rotation[i], {end.surge, end.sway});
+  bodies.velocity[i] = velocity;
   bodies.angular_velocity[i] = end.yaw;
 }
 
@@ -245,13 +255,13 @@ void keep_motion(const Population& population, StepData& step) {
 }
 
 void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
-          Accounts& accounts) {
+          Accounts& accounts, Journal& journal) {
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
     if (!setup.sailing[ship].is_active) continue;
     const ContactLoads& ice = step.loads[ship].ice;
     population.helms[ship].ice_force =
         (1 / clock.step) * Planar{ice.impulse.x, ice.impulse.y, ice.angular_impulse};
-    sail_ship(setup, clock, step.start[ship], ship, population, accounts);
+    sail_ship(setup, clock, step.start[ship], ship, population, accounts, journal);
   }
 }
 

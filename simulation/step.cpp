@@ -163,7 +163,7 @@ const std::array<Stage, 23> kStages = {{
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
     {"pull of submerged ice",
      [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},
-    {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
+    {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"integrate",
      [](World& w) {
        auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);

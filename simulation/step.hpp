@@ -58,7 +58,7 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
 /// Moves ships by water, engine, steering and mooring (sailing.hpp). After all other impulses of the step,
 /// since the water shares those too.
 void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
-          Accounts& accounts);
+          Accounts& accounts, Journal& journal);
 
 /// Returns why the numbers cannot be trusted any more, where a body has no finite speed below kRunawaySpeed.
 std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,

@@ -172,6 +172,19 @@ simulation::ShipContact ship_contact_of(const JsonValue& line, const simulation:
   return contact;
 }
 
+simulation::MooringBreak mooring_break_of(const JsonValue& line, const simulation::Scene& scene) {
+  simulation::MooringBreak broken;
+  broken.time = number(line, "t_s");
+  broken.ship = ship_index(scene, member(line, "ship", JsonValue::Kind::kText).text());
+  if (broken.ship < 0) throw ReadError("a mooring of a ship that is not in the scene");
+  broken.point_in_world = point(line, "point_m");
+  broken.force = number(line, "force_N");
+  broken.break_load = number(line, "break_load_N");
+  const geometry::Point offset = point(line, "offset_m");
+  broken.offset_in_moored_place = {offset.x, offset.y};
+  return broken;
+}
+
 simulation::ShipSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene) {
   simulation::ShipSample s;

@@ -23,6 +23,7 @@ std::string_view kind_of(const JsonValue& line);
 simulation::BirthRecord birth_of(const JsonValue& line);
 simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene);
 simulation::ShipContact ship_contact_of(const JsonValue& line, const simulation::Scene& scene);
+simulation::MooringBreak mooring_break_of(const JsonValue& line, const simulation::Scene& scene);
 simulation::ShipSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene);
 /// `run` has its scene and its floes.

@@ -181,6 +181,18 @@ void append_ship_contact(std::string& text, const simulation::ShipContact& conta
   text += '\n';
 }
 
+void append_mooring_break(std::string& text, const simulation::MooringBreak& broken,
+                          std::string_view ship_name) {
+  JsonWriter json(text);
+  json.open('{').key("t_s").value(broken.time).key("kind").value(kMooringBreakKind);
+  json.key("ship").value(ship_name).key("point_m").value(broken.point_in_world);
+  json.key("force_N").value(broken.force).key("break_load_N").value(broken.break_load);
+  json.key("offset_m")
+      .value(geometry::Point{broken.offset_in_moored_place.x, broken.offset_in_moored_place.y});
+  json.close('}');
+  text += '\n';
+}
+
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time) {
   GeojsonLayer layer(time);
   for (const simulation::FloeState& floe : floes) {

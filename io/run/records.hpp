@@ -53,6 +53,11 @@ inline constexpr std::string_view kShipContactKind = "ship_contact";
 void append_ship_contact(std::string& text, const simulation::ShipContact& contact,
                          std::string_view ship_name, std::string_view by_ship_name);
 
+/// Likewise.
+inline constexpr std::string_view kMooringBreakKind = "mooring_break";
+void append_mooring_break(std::string& text, const simulation::MooringBreak& broken,
+                          std::string_view ship_name);
+
 /// All floes as a GeoJSON FeatureCollection in world coordinates [m].
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time);
 

@@ -92,6 +92,10 @@ void read_events(Run& run) {
       run.ship_contacts.push_back(ship_contact_of(json, run.scene.scene));
       return;
     }
+    if (kind_of(json) == kMooringBreakKind) {
+      run.mooring_breaks.push_back(mooring_break_of(json, run.scene.scene));
+      return;
+    }
     simulation::Event event = event_of(json, run.scene.scene);
     if (!run.floe(event.floe)) throw ReadError(fmt::format("floe {} was never born", event.floe));
     RunFloe& floe = run.floes[static_cast<std::size_t>(event.floe)];

@@ -185,6 +185,11 @@ void RunWriter::record(simulation::Journal& journal) {
                           ship_name(scene_->scene, contact.other));
     });
   }
+  for (const simulation::MooringBreak& broken : journal.mooring_breaks) {
+    append_line(kEvents, [&](std::string& line) {
+      append_mooring_break(line, broken, ship_name(scene_->scene, broken.ship));
+    });
+  }
   for (const simulation::ShipSample& sample : journal.samples) {
     append_line(kForces, [&](std::string& line) {
       append_forces_row(line, sample, ship_name(scene_->scene, sample.ship));

@@ -122,6 +122,10 @@ void Simulation::take_journal() {
                             io::ship_name(scene, contact.other));
     events_.back() = ',';
   }
+  for (const simulation::MooringBreak& broken : journal.mooring_breaks) {
+    io::append_mooring_break(events_, broken, io::ship_name(scene, broken.ship));
+    events_.back() = ',';
+  }
   for (const simulation::ShipSample& sample : journal.samples) samples_[sample.ship] = sample;
   journal.clear();
 }

@@ -70,6 +70,23 @@ TEST_F(InspectCommand, AFloesShapeReadsBackToTheSameDoubles) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
+TEST_F(InspectCommand, EventsAreALineEachInOrderOfTime) {
+  const auto all = lines(inspect({"--events"}).out);
+  ASSERT_EQ(all.size(), run->events.size());
+  ASSERT_GT(all.size(), 3U);
+  double before = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double time = std::stod(all[i]);
+    EXPECT_GE(time, before);
+    before = time;
+    EXPECT_NE(all[i].find("(floe " + std::to_string(run->events[i].floe) + ")"), std::string::npos) << all[i];
+  }
+  const io::JsonDocument json = io::parse_json(inspect({"--events", "--json"}).out);
+  ASSERT_EQ(json.root.find("events")->items().size(), run->events.size());
+  EXPECT_EQ(json.root.find("events")->items()[0].find("t_s")->number(), run->events[0].time);
+  EXPECT_EQ(inspect({"--events", "--check"}).code, 2);
+}
+
 TEST_F(InspectCommand, TheLineageLeadsFromTheSceneToTheFloe) {
   const simulation::FloeId last = run->floes.back().birth.floe;
   const auto ids = run->lineage(last);

@@ -109,6 +109,34 @@ TEST(RunCommand, LeadsWithTheTrueForce) {
   }
 }
 
+TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
+  const TemporaryFolder folder;
+  write_file(folder / "scene.json", R"({"time": {"step_s": 0.1, "until_s": 60}, "floes": [], "ships": [
+    {"name": "tanker", "hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 30}, "mass_kg": 1e7,
+     "moment_of_inertia_kg_m2": 8e9, "position_m": [5, 0], "propulsion": {"thrust_N": 2e5},
+     "mooring": {"surge_stiffness_N_per_m": 1e4, "surge_damping_N_s_per_m": 1e5, "sway_stiffness_N_per_m": 1e4,
+                 "break_load_N": 1e5}}]})");
+  const Outcome outcome = polynya({"run", "scene.json", "--out", "run"}, {folder.path()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(line_with(outcome.err, "mooring of tanker broke at").find("events.ndjson"), std::string::npos);
+  const auto run = io::read_run(folder / "run");
+  ASSERT_TRUE(run.has_value()) << run.error();
+  ASSERT_EQ(run->mooring_breaks.size(), 1U);
+  const simulation::MooringBreak& broken = run->mooring_breaks[0];
+  EXPECT_GT(broken.force, 1e5);
+  EXPECT_NEAR(broken.offset_in_moored_place.x, broken.point_in_world.x - 5, 1e-9);
+  const std::string line = read_file(folder / "run/events.ndjson");
+  for (const char* key : {"\"kind\":\"mooring_break\"", "\"ship\":\"tanker\"", "force_N",
+                          "break_load_N\":1e+05", "offset_m", "point_m", "t_s"})
+    EXPECT_NE(line.find(key), std::string::npos) << key << " in " << line;
+  const Outcome events = polynya({"inspect", "run", "--events"}, {folder.path()});
+  EXPECT_NE(events.out.find("mooring_break of tanker at ("), std::string::npos) << events.out;
+  EXPECT_NE(events.out.find("> 1e+05 N"), std::string::npos) << events.out;
+  EXPECT_EQ(std::ranges::count(events.out, '\n'), 1);
+  const Outcome json = polynya({"inspect", "run", "--events", "--json"}, {folder.path()});
+  EXPECT_NE(json.out.find(line.substr(0, line.size() - 1)), std::string::npos) << json.out;
+}
+
 TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
   const TemporaryFolder folder;
   const std::string ship =

@@ -71,6 +71,19 @@ def test_state_events_and_forces_are_those_of_the_command_line(command_lines_run
         key: pytest.approx(float(value), rel=1e-5) for key, value in written.items() if key != "ship"}
 
 
+def test_a_mooring_that_breaks_is_one_event_without_a_floe():
+    scene = json.loads(json.dumps(SEA))
+    scene["floes"] = []
+    scene["ships"][0].update(mooring={"surge_stiffness_N_per_m": 1e4, "break_load_N": 2e5}, propulsion={"thrust_N": 1e5}, speed_m_per_s=3)
+    del scene["ships"][0]["steering"]
+    simulation = polynya.Simulation(scene)
+    simulation.run()
+    (event,) = simulation.events()
+    assert event["kind"] == "mooring_break" and event["ship"] == "sailing" and "floe" not in event
+    assert event["force_N"] > event["break_load_N"] == 2e5
+    assert event["force_N"] == pytest.approx(1e4 * event["offset_m"][0], rel=1e-6)
+
+
 def test_a_saved_simulation_continues_bit_for_bit():
     whole, first = polynya.Simulation(ICE), polynya.Simulation(ICE)
     whole.run(until=6)

@@ -248,6 +248,39 @@ TEST(Sailing, AMooringHoldsInACurrentAndBreaksAboveItsLoad) {
   EXPECT_GT(after.position_in_world.y, 100);
 }
 
+/// One event where it breaks, whose force is stiffness times offset, above what the mooring holds; none after
+/// a resume.
+TEST(Sailing, AMooringBreaksInOneEventWithItsForceAndItsOffset) {
+  Scene scene = in_water(ConstantThrust{2e5}, 0, 0.1);
+  scene.water.drift = {0, 0.5};
+  const double heading = 30 * kDegree, along = 1e5, across = 2e5;
+  scene.ships[0].mooring = MooringSettings{.position_in_world = scene.ships[0].position_in_world,
+                                           .heading = heading,
+                                           .surge_stiffness = along,
+                                           .sway_stiffness = across,
+                                           .break_load = 3e5};
+  Simulation simulation(scene);
+  const Story story = run(simulation, 200);
+  ASSERT_EQ(story.mooring_breaks.size(), 1U);
+  const MooringBreak& broken = story.mooring_breaks[0];
+  EXPECT_EQ(broken.ship, 0);
+  EXPECT_EQ(broken.time, simulation.world().population.helms[0].adrift_since);
+  EXPECT_EQ(broken.break_load, 3e5);
+  EXPECT_GT(broken.force, 3e5);
+  EXPECT_LT(broken.force, 3.1e5) << "it breaks in the first step above its load";
+  const geometry::Vector offset = broken.offset_in_moored_place;
+  EXPECT_NEAR(broken.force, std::hypot(along * offset.x, across * offset.y), 1e-6 * broken.force);
+  const geometry::Vector in_world = rotate(geometry::Rotation::by(heading), offset);
+  EXPECT_NEAR(distance(broken.point_in_world, scene.ships[0].position_in_world + in_world), 0, 1e-9);
+  const auto row = std::ranges::find_if(
+      story.samples, [&](const ShipSample& s) { return s.time > broken.time - 0.5 * scene.time.step; });
+  EXPECT_NEAR(std::hypot(row->from_mooring.surge, row->from_mooring.sway), broken.force, 1e-6 * broken.force);
+  EXPECT_NEAR(distance(row->position_in_world, broken.point_in_world), 0, 1e-9);
+  auto resumed = Simulation::resumed(scene, simulation.state());
+  ASSERT_TRUE(resumed.has_value()) << resumed.error();
+  EXPECT_TRUE(run(*resumed, 210).mooring_breaks.empty());
+}
+
 TEST(Sailing, AStiffMooringIsStableInALongStep) {
   Scene scene = in_water(ConstantThrust{0}, 1, 0.5);
   scene.ships[0].mooring = MooringSettings{.position_in_world = scene.ships[0].position_in_world,

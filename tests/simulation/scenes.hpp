@@ -50,6 +50,7 @@ struct Story {
   std::vector<Death> deaths;
   std::vector<ShipSample> samples;
   std::vector<ShipContact> ship_contacts;
+  std::vector<MooringBreak> mooring_breaks;
 };
 
 inline void listen(Simulation& simulation, Story& story) {
@@ -60,6 +61,8 @@ inline void listen(Simulation& simulation, Story& story) {
   story.samples.insert(story.samples.end(), journal.samples.begin(), journal.samples.end());
   story.ship_contacts.insert(story.ship_contacts.end(), journal.ship_contacts.begin(),
                              journal.ship_contacts.end());
+  story.mooring_breaks.insert(story.mooring_breaks.end(), journal.mooring_breaks.begin(),
+                              journal.mooring_breaks.end());
   journal.clear();
 }
 
