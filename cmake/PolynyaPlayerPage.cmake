@@ -1,5 +1,5 @@
-# The player's page (views/player) as a C++ source: its style sheets and scripts are put into its HTML, and that into
-# one constant, when one of them changes. Building needs nothing but CMake.
+# The player's pages (views/player), of one run and of two, as a C++ source: style sheets and scripts are put into their HTML, and
+# that into a constant each, when one of them changes. Building needs nothing but CMake.
 #
 #   polynya_player_page(FOLDER OUTPUT)
 #
@@ -7,13 +7,14 @@
 
 # In the order they stand in the page.
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
-set(POLYNYA_PLAYER_SCRIPTS numbers.js floe_shapes.js run_data.js motion.js breakage.js palette.js map_view.js floe_raster.js draw_ice.js still_ice.js
+set(POLYNYA_PLAYER_SCRIPTS numbers.js floe_shapes.js run_data.js motion.js breakage.js palette.js map_view.js floe_raster.js size_classes.js draw_ice.js still_ice.js
   under_hull.js floe_card.js shown_floe.js channel.js contact_forces.js contact_circles.js draw_marks.js draw_ship.js legend.js map_picture.js
-  plot_scale.js plot_curves.js plot_reading.js plot_off_scale.js plot_chart.js plot_gestures.js plot.js plot_panel.js timeline.js gestures.js keyboard.js page.js
+  plot_scale.js force_causes.js plot_curves.js plot_stack.js plot_reading.js plot_off_scale.js plot_chart.js plot_gestures.js plot.js plot_panel.js timeline.js gestures.js size_panel.js moment_link.js save_picture.js keyboard.js page.js
   actions.js draw_loop.js player.js)
+set(POLYNYA_PAIR_SCRIPTS numbers.js moment_link.js pair_link.js pair.js)
 
 function(polynya_player_page folder output)
-  set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} player.html vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)
+  set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} ${POLYNYA_PAIR_SCRIPTS} player.html pair.html pair.css vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)
   list(TRANSFORM parts PREPEND ${folder}/)
   set(script ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
   add_custom_command(OUTPUT ${output} DEPENDS ${parts} ${script} VERBATIM
@@ -38,6 +39,12 @@ if(CMAKE_SCRIPT_MODE_FILE)
   string(REPLACE "/*{{styles}}*/" "${styles}" page "${page}")
   string(REPLACE "/*{{plot}}*/" "${plot}" page "${page}")
   string(REPLACE "/*{{scripts}}*/" "${scripts}" page "${page}")
+  join_files(pair pair.html)
+  join_files(pair_styles player.css pair.css)
+  join_files(pair_scripts ${POLYNYA_PAIR_SCRIPTS})
+  string(REPLACE "/*{{styles}}*/" "${pair_styles}" pair "${pair}")
+  string(REPLACE "/*{{scripts}}*/" "${pair_scripts}" pair "${pair}")
   file(WRITE ${OUTPUT} "#include \"views/player/player_page.hpp\"\n\nnamespace polynya::views {\n\n"
-    "const std::string_view kPlayerTemplate = R\"player~(${page})player~\";\n\n}  // namespace polynya::views\n")
+    "const std::string_view kPlayerTemplate = R\"player~(${page})player~\";\n\n"
+    "const std::string_view kPairTemplate = R\"player~(${pair})player~\";\n\n}  // namespace polynya::views\n")
 endif()

@@ -37,9 +37,11 @@ struct Page {
   io::JsonValue info;
   std::map<std::string, std::string> columns;
 
-  explicit Page(const std::filesystem::path& file) : text(read_file(file)) {
-    info = io::parse_json(script("run-info")).root;
-    const std::string bytes = from_base64(script("run-columns"));
+  explicit Page(const std::filesystem::path& file, const std::string& info_id = "run-info",
+                const std::string& columns_id = "run-columns")
+      : text(read_file(file)) {
+    info = io::parse_json(script(info_id)).root;
+    const std::string bytes = from_base64(script(columns_id));
     for (const io::JsonValue& column : info.find("columns")->items()) {
       static const std::map<std::string, std::size_t> kSizes{{"f64", 8}, {"i32", 4}, {"u8", 1}};
       const auto offset = static_cast<std::size_t>(column.find("offset")->number());
@@ -101,6 +103,9 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
     EXPECT_EQ(step_maximum[i], run->samples[i].surge_max);
   }
   EXPECT_EQ(held.info.find("events")->items().size(), run->events.size());
+  const io::JsonValue& cause = held.info.find("force_causes")->items().at(0);
+  EXPECT_EQ(cause.find("column")->text(), "surge_N");
+  EXPECT_EQ(cause.find("unit")->text(), "N");
   const auto force = held.column<double>("contact_fx_N"), at = held.column<double>("contact_t_s");
   const auto by = held.column<std::int32_t>("contact_by_floe");
   EXPECT_GT(run->contacts.size(), 0U);
@@ -222,6 +227,42 @@ TEST_F(ViewCommand, ThePageNeedsNothingElse) {
     EXPECT_EQ(held.text.find(outside), std::string::npos) << outside;
   for (const char* mark : {"{{", "/*{{"}) EXPECT_EQ(held.text.find(mark), std::string::npos) << mark;
   EXPECT_NE(held.text.find("Permission is hereby granted"), std::string::npos) << "uPlot's licence";
+}
+
+TEST_F(ViewCommand, TwoRunsStandInOnePageEachWithItsNumbers) {
+  const Outcome outcome =
+      polynya({"view", "run", "run", "--until", "20", "--label", "one,two & more", "--out", "both.html"},
+              {folder->path()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::filesystem::path file = folder->path() / "both.html";
+  const Page first(file, "info-0", "columns-0"), second(file, "info-1", "columns-1");
+  for (const Page* held : {&first, &second}) {
+    EXPECT_EQ(held->column<double>("area_m2").size(), run->floes.size());
+    EXPECT_EQ(held->info.find("events")->items().size(), run->events.size());
+  }
+  const io::JsonDocument pair = io::parse_json(first.script("pair-info"));
+  EXPECT_EQ(pair.root.find("labels")->items()[1].text(), "two & more");
+  EXPECT_EQ(pair.root.find("axis_s")->items()[0].number(), 0);
+  EXPECT_EQ(pair.root.find("axis_s")->items()[1].number(), 20);
+  const io::JsonDocument player = io::parse_json(first.script("player-page"));
+  for (const char* mark : {"{{title}}", "{{options}}", "{{info}}", "{{columns}}"})
+    EXPECT_NE(player.root.text().find(mark), std::string::npos) << mark;
+}
+
+TEST_F(ViewCommand, TwoRunsNeedAPlaceAndTwoNames) {
+  for (const auto& words :
+       std::vector<std::vector<std::string>>{{"run", "run"},
+                                             {"run", "run", "run", "--out", "x.html"},
+                                             {"run", "--label", "a,b"},
+                                             {"run", "run", "--label", "a", "--out", "x.html"}}) {
+    std::vector<std::string> all{"view"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = polynya(all, {folder->path()});
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    EXPECT_FALSE(outcome.err.empty());
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder->path() / "x.html"));
+  EXPECT_EQ(polynya({"view", "run", "none", "--out", "x.html"}, {folder->path()}).code, 5);
 }
 
 TEST_F(ViewCommand, TheSameRunGivesTheSameBytes) {

@@ -205,6 +205,27 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
   });
 });
 
+test("a mooring that breaks has a mark on the timeline, and a card with its force", async () => {
+  const moored = { ...ship("tanker", 0), propulsion: { thrust_N: 2e5 }, mooring: { surge_stiffness_N_per_m: 1e5, break_load_N: 1.2e5 } };
+  const run = makeRun(folder, smallScene("moored", { ships: [moored], floes: [], time: { step_s: 0.05, until_s: 20 } }));
+  const [broken, ...others] = readNdjson(run, "events.ndjson");
+  assert.equal(broken.kind, "mooring_break");
+  assert.deepEqual(others, []);
+  await withPage(makePage(run), {}, async (page) => {
+    const box = await page.locator("#track").boundingBox();
+    await page.mouse.move(box.x + (broken.t_s / 20) * box.width, box.y + 7);
+    assert.match(await page.locator("#timeline-tip").textContent(), /mooring broken of tanker/);
+    await page.mouse.click(box.x + (broken.t_s / 20) * box.width, box.y + 7);
+    assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), broken.t_s);
+    const card = await page.locator("#event-card").textContent();
+    for (const words of ["mooring broken", "tanker", `${(broken.force_N / 1000).toPrecision(4)} kN`, "120.0 kN", `${Number(broken.offset_m[0].toPrecision(3))} m along`])
+      assert.ok(card.includes(words), `${words} in ${card}`);
+    assert.match(await page.locator("#facts").textContent(), /moorings broken1/);
+    await page.keyboard.press("[");
+    await page.keyboard.press("b"); // its mark on the map
+  });
+});
+
 test("thinned, it still plays from end to end", async () => {
   const run = makeRun(folder, "level-plate", "--until", "60");
   const file = makePage(run, "--every", "5", "--from", "11", "--until", "51");

@@ -107,7 +107,10 @@ for (const [width, height] of sizes) {
     for (const theme of ["dark", "light"]) {
       await useTheme(theme);
       await page.evaluate(() => scrollTo(0, 0));
-      assert.deepEqual(await page.evaluate(() => findProblems()), [], theme);
+      for (const quantity of ["surge_by_cause@north", "surge_N"]) {
+        await page.evaluate((name) => window.polynyaPlayer.actions.plotQuantity(name), quantity);
+        assert.deepEqual(await page.evaluate(() => findProblems()), [], `${theme}, ${quantity}`);
+      }
     }
     const map = await page.locator("#stage").boundingBox();
     assert.ok(map.height >= Math.max(200, 0.38 * height), `the map is ${map.height} px high`);

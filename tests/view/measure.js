@@ -22,20 +22,22 @@ function processorTime() {
 async function playFor(page, seconds) {
   const before = processorTime();
   const played = await page.evaluate(async (duration) => {
-    const { actions, state } = window.polynyaPlayer;
+    const player = window.polynyaPlayer ?? window.polynyaPair.players[0];
+    const { actions } = player;
+    const clock = window.polynyaPair?.clock ?? player.state;
     const between = [];
     actions.play(true);
     let last = performance.now();
     const end = last + duration;
-    window.polynyaPlayer.drawTimes.length = 0;
-    while (last < end && state.isPlaying) {
+    player.drawTimes.length = 0;
+    while (last < end && clock.isPlaying) {
       await new Promise(requestAnimationFrame);
       const now = performance.now();
       between.push(now - last);
       last = now;
     }
     actions.play(false);
-    return { between, draw: window.polynyaPlayer.drawTimes.slice() };
+    return { between, draw: player.drawTimes.slice() };
   }, 1000 * seconds);
   return { ...played, processor: (processorTime() - before) / played.between.length };
 }
@@ -46,14 +48,17 @@ async function main() {
   const browser = await startBrowser();
   const page = await openPage(browser, path.resolve(process.argv[2]));
   const seconds = Number(process.argv[3] ?? 5);
-  console.log(`opened and drawn after ${page.openedAfter} ms; ${await page.locator("#living").textContent()} floes`);
+  const floes = await page.evaluate(() => (window.polynyaPair?.players ?? [window.polynyaPlayer]).map(({ places }) => places.count).join(" and "));
+  console.log(`opened and drawn after ${page.openedAfter} ms; ${floes} floes`);
   const show = (words, { between, draw, processor }) =>
     console.log(`${words}: ${(1000 * between.length / between.reduce((a, b) => a + b, 0)).toFixed(0)} frames/s, between frames ` +
       `${at(between, 0.5)} ms (95 %: ${at(between, 0.95)}), of which script ${at(draw, 0.5)} ms (95 %: ${at(draw, 0.95)}); processor ${processor.toFixed(1)} ms a frame`);
   await playFor(page, 2); // the browser compiles what runs often
-  await page.evaluate(() => window.polynyaPlayer.actions.goToEnd(false));
+  const act = (name, ...words) => page.evaluate(([action, list]) => (window.polynyaPlayer ?? window.polynyaPair.players[0]).actions[action](...list), [name, words]);
+  await act("goToEnd", false);
   show("whole run, playing", await playFor(page, seconds));
-  await page.evaluate(() => { const { actions } = window.polynyaPlayer; actions.goToEnd(false); actions.setFollow(0); });
+  await act("goToEnd", false);
+  await act("setFollow", 0);
   show("following the ship", await playFor(page, seconds));
   await browser.close();
 }

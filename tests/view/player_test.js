@@ -256,8 +256,9 @@ test("the contact forces shown are those of contacts.csv, at the hull, and go wi
 });
 
 test("the present time of plot and timeline is at one place with the time", async () => {
-  for (const time of [0, 137, 550]) {
+  for (const [time, quantity] of [[0, "surge_N"], [137, "surge_N"], [550, "surge_N"], [550, "contacts"], [550, "surge_N"]]) {
     await act("goTo", time);
+    await act("plotQuantity", quantity); // its axes may leave the plot another width
     const [line, thumb, over] = await Promise.all([".now-line", ".thumb", "#plot .u-over"].map((css) => page.locator(css).boundingBox()));
     assert.ok(Math.abs(line.x + line.width / 2 - (over.x + (time / 550) * over.width)) < 1.5);
     assert.ok(Math.abs(thumb.x + thumb.width / 2 - (line.x + line.width / 2)) < 1.5);

@@ -15,7 +15,7 @@ async function main([file, out, ...steps]) {
   for (const step of steps.slice(isPhone || width ? 1 : 0)) {
     const [name, word] = step.split("=");
     const value = word !== undefined && !Number.isNaN(Number(word)) ? Number(word) : word;
-    await page.evaluate(([action, given]) => window.polynyaPlayer.actions[action](...(given === undefined ? [] : [given])), [name, value]);
+    await page.evaluate(([action, given]) => (window.polynyaPlayer ?? window.polynyaPair.players[0]).actions[action](...(given === undefined ? [] : [given])), [name, value]);
     await page.waitForTimeout(60);
   }
   await page.waitForTimeout(200);

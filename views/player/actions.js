@@ -1,11 +1,9 @@
 // What can be done with the player: by its controls, keys and pointers, and by tests.
 
-const rates = [0.5, 1, 2, 5, 10, 20, 50, 100];
-
 /** All actions, each group with the others at hand. */
 function makeActions(player) {
   const actions = {};
-  const groups = [timeActions, eventActions, mapActions, layerActions, floeActions, pageActions];
+  const groups = [timeActions, eventActions, mapActions, layerActions, takeAwayActions, floeActions, pageActions];
   return Object.assign(actions, ...groups.map((group) => group(player, actions)));
 }
 
@@ -59,6 +57,11 @@ function eventActions({ run, state, view }, actions) {
       }
       showEventCard(byId("event-card"), run, event);
     },
+    /** The first marked event after a time [s], or before it; −1 where there is none. */
+    eventFrom(time, step) {
+      const isBeyond = (event) => isMarked(event) && (step > 0 ? event.t_s > time + 1e-9 : event.t_s < time - 1e-9);
+      return step > 0 ? events.findIndex(isBeyond) : events.findLastIndex(isBeyond);
+    },
     stepEvent(step) {
       const marked = Array.from(events.keys()).filter((index) => isMarked(events[index]));
       let at = marked.indexOf(state.event);
@@ -96,6 +99,7 @@ function mapActions(player, actions) {
     },
     follow: () => actions.setFollow(state.follow + 1 < ships.length ? state.follow + 1 : -1),
     setFollow(ship) {
+      if (ship >= ships.length) return;
       state.follow = ship;
       byId("follow").setAttribute("aria-pressed", String(ship >= 0));
       if (ship >= 0 && state.isFitted) {
@@ -125,6 +129,23 @@ function layerActions(player) {
       player.legend.show();
       state.iceDirty = true;
     },
+  };
+}
+
+/** What is taken out of the page: a link, pictures. And the sizes that the map shows. */
+function takeAwayActions(player) {
+  const { state } = player;
+  return {
+    /** Sizes √area [m] `from` on and `below`; null: all. */
+    chooseSizes(range) {
+      state.sizes = range;
+      player.sizePanel.showFields();
+      player.legend.show();
+      state.iceDirty = true;
+    },
+    copyLink: () => copyLink(player.address()),
+    saveMap: () => savePicture(player, mapPicture(player), "map"),
+    savePlot: () => player.run.info.ships.length > 0 && savePicture(player, plotPicture(player), "plot"),
   };
 }
 
@@ -166,7 +187,7 @@ function floeActions(player, actions) {
 
 /** The page: its cards, its theme and its plot. */
 function pageActions(player, actions) {
-  const { run, state, range, plot } = player;
+  const { run, state, axis, plot } = player;
   return {
     letGo() {
       if (byId("help").open) return byId("help").close();
@@ -189,8 +210,9 @@ function pageActions(player, actions) {
       player.plotPanel.showTools();
     },
     /** Shows a part of the run in the plot [s]; without ends all of it. */
-    zoomPlot: (from = range[0], until = range[1]) => plot.show(from, until),
+    zoomPlot: (from = axis[0], until = axis[1]) => plot.show(from, until),
     plotQuantity(name) {
+      if (!Object.hasOwn(plot.quantities, name)) return;
       plot.quantity = name;
       byId("quantity").value = name;
       player.plotPanel.rebuild();

@@ -102,34 +102,42 @@ function classOf(value, edges) {
   return k;
 }
 
-/** Draws the floes of these ids that show on the screen: small ones pixel by pixel, the others as paths. */
-function drawFloes(context, view, run, places, raster, ids, colouring, colours) {
-  const { floes } = run;
-  const buckets = colouring.colours.map(() => ({ large: [], small: [] }));
+/** The ids whose floes show on the screen, by what fills them: small ones, and others. */
+function bucketsInView(view, floes, places, ids, look) {
+  const buckets = look.fills.map(() => ({ large: [], small: [] }));
   let small = 0;
   for (const id of ids) {
     if (!view.shows(places.x[id], places.y[id], floes.reach[id])) continue;
-    const bucket = buckets[classOf(colouring.value(id), colouring.edges)];
+    const bucket = buckets[look.bucketOf(id)];
     const isSmall = floes.reach[id] * view.scale * view.ratio < rasterReach;
     (isSmall ? bucket.small : bucket.large).push(id);
     small += isSmall;
   }
+  return { buckets, small };
+}
+
+function rasterSmall(context, view, floes, places, raster, buckets, look) {
+  raster.begin(context.canvas.width, context.canvas.height);
+  buckets.forEach((bucket, k) => {
+    const fill = pixelOf(look.fills[k]);
+    const rims = rimParts.map((part) => pixelOf(look.fills[k], look.edgeOf(k), part));
+    const rimOf = (id) => rims[Math.min(rims.length - 1, Math.floor((floes.reach[id] * view.scale) / smallReach))];
+    for (const id of bucket.small) raster.add(floes, places, view, id, fill, rimOf(id));
+  });
+  raster.put(context, view);
+}
+
+/** Draws the floes of these ids that show on the screen: small ones pixel by pixel, the others as paths. `look` has their colours. */
+function drawFloes(context, view, run, places, raster, ids, look) {
+  const { floes } = run;
+  const { buckets, small } = bucketsInView(view, floes, places, ids, look);
   const isRastered = small > manySmall;
-  if (isRastered) {
-    raster.begin(context.canvas.width, context.canvas.height);
-    buckets.forEach((bucket, k) => {
-      const fill = pixelOf(colouring.colours[k]);
-      const rims = rimParts.map((part) => pixelOf(colouring.colours[k], colours["ice-edge"], part));
-      const rimOf = (id) => rims[Math.min(rims.length - 1, Math.floor((floes.reach[id] * view.scale) / smallReach))];
-      for (const id of bucket.small) raster.add(floes, places, view, id, fill, rimOf(id));
-    });
-    raster.put(context, view);
-  }
-  context.strokeStyle = colours["ice-edge"];
+  if (isRastered) rasterSmall(context, view, floes, places, raster, buckets, look);
   context.lineWidth = Math.min(1.1, Math.max(0.35, 0.4 * view.scale));
   context.lineJoin = "round";
   buckets.forEach((bucket, k) => {
-    context.fillStyle = colouring.colours[k];
+    context.fillStyle = look.fills[k];
+    context.strokeStyle = look.edgeOf(k);
     const trace = (id) => traceFloe(context, view, floes, places, id);
     const hasEdge = (id) => floes.reach[id] * view.scale > smallReach;
     if (!isRastered) {

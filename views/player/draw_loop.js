@@ -10,11 +10,12 @@ function playOn({ state, range, actions }, passed) {
   state.iceDirty = true;
 }
 
-function showNumbers({ run, state, places, plotPanel, timeline }) {
+function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   const words = `${state.time.toFixed(1)} s`;
   byId("now").textContent = words;
   byId("living").textContent = String(places.count);
   byId("living-word").textContent = places.count === 1 ? "floe" : "floes";
+  sizePanel.show();
   if (run.under.went > 0) showCountsUnderHulls(run, places, state.time);
   plotPanel.setTime(state.time);
   timeline.setTime(state.time, `${words}, ${places.count} floes`);
@@ -39,6 +40,7 @@ function startDrawing(player, canvases) {
       drawMarks(shownFloe.shown());
       shownFloe.showCard();
     }
+    if (state.iceDirty || state.marksDirty) player.keepLink();
     state.iceDirty = state.marksDirty = false;
   }
 

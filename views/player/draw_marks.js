@@ -93,6 +93,12 @@ function drawEventMark(context, x, y, kind, size, colours) {
     context.lineTo(x + 1.3 * size, y + size);
     context.lineTo(x - 1.3 * size, y + size);
     context.closePath();
+  } else if (kind === "mooring_break") {
+    context.moveTo(x, y - 1.4 * size);
+    context.lineTo(x + 1.4 * size, y);
+    context.lineTo(x, y + 1.4 * size);
+    context.lineTo(x - 1.4 * size, y);
+    context.closePath();
   } else if (kind === "bend") {
     context.arc(x, y, size, 0, 2 * Math.PI);
   } else {
@@ -105,7 +111,7 @@ function drawEventMark(context, x, y, kind, size, colours) {
 function drawFractures(context, view, run, time, colours) {
   for (const event of run.info.events) {
     if (event.t_s > time) break;
-    if (isMarked(event)) drawEventMark(context, ...view.toScreen(...event.point_m), event.kind, event.kind === "split" ? 6 : 3, colours);
+    if (isMarked(event)) drawEventMark(context, ...view.toScreen(...event.point_m), event.kind, isAbove(event) ? 6 : 3, colours);
   }
 }
 

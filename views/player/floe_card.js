@@ -145,6 +145,22 @@ function crackRows(event, inUnit) {
   return rows;
 }
 
+/** Of a broken mooring: what it held, and how far the ship was off its place. */
+function mooringRows({ force_N: force, break_load_N: most, offset_m: [along, across] }) {
+  return { force: valueWords(force, "N"), "breaks above": valueWords(most, "N"),
+    "off its place": `${shortNumber(Math.hypot(along, across))} m: ${minus(shortNumber(along))} m along, ${minus(shortNumber(across))} m across` };
+}
+
+/** Of what happens to ice: what decided it. */
+function iceRows(event) {
+  const unit = loadUnit(Math.max(event.load_N ?? 0, event.capacity_N ?? 0), "N");
+  const inUnit = (value) => ((value ?? null) === null ? "\u2013" : `${shortNumber(value * unit.factor)} ${unit.name}`);
+  if (event.kind === "grind") return { "overlap ground": `${shortNumber(event.overlap_area_m2)} m\u00b2` };
+  if ("path_m" in event) return pathRows(event);
+  if (!("load_name" in event)) return { load: inUnit(event.load_N), capacity: inUnit(event.capacity_N), ...tiltRows(event) };
+  return { [event.load_name]: inUnit(event.load_N), [event.capacity_name]: inUnit(event.capacity_N), ...crackRows(event, inUnit) };
+}
+
 function showEventCard(host, run, event) {
   if (!event) {
     host.replaceChildren(make("p", { class: "hint" }, run.info.events.length > 0
@@ -152,21 +168,13 @@ function showEventCard(host, run, event) {
     return;
   }
   const ship = run.info.ships[event.ship];
-  const unit = loadUnit(Math.max(event.load_N ?? 0, event.capacity_N ?? 0), "N");
-  const inUnit = (value) => ((value ?? null) === null ? "\u2013" : `${shortNumber(value * unit.factor)} ${unit.name}`);
   const rows = {
     event: kindWords[event.kind], time: `${event.t_s.toFixed(3)} s`,
     ...("by_floe" in event ? { by: `floe ${event.by_floe}` } : { ship: ship ? ship.name : "\u2013" }),
-    floe: String(event.floe), pieces: event.children.join(", ") || "\u2013",
+    ...("floe" in event && { floe: String(event.floe), pieces: event.children.join(", ") || "\u2013" }),
     at: `(${event.point_m.map((v) => minus(v.toFixed(1))).join(", ")}) m`,
+    ...(event.kind === "mooring_break" ? mooringRows(event) : iceRows(event)),
   };
-  if (event.kind === "grind") rows["overlap ground"] = `${shortNumber(event.overlap_area_m2)} m\u00b2`;
-  else if ("path_m" in event) Object.assign(rows, pathRows(event));
-  else if ("load_name" in event) {
-    rows[event.load_name] = inUnit(event.load_N);
-    rows[event.capacity_name] = inUnit(event.capacity_N);
-    Object.assign(rows, crackRows(event, inUnit));
-  } else Object.assign(rows, { load: inUnit(event.load_N), capacity: inUnit(event.capacity_N), ...tiltRows(event) });
   if (event.reason) rows.reason = event.reason;
   const list = make("dl");
   for (const [name, words] of Object.entries(rows)) list.append(make("dt", {}, name), make("dd", {}, words));

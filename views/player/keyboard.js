@@ -12,6 +12,7 @@ const keyHelp = [
   ["F", "follow the ship (the next ship)"],
   ["1 2 3 4", "colour by breakage, generation, speed, size"],
   ["H", "channel"], ["C", "contact circles"], ["V", "velocities"], ["P", "contact forces"], ["B", "fracture marks"],
+  ["L", "copy a link to this instant"], ["I", "save the map as a picture (PNG); with Shift the plot"],
   ["X", "plot: full scale, or without spikes"],
   ["T", "light, dark"],
   ["Esc", "let go of the floe; close this"],
@@ -47,6 +48,8 @@ function watchKeys(actions) {
     v: () => actions.toggleLayer("velocities"),
     p: () => actions.toggleLayer("forces"),
     b: () => actions.toggleLayer("fractures"),
+    l: () => actions.copyLink(),
+    i: (event) => (event.shiftKey ? actions.savePlot() : actions.saveMap()),
     x: () => actions.toggleFullScale(),
     t: () => actions.toggleTheme(),
     "?": () => actions.toggleHelp(),
@@ -54,7 +57,7 @@ function watchKeys(actions) {
   };
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const inField = event.target.closest("select") || (event.target.type === "radio" && event.key.startsWith("Arrow"));
+    const inField = event.target.closest("select, input[type=number]") || (event.target.type === "radio" && event.key.startsWith("Arrow"));
     const onButton = event.target.closest("button, input, summary") && (event.key === " " || event.key === "Enter");
     const action = keys[event.key] ?? keys[event.key.toLowerCase()];
     if (!action || onButton || (inField && event.key !== "Escape")) return;

@@ -32,6 +32,7 @@ function makeLegend(player) {
       const colouring = colourings[state.colourBy];
       const rows = colouring.words.flatMap((words, k) => (colouring.isUsed?.(k) ?? true ? [swatchRow(colouring.colours[k], words)] : []));
       if (state.colourBy === "size") rows.reverse();
+      if (state.sizes) rows.push(make("span", { class: "pale" }, `pale: not ${sizeRangeWords(state.sizes)}`));
       if (run.under.went > 0) rows.push(make("span", {}, make("i", { class: "under-hull" }), "ice under the hull or waiting behind it"));
       if (state.layers.startIce) rows.push(swatchRow(colours["start-ice"], "ice at the start"));
       if (state.layers.channel) rows.push(swatchRow(colours.swept, "swept by the hull"), swatchRow(colours.channel, "open from ice to ice ", channelWidth));

@@ -25,9 +25,10 @@ function makeIcePicture(player, canvas) {
     ice.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     if (state.layers.startIce) drawStartIce(ice, view, run, start, places, state.time, colours);
     if (state.layers.channel && run.frames.times.length > 0) drawChannels();
-    const look = [view.x, view.y, view.scale, view.width, view.height, state.colourBy, colours.water].join();
-    drawStillAndMoving(ice, view, look, state.time, Math.max(5, state.rate), (context, ids) =>
-      drawFloes(context, view, run, places, raster, ids, colourings[state.colourBy], colours));
+    const kind = [view.x, view.y, view.scale, view.width, view.height, state.colourBy, colours.water, state.sizes?.from, state.sizes?.below].join();
+    const look = paleOutOfSizes(colourings[state.colourBy], run.floes, state.sizes, colours);
+    drawStillAndMoving(ice, view, kind, state.time, Math.max(5, state.rate), (context, ids) =>
+      drawFloes(context, view, run, places, raster, ids, look));
   };
 }
 
@@ -61,7 +62,7 @@ function makeMarksPicture(player, canvas) {
     drawShips(marks, view, run, motions, state.time, state.layers, colours);
     drawIceUnderHulls(marks, view, run, places, colours);
     if (places.under.includes(shown)) outline(shown);
-    const notices = [];
+    const notices = [player.isOver ? `This run ends at ${Number(player.range[1].toFixed(6))} s.` : ""];
     if (state.layers.circles) notices.push(drawCircles(marks, view, run, circlesOf, places, motions, colours));
     if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours, forceScale));
     if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, arrowScale);

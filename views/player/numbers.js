@@ -2,6 +2,8 @@
 
 const byId = (id) => document.getElementById(id);
 
+const rates = [0.5, 1, 2, 5, 10, 20, 50, 100]; // of playing, times as fast as the run
+
 /** An element with attributes and children. */
 function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);

@@ -8,6 +8,13 @@ const ramps = {
   size: ["#0d4a35", "#2d7a55", "#58a173", "#b5dcbb", "#dcf0df", "#ffffff"],
 };
 
+/** A colour "#rrggbb" a part of the way to another. */
+function mixedColour(colour, other, part) {
+  const channel = (css, k) => parseInt(css.slice(1 + 2 * k, 3 + 2 * k), 16);
+  const mixed = [0, 1, 2].map((k) => Math.round(channel(colour, k) + part * (channel(other, k) - channel(colour, k))));
+  return `#${mixed.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
+}
+
 /** Of a ship's curve. */
 const shipColour = (colours, ship) => colours[`ship-${ship % 5}`];
 
@@ -24,21 +31,25 @@ function countWords(from, below) {
   return below === from + 1 ? String(from) : `${from} \u2013 ${below - 1}`;
 }
 
-/** How floes are coloured: a floe's value, class edges, colours, words for the legend. */
-function makeColourings(run, places) {
-  const { floes, frames } = run;
-  let fastest = 0;
-  for (const at of frames.recordAt)
-    fastest = Math.max(fastest, Math.hypot(frames.doubles[at + 3], frames.doubles[at + 4]));
-  let largest = 0;
-  for (let i = 0; i < floes.count; ++i) largest = Math.max(largest, floes.area[i]);
+/** The fastest record of a floe [m/s], the largest area [m²] and the most fractures in a run: the ends of its classes of colours. */
+function extremesOf({ floes, frames }) {
+  const most = { speed: 0, area: 0, generation: 1 };
+  for (const at of frames.recordAt) most.speed = Math.max(most.speed, Math.hypot(frames.doubles[at + 3], frames.doubles[at + 4]));
+  for (let i = 0; i < floes.count; ++i) {
+    most.area = Math.max(most.area, floes.area[i]);
+    most.generation = Math.max(most.generation, floes.generation[i]);
+  }
+  return most;
+}
+
+/** How floes are coloured, in classes up to the extremes: a floe's value, class edges, colours, words for the legend. */
+function makeColourings(run, places, most) {
+  const { floes } = run;
   const classes = (edges) => [`below ${edges[0]}`,
     ...edges.map((edge, k) => (k + 1 < edges.length ? `${edge} \u2013 ${edges[k + 1]}` : `${edge} and more`))];
-  let oldest = 1;
-  for (let i = 0; i < floes.count; ++i) oldest = Math.max(oldest, floes.generation[i]);
-  const generations = oldest > 20 ? [1, ...roundEdges(oldest).slice(1)] : [1, 2, 3, 5, 10];
-  const sizes = roundEdges(Math.sqrt(largest) || 1);
-  const speeds = roundEdges(fastest || 1);
+  const generations = most.generation > 20 ? [1, ...roundEdges(most.generation).slice(1)] : [1, 2, 3, 5, 10];
+  const sizes = roundEdges(Math.sqrt(most.area) || 1);
+  const speeds = roundEdges(most.speed || 1);
   const breakageOf = breakagesOf(run);
   return {
     breakage: { title: "Ice", edges: [1, 2, 3, 4], colours: ramps.breakage, value: (id) => breakageOf[id], isUsed: (k) => breakageOf.includes(k),
@@ -56,6 +67,7 @@ function themeColours() {
   const style = getComputedStyle(document.documentElement);
   const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "deck", "deck-house", "track", "ink", "panel", "muted",
     "accent", "highlight", "line", "family",
-    "bend", "split", "grind", "rejected_cut", "under-hull", "paper-load", "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
+    "bend", "split", "grind", "rejected_cut", "under-hull", "paper-load", "mooring_break",
+    ...["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring", "ships"].map((cause) => `cause-${cause}`), "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }

@@ -5,19 +5,22 @@ function readPlayedRun() {
   const run = readRun();
   run.breakOf = new Map();
   run.info.events.forEach((event, index) => {
-    if (event.kind !== "rejected_cut" && event.kind !== "submerge") run.breakOf.set(event.floe, index);
+    if (!["rejected_cut", "submerge", "mooring_break"].includes(event.kind)) run.breakOf.set(event.floe, index);
   });
   run.under = readIceUnderHulls(run.info.events);
   run.carry = makeCarrier(run.info.water);
   return run;
 }
 
+/** Of one of two runs side by side its `label` and `axis_s`, the times on the axes of both; else nothing. */
+const readOptions = () => JSON.parse(byId("page-options").textContent);
+
 /** What is shown when the page opens. */
 function firstState(run, motions, range) {
   const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some((_, ship) => hasGone(run, motions, ship, carry));
   return {
     time: range[0], isPlaying: false, rate: defaultRate(range[1] - range[0]), selected: -1, hovered: -1, event: null,
-    follow: -1, colourBy: "breakage", isFitted: true,
+    follow: -1, colourBy: "breakage", isFitted: true, sizes: null,
     layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, circles: false, velocities: false, forces: false, fractures: false },
     iceDirty: true, marksDirty: true,
   };
@@ -28,15 +31,19 @@ function makePlayer(canvases) {
   const run = readPlayedRun();
   const { times } = run.frames;
   const range = times.length > 0 ? [times[0], times[times.length - 1]] : [0, 0];
+  const options = readOptions();
   const motions = new Motions(run);
   const places = makePlaces(run, motions);
   const state = firstState(run, motions, range);
-  const colourings = makeColourings(run, places);
+  const extremes = extremesOf(run);
+  const colourings = makeColourings(run, places, extremes);
   return {
-    run, range, state, view: makeMapView(byId("stage"), canvases), places, motions, box: extentOf(run, motions, places, range),
-    colours: themeColours(), colourings, circlesOf: makeCircleSampler(run), cardIsStale: false, drawn: 0, drawTimes: [],
+    run, range, axis: options.axis_s ?? range, isOneOfTwo: "axis_s" in options, name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions, box: extentOf(run, motions, places, range),
+    colours: themeColours(), colourings, extremes, circlesOf: makeCircleSampler(run), cardIsStale: false, drawn: 0, drawTimes: [],
     forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
+    /** Classes of colours up to other extremes, as another run has them. */
+    colourUpTo: (most) => Object.assign(colourings, makeColourings(run, places, most)),
     stations: (ship) => stationsOf(run, places, motions, ship, state.time),
     contacts: () => contactsOfFrame(run, motions.frame),
   };
@@ -64,12 +71,15 @@ function watchPage(player) {
 function startPlayer() {
   const canvases = [byId("ice"), byId("marks")];
   const player = makePlayer(canvases);
-  const { run, range, view } = player;
+  const { run, axis, view } = player;
   player.plotPanel = makePlotPanel(player);
   player.plot = player.plotPanel.plot;
   player.actions = makeActions(player);
-  player.timeline = makeTimeline(run, byId("track"), range, player.actions);
+  player.timeline = makeTimeline(run, byId("track"), axis, player.actions);
   player.legend = makeLegend(player);
+  player.sizePanel = makeSizePanel(player);
+  player.address = () => addressOf(momentOf(player));
+  player.keepLink = () => {};
   fillPage(player);
   watchGestures(byId("stage"), player.actions);
   watchKeys(player.actions);
@@ -79,6 +89,7 @@ function startPlayer() {
   player.refreshTheme();
   player.actions.select(-1);
   showEventCard(byId("event-card"), run, null);
+  if (!player.isOneOfTwo) keepMoment(player);
   startDrawing(player, canvases);
   return player;
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "io/run/force_causes.hpp"
 #include "io/run/force_columns.hpp"
+#include "io/run/records.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/version.hpp"
 
@@ -57,6 +59,17 @@ void write_force_columns(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
+void write_force_causes(io::JsonWriter& json, const simulation::Scene& scene) {
+  json.key("force_causes").open('[');
+  for (const io::ForceCause& cause : io::force_causes(scene)) {
+    json.open('{').key("direction").value(cause.direction).key("cause").value(cause.cause);
+    json.key("words").value(cause.words).key("column").value(cause.column);
+    json.key("unit").value(io::force_column(cause.column).unit);
+    json.key("share_of").value(cause.share_of).key("without_shares").value(cause.without_shares).close('}');
+  }
+  json.close(']');
+}
+
 void write_criterion(io::JsonWriter& json, const simulation::Event& event) {
   using enum simulation::EventKind;
   const auto& c = event.criteria;
@@ -81,18 +94,36 @@ void write_criterion(io::JsonWriter& json, const simulation::Event& event) {
   }
 }
 
+void write_event(io::JsonWriter& json, const simulation::Event& event) {
+  json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
+  json.key("ship").value(event.ship);
+  if (event.by_floe != simulation::kNoFloe) json.key("by_floe").value(event.by_floe);
+  json.key("floe").value(event.floe).key("children").list(event.children);
+  json.key("point_m").value(event.point_in_world);
+  write_criterion(json, event);
+  if (!event.reason.empty()) json.key("reason").value(event.reason);
+  json.close('}');
+}
+
+void write_mooring_break(io::JsonWriter& json, const simulation::MooringBreak& broken) {
+  json.open('{').key("t_s").value(broken.time).key("kind").value(io::kMooringBreakKind);
+  json.key("ship").value(broken.ship).key("point_m").value(broken.point_in_world);
+  json.key("force_N").value(broken.force).key("break_load_N").value(broken.break_load);
+  json.key("offset_m")
+      .value(geometry::Point{broken.offset_in_moored_place.x, broken.offset_in_moored_place.y});
+  json.close('}');
+}
+
+/// Of ice and of moorings, as time goes.
 void write_events(io::JsonWriter& json, const io::Run& run) {
   json.key("events").open('[');
+  auto broken = run.mooring_breaks.begin();
   for (const simulation::Event& event : run.events) {
-    json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-    json.key("ship").value(event.ship);
-    if (event.by_floe != simulation::kNoFloe) json.key("by_floe").value(event.by_floe);
-    json.key("floe").value(event.floe).key("children").list(event.children);
-    json.key("point_m").value(event.point_in_world);
-    write_criterion(json, event);
-    if (!event.reason.empty()) json.key("reason").value(event.reason);
-    json.close('}');
+    for (; broken != run.mooring_breaks.end() && broken->time < event.time; ++broken)
+      write_mooring_break(json, *broken);
+    write_event(json, event);
   }
+  for (; broken != run.mooring_breaks.end(); ++broken) write_mooring_break(json, *broken);
   json.close(']');
 }
 
@@ -135,6 +166,7 @@ std::string info_of(const io::Run& run, const PlayerData& data) {
   write_events(json, run);
   write_water(json, scene.water);
   write_force_columns(json, scene);
+  write_force_causes(json, scene);
   json.key("columns").open('[');
   for (const ColumnWriter::Column& column : data.columns.table()) {
     json.open('{').key("name").value(column.name).key("type").value(column.type);
@@ -151,6 +183,7 @@ PlayerData player_data(const io::Run& run, const io::FrameSelection& selection) 
   add_floes(data.columns, run);
   const std::vector<io::Frame> frames = thinned_frames(run, selection);
   data.frames = frames.size();
+  if (!frames.empty()) data.start = frames.front().time, data.end = frames.back().time;
   add_frames(data.columns, frames);
   add_forces(data.columns, run, selection);
   add_contacts(data.columns, run, frames);

@@ -14,6 +14,8 @@ struct PlayerData {
   std::string info;  ///< JSON
   ColumnWriter columns;
   std::size_t frames = 0;
+  double start = 0;  ///< of the frames [s]
+  double end = 0;
 };
 
 PlayerData player_data(const io::Run& run, const io::FrameSelection& selection);

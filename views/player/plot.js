@@ -7,21 +7,32 @@ const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
 class Plot {
   constructor(run, host, range, { onTime, onPlaced, onSpan }) {
     Object.assign(this, { run, host, range, onTime, onPlaced, onSpan });
-    this.quantities = plotQuantities(run);
+    this.quantities = { ...plotQuantities(run), ...stackedQuantities(run) };
     this.quantity = Object.keys(this.quantities)[0];
     this.hidden = new Set(run.info.splits_by_j_over_tau_c ? [] : ["paper"]); // kinds of curves
     this.span = range; // in view [s]
     this.isFull = false; // up to the largest value, else without spikes
     this.off = null; // the rows off the scale
     this.chart = null;
+    this.widened = (ranges) => ranges; // so that two plots have one scale
     this.colours = {};
     this.now = make("div", { class: "now-line" });
     this.offScale = make("div", { class: "off-scale", id: "off-scale" });
     this.reading = makePlotReading(run, this);
   }
 
+  shownQuantity() {
+    return this.quantities[this.quantity];
+  }
+
   curves() {
-    return this.quantities[this.quantity].curves;
+    return this.shownQuantity().curves;
+  }
+
+  /** The ships whose curves are shown, by index. */
+  ships() {
+    const { ship } = this.shownQuantity();
+    return ship === undefined ? [...this.run.forces.keys()] : [ship];
   }
 
   isShown(curve) {
@@ -46,18 +57,36 @@ class Plot {
     return [Math.max(0, lastAtMost(times, this.span[0])), lastAtMost(times, this.span[1]) + 1];
   }
 
-  /** A column's rows in view, of one ship. */
-  inView(ship, column) {
-    return this.run.forces[ship][column].subarray(...this.rowsInView(ship));
+  /** What is in view of each curve and ship: its times and values. Of stacked areas how high and how low they stand. */
+  inView() {
+    if (this.shownQuantity().isStack) {
+      const { high, low, line, ends } = stackOf(this);
+      const [up, down] = this.shownQuantity().sums;
+      return [[up, high], [down, low], ...(line ? [[this.curves().at(-1), line]] : [])].map(([curve, values]) => ({ curve, ship: this.ships()[0], times: ends, values }));
+    }
+    return this.shownCurves().flatMap((curve) => this.ships().map((ship) => {
+      const [rows, part] = [this.run.forces[ship], this.rowsInView(ship)];
+      return { curve, ship, times: rows.force_t_s.subarray(...part), values: rows[curve.column].subarray(...part) };
+    }));
   }
 
-  /** The ranges of the axes of loads, by scale, for what is in view. */
-  loadRanges() {
-    const { forces } = this.run;
-    const columnsOf = (scale) => this.shownCurves().filter((curve) => curve.scale === scale)
-      .flatMap((curve) => forces.map((_, ship) => this.inView(ship, curve.column)));
-    const names = this.scales();
-    const ranges = alignedRanges(names.map((name) => loadRange(columnsOf(name), this.isFull)));
+  isOfLoads() {
+    return this.shownCurves().every(isLoad);
+  }
+
+  /** The parts of its axes that this plot needs, by scale. */
+  neededRanges() {
+    const all = this.inView();
+    const columnsOf = (scale) => all.filter(({ curve }) => curve.scale === scale).map(({ values }) => values);
+    const rangeOf = (columns) => (this.isOfLoads() ? loadRange(columns, this.isFull) : wholeRange(columns));
+    return Object.fromEntries(this.scales().map((name) => [name, rangeOf(columnsOf(name))]));
+  }
+
+  /** The ranges of the axes, by scale, for what is in view. */
+  axisRanges() {
+    const needed = this.widened(this.neededRanges());
+    const names = Object.keys(needed);
+    const ranges = this.isOfLoads() ? alignedRanges(names.map((name) => needed[name])) : names.map((name) => uPlot.rangeNum(...needed[name], 0.1, true));
     return Object.fromEntries(names.map((name, k) => [name, ranges[k]]));
   }
 

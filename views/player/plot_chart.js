@@ -20,31 +20,36 @@ function valueAxis(plot, scale, side) {
 /** The curves in the order of drawing: the first is drawn last, over the others. */
 const drawnCurves = (plot) => plot.shownCurves().reverse();
 
+/** The series of uPlot. Stacked areas are drawn by drawStack. */
+function chartSeries(plot, curves) {
+  const paths = plot.shownQuantity().isStack ? { paths: () => null } : {};
+  return plot.ships().flatMap((ship) => curves.map((curve) =>
+    ({ scale: curve.scale, points: { show: false }, ...paths, ...curveStyle(curve, ship, plot.run.forces.length, plot.colours) })));
+}
+
 function chartOptions(plot) {
-  const { forces } = plot.run;
   const curves = drawnCurves(plot);
-  const ofLoads = curves.every(isLoad);
-  const rangeOf = (scale) => (chart, low, high) => (ofLoads ? plot.loadRanges()[scale] : uPlot.rangeNum(low ?? 0, high ?? 1, 0.1, true));
+  const ofLoads = plot.isOfLoads();
+  const rangeOf = (scale) => () => plot.axisRanges()[scale] ?? [0, 1]; // a chart that was replaced asks once more
   const isPaper = plot.scales().includes("paper");
   const isPlain = plot.scales().includes("y");
   const placed = (chart) => plot.onPlaced(chart.over.offsetLeft, chart.over.offsetWidth);
   return {
     width: plot.host.clientWidth, height: plot.host.clientHeight, padding: [ofLoads ? 18 : 6, isPaper ? 0 : 24, 0, isPlain ? 0 : 24],
     legend: { show: false }, cursor: { show: false },
-    hooks: { ready: [placed], setSize: [placed], draw: [(chart) => drawOffScale(plot, chart)] },
+    hooks: { ready: [placed], setSize: [placed], draw: [(chart) => drawOffScale(plot, chart)],
+      drawAxes: plot.shownQuantity().isStack ? [(chart) => drawStack(plot, chart)] : [] },
     scales: { x: { time: false, range: () => plot.span }, ...Object.fromEntries(plot.scales().map((name) => [name, { range: rangeOf(name) }])) },
     axes: [chartAxis(plot, "x", undefined, { size: 22, values: (_, splits) => splits.map((t) => `${Number(t.toFixed(6))} s`) }),
       ...(isPlain ? [valueAxis(plot, "y", 3)] : []), ...(isPaper ? [valueAxis(plot, "paper", 1)] : [])],
-    series: [{}, ...forces.flatMap((_, ship) => curves.map((curve) =>
-      ({ scale: curve.scale, points: { show: false }, ...curveStyle(curve, ship, forces.length, plot.colours) })))],
+    series: [{}, ...chartSeries(plot, curves)],
   };
 }
 
-/** Curves of all ships over one axis of times. */
+/** The curves of the ships that are shown over one axis of times. */
 function chartRows(plot) {
-  const { forces } = plot.run;
   const curves = drawnCurves(plot);
-  const tables = forces.map((rows) => [rows.force_t_s, ...curves.map((curve) => rows[curve.column])]);
-  if (tables.every(([times]) => times.length === 0)) return [[], ...forces.flatMap(() => curves.map(() => []))];
+  const tables = plot.ships().map((ship) => plot.run.forces[ship]).map((rows) => [rows.force_t_s, ...curves.map((curve) => rows[curve.column])]);
+  if (tables.every(([times]) => times.length === 0)) return [[], ...tables.flatMap(() => curves.map(() => []))];
   return tables.length === 1 ? tables[0] : uPlot.join(tables.map((columns) => columns.map((column) => Array.from(column))));
 }

@@ -30,6 +30,7 @@ function rowAt(rows, time) {
 
 /** How a curve is drawn: in its ship's colour; the largest steps pale, behind the means; the paper's load dashed. */
 function curveStyle(curve, ship, ships, colours) {
+  if (["sum", "up", "down"].includes(curve.kind)) return { stroke: colours.ink, width: 1.5 };
   const colour = curve.kind === "paper" && ships === 1 ? colours["paper-load"] : shipColour(colours, ship);
   if (curve.kind === "max") return { stroke: `${colour}80`, width: 1 };
   if (curve.kind === "paper") return { stroke: colour, width: 1, dash: [4, 3] };

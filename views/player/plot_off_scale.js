@@ -2,35 +2,42 @@
 
 /** Counts the rows in view that lie off the scale, and names the largest of each curve. */
 function countOffScale(plot) {
-  const ranges = plot.loadRanges();
+  const ranges = plot.axisRanges();
   const all = { count: 0, words: [] };
-  for (const curve of plot.shownCurves().filter(isLoad)) {
-    plot.run.forces.forEach((rows, ship) => {
-      const times = rows.force_t_s.subarray(...plot.rowsInView(ship));
-      const off = rowsOffScale(times, plot.inView(ship, curve.column), ranges[curve.scale]);
-      if (off.count === 0) return;
-      all.count += off.count;
-      all.words.push(`${curve.label} to ${valueWords(off.largest, curve.base)} at ${Number(off.time.toFixed(3))} s`);
-    });
+  for (const { curve, times, values } of plot.inView()) {
+    if (!isLoad(curve)) continue;
+    const off = rowsOffScale(times, values, ranges[curve.scale]);
+    if (off.count === 0) continue;
+    all.count += off.count;
+    all.words.push(`${curve.label} to ${valueWords(off.largest, curve.base)} at ${Number(off.time.toFixed(3))} s`);
   }
   return all.count > 0 ? all : null;
 }
 
+/** Of stacked areas over how long each column is the mean, where that is more than a row. */
+function meanWords(plot) {
+  const size = plot.shownQuantity().isStack ? rowsInColumn(plot) : 1;
+  return size > 1 ? `drawn as means over ${shortNumber(size * plot.run.info.forces_interval_s)} s` : "";
+}
+
 function showOffScale(plot) {
   plot.off = countOffScale(plot);
-  plot.offScale.hidden = plot.off === null;
-  if (plot.off) plot.offScale.replaceChildren(make("span", { class: "long" }, `\u25b2 off the scale: ${plot.off.words.join("; ")}`),
-    make("span", { class: "short" }, `\u25b2 ${plot.off.count} values off the scale`));
+  const means = meanWords(plot);
+  plot.offScale.hidden = plot.off === null && means === "";
+  const words = (off) => [means, off].filter(Boolean).join("; ");
+  plot.offScale.replaceChildren(
+    make("span", { class: "long" }, words(plot.off && `\u25b2 off the scale: ${plot.off.words.join("; ")}`)),
+    make("span", { class: "short" }, words(plot.off && `\u25b2 ${plot.off.count} values off the scale`)));
 }
 
 /** A mark at the edge for rows off the scale, one for each few pixels. */
 function drawOffScale(plot, chart) {
   if (!plot.off) return;
-  const { forces } = plot.run;
-  plot.shownCurves().forEach((curve) => forces.forEach((rows, ship) => {
-    chart.ctx.fillStyle = curveStyle(curve, ship, forces.length, plot.colours).stroke.slice(0, 7);
-    drawEdgeMarks(chart, rows.force_t_s.subarray(...plot.rowsInView(ship)), plot.inView(ship, curve.column), chart.scales[curve.scale]);
-  }));
+  for (const { curve, ship, times, values } of plot.inView()) {
+    if (!isLoad(curve)) continue;
+    chart.ctx.fillStyle = curveStyle(curve, ship, plot.run.forces.length, plot.colours).stroke.slice(0, 7);
+    drawEdgeMarks(chart, times, values, chart.scales[curve.scale]);
+  }
 }
 
 function drawEdgeMarks(chart, times, values, { min, max }) {

@@ -1,10 +1,10 @@
 // The plot with its controls and its key, and the timeline that follows its width.
 
 function makePlotPanel(player) {
-  const { run, range, state } = player;
+  const { run, axis, state } = player;
   const hasShips = run.info.ships.length > 0;
   const panel = { showLoads: () => {} };
-  const plot = new Plot(run, byId("plot"), range, {
+  const plot = new Plot(run, byId("plot"), axis, {
     onTime: (time) => player.actions.goTo(time),
     onPlaced: (left, width) => player.timeline.place(left, width, player.colours),
     onSpan: (span) => {

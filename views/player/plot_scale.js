@@ -34,6 +34,18 @@ function loadRange(columns, isFull) {
   return [Math.max(low, -limit), Math.min(high, limit)];
 }
 
+/** From the least to the largest of columns that are no loads. */
+function wholeRange(columns) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const values of columns) {
+    for (const value of values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  return low <= high ? [low, high] : [0, 1];
+}
+
 /** The ranges with some room, grown so that 0 is at one height in all of them. */
 function alignedRanges(ranges) {
   const size = ([low, high]) => Math.max(high, -low) || 1;

@@ -1,17 +1,21 @@
-// The timeline: a slider with a mark for every fracture and rejected cut. A click on a mark goes there.
+// The timeline: a slider with a mark for every fracture, rejected cut and broken mooring. A click on a mark goes there.
 
 const nearMark = 5; // [px]
-const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18 }; // of each kind of mark, from the top [px]
+const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18, mooring_break: 7 }; // of each kind of mark, from the top [px]
 
 /** Whether an event has a mark. What goes under hulls and comes up has none: there is one for each cusp. */
 const isMarked = ({ kind }) => kind in markHeights;
+
+/** Rare events stand above the others. */
+const isAbove = ({ kind }) => kind === "split" || kind === "mooring_break";
 
 /** The slider; `pixelOf` and `timeOf` convert between times [s] and pixels from its left. */
 function makeTimeline(run, track, range, actions) {
   const { events } = run.info;
   const thumb = track.querySelector(".thumb");
   const part = track.querySelector(".part");
-  const timeline = { left: 0, width: 1, part: range };
+  const timeline = { left: 0, width: 1, part: range, time: range[0] };
+  const placeThumb = () => { thumb.style.transform = `translateX(${timeline.pixelOf(timeline.time)}px)`; };
   timeline.pixelOf = (time) => ((time - range[0]) / (range[1] - range[0] || 1)) * timeline.width;
   timeline.timeOf = (px) => range[0] + (Math.min(1, Math.max(0, px / timeline.width))) * (range[1] - range[0]);
 
@@ -21,6 +25,7 @@ function makeTimeline(run, track, range, actions) {
     track.style.marginLeft = `${left}px`;
     track.style.width = `${width}px`;
     drawTimeline(track, timeline, events, colours);
+    placeThumb();
     timeline.setPart(timeline.part);
   };
   /** The part of the run that the plot shows, marked where it is not the whole. */
@@ -31,7 +36,8 @@ function makeTimeline(run, track, range, actions) {
     part.style.width = `${timeline.pixelOf(span[1]) - timeline.pixelOf(span[0])}px`;
   };
   timeline.setTime = (time, words) => {
-    thumb.style.transform = `translateX(${timeline.pixelOf(time)}px)`;
+    timeline.time = time;
+    placeThumb();
     track.setAttribute("aria-valuenow", time.toFixed(1));
     track.setAttribute("aria-valuetext", words);
   };
@@ -52,13 +58,13 @@ function drawTimeline(track, { width, pixelOf }, events, colours) {
   context.fillRect(0, height - 6, width, 3);
   context.globalAlpha = 0.75;
   for (const event of events) {
-    if (event.kind === "split" || !isMarked(event)) continue;
+    if (isAbove(event) || !isMarked(event)) continue;
     context.fillStyle = colours[event.kind];
     context.fillRect(pixelOf(event.t_s) - 0.75, 13, 1.5, 9);
   }
   context.globalAlpha = 1;
   for (const event of events) {
-    if (event.kind === "split") drawEventMark(context, pixelOf(event.t_s), markHeights.split, "split", 4.5, colours);
+    if (isAbove(event)) drawEventMark(context, pixelOf(event.t_s), markHeights[event.kind], event.kind, 4.5, colours);
   }
 }
 
@@ -104,8 +110,9 @@ function watchTimeline(track, timeline, run, actions) {
 }
 
 const kindWords = { bend: "bend", split: "split", grind: "grinding", rejected_cut: "rejected cut", submerge: "going under", resurface: "coming up",
-  stay_under: "staying under" };
+  stay_under: "staying under", mooring_break: "mooring broken" };
 
 function eventWords(run, event) {
-  return `${event.t_s.toFixed(2)} s: ${kindWords[event.kind]} of floe ${event.floe}`;
+  const of = event.kind === "mooring_break" ? run.info.ships[event.ship].name : `floe ${event.floe}`;
+  return `${event.t_s.toFixed(2)} s: ${kindWords[event.kind]} of ${of}`;
 }

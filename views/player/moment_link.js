@@ -1,0 +1,141 @@
+// A link to an instant of the run: #t=330&floe=42, with what of the page is not as it opens (docs/view.md).
+
+/** What the page shows, as the words of a link. */
+function momentOf(player) {
+  const { state, view, plot, run } = player;
+  const words = { t: Number(state.time.toFixed(4)) };
+  if (state.selected >= 0) words.floe = state.selected;
+  if (state.colourBy !== "breakage") words.by = state.colourBy;
+  if (state.sizes) words.sizes = [state.sizes.from, state.sizes.below].map((size) => (Number.isFinite(size) ? Number(size.toPrecision(6)) : "")).join("-");
+  if (plot.quantity !== Object.keys(plot.quantities)[0]) words.plot = plot.quantity;
+  if (state.follow >= 0) words.follow = run.info.ships[state.follow].name;
+  if (state.follow >= 0 && !state.isFitted) words.width = Number((view.width / view.scale).toPrecision(4));
+  if (state.follow < 0 && !state.isFitted) words.map = [view.x, view.y, view.width / view.scale].map((v) => Number(v.toFixed(2))).join(",");
+  return words;
+}
+
+const linkOf = (words) => `#${Object.entries(words).map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&")}`;
+
+/** Shows a part of the map that is so wide [m]. */
+function showWidth({ state, view }, width) {
+  view.scale = Math.min(400, Math.max(1e-3, view.width / width));
+  state.isFitted = false;
+  state.iceDirty = true;
+}
+
+/** What each word of a link does with its value; gives what is wrong with it, or nothing. */
+const momentWords = {
+  t(player, text) {
+    const { actions, axis } = player;
+    const time = Number(text);
+    if (text === "" || !Number.isFinite(time)) return "no time";
+    actions.play(false);
+    actions.goTo(time);
+    return time < axis[0] || time > axis[1] ? `the run goes from ${axis[0]} to ${axis[1]} s` : "";
+  },
+  floe({ actions, run }, text) {
+    if (!/^\d+$/.test(text) || Number(text) >= run.floes.count) return `floes go from 0 to ${run.floes.count - 1}`;
+    actions.select(Number(text));
+    return "";
+  },
+  by({ actions, colourings }, text) {
+    if (!Object.hasOwn(colourings, text)) return `colours are by ${Object.keys(colourings).join(", ")}`;
+    actions.colourBy(text);
+    return "";
+  },
+  sizes({ actions }, text) {
+    const [from, below] = text.split("-").map((end) => (end === "" ? Infinity : Number(end)));
+    if (!(from >= 0 && below > from)) return "two sizes in metres, the smaller one first";
+    actions.chooseSizes({ from, below });
+    return "";
+  },
+  plot({ actions, plot }, text) {
+    if (!Object.hasOwn(plot.quantities, text)) return "no such quantity in this run";
+    actions.plotQuantity(text);
+    return "";
+  },
+  follow({ actions, run }, text) {
+    const ship = run.info.ships.findIndex(({ name }) => name === text);
+    if (ship >= 0) actions.setFollow(ship);
+    return ship < 0 ? "no such ship" : "";
+  },
+  width(player, text) {
+    if (!(Number(text) > 0)) return "no width";
+    showWidth(player, Number(text));
+    return "";
+  },
+  map(player, text) {
+    const [x, y, width] = text.split(",").map(Number);
+    if (![x, y, width].every(Number.isFinite) || width <= 0) return "x, y and a width in metres";
+    player.actions.setFollow(-1);
+    Object.assign(player.view, { x, y });
+    showWidth(player, width);
+    return "";
+  },
+};
+
+/** Goes where a link leads; gives what of it was not understood. */
+function goToMoment(player, link) {
+  const problems = [];
+  for (const [key, text] of new URLSearchParams(link.replace(/^#/, ""))) {
+    const problem = Object.hasOwn(momentWords, key) ? momentWords[key](player, text) : "unknown";
+    if (problem) problems.push(`${key}=${text}: ${problem}`);
+  }
+  return problems;
+}
+
+/** The address of this page with these words. */
+const addressOf = (words) => `${location.href.split("#")[0]}${linkOf(words)}`;
+
+/**
+ * Keeps the address of the page up with what it shows, and the page with an address that is entered. `words` gives what it shows, `goTo`
+ * goes to a link and gives its problems. Gives what is to be called when something changed.
+ */
+function watchMoment({ words, goTo, isPlaying }) {
+  let link = linkOf(words());
+  let timer = 0;
+  const open = () => {
+    const problems = goTo(location.hash);
+    if (problems.length > 0) showToast(`link: ${problems.join("; ")}`);
+  };
+  addEventListener("hashchange", open);
+  if (location.hash.length > 1) open();
+  return () => {
+    if (timer !== 0 || isPlaying()) return;
+    timer = setTimeout(() => { // browsers take a few changes a second
+      timer = 0;
+      const now = linkOf(words());
+      if (isPlaying() || now === link) return;
+      link = now;
+      history.replaceState(null, "", now);
+    }, 300);
+  };
+}
+
+/** The link of a page of one run. */
+function keepMoment(player) {
+  player.keepLink = watchMoment({ words: () => momentOf(player), goTo: (link) => goToMoment(player, link), isPlaying: () => player.state.isPlaying });
+}
+
+/** Puts the link into the clipboard, where the browser lets it. */
+async function copyLink(address) {
+  try {
+    await navigator.clipboard.writeText(address);
+    showToast("link copied");
+  } catch {
+    const field = document.body.appendChild(make("textarea", {}, address));
+    field.select();
+    const isCopied = document.execCommand("copy");
+    field.remove();
+    showToast(isCopied ? "link copied" : "copy the link from the address bar");
+  }
+}
+
+/** A line on the map that goes after a while. */
+function showToast(words) {
+  const toast = byId("toast");
+  toast.textContent = words;
+  toast.hidden = false;
+  clearTimeout(showToast.timer);
+  showToast.timer = setTimeout(() => { toast.hidden = true; }, 4000);
+}

@@ -1,0 +1,208 @@
+// Two runs side by side: each is a player of its own in a frame; here are their clock and what they have in common.
+
+/** The page of one of the runs, from its data in this page. */
+function pageOfRun(template, { labels, axis_s }, k) {
+  const take = (id) => {
+    const text = byId(id).textContent;
+    byId(id).remove();
+    return text;
+  };
+  const options = JSON.stringify({ axis_s, label: labels[k] }).replaceAll("<", "\\u003c");
+  let [page, rest] = ["", template];
+  for (const [mark, text] of [["{{title}}", ""], ["{{options}}", options], ["{{info}}", take(`info-${k}`)], ["{{columns}}", take(`columns-${k}`)]]) {
+    const at = rest.indexOf(mark);
+    page += rest.slice(0, at) + text;
+    rest = rest.slice(at + mark.length);
+  }
+  return page + rest;
+}
+
+/** Puts the two players into the page; gives them when both have started. */
+function openPlayers() {
+  const pair = JSON.parse(byId("pair-info").textContent);
+  const template = JSON.parse(byId("player-page").textContent);
+  byId("player-page").remove();
+  return Promise.all(pair.labels.map((label, k) => new Promise((done) => {
+    const frame = make("iframe", { title: label });
+    frame.addEventListener("load", () => done(Object.assign(frame.contentWindow.polynyaPlayer, { frame })));
+    frame.srcdoc = pageOfRun(template, pair, k);
+    byId("runs").append(frame);
+  })));
+}
+
+/** The one clock: time [s] and how fast it goes. A run that ends before the other stays at its end. */
+function makeClock(players) {
+  const [{ axis }] = players;
+  const clock = { time: axis[0], isPlaying: false, rate: 1 };
+  const goTo = players.map(({ actions }) => actions.goTo);
+  clock.goTo = (time) => {
+    clock.time = Math.min(axis[1], Math.max(axis[0], time));
+    players.forEach((player, k) => {
+      player.isOver = clock.time > player.range[1];
+      goTo[k](clock.time);
+    });
+    byId("now").textContent = `${clock.time.toFixed(1)} s`;
+  };
+  clock.play = (isPlaying) => {
+    if (isPlaying && clock.time >= axis[1]) clock.goTo(axis[0]);
+    clock.isPlaying = isPlaying && axis[1] > axis[0];
+    byId("play").setAttribute("aria-pressed", String(clock.isPlaying));
+    byId("play").setAttribute("aria-label", clock.isPlaying ? "Pause" : "Play");
+    for (const { state } of players) state.iceDirty = true;
+  };
+  clock.setRate = (rate) => {
+    clock.rate = rate;
+    byId("rate").value = String(rate);
+    for (const { state } of players) state.rate = rate;
+  };
+  clock.tick = (passed) => {
+    if (!clock.isPlaying) return;
+    clock.goTo(clock.time + (Math.min(100, passed) / 1000) * clock.rate);
+    if (clock.time >= axis[1]) clock.play(false);
+  };
+  for (const { actions } of players) {
+    Object.assign(actions, { goTo: clock.goTo, play: clock.play, togglePlay: () => clock.play(!clock.isPlaying), setRate: clock.setRate,
+      goToEnd: (isEnd) => clock.goTo(axis[isEnd ? 1 : 0]) });
+  }
+  return clock;
+}
+
+/** Takes over how the plot of another player looks, as far as this one has the same curves. */
+function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, span }) {
+  if (Object.hasOwn(plot.quantities, quantity) && (plot.quantity !== quantity || [...plot.hidden].join() !== hidden.join())) {
+    plot.hidden = new Set(hidden);
+    actions.plotQuantity(quantity);
+  }
+  plot.isFull = isFull;
+  plotPanel.showTools();
+  plot.show(...span);
+}
+
+/** What both players have in common: how it is read of one, and given to the other. */
+const common = {
+  colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
+  layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) => Object.entries(layers).forEach((layer) => actions.toggleLayer(...layer)) },
+  sizes: { of: ({ state }) => state.sizes && [state.sizes.from, Number.isFinite(state.sizes.below) ? state.sizes.below : null],
+    give: ({ actions }, sizes) => actions.chooseSizes(sizes && { from: sizes[0], below: sizes[1] ?? Infinity }) },
+  follow: { of: ({ state }) => state.follow, give: ({ actions }, ship) => actions.setFollow(ship) },
+  plot: {
+    of: ({ plot }) => ({ quantity: plot.quantity, hidden: [...plot.hidden], isFull: plot.isFull, span: plot.span }),
+    give: showPlotAs,
+  },
+  map: {
+    isOn: () => byId("same-map").checked,
+    of: ({ view, state }) => ({ x: view.x, y: view.y, scale: view.scale, isFitted: state.isFitted }),
+    give: ({ view, state }, { x, y, scale, isFitted }) => {
+      Object.assign(view, state.follow >= 0 ? { scale } : { x, y, scale });
+      Object.assign(state, { isFitted, iceDirty: true });
+    },
+  },
+};
+
+/** Gives what changed in one player to the other, thing by thing; called at each tick of the screen. */
+function makeCommon(players) {
+  const known = {};
+  const wordsOf = ({ of }) => players.map((player) => JSON.stringify(of(player)));
+  const show = () => players.forEach(({ plot }) => plot.show(...plot.span)); // each has the other's scale
+  for (const [name, thing] of Object.entries(common)) {
+    thing.give(players[1], thing.of(players[0]));
+    known[name] = wordsOf(thing);
+  }
+  return {
+    show,
+    /** Whether something changed. */
+    share() {
+      let hasChanged = false;
+      for (const [name, thing] of Object.entries(common)) {
+        const words = wordsOf(thing);
+        const changed = words.findIndex((word, k) => word !== known[name][k]);
+        if (changed < 0) continue;
+        hasChanged = true;
+        if (thing.isOn?.() ?? true) thing.give(players[1 - changed], JSON.parse(words[changed]));
+        if (name === "plot") show();
+        known[name] = wordsOf(thing);
+      }
+      return hasChanged;
+    },
+  };
+}
+
+/** One extent of the map, one scale of the plots, and the same classes of colours. */
+function joinScales(players) {
+  const most = Object.fromEntries(Object.keys(players[0].extremes).map((name) => [name, Math.max(...players.map(({ extremes }) => extremes[name]))]));
+  const boxes = players.map(({ box }) => box);
+  const box = { left: Math.min(...boxes.map(({ left }) => left)), right: Math.max(...boxes.map(({ right }) => right)),
+    bottom: Math.min(...boxes.map(({ bottom }) => bottom)), top: Math.max(...boxes.map(({ top }) => top)) };
+  players.forEach((player, k) => {
+    player.box = box;
+    player.colourUpTo(most);
+    const other = players[1 - k].plot;
+    player.plot.widened = (ranges) => {
+      if (!byId("same-scale").checked || !other.chart || other.quantity !== player.plot.quantity) return ranges;
+      const more = other.neededRanges();
+      return Object.fromEntries(Object.entries(ranges).map(([name, [low, high]]) =>
+        [name, [Math.min(low, more[name]?.[0] ?? low), Math.max(high, more[name]?.[1] ?? high)]]));
+    };
+    player.actions.fit();
+  });
+}
+
+/** The event of either run that comes next, or came last. */
+function stepEvent(players, clock, step) {
+  const found = players.map(({ actions, run }) => {
+    const index = actions.eventFrom(clock.time, step);
+    return { actions, index, time: run.info.events[index]?.t_s };
+  }).filter(({ index }) => index >= 0).sort((a, b) => step * (a.time - b.time));
+  if (found.length > 0) found[0].actions.goToEvent(found[0].index);
+}
+
+function toggleThemes(players) {
+  const isDark = getComputedStyle(document.documentElement).colorScheme.includes("dark");
+  for (const { documentElement } of [document, ...players.map(({ frame }) => frame.contentDocument)]) documentElement.dataset.theme = isDark ? "light" : "dark";
+  for (const player of players) player.refreshTheme();
+}
+
+/** The controls of the bar, and keys pressed there. */
+function watchBar(players, clock, shared, address) {
+  const help = () => players[0].frame.contentWindow.polynyaPlayer.actions.toggleHelp();
+  for (const { actions } of players) {
+    Object.assign(actions, { toggleTheme: () => toggleThemes(players), copyLink: () => copyLink(address()), stepEvent: (step) => stepEvent(players, clock, step) });
+  }
+  const onClick = { play: () => clock.play(!clock.isPlaying), "event-before": () => stepEvent(players, clock, -1), "event-after": () => stepEvent(players, clock, 1),
+    theme: () => toggleThemes(players), "copy-link": () => copyLink(address()), "help-button": help, "same-scale": shared.show };
+  for (const [id, act] of Object.entries(onClick)) byId(id).addEventListener("click", act);
+  byId("rate").replaceChildren(...rates.map((rate) => make("option", { value: String(rate) }, `${rate}\u00d7`)));
+  byId("rate").addEventListener("change", (event) => clock.setRate(Number(event.target.value)));
+  document.addEventListener("keydown", (event) => { // as if it were pressed in the first player
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select")) return;
+    if (event.target.closest("button, input") && (event.key === " " || event.key === "Enter")) return;
+    const { contentWindow, contentDocument } = players[0].frame;
+    const passed = new contentWindow.KeyboardEvent("keydown", { key: event.key, shiftKey: event.shiftKey, bubbles: true, cancelable: true });
+    if (!contentDocument.body.dispatchEvent(passed)) event.preventDefault();
+  });
+}
+
+async function startPair() {
+  const players = await openPlayers();
+  const clock = makeClock(players);
+  const words = () => momentOfPair(players, clock);
+  joinScales(players);
+  const shared = makeCommon(players);
+  watchBar(players, clock, shared, () => addressOf(words()));
+  byId("end").textContent = `${Number(players[0].axis[1].toFixed(1))} s`;
+  const longest = players.reduce((a, b) => (b.range[1] - b.range[0] > a.range[1] - a.range[0] ? b : a));
+  clock.setRate(longest.state.rate);
+  clock.goTo(clock.time);
+  shared.show();
+  const keepLink = watchMoment({ words, goTo: (link) => goToMomentOfPair(players, link), isPlaying: () => clock.isPlaying });
+  for (const player of players) player.keepLink = keepLink;
+  let last = performance.now();
+  const tick = (now) => {
+    clock.tick(now - last);
+    last = now;
+    shared.share();
+    requestAnimationFrame(tick);
+  };
+  requestAnimationFrame(tick);
+  window.polynyaPair = { players, clock };
+}
