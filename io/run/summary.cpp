@@ -144,9 +144,9 @@ void add_mooring_warnings(const Simulation& simulation, std::vector<std::string>
   const auto& helms = simulation.world().population.helms;
   for (std::size_t i = 0; i < ships.size(); ++i) {
     if (helms[i].is_adrift)
-      warnings.push_back(fmt::format("the mooring of {} broke at {:.6g} s, above {:.4g} kN; it is adrift (events.ndjson has the force)",
-                                     ships[i].name, helms[i].adrift_since,
-                                     1e-3 * ships[i].mooring->break_load));
+      warnings.push_back(fmt::format(
+          "the mooring of {} broke at {:.6g} s, above {:.4g} kN; it is adrift (events.ndjson has the force)",
+          ships[i].name, helms[i].adrift_since, 1e-3 * ships[i].mooring->break_load));
   }
 }
 
