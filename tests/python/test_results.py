@@ -77,6 +77,18 @@ def test_every_number_of_a_table_is_the_files(run, folder, name):
             assert value == text if isinstance(value, str) else value == (float(text) if text else -1)
 
 
+def test_a_mooring_that_broke_is_a_row_without_a_floe(copy):
+    broken = {"t_s": 3.5, "kind": "mooring_break", "ship": "breaker", "point_m": [1.5, -2], "force_N": 1.25e5, "break_load_N": 1.2e5, "offset_m": [12.5, -0.5]}
+    with open(copy / "events.ndjson", "a") as file:
+        file.write(json.dumps(broken) + "\n")
+    run = polynya.Run(copy, pandas=False)
+    row = run.events[-1]
+    assert (row["t_s"], row["kind"], row["ship"], row["floe"], row["children"]) == (3.5, "mooring_break", "breaker", -1, ())
+    assert (row["force_N"], row["break_load_N"], row["offset_along_m"], row["offset_across_m"]) == (1.25e5, 1.2e5, 12.5, -0.5)
+    assert not numpy.isfinite(run.events[0]["offset_along_m"])
+    assert len(run.floes) == len(lines(copy / "floes.ndjson"))
+
+
 def test_events_have_all_that_their_lines_have(run, folder):
     columns, written = columns_of(run.events), lines(folder / "events.ndjson")
     assert {"bend", "submerge"} <= set(columns["kind"])

@@ -89,7 +89,8 @@ class Run:
 
     @property
     def events(self) -> Any:
-        """events.ndjson, a row an event: `point_m` as `x_m`, `y_m`, `normal` as `normal_x`, `normal_y`, the members of `criterion` by their names,
+        """events.ndjson, a row an event: `point_m` as `x_m`, `y_m`, `normal` as `normal_x`, `normal_y`, a mooring's `offset_m` as `offset_along_m`,
+        `offset_across_m`, the members of `criterion` by their names,
         its kind as `criterion`; -1 where there is no floe, NaN where there is no number. `children` holds tuples."""
         return table(self.event_columns, self.pandas)
 

@@ -105,13 +105,15 @@ FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "p
 
 
 def flattened(event):
-    """An event's members in one row: its point and normal by coordinates, what decided it by name, with the rule as `criterion`."""
+    """An event's members in one row: its point, normal and offset by coordinates, what decided it by name, with the rule as `criterion`."""
     row = {}
     for key, value in event.items():
         if key == "point_m":
             row["x_m"], row["y_m"] = value
         elif key == "normal":
             row["normal_x"], row["normal_y"] = value
+        elif key == "offset_m":
+            row["offset_along_m"], row["offset_across_m"] = value
         elif key == "criterion":
             row.update({"criterion" if name == "kind" else name: of for name, of in value.items()})
         else:
