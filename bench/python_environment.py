@@ -34,7 +34,7 @@ def main():
     for seed in (1, 2, 3):
         environment.reset(seed=seed)
         floes = len(environment.simulation.floes)
-        taken = seconds(lambda: [environment.step((0.8, 0.0)) for _ in range(STEPS)])
+        taken = seconds(lambda: [environment.step((0.5, 0.0)) for _ in range(STEPS)])
         image = seconds(lambda: [environment.simulation.occupancy() for _ in range(STEPS)])
         x = environment.simulation.ships[0].position[0]
         rates.append(STEPS / taken)

@@ -36,3 +36,17 @@ run(bash -c "source ${WORK}/prefix/share/bash-completion/completions/polynya && 
 if(NOT output MATCHES "completed:json")
   message(FATAL_ERROR "completing --progress j gives ${output}")
 endif()
+# Where the compiled module is built: Python finds package and module by the line that is installed for it, and type checkers the stub.
+file(GLOB line ${WORK}/prefix/lib/python3*/dist-packages/polynya.pth)
+file(GLOB module ${WORK}/prefix/lib/polynya/python_core/_core*.so)
+if(module)
+  if(NOT line OR NOT EXISTS ${WORK}/prefix/lib/polynya/python/polynya/_core.pyi OR NOT EXISTS ${WORK}/prefix/lib/polynya/python/polynya/py.typed)
+    message(FATAL_ERROR "polynya.pth, _core.pyi or py.typed is not installed")
+  endif()
+  get_filename_component(site ${line} DIRECTORY)
+  run(${CMAKE_COMMAND} -E env --unset=PYTHONPATH /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/installed.py ${site}
+      ${WORK}/prefix/share/polynya/scenes/two-floes.json)
+  if(NOT output MATCHES "5 ${WORK}/prefix/lib/polynya/python_core/_core")
+    message(FATAL_ERROR "the installed module gives ${output}")
+  endif()
+endif()

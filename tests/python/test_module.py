@@ -193,6 +193,26 @@ def test_a_python_pilot_steers():
     assert len(seen) == 400
 
 
+def test_each_ship_may_have_its_own_pilot():
+    other = {**SEA["ships"][0], "name": "other", "position_m": [0, 400]}
+    simulation = polynya.Simulation({**SEA, "ships": [*SEA["ships"], other]})
+    seen = {"sailing": [], "other": []}
+
+    def turning(name, share):
+        def pilot(view):
+            seen[name].append((view.ship, view.ships[view.ship].position))
+            return 1.0, share * view.steering_most
+        return pilot
+
+    simulation.set_pilot("sailing", turning("sailing", 1))
+    simulation.set_pilot(1, turning("other", -1))
+    simulation.step(400)
+    assert [len(calls) for calls in seen.values()] == [400, 400]
+    assert [calls[0][0] for calls in seen.values()] == [0, 1] and seen["other"][0][1] == (0, 400)
+    port, starboard = (ship.heading for ship in simulation.ships)
+    assert port > 0.1 and starboard == pytest.approx(-port, rel=1e-6)
+
+
 def test_what_a_pilot_raises_comes_out_of_step_after_a_whole_step():
     simulation = polynya.Simulation(SEA)
     simulation.set_pilot(0, lambda view: 1 / 0)

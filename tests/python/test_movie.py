@@ -202,3 +202,11 @@ def test_a_film_of_a_run_without_a_ship_has_no_chart(tmp_path):
     subprocess.run([PROGRAM, "run", tmp_path / "scene.json", "--out", tmp_path / "run", "--no-map"], check=True, capture_output=True)
     drawn = picture.Picture(polynya.Run(tmp_path / "run"), picture.Look(size=(320, 320)))
     assert drawn.history is None and drawn.draw(0.5).shape == (320, 320, 4)
+
+
+def test_a_run_that_is_not_finished_is_shown_as_far_as_it_got(folder, tmp_path):
+    shutil.copytree(folder, tmp_path / "run")
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    (tmp_path / "run" / "summary.json").write_text(json.dumps({**summary, "finished": False, "stopped_by": "SIGTERM"}))
+    done = movie(tmp_path / "run", "--out", tmp_path / "a.png", "--from", 12)
+    assert done.returncode == 0 and "the run at 12 s" in done.stdout, done.stderr

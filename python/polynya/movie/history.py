@@ -41,16 +41,18 @@ class History:
         values = [columns[name][own][shown] for name, _, _ in CURVES]
         largest = max((float(numpy.abs(of).max()) for of in values if len(of)), default=0.0)
         unit, unit_name = unit_of(largest)
+        self.axes.margins(y=0.06)
         self.curves = []
         for (_, name, colour), of in zip(CURVES, values):
             at, force = thinned(times[shown], of / unit, look.size[0])
             self.curves += self.axes.plot(at, force, color=colour, linewidth=0.055 * font, label=name, zorder=2 if name == "surge" else 1)
+        if largest < 1.0:  # nothing but rounding
+            self.axes.set_ylim(-1, 1)
         self._dress(ship, unit_name, font, len(run.ship_names) > 1)
 
     def _dress(self, ship, unit, font, has_others):
         axes, small = self.axes, 0.85 * font
         axes.set_xlim(self.start, self.end)
-        axes.margins(y=0.06)
         axes.axhline(0, color="#888888", linewidth=0.03 * font, zorder=0)
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)

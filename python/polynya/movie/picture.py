@@ -114,7 +114,7 @@ class Picture:
         return patch
 
     def _make_ice(self):
-        edge = float(numpy.clip(0.12 * self._metre, 0.35, 1.0)) * self.look.size[1] / 720
+        edge = float(numpy.clip(0.12 * self._metre, 0.06, 1.0)) * self.look.size[1] / 720
         self._at_start = self._patch(facecolor=ICE_AT_START, linewidth=0)
         self._floes = [self._patch(facecolor=colour, edgecolor=EDGE, linewidth=edge) for _, colour in FLOES[:3]]
         self._hulls = self._patch(facecolor=HULL, edgecolor="#ffffff", linewidth=1.2 * edge, alpha=0.88)
