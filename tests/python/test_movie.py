@@ -161,17 +161,20 @@ def test_a_stopped_film_leaves_no_file(folder, tmp_path, number):
     assert os.listdir(tmp_path) == []
 
 
-@needs_ffmpeg
-def test_a_film_that_ffmpeg_cannot_write_leaves_the_old_one(folder, tmp_path):
-    (tmp_path / "bin").mkdir()
+@pytest.mark.parametrize("suffix", ["mp4", "gif"])
+def test_a_film_that_ffmpeg_cannot_write_leaves_the_old_one(folder, tmp_path, suffix):
+    for name in ("bin", "scratch"):
+        (tmp_path / name).mkdir()
     fake = tmp_path / "bin" / "ffmpeg"
     fake.write_text("#!/bin/sh\ncat >/dev/null\necho 'No space left on device' >&2\nexit 1\n")
     fake.chmod(0o755)
-    out = tmp_path / "film.mp4"
+    out = tmp_path / f"film.{suffix}"
     out.write_text("old")
-    done = movie(folder, "--out", out, "--to", 1, "--speed", 1, environment={"PATH": f"{fake.parent}:{os.environ['PATH']}"})
+    changed = {"PATH": f"{fake.parent}:{os.environ['PATH']}", "TMPDIR": str(tmp_path / "scratch")}
+    done = movie(folder, "--out", out, "--to", 1, "--speed", 1, environment=changed)
     assert (done.returncode, out.read_text()) == (5, "old")
-    assert "No space left on device" in done.stderr and sorted(os.listdir(tmp_path)) == ["bin", "film.mp4"]
+    assert "No space left on device" in done.stderr and "ignored" not in done.stderr and sorted(os.listdir(tmp_path)) == ["bin", out.name, "scratch"]
+    assert os.listdir(tmp_path / "scratch") == []
 
 
 def test_wrong_words_are_answered(folder, tmp_path):

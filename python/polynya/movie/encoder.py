@@ -1,6 +1,7 @@
 """Pictures into a film, by ffmpeg."""
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import subprocess
@@ -54,15 +55,22 @@ class Encoder:
         folder, name = os.path.split(self._path)
         self._draft = os.path.join(folder, f".{name}.{os.getpid()}.part")
         self._scratch = tempfile.TemporaryDirectory(prefix="polynya-movie-")
-        self._errors = open(os.path.join(self._scratch.name, "errors"), "wb+")  # noqa: SIM115, closed in _end
+        self._process = None
+        self._errors = open(os.path.join(self._scratch.name, "errors"), "wb+")  # noqa: SIM115, closed in _clean_up
+        try:
+            self._process = self._started(path, size, rate, samples)
+        except BaseException:
+            self._clean_up()
+            raise
+
+    def _started(self, path, size, rate, samples):
         words = [ffmpeg(), "-v", "error", "-y", *input_of(size, rate)]
         if path.lower().endswith(".gif"):
             colours = palette(samples, size, self._scratch.name)
             words += ["-i", colours, "-filter_complex", "paletteuse=dither=none:diff_mode=rectangle", "-f", "gif"]
         else:
             words += ["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
-        self._process = subprocess.Popen([*words, self._draft], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._errors,
-                                         start_new_session=True)
+        return subprocess.Popen([*words, self._draft], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._errors, start_new_session=True)
 
     def add(self, pixels):
         """The next picture."""
@@ -84,19 +92,23 @@ class Encoder:
             if kind is None:
                 self._finish()
         finally:
+            self._clean_up()
+
+    def _clean_up(self):
+        if self._process is not None:
             if self._process.poll() is None:
                 self._process.kill()
                 self._process.wait()
-            if os.path.exists(self._draft):
-                os.remove(self._draft)
-            self._errors.close()
-            self._scratch.cleanup()
+            with contextlib.suppress(OSError):  # what it did not read
+                self._process.stdin.close()
+        if os.path.exists(self._draft):
+            os.remove(self._draft)
+        self._errors.close()
+        self._scratch.cleanup()
 
     def _finish(self):
-        try:
+        with contextlib.suppress(BrokenPipeError):
             self._process.stdin.close()
-        except BrokenPipeError:
-            pass
         if self._process.wait() != 0:
             raise FilmError(f"ffmpeg: {self._message()}")
         os.replace(self._draft, self._path)
