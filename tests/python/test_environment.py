@@ -3,6 +3,8 @@ import gc
 import json
 import os
 import pathlib
+import subprocess
+import sys
 import weakref
 
 import numpy
@@ -169,3 +171,43 @@ def test_it_passes_gymnasiums_own_check():
         pytest.skip("gymnasium is not installed; Debian has no package of it")
     from gymnasium.utils.env_checker import check_env
     check_env(agent(goal=(300, 40)), skip_render_check=True)
+
+
+GYMNASIUM = '''
+import numpy
+class Env:
+    _np_random = None
+    def reset(self, *, seed=None, options=None):
+        if seed is not None:
+            self._np_random = numpy.random.default_rng(seed)
+    @property
+    def np_random(self):
+        if self._np_random is None:
+            self._np_random = numpy.random.default_rng()
+        return self._np_random
+'''
+SPACES = '''
+import numpy
+class Box:
+    def __init__(self, low, high, shape=None, dtype=numpy.float32, seed=None):
+        self.low, self.high, self.shape, self.dtype = low, high, shape, dtype
+class Dict:
+    def __init__(self, spaces=None, seed=None, **more):
+        self.spaces = spaces
+'''
+
+
+def test_where_gymnasium_is_installed_it_is_one_of_its_environments(tmp_path):
+    if spaces.HAS_GYMNASIUM:
+        pytest.skip("the real one is checked above")
+    (tmp_path / "gymnasium").mkdir()
+    (tmp_path / "gymnasium" / "__init__.py").write_text(GYMNASIUM)
+    (tmp_path / "gymnasium" / "spaces.py").write_text(SPACES)
+    code = ("import json, sys, gymnasium\nfrom polynya.environment import ShipInIce\n"
+            "env = ShipInIce(json.loads(sys.argv[1]), ship='agent', shape=(8, 8))\n"
+            "assert isinstance(env, gymnasium.Env) and isinstance(env.observation_space, gymnasium.spaces.Dict)\n"
+            "observation, info = env.reset(seed=2)\n"
+            "print(info['scene_seed'], observation['image'].shape == env.observation_space.spaces['image'].shape)\n")
+    with_it = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}
+    done = subprocess.run([sys.executable, "-c", code, json.dumps(SCENE)], env=with_it, capture_output=True, text=True, check=False)
+    assert done.stdout == "2 True\n", done.stderr
