@@ -5,9 +5,8 @@ const plotInset = { left: 4, right: 4, top: 16, bottom: 18 }; // [px]
 /** A number of floes or an area as people read it. */
 const amountWords = (value, isArea) => (isArea ? `${sixDigits(Number(value.toPrecision(4)))} m\u00b2` : `${value} ${value === 1 ? "floe" : "floes"}`);
 
-function drawHistogram(canvas, { edges }, bars, { chosen, pointed, words }, colours) {
+function drawHistogram(canvas, { width, height }, { edges }, bars, { chosen, pointed, words }, colours) {
   const ratio = Math.min(window.devicePixelRatio || 1, 2);
-  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
   if (canvas.height !== Math.round(height * ratio)) canvas.height = Math.round(height * ratio);
   const context = canvas.getContext("2d");
@@ -85,20 +84,20 @@ function makeSizePanel(player) {
   const { run, state, places, actions } = player;
   const classes = makeSizeClasses(run);
   const canvas = byId("sizes");
-  const panel = { isArea: false, pointed: -1, shown: "" };
+  const panel = { isArea: false, pointed: -1, shown: "", box: { width: 0, height: 0 } };
   byId("size-section").hidden = classes.edges.length === 0;
 
   panel.show = () => {
     if (classes.edges.length === 0) return;
     const counts = countSizes(run, places, classes, state.sizes);
     const bars = panel.isArea ? counts.area : counts.number;
-    const key = [bars.join(), panel.isArea, panel.pointed, canvas.clientWidth, state.sizes?.from, state.sizes?.below, player.colours.accent].join(";");
-    if (key === panel.shown || canvas.clientWidth === 0) return;
+    const key = [bars.join(), panel.isArea, panel.pointed, panel.box.width, state.sizes?.from, state.sizes?.below, player.colours.accent].join(";");
+    if (key === panel.shown || panel.box.width === 0) return;
     panel.shown = key;
     const { pointed, isArea } = panel;
     const { edges } = classes;
     const words = pointed < 0 ? `at most ${amountWords(Math.max(...bars), isArea)}` : `${edges[pointed]} \u2013 ${edges[pointed + 1]} m: ${amountWords(bars[pointed], isArea)}`;
-    drawHistogram(canvas, classes, bars, { chosen: state.sizes, pointed, words }, player.colours);
+    drawHistogram(canvas, panel.box, classes, bars, { chosen: state.sizes, pointed, words }, player.colours);
     const { all, chosen } = counts;
     byId("size-words").textContent = state.sizes === null ? "A drag over the histogram chooses sizes."
       : `${chosen.number} of ${amountWords(all.number, false)}, ${amountWords(chosen.area, true)} (${((100 * chosen.area) / (all.area || 1)).toFixed(1)} % of the ice)`;
@@ -118,6 +117,10 @@ function makeSizePanel(player) {
       panel.show();
     });
   }
+  new ResizeObserver(([{ contentRect: { width, height } }]) => { // to read it of the canvas would lay out the page at each frame
+    panel.box = { width, height };
+    panel.show();
+  }).observe(canvas);
   watchHistogram(canvas, classes, panel, actions);
   watchSizeFields(state, actions);
   return panel;
