@@ -86,11 +86,14 @@ void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
             1e-3 * (masses.submerged_mass + masses.under_hull_mass + masses.under_ice_mass),
             1e-3 * masses.brash_mass, 1e-3 * masses.imbalance);
   const simulation::EnergyFlows& energy = summary.audit.sums.energy;
+  const simulation::BoundaryFlows& boundaries = summary.audit.sums.boundaries;
   print_out(
       "energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
       "motion (imbalance {:.1e} of it)\n",
-      (energy.thrust + energy.current + summary.audit.sums.initial_energy) / 1e3, energy.drag / 1e3,
-      energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
+      (energy.thrust + energy.current + boundaries.wind + boundaries.walls +
+       summary.audit.sums.initial_energy) /
+          1e3,
+      energy.drag / 1e3, energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
       summary.audit.kinetic_energy / 1e3,
       summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
   print_out("{}", force_lines(summary, scene));

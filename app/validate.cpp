@@ -46,15 +46,17 @@ int validate(const Options& options) {
     return kDone;
   }
   const simulation::Scene& scene = loaded->scene;
-  const auto structures =
+  const auto grounded = static_cast<std::size_t>(std::ranges::count_if(scene.ships, simulation::is_grounded));
+  const auto walls =
       static_cast<std::size_t>(std::ranges::count_if(scene.ships, [](const simulation::ShipSpec& ship) {
-        return std::holds_alternative<simulation::FixedInPlace>(ship.propulsion);
+        return std::holds_alternative<simulation::Wall>(ship.propulsion);
       }));
-  print_out("{}: valid; \"{}\" with {}{} and {}, {:g} s in steps of {:g} s, hash {}\n",
+  print_out("{}: valid; \"{}\" with {}{}{} and {}, {:g} s in steps of {:g} s, hash {}\n",
             options.scene == "-" ? "stdin" : options.scene, scene.name,
-            counted(scene.ships.size() - structures, "ship"),
-            structures > 0 ? ", " + counted(structures, "structure") : "",
-            counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step, loaded->hash);
+            counted(scene.ships.size() - grounded, "ship"),
+            grounded > walls ? ", " + counted(grounded - walls, "structure") : "",
+            walls > 0 ? ", " + counted(walls, "wall") : "", counted(scene.floes.size(), "floe"),
+            scene.time.until, scene.time.step, loaded->hash);
   for (const io::FieldReport& field : loaded->fields) {
     const simulation::FloeFieldOutcome& outcome = field.outcome;
     print_out("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",

@@ -37,6 +37,7 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   bodies.centroid.push_back(body.centroid);
   bodies.area.push_back(area);
   bodies.thickness.push_back(body.thickness);
+  bodies.is_grounded.push_back(body.is_grounded);
   bodies.boundary.push_back(body.boundary);
   bodies.drag.push_back(body.drag);
   return bodies.size() - 1;

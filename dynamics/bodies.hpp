@@ -16,7 +16,8 @@ using BodyIndex = std::int32_t;
 /// (drag_shape.hpp). By kPlan, all widths are the area [m²] and K is ∫ r³ dA [m⁵].
 struct DragShape {
   static constexpr int kDirections = 128;
-  double rotational = 0;  ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
+  double rotational = 0;       ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
+  double skin_rotational = 0;  ///< ∫ r³ dA; 0 where no skin drag acts [m⁵]
   std::array<double, kDirections + 1> width{};  ///< across drag_direction(k) [m]; last = first
 };
 
@@ -52,6 +53,7 @@ struct Bodies {
   std::vector<geometry::Point> centroid;  ///< centre of mass in the body frame [m]
   std::vector<double> area;               ///< in plan [m²]
   std::vector<double> thickness;          ///< of the ice, or the draught that meets water [m]
+  std::vector<std::uint8_t> is_grounded;  ///< a structure or a wall: they do not meet each other
   std::vector<std::shared_ptr<geometry::Boundary>> boundary;  ///< made ready when another body comes near
   std::vector<std::shared_ptr<const DragShape>> drag;         ///< null: no drag, or it sleeps
 
@@ -67,6 +69,7 @@ struct NewBody {
   double mass = 0;              ///< [kg]
   double moment = 0;            ///< [kg m²]
   bool is_prescribed = false;   ///< impulses do not change its velocity
+  bool is_grounded = false;     ///< a structure or a wall
   geometry::Point centroid;     ///< in the body frame [m]
   double thickness = 0;         ///< [m]
   std::shared_ptr<geometry::Boundary> boundary;

@@ -109,22 +109,28 @@ double third_moment(const geometry::Ring& ring, Point centroid) {
 }
 
 /// Holes run clockwise.
+double third_moment(const geometry::Polygon& polygon, Point centroid) {
+  double sum = third_moment(polygon.outer, centroid);
+  for (const geometry::Ring& hole : polygon.holes) sum += third_moment(hole, centroid);
+  return sum;
+}
+
 DragShape plan_shape(const geometry::Polygon& polygon, Point centroid) {
   double area = geometry::signed_area(polygon.outer);
   DragShape shape;
-  shape.rotational = third_moment(polygon.outer, centroid);
-  for (const geometry::Ring& hole : polygon.holes) {
-    area += geometry::signed_area(hole);
-    shape.rotational += third_moment(hole, centroid);
-  }
+  shape.rotational = third_moment(polygon, centroid);
+  for (const geometry::Ring& hole : polygon.holes) area += geometry::signed_area(hole);
   shape.width.fill(area);
   return shape;
 }
 
 }  // namespace
 
-DragShape make_drag_shape(const geometry::Polygon& polygon, Point centroid, DragArea area) {
-  return area == DragArea::kPlan ? plan_shape(polygon, centroid) : edge_shape(polygon, centroid);
+DragShape make_drag_shape(const geometry::Polygon& polygon, Point centroid, DragArea area, bool has_skin) {
+  DragShape shape = area == DragArea::kPlan ? plan_shape(polygon, centroid) : edge_shape(polygon, centroid);
+  if (has_skin)
+    shape.skin_rotational = area == DragArea::kPlan ? shape.rotational : third_moment(polygon, centroid);
+  return shape;
 }
 
 Vector drag_direction(int k) {

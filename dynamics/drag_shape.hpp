@@ -13,9 +13,9 @@ enum class DragArea {
 
 /// By edge: width of a shape across each direction [m] and its rotational drag integral [m⁴], about
 /// `centroid` in its frame. By plan: the area in place of the widths [m²], and ∫ r³ dA, exact for the polygon
-/// [m⁵].
+/// [m⁵]. `has_skin`: with ∫ r³ dA for the skin drag too.
 DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid,
-                          DragArea area = DragArea::kEdge);
+                          DragArea area = DragArea::kEdge, bool has_skin = false);
 
 /// The k-th of the 128 directions over half a turn at which widths are known: evenly around a diamond, since
 /// that needs no arctangent to find a direction's place among them. Not of unit length.

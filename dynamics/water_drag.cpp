@@ -43,7 +43,7 @@ struct Lanes {
   BodyIndex body[kMost];
   // The motion through the water, and what changes it.
   double ux[kMost], uy[kMost], speed[kMost], cosine[kMost], sine[kMost], place[kMost], width[kMost];
-  double rate[kMost], inverse_mass[kMost], mass[kMost];
+  double rate[kMost], skin[kMost], skin_turning[kMost], inverse_mass[kMost], mass[kMost];
   double omega[kMost], rotational[kMost], inverse_moment[kMost], moment[kMost];
   // The motion after the step is the water's and this.
   double ux_after[kMost], uy_after[kMost], omega_after[kMost];
@@ -63,14 +63,15 @@ POLYNYA_AVX2_CLONE void find_places(Lanes& l, std::size_t count) {
 
 POLYNYA_AVX2_CLONE void brake(Lanes& l, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
-    const double shrink = 1 / (1 + l.rate[i] * l.width[i] * l.inverse_mass[i] * l.speed[i]);
+    const double shrink = 1 / (1 + (l.rate[i] * l.width[i] + l.skin[i]) * l.inverse_mass[i] * l.speed[i]);
     l.ux_after[i] = shrink * l.ux[i];
     l.uy_after[i] = shrink * l.uy[i];
     l.slowing[i] = l.mass[i] * (1 - shrink);
     l.lost[i] = 0.5 * l.slowing[i] * (1 + shrink) * l.speed[i] * l.speed[i];
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const double shrink = 1 / (1 + l.rate[i] * l.rotational[i] * l.inverse_moment[i] * std::abs(l.omega[i]));
+    const double rate = l.rate[i] * l.rotational[i] + l.skin_turning[i];
+    const double shrink = 1 / (1 + rate * l.inverse_moment[i] * std::abs(l.omega[i]));
     l.omega_after[i] = shrink * l.omega[i];
     l.turning_slowing[i] = l.moment[i] * (1 - shrink) * l.omega[i];
     l.lost_turning[i] = 0.5 * l.turning_slowing[i] * (1 + shrink) * l.omega[i];
@@ -89,6 +90,7 @@ struct Columns {
         moment(bodies.moment.data()),
         inverse_moment(bodies.inverse_moment.data()),
         thickness(bodies.thickness.data()),
+        area(bodies.area.data()),
         span(bodies.drag_span.data()),
         drag(bodies.drag.data()) {}
 
@@ -96,7 +98,7 @@ struct Columns {
   const geometry::Rotation* rotation;
   Vector* velocity;
   double* angular_velocity;
-  const double *mass, *inverse_mass, *moment, *inverse_moment, *thickness;
+  const double *mass, *inverse_mass, *moment, *inverse_moment, *thickness, *area;
   DragSpan* span;
   const std::shared_ptr<const DragShape>* drag;
 };
@@ -116,8 +118,14 @@ Vector flow_at(const Columns& bodies, BodyIndex i, const ShearCurrent& current) 
   return current.is_still() ? Vector{} : current.velocity_at(bodies.position[i]);
 }
 
+/// ½ C ρ_w Δt of a step.
+struct DragRates {
+  double form = 0, skin = 0;  ///< [kg/m³ · s]
+  bool is_plan = false;
+};
+
 /// Writes what changes the motion of the bodies into the lanes.
-void gather(const Columns& bodies, Lanes& l, std::size_t count, double half_rate, bool is_plan,
+void gather(const Columns& bodies, Lanes& l, std::size_t count, const DragRates& rates,
             const ShearCurrent& current) {
   const double turning = current.is_still() ? 0 : current.angular_velocity();
   for (std::size_t k = 0; k < count; ++k) {
@@ -127,7 +135,9 @@ void gather(const Columns& bodies, Lanes& l, std::size_t count, double half_rate
     l.uy[k] = u.y;
     l.cosine[k] = bodies.rotation[i].cosine;
     l.sine[k] = bodies.rotation[i].sine;
-    l.rate[k] = is_plan ? half_rate : half_rate * bodies.thickness[i];
+    l.rate[k] = rates.is_plan ? rates.form : rates.form * bodies.thickness[i];
+    l.skin[k] = rates.skin * bodies.area[i];
+    l.skin_turning[k] = rates.skin > 0 ? rates.skin * bodies.drag[i]->skin_rotational : 0;
     l.inverse_mass[k] = bodies.inverse_mass[i];
     l.mass[k] = bodies.mass[i];
     l.omega[k] = bodies.angular_velocity[i] - turning;
@@ -163,8 +173,9 @@ void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const She
 /// Brakes the lanes' bodies over the step.
 void brake(const Columns& bodies, Lanes& l, std::size_t count, const WaterDrag& water, double dt,
            WaterWork& work) {
-  const double half_rate = 0.5 * water.drag_coefficient * water.density * dt;
-  gather(bodies, l, count, half_rate, water.area == DragArea::kPlan, water.current);
+  const DragRates rates{0.5 * water.drag_coefficient * water.density * dt,
+                        0.5 * water.skin_coefficient * water.density * dt, water.area == DragArea::kPlan};
+  gather(bodies, l, count, rates, water.current);
   find_places(l, count);
   for (std::size_t k = 0; k < count; ++k) {
     l.width[k] = width_at(bodies, l.body[k], l.place[k]);

@@ -29,6 +29,7 @@ struct WaterDrag {
   double density = 1000;          ///< ρ_w [kg/m³]
   ShearCurrent current;
   DragArea area = DragArea::kEdge;  ///< A, as the bodies' drag shapes have it
+  double skin_coefficient = 0;      ///< C_w, of the floe's area in plan, on top [-]
 };
 
 /// What the water did to the bodies over a step.
@@ -46,8 +47,10 @@ struct WaterWork {
 /// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions; in plan
 /// M = −½ C_D ρ_w ∫r³ dA |ω| ω. The effect of a current's strain on rotation is left out: a long floe would
 /// not turn evenly. Deviation: the paper prints the floe's own velocity for u; a drifting floe would be
-/// braked by its own current. Solved exactly over the step for constant A, v⁺ = v / (1 + c |v| dt): stable
-/// for any step. The bodies' kinetic energy changes by by_current − lost.
+/// braked by its own current. Skin drag on the area in plan S adds −½ C_w ρ_w S |u| u and
+/// −½ C_w ρ_w ∫r³ dA |ω| ω, which is exact for a floe that only turns. Solved exactly over the step for
+/// constant A, v⁺ = v / (1 + c |v| dt): stable for any step. The bodies' kinetic energy changes by by_current
+/// − lost.
 WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
                            double dt, int threads = 1);
 

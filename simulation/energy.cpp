@@ -64,15 +64,17 @@ Audit audit(const AuditSums& sums, double kinetic_energy, Vector momentum) {
   audit.sums = sums;
   const EnergyFlows& e = audit.sums.energy;
   const MomentumFlows& m = audit.sums.momentum;
+  const BoundaryFlows& b = audit.sums.boundaries;
   audit.kinetic_energy = kinetic_energy;
-  const double in = e.thrust + e.current;
+  const double in = e.thrust + e.current + b.wind + b.walls;
   const double out = e.drag + e.friction + e.restitution + e.crushing + e.bending + e.splitting + e.grinding +
                      e.submersion + e.submerged_ice + e.rest;
   audit.energy_imbalance = audit.kinetic_energy - audit.sums.initial_energy - in + out;
-  audit.turnover = audit.sums.initial_energy + std::abs(e.thrust) + std::abs(e.current) + std::abs(out);
+  audit.turnover = audit.sums.initial_energy + std::abs(e.thrust) + std::abs(e.current) + std::abs(b.wind) +
+                   std::abs(b.walls) + std::abs(out);
   audit.total_momentum = momentum;
-  audit.momentum_imbalance =
-      audit.total_momentum - audit.sums.initial_momentum - m.thrust - m.held - m.water + m.removed;
+  audit.momentum_imbalance = audit.total_momentum - audit.sums.initial_momentum - m.thrust - m.held -
+                             m.water - b.wind_impulse - b.wall_impulse + m.removed;
   audit.momentum_turnover = length(audit.sums.initial_momentum) + audit.sums.impulses;
   return audit;
 }

@@ -31,12 +31,22 @@ struct MomentumFlows {
   geometry::Vector removed;  ///< with what left the floe list, and what rest took
 };
 
+/// What wind and walls that press did, summed over all steps. All 0 in scenes without them, whose states do
+/// not have it.
+struct BoundaryFlows {
+  double wind = 0;                ///< energy in, by the wind on the ice [J]
+  double walls = 0;               ///< energy in, by the loads of walls, less what damps and holds them [J]
+  geometry::Vector wind_impulse;  ///< on floes [N s]
+  geometry::Vector wall_impulse;  ///< on walls, of the same [N s]
+};
+
 struct AuditSums {
   double initial_energy = 0;          ///< [J]
   geometry::Vector initial_momentum;  ///< [N s]
   double impulses = 0;                ///< sum of the sizes of all impulses from outside [N s]
   EnergyFlows energy;
   MomentumFlows momentum;
+  BoundaryFlows boundaries;
 };
 
 /// The accounts at one instant.

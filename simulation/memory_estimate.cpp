@@ -37,7 +37,7 @@ double length_of(const Ring& ring) {
 
 /// A body's share of the columns of dynamics::Bodies.
 constexpr double kColumns =
-    16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 2;
+    16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3;
 
 /// A floe as the scene, its copy in the world, the floe, its birth in the journal and its outline.
 double at_rest(const FloeSpec& floe) {

@@ -55,6 +55,7 @@ NewFloe new_floe_of(const FloeSpec& spec, Point centroid, const Setup& setup) {
 Population::Population(const Setup& setup)
     : ship_count(static_cast<int>(setup.scene.ships.size())),
       drag_area(setup.scene.water.drag_area),
+      has_skin_drag(setup.scene.water.skin_drag_coefficient > 0),
       pairs(contact_rule(setup), grid_cell(setup.scene)) {}
 
 void add_scene(const Setup& setup, const Clock& clock, Population& population, Journal& journal) {
@@ -74,7 +75,7 @@ void add_scene(const Setup& setup, const Clock& clock, Population& population, J
     const BodyIndex body = population.body_of(static_cast<FloeId>(i));
     const bool is_moving = spec.is_fast ? population.bodies.velocity[body] != Vector{}
                                         : spec.velocity != Vector{} || spec.angular_velocity != 0;
-    if (is_moving || !is_current_still_at(body, setup, population.bodies) || !setup.shortcuts.sleeps)
+    if (is_moving || !stays_at_rest(body, setup, population.bodies) || !setup.shortcuts.sleeps)
       wake(body, population);
   }
 }
@@ -140,12 +141,13 @@ void add_drag(BodyIndex body, Population& population) {
     population.bodies.drag[body] = none;
     return;
   }
-  population.bodies.drag[body] = std::make_shared<dynamics::DragShape>(
-      dynamics::make_drag_shape(population.floes[population.floe_of(body)].shape.polygon,
-                                population.bodies.centroid[body], population.drag_area));
+  population.bodies.drag[body] = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(
+      population.floes[population.floe_of(body)].shape.polygon, population.bodies.centroid[body],
+      population.drag_area, population.has_skin_drag));
 }
 
-bool is_current_still_at(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies) {
+bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies) {
+  if (setup.scene.wind.blows() && bodies.inverse_mass[body] != 0) return false;
   const dynamics::ShearCurrent& current = setup.current;
   if (current.is_still()) return true;
   const double rim = std::abs(current.angular_velocity()) * bodies.bounding_radius[body];
@@ -167,6 +169,11 @@ dynamics::NewBody new_body_of(const ShipSpec& ship, Vector water_drift) {
     body.is_prescribed = true;
   }
   body.velocity = speed * ahead - water_drift;
+  body.is_grounded = is_grounded(ship);
+  if (const auto* wall = std::get_if<Wall>(&ship.propulsion)) {
+    body.velocity += wall->velocity;
+    body.is_prescribed = !wall->presses();
+  }
   body.mass = ship.mass;
   body.moment = ship.moment_of_inertia;
   body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline({ship.hull.waterline, {}}));

@@ -59,6 +59,7 @@ struct Population {
 
   int ship_count = 0;
   dynamics::DragArea drag_area;    ///< the scene's
+  bool has_skin_drag = false;      ///< likewise
   dynamics::Bodies bodies;         ///< the ships first, then floes by id
   std::vector<Helm> helms;         ///< per ship
   std::vector<Floe> floes;         ///< by id
@@ -108,9 +109,9 @@ void wake(BodyIndex body, Population& population);
 /// Makes the drag table of a floe that is about to move.
 void add_drag(BodyIndex body, Population& population);
 
-/// Whether a body at rest in the water frame stays at rest, as far as the water goes: a sheared current
-/// carries it off.
-bool is_current_still_at(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies);
+/// Whether a body at rest in the water frame stays at rest as far as water and wind go: a sheared current or
+/// a wind carries it off.
+bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies);
 
 /// The body of a ship where the scene has it.
 dynamics::NewBody new_body_of(const ShipSpec& ship, geometry::Vector water_drift);

@@ -74,6 +74,7 @@ double thrust_of(const Setup& setup, const ShipSample& s) {
   const Propulsion& propulsion = setup.scene.ships[s.ship].propulsion;
   if (const auto* constant = std::get_if<ConstantThrust>(&propulsion)) return constant->thrust;
   if (std::holds_alternative<Engine>(propulsion)) return s.from_engine.surge;
+  if (const auto* wall = std::get_if<Wall>(&propulsion); wall && wall->presses()) return wall->load();
   return -(s.surge_force + s.surge_from_ships + s.surge_from_submerged + s.from_water.surge);
 }
 

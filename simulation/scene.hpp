@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/drag_shape.hpp"
+#include "dynamics/wind.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/materials.hpp"
@@ -38,7 +39,8 @@ struct WaterSettings {
   fracture::Water water;
   double drag_coefficient = 0.5;                             ///< C_D of Eq. (6) [-]
   dynamics::DragArea drag_area = dynamics::DragArea::kEdge;  ///< A of Eq. (6)
-  geometry::Vector drift;  ///< velocity of the water, and of all ice with it [m/s]
+  double skin_drag_coefficient = 0;  ///< C_w, of a floe's area in plan, beside Eq. (6) [-]
+  geometry::Vector drift;            ///< velocity of the water, and of all ice with it [m/s]
   ShearSettings shear;
 };
 
@@ -125,10 +127,22 @@ struct ConstantSpeed {
 };
 /// A structure that stands on the ground. Its mass is infinite.
 struct FixedInPlace {};
-using dynamics::Engine;
-using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace, Engine>;
+/// A straight boundary that ice cannot pass: it stands, moves at a prescribed velocity, or presses on the
+/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory.md, "Walls").
+struct Wall {
+  geometry::Vector velocity;       ///< over ground, of one that does not press [m/s]
+  double length = 0;               ///< [m]
+  double line_load = 0;            ///< q, along its normal, over ground; 0: its motion is prescribed [N/m]
+  double closing_speed = 0.1;      ///< at which q alone moves it [m/s]
+  double mass_per_length = 4.5e5;  ///< of one that presses [kg/m]
 
-/// A ship, or a structure: a ship that does not move.
+  bool presses() const { return line_load > 0; }
+  double load() const { return line_load * length; }  ///< [N]
+};
+using dynamics::Engine;
+using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace, Engine, Wall>;
+
+/// A ship, a structure, which is a ship that does not move, or a wall.
 struct ShipSpec {
   std::string name;
   Hull hull;
@@ -181,11 +195,12 @@ struct Scene {
   std::uint64_t seed = 1;
   StepSettings time;
   WaterSettings water;
+  dynamics::Wind wind;
   fracture::Ice ice;
   ContactSettings contact;
   FractureSettings fracture;
   RecordSettings record;
-  std::vector<ShipSpec> ships;  ///< and then the structures
+  std::vector<ShipSpec> ships;  ///< and then the structures and the walls
   std::vector<FloeSpec> floes;
   /// Of floes whose thickness, density, strengths or toughness are not the scene's; the rest of it is.
   std::vector<fracture::Ice> own_ice;
@@ -212,6 +227,16 @@ struct Shortcuts {
 /// Whether anything beside ice, other ships and a prescribed thrust or speed moves the ship: water around the
 /// hull, an engine, a mooring.
 bool sails(const ShipSpec& ship);
+
+/// Whether it is a structure or a wall.
+bool is_grounded(const ShipSpec& ship);
+
+/// Whether a wind blows or a wall presses: both do work, which states keep.
+bool has_wind_or_walls(const Scene& scene);
+
+/// A wall whose face runs from one point to another, with the ice to its left, and its body of a depth [m]
+/// to its right. Its frame: the face's middle, x along the normal into the ice.
+ShipSpec wall_between(geometry::Point from, geometry::Point to, double depth, Wall wall);
 
 /// Whether ice can go under a ship's hull.
 bool has_draught(const Scene& scene);

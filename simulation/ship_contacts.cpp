@@ -65,6 +65,7 @@ void record_ship_contacts(const Setup& setup, const Clock& clock, const Populati
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
     for (BodyIndex other = ship + 1; other < population.ship_count; ++other) {
       if (bodies.inverse_mass[ship] != 0 || bodies.inverse_mass[other] != 0) continue;
+      if (bodies.is_grounded[ship] != 0 && bodies.is_grounded[other] != 0) continue;  // they do not meet
       if (is_known(known_contacts, ship, other)) continue;
       if (const auto contact = prescribed_contact(setup, clock, bodies, ship, other)) enter(*contact);
     }

@@ -49,6 +49,15 @@ void enter_water(const dynamics::WaterWork& work, AuditSums& audit) {
   audit.impulses += work.impulses;
 }
 
+void blow(const dynamics::Wind& wind, Population& population, double dt, AuditSums& audit) {
+  const auto first_floe = std::ranges::lower_bound(population.awake, population.ship_count);
+  const dynamics::WindWork work =
+      apply_wind(population.bodies, {first_floe, population.awake.end()}, wind.stress(), dt);
+  audit.boundaries.wind += work.energy;
+  audit.boundaries.wind_impulse += work.impulse;
+  audit.impulses += work.impulses;
+}
+
 void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, AuditSums& audit) {
   const Vector heading{bodies.rotation[ship].cosine, bodies.rotation[ship].sine};
   const Vector impulse = thrust_impulse * heading;
@@ -97,8 +106,10 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
 void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit) {
   const double dt = setup.scene.time.step;
   const WaterSettings& water = setup.scene.water;
+  if (setup.scene.wind.blows()) blow(setup.scene.wind, population, dt, audit);
   enter_water(apply_water_drag(population.bodies, population.awake,
-                               {water.drag_coefficient, water.water.density, setup.current, water.drag_area},
+                               {water.drag_coefficient, water.water.density, setup.current, water.drag_area,
+                                water.skin_drag_coefficient},
                                dt, threads),
               audit);
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
@@ -134,7 +145,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
     if (population.is_ship(i) || step.touched_at_step[i] == clock.steps) return false;
     if (bodies.rim_speed[i] >= kRestSpeed) return false;
     if (bodies.inverse_mass[i] == 0 && bodies.rim_speed[i] > 0) return false;  // its motion is prescribed
-    if (!is_current_still_at(i, setup, bodies)) return false;                  // it would not stay at rest
+    if (!stays_at_rest(i, setup, bodies)) return false;                        // it would not stay at rest
     stop(bodies, i, audit.energy.rest, audit);
     bodies.is_awake[i] = 0;
     population.pairs.sleep(bodies, i);
@@ -142,8 +153,9 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 23> kStages = {{
+const std::array<Stage, 25> kStages = {{
     {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
+    {"press walls", [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
     {"find pairs", [](World& w) { find_pairs(w.population); }},
     {"find contacts",
@@ -156,6 +168,7 @@ const std::array<Stage, 23> kStages = {{
     {"limit by tilt", [](World& w) { limit_by_tilt(w.setup, w.population, w.step); }},
     {"solve impulses",
      [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
+    {"hold walls", [](World& w) { hold_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"drop unbroken", [](World& w) { drop_unbroken(w.setup, w.step); }},
     {"find splits", [](World& w) { find_splits(w.setup, w.population, w.step); }},
     {"tilt floes", [](World& w) { tilt_floes(w.setup, w.population, w.step); }},

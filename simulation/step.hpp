@@ -17,6 +17,12 @@ void take_helms(const Setup& setup, const Clock& clock, Population& population);
 void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external,
            Population& population);
 
+/// Moves the walls that press by their loads. Before the contacts, so that the ice answers within the step.
+void press_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit);
+
+/// Takes from walls that press what impulses gave them beside their normals.
+void hold_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit);
+
 /// Keeps the ships' motion before the step's impulses.
 void keep_motion(const Population& population, StepData& step);
 
@@ -100,7 +106,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 23> kStages;
+extern const std::array<Stage, 25> kStages;
 
 /// One time step: all stages.
 void step(World& world);

@@ -3,6 +3,7 @@
 
   tools/under_hull_study.py level         level ice by part, .5-3 m/s and .25-1.5 m, beside Lindqvist's parts
   tools/under_hull_study.py pack          pack ice, concentrations .3-.9, six seeds, beside Colbourne and Zuev
+  tools/under_hull_study.py shapes        square floes in rows and irregular ones, C .5-.9, beside Colbourne
   tools/under_hull_study.py special       a plug, a floe on a plate ahead of the stem, a follower in the channel
   tools/under_hull_study.py sensitivity   added mass, damping, deflection, step and contact circles halved and doubled
 
@@ -47,6 +48,17 @@ def pack(cover, seed, v=1.0, **settings):
             "ships": [ship(-62, 0, v)],
             "floes": [{"field": {"corner_m": [0, -90], "extent_m": [400, 180], "floe_size_m": 15,
                                  "concentration": cover, "gap_m": 0.01}}]} | settings
+
+
+def squares(cover, seed, v=1.0):
+    """The same of square floes in rows; instead of another field, the ship goes in at another offset from them."""
+    pitch = 15 / math.sqrt(cover)
+    rows = round(180 / pitch)
+    scene = pack(cover, 1, v)
+    scene["ships"] = [ship(-62, (seed - 1) / 6 * pitch, v)]
+    scene["floes"] = [{"lattice": {"origin_m": [0, -pitch * rows / 2], "columns": round(400 / pitch), "rows": rows,
+                                   "pitch_m": pitch, "size_m": 15}}]
+    return scene
 
 
 def pinned():
@@ -135,6 +147,22 @@ def study_pack(arguments):
               f"| {colbourne(c, 0.5, 1, 16.1, -1.7937, 3) / 1e3:.0f} | {zuev(c, 0.5, 1) / 1e3:.0f} | {missed / steps:.2%} |")
 
 
+def study_shapes(arguments):
+    covers, seeds, kinds = (0.5, 0.6, 0.7, 0.8, 0.9), range(1, 7), {"squares": squares, "irregular": pack}
+    results = run_all(arguments, run, {(kind, c, s): make(c, s) for kind, make in kinds.items() for c in covers for s in seeds})
+    print("| C | square: mean [kN] | spread | largest .1 s | irregular: mean | spread | largest .1 s | Colbourne slender | blunt |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for c in covers:
+        cells = []
+        for kind in kinds:
+            forces = [results[kind, c, s][0]["icebreaker"] for s in seeds]
+            sums = np.array([sum(mean_after(f, 60)) for f in forces])
+            largest = np.median([f["contact"][f["t"] > 60].max() / 1e3 for f in forces])
+            cells.append(f"{sums.mean():.0f} | {sums.std(ddof=1):.0f} | {largest:.0f}")
+        print(f"| {c:g} | {' | '.join(cells)} | {colbourne(c, 0.5, 1, 4.4, -0.8267, 2) / 1e3:.0f} "
+              f"| {colbourne(c, 0.5, 1, 16.1, -1.7937, 3) / 1e3:.0f} |")
+
+
 def study_special(arguments):
     scenes = {("plug",): plug(arguments.plug), ("pinned",): pinned(), ("follower",): follower()}
     scenes |= {(key[0], "up"): without_tilting(scene) for key, scene in scenes.items() if key[0] != "follower"}
@@ -172,14 +200,14 @@ def study_sensitivity(arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("study", choices=("level", "pack", "special", "sensitivity"))
+    parser.add_argument("study", choices=("level", "pack", "shapes", "special", "sensitivity"))
     parser.add_argument("--polynya", default="polynya")
     parser.add_argument("--work", default="/tmp/under-hull-study")
     parser.add_argument("--plug", default="../shared/trials/unbreakable_plug.json", help="of the study special")
     parser.add_argument("--jobs", type=int, default=2)
     arguments = parser.parse_args()
     os.makedirs(arguments.work, exist_ok=True)
-    {"level": study_level, "pack": study_pack, "special": study_special, "sensitivity": study_sensitivity}[arguments.study](arguments)
+    {"level": study_level, "pack": study_pack, "shapes": study_shapes, "special": study_special, "sensitivity": study_sensitivity}[arguments.study](arguments)
 
 
 if __name__ == "__main__":

@@ -65,11 +65,14 @@ void append_ice_of_floes(JsonWriter& json, const simulation::Scene& scene) {
   json.close('}');
 }
 
-void append(JsonWriter& json, const simulation::Audit& audit) {
+void append(JsonWriter& json, const simulation::Audit& audit, bool has_boundaries) {
   const simulation::EnergyFlows& e = audit.sums.energy;
   json.key("energy").open('{');
   json.key("initial_J").value(audit.sums.initial_energy).key("kinetic_J").value(audit.kinetic_energy);
-  json.key("thrust_J").value(e.thrust).key("current_J").value(e.current).key("drag_J").value(e.drag);
+  json.key("thrust_J").value(e.thrust).key("current_J").value(e.current);
+  const simulation::BoundaryFlows& b = audit.sums.boundaries;
+  if (has_boundaries) json.key("wind_J").value(b.wind).key("walls_J").value(b.walls);
+  json.key("drag_J").value(e.drag);
   json.key("friction_J").value(e.friction).key("restitution_J").value(e.restitution);
   json.key("crushing_J").value(e.crushing).key("bending_J").value(e.bending);
   json.key("splitting_J").value(e.splitting).key("grinding_J").value(e.grinding);
@@ -89,6 +92,8 @@ void append(JsonWriter& json, const simulation::Audit& audit) {
   vector("thrust_Ns", m.thrust);
   vector("held_Ns", m.held);
   vector("water_Ns", m.water);
+  if (has_boundaries) vector("wind_Ns", b.wind_impulse);
+  if (has_boundaries) vector("walls_Ns", b.wall_impulse);
   vector("removed_Ns", m.removed);
   vector("imbalance_Ns", audit.momentum_imbalance);
   json.key("turnover_Ns").value(audit.momentum_turnover).close('}');
@@ -222,7 +227,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   json.close(']');
   append(json, summary.ledger, summary.masses);
   append_ice_of_floes(json, scene.scene);
-  append(json, summary.audit);
+  append(json, summary.audit, has_wind_or_walls(scene.scene));
   append(json, summary.counts);
   json.key("warnings").list(summary.warnings).close('}');
   return text + "\n";

@@ -122,8 +122,8 @@ class PilotCheck {
     if (!has_steering("pilot.follow")) return;
     const std::string key = "pilot.follow.ship";
     const std::string found = fmt::format("\"{}\"", pilot.ship);
-    if (leader == ships.end() || std::holds_alternative<simulation::FixedInPlace>(leader->propulsion))
-      return report(key, found + (leader == ships.end() ? ", the name of no ship" : ", a structure"),
+    if (leader == ships.end() || is_grounded(*leader))
+      return report(key, found + (leader == ships.end() ? ", the name of no ship" : ", which is no ship"),
                     "the name of another ship");
     if (pilot.leader == static_cast<int>(index_))
       return report(key, found + ": a ship cannot follow itself", "the name of another ship");

@@ -10,6 +10,7 @@
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/scene/speed_check.hpp"
+#include "io/scene/wall_check.hpp"
 #include "simulation/limits.hpp"
 
 namespace polynya::io {
@@ -163,6 +164,16 @@ void report_run_overlaps(std::size_t source, double time, const RunOverlaps& ove
            time, overlaps.count >= kMostOverlaps ? "at least " : "", overlaps.count, overlaps.largest)});
 }
 
+bool is_wall(const Named& body) {
+  return body.is_ship && body.origin->list == "walls";
+}
+
+std::string remedy_of(const Named& first, const Named& second) {
+  if (is_wall(second)) return "a face and a depth_m clear of it";
+  if (!first.is_ship || second.is_ship) return "bodies that at most touch";
+  return is_wall(first) ? "floes in front of the wall" : "floes outside the waterline";
+}
+
 void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
                     const std::vector<Polygon>& outlines, ProblemCollector& problems) {
   const auto overlaps = geometry::find_overlapping_pairs(outlines, kMostOverlaps);
@@ -186,12 +197,12 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
     if (const RunOverlaps* run = run_of(overlap); run && run->among_them > 0) continue;
     const Named& first = named[overlap.first];
     const Named& second = named[overlap.second];
+    if (is_wall(second) && first.origin->is_structure) continue;  // walls cross each other and structures
     const std::string area = std::isnan(overlap.area) ? "" : fmt::format(", {:.6g} m² shared", overlap.area);
     problems.add(second.origin->source, second.origin->offset,
                  {.path = second.path,
                   .found = fmt::format("an overlap with {}{}", first.path, area),
-                  .allowed = first.is_ship && !second.is_ship ? "floes outside the waterline"
-                                                              : "bodies that at most touch"});
+                  .allowed = remedy_of(first, second)});
   }
   if (overlaps.size() == kMostOverlaps && of_runs.empty())
     problems.add(0, 0,
@@ -202,7 +213,7 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
 
 std::string ship_path(const SceneDraft& draft, std::size_t ship) {
   const Origin& origin = draft.ship_origins[ship];
-  return fmt::format("{}[{}]", origin.is_structure ? "structures" : "ships", origin.group);
+  return fmt::format("{}[{}]", origin.list, origin.group);
 }
 
 std::string floe_path(const SceneDraft& draft, std::size_t floe) {
@@ -224,6 +235,7 @@ void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemColl
   check_water_and_time(draft, resolved, problems);
   if (problems.count() == 0) check_own_density(draft, problems);
   check_fast_ice(draft, resolved, problems);
+  check_walls(draft, resolved, problems);
   std::vector<Named> named;
   std::vector<Polygon> outlines;
   check_ships(draft, problems, named, outlines);

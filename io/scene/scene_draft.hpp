@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -55,14 +56,23 @@ struct DriveDraft {
   bool has_nozzles = false;
 };
 
+/// One entry of the scene's "walls" while it is read.
+struct WallDraft {
+  std::string name;
+  geometry::Point from, to;  ///< [m]
+  double depth = 0;          ///< [m]
+  simulation::Wall wall;
+};
+
 /// Where a ship or a floe of the scene stands in the text, for messages.
 struct Origin {
   std::size_t source = 0;       ///< index in the ProblemCollector's sources
   std::uint32_t offset = 0;     ///< byte in that source
-  std::size_t group = 0;        ///< index in the scene's "floes", "ships" or "structures"
+  std::size_t group = 0;        ///< index in the scene's "floes", or in `list`
   int member = -1;              ///< which floe of a lattice or file; −1: the only one
   bool is_known_valid = false;  ///< by construction
-  bool is_structure = false;
+  bool is_structure = false;    ///< or a wall
+  std::string_view list = "ships";
 };
 
 /// How a property of the floes of one entry came out that was drawn.
@@ -82,6 +92,7 @@ struct SceneDraft {
   DriveDraft drive;                ///< of the ship being read
   double structure_radius = 0;     ///< of the structure being read; 0 where its outline is given [m]
   double structure_slope = 0;      ///< of its wall from the vertical [rad]
+  WallDraft wall;
   FloeGroup group;
   std::vector<Origin> ship_origins;
   std::vector<Origin> floe_origins;

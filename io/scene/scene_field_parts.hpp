@@ -58,6 +58,7 @@ inline geometry::Ring ring_of(const JsonValue& v) {
 const Object& origin_object();
 const Object& time_object();
 const Object& water_object();
+const Object& wind_object();
 const Object& ice_object();
 const Object& contact_object();
 const Object& fracture_object();
@@ -69,6 +70,7 @@ const Object& steering_object();
 const Object& mooring_object();
 const Object& pilot_object();
 const Object& structure_object();
+const Object& wall_object();
 const Object& floes_object();
 const Object& floe_ice_object();
 

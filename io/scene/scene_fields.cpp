@@ -25,10 +25,12 @@ const Object kScene{
      field("origin", Kind::kObject, "", {}, kLeftOut,
            "where the scene lies on the Earth, for `polynya export --geojson`; nothing else depends on it",
            nullptr, {}, "", &origin_object()),
-     section("time", time_object()), section("water", water_object()), section("ice", ice_object()),
-     section("contact", contact_object()), section("fracture", fracture_object()),
-     section("record", record_object()), list("ships", 100, "the ships", ship_object()),
+     section("time", time_object()), section("water", water_object()), section("wind", wind_object()),
+     section("ice", ice_object()), section("contact", contact_object()),
+     section("fracture", fracture_object()), section("record", record_object()),
+     list("ships", 100, "the ships", ship_object()),
      list("structures", 100, "what stands in the ice and does not move", structure_object()),
+     list("walls", 100, "straight boundaries that ice cannot pass, and that may press on it", wall_object()),
      list("floes", kLargestCount, "the ice, in groups", floes_object())}};
 
 std::string describe_range(const Field& field) {

@@ -33,38 +33,6 @@ const Object kTime{{field("step_s", Kind::kNumber, "s", from(1e-5, 1), "0.005", 
                     field("until_s", Kind::kNumber, "s", above(0, 1e7), "550", "simulated time to run to",
                           [](Draft& d, const Value& v) { d.scene.time.until = v.number(); })}};
 
-const Object kShear{
-    {field("rate_per_s", Kind::kNumber, "1/s", from(-1, 1), "0",
-           "how much faster the current runs along its direction, per metre to port of the origin",
-           [](Draft& d, const Value& v) { d.scene.water.shear.rate = v.number(); }),
-     field("direction_deg", Kind::kNumber, "°", from(-360, 360), "0",
-           "of the current, from the x axis, counter-clockwise",
-           [](Draft& d, const Value& v) { d.scene.water.shear.direction = radians(v); }),
-     field("origin_m", Kind::kVector, "m", coordinate(), "[0, 0]",
-           "a point where the water has the drift alone, at the start; it is carried along by the drift",
-           [](Draft& d, const Value& v) { d.scene.water.shear.origin = point_of(v); })}};
-
-const Object kWater{
-    {field("density_kg_per_m3", Kind::kNumber, "kg/m³", from(500, 2000), "1000", "density ρ_w",
-           [](Draft& d, const Value& v) { d.scene.water.water.density = v.number(); }),
-     field("drag_coefficient", Kind::kNumber, "", from(0, 100), "0.5", "C_D of Eq. (6)",
-           [](Draft& d, const Value& v) { d.scene.water.drag_coefficient = v.number(); }),
-     field(
-         "drag_area", Kind::kChoice, "", {}, "\"edge\"",
-         "A of Eq. (6): thickness times the floe's width across its motion, or its area in plan (the reading "
-         "under which the paper's voyages come out: docs/paper-comparison.md)",
-         [](Draft& d, const Value& v) {
-           d.scene.water.drag_area =
-               v.text() == "edge" ? dynamics::DragArea::kEdge : dynamics::DragArea::kPlan;
-         },
-         {"edge", "plan"}),
-     field("drift_m_per_s", Kind::kVector, "m/s", from(-10, 10), "[0, 0]",
-           "velocity of the water, and of all ice with it",
-           [](Draft& d, const Value& v) { d.scene.water.drift = vector_of(v); }),
-     field("shear", Kind::kObject, "", {}, "{}",
-           "a current that changes linearly across its direction, on top of the drift", nullptr, {}, "",
-           &kShear)}};
-
 const Object kIce{
     {field("thickness_m", Kind::kNumber, "m", from(1e-3, 20), "0.5", "thickness h of every floe",
            [](Draft& d, const Value& v) { d.scene.ice.thickness = v.number(); }),
@@ -279,9 +247,6 @@ const Object& origin_object() {
 }
 const Object& time_object() {
   return kTime;
-}
-const Object& water_object() {
-  return kWater;
 }
 const Object& ice_object() {
   return kIce;

@@ -45,11 +45,22 @@ Vector ahead_of(const ShipSpec& ship) {
   return {std::cos(ship.heading), std::sin(ship.heading)};
 }
 
-bool is_fixed(const ShipSpec& ship) {
-  return std::holds_alternative<simulation::FixedInPlace>(ship.propulsion);
+const simulation::Wall* wall_of(const ShipSpec& ship) {
+  return std::get_if<simulation::Wall>(&ship.propulsion);
 }
 bool is_prescribed(const ShipSpec& ship) {
-  return is_fixed(ship) || std::holds_alternative<simulation::ConstantSpeed>(ship.propulsion);
+  if (const auto* wall = wall_of(ship)) return !wall->presses();
+  return is_grounded(ship) || std::holds_alternative<simulation::ConstantSpeed>(ship.propulsion);
+}
+/// Over ground, at the start [m/s].
+Vector velocity_of(const ShipSpec& ship) {
+  const auto* wall = wall_of(ship);
+  return wall ? wall->velocity : ship.speed * ahead_of(ship);
+}
+/// At which it closes on the ice at most [m/s].
+double closing_speed_of(const ShipSpec& ship) {
+  const auto* wall = wall_of(ship);
+  return wall && wall->presses() ? wall->closing_speed : length(velocity_of(ship));
 }
 double thrust_of(const ShipSpec& ship) {
   const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
@@ -72,7 +83,8 @@ class Hinter {
   void add_all() {
     hint_at_ice();
     for (std::size_t i = 0; i < scene_.ships.size(); ++i) {
-      if (is_fixed(scene_.ships[i])) continue;
+      if (wall_of(scene_.ships[i])) hint_at_side(i);
+      if (is_grounded(scene_.ships[i])) continue;
       hint_at_mass(i);
       hint_at_speed(i);
       hint_at_course(i);
@@ -81,6 +93,7 @@ class Hinter {
       for (std::size_t k = i + 1; k < scene_.ships.size(); ++k) hint_at_crossing(i, k);
     }
     hint_at_drift();
+    hint_at_wind();
     hint_at_step();
   }
 
@@ -91,10 +104,9 @@ class Hinter {
   }
   void add(Severity severity, std::size_t ship, std::string_view key, std::string sentence) {
     const Origin& origin = draft_.ship_origins[ship];
-    const std::string_view list = origin.is_structure ? "structures" : "ships";
-    const JsonValue& item = resolved_.find(list)->items()[origin.group];
+    const JsonValue& item = resolved_.find(origin.list)->items()[origin.group];
     const JsonValue* member = item.find(key);
-    add(severity, member ? *member : item, fmt::format("{}[{}].{}", list, origin.group, key),
+    add(severity, member ? *member : item, fmt::format("{}[{}].{}", origin.list, origin.group, key),
         std::move(sentence));
   }
   /// A member of an object of the scene, or what is there of it.
@@ -173,10 +185,10 @@ class Hinter {
   /// All of the ice is behind the hull, and the ship moves away from it.
   void hint_at_course(std::size_t i) {
     const ShipSpec& ship = scene_.ships[i];
-    const bool is_ice_moved = scene_.water.shear.rate != 0 ||
-                              std::ranges::any_of(scene_.floes, [](const simulation::FloeSpec& floe) {
-                                return floe.velocity != Vector{};
-                              });
+    const bool is_ice_moved =
+        scene_.water.shear.rate != 0 || scene_.wind.blows() || std::ranges::any_of(scene_.ships, wall_of) ||
+        std::ranges::any_of(scene_.floes,
+                            [](const simulation::FloeSpec& floe) { return floe.velocity != Vector{}; });
     if (scene_.floes.empty() || is_ice_moved || ship.mooring || is_steered(ship)) return;
     const double drift = dot(scene_.water.drift, ahead_of(ship));
     const double speed = ship.speed - drift, thrust = thrust_of(ship);
@@ -196,12 +208,12 @@ class Hinter {
   /// Two whose motions are prescribed do not stop each other.
   void hint_at_crossing(std::size_t i, std::size_t k) {
     const ShipSpec &ship = scene_.ships[i], &other = scene_.ships[k];
-    if (!is_prescribed(ship) || !is_prescribed(other) || (is_fixed(ship) && is_fixed(other))) return;
-    const Vector velocity = other.speed * ahead_of(other) - ship.speed * ahead_of(ship);
+    if (!is_prescribed(ship) || !is_prescribed(other) || (is_grounded(ship) && is_grounded(other))) return;
+    const Vector velocity = velocity_of(other) - velocity_of(ship);
     const auto touch = geometry::first_contact(
         waterline_in_world(ship).outer, waterline_in_world(other).outer, velocity, 0, scene_.time.until);
     if (!touch) return;
-    const Point at = touch->point + touch->time * ship.speed * ahead_of(ship);
+    const Point at = touch->point + touch->time * velocity_of(ship);
     add(Severity::kWarning, i, "propulsion",
         fmt::format(
             "it meets {} after {:.4g} s at ({:.4g}, {:.4g}) m, where the motion of both is prescribed: they "
@@ -227,9 +239,26 @@ class Hinter {
     }
   }
 
+  void hint_at_wind() {
+    if (!scene_.wind.blows() || scene_.water.skin_drag_coefficient > 0) return;
+    add(Severity::kHint, value_at("water", "skin_drag_coefficient"), "water.skin_drag_coefficient",
+        "0 in a wind: nothing but the form drag of their edges brakes the floes; 0.004 is common");
+  }
+
+  /// All of the ice is behind a wall's face.
+  void hint_at_side(std::size_t i) {
+    const ShipSpec& wall = scene_.ships[i];
+    const auto is_before = [&](Point p) { return dot(p - wall.position_in_world, ahead_of(wall)) > 0; };
+    const auto has_part_before = [&](const simulation::FloeSpec& floe) {
+      return std::ranges::any_of(floe.polygon_in_world.outer, is_before);
+    };
+    if (scene_.floes.empty() || std::ranges::any_of(scene_.floes, has_part_before)) return;
+    add(Severity::kWarning, i, "to_m", "all ice lies behind its face: exchange from_m and to_m");
+  }
+
   void hint_at_step() {
     double speed = 0;
-    for (const ShipSpec& ship : scene_.ships) speed = std::max(speed, std::abs(ship.speed));
+    for (const ShipSpec& ship : scene_.ships) speed = std::max(speed, closing_speed_of(ship));
     for (const simulation::FloeSpec& floe : scene_.floes) speed = std::max(speed, length(floe.velocity));
     if (speed == 0 || scene_.floes.empty()) return;
     const double way = speed * scene_.time.step;

@@ -13,6 +13,7 @@
 #include "io/scene/scene_presets.hpp"
 #include "io/scene/scene_resolve.hpp"
 #include "io/scene/ship_completion.hpp"
+#include "io/scene/wall_check.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 
@@ -63,6 +64,7 @@ class SceneReader {
     hold_constant_speeds(document.root);
     choose_fate_of_ice(document.root);
     choose_hull_water(document.root, resolved_);
+    choose_skin_drag(document.root, resolved_);
     build();
     fill_in_masses(draft_, resolved_);
     complete_pilots(resolved_, draft_, problems_);
@@ -145,6 +147,8 @@ class SceneReader {
         add_ship(index, item);
       else if (list == "structures")
         add_structure(index, item);
+      else if (list == "walls")
+        add_wall(index, item, draft_, problems_);
       else if (list == "floes")
         reader.add(index, item);
     });
@@ -179,7 +183,8 @@ class SceneReader {
     hull.angles_from_vertical.assign(hull.waterline.size(), draft_.structure_slope);
     structure.mass = structure.moment_of_inertia = std::numeric_limits<double>::infinity();
     structure.propulsion = simulation::FixedInPlace{};
-    draft_.ship_origins.push_back({.offset = item.offset, .group = index, .is_structure = true});
+    draft_.ship_origins.push_back(
+        {.offset = item.offset, .group = index, .is_structure = true, .list = "structures"});
   }
 
   std::filesystem::path folder_;

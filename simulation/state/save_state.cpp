@@ -23,7 +23,9 @@ Standing standing_of(const Population& population, FloeId id) {
 template <class Archive>
 void write(Archive& archive, const World& world, const std::vector<dynamics::PairState>& pairs) {
   const Population& population = world.population;
-  archive(world.clock.steps, world.accounts, std::uint64_t{population.floes.size()});
+  archive(world.clock.steps, world.accounts);
+  if (has_wind_or_walls(world.setup.scene)) archive(world.accounts.audit.boundaries);
+  archive(std::uint64_t{population.floes.size()});
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
     archive(motion_of(population.bodies, ship));
     if (world.setup.sailing[ship].is_active) archive(population.helms[ship], world.accounts.sailing[ship]);

@@ -72,6 +72,7 @@ class StateLoader {
 
   void load_accounts() {
     bytes_(world_.clock.steps, world_.accounts);
+    if (has_wind_or_walls(scene_)) bytes_(world_.accounts.audit.boundaries);
     const Counts& c = world_.accounts.counts;
     for (const std::int64_t count :
          {c.floes_initial, c.bends, c.splits, c.ground, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
@@ -241,6 +242,7 @@ class StateLoader {
       const bool is_held = bodies.inverse_mass[pair.a] == 0 && bodies.inverse_mass[pair.b] == 0;
       bytes_.require(!is_held || (population_.is_ship(pair.a) && !population_.is_ship(pair.b)),
                      "a pair of two of prescribed motion");
+      bytes_.require(!bodies.is_grounded[pair.a] || !bodies.is_grounded[pair.b], "a pair of two walls");
       const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
       bytes_.require(is_next, "pairs out of their order");
       pair.separation_bound = separation_bound[i];

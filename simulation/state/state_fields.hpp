@@ -127,6 +127,11 @@ void fields(Archive& archive, Is<MomentumFlows> auto& m) {
   archive(m.thrust, m.held, m.water, m.removed);
 }
 template <class Archive>
+void fields(Archive& archive, Is<BoundaryFlows> auto& b) {
+  archive(b.wind, b.walls, b.wind_impulse, b.wall_impulse);
+}
+/// Not its boundaries: those are in states of scenes that have wind or walls (save_state.cpp).
+template <class Archive>
 void fields(Archive& archive, Is<AuditSums> auto& a) {
   archive(a.initial_energy, a.initial_momentum, a.impulses, a.energy, a.momentum);
 }

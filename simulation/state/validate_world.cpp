@@ -22,7 +22,7 @@ Defect check_columns(const World& world) {
   const auto sizes =
       size_of(b.position, b.angle, b.rotation, b.velocity, b.angular_velocity, b.inverse_mass,
               b.inverse_moment, b.travel, b.bounding_radius, b.rim_speed, b.drag_span, b.is_awake, b.is_alive,
-              b.mass, b.moment, b.centroid, b.thickness, b.boundary, b.drag);
+              b.mass, b.moment, b.centroid, b.thickness, b.is_grounded, b.boundary, b.drag);
   const auto is_count = [&](std::size_t size) { return size == count; };
   if (!std::ranges::all_of(sizes, is_count)) return fmt::format("a column of bodies is not {} long", count);
   if (world.accounts.loads.size() != world.setup.scene.ships.size())

@@ -73,6 +73,8 @@ inline std::string fingerprint(const simulation::Scene& s) {
       fmt::format("water {} {} {} {} {} {} {} {} {}\n", s.water.water.density, s.water.drag_coefficient,
                   static_cast<int>(s.water.drag_area), s.water.drift.x, s.water.drift.y, s.water.shear.rate,
                   s.water.shear.direction, s.water.shear.origin.x, s.water.shear.origin.y);
+  text += fmt::format("skin {} wind {} {} {} {}\n", s.water.skin_drag_coefficient, s.wind.velocity.x,
+                      s.wind.velocity.y, s.wind.drag_coefficient, s.wind.density);
   text +=
       fmt::format("ice {} {} {} {} {} {} {} {} {}\n", s.ice.thickness, s.ice.density, s.ice.youngs_modulus,
                   s.ice.poisson_ratio, s.ice.flexural_strength, s.ice.compressive_strength,
@@ -107,6 +109,9 @@ inline std::string fingerprint(const simulation::Scene& s) {
       text += fmt::format(" thrust {}\n", thrust->thrust);
     else if (const auto* held = std::get_if<simulation::ConstantSpeed>(&ship.propulsion))
       text += fmt::format(" speed {}\n", held->speed);
+    else if (const auto* wall = std::get_if<simulation::Wall>(&ship.propulsion))
+      text += fmt::format(" wall {} {} {} {} {} {}\n", wall->velocity.x, wall->velocity.y, wall->length,
+                          wall->line_load, wall->closing_speed, wall->mass_per_length);
     else
       text += " fixed\n";
   }

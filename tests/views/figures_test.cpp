@@ -285,6 +285,18 @@ std::size_t count_of(const std::string& text, const std::string& words) {
   return count;
 }
 
+TEST(Figures, AWallIsDrawnAsOneAndLeavesNoTrack) {
+  Picture picture;
+  picture.ships.push_back({{{0, 0}, {50, 0}, {50, 5}, {0, 5}}, {{25, 0}, {25, 9}}, true});
+  const std::string walls = to_svg(picture);
+  EXPECT_NE(walls.find(">wall<"), std::string::npos);
+  EXPECT_EQ(walls.find("<polyline"), std::string::npos);
+  picture.ships.front().is_wall = false;
+  const std::string ships = to_svg(picture);
+  EXPECT_EQ(ships.find(">wall<"), std::string::npos);
+  EXPECT_NE(ships.find("<polyline"), std::string::npos);
+}
+
 TEST(Figures, IceUnderAHullIsNeitherFloatingIceNorAFracture) {
   std::vector<io::Run> runs;
   runs.push_back(run_with_ice_under_a_hull());

@@ -27,6 +27,8 @@ struct Name {
 constexpr Name kNames[] = {{"initial", "motion at the start", true},
                            {"thrust", "thrust and holding", true},
                            {"current", "current", true},
+                           {"wind", "wind", true},
+                           {"walls", "loads of walls", true},
                            {"imbalance", "imbalance", true},
                            {"kinetic", "motion at the end"},
                            {"drag", "water drag"},

@@ -22,8 +22,9 @@ Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double ti
     picture.ice_under_hulls.push_back(transform(floe.world_from_body, *floe.polygon_in_body));
   for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
     Picture::Ship drawn{transform(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline),
-                        {}};
-    for (const double t : frame_times_until(run, time))
+                        {},
+                        std::holds_alternative<simulation::Wall>(scene.ships[ship].propulsion)};
+    for (const double t : drawn.is_wall ? std::vector<double>{} : frame_times_until(run, time))
       drawn.track.push_back(ship_pose_at(run, motions, ship, t).position);
     picture.ships.push_back(std::move(drawn));
   }
@@ -68,7 +69,7 @@ Picture final_picture(const io::Run& run) {
 void add_channels(Picture& picture, const io::Run& run, double time) {
   const simulation::Scene& scene = run.scene.scene;
   for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
-    if (std::holds_alternative<simulation::FixedInPlace>(scene.ships[ship].propulsion)) continue;
+    if (is_grounded(scene.ships[ship])) continue;
     if (const auto channel =
             analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0}))
       picture.channel.insert(picture.channel.end(), channel->open_water.begin(), channel->open_water.end());

@@ -62,6 +62,7 @@ std::vector<MapKey> map_keys(double scale, double room, const MapContents& conte
   if (contents.has_channel)
     keys.push_back(area_key(kChannel, kChannel, "channel: open water joined to the track"));
   keys.push_back(area_key(kShip, kShip, "ship"));
+  if (contents.has_walls) keys.push_back(area_key(kWall, kWall, "wall"));
   if (contents.has_ice_under_hulls)
     keys.push_back({{"ice under the hull or waiting behind it", 26}, [](SvgText& svg, geometry::Point at) {
                       svg.add("<rect x='{0:.2f}' y='{1:.2f}' width='26' height='16' fill='{2}'/>\n", at.x,

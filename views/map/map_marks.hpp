@@ -20,6 +20,7 @@ inline constexpr auto kIceCameUp = "#f0c987";
 inline constexpr auto kIceUnderHull = "#56b4e9";
 inline constexpr auto kIceEdge = "#3d5261";
 inline constexpr auto kShip = "#2b2b2b";
+inline constexpr auto kWall = "#8a8a8a";
 inline constexpr auto kTrack = "#d55e00";
 inline constexpr auto kBend = "#0072b2";
 inline constexpr auto kSplit = "#d55e00";
@@ -41,6 +42,7 @@ struct MapKey {
 /// What not every map shows.
 struct MapContents {
   bool has_channel = false;
+  bool has_walls = false;
   bool has_ice_under_hulls = false;
   bool has_ice_that_came_up = false;
 };

@@ -128,14 +128,19 @@ class SvgMap {
 
   void draw_ships() {
     for (const auto& ship : picture_.ships) {
-      svg_.add("<polyline fill='none' stroke='{}' stroke-width='2' stroke-dasharray='8 4' points='",
-               map_colour::kTrack);
-      for (const Point p : ship.track) svg_.add("{:.2f},{:.2f} ", frame_.x(p), frame_.y(p));
-      svg_.add("'/>\n<g fill='{}' fill-opacity='0.88' stroke='#ffffff' stroke-width='1.5'>\n",
-               map_colour::kShip);
+      if (!ship.is_wall) draw_track(ship);
+      svg_.add("<g fill='{}' fill-opacity='0.88' stroke='#ffffff' stroke-width='1.5'>\n",
+               ship.is_wall ? map_colour::kWall : map_colour::kShip);
       path({ship.waterline_in_world, {}});
       svg_.add("</g>\n");
     }
+  }
+
+  void draw_track(const Picture::Ship& ship) {
+    svg_.add("<polyline fill='none' stroke='{}' stroke-width='2' stroke-dasharray='8 4' points='",
+             map_colour::kTrack);
+    for (const Point p : ship.track) svg_.add("{:.2f},{:.2f} ", frame_.x(p), frame_.y(p));
+    svg_.add("'/>\n");
   }
 
   void draw_fractures(simulation::EventKind kind) {
@@ -180,6 +185,8 @@ class SvgSheet {
     const auto any = [&](auto condition) { return std::ranges::any_of(sheet_.pictures, condition); };
     const MapContents contents{
         .has_channel = any([](const Picture& p) { return !p.channel.empty(); }),
+        .has_walls =
+            any([](const Picture& p) { return std::ranges::any_of(p.ships, &Picture::Ship::is_wall); }),
         .has_ice_under_hulls = any([](const Picture& p) { return !p.ice_under_hulls.empty(); }),
         .has_ice_that_came_up =
             any([](const Picture& p) { return std::ranges::any_of(p.floes, &Picture::Floe::came_up); })};

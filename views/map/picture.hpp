@@ -20,6 +20,7 @@ struct Picture {
   struct Ship {
     geometry::Ring waterline_in_world;   ///< [m]
     std::vector<geometry::Point> track;  ///< of its centre of gravity [m]
+    bool is_wall = false;
   };
   struct Fracture {
     geometry::Point point_in_world;  ///< [m]

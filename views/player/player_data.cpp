@@ -132,7 +132,7 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
   for (const simulation::ShipSpec& ship : scene.ships) {
     json.open('{').key("name").value(ship.name);
     json.key("waterline_m").value(ship.hull.waterline);
-    json.key("is_fixed").value(std::holds_alternative<simulation::FixedInPlace>(ship.propulsion)).close('}');
+    json.key("is_fixed").value(is_grounded(ship)).close('}');
   }
   json.close(']');
 }
