@@ -348,7 +348,7 @@ def test_views_of_the_simulations_own_memory_are_what_the_copies_are():
     c, s = numpy.cos(copies.poses[:, 2]), numpy.sin(copies.poses[:, 2])
     x, y = memory.centroids[alive].T
     centres = copies.poses[:, :2] + numpy.column_stack((c * x - s * y, s * x + c * y))
-    numpy.testing.assert_allclose(memory.centres[alive] + memory.water_shift, centres, atol=1e-9)
+    numpy.testing.assert_allclose(memory.centres[alive] + memory.water_shift, centres, atol=1e-6)
     for i, floe in enumerate(copies.ids):
         first = copies.ring_offsets[copies.floe_offsets[i]]
         rings = memory.shape(floe)
