@@ -98,7 +98,7 @@ std::string floe_table(const std::vector<FloeRow>& rows) {
   for (const FloeRow& row : rows) {
     const simulation::BirthRecord& birth = row.birth;
     text +=
-        fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>11.4g} {:>9} {}\n",
+        fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>11.6g} {:>9} {}\n",
                     birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
                     birth.time, birth.area, row.perimeter, row.vertices, row.holes, birth.mass,
                     row.ice.thickness, row.speed ? fmt::format("{:.5f}", *row.speed) : "-", row.validity);

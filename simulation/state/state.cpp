@@ -154,6 +154,7 @@ class StateLoader {
         .generation = head.generation,
         .own_ice = head.parent == kNoFloe ? scene_.floes[id].own_ice : population_.floes[head.parent].own_ice,
         .area = head.area,
+        .shape = {},
         .is_under = is_under};
     if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = scene_.floes[id].polygon_in_world;
     if (head.is_alive && head.parent != kNoFloe) floe.shape = load_shape();

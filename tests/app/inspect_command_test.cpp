@@ -33,8 +33,8 @@ TEST_F(InspectCommand, TheTableHasALineForEachLivingFloe) {
   ASSERT_EQ(at_end.code, 0) << at_end.err;
   const auto all = lines(at_end.out);
   ASSERT_EQ(all.size(), 1 + living_at(run->end_time()));
-  for (const char* column :
-       {"floe", "parent", "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "valid"})
+  for (const char* column : {"floe", "parent", "born_s", "area_m2", "perimeter_m", "vertices", "holes",
+                             "mass_kg", "thickness_m", "valid"})
     EXPECT_NE(all[0].find(column), std::string::npos) << column;
   EXPECT_EQ(all[1].substr(all[1].size() - 4), " yes");
   const auto at_start = lines(inspect({"--at", "0"}).out);

@@ -133,6 +133,8 @@ test("the floe under the pointer has the numbers that `polynya inspect` prints a
       assert.equal(Number(facts.area.value), births[id].area_m2);
       assert.equal(Number(facts.mass.value), births[id].mass_kg);
       assert.equal(parseFloat(facts.mass.words), Number(row.mass));
+      assert.equal(parseFloat(facts.thickness.words), Number(row.thickness));
+      assert.equal(Number(facts.thickness.value), 0.5);
       assert.equal(facts.speed.words, row.speed === "-" ? "– (lived between two frames)" : `${row.speed} m/s`);
       ++picked;
     }

@@ -33,8 +33,8 @@ exports.readNdjson = (run, file) => exports.readLines(run, file).map((line) => J
 exports.inspectAt = (run, time) => {
   const rows = exports.polynya("inspect", run, "--at", String(time)).trim().split("\n").slice(1);
   return new Map(rows.map((row) => {
-    const [floe, parent, born, area, , , , mass, speed] = row.trim().split(/\s+/);
-    return [Number(floe), { parent, born, area, mass, speed }];
+    const [floe, parent, born, area, , , , mass, thickness, speed] = row.trim().split(/\s+/);
+    return [Number(floe), { parent, born, area, mass, thickness, speed }];
   }));
 };
 
