@@ -14,11 +14,14 @@ namespace polynya::python {
 /// while one of them lives, the simulation refuses to step.
 class FloeMemory {
  public:
-  explicit FloeMemory(const Simulation& simulation) : simulation_(simulation) {}
+  explicit FloeMemory(py::object simulation)
+      : owner_(std::move(simulation)), simulation_(owner_.cast<const Simulation&>()) {}
+  const py::object& owner() const { return owner_; }
   const Simulation& simulation() const { return simulation_; }
 
  private:
-  const Simulation& simulation_;  ///< which Python keeps alive
+  py::object owner_;  ///< keeps the simulation
+  const Simulation& simulation_;
 };
 
 namespace {
@@ -37,8 +40,7 @@ const simulation::Population& population_of(const FloeMemory& memory) {
 
 /// Counts a view of a simulation's memory as long as it lives, and keeps that memory.
 struct Hold {
-  explicit Hold(const FloeMemory& memory)
-      : simulation(py::cast(&memory.simulation())), views(memory.simulation().views()) {
+  explicit Hold(const FloeMemory& memory) : simulation(memory.owner()), views(memory.simulation().views()) {
     ++*views;
   }
   ~Hold() { --*views; }
@@ -54,7 +56,7 @@ py::array view(const FloeMemory& memory, const py::dtype& type, std::vector<py::
   if (first == nullptr) return py::array(type, std::move(shape));  // no floes
   auto hold = std::make_unique<Hold>(memory);
   const py::capsule base(hold.get(), [](void* p) { delete static_cast<Hold*>(p); });
-  hold.release();
+  static_cast<void>(hold.release());  // the capsule has it
   py::array array(type, std::move(shape), std::move(strides), first, base);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
@@ -157,7 +159,7 @@ void bind_floe_memory(py::module_& module, py::class_<Simulation>& simulation) {
           "Over ground, x and y [m/s].")
       .def("__len__", [](const FloeMemory& m) { return population_of(m).floe_count(); });
   simulation.def_property_readonly(
-      "floe_memory", [](const Simulation& s) { return FloeMemory(s); }, py::keep_alive<0, 1>(),
+      "floe_memory", [](py::object self) { return FloeMemory(std::move(self)); },
       "The floes' state as arrays on the simulation's own memory: FloeMemory.");
 }
 
