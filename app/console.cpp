@@ -50,6 +50,10 @@ void write_out(std::string_view text) {
   write(stdout, text, out_error);
 }
 
+void flush_out() {
+  flush(stdout, out_error);
+}
+
 void write_err(std::string_view text) {
   flush(stdout, out_error);
   write(stderr, text, err_error);

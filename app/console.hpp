@@ -26,6 +26,9 @@ void print_out(fmt::format_string<Args...> format, Args&&... args) {
   write_out(fmt::format(format, std::forward<Args>(args)...));
 }
 
+/// Writes what is buffered for stdout: before another program writes there.
+void flush_out();
+
 /// Writes a message to stderr, after what went to stdout before.
 void write_err(std::string_view text);
 template <typename... Args>

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include <fmt/format.h>
 
 #include "app/database_input.hpp"
 #include "fracture/bending/studies.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::app {
 namespace {
@@ -61,90 +61,77 @@ std::vector<Member> family(const BendingLoad& load, SliceAxis axis) {
   return members;
 }
 
-using Quantity = double (*)(const fracture::BendingCapacity&);
-
-double force_of(const fracture::BendingCapacity& capacity) {
-  return capacity.vertical_force / 1e3;
-}
-double radius_of(const fracture::BendingCapacity& capacity) {
-  return capacity.cusp_radius;
-}
-
-/// The slices of one figure: the family's, in its order.
-struct Figure {
-  SliceAxis axis;
-  std::vector<Member> members;
-  std::vector<std::vector<SlicePoint>> slices;
-};
-
-views::Chart::Panel panel(const Figure& figure, std::string title, views::Chart::Axis x, views::Chart::Axis y,
-                          Quantity quantity) {
-  views::Chart::Panel panel{std::move(title), std::move(x), std::move(y), {}};
-  const double x_scale = figure.axis == SliceAxis::kOpeningAngle ? kDegree : 1;
-  const auto add = [&](std::string name, int colour, views::Chart::Dash dash,
-                       const std::vector<SlicePoint>& slice, auto capacity_of) {
-    views::Chart::Curve curve{std::move(name), colour, dash, {}};
-    for (const SlicePoint& point : slice) {
-      const fracture::BendingCapacity& capacity = capacity_of(point);
-      curve.points.push_back({point.abscissa * x_scale, quantity(capacity), !capacity.is_in_range});
-    }
-    panel.curves.push_back(std::move(curve));
-  };
-  using Dash = views::Chart::Dash;
-  for (std::size_t i = 0; i < figure.members.size(); ++i)
-    add(
-        "database, " + figure.members[i].name, static_cast<int>(i), Dash::kSolid, figure.slices[i],
-        [](const SlicePoint& p) -> const auto& { return p.database.capacity; });
-  const std::string& name = figure.members.front().name;
-  add(
-      "Nevel, " + name, 4, Dash::kDashed, figure.slices.front(),
-      [](const SlicePoint& p) -> const auto& { return p.nevel; });
-  add(
-      "Kashtelyan, " + name, 5, Dash::kDotted, figure.slices.front(),
-      [](const SlicePoint& p) -> const auto& { return p.kashtelyan; });
-  return panel;
+/// A curve of a figure: a capacity of each point of a slice.
+template <class CapacityOf>
+void write_curve(io::JsonWriter& json, const std::string& name, const char* source,
+                 const std::vector<SlicePoint>& slice, CapacityOf capacity_of) {
+  std::vector<double> forces, radii;
+  std::vector<int> is_in_range;
+  for (const SlicePoint& point : slice) {
+    const fracture::BendingCapacity& capacity = capacity_of(point);
+    forces.push_back(capacity.vertical_force);
+    radii.push_back(capacity.cusp_radius);
+    is_in_range.push_back(capacity.is_in_range ? 1 : 0);
+  }
+  json.start_line();
+  json.open('{').key("name").value(name).key("source").value(source);
+  json.key("vertical_force_N").list(forces).key("cusp_radius_m").list(radii);
+  json.key("is_in_range").list(is_in_range).close('}');
 }
 
 struct FigureText {
-  std::string file;
-  std::string x_label;
+  const char* name;
+  const char* x_label;
   bool is_x_log;
   bool is_radius_log;
 };
 
-NamedChart draw(const FsiDatabaseModel& model, const std::string& title, const BendingLoad& load,
-                SliceAxis axis, std::span<const double> abscissae, const FigureText& text) {
-  Figure figure{axis, family(load, axis), {}};
-  for (const Member& member : figure.members)
-    figure.slices.push_back(slice(model, member.load, axis, abscissae));
-  views::Chart chart;
-  chart.title = "Icebreaking database: " + title;
-  chart.caption =
-      "Around " + describe(load) + ". Faint: outside of the table or of the published form's range.";
-  const views::Chart::Axis x{text.x_label, text.is_x_log};
-  chart.panels.push_back(
-      panel(figure, "Vertical force that breaks the wedge", x, {"vertical force V [kN]", true}, force_of));
-  chart.panels.push_back(
-      panel(figure, "Radius of the cusp", x, {"cusp radius R [m]", text.is_radius_log}, radius_of));
-  return {text.file, std::move(chart)};
+void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const BendingLoad& load,
+                  SliceAxis axis, const std::vector<double>& abscissae, const FigureText& text) {
+  const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
+  std::vector<double> shown;
+  for (const double value : abscissae) shown.push_back(value * scale);
+  json.start_line();
+  json.open('{').key("name").value(text.name).key("x_label").value(text.x_label);
+  json.key("is_x_log").value(text.is_x_log).key("is_radius_log").value(text.is_radius_log);
+  json.key("x").list(shown).key("curves").open('[');
+  const std::vector<Member> members = family(load, axis);
+  for (const Member& member : members)
+    write_curve(
+        json, "database, " + member.name, "database", slice(model, member.load, axis, abscissae),
+        [](const SlicePoint& p) -> const auto& { return p.database.capacity; });
+  const std::vector<SlicePoint> own = slice(model, load, axis, abscissae);
+  write_curve(
+      json, "Nevel, " + members.front().name, "Nevel", own,
+      [](const SlicePoint& p) -> const auto& { return p.nevel; });
+  write_curve(
+      json, "Kashtelyan, " + members.front().name, "Kashtelyan", own,
+      [](const SlicePoint& p) -> const auto& { return p.kashtelyan; });
+  json.close(']').close('}');
 }
 
 }  // namespace
 
-std::vector<NamedChart> database_charts(const FsiDatabaseModel& model, const std::string& title,
-                                        const BendingLoad& load) {
+std::string database_slices(const FsiDatabaseModel& model, const std::string& title,
+                            const BendingLoad& load) {
   const std::vector<double>& grid = model.database().grid().opening_angles_deg;
   const double widest = std::min(grid.back(), kWidestWedge);
   const double narrowest = std::min(grid.front(), 0.5 * widest);
-  std::vector<NamedChart> charts;
-  charts.push_back(draw(model, title, load, SliceAxis::kSpeed, evenly(0.02, 8, true),
-                        {"speed.svg", "normal approach speed v_n [m/s]", true, false}));
-  charts.push_back(draw(model, title, load, SliceAxis::kOpeningAngle,
-                        evenly(narrowest / kDegree, widest / kDegree, false),
-                        {"wedge-angle.svg", "opening angle 2α of the wedge [°]", false, false}));
-  charts.push_back(draw(model, title, load, SliceAxis::kThickness, evenly(0.1, 3, true),
-                        {"thickness.svg", "ice thickness h [m]", true, true}));
-  return charts;
+  std::string text;
+  io::JsonWriter json(text);
+  json.open('{').key("title").value("Icebreaking database: " + title);
+  json.key("caption").value("Around " + describe(load) +
+                            ". Faint: outside of the table or of the published form's range.");
+  json.key("figures").open('[');
+  write_figure(json, model, load, SliceAxis::kSpeed, evenly(0.02, 8, true),
+               {"speed", "normal approach speed, m/s", true, false});
+  write_figure(json, model, load, SliceAxis::kOpeningAngle,
+               evenly(narrowest / kDegree, widest / kDegree, false),
+               {"wedge-angle", "opening angle 2α of the wedge, °", false, false});
+  write_figure(json, model, load, SliceAxis::kThickness, evenly(0.1, 3, true),
+               {"thickness", "ice thickness, m", true, true});
+  json.close(']').close('}');
+  return text + '\n';
 }
 
 }  // namespace polynya::app

@@ -9,6 +9,7 @@
 #include "app/console.hpp"
 #include "app/database_input.hpp"
 #include "app/database_plots.hpp"
+#include "app/python.hpp"
 #include "app/write_output.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
@@ -98,14 +99,14 @@ void print_slices(const FsiDatabaseModel& model, const BendingLoad& load) {
   print_slice(model, load, SliceAxis::kThickness, "h m", kThicknesses);
 }
 
-/// The pictures into the folder, which is made where it is missing.
-io::Result<> write_pictures(const std::vector<NamedChart>& charts, const std::filesystem::path& folder) {
-  if (auto made = make_folder(folder); !made) return made;
-  for (const auto& [file, chart] : charts) {
-    if (auto written = io::write_named_file(folder / file, views::to_svg(chart)); !written) return written;
-    print_out("{}picture         {}\n", &file == &charts.front().file ? "\n" : "", (folder / file).string());
-  }
-  return {};
+/// The slices into slices.json of the folder, which is made where it is missing; Python draws them.
+int draw_slices(const std::string& slices, const std::filesystem::path& folder) {
+  if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
+  const std::filesystem::path file = folder / "slices.json";
+  if (const auto written = io::write_named_file(file, slices); !written)
+    return fail(kInputOutput, written.error());
+  print_out("\nnumbers         {}\n", file.string());
+  return become_python("polynya.figures.database", {file.string()});
 }
 
 int show(const Options& options) {
@@ -123,8 +124,7 @@ int show(const Options& options) {
   if (options.svg_folder.empty()) return kDone;
   const std::string title = fmt::format("{}, fluid {}", options.file.empty() ? "shipped" : options.file,
                                         fracture::fluid_name((*database)->settings().fluid));
-  const auto written = write_pictures(database_charts(model, title, *load), options.svg_folder);
-  return written ? kDone : fail(kInputOutput, written.error());
+  return draw_slices(database_slices(model, title, *load), options.svg_folder);
 }
 
 }  // namespace
@@ -139,7 +139,10 @@ Command add_database_show(CLI::App& app) {
   auto options = std::make_shared<Options>();
   option(*command, "file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
   option(*command, "--svg", options->svg_folder, "DIR",
-         "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg", not_empty());
+         "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
+         "(needs "
+         "Python and matplotlib: ./setup.sh python)",
+         not_empty());
   add_point(*command, options->load, false);
   add_load(*command, options->load);
   return {command, [options] { return show(*options); }};

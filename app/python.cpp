@@ -52,6 +52,7 @@ int become_python(const std::string& module, const std::vector<std::string>& wor
   std::vector<char*> arguments;
   for (std::string& word : line) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  flush_out();
   execvp(arguments[0], arguments.data());
   return fail(kInputOutput,
               fmt::format("{}: {}; this command needs Python: ./setup.sh python, or apt-get install python3",

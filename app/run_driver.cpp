@@ -11,7 +11,7 @@
 #include "app/stop_signal.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
-#include "views/map/figures.hpp"
+#include "views/map/final_map.hpp"
 
 namespace polynya::app {
 namespace {

@@ -3,7 +3,7 @@
 # Usage: bench/performance.sh [--quick]      --quick: a tenth of every run, printed only; the page stays as it is
 set -euo pipefail
 cd "$(dirname "$0")/.."
-./setup.sh build bench
+./setup.sh build bench python
 mkdir -p build
 cmake --preset bench >build/bench.log 2>&1 || { cat build/bench.log >&2; exit 1; }
 cmake --build --preset bench \
@@ -18,7 +18,8 @@ quick=()
 "$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 20 --csv "$out/voyages.csv" 2>"$out/voyages.log" |
   grep --line-buffered "^|" | tee "$out/voyages.md"
 "$bin/polynya_bench_profile" "${quick[@]}" | tee "$out/profile.md"
-"$bin/polynya_bench_scaling" "${quick[@]}" --csv "$out/scaling.csv" --svg "$out/scaling.svg"
+"$bin/polynya_bench_scaling" "${quick[@]}" --csv "$out/scaling.csv"
+/usr/bin/python3 bench/scaling_figure.py "$out/scaling.csv" "$out/scaling.svg"
 "$bin/polynya_bench_micro" --benchmark_format=csv >"$out/micro.csv" 2>"$out/micro.log"
 cat "$out/scaling.csv" "$out/micro.csv"
 if [ ${#quick[@]} -gt 0 ]; then exit 0; fi

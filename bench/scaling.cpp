@@ -1,5 +1,6 @@
 // How the cost of a step grows: with floes, awake floes, touching pairs and boundary vertices.
-//   polynya_bench_scaling [--quick] [--csv FILE] [--svg FILE]
+//   polynya_bench_scaling [--quick] [--csv FILE]
+//   bench/scaling_figure.py draws the table
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +12,6 @@
 
 #include "bench/voyage_run.hpp"
 #include "simulation/floe_field.hpp"
-#include "views/map/chart.hpp"
 
 namespace polynya::bench {
 namespace {
@@ -22,8 +22,6 @@ struct Sample {
 };
 struct Sweep {
   std::string name;
-  std::string x_label;
-  std::string title;
   std::vector<Sample> samples;
 };
 
@@ -77,11 +75,8 @@ simulation::Scene round_plate(int corners) {
 }
 
 std::vector<Sweep> run_sweeps(bool is_quick) {
-  std::vector<Sweep> sweeps{{"floes", "floes in the field", "same voyage, more floes", {}},
-                            {"awake", "floes, all awake", "sheared, 80 % cover", {}},
-                            {"contacts", "touching pairs", "2000 floes, 50 to 90 %", {}},
-                            {"vertices", "vertices of the plate", "one plate being broken", {}},
-                            {"threads", "threads", "10 000 floes, all awake", {}}};
+  std::vector<Sweep> sweeps{
+      {"floes", {}}, {"awake", {}}, {"contacts", {}}, {"vertices", {}}, {"threads", {}}};
   const double part = is_quick ? 0.1 : 1;
   const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until,
                            int threads = 1) {
@@ -103,29 +98,6 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
   return sweeps;
 }
 
-views::Chart chart_of(const std::vector<Sweep>& sweeps) {
-  views::Chart chart;
-  chart.title = "Cost of a step";
-  chart.caption =
-      "Mean wall time of a step over a run, one thread but for the last panel. Commands: "
-      "bench/performance.sh.";
-  for (const Sweep& sweep : sweeps) {
-    views::Chart::Panel panel;
-    panel.title = sweep.title;
-    panel.x = {sweep.x_label, true};
-    panel.y = {"step [µs]", true};
-    views::Chart::Curve mean{"mean", 0, views::Chart::Dash::kSolid, {}};
-    views::Chart::Curve median{"median", 1, views::Chart::Dash::kDashed, {}};
-    for (const Sample& sample : sweep.samples) {
-      mean.points.push_back({sample.x, 1e6 * sample.cost.mean_step(), false});
-      median.points.push_back({sample.x, 1e6 * sample.cost.median_step(), false});
-    }
-    panel.curves = {mean, median};
-    chart.panels.push_back(panel);
-  }
-  return chart;
-}
-
 }  // namespace
 }  // namespace polynya::bench
 
@@ -133,11 +105,9 @@ int main(int count, char** words) {
   using namespace polynya::bench;
   bool is_quick = false;
   std::string csv;
-  std::string svg;
   for (int i = 1; i < count; ++i) {
     if (std::strcmp(words[i], "--quick") == 0) is_quick = true;
     if (std::strcmp(words[i], "--csv") == 0 && i + 1 < count) csv = words[++i];
-    if (std::strcmp(words[i], "--svg") == 0 && i + 1 < count) svg = words[++i];
   }
   const auto sweeps = run_sweeps(is_quick);
   std::ofstream table(csv.empty() ? "/dev/stdout" : csv);
@@ -148,5 +118,4 @@ int main(int count, char** words) {
             << 1e6 * s.cost.median_step() << ',' << s.cost.mean_awake << ',' << s.cost.mean_contacts << '\n';
     }
   }
-  if (!svg.empty()) std::ofstream(svg) << polynya::views::to_svg(chart_of(sweeps));
 }

@@ -16,7 +16,6 @@ const std::vector<std::vector<std::string>> kReading{
     {"inspect", "damaged", "--floe", "0", "--format", "geojson"},
     {"view", "damaged"},
     {"channel", "damaged"},
-    {"figures", "damaged"},
     {"export", "damaged", "--vtk", "vtk"},
     {"export", "damaged", "--geojson", "layers"}};
 
@@ -107,7 +106,7 @@ TEST(NotARun, IsNamedAsSuch) {
   for (const auto& [path, words] : {std::pair{"empty", "not a run folder: empty has no scene.json"},
                                     {"nowhere", "not a run folder: nowhere does not exist"},
                                     {"empty/notes.txt", "not a run folder: empty/notes.txt is a file"}}) {
-    for (const char* command : {"view", "inspect", "channel", "figures"}) {
+    for (const char* command : {"view", "inspect", "channel"}) {
       const Outcome outcome = polynya({command, path}, {folder.path()});
       EXPECT_EQ(outcome.code, 5);
       EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;

@@ -10,6 +10,8 @@ import numpy
 import pytest
 
 import polynya
+from polynya.results import hulls
+from polynya.results.motions import placed
 
 PROGRAM = os.environ["POLYNYA_PROGRAM"]
 UNTIL = 20
@@ -123,6 +125,13 @@ def test_floes_and_ships_are_where_the_program_puts_them(folder, tmp_path, time)
     assert list(frame.hulls) == ["breaker", "pile"] == frame.ships["ship"].tolist()
     for name, ring in frame.hulls.items():
         assert {tuple(p) for p in numpy.round(ring, 3)} == {tuple(p) for p in numpy.round(hulls[name], 3)}
+
+
+def test_a_walls_face_stands_between_its_ends_and_its_body_behind():
+    wall = {"name": "west", "from_m": [0, 10], "to_m": [0, -10], "depth_m": 5}
+    x, y, heading = hulls.first_motion(wall)[:3]
+    corners = placed(hulls.waterline(wall), x, y, heading)
+    numpy.testing.assert_allclose(corners, [[0, -10], [0, 10], [-5, 10], [-5, -10]], atol=1e-12)
 
 
 def test_some_ice_is_under_a_hull_and_some_has_holes(folder):

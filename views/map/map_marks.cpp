@@ -59,8 +59,6 @@ std::vector<MapKey> map_keys(double scale, double room, const MapContents& conte
                            area_key(kWater, kWater, "water")};
   if (contents.has_ice_that_came_up)
     keys.push_back(area_key(kIceCameUp, kIceEdge, "piece that came up from under the hull"));
-  if (contents.has_channel)
-    keys.push_back(area_key(kChannel, kChannel, "channel: open water joined to the track"));
   keys.push_back(area_key(kShip, kShip, "ship"));
   if (contents.has_walls) keys.push_back(area_key(kWall, kWall, "wall"));
   if (contents.has_ice_under_hulls)

@@ -13,7 +13,6 @@ namespace polynya::views {
 namespace map_colour {
 inline constexpr auto kWater = "#8fb8d0";
 inline constexpr auto kIceAtStart = "#a9cadd";
-inline constexpr auto kChannel = "#5e93b5";
 inline constexpr auto kIce = "#ffffff";
 inline constexpr auto kBrokenIce = "#fbeec2";
 inline constexpr auto kIceCameUp = "#f0c987";
@@ -41,7 +40,6 @@ struct MapKey {
 
 /// What not every map shows.
 struct MapContents {
-  bool has_channel = false;
   bool has_walls = false;
   bool has_ice_under_hulls = false;
   bool has_ice_that_came_up = false;

@@ -16,9 +16,7 @@ using geometry::Box;
 using geometry::Point;
 
 constexpr double kMargin = 24;       ///< [px]
-constexpr double kLeastMap = 220;    ///< as wide as maps beside each other are at least [px]
 constexpr double kTallest = 1200;    ///< of the map [px]
-constexpr double kHeadLine = 20;     ///< of the words above each map of several [px]
 constexpr double kFullMarks = 1400;  ///< marks have their full size on a map of that width [px]
 
 /// All that a picture shows.
@@ -35,13 +33,9 @@ std::optional<Box> extent_of(const Picture& picture) {
   return all;
 }
 
-Box extent_of(const PictureSheet& sheet) {
-  if (sheet.window) return *sheet.window;
-  std::vector<Point> corners;
-  for (const Picture& picture : sheet.pictures) {
-    if (const auto box = extent_of(picture)) corners.insert(corners.end(), {box->low, box->high});
-  }
-  const Box all = corners.empty() ? Box{{0, 0}, {100, 100}} : geometry::bounding_box(corners);
+/// With some room around it.
+Box shown_extent(const Picture& picture) {
+  const Box all = extent_of(picture).value_or(Box{{0, 0}, {100, 100}});
   const geometry::Vector size = all.high - all.low;
   return grown(all, std::max(1.0, 0.02 * std::max(size.x, size.y)));
 }
@@ -61,15 +55,15 @@ struct MapFrame {
 
 class SvgMap {
  public:
-  SvgMap(SvgText& svg, const Picture& picture, const MapFrame& frame, std::size_t number)
-      : svg_(svg), picture_(picture), frame_(frame), number_(number) {}
+  SvgMap(SvgText& svg, const Picture& picture, const MapFrame& frame)
+      : svg_(svg), picture_(picture), frame_(frame) {}
 
   void draw() {
     svg_.add(
-        "<clipPath id='map{5}'><rect x='{0:.2f}' y='{1:.2f}' width='{2:.2f}' height='{3:.2f}'/></clipPath>\n"
+        "<clipPath id='map'><rect x='{0:.2f}' y='{1:.2f}' width='{2:.2f}' height='{3:.2f}'/></clipPath>\n"
         "<rect x='{0:.2f}' y='{1:.2f}' width='{2:.2f}' height='{3:.2f}' fill='{4}'/>\n<g "
-        "clip-path='url(#map{5})'>\n",
-        frame_.left, frame_.top, frame_.width(), frame_.height(), map_colour::kWater, number_);
+        "clip-path='url(#map)'>\n",
+        frame_.left, frame_.top, frame_.width(), frame_.height(), map_colour::kWater);
     draw_water();
     draw_ice([](const Picture::Floe& floe) { return floe.generation == 0; }, map_colour::kIce);
     draw_ice([](const Picture::Floe& floe) { return floe.generation > 0 && !floe.came_up; },
@@ -102,8 +96,6 @@ class SvgMap {
   void draw_water() {
     svg_.add("<g fill='{}'>\n", map_colour::kIceAtStart);
     for (const auto& polygon : picture_.ice_at_start) path(polygon);
-    svg_.add("</g>\n<g fill='{}' fill-rule='evenodd'>\n", map_colour::kChannel);
-    for (const auto& polygon : picture_.channel) path(polygon);
     svg_.add("</g>\n");
   }
 
@@ -156,103 +148,33 @@ class SvgMap {
   SvgText& svg_;
   const Picture& picture_;
   const MapFrame& frame_;
-  std::size_t number_;
-};
-
-class SvgSheet {
- public:
-  explicit SvgSheet(const PictureSheet& sheet)
-      : sheet_(sheet),
-        width_(sheet.page.pixels()),
-        heading_(sheet.page, kMargin, sheet.title, sheet.caption) {
-    const auto most = static_cast<std::size_t>(std::max(1.0, (width_ - kMargin) / (kLeastMap + kMargin)));
-    columns_ = std::max<std::size_t>(1, std::min({sheet.columns, sheet.pictures.size(), most}));
-    const auto across = static_cast<double>(columns_);
-    cell_ = (width_ - (across + 1) * kMargin) / across;
-    const Box extent = extent_of(sheet);
-    const geometry::Vector size = extent.high - extent.low;
-    frame_ = {extent, std::min(cell_ / size.x, kTallest / across / size.y), 0, 0};
-    for (std::size_t i = 0; i < sheet.pictures.size(); ++i) heads_.push_back(head_of(i));
-  }
-
-  std::string draw() {
-    std::size_t lines = 0;
-    for (const auto& head : heads_) lines = std::max(lines, head.size());
-    const double head = kHeadLine * static_cast<double>(lines) + (lines > 0 ? 8 : 0);
-    const std::size_t rows = rows_of(sheet_.pictures.size(), columns_);
-    const double pitch = head + frame_.height() + 10;
-    const double below = heading_.height() + pitch * static_cast<double>(rows);
-    const auto any = [&](auto condition) { return std::ranges::any_of(sheet_.pictures, condition); };
-    const MapContents contents{
-        .has_channel = any([](const Picture& p) { return !p.channel.empty(); }),
-        .has_walls =
-            any([](const Picture& p) { return std::ranges::any_of(p.ships, &Picture::Ship::is_wall); }),
-        .has_ice_under_hulls = any([](const Picture& p) { return !p.ice_under_hulls.empty(); }),
-        .has_ice_that_came_up =
-            any([](const Picture& p) { return std::ranges::any_of(p.floes, &Picture::Floe::came_up); })};
-    const std::vector<MapKey> keys = map_keys(frame_.scale, (width_ - 2 * kMargin) / 6, contents);
-    std::vector<Legend::Entry> entries;
-    entries.reserve(keys.size());
-    for (const MapKey& key : keys) entries.push_back(key.entry);
-    const Legend legend(entries, kMargin, width_ - kMargin);
-    SvgText svg(width_, below + legend.height());
-    heading_.draw(svg);
-    for (std::size_t i = 0; i < sheet_.pictures.size(); ++i) {
-      frame_.left = left_of_cell(i % columns_) + 0.5 * (cell_ - frame_.width());
-      frame_.top = heading_.height() + static_cast<double>(row_of(i, columns_)) * pitch + head;
-      draw_head(svg, i, frame_.top - head);
-      SvgMap(svg, sheet_.pictures[i], frame_, i).draw();
-    }
-    for (std::size_t i = 0; i < keys.size(); ++i) keys[i].draw(svg, legend.draw(svg, i, below));
-    return svg.finish();
-  }
-
- private:
-  double left_of_cell(std::size_t column) const {
-    return kMargin + static_cast<double>(column) * (cell_ + kMargin);
-  }
-
-  /// The words above a map, in lines: its title, then its caption.
-  std::vector<std::string> head_of(std::size_t picture) const {
-    const Picture& p = sheet_.pictures[picture];
-    if (p.title.empty()) return {};
-    const std::string letter = letter_of(picture, sheet_.pictures.size());
-    std::vector<std::string> lines = wrapped(letter + p.title, 17.6, cell_);
-    for (std::string& line : wrapped(p.caption, 14, cell_)) lines.push_back(std::move(line));
-    return lines;
-  }
-
-  void draw_head(SvgText& svg, std::size_t picture, double y) const {
-    const std::size_t bold =
-        wrapped(letter_of(picture, sheet_.pictures.size()) + sheet_.pictures[picture].title, 17.6, cell_)
-            .size();
-    for (std::size_t i = 0; i < heads_[picture].size(); ++i) {
-      y += kHeadLine;
-      svg.add("<text x='{:.2f}' y='{:.2f}' font-size='{}' font-weight='{}'>{}</text>\n",
-              left_of_cell(picture % columns_), y, i < bold ? 16 : 14, i < bold ? "bold" : "normal",
-              io::escaped(heads_[picture][i]));
-    }
-  }
-
-  const PictureSheet& sheet_;
-  double width_;  ///< of the page [px]
-  Heading heading_;
-  std::size_t columns_ = 1;
-  double cell_ = 0;  ///< room for a map, as wide [px]
-  std::vector<std::vector<std::string>> heads_;
-  MapFrame frame_;  ///< of the map being drawn
 };
 
 }  // namespace
 
 std::string to_svg(const Picture& picture) {
-  PictureSheet sheet{picture.title, picture.caption, {picture}};
-  sheet.pictures.front().title.clear();
-  return to_svg(sheet);
-}
-
-std::string to_svg(const PictureSheet& sheet) {
-  return SvgSheet(sheet).draw();
+  const Heading heading(kMargin, picture.title, picture.caption);
+  MapFrame frame{shown_extent(picture), 1, 0, 0};
+  const geometry::Vector size = frame.extent.high - frame.extent.low;
+  constexpr double kRoom = kPageWidth - 2 * kMargin;
+  frame.scale = std::min(kRoom / size.x, kTallest / size.y);
+  frame.left = kMargin + 0.5 * (kRoom - frame.width());
+  frame.top = heading.height();
+  const MapContents contents{
+      .has_walls = std::ranges::any_of(picture.ships, &Picture::Ship::is_wall),
+      .has_ice_under_hulls = !picture.ice_under_hulls.empty(),
+      .has_ice_that_came_up = std::ranges::any_of(picture.floes, &Picture::Floe::came_up)};
+  const std::vector<MapKey> keys = map_keys(frame.scale, kRoom / 6, contents);
+  std::vector<Legend::Entry> entries;
+  entries.reserve(keys.size());
+  for (const MapKey& key : keys) entries.push_back(key.entry);
+  const Legend legend(entries, kMargin, kPageWidth - kMargin);
+  const double below = frame.top + frame.height() + 10;
+  SvgText svg(kPageWidth, below + legend.height());
+  heading.draw(svg);
+  SvgMap(svg, picture, frame).draw();
+  for (std::size_t i = 0; i < keys.size(); ++i) keys[i].draw(svg, legend.draw(svg, i, below));
+  return svg.finish();
 }
 
 }  // namespace polynya::views

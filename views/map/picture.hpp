@@ -1,12 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
 #include "simulation/journal.hpp"
-#include "views/map/svg_layout.hpp"
 
 namespace polynya::views {
 
@@ -33,22 +31,10 @@ struct Picture {
   std::vector<geometry::Polygon> ice_under_hulls;  ///< drawn through the ships [m]
   std::vector<Ship> ships;
   std::vector<Fracture> fractures;
-  std::vector<geometry::Polygon> channel;  ///< open water along the track, drawn darker [m]
 };
 
-/// Several instants, or several runs, on one page and in one scale.
-struct PictureSheet {
-  std::string title;
-  std::string caption;
-  std::vector<Picture> pictures;  ///< their letters, titles and captions stand above each
-  std::size_t columns = 1;        ///< at most, where the page has room for them
-  PageStyle page = {};
-  std::optional<geometry::Box> window = {};  ///< the part of the world to show; all of it if not given [m]
-};
-
-/// The picture as SVG, with scale bar and legend. Its colours stay apart in greyscale and for
-/// colour-blind eyes.
+/// The picture as SVG on a page as wide as a journal's, with scale bar and legend. Its colours stay apart in
+/// greyscale and for colour-blind eyes.
 std::string to_svg(const Picture& picture);
-std::string to_svg(const PictureSheet& sheet);
 
 }  // namespace polynya::views

@@ -31,12 +31,10 @@ std::vector<std::string> wrapped(const std::string& words, double size, double w
   return lines;
 }
 
-Heading::Heading(const PageStyle& page, double left, const std::string& title, const std::string& caption)
-    : left_(left) {
-  const double width = page.pixels() - 2 * left;
-  title_ = wrapped(page.title.value_or(title), kTitle * 1.1, width);  // bold is wider
-  if (!page.title || !page.title->empty()) caption_ = wrapped(caption, kWords, width);
-}
+Heading::Heading(double left, const std::string& title, const std::string& caption)
+    : left_(left),
+      title_(wrapped(title, kTitle * 1.1, kPageWidth - 2 * left)),  // bold is wider
+      caption_(wrapped(caption, kWords, kPageWidth - 2 * left)) {}
 
 double Heading::height() const {
   return 10 + kTitleLine * static_cast<double>(title_.size()) + kLine * static_cast<double>(caption_.size());
@@ -73,13 +71,6 @@ geometry::Point Legend::draw(SvgText& svg, std::size_t entry, double top) const 
     y += kLine;
   }
   return {place.at.x, top + place.at.y};
-}
-
-std::string letter_of(std::size_t panel, std::size_t panels) {
-  if (panels < 2) return "";
-  std::string letters(1, static_cast<char>('a' + panel % 26));
-  if (panel >= 26) letters.insert(0, 1, static_cast<char>('a' + panel / 26 - 1));
-  return "(" + letters + ") ";
 }
 
 }  // namespace polynya::views

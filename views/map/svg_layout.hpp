@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,13 +8,7 @@
 
 namespace polynya::views {
 
-/// How a figure's page is made.
-struct PageStyle {
-  double width = 170;                     ///< on paper: across a journal's page [mm]
-  std::optional<std::string> title = {};  ///< instead of the figure's own; empty: neither title nor caption
-
-  double pixels() const { return kPixelsPerMm * width; }
-};
+inline constexpr double kPageWidth = kPixelsPerMm * 170;  ///< across a journal's page [px]
 
 /// How wide words of a size are [px], rather more than less.
 double width_of(const std::string& words, double size);
@@ -26,7 +19,7 @@ std::vector<std::string> wrapped(const std::string& words, double size, double w
 /// Title and caption at the top of a page.
 class Heading {
  public:
-  Heading(const PageStyle& page, double left, const std::string& title, const std::string& caption);
+  Heading(double left, const std::string& title, const std::string& caption);
   double height() const;  ///< [px]
   void draw(SvgText& svg) const;
 
@@ -57,16 +50,5 @@ class Legend {
   std::vector<Place> places_;
   double height_ = 0;
 };
-
-/// Entries set row by row, an equal number a row: where the one at a place goes, and how many rows they fill.
-constexpr std::size_t row_of(std::size_t place, std::size_t columns) {
-  return place / columns;
-}
-constexpr std::size_t rows_of(std::size_t count, std::size_t columns) {
-  return (count + columns - 1) / columns;
-}
-
-/// "(a) ", "(b) ", … of several panels; empty of a single one.
-std::string letter_of(std::size_t panel, std::size_t panels);
 
 }  // namespace polynya::views

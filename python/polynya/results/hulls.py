@@ -1,4 +1,4 @@
-"""Waterlines of a resolved scene's ships and structures, in their own frames [m]."""
+"""Waterlines of a resolved scene's ships, structures and walls, in their own frames [m]."""
 from __future__ import annotations
 
 import math
@@ -9,15 +9,26 @@ SAGITTA = 0.01  # of a cylinder's polygon [m], as `cylinder_waterline` of simula
 
 
 def waterline(body):
-    """An array of n × 2: as given, a wedge bow's, or a cylinder's."""
+    """An array of n × 2: as given, a wedge bow's, a cylinder's, or that of a wall behind its face."""
     if "radius_m" in body:
         radius = body["radius_m"]
         half_turn = math.acos(max(-1.0, 1 - SAGITTA / radius))
         angles = 2 * math.pi * numpy.arange(corners := max(24, math.ceil(math.pi / half_turn))) / corners
         return radius * numpy.column_stack((numpy.cos(angles), numpy.sin(angles)))
+    if "from_m" in body:
+        half = math.dist(body["from_m"], body["to_m"]) / 2
+        return numpy.array([[0, -half], [0, half], [-body["depth_m"], half], [-body["depth_m"], -half]])
     hull = body.get("hull", body)
     if "waterline_m" in hull:
         return numpy.array(hull["waterline_m"], dtype=float)
     length, half = hull["length_m"], hull["beam_m"] / 2
     shoulder = length / 2 - half / math.tan(math.radians(hull["entrance_angle_deg"]))
     return numpy.array([[length / 2, 0], [shoulder, half], [-length / 2, half], [-length / 2, -half], [shoulder, -half]])
+
+
+def first_motion(body):
+    """Where the scene puts it, at rest: x, y [m], heading [rad] and their rates; a wall's heading is that of its face, to the left of `from_m` to `to_m`."""
+    if "from_m" in body:
+        (x0, y0), (x1, y1) = body["from_m"], body["to_m"]
+        return [(x0 + x1) / 2, (y0 + y1) / 2, math.atan2(x1 - x0, y0 - y1), 0, 0, 0]
+    return [*body.get("position_m", (0, 0)), math.radians(body.get("heading_deg", 0)), 0, 0, 0]

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import functools
-import math
 import os
 import pathlib
 from typing import Any, Optional, Union
@@ -13,7 +12,7 @@ from polynya.errors import FolderError, NotARunError, UnfinishedError, VersionEr
 
 from . import channel as channels
 from .frame import Frame, Frames
-from .hulls import waterline
+from .hulls import first_motion, waterline
 from .motions import Motions
 from .shapes import Shapes
 from .tables import NONE, event_columns, read_csv, read_json, read_lines, table
@@ -68,17 +67,17 @@ class Run:
 
     @property
     def ship_names(self) -> list[str]:
-        """Of ships, then of structures: their order everywhere."""
+        """Of ships, then of structures, then of walls: their order everywhere."""
         return list(self.waterlines)
 
     @functools.cached_property
     def waterlines(self) -> dict[str, numpy.ndarray]:
-        """Of ships and structures, in their own frames [m], by name."""
+        """Of ships, structures and walls, in their own frames [m], by name."""
         return {body["name"]: waterline(body) for body in self._bodies}
 
     @property
     def _bodies(self):
-        return [*self.scene.get("ships", []), *self.scene.get("structures", [])]
+        return [*self.scene.get("ships", []), *self.scene.get("structures", []), *self.scene.get("walls", [])]
 
     # Tables
 
@@ -218,6 +217,5 @@ class Run:
 
     @property
     def first_motions(self) -> numpy.ndarray:
-        """Where the scene puts ships and structures, at rest: x, y, heading and their rates."""
-        return numpy.array([
-            [*body.get("position_m", (0, 0)), math.radians(body.get("heading_deg", 0)), 0, 0, 0] for body in self._bodies]).reshape(-1, 6)
+        """Where the scene puts ships, structures and walls, at rest: x, y, heading and their rates."""
+        return numpy.array([first_motion(body) for body in self._bodies], dtype=float).reshape(-1, 6)

@@ -61,7 +61,10 @@ def column(name, cells):
         return numpy.array([int(cell) if cell else NONE for cell in cells], dtype=numpy.int64)
     if name.startswith(("is_", "has_")):
         return numpy.array([cell == "1" for cell in cells], dtype=bool)
-    return numpy.array([number(cell) for cell in cells], dtype=float)
+    try:
+        return numpy.fromiter(map(float, cells), float, len(cells))
+    except ValueError:  # some are empty, or null
+        return numpy.array([number(cell) for cell in cells], dtype=float)
 
 
 def read_csv(path):

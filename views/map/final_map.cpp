@@ -1,12 +1,12 @@
+#include "views/map/final_map.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "analysis/channel.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/text/output_file.hpp"
-#include "views/map/figures.hpp"
 #include "views/map/svg_convert.hpp"
 
 namespace polynya::views {
@@ -56,6 +56,8 @@ std::string words_of_ice_under_hulls(const io::Run& run, double time) {
                      count(simulation::EventKind::kResurface));
 }
 
+}  // namespace
+
 Picture final_picture(const io::Run& run) {
   Picture picture = picture_at(run, io::MotionIndex(run), run.end_time());
   picture.title = fmt::format("{} at {:.6g} s", run.label, run.end_time());
@@ -66,18 +68,6 @@ Picture final_picture(const io::Run& run) {
   return picture;
 }
 
-void add_channels(Picture& picture, const io::Run& run, double time) {
-  const simulation::Scene& scene = run.scene.scene;
-  for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
-    if (is_grounded(scene.ships[ship])) continue;
-    if (const auto channel =
-            analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0}))
-      picture.channel.insert(picture.channel.end(), channel->open_water.begin(), channel->open_water.end());
-  }
-}
-
-}  // namespace
-
 io::Result<std::string> draw_final_map(const io::Run& run) {
   const std::string svg = to_svg(final_picture(run));
   const auto file = run.folder / io::run_file::kFinalSvg;
@@ -86,28 +76,6 @@ io::Result<std::string> draw_final_map(const io::Run& run) {
   const auto png = run.folder / io::run_file::kFinalPng;
   if (svg.size() > kLargestConverted || !convert_svg(file, png)) return std::string(io::run_file::kFinalSvg);
   return std::string(io::run_file::kFinalPng);
-}
-
-PictureSheet map_figure(const std::vector<io::Run>& runs, const std::vector<double>& times) {
-  PictureSheet sheet;
-  for (const io::Run& run : runs) {
-    const io::MotionIndex motions(run);
-    for (const double wanted : times) {
-      const double time = std::clamp(wanted, run.start_time(), run.end_time());
-      Picture picture = picture_at(run, motions, time);
-      add_channels(picture, run, time);
-      const auto splits = count_of(picture, simulation::EventKind::kSplit);
-      picture.title = fmt::format("{}, {:.4g} s", run.label, time);
-      picture.caption = fmt::format(
-          "{} cusps, {} {}, {} floes{}", count_of(picture, simulation::EventKind::kBend), splits,
-          splits == 1 ? "split" : "splits", picture.floes.size(), words_of_ice_under_hulls(run, time));
-      sheet.pictures.push_back(std::move(picture));
-    }
-  }
-  sheet.columns = sheet.pictures.size() > 1 ? 2 : 1;
-  sheet.title = runs.size() == 1 ? runs.front().label : "Floes and channels";
-  sheet.caption = "Fractures are marked where they happened; the ice has moved since.";
-  return sheet;
 }
 
 }  // namespace polynya::views

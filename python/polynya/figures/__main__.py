@@ -1,0 +1,123 @@
+"""`polynya figures` (app/figures.cpp starts it)."""
+import os
+import signal
+import sys
+
+DONE, USAGE, INPUT_OUTPUT, STOPPED = 0, 2, 5, 130
+
+
+def note(words):
+    print(f"note: {words}", file=sys.stderr)
+
+
+def problem_of(options, runs):
+    """What is wrong with the options for these runs; None where nothing is."""
+    from . import loads
+
+    first = runs[0]
+    for time in options.at:
+        if not first.start_time <= time <= first.end_time:
+            return f"--at {time:g}: the run goes from {first.start_time:g} to {first.end_time:g} s"
+    if options.label and len(options.label) != len(runs):
+        return f"--label: {len(options.label)} names for {len(runs)} runs"
+    if options.window:
+        x0, y0, x1, y1 = options.window
+        if x0 >= x1 or y0 >= y1:
+            return f"--window {x0:g},{y0:g},{x1:g},{y1:g}: x0 must be below x1, and y0 below y1"
+    for run in runs:
+        if run.ship_names and not loads.chosen(run, options.load):
+            return loads.why_not(run, options.load)
+    return None
+
+
+def pages(options, runs):
+    """(name, figure or None, why there is none) of each figure that is asked for."""
+    from . import energy, loads, maps, motion, sizes
+    from .page import STYLES, Page
+
+    page = Page(STYLES[options.style], options.width_mm, options.title)
+    drawn = {
+        "floes": (lambda: maps.draw(runs, page, options.at, options.window), ""),
+        "loads": (lambda: loads.draw(runs, page, options.load), "there is no ship and no structure, or no time passes"),
+        "motion": (lambda: motion.draw(runs, page), "there is no ship and no structure, or no time passes"),
+        "sizes": (lambda: sizes.draw(runs, page), "no floe floats then"),
+        "energy": (lambda: energy.draw(runs, page), "there is no energy in summary.json"),
+    }
+    for name in options.only:
+        draw, why = drawn[name]
+        yield name, draw(), why
+
+
+def draw(options):
+    from polynya.errors import FolderError
+    from polynya.results.run import Run
+
+    from .page import STYLES, save
+    from .subjects import labelled
+
+    try:
+        runs = [Run(folder, unfinished=True, pandas=False, shapely=False) for folder in options.runs]
+        for run in runs:
+            if len(run.times) == 0:
+                raise FolderError(f"{run.folder}: it has no frames")
+            if not run.is_finished:
+                note(f"{run.folder} is not finished; the figures end at {run.end_time:g} s")
+        problem = problem_of(options, runs)
+        labels = options.label or [None] * len(runs)
+        if problem:
+            return fail(USAGE, problem)
+        shown = [labelled(run, label, options.start, options.end) for run, label in zip(runs, labels)]
+    except FolderError as error:
+        return fail(INPUT_OUTPUT, error)
+    except ValueError as error:
+        return fail(USAGE, error)
+    try:
+        folder = options.out or options.runs[0]
+        os.makedirs(folder, exist_ok=True)
+        for name, figure, why in pages(options, shown):
+            if figure is None:
+                note(f"{why}; figure-{name} is left out")
+                continue
+            for path in save(figure, os.path.join(folder, f"figure-{name}"), options.format, STYLES[options.style].dots):
+                print(path, flush=True)
+    except FolderError as error:
+        return fail(INPUT_OUTPUT, error)
+    except OSError as error:
+        is_stdout = error.filename is None
+        sys.stdout = None if is_stdout else sys.stdout  # nothing more goes there, at the end of Python neither
+        print(f"polynya: stdout: {error.strerror}" if is_stdout else f"polynya figures: {error.filename}: {error.strerror}", file=sys.stderr)
+        return INPUT_OUTPUT
+    return DONE
+
+
+def fail(code, message):
+    print(f"polynya figures: {message}", file=sys.stderr)
+    return code
+
+
+def has_matplotlib(command):
+    """Whether it can be imported; prints what to install where it cannot."""
+    try:
+        import matplotlib  # noqa: F401  (before anything that needs it)
+        import numpy  # noqa: F401
+    except ImportError as error:
+        print(f"{command}: {error}: figures need Python's numpy and matplotlib: ./setup.sh python, or apt-get install python3-numpy "
+              "python3-matplotlib; final.svg in the run folder and polynya view need neither", file=sys.stderr)
+        return False
+    return True
+
+
+def main(words=None):
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as `polynya figures RUN | head -1` ends
+    if not has_matplotlib("polynya figures"):
+        return INPUT_OUTPUT
+    from .options import command_line
+
+    try:
+        return draw(command_line().parse_args(words))
+    except KeyboardInterrupt:
+        return STOPPED
+
+
+if __name__ == "__main__":
+    sys.exit(main())

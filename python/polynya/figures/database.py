@@ -1,0 +1,70 @@
+"""Slices of an icebreaking database: `polynya database show --svg DIR` (app/database_show.cpp starts it)."""
+import json
+import os
+import sys
+
+FORMS = {"Nevel": ("#000000", "--"), "Kashtelyan": ("#777777", ":")}
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#aa4499")
+
+
+def draw(figure, title, caption):
+    """Force and radius of each curve, faint where it is out of its range."""
+    import numpy
+    from matplotlib.lines import Line2D
+
+    from .page import Page, Sheet, set_log
+
+    page = Page()
+    with Sheet(page, title, caption) as sheet:
+        force, radius = sheet.panels(1, 2).flat
+        height = page.row_height(1, 58)
+        handles = []
+        for curve, colour in zip(figure["curves"], [*COLOURS[: len(figure["curves"]) - len(FORMS)], None, None]):
+            colour, dash = FORMS.get(curve["source"], (colour, "-"))
+            is_in_range = numpy.array(curve["is_in_range"], dtype=bool)
+            for axes, key, unit in ((force, "vertical_force_N", 1e3), (radius, "cusp_radius_m", 1)):
+                values = numpy.array(curve[key]) / unit
+                axes.plot(figure["x"], values, color=colour, linestyle=dash, alpha=0.3)
+                axes.plot(figure["x"], numpy.where(is_in_range, values, numpy.nan), color=colour, linestyle=dash)
+            handles.append(Line2D([], [], color=colour, linestyle=dash, label=curve["name"]))
+        panels = (
+            (force, "force that breaks the wedge", "vertical force, kN", True),
+            (radius, "radius of the cusp", "radius, m", figure["is_radius_log"]),
+        )
+        for i, (axes, title_of_panel, words, is_log) in enumerate(panels):
+            axes.set_xlabel(figure["x_label"])
+            if figure["is_x_log"]:
+                set_log(axes.xaxis, figure["x"][0], figure["x"][-1])
+            if is_log:
+                set_log(axes.yaxis, *axes.dataLim.intervaly)
+            axes.set_xlim(figure["x"][0], figure["x"][-1])
+            if not is_log:
+                axes.set_ylim(0, None)
+            sheet.title_panel(axes, i, 2, title_of_panel, page.width)
+            sheet.label_y(axes, words, height)
+        return sheet.finish(height, handles)
+
+
+def main(slices):
+    """Draws the figures beside the file of slices."""
+    from .__main__ import INPUT_OUTPUT, DONE, has_matplotlib
+
+    if not has_matplotlib("polynya database"):
+        return INPUT_OUTPUT
+    from .page import save
+
+    folder = os.path.dirname(slices)
+    try:
+        with open(slices, encoding="utf-8") as file:
+            given = json.load(file)
+        for figure in given["figures"]:
+            for path in save(draw(figure, given["title"], given["caption"]), os.path.join(folder, figure["name"]), ["svg"]):
+                print(f"picture         {path}", flush=True)
+    except OSError as error:
+        print(f"polynya database: {error.filename or 'stdout'}: {error.strerror}", file=sys.stderr)
+        return INPUT_OUTPUT
+    return DONE
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

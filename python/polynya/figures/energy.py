@@ -1,0 +1,97 @@
+"""Where each run's energy came from and where it went: `energy` of summary.json, sources and sinks apart."""
+from __future__ import annotations
+
+from matplotlib.patches import Patch
+
+from .loads import prefixed
+from .page import POINT, Page, Sheet, in_words, plain
+from .subjects import all_labelled, colour_of
+
+SOURCES = {"initial": "motion at the start", "thrust": "thrust and holding", "current": "current", "wind": "wind", "walls": "loads of walls", "imbalance": "imbalance"}
+SINKS = {
+    "kinetic": "motion at the end",
+    "drag": "water drag",
+    "friction": "friction",
+    "crushing": "crushing",
+    "restitution": "collisions",
+    "bending": "motion of broken cusps",
+    "splitting": "motion of splinters",
+    "grinding": "motion of ground ice",
+    "submersion": "motion of ice going under",
+    "submerged_ice": "ice under hulls",
+    "rest": "floes put to rest",
+}
+
+
+def terms_of(runs):
+    """Sources and sinks in their order: (words, a value [J] or None for each run). A term of no name here is a sink of its own name."""
+    energies = [run.run.summary.get("energy") or {} for run in runs]
+    keys = dict.fromkeys(key[:-2] for energy in energies for key in energy if key.endswith("_J") and key != "turnover_J")
+    sinks = [key for key in SINKS if key in keys] + [key for key in keys if key not in SOURCES and key not in SINKS]
+    named = {**SOURCES, **SINKS}
+    of = lambda key: (named.get(key, key.replace("_", " ")), [energy.get(f"{key}_J") for energy in energies])
+    return [of(key) for key in SOURCES if key in keys], [of(key) for key in sinks]
+
+
+def draw(runs, page=Page()):
+    """None where no run has energies."""
+    runs = all_labelled(runs)
+    sources, sinks = terms_of(runs)
+    if not sources and not sinks:
+        return None
+    values = [value or 0 for _, terms in (*sources, *sinks) for value in terms]
+    factor, prefix = prefixed(max(map(abs, values)))
+    absent = [words for words, terms in (*sources, *sinks) if not any(terms)]
+    panels = [[term for term in terms if term[0] not in absent] for terms in (sources, sinks)]
+    style, scale = page.style, page.style.scale
+    bar = 1.25 * style.small * POINT  # the height of a bar and the gap to the next of its term [mm]
+    pitch = bar * len(runs) + 1.6 * scale
+    heights = [max(1, len(terms)) * pitch for terms in panels]
+    with Sheet(page, "Energy", "Over the whole run; the sources' sum is that of the sinks.") as sheet:
+        grid = sheet.panels(2, 1, sharex=True, gridspec_kw={"height_ratios": heights})[:, 0]
+        numbers = []
+        for i, (axes, terms, title) in enumerate(zip(grid, panels, ("sources", "sinks"))):
+            numbers += draw_bars(axes, terms, factor, bar, pitch, page)
+            sheet.title_panel(axes, i, 2, title, page.width)
+        grid[0].tick_params(labelbottom=False)
+        grid[1].set_xlabel(f"energy, {prefix}J")
+        handles = [Patch(color=colour_of(i), label=plain(run.label)) for i, run in enumerate(runs)] if len(runs) > 1 else []
+        notes = [f"Nothing in {'any run' if len(runs) > 1 else 'this run'}: {', '.join(absent)}."] if absent else []
+        figure = sheet.finish(sum(heights) + 18 * scale, handles, notes)
+        make_room(figure, grid[1], numbers)
+        return figure
+
+
+def draw_bars(axes, terms, factor, bar, pitch, page):
+    """The bars, and their numbers beside them."""
+    numbers = []
+    for k, (_, values) in enumerate(terms):
+        for i, value in enumerate(values):
+            if value is None:
+                continue
+            y = k * pitch + i * bar
+            axes.barh(y, value / factor, 0.82 * bar, align="edge", color=colour_of(i), linewidth=0)
+            numbers.append(axes.annotate(
+                in_words(value / factor), (max(0, value / factor), y + 0.41 * bar), (2 * page.style.scale, 0), textcoords="offset points",
+                va="center_baseline", ha="left", fontsize=page.style.small, annotation_clip=False, in_layout=False))
+    axes.set_yticks([k * pitch + 0.5 * bar * len(values) for k, (_, values) in enumerate(terms)], [words for words, _ in terms])
+    gap = pitch - bar * len(values) if terms else pitch
+    axes.set_ylim(max(1, len(terms)) * pitch - 0.4 * gap, -0.6 * gap)
+    axes.tick_params(axis="y", length=0, labelsize=page.style.text)
+    axes.axvline(0, color="#000000", linewidth=0.6 * page.style.scale)
+    axes.grid(axis="x", color="#dddddd", linewidth=0.4 * page.style.scale)
+    axes.set_axisbelow(True)
+    axes.spines["left"].set_visible(False)
+    return numbers
+
+
+def make_room(figure, axes, numbers):
+    """Widens the scale until the numbers at the bars end within it."""
+    for _ in range(6):
+        right = axes.get_window_extent().x1
+        over = max((n.get_window_extent(figure.canvas.get_renderer()).x1 - right for n in numbers), default=0)
+        if over <= 0:
+            return
+        low, high = axes.get_xlim()
+        axes.set_xlim(low, high + 1.3 * (high - low) * over / axes.get_window_extent().width)
+        figure.draw_without_rendering()

@@ -1,0 +1,131 @@
+"""Surge, sway and yaw on every ship and structure against time, with the fractures of each."""
+from __future__ import annotations
+
+import dataclasses
+import itertools
+
+import numpy
+from matplotlib.patches import Patch, StepPatch
+
+from .page import Page, Sheet
+from .subjects import all_labelled, mark_fractures, once, subjects_of
+
+COMPONENTS = (("surge", "N"), ("sway", "N"), ("yaw", "Nm"))
+FRONT, BEHIND = "#000000", "#56b4e9"  # apart in greyscale
+STRETCH = 0.1  # of paper, of which the largest and the least value are drawn [mm]
+CHOICES = ("true", "mean", "max", "ships", "j-over-tau-c")
+
+
+@dataclasses.dataclass(frozen=True)
+class Load:
+    """A measure of the load (docs/theory.md, "Which force"): which columns of forces.csv, surge, sway and yaw."""
+
+    middle: str
+    words: str
+
+    def column(self, component, unit):
+        return f"{component}{self.middle}_{unit}"
+
+
+def chosen(run, choice):
+    """The loads that `--load` names, the one in front first; none where the run has none of that kind."""
+    scene = run.scene
+    step = scene["time"]["step_s"]
+    interval = max(1, round(scene["record"]["forces_interval_s"] / step)) * step
+    mean, largest = f"mean over {interval:.6g} s", f"largest single step of {step:.6g} s"
+    found = {"mean": [Load("", mean)], "max": [Load("_max", largest)]}
+    found["true"] = found["mean"] + found["max"]
+    if len(run.ship_names) > 1:
+        found["ships"] = [Load("_from_ships", mean), Load("_from_ships_max", largest)]
+    if scene.get("fracture", {}).get("splitting", {}).get("model", "michel") == "michel":
+        found["j-over-tau-c"] = [Load("_j_over_tau_c", r"$j/\tau_c$ of the paper")]
+    return found.get(choice, [])
+
+
+def why_not(run, choice):
+    """Why a run has no such load."""
+    what = "has one ship and no structure" if choice == "ships" else "does not split floes by j/tau_c (fracture.splitting.model michel)"
+    return f"--load {choice}: {run.folder} {what}"
+
+
+def prefixed(most):
+    """10³ⁿ and its prefix, so that values up to `most` read well."""
+    return next(((factor, name) for factor, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if most >= factor), (1, ""))
+
+
+def envelope(times, values, start, end, stretches):
+    """Edges of equal stretches of time, and of each the least and the largest value, 0 between: no peak is lost."""
+    edges = numpy.linspace(start, end, stretches + 1)
+    low, high = numpy.zeros(stretches), numpy.zeros(stretches)
+    is_number = numpy.isfinite(values)
+    here = numpy.clip(numpy.searchsorted(edges, times[is_number], side="left") - 1, 0, stretches - 1)
+    numpy.minimum.at(low, here, values[is_number])
+    numpy.maximum.at(high, here, values[is_number])
+    return edges, low, high
+
+
+def scale_of(subjects, loads, component, unit):
+    """The ends of the scale of all values, with room for the marks above."""
+    values = [subject.columns(load.column(component, unit))[0] for subject in subjects for load in loads]
+    values = numpy.concatenate([[0.0], *values])
+    values = values[numpy.isfinite(values)]
+    low, high = values.min(), values.max()
+    if low == high:
+        low, high = -1.0, 1.0
+    return low - 0.03 * (high - low), high + 0.2 * (high - low)
+
+
+def draw(runs, page=Page(), choice="true"):
+    """A column for each ship and structure, one scale for each of surge, sway and yaw."""
+    runs = all_labelled(runs)
+    subjects = subjects_of(runs)
+    loads = chosen(runs[0].run, choice) if subjects else []
+    if not loads:
+        return None
+    source = "other ships and structures" if choice == "ships" else "ice"
+    target = "ships and structures" if len(subjects) > len(runs) else "the ship"
+    caption = "In the ship's frame: surge forward, sway to port, yaw counter-clockwise."
+    scales = [scale_of(subjects, loads, component, unit) for component, unit in COMPONENTS]
+    forces = prefixed(max(max(-low, high) for low, high in scales[:2]))  # surge and sway in one unit
+    prefixes = [forces, forces, prefixed(max(map(abs, scales[2])))]
+    with Sheet(page, f"Load of {source} on {target}", caption) as sheet:
+        columns = page.columns_for(len(subjects))
+        groups = -(-len(subjects) // columns)
+        height = page.row_height(3 * groups, 31)
+        grid = sheet.panels(3 * groups, columns)
+        handles, number = [], 0
+        for group, k, column in itertools.product(range(groups), range(3), range(columns)):
+            axes, i = grid[3 * group + k][column], group * columns + column
+            if i >= len(subjects):
+                axes.remove()
+                continue
+            (component, unit), (low, high), (factor, prefix) = COMPONENTS[k], scales[k], prefixes[k]
+            handles += draw_panel(axes, subjects[i], loads, (component, unit), factor, page)
+            axes.set(xlim=(subjects[i].of.start, subjects[i].of.end), ylim=(low / factor, high / factor))
+            sheet.title_panel(axes, number, 3 * len(subjects), subjects[i].name if k == 0 else "", (page.width - 16 * page.style.scale) / columns - 2 * page.style.scale)
+            label(axes, is_left=column == 0, is_lowest=k == 2)
+            if column == 0:
+                sheet.label_y(axes, f"{component}, {prefix}{'N m' if unit == 'Nm' else unit}", height)
+            number += 1
+        shown = [Patch(color=colour, label=load.words) for load, colour in zip(loads, (FRONT, BEHIND))]
+        return sheet.finish(3 * groups * height + groups * 8 * page.style.scale, shown + once(handles))
+
+
+def draw_panel(axes, subject, loads, component, factor, page):
+    times, *values = subject.columns("t_s", *(load.column(*component) for load in loads))
+    stretches = max(100, int(0.8 * page.width / STRETCH / page.style.scale))
+    for of, colour in reversed(list(zip(values, (FRONT, BEHIND)))):
+        edges, low, high = envelope(times, of / factor, subject.of.start, subject.of.end, stretches)
+        stairs = StepPatch(high, edges, baseline=low, fill=True, color=colour, linewidth=0.25 * page.style.scale)
+        axes.add_artist(stairs)  # the scale is set, and finding it again takes half a second
+    axes.axhline(0, color="#000000", linewidth=0.4 * page.style.scale)
+    return mark_fractures(axes, subject, page.style.scale)
+
+
+def label(axes, is_left, is_lowest):
+    """Scales are common: numbers and words stand at the left and at the bottom."""
+    axes.locator_params(axis="y", nbins=4)
+    axes.locator_params(axis="x", nbins=5)
+    axes.tick_params(labelleft=is_left, labelbottom=is_lowest)
+    if is_lowest:
+        axes.set_xlabel("time, s")

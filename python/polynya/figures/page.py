@@ -1,0 +1,285 @@
+"""A figure's page: as wide as asked, as tall as heading, panels and legend need, and nothing beyond its edge."""
+from __future__ import annotations
+
+import dataclasses
+import os
+from typing import Optional
+
+import matplotlib
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
+
+MM = 1 / 25.4  # [inch]
+POINT = 25.4 / 72  # [mm]
+MARGIN = 1.5  # at the edge of a paper [mm]
+LINE = 1.3  # heights of a letter from line to line
+FORMATS = ("svg", "png", "pdf")
+
+
+@dataclasses.dataclass(frozen=True)
+class Style:
+    """What a figure is for. Sizes of text [pt]: numbers at ticks and notes, words, titles."""
+
+    width: float  #: [mm]
+    tallest: float  #: [mm]
+    small: float
+    text: float
+    title: float
+    dots: int  #: of a PNG, per inch
+    maps: int  #: of one run, where no times are given
+
+    @property
+    def scale(self):
+        """Of lines, marks and gaps, beside those of a paper."""
+        return self.text / 8
+
+
+ONE_COLUMN = Style(85, 235, 7, 8, 9, 300, 4)
+TWO_COLUMNS = Style(170, 235, 7, 8, 9, 300, 4)
+SLIDES = Style(300, 165, 14, 16, 18, 200, 2)
+STYLES = {"one-column": ONE_COLUMN, "two-columns": TWO_COLUMNS, "slides": SLIDES}
+
+
+@dataclasses.dataclass(frozen=True)
+class Page:
+    style: Style = TWO_COLUMNS
+    given_width: Optional[float] = None  #: instead of the style's [mm]
+    title: Optional[str] = None  #: instead of a figure's own; empty: neither title nor caption
+
+    @property
+    def width(self):
+        """On paper [mm]."""
+        return self.given_width or self.style.width
+
+    def columns_for(self, panels, least=46.0):
+        """How many panels of at least that width [mm] stand beside each other, rows nearly full."""
+        most = max(1, min(panels, int(self.width / (least * self.style.scale))))
+        rows = -(-panels // most)
+        return -(-panels // rows)
+
+    def row_height(self, rows, wanted):
+        """Of a row of panels with its words, so that all rows, a heading and a legend fit onto a page if they can [mm]."""
+        scale = self.style.scale
+        return max(15 * scale, min(wanted * scale, (self.style.tallest - 32 * scale) / rows))
+
+    def settings(self):
+        """Of matplotlib."""
+        style, scale = self.style, self.style.scale
+        return {
+            "font.family": "DejaVu Sans",
+            "font.size": style.text,
+            "axes.titlesize": style.text,
+            "axes.labelsize": style.text,
+            "xtick.labelsize": style.small,
+            "ytick.labelsize": style.small,
+            "legend.fontsize": style.text,
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "axes.linewidth": 0.6 * scale,
+            "xtick.major.width": 0.6 * scale,
+            "ytick.major.width": 0.6 * scale,
+            "xtick.minor.width": 0.4 * scale,
+            "ytick.minor.width": 0.4 * scale,
+            "xtick.major.size": 2.5 * scale,
+            "ytick.major.size": 2.5 * scale,
+            "xtick.minor.size": 1.5 * scale,
+            "ytick.minor.size": 1.5 * scale,
+            "axes.titlepad": 3 * scale,
+            "axes.labelpad": 2 * scale,
+            "lines.linewidth": 1.0 * scale,
+            "hatch.linewidth": 0.5 * scale,
+            "axes.formatter.use_mathtext": True,
+            "axes.formatter.limits": (-4, 6),
+            "axes.unicode_minus": True,
+            "pdf.fonttype": 42,
+            "svg.fonttype": "path",
+            "svg.hashsalt": "polynya",
+        }
+
+
+class Sheet:
+    """A figure while it is drawn. Within `with Sheet(…) as sheet`: make `sheet.figure`'s panels, then call `finish`."""
+
+    def __init__(self, page, title="", caption=""):
+        self.page = page
+        self._settings = matplotlib.rc_context(page.settings())
+        self._own = (title, caption)
+
+    def __enter__(self):
+        self._settings.__enter__()
+        self.figure = Figure(figsize=(self.page.width * MM, 4), dpi=300)
+        FigureCanvasAgg(self.figure)
+        return self
+
+    def __exit__(self, *error):
+        return self._settings.__exit__(*error)
+
+    def panels(self, rows, columns, **more):
+        """Axes in rows. Their ticks' size is their own: matplotlib asks the settings of the day when it draws."""
+        grid = self.figure.subplots(rows, columns, squeeze=False, **more)
+        for axes in grid.flat:
+            axes.tick_params(which="both", labelsize=self.page.style.small)
+        return grid
+
+    def width_of(self, words, size, weight="normal"):
+        """[mm]"""
+        text = self.figure.text(0, 0, words, fontsize=size, fontweight=weight)
+        width = text.get_window_extent().width / self.figure.dpi / MM
+        text.remove()
+        return width
+
+    def wrapped(self, words, size, width, weight="normal"):
+        """Words in lines no wider than that [mm]: broken at spaces, else behind hyphens and underscores, else anywhere."""
+        lines, line = [], ""
+        for part in parts_of(words):
+            if self.width_of((line + part).rstrip(), size, weight) <= width:
+                line += part
+                continue
+            if line:
+                lines.append(line.rstrip())
+            while self.width_of(part.rstrip(), size, weight) > width and len(part) > 1:
+                fits = next((n for n in range(len(part) - 1, 1, -1) if self.width_of(part[:n], size, weight) <= width), 1)
+                lines.append(part[:fits])
+                part = part[fits:]
+            line = part.lstrip() if lines else part
+        return lines + [line.rstrip()] if line.strip() else lines
+
+    def title_panel(self, axes, number, panels, words, width):
+        """Its letter, where there are several, and its titles, each in lines no wider than that [mm]."""
+        letter = f"({letters(number)}) " if panels > 1 else ""
+        lines = [line for title in (letter + words).split("\n") for line in self.wrapped(plain(title), self.page.style.text, width)]
+        if lines:
+            axes.set_title("\n".join(lines), loc="left", fontsize=self.page.style.text)
+
+    def label_y(self, axes, words, height):
+        """A label in lines no longer than a panel with its words is high [mm]."""
+        axes.set_ylabel("\n".join(self.wrapped(words, self.page.style.text, height - 6 * self.page.style.scale)))
+
+    def finish(self, panels_height, handles=(), notes=(), is_snug=False):
+        """Sets heading and legend around the panels, whose height is given [mm], less what they leave blank where `is_snug`, and makes the page
+        as tall; notes are lines of small text below."""
+        self._decorate(handles, notes)
+        self._place(panels_height)
+        if is_snug:
+            self._place(panels_height - self._blank(panels_height))
+        self.figure.set_layout_engine("none")
+        for axes in self.figure.axes:  # the solver's last bits differ from time to time
+            axes.set_position([round(edge, 6) for edge in axes.get_position().bounds])
+        return self.figure
+
+    def _decorate(self, handles, notes):
+        """The words around the panels, which `_place` puts where they belong."""
+        style, room = self.page.style, self.page.width - 2 * MARGIN * self.page.style.scale
+        bold = lambda size: "bold" if size == style.title else "normal"
+        self._above = [self.figure.text(0, 0, words, fontsize=size, fontweight=bold(size), in_layout=False) for words, size in self._heading(room)]
+        self._below = [self.figure.text(0, 0, line, fontsize=style.small, in_layout=False) for note in notes for line in self.wrapped(note, style.small, room)]
+        self._key, self._key_height = self._legend(handles, room)
+
+    def _place(self, panels_height):
+        page, style, figure = self.page, self.page.style, self.figure
+        margin = MARGIN * style.scale
+        head = sum(text.get_fontsize() for text in self._above) * POINT * LINE + (margin if self._above else 0)
+        foot = len(self._below) * style.small * POINT * LINE + (margin if self._below else 0)
+        low = margin + foot + self._key_height + (2 * margin if self._key else 0)
+        height = low + panels_height + head + margin
+        figure.set_size_inches(page.width * MM, height * MM)
+        y = height - margin
+        for text in self._above:
+            y -= text.get_fontsize() * POINT * LINE
+            text.set_position((margin / page.width, (y + 0.3 * text.get_fontsize() * POINT) / height))
+        for i, text in enumerate(reversed(self._below)):
+            text.set_position((margin / page.width, (margin + (i * LINE + 0.3) * style.small * POINT) / height))
+        if self._key:
+            self._key.set_bbox_to_anchor((0.5, (margin + foot) / height))
+        if figure.get_layout_engine() is None:
+            figure.set_layout_engine("constrained")
+        rect = (margin / page.width, low / height, 1 - 2 * margin / page.width, panels_height / height)
+        pad = 0.02 * style.scale  # [inch]
+        figure.get_layout_engine().set(rect=rect, w_pad=pad, h_pad=pad, wspace=0.03, hspace=0.03)
+        for _ in range(2):  # numbers at ticks change with the panels' sizes
+            figure.get_layout_engine().execute(figure)
+
+    def _blank(self, panels_height):
+        """How much of the panels' height they leave blank [mm]."""
+        boxes = [axes.get_tightbbox(self.figure.canvas.get_renderer()) for axes in self.figure.axes]
+        filled = max(box.y1 for box in boxes) - min(box.y0 for box in boxes)
+        return panels_height - filled / self.figure.dpi / MM - 1.5 * self.page.style.scale
+
+    def _heading(self, width):
+        """Lines of title and caption with their sizes."""
+        style, given = self.page.style, self.page.title
+        if given == "":
+            return []
+        title, caption = (given, "") if given is not None else self._own
+        lines = [(line, style.title) for line in self.wrapped(plain(title), style.title, width, "bold")]
+        return lines + [(line, style.text) for line in self.wrapped(plain(caption), style.text, width)]
+
+    def _legend(self, handles, width):
+        """A legend in as many columns as fit, and its height [mm]."""
+        if not handles:
+            return None, 0
+        style = self.page.style
+        swatch = 2.6 * style.text * POINT
+        for handle in handles:
+            handle.set_label("\n".join(self.wrapped(handle.get_label(), style.text, width - swatch - 2)))
+        for rows in range(1, len(handles) + 1):
+            columns = -(-len(handles) // rows)
+            legend = self.figure.legend(handles=list(handles), loc="lower center", ncols=columns, frameon=False, borderaxespad=0, borderpad=0.1,
+                                        handlelength=1.8, handletextpad=0.5, columnspacing=1.3, labelspacing=0.35, bbox_to_anchor=(0.5, 0))
+            box = legend.get_window_extent(self.figure.canvas.get_renderer())
+            if box.width / self.figure.dpi / MM <= width or columns == 1:
+                return legend, box.height / self.figure.dpi / MM
+            legend.remove()
+
+
+def set_log(axis, low, high):
+    """Makes an axis logarithmic for values from low to high, with plain numbers, more of each decade the fewer there are."""
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 20 * low else (1, 3) if high < 100 * low else (1,)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def parts_of(words):
+    """Words with the space behind them, broken behind hyphens and underscores too."""
+    part = ""
+    for before, letter in zip(" " + words, words):
+        if (before == " " and letter != " " and part.strip()) or (before in "-_" and part[:-1].strip()):
+            yield part
+            part = ""
+        part += letter
+    yield part
+
+
+def plain(words):
+    """Words that matplotlib takes as they are: a dollar is one."""
+    return words.replace("$", r"\$")
+
+
+def in_words(value):
+    """Four digits, powers of ten as superscripts."""
+    mantissa, _, power = f"{value:.4g}".replace("-", "−").partition("e")
+    return mantissa + (" · 10" + power.lstrip("+").replace("−0", "−").lstrip("0").translate(str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")) if power else "")
+
+
+def letters(number):
+    """a … z, aa, ab …"""
+    return (letters(number // 26 - 1) if number >= 26 else "") + chr(ord("a") + number % 26)
+
+
+def save(figure, stem, formats, dots=300):
+    """Writes stem.svg and so on, each whole or not at all, in place of a link of that name too; the same figure gives the same bytes.
+    Yields each path."""
+    for suffix in formats:
+        path = f"{stem}.{suffix}"
+        draft = f"{path}.{os.getpid()}.tmp"
+        nothing = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": None}}[suffix]
+        try:
+            with matplotlib.rc_context({"font.family": "DejaVu Sans", "pdf.fonttype": 42, "svg.fonttype": "path", "svg.hashsalt": "polynya"}):
+                figure.savefig(draft, format=suffix, dpi=dots, metadata=nothing)
+            os.replace(draft, path)
+        finally:
+            if os.path.exists(draft):
+                os.remove(draft)
+        yield path

@@ -1,0 +1,96 @@
+"""The ships and structures of runs, their names and colours, and the part of the time that is drawn."""
+from __future__ import annotations
+
+import dataclasses
+
+import numpy
+from matplotlib.lines import Line2D
+
+#: Of runs: black, vermilion, sky blue, blue, purple, green [Okabe2008]; the first three are apart in greyscale too.
+COLOURS = ("#000000", "#d55e00", "#56b4e9", "#0072b2", "#aa4499", "#009e73")
+DASHES = ("-", "--", "-.")
+CUSP, SPLIT = "#555555", "#d55e00"
+
+
+@dataclasses.dataclass(frozen=True)
+class Labelled:
+    """A run with the name and the times that figures give it."""
+
+    run: object
+    label: str
+    start: float  #: [s]
+    end: float  #: [s]
+
+
+def labelled(run, label=None, start=None, end=None):
+    """The whole run under its scene's name, if not given otherwise. Times outside of the run raise a ValueError."""
+    for word, time in (("--from", start), ("--until", end)):
+        if time is not None and not run.start_time <= time <= run.end_time:
+            raise ValueError(f"{word} {time:g}: {run.folder} goes from {run.start_time:g} to {run.end_time:g} s")
+    start, end = run.start_time if start is None else start, run.end_time if end is None else end
+    if start >= end and run.end_time > run.start_time:
+        raise ValueError(f"--from {start:g} is not before --until {end:g}")
+    return Labelled(run, run.name if label is None else label, start, end)
+
+
+def all_labelled(runs):
+    return [run if isinstance(run, Labelled) else labelled(run) for run in runs]
+
+
+@dataclasses.dataclass(frozen=True)
+class Subject:
+    """A ship or structure of one of the runs."""
+
+    of: Labelled
+    ship: str
+
+    @property
+    def name(self):
+        """The run's, and the ship's where the run has several."""
+        return self.of.label if len(self.of.run.ship_names) == 1 else f"{self.of.label}, {self.ship}"
+
+    def columns(self, *names):
+        """Columns of forces.csv within the times drawn; NaN where a run of an older version has none."""
+        forces = self.of.run.force_columns
+        rows = (forces["ship"] == self.ship) & (forces["t_s"] >= self.of.start) & (forces["t_s"] <= self.of.end)
+        return [forces[name][rows] if name in forces else numpy.full(numpy.count_nonzero(rows), numpy.nan) for name in names]
+
+    def fractures(self, kind):
+        """Times of its cusps ("bend") or splits."""
+        events = self.of.run.event_columns
+        return events["t_s"][(events["kind"] == kind) & (events["ship"] == self.ship) & (events["t_s"] >= self.of.start) & (events["t_s"] <= self.of.end)]
+
+
+def subjects_of(runs):
+    """None where no time passes."""
+    return [Subject(run, ship) for run in runs for ship in run.run.ship_names if run.start < run.end]
+
+
+def colour_of(number):
+    return COLOURS[number % len(COLOURS)]
+
+
+def dash_of(number):
+    return DASHES[number // len(COLOURS) % len(DASHES)]
+
+
+def mark_fractures(axes, subject, scale):
+    """Strokes of cusps and triangles of splits along the top of a panel; the legend's entries of those that there are."""
+    handles = []
+    across = axes.get_xaxis_transform()
+    cusps, splits = subject.fractures("bend"), subject.fractures("split")
+    if len(cusps):
+        style = {"color": CUSP, "linewidth": 0.5 * scale, "alpha": 1 if len(cusps) < 150 else 0.5}
+        axes.vlines(cusps, 0.925, 0.985, transform=across, **style)
+        handles.append(Line2D([], [], color=CUSP, linestyle="none", marker="|", markersize=5 * scale, markeredgewidth=0.7 * scale, label="cusp broken by bending"))
+    if len(splits):
+        axes.vlines(splits, 0, 0.955, transform=across, color=SPLIT, linewidth=0.4 * scale, alpha=0.6, zorder=1)
+        style = {"color": SPLIT, "linestyle": "none", "marker": "^", "markersize": 4 * scale, "markeredgewidth": 0}
+        axes.plot(splits, numpy.full(len(splits), 0.955), transform=across, **style)
+        handles.append(Line2D([], [], label="floe split", **style))
+    return handles
+
+
+def once(handles):
+    """Each label's first handle."""
+    return list({handle.get_label(): handle for handle in reversed(handles)}.values())[::-1]

@@ -1,0 +1,193 @@
+// The map of a run's end, and the layers of exports, with ice under a hull.
+#include "views/map/final_map.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "../io/temporary_folder.hpp"
+#include <gtest/gtest.h>
+
+#include "views/export/geojson_export.hpp"
+#include "views/export/vtk_export.hpp"
+#include "views/map/svg_layout.hpp"
+
+namespace polynya::views {
+namespace {
+
+/// Two ships and a structure; the second ship breaks a floe.
+io::Run run_of_three(const std::string& name) {
+  const std::string hull = R"("hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27}, "mass_kg": 1e6,
+    "moment_of_inertia_kg_m2": 1e8, "propulsion": {"constant_speed_m_per_s": 1})";
+  auto scene =
+      io::read_scene(R"({"name": ")" + name + R"(", "ships": [{"name": "north", "position_m": [0, 50], )" +
+                         hull + R"(}, {"name": "south", )" + hull +
+                         R"(}], "structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}],
+    "floes": [{"rectangle": {"corner_m": [200, 0], "size_m": 10}}]})",
+                     "scene.json", ".");
+  EXPECT_TRUE(scene.has_value());
+  io::Run run;
+  run.scene = std::move(*scene);
+  run.label = name;
+  for (int ship = 0; ship < 3; ++ship) {
+    simulation::ShipSample sample;
+    sample.time = 10;
+    sample.ship = ship;
+    run.samples.push_back(sample);
+  }
+  run.frames = {{.time = 0, .ships = {}, .floes = {}}, {.time = 10, .ships = {}, .floes = {}}};
+  simulation::Event event;
+  event.time = 5;
+  event.ship = 1;
+  run.events = {event};
+  return run;
+}
+
+/// The numbers of an attribute, in the order they stand.
+std::vector<double> numbers_of(const std::string& svg, const std::string& attribute) {
+  std::vector<double> numbers;
+  const std::string mark = " " + attribute + "='";
+  for (std::size_t at = svg.find(mark); at != std::string::npos; at = svg.find(mark, at + 1))
+    numbers.push_back(std::stod(svg.substr(at + mark.size())));
+  return numbers;
+}
+
+/// With five floes.
+io::Run run_with_floes(const std::string& name) {
+  io::Run run = run_of_three(name);
+  for (int i = 0; i < 5; ++i) {
+    io::RunFloe floe;
+    floe.birth.floe = i;
+    floe.birth.area = 10.0 * (i + 1) * (i + 1);
+    run.floes.push_back(floe);
+    run.shapes.add({{{20.0 * i, 0}, {20.0 * i + 3 * (i + 1), 0}, {20.0 * i, 3.0 * (i + 1)}}, {}});
+  }
+  return run;
+}
+
+/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third
+/// came up.
+io::Run run_with_ice_under_a_hull() {
+  io::Run run = run_with_floes("level");
+  run.scene.scene.ships[0].hull.draught = 6;
+  run.floes[1].went_under = 5;
+  run.floes[2].came_up = true;
+  run.floes[2].birth.generation = 2;
+  for (const auto kind : {simulation::EventKind::kSubmerge, simulation::EventKind::kSubmerge,
+                          simulation::EventKind::kResurface, simulation::EventKind::kStayUnder}) {
+    simulation::Event event;
+    event.time = 5;
+    event.ship = 1;
+    event.kind = kind;
+    run.events.push_back(event);
+  }
+  return run;
+}
+
+std::size_t count_of(const std::string& text, const std::string& words) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}
+
+// The page is as wide as a journal's, its words have 7 to 9 pt there, and end on it.
+TEST(FinalMap, IsReadableAtItsWidthOnPaper) {
+  const std::string svg = to_svg(final_picture(run_with_floes("a-scene-of-a-long-name")));
+  EXPECT_NEAR(numbers_of(svg, "width").front(), 170, 0.01);
+  const double pixels = std::stod(svg.substr(svg.find("viewBox='0 0 ") + 13));
+  const double points = 170 / pixels / 25.4 * 72;  // of a pixel
+  const std::vector<double> sizes = numbers_of(svg, "font-size");
+  EXPECT_GT(sizes.size(), 5U);
+  for (const double size : sizes) {
+    EXPECT_GE(size * points, 6.99);
+    EXPECT_LE(size * points, 9.01);
+  }
+  for (std::size_t at = svg.find("<text x='"); at != std::string::npos; at = svg.find("<text x='", at + 1)) {
+    const std::size_t words = svg.find('>', at) + 1;
+    const std::string tag = svg.substr(at, words - at);
+    const double left = std::stod(tag.substr(9)), size = numbers_of(tag, "font-size").front();
+    EXPECT_GE(left, -1) << tag;
+    EXPECT_LE(left + width_of(svg.substr(words, svg.find("</text>", words) - words), size), pixels + 1)
+        << tag;
+  }
+}
+
+TEST(FinalMap, AWallIsDrawnAsOneAndLeavesNoTrack) {
+  Picture picture;
+  picture.ships.push_back({{{0, 0}, {50, 0}, {50, 5}, {0, 5}}, {{25, 0}, {25, 9}}, true});
+  const std::string walls = to_svg(picture);
+  EXPECT_NE(walls.find(">wall<"), std::string::npos);
+  EXPECT_EQ(walls.find("<polyline"), std::string::npos);
+  picture.ships.front().is_wall = false;
+  const std::string ships = to_svg(picture);
+  EXPECT_EQ(ships.find(">wall<"), std::string::npos);
+  EXPECT_NE(ships.find("<polyline"), std::string::npos);
+}
+
+TEST(FinalMap, IceUnderAHullIsNeitherFloatingIceNorAFracture) {
+  const io::Run run = run_with_ice_under_a_hull();
+  const Picture picture = final_picture(run);
+  EXPECT_EQ(picture.floes.size(), 4U);
+  EXPECT_EQ(picture.ice_under_hulls.size(), 1U);
+  EXPECT_EQ(picture.fractures.size(), 1U);
+  EXPECT_EQ(picture_at(run, io::MotionIndex(run), 0).floes.size(), 5U);
+  EXPECT_EQ(picture.caption,
+            "1 cusps broken by bending, 0 splits, 4 floes, 1 at the start; 2 pieces went under the hull, 1 "
+            "came up");
+  const std::string with = to_svg(picture), without = to_svg(final_picture(run_with_floes("plain")));
+  for (const char* words :
+       {">ice under the hull or waiting behind it<", ">piece that came up from under the hull<"}) {
+    EXPECT_EQ(count_of(with, words), 1U) << words;
+    EXPECT_EQ(count_of(without, words), 0U) << words;
+  }
+}
+
+TEST(FinalMap, IceUnderAHullHasALayerOfItsOwn) {
+  const io::Run run = run_with_ice_under_a_hull();
+  const auto layers = geojson_layers(run, 10, {});
+  ASSERT_EQ(layers.size(), 6U);
+  EXPECT_EQ(count_of(layers[0].second, "\"floe_id\""), 4U);
+  EXPECT_EQ(count_of(layers[0].second, "\"came_up\":true"), 1U);
+  EXPECT_EQ(count_of(layers[1].second, "\"kind\""), 1U);
+  EXPECT_EQ(layers[5].first, "under-hull.geojson");
+  EXPECT_EQ(count_of(layers[5].second, "\"floe_id\""), 1U);
+  EXPECT_EQ(count_of(layers[5].second, "\"went_under_s\":5"), 1U);
+  EXPECT_EQ(geojson_layers(run_with_floes("plain"), 10, {}).size(), 5U);
+}
+
+TEST(FinalMap, IceUnderAHullIsAPartOfTheVtkExport) {
+  const tests::TemporaryFolder folder;
+  ASSERT_TRUE(export_vtk(run_with_ice_under_a_hull(), {}, folder.path()).has_value());
+  const auto count = [&](const char* file, const std::string& words) {
+    std::ifstream stream(folder.path() / file);
+    EXPECT_TRUE(stream) << file;
+    return count_of({std::istreambuf_iterator<char>(stream), {}}, words);
+  };
+  EXPECT_EQ(count("run.pvd", "under-hull-"), 2U);
+  EXPECT_EQ(count("under-hull-00000.vtp", "NumberOfLines=\"0\""), 1U);
+  EXPECT_EQ(count("under-hull-00001.vtp", "NumberOfLines=\"1\""), 1U);
+  EXPECT_EQ(count("ice-00001.vtp", "NumberOfLines=\"4\""), 1U);
+  EXPECT_EQ(count("loads-00001.vtp", "NumberOfVerts=\"4\""), 1U) << "three ships and one fracture";
+}
+
+TEST(FinalMap, ALegendKeepsEachSwatchBesideItsWords) {
+  const std::vector<Legend::Entry> entries{
+      {"short"}, {"words that take up more than the whole of a narrow page do not leave it"}, {"last"}};
+  const Legend legend(entries, 10, 200);
+  SvgText svg(210, 300);
+  double before = -1;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const geometry::Point at = legend.draw(svg, i, 0);
+    EXPECT_NEAR(at.x, 10, 1e-9) << "no room for a second one in the row";
+    EXPECT_GT(at.y, before);
+    before = at.y;
+  }
+  EXPECT_LE(before, legend.height());
+  const std::string text = svg.finish();
+  const std::vector<double> x = numbers_of(text, "x");
+  EXPECT_GT(x.size(), 5U) << "the long words in lines";
+  for (const double left : x) EXPECT_NEAR(left, 68, 1e-9) << "beside the swatches";
+}
+
+}  // namespace
+}  // namespace polynya::views
