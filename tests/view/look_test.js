@@ -13,7 +13,7 @@ let folder, browser, page, run;
 before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   run = makeRun(folder, smallScene("plate-and-floe", {
-    time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float" }, ships: [ship("a", 30)],
+    time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } }, ships: [ship("a", 30)],
     floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } }, { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }],
   }));
   browser = await startBrowser();

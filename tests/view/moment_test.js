@@ -11,7 +11,7 @@ const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js")
 let folder, browser, page, run, file;
 before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
-  run = makeRun(folder, smallScene("moments", { time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float" }, ships: [ship("north", 60), ship("a b", 10)],
+  run = makeRun(folder, smallScene("moments", { time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } }, ships: [ship("north", 60), ship("a b", 10)],
     floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } }, { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }] }));
   file = makePage(run);
   browser = await startBrowser();
@@ -170,6 +170,7 @@ test("a drag over the histogram chooses whole classes, a double click all; it co
   assert.match(await page.locator("#size-words").textContent(), /of 2 floes/);
   await page.mouse.dblclick(box.x + 0.5 * box.width, box.y + 40);
   assert.equal((await state()).sizes, null);
+  await drawn();
   assert.ok(await page.locator("#size-all").isDisabled());
   await page.fill("#size-from", "9");
   await page.press("#size-from", "Enter");

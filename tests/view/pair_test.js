@@ -72,6 +72,8 @@ test("the part of the map is one, until it is ticked off; colours have the same 
   assert.deepEqual(await both((player) => player.state.colourBy), ["speed", "speed"]);
   const [edges, others] = await both((player) => player.colourings.speed.edges);
   assert.deepEqual(edges, others);
+  const [scales, theirs] = await both(({ forceScale, arrowScale }) => [forceScale, arrowScale]);
+  assert.deepEqual(scales, theirs);
   await page.uncheck("#same-map");
   await page.mouse.move(box.x + 100, box.y + 150);
   await page.mouse.wheel(0, -300);

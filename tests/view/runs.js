@@ -31,10 +31,10 @@ exports.readNdjson = (run, file) => exports.readLines(run, file).map((line) => J
 
 /** The table of `polynya inspect RUN --at T`, by floe. */
 exports.inspectAt = (run, time) => {
-  const rows = exports.polynya("inspect", run, "--at", String(time)).trim().split("\n").slice(1);
-  return new Map(rows.map((row) => {
-    const [floe, parent, born, area, , , , mass, thickness, speed] = row.trim().split(/\s+/);
-    return [Number(floe), { parent, born, area, mass, thickness, speed }];
+  const [names, ...rows] = exports.polynya("inspect", run, "--at", String(time)).trim().split("\n").map((row) => row.trim().split(/\s+/));
+  return new Map(rows.map((cells) => {
+    const of = Object.fromEntries(cells.map((cell, k) => [names[k], cell]));
+    return [Number(of.floe), { parent: of.parent, born: of.born_s, area: of.area_m2, mass: of.mass_kg, thickness: of.thickness_m, speed: of.m_per_s }];
   }));
 };
 

@@ -1,7 +1,7 @@
 // The legend below the map: what the colours, marks and arrows mean that are shown now.
 
 function makeLegend(player) {
-  const { run, state, colourings, forceScale, arrowScale } = player;
+  const { run, state, colourings } = player;
   // As wide as its longest words from the start: the legend must not grow and shrink while the run plays.
   const channelWidth = make("output", { id: "channel-width", style: `flex: 0 1 ${23 * run.info.ships.length}ch` });
 
@@ -16,13 +16,13 @@ function makeLegend(player) {
     return make("span", {}, arrow, words);
   }
   function velocityRow() {
-    const speed = roundBelow(60 / arrowScale);
-    return arrowRow(speed * arrowScale, `${Number(speed.toPrecision(2))} m/s`);
+    const speed = roundBelow(60 / player.arrowScale);
+    return arrowRow(speed * player.arrowScale, `${Number(speed.toPrecision(2))} m/s`);
   }
   function forceRows(colours) {
-    const force = roundBelow(60 / forceScale);
+    const force = roundBelow(60 / player.forceScale);
     const unit = loadUnit(force, "N");
-    return [arrowRow(force * forceScale, `${shortNumber(force * unit.factor)} ${unit.name}`),
+    return [arrowRow(force * player.forceScale, `${shortNumber(force * unit.factor)} ${unit.name}`),
       swatchRow(colours.split, "crushing"), swatchRow(colours.bend, "not crushing")];
   }
 

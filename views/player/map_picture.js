@@ -34,7 +34,7 @@ function makeIcePicture(player, canvas) {
 
 /** What lies over the ice; gives what draws it, with the floe that is shown. */
 function makeMarksPicture(player, canvas) {
-  const { run, state, view, places, motions, circlesOf, forceScale, arrowScale } = player;
+  const { run, state, view, places, motions, circlesOf } = player;
   const marks = canvas.getContext("2d");
 
   function outline(id) {
@@ -64,8 +64,8 @@ function makeMarksPicture(player, canvas) {
     if (places.under.includes(shown)) outline(shown);
     const notices = [player.isOver ? `This run ends at ${Number(player.range[1].toFixed(6))} s.` : ""];
     if (state.layers.circles) notices.push(drawCircles(marks, view, run, circlesOf, places, motions, colours));
-    if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours, forceScale));
-    if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, arrowScale);
+    if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours, player.forceScale));
+    if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, player.arrowScale);
     if (state.event !== null) drawChosenEvent(marks, view, run.info.events[state.event], colours);
     drawScaleBar(marks, view, colours);
     showNotices(notices);

@@ -127,8 +127,9 @@ function makeCommon(players) {
   };
 }
 
-/** One extent of the map, one scale of the plots, and the same classes of colours. */
+/** One extent of the map, one scale of the plots and of arrows, and the same classes of colours. */
 function joinScales(players) {
+  const scales = Object.fromEntries(["forceScale", "arrowScale"].map((name) => [name, Math.min(...players.map((player) => player[name]))]));
   const most = Object.fromEntries(Object.keys(players[0].extremes).map((name) => [name, Math.max(...players.map(({ extremes }) => extremes[name]))]));
   const boxes = players.map(({ box }) => box);
   const box = { left: Math.min(...boxes.map(({ left }) => left)), right: Math.max(...boxes.map(({ right }) => right)),
@@ -136,6 +137,7 @@ function joinScales(players) {
   players.forEach((player, k) => {
     player.box = box;
     player.colourUpTo(most);
+    Object.assign(player, scales);
     const other = players[1 - k].plot;
     player.plot.widened = (ranges) => {
       if (!byId("same-scale").checked || !other.chart || other.quantity !== player.plot.quantity) return ranges;
