@@ -4,7 +4,7 @@
   tools/boundary_study.py cylinder    a floe of 40 m on a cylinder of 10 m: largest force and depth
   tools/boundary_study.py drift       speed of floes in the wind, by size and speed of the wind
   tools/boundary_study.py press       a plate on a cylinder in a wind and in a current
-  tools/boundary_study.py pressure    walls that press ice on both sides of the reference ship, by the line load
+  tools/boundary_study.py pressure    ice along flanks and sides of the reference ship, pressed by walls with a line load
 
 Options of all: --polynya PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. Needs numpy.
 """
@@ -15,9 +15,9 @@ import os
 
 import numpy as np
 
-from study import BEAM, ENTRANCE, FRICTION, HULL, LENGTH, SHIP, rows_of, run_all, run_scene
+from study import BEAM, ENTRANCE, HULL, LENGTH, SHIP, rows_of, run_all, run_scene
 
-AIR, C_A, C_W, RHO_I, RHO_W, THICKNESS = 1.3, 0.002, 0.004, 900, 1000, 0.5
+AIR, C_A, C_W, RHO_I, RHO_W, THICKNESS, FRICTION = 1.3, 0.002, 0.004, 900, 1000, 0.5, 0.2
 UNBREAKABLE = {"fracture": {"breakable_size_factor": 1000, "splitting": {"model": "michel", "shape_factor": 100}}}
 
 
@@ -126,40 +126,15 @@ def along_hull(load, side, speed=0.005):
         "ships": [SHIP | {"hull": HULL | {"stem_angle_deg": 90}, "propulsion": {"constant_speed_m_per_s": speed}}]}
 
 
-def in_pack(load, seed, speed=1):
-    """The reference ship at constant speed through pack ice of 15 m, C .85, between two walls 150 m apart."""
-    pressure = {"pressure": {"line_load_N_per_m": load}} if load else {}
-    return {"name": "pack", "seed": seed, "time": {"step_s": 0.01, "until_s": 350},
-            "record": {"forces_interval_s": 1, "frames_interval_s": 20, "contacts": "none"},
-            "ships": [SHIP | {"hull": HULL | {"draught_m": 6}, "position_m": [-62, 75], "propulsion": {"constant_speed_m_per_s": speed}}],
-            "walls": [{"from_m": [-150, -0.1], "to_m": [400, -0.1]} | pressure, {"from_m": [400, 150.1], "to_m": [-150, 150.1]} | pressure,
-                      {"from_m": [400.1, -50], "to_m": [400.1, 200]}],
-            "floes": [{"field": {"corner_m": [0, 0], "extent_m": [400, 150], "floe_size_m": 15, "concentration": 0.85, "gap_m": 0.01}}]}
-
-
-def resistance(folder, first, last):
-    rows = column(folder, "icebreaker", "surge_N") + column(folder, "icebreaker", "surge_from_submerged_ice_N")
-    return -rows[int(first):int(last)].mean()
-
-
 def study_pressure(arguments):
     closed = lambda q, side: q * (BEAM + 2 * FRICTION * (BOW + side)) / 1e6
     whole = LENGTH - BOW
-    print("Ice along the hull, a wall behind each flank and side:\n")
     print("| q [kN/m] | length of a side [m] | R [MN] | q (B + 2 μ (L_bow + L_par)) |\n|---|---|---|---|")
     cases = [(50e3, 72.9), (50e3, whole), (25e3, whole), (100e3, whole)]
     results = run_all(arguments, run, {("along", int(q), f"{side:.0f}"): along_hull(q, side) for q, side in cases})
     for q, side in cases:
         rows = column(results["along", int(q), f"{side:.0f}"][0], "icebreaker", "surge_N")
         print(f"| {q / 1e3:g} | {side:.2f} | {-rows[300:].mean() / 1e6:.3f} | {closed(q, side):.3f} |")
-    print("\nPack ice between two walls, 1 m/s:\n")
-    print("| q [kN/m] | R [MN], by seed | more than without | closed form |\n|---|---|---|---|")
-    loads, seeds = (0, 25e3, 50e3), (1, 2)
-    results = run_all(arguments, run, {("pack", int(q), s): in_pack(q, s) for q in loads for s in seeds})
-    means = {q: [resistance(results["pack", int(q), s][0], 200, 350) for s in seeds] for q in loads}
-    for q in loads:
-        each = ", ".join(f"{r / 1e6:.2f}" for r in means[q])
-        print(f"| {q / 1e3:g} | {each} | {(np.mean(means[q]) - np.mean(means[0])) / 1e6:.2f} | {closed(q, whole):.2f} |")
 
 
 def main():
