@@ -62,14 +62,15 @@ class Scenery:
         return self._path(frame.ids, frame.poses)
 
     def hulls(self, frame):
-        """Ships and structures as one path."""
+        """Ships, structures and walls as one path."""
         rings = [numpy.concatenate([ring, ring[:1]]) for ring in frame.hulls.values()]
         return Path(numpy.concatenate(rings), numpy.concatenate([codes_of(len(ring)) for ring in rings])) if rings else NOTHING
 
     def tracks(self, time):
-        """Of ships and structures up to a time [s], each n × 2."""
+        """Of ships, not of structures and walls, up to a time [s], each n × 2."""
         past = [*self.run.times[self.run.times < time], time]
-        places = numpy.array([self.run.motions.ships_at(at)[:, :2] for at in past])
+        ships = len(self.run.scene.get("ships", []))
+        places = numpy.array([self.run.motions.ships_at(at)[:ships, :2] for at in past])
         return list(numpy.swapaxes(places, 0, 1))
 
     def fractures(self, kind, start, end):
