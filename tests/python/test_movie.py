@@ -207,6 +207,17 @@ def test_a_film_of_a_run_without_a_ship_has_no_chart(tmp_path):
     assert drawn.history is None and drawn.draw(0.5).shape == (320, 320, 4)
 
 
+def test_walls_are_grey_and_make_no_tracks(tmp_path):
+    walls = [{"from_m": [150, -60], "to_m": [150, 60], "pressure": {"line_load_N_per_m": 1e4}}]
+    (tmp_path / "scene.json").write_text(json.dumps({**SCENE, "time": {"step_s": 0.02, "until_s": 1}, "walls": walls}))
+    subprocess.run([PROGRAM, "run", tmp_path / "scene.json", "--out", tmp_path / "run", "--no-map"], check=True, capture_output=True)
+    drawn = picture.Picture(polynya.Run(tmp_path / "run", pandas=False), picture.Look(size=(640, 360)))
+    pixels = drawn.draw(1.0)
+    across, up = drawn._map.transData.transform((155, 0))
+    assert pixels[len(pixels) - 1 - int(up), int(across), :3].tolist() == [0x8A] * 3
+    assert len(drawn.scenery.tracks(1.0)) == 1
+
+
 def test_a_run_that_is_not_finished_is_shown_as_far_as_it_got(folder, tmp_path):
     shutil.copytree(folder, tmp_path / "run")
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())

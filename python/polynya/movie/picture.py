@@ -12,12 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 
+from polynya.figures import map_legend as colours
+
 from .history import History
 from .scenery import NOTHING, Scenery
 
-WATER, ICE_AT_START, EDGE, HULL, TRACK = "#8fb8d0", "#a9cadd", "#3d5261", "#2b2b2b", "#d55e00"  # as the maps' (views/map/map_marks.hpp)
-FLOES = (("ice", "#ffffff"), ("broken off", "#fbeec2"), ("come up from under a hull", "#f0c987"), ("under a hull", "#56b4e9"))
-FRACTURES = (("bend", "cusp bends off", "o", "#0072b2"), ("split", "floe splits", "^", "#d55e00"), ("grind", "ice grinds", "s", "#7a5c2e"))
+FLOES = (("ice", colours.ICE), ("broken off", colours.BROKEN), ("come up from under a hull", colours.CAME_UP), ("under a hull", colours.UNDER))
+FRACTURES = (("bend", "cusp bends off", "o"), ("split", "floe splits", "^"), ("grind", "ice grinds", "s"))
 HEAD, KEY, CHART = 0.07, 0.055, 0.25  # of a picture's height
 FOLLOWED = 2.0  # lengths of the ship that a map which follows it shows at least
 SHOWN = 0.8  # how long a fracture's mark stays in a film [s of the film]
@@ -65,7 +66,7 @@ class Picture:
         self.canvas = FigureCanvasAgg(self.figure)
         ship = self.look.follow or (self.run.ship_names or [None])[0]
         chart = CHART if ship is not None and len(self.run.force_columns["t_s"]) else 0.0
-        self._map = self.figure.add_axes((0, chart + KEY, 1, 1 - HEAD - KEY - chart), facecolor=WATER)
+        self._map = self.figure.add_axes((0, chart + KEY, 1, 1 - HEAD - KEY - chart), facecolor=colours.WATER)
         self._map.set(xticks=(), yticks=())
         for side in self._map.spines.values():
             side.set_visible(False)
@@ -115,21 +116,22 @@ class Picture:
 
     def _make_ice(self):
         edge = float(numpy.clip(0.12 * self._metre, 0.06, 1.0)) * self.look.size[1] / 720
-        self._at_start = self._patch(facecolor=ICE_AT_START, linewidth=0)
-        self._floes = [self._patch(facecolor=colour, edgecolor=EDGE, linewidth=edge) for _, colour in FLOES[:3]]
-        self._hulls = self._patch(facecolor=HULL, edgecolor="#ffffff", linewidth=1.2 * edge, alpha=0.88)
+        self._at_start = self._patch(facecolor=colours.AT_START, linewidth=0)
+        self._floes = [self._patch(facecolor=colour, edgecolor=colours.EDGE, linewidth=edge) for _, colour in FLOES[:3]]
+        self._hulls = self._patch(facecolor=colours.SHIP, edgecolor="#ffffff", linewidth=1.2 * edge, alpha=0.88)
+        self._walls = self._patch(facecolor=colours.WALL, edgecolor="#ffffff", linewidth=1.2 * edge)
         self._under = self._patch(facecolor=FLOES[3][1], edgecolor="#ffffff", linewidth=edge, linestyle="--", alpha=0.45)
-        self._tracks = LineCollection([], colors=TRACK, linewidths=1.4 * self.look.size[1] / 720, linestyles="--", animated=True)
+        self._tracks = LineCollection([], colors=colours.TRACK, linewidths=1.4 * self.look.size[1] / 720, linestyles="--", animated=True)
         self._map.add_collection(self._tracks)
         self._at_start.set_path(self.scenery.ice_at_start)
-        return [self._at_start, *self._floes, self._tracks, self._hulls, self._under]
+        return [self._at_start, *self._floes, self._tracks, self._walls, self._hulls, self._under]
 
     def _make_marks(self):
         size = 0.9 * self._font**2
         self._marks = {
-            kind: self._map.scatter([], [], s=size * (0.5 if kind == "bend" else 1), marker=marker, c=colour, edgecolors="#ffffff",
+            kind: self._map.scatter([], [], s=size * (0.5 if kind == "bend" else 1), marker=marker, c=colours.MARKS[kind], edgecolors="#ffffff",
                                     linewidths=0.05 * self._font, animated=True)
-            for kind, _, marker, colour in FRACTURES
+            for kind, _, marker in FRACTURES
         }
         return list(self._marks.values())
 
@@ -158,10 +160,10 @@ class Picture:
         has = (True, bool((births["generation"] > 0).any()), bool(births["came_up"].any()), bool(numpy.isfinite(births["went_under_s"]).any()))
         for (word, colour), is_there in zip(FLOES, has):
             if is_there:
-                yield word, {"marker": "s", "color": colour, "markeredgecolor": EDGE, "markeredgewidth": 0.06 * self._font}
-        for kind, word, marker, colour in FRACTURES:
+                yield word, {"marker": "s", "color": colour, "markeredgecolor": colours.EDGE, "markeredgewidth": 0.06 * self._font}
+        for kind, word, marker in FRACTURES:
             if kind in kinds:
-                yield word, {"marker": marker, "color": colour, "markeredgewidth": 0}
+                yield word, {"marker": marker, "color": colours.MARKS[kind], "markeredgewidth": 0}
 
     def draw(self, time):
         """The picture of a time [s]: rows × columns × 4 bytes, valid until the next one."""
@@ -172,7 +174,8 @@ class Picture:
         paths = self.scenery.floes(frame)
         for patch, path in zip((*self._floes, self._under), paths):
             patch.set_path(path)
-        self._hulls.set_path(self.scenery.hulls(frame))
+        for patch, path in zip((self._hulls, self._walls), self.scenery.hulls(frame)):
+            patch.set_path(path)
         self._tracks.set_segments(self.scenery.tracks(time))
         for kind, marks in self._marks.items():
             self._show_fractures(marks, kind, time)

@@ -62,9 +62,10 @@ class Scenery:
         return self._path(frame.ids, frame.poses)
 
     def hulls(self, frame):
-        """Ships, structures and walls as one path."""
+        """Ships and structures as one path, walls as another."""
         rings = [numpy.concatenate([ring, ring[:1]]) for ring in frame.hulls.values()]
-        return Path(numpy.concatenate(rings), numpy.concatenate([codes_of(len(ring)) for ring in rings])) if rings else NOTHING
+        first_wall = len(rings) - len(self.run.scene.get("walls", []))
+        return path_of(rings[:first_wall]), path_of(rings[first_wall:])
 
     def tracks(self, time):
         """Of ships, not of structures and walls, up to a time [s], each n × 2."""
@@ -82,12 +83,17 @@ class Scenery:
     def extent(self):
         """Of ice at the start and end and of all tracks: x0, y0, x1, y1 [m]."""
         end = self.run.frame(self.run.end_time)
-        pieces = [self.ice_at_start.vertices, *(path.vertices for path in self.floes(end)), self.hulls(end).vertices,
-                  self.hulls(self.run.frame(self.run.start_time)).vertices, *self.tracks(self.run.end_time)]
+        pieces = [self.ice_at_start.vertices, *(path.vertices for path in (*self.floes(end), *self.hulls(end))),
+                  *(path.vertices for path in self.hulls(self.run.frame(self.run.start_time))), *self.tracks(self.run.end_time)]
         points = numpy.concatenate([piece for piece in pieces if len(piece)] or [numpy.array([[0.0, 0.0], [100.0, 100.0]])])
         low, high = points.min(axis=0), points.max(axis=0)
         room = max(1.0, 0.02 * (high - low).max())
         return (*(low - room), *(high + room))
+
+
+def path_of(rings):
+    """Closed rings as one path."""
+    return Path(numpy.concatenate(rings), numpy.concatenate([codes_of(len(ring)) for ring in rings])) if rings else NOTHING
 
 
 @functools.lru_cache(maxsize=None)
