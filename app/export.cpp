@@ -7,6 +7,7 @@
 #include "app/write_output.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/geojson_export.hpp"
+#include "views/export/scene_export.hpp"
 #include "views/export/vtk_export.hpp"
 
 namespace polynya::app {
@@ -19,6 +20,7 @@ constexpr auto kExamples =
     "  polynya export runs/sawamura2017-fig4b --vtk paraview         open paraview/run.pvd in ParaView\n"
     "  polynya export runs/at-sea --geojson qgis --at 300            longitude, latitude from the scene's "
     "origin\n"
+    "  polynya export --scene runs/sawamura2017-fig4b --at 300       a scene that continues from there\n"
     "\n"
     "Exit codes: 0 done, 2 usage, 5 input/output.\n";
 
@@ -28,6 +30,8 @@ struct Options {
   std::string geojson;        ///< folder; empty: none
   std::optional<double> at;   ///< instant of the GeoJSON [s]; the end if not given
   int every = 1;              ///< of VTK: each N-th frame
+  bool is_scene = false;      ///< a scene that continues the run
+  std::string out;            ///< folder of that; empty: one in the run's
   bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
 };
 
@@ -66,14 +70,38 @@ int write_geojson(const io::Run& run, const Options& options) {
   return kDone;
 }
 
+/// A scene of its own that starts where the run was then.
+int write_scene(const io::Run& run, const Options& options) {
+  const double time = options.at.value_or(run.end_time());
+  if (!(time >= run.start_time() && time <= run.end_time()))
+    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run.start_time(),
+                                    run.end_time()));
+  const auto scene = views::continued_scene(run, time);
+  if (!scene) return fail(kInputOutput, scene.error());
+  const fs::path folder = options.out.empty() ? fs::path(options.run) / fmt::format("from-{:g}s", scene->time)
+                                              : fs::path(options.out);
+  if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
+  for (const auto& [name, text] : scene->files) {
+    if (const auto written = io::write_named_file(folder / name, text); !written)
+      return fail(kInputOutput, written.error());
+    write_out((folder / name).string() + "\n");
+  }
+  if (scene->time != time) print_err("note: as of the frame at {:g} s\n", scene->time);
+  for (const std::string& words : scene->left_out) print_err("note: not in the scene: {}\n", words);
+  return kDone;
+}
+
 int export_run(const Options& options) {
-  if (options.vtk.empty() && options.geojson.empty())
-    return fail(kUsage, "--vtk DIR (for ParaView) or --geojson DIR (for QGIS) is needed");
+  if (options.vtk.empty() && options.geojson.empty() && !options.is_scene)
+    return fail(
+        kUsage,
+        "--vtk DIR (for ParaView), --geojson DIR (for QGIS) or --scene (to continue the run) is needed");
   const auto run = io::read_run(options.run);
   if (!run) return fail(kInputOutput, run.error());
   int code = kDone;
   if (!options.vtk.empty()) code = write_vtk(*run, options);
   if (code == kDone && !options.geojson.empty()) code = write_geojson(*run, options);
+  if (code == kDone && options.is_scene) code = write_scene(*run, options);
   return code;
 }
 
@@ -90,7 +118,12 @@ Command add_export(CLI::App& app) {
   option(*command, "--geojson", options->geojson, "DIR",
          "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
          "scene has an origin, metres where not");
-  option(*command, "--at", options->at, "S", "Instant of the GeoJSON [s]; the end if not given", finite());
+  option(*command, "--at", options->at, "S", "Instant of GeoJSON and scene [s]; the end if not given",
+         finite());
+  command->add_flag("--scene", options->is_scene,
+                    "A scene of its own, scene.json and floes.geojson, that starts where the run was then");
+  option(*command, "--out", options->out, "DIR", "Folder of the scene; one in the run's if not given",
+         not_empty());
   command->add_flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
   return {command, [options] { return export_run(*options); }};
 }

@@ -6,6 +6,7 @@
 #include "app/load_scene.hpp"
 #include "app/options.hpp"
 #include "app/validate_cases.hpp"
+#include "io/import/import_report.hpp"
 #include "io/scene/floe_ice.hpp"
 
 namespace polynya::app {
@@ -28,6 +29,32 @@ struct Options {
   bool resolved = false;  ///< print the scene with every default filled in
   bool json = false;      ///< print its problems as a JSON array
 };
+
+/// How the scene's fields, drawn ice and floe files came out.
+void print_floes(const io::LoadedScene& loaded) {
+  for (const io::FieldReport& field : loaded.fields) {
+    const simulation::FloeFieldOutcome& outcome = field.outcome;
+    print_out("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
+              field.group, outcome.count, outcome.mean_size, 100 * outcome.size_spread,
+              100 * outcome.concentration(), outcome.region_area, outcome.left_out);
+  }
+  for (const io::IceReport& report : loaded.ice) {
+    const io::FloeIceProperty& property = io::floe_ice_properties()[report.property];
+    const fracture::ScatterMeasures& drawn = report.measures;
+    print_out(
+        "floes[{}].ice.{}: {} drawn, {:.4g} {} ± {:.3g} %, from {:.4g} to {:.4g}, {:.2g} off the law (KS)\n",
+        report.group, property.key, drawn.count, drawn.mean, property.unit, 100 * drawn.spread, drawn.least,
+        drawn.most, drawn.distance);
+  }
+  for (const io::FileReport& file : loaded.files) {
+    print_out("floes[{}]: {}{}\n", file.group, io::plane_in_words(file.plane),
+              file.run_time
+                  ? fmt::format("; {} of a run at {:g} s", counted(file.floes, "floe"), *file.run_time)
+              : file.totals ? "; " + io::counts_in_words(*file.totals)
+                            : "; " + counted(file.floes, "floe"));
+    if (file.totals) print_out("floes[{}]: {}\n", file.group, io::areas_in_words(*file.totals));
+  }
+}
 
 int validate(const Options& options) {
   const ProblemFormat format = options.json ? ProblemFormat::kJson : ProblemFormat::kText;
@@ -57,20 +84,7 @@ int validate(const Options& options) {
             grounded > walls ? ", " + counted(grounded - walls, "structure") : "",
             walls > 0 ? ", " + counted(walls, "wall") : "", counted(scene.floes.size(), "floe"),
             scene.time.until, scene.time.step, loaded->hash);
-  for (const io::FieldReport& field : loaded->fields) {
-    const simulation::FloeFieldOutcome& outcome = field.outcome;
-    print_out("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
-              field.group, outcome.count, outcome.mean_size, 100 * outcome.size_spread,
-              100 * outcome.concentration(), outcome.region_area, outcome.left_out);
-  }
-  for (const io::IceReport& report : loaded->ice) {
-    const io::FloeIceProperty& property = io::floe_ice_properties()[report.property];
-    const fracture::ScatterMeasures& drawn = report.measures;
-    print_out(
-        "floes[{}].ice.{}: {} drawn, {:.4g} {} ± {:.3g} %, from {:.4g} to {:.4g}, {:.2g} off the law (KS)\n",
-        report.group, property.key, drawn.count, drawn.mean, property.unit, 100 * drawn.spread, drawn.least,
-        drawn.most, drawn.distance);
-  }
+  print_floes(*loaded);
   return kDone;
 }
 

@@ -49,6 +49,9 @@ class BroadPhase {
   void remove(BodyIndex body);
   /// What has pressed against a body, in water, and what is outside it: for the pieces that it breaks into.
   Inheritance inheritance_of(const Bodies& bodies, BodyIndex body) const;
+  /// What a body shares with others where it is has all pressed before: it was crushed. Of a body that was
+  /// woken.
+  void note_pressed(BodyIndex body);
   /// Passes it on to a piece that was added and woken.
   void inherit(const Bodies& bodies, BodyIndex piece, const Inheritance& inheritance);
   /// Pairs are kept only where one of the two is awake.

@@ -36,6 +36,15 @@ Inheritance BroadPhase::inheritance_of(const Bodies& bodies, BodyIndex body) con
   return inheritance;
 }
 
+void BroadPhase::note_pressed(BodyIndex body) {
+  constexpr double kEverywhere = 1e9;  // [m], and [m²] of the overlap that is found there
+  PersistentContact record;
+  record.reach = kEverywhere;
+  record.loaded_area = kEverywhere * kEverywhere;
+  record.is_inherited = true;
+  for (const std::uint32_t slot : entries_[body].pairs) pairs_[slot].records = {record};
+}
+
 void BroadPhase::inherit(const Bodies& bodies, BodyIndex piece, const Inheritance& inheritance) {
   for (const std::uint32_t slot : entries_[piece].pairs) {
     Pair& pair = pairs_[slot];

@@ -75,8 +75,13 @@ void add_scene(const Setup& setup, const Clock& clock, Population& population, J
     const BodyIndex body = population.body_of(static_cast<FloeId>(i));
     const bool is_moving = spec.is_fast ? population.bodies.velocity[body] != Vector{}
                                         : spec.velocity != Vector{} || spec.angular_velocity != 0;
-    if (is_moving || !stays_at_rest(body, setup, population.bodies) || !setup.shortcuts.sleeps)
+    if (is_moving || spec.has_crushed_overlaps || !stays_at_rest(body, setup, population.bodies) ||
+        !setup.shortcuts.sleeps)
       wake(body, population);
+  }
+  for (std::size_t i = 0; i < scene.floes.size(); ++i) {
+    if (scene.floes[i].has_crushed_overlaps)
+      population.pairs.note_pressed(population.body_of(static_cast<FloeId>(i)));
   }
 }
 
@@ -169,6 +174,8 @@ dynamics::NewBody new_body_of(const ShipSpec& ship, Vector water_drift) {
     body.is_prescribed = true;
   }
   body.velocity = speed * ahead - water_drift;
+  if (ship.sway_speed != 0) body.velocity += ship.sway_speed * perpendicular(ahead);
+  body.angular_velocity = ship.yaw_rate;
   body.is_grounded = is_grounded(ship);
   if (const auto* wall = std::get_if<Wall>(&ship.propulsion)) {
     body.velocity += wall->velocity;

@@ -151,6 +151,8 @@ struct ShipSpec {
   geometry::Point position_in_world;  ///< of the centre of gravity at the start [m]
   double heading = 0;                 ///< from the x axis, counter-clockwise [rad]
   double speed = 0;                   ///< along the heading over ground at the start [m/s]
+  double sway_speed = 0;              ///< to port, likewise [m/s]
+  double yaw_rate = 0;                ///< counter-clockwise at the start [rad/s]
   Propulsion propulsion;
   HullWaterSettings water;
   Steering steering;
@@ -166,7 +168,9 @@ struct FloeSpec {
   double angular_velocity = 0;  ///< relative to the water's own turning there, at the start [rad/s]
   bool is_fast =
       false;  ///< held at its velocity, which is then over ground, whatever pushes it; it does not turn
-  std::int32_t own_ice = kSceneIce;  ///< index in Scene::own_ice
+  std::int32_t own_ice = kSceneIce;   ///< index in Scene::own_ice
+  bool has_crushed_overlaps = false;  ///< what it shares with other bodies at the start has pressed already
+  std::int64_t source_floe = -1;      ///< its id in the file that it is from; < 0: none
 };
 
 /// Which contacts are recorded at each frame.

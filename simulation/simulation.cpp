@@ -191,6 +191,7 @@ FloeState state_of(const World& world, FloeId id) {
   }
   state.area = floe.area;
   state.mass = bodies.mass[body];
+  state.is_fast = world.population.is_fast(id);
   state.ice = &ice_of_floe(world.setup, world.population, id);
   state.polygon_in_body = &floe.shape.polygon;
   return state;

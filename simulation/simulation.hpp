@@ -33,6 +33,7 @@ struct FloeState {
   double angular_velocity = 0;                         ///< [rad/s]
   double area = 0;                                     ///< [m²]
   double mass = 0;                                     ///< [kg]
+  bool is_fast = false;                                ///< held at its velocity
   const fracture::Ice* ice = nullptr;                  ///< valid as long as the simulation
   const geometry::Polygon* polygon_in_body = nullptr;  ///< valid as long as the floe
 };

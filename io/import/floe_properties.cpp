@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,19 +16,19 @@ namespace {
 using JsonKind = JsonValue::Kind;
 
 constexpr std::string_view kFloeId = "floe_id";
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr std::string_view kFastIce = "fast_ice";
 constexpr double kLargestId = 9007199254740991;  ///< 2^53 − 1
 
 constexpr FloeProperty kProperties[] = {
-    {"thickness_m", "m", 0.001, 20, 1, &FloeProperties::thickness},
-    {"density_kg_per_m3", "kg/m³", 100, 1100, 1, &FloeProperties::density},
-    {"flexural_strength_Pa", "Pa", 1, 1e9, 1, &FloeProperties::flexural_strength},
-    {"compressive_strength_Pa", "Pa", 1, 1e10, 1, &FloeProperties::compressive_strength},
-    {"tensile_strength_Pa", "Pa", 1, 1e9, 1, &FloeProperties::tensile_strength},
-    {"fracture_toughness_Pa_sqrt_m", "Pa √m", 1, 1e9, 1, &FloeProperties::fracture_toughness},
-    {"vx_m_per_s", "m/s", -20, 20, 1, &FloeProperties::velocity_x},
-    {"vy_m_per_s", "m/s", -20, 20, 1, &FloeProperties::velocity_y},
-    {"angular_velocity_deg_per_s", "°/s", -360, 360, kRadians, &FloeProperties::angular_velocity}};
+    {"thickness_m", "m", 0.001, 20, &FloeProperties::thickness},
+    {"density_kg_per_m3", "kg/m³", 100, 1100, &FloeProperties::density},
+    {"flexural_strength_Pa", "Pa", 1, 1e9, &FloeProperties::flexural_strength},
+    {"compressive_strength_Pa", "Pa", 1, 1e10, &FloeProperties::compressive_strength},
+    {"tensile_strength_Pa", "Pa", 1, 1e9, &FloeProperties::tensile_strength},
+    {"fracture_toughness_Pa_sqrt_m", "Pa √m", 1, 1e9, &FloeProperties::fracture_toughness},
+    {"vx_m_per_s", "m/s", -20, 20, &FloeProperties::velocity_x},
+    {"vy_m_per_s", "m/s", -20, 20, &FloeProperties::velocity_y},
+    {"angular_velocity_deg_per_s", "°/s", -360, 360, &FloeProperties::angular_velocity}};
 
 std::string shown(const JsonValue& value) {
   std::string text;
@@ -67,7 +66,7 @@ void read_number(const FloeProperty& property, const Place& place, FloePropertie
   const double value =
       place.value->is(JsonKind::kNumber) ? place.factor * place.value->number() : std::nan("");
   if (value >= property.low && value <= property.high) {
-    result.*property.member = property.to_si * value;
+    result.*property.member = value;
     return;
   }
   std::string found = shown(*place.value);
@@ -121,6 +120,12 @@ Result<> add_property_name(std::string_view words, PropertyNames& names) {
 FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names,
                                     std::vector<BadProperty>& bad) {
   FloeProperties result;
+  if (const JsonValue* fast = properties.find(kFastIce); fast && !fast->is_null()) {
+    if (fast->is(JsonKind::kBoolean))
+      result.is_fast = fast->boolean();
+    else
+      bad.push_back({fast, std::string(kFastIce), shown(*fast), "true or false"});
+  }
   read_id(place_of(kFloeId, properties, names), result, bad);
   for (const FloeProperty& property : kProperties)
     read_number(property, place_of(property.key, properties, names), result, bad);

@@ -25,16 +25,17 @@ struct FloeProperties {
   std::optional<double> fracture_toughness;    ///< [Pa √m]
   std::optional<double> velocity_x;            ///< over ground, along the coordinates' first axis [m/s]
   std::optional<double> velocity_y;            ///< [m/s]
-  std::optional<double> angular_velocity;      ///< counter-clockwise [rad/s]
+  std::optional<double> angular_velocity;      ///< counter-clockwise [°/s]
+  std::optional<bool> is_fast;                 ///< held at its velocity
 };
 
-/// A number among the properties. The names and ranges are those of the scene's keys.
+/// A number among the properties. The names and ranges are those of the scene's keys; the first six are of
+/// the ice, in the order of io/scene/floe_ice.hpp.
 struct FloeProperty {
   std::string_view key;   ///< in the file
   std::string_view unit;  ///< as shown to people
   double low = 0;         ///< least value
   double high = 0;
-  double to_si = 1;  ///< factor
   std::optional<double> FloeProperties::*member = nullptr;
 };
 std::span<const FloeProperty> floe_properties();

@@ -68,8 +68,7 @@ void write_plane(JsonWriter& json, const PlaneReport& plane) {
 
 void write_properties(JsonWriter& json, const FloeProperties& properties) {
   for (const FloeProperty& property : floe_properties()) {
-    if (const auto& value = properties.*property.member)
-      json.key(property.key).value(*value / property.to_si);
+    if (const auto& value = properties.*property.member) json.key(property.key).value(*value);
   }
 }
 

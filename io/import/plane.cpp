@@ -100,7 +100,7 @@ class PlaneImport {
     if (!crs.empty() || !settings_.source.empty()) return crs.empty() ? settings_.source : crs;
     CoordinateEvidence evidence;
     for (const SourceFloe& floe : floes_) evidence.add(floe.polygon);
-    if (!evidence.look_like_degrees()) return std::string();
+    if (settings_.are_metres || !evidence.look_like_degrees()) return std::string();
     if (settings_.origin || !settings_.target.empty()) return std::string(kLongitudeLatitude);
     const Point middle = middle_of_degrees(floes_);
     return refuse(fmt::format(

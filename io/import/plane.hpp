@@ -24,6 +24,7 @@ struct PlaneSettings {
   std::string target;                                  ///< that of a projected system, "EPSG:3413"; or empty
   std::string source;           ///< the file's system, where the file names none; or empty
   bool chooses_origin = false;  ///< of a file in degrees without either: the middle of its floes
+  bool are_metres = false;      ///< known to be no degrees
   bool is_shifted = false;      ///< then the middle of the floes' box comes to (0, 0), to a metre
   /// How a user gives an origin [°], in messages.
   std::string (*origin_in_words)(double latitude, double longitude) = nullptr;

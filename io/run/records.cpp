@@ -136,12 +136,16 @@ void append_state(std::string& text, double time, std::int64_t steps, std::uint6
 }
 
 void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent,
-                  const fracture::Ice* own_ice) {
+                  const simulation::Scene* scene) {
   JsonWriter json(text);
   json.open('{').key("floe_id").value(birth.floe).key("parent_id").value(id_or_none(birth.parent));
+  if (scene && birth.floe < std::ssize(scene->floes)) {
+    const std::int64_t source = scene->floes[static_cast<std::size_t>(birth.floe)].source_floe;
+    if (source >= 0) json.key("source_floe_id").value(source);
+  }
   json.key("born_s").value(birth.time).key("generation").value(birth.generation);
   json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
-  if (own_ice) append_ice(json, *own_ice);
+  if (scene && birth.own_ice != simulation::kSceneIce) append_ice(json, ice_of(*scene, birth.own_ice));
   json.key("centroid_m").value(birth.centroid_in_body);
   append_shape(json, parent ? parts_of(birth.polygon_in_body, *parent) : whole(birth.polygon_in_body));
   json.close('}');
@@ -204,6 +208,7 @@ std::string to_geojson(const std::vector<simulation::FloeState>& floes, double t
     json.key("speed_m_per_s").value(geometry::length(floe.velocity));
     json.key("vx_m_per_s").value(floe.velocity.x).key("vy_m_per_s").value(floe.velocity.y);
     json.key("angular_velocity_deg_per_s").value(kDegrees * floe.angular_velocity);
+    if (floe.is_fast) json.key("fast_ice").value(true);
     layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
   }
   return layer.finish();

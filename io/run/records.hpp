@@ -40,9 +40,10 @@ void append_crushed(std::string& text, double time, const simulation::CrushedOve
 std::string_view states_header();
 void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash);
 
-/// `parent` is the shape of the floe that it broke from; null where it is of the scene.
+/// `parent` is the shape of the floe that it broke from; null where it is of the scene. With a scene also the
+/// ice that is the floe's own, and the id that it has in the file it is from.
 void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent,
-                  const fracture::Ice* own_ice = nullptr);
+                  const simulation::Scene* scene = nullptr);
 
 /// `parent` is the parent of the floe that broke.
 void append_event(std::string& text, const simulation::Event& event, std::string_view ship_name,

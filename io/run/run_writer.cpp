@@ -167,10 +167,8 @@ void RunWriter::record(simulation::Journal& journal) {
   for (const simulation::Birth& birth : journal.births) {
     add_floe(birth.floe, birth.parent, birth.centroid_in_body);
     const auto parent = broken.find(birth.parent);
-    const bool has_own_ice = birth.own_ice != simulation::kSceneIce;
     append_line(kFloes, [&](std::string& line) {
-      append_birth(line, birth, parent != broken.end() ? parent->second : nullptr,
-                   has_own_ice ? &ice_of(scene_->scene, birth.own_ice) : nullptr);
+      append_birth(line, birth, parent != broken.end() ? parent->second : nullptr, &scene_->scene);
     });
   }
   for (const simulation::Event& event : journal.events) {

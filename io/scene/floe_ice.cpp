@@ -120,21 +120,11 @@ const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties() {
   return kProperties;
 }
 
-GivenIce read_given_ice(const JsonValue& properties, std::size_t source, const std::string& path,
-                        ProblemCollector& problems) {
+GivenIce ice_of(const FloeProperties& properties) {
   GivenIce given;
   for (std::size_t i = 0; i < kFloeIceProperties; ++i) {
-    const FloeIceProperty& property = floe_ice_properties()[i];
-    const JsonValue* value = properties.find(property.key);
-    if (!value || value->is_null()) continue;
-    const bool is_good = value->is(JsonKind::kNumber) && value->number() >= property.range.low &&
-                         value->number() <= property.range.high;
-    if (is_good)
-      given.emplace_back(static_cast<std::uint8_t>(i), value->number());
-    else
-      problems.report(source, value->offset, fmt::format("{}.{}", path, property.key), show(*value),
-                      fmt::format("a number from {:g} to {:g} [{}], or null for the scene's",
-                                  property.range.low, property.range.high, property.unit));
+    if (const auto& value = properties.*floe_properties()[i].member)
+      given.emplace_back(static_cast<std::uint8_t>(i), *value);
   }
   return given;
 }

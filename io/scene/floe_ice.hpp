@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fracture/scatter.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/scene/scene_draft.hpp"
 #include "io/scene/scene_fields.hpp"
 #include "io/text/json_writer.hpp"
@@ -23,10 +24,8 @@ struct FloeIceProperty {
 };
 const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties();
 
-/// Of a feature of a floe file, by the properties' numbers. Null is as not given; what is no number in range
-/// is a problem of that source, `path` that of the feature's properties.
-GivenIce read_given_ice(const JsonValue& properties, std::size_t source, const std::string& path,
-                        ProblemCollector& problems);
+/// What a floe file states of a floe's ice, by the properties' numbers.
+GivenIce ice_of(const FloeProperties& properties);
 
 /// Writes all of them as members of the object at hand.
 void append_ice(JsonWriter& json, const fracture::Ice& ice);

@@ -1,17 +1,21 @@
 #include "io/scene/floe_list_reader.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/scene/floe_group.hpp"
-#include "io/scene/geojson_reader.hpp"
 #include "io/scene/scene_check.hpp"
 #include "io/scene/scene_resolve.hpp"
+#include "simulation/setup.hpp"
 
 namespace polynya::io {
 namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
 
 JsonValue to_json(geometry::Point point) {
   return {JsonValue::Array{{point.x}, {point.y}}};
@@ -137,32 +141,75 @@ bool FloeListReader::has_room_for(std::size_t count, const JsonValue& item, cons
 
 void FloeListReader::add_file(std::size_t index, const JsonValue& item) {
   const std::string path = fmt::format("floes[{}].file", index);
-  const JsonValue& file = *item.find("file");
-  const auto found = locate(file.text());
+  const JsonValue& name = *item.find("file");
+  const auto found = locate(name.text());
   if (!found)
-    return report(file.offset, path, show(file) + ": " + found.error(),
-                  "a GeoJSON file in the scene's folder or below");
-  auto text = read_text_file(*found, kLongestFloesFile);
-  if (!text)
-    return report(file.offset, path, show(file) + ": " + text.error(),
-                  fmt::format("a file of at most {} bytes", kLongestFloesFile));
-  const std::size_t source = problems_.add_source({found->string(), std::move(*text)});
-  const auto [polygons, run_time] = read_geojson(source, problems_);
-  if (run_time) draft_.run_times[source] = *run_time;
-  if (!has_room_for(polygons.size(), item, path)) return;
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
-    add_floe(polygons[i].polygon,
-             {.source = source, .offset = polygons[i].offset, .group = index, .member = static_cast<int>(i)},
-             polygons[i].ice);
-    JsonValue spelled_out{JsonValue::Object{}, item.offset};
-    spelled_out.members().push_back({"polygon", 0, to_json(polygons[i].polygon)});
-    for (const JsonMember& member : item.members()) {
-      if (member.key != "file" && member.key != "ice") spelled_out.members().push_back(member);
-    }
-    JsonValue ice = ice_.spelled_out(draft_.scene, polygons[i].ice);
-    if (!ice.is_null()) spelled_out.members().push_back({"ice", 0, std::move(ice)});
-    resolved_.items().push_back(std::move(spelled_out));
+    return report(name.offset, path, show(name) + ": " + found.error(),
+                  "a floe file in the scene's folder or below");
+  auto file =
+      read_floe_file(*found, draft_.group.file_settings, draft_.scene.origin, path, name.offset, problems_);
+  if (!file || !has_room_for(file->floes.size(), item, path)) return;
+  for (std::size_t i = 0; i < file->floes.size(); ++i) {
+    FileFloe& floe = file->floes[i];
+    const std::int32_t own_ice = ice_.add_to(draft_.scene, ice_of(floe.properties));
+    draft_.scene.floes.emplace_back().own_ice = own_ice;
+    resolved_.items().push_back(spelled_out(floe, item, file->run_time.has_value()));
+    fill_in(draft_.scene.floes.back(), resolved_.items().back());
+    draft_.scene.floes.back().polygon_in_world = std::move(floe.polygon);
+    draft_.floe_origins.push_back({.source = file->source,
+                                   .offset = floe.offset,
+                                   .group = index,
+                                   .member = static_cast<int>(i),
+                                   .is_known_valid = file->totals.has_value()});
   }
+  files_.push_back({index, std::move(file->plane), file->run_time, file->totals, file->floes.size()});
+}
+
+/// The entry that the floe of a file that was added last is in the resolved scene: what the file states of it
+/// stands there instead of what the file's entry has for all.
+JsonValue FloeListReader::spelled_out(const FileFloe& floe, const JsonValue& item, bool is_of_run) const {
+  const FloeProperties& own = floe.properties;
+  const bool is_fast = draft_.group.is_fast || own.is_fast.value_or(false);
+  JsonValue entry{JsonValue::Object{}, item.offset};
+  const auto put = [&](std::string_view key, JsonValue value) {
+    value.offset = item.offset;
+    entry.members().push_back({std::string(key), item.offset, std::move(value)});
+  };
+  put("polygon", to_json(floe.polygon));
+  const geometry::Point centroid = geometry::measure(floe.polygon).centroid;
+  const simulation::WaterSettings& water = draft_.scene.water;
+  const dynamics::ShearCurrent shear = simulation::current_of(water.shear);
+  for (const JsonMember& member : item.members()) {
+    if (member.key == "file" || member.key == "import" || member.key == "ice") continue;
+    const bool has_velocity = own.velocity_x || own.velocity_y;
+    if (member.key == "velocity_m_per_s" && has_velocity) {
+      geometry::Vector velocity{own.velocity_x.value_or(0), own.velocity_y.value_or(0)};
+      if (!is_fast) velocity -= water.drift + shear.velocity_at(centroid);  // relative to the water there
+      put(member.key, to_json(geometry::Point{velocity.x + 0.0, velocity.y + 0.0}));  // no −0
+    } else if (member.key == "angular_velocity_deg_per_s" && own.angular_velocity) {
+      put(member.key, {is_fast ? 0 : *own.angular_velocity - kDegrees * shear.angular_velocity()});
+    } else if (member.key == "fast_ice") {
+      put(member.key, {is_fast});
+    } else {
+      entry.members().push_back(member);
+    }
+  }
+  if (JsonValue ice = ice_.spelled_out(draft_.scene, ice_of(own)); !ice.is_null()) put("ice", std::move(ice));
+  if (is_of_run && !item.find("crushed_overlaps")) put("crushed_overlaps", {true});
+  if (own.floe_id && !item.find("source_floe_id")) put("source_floe_id", {static_cast<double>(*own.floe_id)});
+  return entry;
+}
+
+/// What a spelled-out entry has beside its polygon, as reading the resolved scene would find it.
+void FloeListReader::fill_in(simulation::FloeSpec& spec, const JsonValue& entry) {
+  const JsonValue& velocity = *entry.find("velocity_m_per_s");
+  spec.velocity = {velocity.items()[0].number(), velocity.items()[1].number()};
+  spec.angular_velocity = entry.find("angular_velocity_deg_per_s")->number() * std::numbers::pi / 180;
+  spec.is_fast = entry.find("fast_ice")->boolean();
+  const JsonValue* crushed = entry.find("crushed_overlaps");
+  spec.has_crushed_overlaps = crushed && crushed->boolean();
+  if (const JsonValue* id = entry.find("source_floe_id"))
+    spec.source_floe = static_cast<std::int64_t>(id->number());
 }
 
 /// The path of a file named in the scene, if it stays in the scene's folder, links followed.
@@ -179,10 +226,11 @@ Result<std::filesystem::path> FloeListReader::locate(const std::string& name) co
   return folder_ / name;
 }
 
-void FloeListReader::add_floe(geometry::Polygon polygon, Origin origin, const GivenIce& given) {
-  const std::int32_t own_ice = ice_.add_to(draft_.scene, given);
-  draft_.scene.floes.push_back({std::move(polygon), draft_.group.velocity, draft_.group.angular_velocity,
-                                draft_.group.is_fast, own_ice});
+void FloeListReader::add_floe(geometry::Polygon polygon, Origin origin) {
+  const FloeGroup& group = draft_.group;
+  const std::int32_t own_ice = ice_.add_to(draft_.scene, {});
+  draft_.scene.floes.push_back({std::move(polygon), group.velocity, group.angular_velocity, group.is_fast,
+                                own_ice, group.has_crushed_overlaps, group.source_floe});
   draft_.floe_origins.push_back(origin);
 }
 

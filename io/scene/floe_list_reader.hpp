@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scene/floe_file.hpp"
 #include "io/scene/floe_ice.hpp"
 #include "io/scene/scene_draft.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -19,13 +20,15 @@ class FloeListReader {
  public:
   /// All of these outlive it. `folder` is the scene's.
   FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, ProblemCollector& problems,
-                 JsonValue& resolved, std::vector<FieldReport>& fields, std::vector<IceReport>& ice)
+                 JsonValue& resolved, std::vector<FieldReport>& fields, std::vector<IceReport>& ice,
+                 std::vector<FileReport>& files)
       : folder_(folder),
         draft_(draft),
         problems_(problems),
         resolved_(resolved),
         fields_(fields),
-        ice_reports_(ice) {}
+        ice_reports_(ice),
+        files_(files) {}
 
   /// Adds the floes of one item of the list, which the draft's group holds.
   void add(std::size_t index, const JsonValue& item);
@@ -34,7 +37,9 @@ class FloeListReader {
   void add_field(std::size_t index, const JsonValue& item);
   void add_file(std::size_t index, const JsonValue& item);
   void add_floes(std::size_t index, const JsonValue& item);
-  void add_floe(geometry::Polygon polygon, Origin origin, const GivenIce& given = {});
+  JsonValue spelled_out(const FileFloe& floe, const JsonValue& item, bool is_of_run) const;
+  static void fill_in(simulation::FloeSpec& spec, const JsonValue& entry);
+  void add_floe(geometry::Polygon polygon, Origin origin);
   void complete(simulation::FloeField& field) const;
   bool check_rings(const simulation::FloeField& field, const JsonValue& json, const std::string& path);
   bool check_lattice(const JsonValue& item, const std::string& path);
@@ -51,6 +56,7 @@ class FloeListReader {
   std::vector<FieldReport>& fields_;
   std::vector<IceReport>& ice_reports_;
   GroupIce ice_;  ///< of the item at hand
+  std::vector<FileReport>& files_;
 };
 
 }  // namespace polynya::io

@@ -1,13 +1,10 @@
 #include "io/scene/geojson_reader.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "io/scene/floe_group.hpp"
-#include "io/scene/floe_ice.hpp"
 #include "io/scene/scene_resolve.hpp"
 #include "io/text/degrees.hpp"
 #include "io/text/json_parser.hpp"
@@ -16,11 +13,11 @@ namespace polynya::io {
 namespace {
 
 using JsonKind = JsonValue::Kind;
-constexpr double kLargestCoordinate = 1e6;  ///< [m]
 
 class GeojsonReader {
  public:
-  GeojsonReader(std::size_t source, ProblemCollector& problems) : source_(source), problems_(problems) {}
+  GeojsonReader(std::size_t source, const PropertyNames& names, ProblemCollector& problems)
+      : source_(source), names_(names), problems_(problems) {}
 
   void read(const JsonValue& value, const std::string& path) {
     const JsonValue* type = value.find("type", JsonKind::kText);
@@ -42,52 +39,14 @@ class GeojsonReader {
            "Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection");
   }
 
-  /// What is wrong with the coordinates as a whole.
-  void check_coordinates(const JsonValue& root) {
-    const JsonValue* crs = root.find("crs");
-    const std::string& name = problems_.source(source_).name;
-    const std::string geographic = crs ? geographic_crs(*crs) : "";
-    if (!geographic.empty()) {
-      refuse_all(*crs, "crs",
-                 fmt::format("longitude and latitude ({}): Polynya needs metres and does not project yet: {}",
-                             geographic, how_to_project(evidence_.box, name)));
-    } else if (large_count_ > 0) {
-      const std::size_t others = large_count_ - 1;
-      const std::string more =
-          others > 0 ? fmt::format(", and as far in {} more ring{}", others, others == 1 ? "" : "s") : "";
-      problems_.add(
-          source_, large_offset_,
-          {.path = large_path_,
-           .found = large_ + more,
-           .allowed = fmt::format("coordinates from {} to {} [m]: move the origin to the floes; ogr2ogr "
-                                  "-t_srs \"+proj=aeqd +lat_0=LATITUDE +lon_0=LONGITUDE\" does",
-                                  -kLargestCoordinate, kLargestCoordinate)});
-    } else if (!crs && evidence_.look_like_degrees() && !has_own_areas()) {
-      refuse_all(
-          root, "",
-          fmt::format(
-              "these look like longitude and latitude, which GeoJSON without a crs member has [RFC 7946]: "
-              "all within ±180, ±90, and as metres {:.4g} m² of ice in all; Polynya needs metres and does "
-              "not project yet: {}; a crs member that names a projected system keeps them as metres",
-              evidence_.area, how_to_project(evidence_.box, name)));
-    } else {
-      return;
-    }
-    floes.polygons.clear();
-  }
-
-  GeojsonFloes floes;
-
- private:
-  void refuse_all(const JsonValue& value, const std::string& path, std::string sentence) {
-    problems_.add(source_, value.offset, {.path = path, .sentence = std::move(sentence)});
-  }
-
   /// Whether the features' area_m2 are those of their coordinates: then these are metres, however small.
   bool has_own_areas() const {
     return own_area_ > 0 && std::abs(own_area_ - evidence_.area) <= 1e-3 * evidence_.area;
   }
 
+  GeojsonFloes floes;
+
+ private:
   void report(const JsonValue& value, const std::string& path, std::string found, std::string allowed) {
     problems_.report(source_, value.offset, path, std::move(found), std::move(allowed));
   }
@@ -105,11 +64,19 @@ class GeojsonReader {
     const JsonValue* properties = value.find("properties");
     const JsonValue* area = properties ? properties->find("area_m2", JsonKind::kNumber) : nullptr;
     if (area) own_area_ += area->number();
+    properties_ = properties ? read_properties(*properties, path + ".properties") : FloeProperties{};
     if (!geometry || geometry->is_null())
       return report(value, path, "a feature without geometry", "a Polygon or MultiPolygon");
-    if (properties) ice_ = read_given_ice(*properties, source_, path + ".properties", problems_);
     read(*geometry, path + ".geometry");
-    ice_.clear();
+    properties_ = {};
+  }
+
+  FloeProperties read_properties(const JsonValue& properties, const std::string& path) {
+    std::vector<BadProperty> bad;
+    FloeProperties read = read_floe_properties(properties, names_, bad);
+    for (BadProperty& one : bad)
+      report(*one.value, fmt::format("{}.{}", path, one.key), std::move(one.found), std::move(one.allowed));
+    return read;
   }
 
   void read_polygon(const JsonValue& value, const std::string& path) {
@@ -122,7 +89,7 @@ class GeojsonReader {
       (&item == &value.items().front() ? polygon.outer : polygon.holes.emplace_back()) = std::move(*ring);
     }
     evidence_.add(polygon);
-    floes.polygons.push_back({in_house_notation(std::move(polygon)), value.offset, ice_});
+    floes.polygons.push_back({std::move(polygon), properties_, value.offset});
   }
 
   std::optional<geometry::Ring> read_ring(const JsonValue& value, const std::string& path) {
@@ -134,10 +101,6 @@ class GeojsonReader {
     for (const JsonValue& item : value.items()) {
       const auto point = read_position(item, path);
       if (!point) return std::nullopt;
-      if (std::max(std::abs(point->x), std::abs(point->y)) > kLargestCoordinate) {
-        add_large(item, *point, path);
-        return std::nullopt;
-      }
       ring.push_back(*point);
     }
     return ring;
@@ -156,21 +119,12 @@ class GeojsonReader {
     return geometry::Point{value.items()[0].number(), value.items()[1].number()};
   }
 
-  void add_large(const JsonValue& value, geometry::Point point, const std::string& path) {
-    if (large_count_++ > 0) return;
-    large_offset_ = value.offset;
-    large_path_ = path;
-    large_ = fmt::format("[{}, {}]", point.x, point.y);
-  }
-
   std::size_t source_;
+  const PropertyNames& names_;
   ProblemCollector& problems_;
   CoordinateEvidence evidence_;
-  GivenIce ice_;         ///< of the feature at hand
-  double own_area_ = 0;  ///< Σ of the features' area_m2 [m²]
-  std::size_t large_count_ = 0;
-  std::uint32_t large_offset_ = 0;  ///< of the first too large position, its path and itself
-  std::string large_path_, large_;
+  double own_area_ = 0;        ///< Σ of the features' area_m2 [m²]
+  FloeProperties properties_;  ///< of the feature at hand
 };
 
 /// A run writes its time beside the floes, and when each was born.
@@ -187,14 +141,18 @@ std::optional<double> run_time_of(const JsonValue& root) {
 
 }  // namespace
 
-GeojsonFloes read_geojson(std::size_t source, ProblemCollector& problems) {
+GeojsonFloes read_geojson(std::size_t source, const PropertyNames& names, ProblemCollector& problems) {
   const JsonDocument document = parse_json(problems.source(source).text);
   problems.add_faults(source, document.faults);
   if (!document.faults.empty()) return {};
-  GeojsonReader reader(source, problems);
+  GeojsonReader reader(source, names, problems);
   reader.read(document.root, "");
-  reader.check_coordinates(document.root);
+  reader.floes.are_metres = reader.has_own_areas();
   reader.floes.run_time = run_time_of(document.root);
+  if (const JsonValue* crs = document.root.find("crs")) {
+    reader.floes.crs = crs_name(*crs);
+    reader.floes.crs_offset = crs->offset;
+  }
   return std::move(reader.floes);
 }
 

@@ -1,7 +1,8 @@
 #include "io/scene/scene_check.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -81,6 +82,7 @@ struct Named {
   std::string path;
   const Origin* origin;
   bool is_ship;
+  std::size_t index;  ///< in the scene
 };
 
 void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vector<Named>& named,
@@ -113,7 +115,7 @@ void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vecto
       continue;
     }
     outlines.push_back(waterline_in_world(ship));
-    named.push_back({path, &origin, true});
+    named.push_back({path, &origin, true, i});
   }
 }
 
@@ -139,29 +141,27 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
       continue;
     }
     outlines.push_back(polygon);
-    named.push_back({floe_path(draft, i), &origin, false});
+    named.push_back({floe_path(draft, i), &origin, false, i});
   }
 }
 
-/// Overlaps in which floes of a run take part, with each other or with other bodies.
-struct RunOverlaps {
-  std::size_t count = 0;
-  std::size_t among_them = 0;
-  double largest = 0;  ///< [m²]
-};
+/// Whether two bodies may share that area: ice in contact overlaps by what it crushed. Not by nearly
+/// all of the smaller one, which would be the same ice twice.
+bool is_crushed(const SceneDraft& draft, const Named& first, const Named& second, double area,
+                const Polygon& a, const Polygon& b) {
+  const auto is_as_a_run_left_it = [&](const Named& one) {
+    return !one.is_ship && draft.scene.floes[one.index].has_crushed_overlaps;
+  };
+  constexpr double kMostShare = 0.9;
+  return (is_as_a_run_left_it(first) || is_as_a_run_left_it(second)) &&
+         area <= kMostShare * std::min(geometry::measure(a).area, geometry::measure(b).area);
+}
 
-/// One problem for all overlaps of a run's floes, which are in contact, and so overlap by the ice they
-/// crushed.
-void report_run_overlaps(std::size_t source, double time, const RunOverlaps& overlaps,
-                         ProblemCollector& problems) {
-  problems.add(
-      source, 0,
-      {.sentence = fmt::format(
-           "these are the floes of a run at {:g} s, of which {}{} pairs overlap, by at most {:.3g} m²: ice "
-           "in "
-           "contact overlaps by what it crushed; starting a scene from a run comes in a later version; "
-           "polynya resume RUN continues one that was stopped",
-           time, overlaps.count >= kMostOverlaps ? "at least " : "", overlaps.count, overlaps.largest)});
+/// All of a scene that may have overlaps, else as many as are reported.
+std::size_t most_overlaps(const SceneDraft& draft) {
+  const bool may_overlap =
+      std::ranges::any_of(draft.scene.floes, &simulation::FloeSpec::has_crushed_overlaps);
+  return may_overlap ? std::numeric_limits<std::size_t>::max() : kMostOverlaps;
 }
 
 bool is_wall(const Named& body) {
@@ -176,25 +176,13 @@ std::string remedy_of(const Named& first, const Named& second) {
 
 void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
                     const std::vector<Polygon>& outlines, ProblemCollector& problems) {
-  const auto overlaps = geometry::find_overlapping_pairs(outlines, kMostOverlaps);
-  std::map<std::size_t, RunOverlaps> of_runs;
-  const auto run_of = [&](const geometry::OverlappingPair& overlap) -> RunOverlaps* {
-    const std::size_t source = named[overlap.second].origin->source;  // floes come behind ships
-    return draft.run_times.contains(source) ? &of_runs[source] : nullptr;
-  };
+  auto overlaps = geometry::find_overlapping_pairs(outlines, most_overlaps(draft));
+  std::erase_if(overlaps, [&](const geometry::OverlappingPair& overlap) {
+    return is_crushed(draft, named[overlap.first], named[overlap.second], overlap.area,
+                      outlines[overlap.first], outlines[overlap.second]);
+  });
+  if (overlaps.size() > kMostOverlaps) overlaps.resize(kMostOverlaps);
   for (const geometry::OverlappingPair& overlap : overlaps) {
-    RunOverlaps* run = run_of(overlap);
-    if (!run) continue;
-    const bool is_among_them = named[overlap.first].origin->source == named[overlap.second].origin->source;
-    run->among_them += is_among_them ? 1 : 0;
-    run->largest = std::fmax(run->largest, overlap.area);
-    ++run->count;
-  }
-  for (const auto& [source, run] : of_runs) {
-    if (run.among_them > 0) report_run_overlaps(source, draft.run_times.at(source), run, problems);
-  }
-  for (const geometry::OverlappingPair& overlap : overlaps) {
-    if (const RunOverlaps* run = run_of(overlap); run && run->among_them > 0) continue;
     const Named& first = named[overlap.first];
     const Named& second = named[overlap.second];
     if (is_wall(second) && first.origin->is_structure) continue;  // walls cross each other and structures
@@ -204,7 +192,7 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
                   .found = fmt::format("an overlap with {}{}", first.path, area),
                   .allowed = remedy_of(first, second)});
   }
-  if (overlaps.size() == kMostOverlaps && of_runs.empty())
+  if (overlaps.size() == kMostOverlaps)
     problems.add(0, 0,
                  {.path = "floes", .found = fmt::format("{} overlaps, and perhaps more", kMostOverlaps)});
 }

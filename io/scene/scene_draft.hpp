@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 
 #include "fracture/scatter.hpp"
 #include "geometry/shape/polygon.hpp"
+#include "io/import/floe_import.hpp"
 #include "io/text/json_value.hpp"
 #include "simulation/floe_field.hpp"
 #include "simulation/scene.hpp"
@@ -28,6 +28,14 @@ struct IceDraft {
   std::uint64_t seed = 0;
 };
 
+/// How the floes of an entry's file come to the scene: the members of its "import".
+struct FloeFileSettings {
+  bool is_import = false;                   ///< it has one
+  ImportSettings import;                    ///< without the plane's origin and words
+  std::string layer;                        ///< of a file with several; or empty
+  std::vector<std::string> property_names;  ///< "thickness_m=CM*0.01"
+};
+
 /// One entry of the scene's "floes" while it is read. The fields of the chosen form are filled in.
 struct FloeGroup {
   enum class Form { kLattice, kRectangle, kPolygon, kFile, kField };
@@ -39,13 +47,16 @@ struct FloeGroup {
   geometry::Vector size;      ///< [m]
   double angle = 0;           ///< rectangle, about its corner [rad]
   geometry::Polygon polygon;  ///< as written: rings may run either way and may be closed [m]
-  std::string file;           ///< GeoJSON in the scene's folder
+  std::string file;           ///< in the scene's folder
+  FloeFileSettings file_settings;
   simulation::FloeField field;
   geometry::Vector extent;      ///< field: of its region; 0 where that is an outline [m]
   geometry::Vector velocity;    ///< relative to the water [m/s]
   double angular_velocity = 0;  ///< [rad/s]
   bool is_fast = false;         ///< then the velocity is over ground
   IceDraft ice;
+  bool has_crushed_overlaps = false;
+  std::int64_t source_floe = -1;
 };
 
 /// A ship's engine while it is read: the bollard pull follows from the rest where it is not given.
@@ -96,7 +107,6 @@ struct SceneDraft {
   FloeGroup group;
   std::vector<Origin> ship_origins;
   std::vector<Origin> floe_origins;
-  std::map<std::size_t, double> run_times;  ///< of sources that hold the floes of a run, at that time [s]
 
   simulation::ShipSpec& ship() { return scene.ships.back(); }
 };

@@ -72,6 +72,7 @@ const Object& pilot_object();
 const Object& structure_object();
 const Object& wall_object();
 const Object& floes_object();
+const Object& import_object();
 const Object& floe_ice_object();
 
 }  // namespace polynya::io

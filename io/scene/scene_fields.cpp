@@ -23,7 +23,9 @@ const Object kScene{
            "of whatever is random: floe fields, ice that scatters, where ice comes up",
            [](Draft& d, const Value& v) { d.scene.seed = static_cast<std::uint64_t>(v.number()); }),
      field("origin", Kind::kObject, "", {}, kLeftOut,
-           "where the scene lies on the Earth, for `polynya export --geojson`; nothing else depends on it",
+           "where the scene lies on the Earth: floe files in degrees, or of a system that they name, are "
+           "projected "
+           "about it, and `polynya export --geojson` goes back",
            nullptr, {}, "", &origin_object()),
      section("time", time_object()), section("water", water_object()), section("wind", wind_object()),
      section("ice", ice_object()), section("contact", contact_object()),

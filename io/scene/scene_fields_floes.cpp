@@ -130,13 +130,16 @@ const Object kFloes{
            &kField),
      field(
          "file", Kind::kText, "", {}, "",
-         "a GeoJSON file (Polygon, MultiPolygon, FeatureCollection; coordinates in metres) in the scene's "
-         "folder or below",
+         "a floe file in the scene's folder or below: GeoJSON in metres, in longitude and latitude or with a "
+         "crs; shapefile, GeoPackage, FlatGeobuf; a run's final.geojson (docs/import.md)",
          [](Draft& d, const Value& v) {
            d.group.form = FloeGroup::Form::kFile;
            d.group.file = v.text();
          },
          {}, "file"),
+     field("import", Kind::kObject, "", {}, kLeftOut,
+           "repairs, simplifies and trims the file's floes as `polynya import` does", nullptr, {}, "file",
+           &import_object()),
      field("fast_ice", Kind::kBoolean, "", {}, "false",
            "held whatever pushes it, at its velocity, which is then over ground; of its pieces, the largest "
            "stays "
@@ -150,7 +153,14 @@ const Object kFloes{
            [](Draft& d, const Value& v) { d.group.angular_velocity = radians(v); }),
      field("ice", Kind::kObject, "", {}, kLeftOut,
            "what of their ice is not the scene's: given, or drawn floe by floe; pieces have their floe's",
-           nullptr, {}, "", &floe_ice_object())},
+           nullptr, {}, "", &floe_ice_object()),
+     field("crushed_overlaps", Kind::kBoolean, "", {}, kLeftOut,
+           "floes as a run left them: they may overlap ships and each other, by the ice that was crushed "
+           "there; of a run's floe file without being asked for",
+           [](Draft& d, const Value& v) { d.group.has_crushed_overlaps = v.boolean(); }),
+     field("source_floe_id", Kind::kInteger, "", from(0, 9007199254740991), kLeftOut,
+           "the floe_id that it has in the file it is from; written beside its own",
+           [](Draft& d, const Value& v) { d.group.source_floe = static_cast<std::int64_t>(v.number()); })},
     {"lattice", "rectangle", "polygon", "field", "file"},
     [](Draft& d) { d.group = {}; }};
 

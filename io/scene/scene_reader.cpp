@@ -74,8 +74,8 @@ class SceneReader {
     std::vector<Problem> hints = problems_.take();
     LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description),
                        to_json_text(resolved_), "",
-                       std::move(fields_),      std::move(ice_),
-                       std::move(hints)};
+                       std::move(fields_),      std::move(files_),
+                       std::move(ice_),         std::move(hints)};
     if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
       report(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
              fmt::format("at most {} bytes: fewer floes, or coordinates of fewer digits", longest));
@@ -141,7 +141,7 @@ class SceneReader {
 
   void build() {
     JsonValue floes{JsonValue::Array{}, resolved_.find("floes")->offset};
-    FloeListReader reader{folder_, draft_, problems_, floes, fields_, ice_};
+    FloeListReader reader{folder_, draft_, problems_, floes, fields_, ice_, files_};
     bind_scene(resolved_, draft_, [&](std::string_view list, std::size_t index, const JsonValue& item) {
       if (list == "ships")
         add_ship(index, item);
@@ -192,6 +192,7 @@ class SceneReader {
   JsonValue resolved_;
   SceneDraft draft_;
   std::vector<FieldReport> fields_;
+  std::vector<FileReport> files_;
   std::vector<IceReport> ice_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <tl/expected.hpp>
 
+#include "io/import/floe_import.hpp"
 #include "io/scene/scene_assign.hpp"
 #include "io/scene/scene_draft.hpp"
 #include "io/text/problem.hpp"
@@ -28,6 +29,15 @@ struct FieldReport {
   simulation::FloeFieldOutcome outcome;  ///< without its floes; they are the scene's
 };
 
+/// How a floe file of the scene came to it.
+struct FileReport {
+  std::size_t group = 0;  ///< index in the scene's "floes"
+  PlaneReport plane;
+  std::optional<double> run_time;      ///< of floes of a run [s]
+  std::optional<ImportTotals> totals;  ///< where it was imported
+  std::size_t floes = 0;               ///< that it gave
+};
+
 struct LoadedScene {
   simulation::Scene scene;
   std::string description;
@@ -35,6 +45,7 @@ struct LoadedScene {
       resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
   std::string hash;   ///< of resolved_text: 16 hexadecimal digits, FNV-1a
   std::vector<FieldReport> fields;
+  std::vector<FileReport> files;
   std::vector<IceReport> ice;  ///< what was drawn of it, by floe groups and properties
   std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_hints.hpp)
 };

@@ -1,6 +1,7 @@
 // Floe files of scenes whose coordinates are no metres, or whose floes are those of a run.
 #include <algorithm>
 
+#include "scene_fingerprint.hpp"
 #include "temporary_folder.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,8 +50,8 @@ TEST_F(FloeFile, LongitudeAndLatitudeAreRefusedOnceWithWhatToDo) {
   const std::string degrees = collection({square(15.61, 78.201, 0.002), square(15.62, 78.203, 0.004)});
   const std::string found = problems(degrees);
   EXPECT_EQ(lines_in(found), 1U) << found;
-  for (const char* part :
-       {"floes.geojson:1:1: ", "longitude and latitude", "2e-05 m²", "+lat_0=78.2 +lon_0=15.617", "ogr2ogr"})
+  for (const char* part : {"floes.geojson:1:1: ", "longitude and latitude", "2e-05 m²",
+                           R"("origin": {"latitude_deg": 78.203, "longitude_deg": 15.616} in the scene)"})
     EXPECT_NE(found.find(part), std::string::npos) << part << "\n" << found;
   for (const std::string& large : {collection({square(-150, 71, 3), square(-140, 71, 3)}),  // 60 000 km²
                                    collection({square(-65, -70, 0.5)}), collection({square(12, 1, 0.5)})})
@@ -60,8 +61,9 @@ TEST_F(FloeFile, LongitudeAndLatitudeAreRefusedOnceWithWhatToDo) {
 TEST_F(FloeFile, ACrsDecidesWhereThereIsOne) {
   for (const char* name : {"urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326", "urn:ogc:def:crs:EPSG::4269",
                            "http://www.opengis.net/def/crs/OGC/1.3/CRS84", "WGS 84"}) {
-    const std::string found = problems(collection({square(0, 0, 800)}, crs(name)));
-    EXPECT_NE(found.find(fmt::format("crs: longitude and latitude ({})", name)), std::string::npos) << found;
+    const std::string found = problems(collection({square(0, 0, 8)}, crs(name)));
+    EXPECT_NE(found.find("longitude and latitude ("), std::string::npos) << name << found;
+    EXPECT_NE(found.find("no origin"), std::string::npos) << name << found;
     EXPECT_EQ(lines_in(found), 1U) << found;
   }
   for (const char* name : {"urn:ogc:def:crs:EPSG::3413", "EPSG:32633", "metres of the ice tank"})
@@ -85,31 +87,100 @@ TEST_F(FloeFile, CoordinatesTooFarAwayAreNamedOnce) {
       problems(collection({square(0, 0, 5), square(1104312.5, -512345.25, 800), square(1.2e6, 0, 800)}));
   EXPECT_EQ(lines_in(found), 1U) << found;
   for (const char* part :
-       {"found [1104312.5, -512345.25], and as far in 1 more", "-1000000 to 1000000", "ogr2ogr"})
+       {"found [1104312.5, -512345.25], and as far in 1 more", "-1e+06 to 1e+06", R"("shift": true)"})
     EXPECT_NE(found.find(part), std::string::npos) << part << "\n" << found;
   EXPECT_NE(problems(collection({R"({"type":"Polygon","coordinates":[[[0,0],[null,0],[1,1],[0,0]]]})"}))
                 .find("found null, allowed: a coordinate [m]"),
             std::string::npos);
 }
 
-/// A run's floes overlap where they are in contact: one problem, not one a pair. The overlaps of any other
-/// file stay problems of their own, and a run's floes that do not overlap are floes like others.
-TEST_F(FloeFile, TheFloesOfARunAreRefusedInOneSentence) {
+/// A run's floes overlap where they are in contact, by the ice that was crushed there. The overlaps of any
+/// other file are problems, and the same ice twice is.
+TEST_F(FloeFile, TheFloesOfARunMayOverlapAsItLeftThem) {
   const auto features = [](double side, bool are_of_a_run) {
     std::vector<std::string> all;
     for (int i = 0; i < 6; ++i) {
-      const std::string properties = fmt::format(R"("floe_id":{},"parent_id":null,"born_s":0)", i);
+      const std::string properties =
+          fmt::format(R"("floe_id":{},"parent_id":null,"born_s":0,"vx_m_per_s":0.25,"vy_m_per_s":0,)"
+                      R"("angular_velocity_deg_per_s":3,"fast_ice":{})",
+                      10 + i, i == 0);
       all.push_back(square(100.0 * i, 0, side, are_of_a_run ? properties : ""));
     }
     return all;
   };
-  const std::string found = problems(collection(features(100.01, true), R"("t_s":120.5,)"));
-  EXPECT_EQ(lines_in(found), 1U) << found;
-  for (const char* part :
-       {"the floes of a run at 120.5 s, of which 5 pairs overlap, by at most 1 m²", "polynya resume"})
-    EXPECT_NE(found.find(part), std::string::npos) << found;
-  EXPECT_EQ(problems(collection(features(99.9, true), R"("t_s":120.5,)")), "");
+  EXPECT_EQ(problems(collection(features(100.01, true), R"("t_s":120.5,)")), "");
   EXPECT_EQ(lines_in(problems(collection(features(100.01, false)))), 5U);
+  EXPECT_NE(problems(collection(features(2000, true), R"("t_s":120.5,)")).find("an overlap with"),
+            std::string::npos)
+      << "nearly all of a floe is not what was crushed";
+
+  write_file(folder / "floes.geojson", collection(features(100.01, true), R"("t_s":120.5,)"));
+  const auto scene = read_scene(R"({"water": {"drift_m_per_s": [0.05, -0.25]},
+    "floes": [{"file": "floes.geojson", "velocity_m_per_s": [9, 9]}]})",
+                                "scene.json", folder.path());
+  ASSERT_TRUE(scene) << to_string(scene.error().front());
+  const simulation::FloeSpec& fast = scene->scene.floes[0];
+  const simulation::FloeSpec& free = scene->scene.floes[1];
+  EXPECT_TRUE(fast.is_fast && !free.is_fast && free.has_crushed_overlaps);
+  EXPECT_EQ(fast.velocity, (geometry::Vector{0.25, 0})) << "over ground";
+  EXPECT_EQ(free.velocity, (geometry::Vector{0.2, 0.25})) << "relative to the water";
+  EXPECT_EQ(fast.angular_velocity, 0);
+  EXPECT_NEAR(free.angular_velocity, 0.0523598775598, 1e-12);
+  EXPECT_EQ(free.source_floe, 11);
+  const auto again = read_scene(scene->resolved_text, "scene.json", folder.path());
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->hash, scene->hash);
+  EXPECT_EQ(tests::fingerprint(again->scene), tests::fingerprint(scene->scene));
+}
+
+TEST_F(FloeFile, ASceneWithAnOriginProjectsDegrees) {
+  write_file(folder / "floes.geojson", collection({square(15.6, 78.2, 0.001), square(15.61, 78.2, 0.001)}));
+  const auto scene = read_scene(R"({"origin": {"latitude_deg": 78.2, "longitude_deg": 15.6},
+    "floes": [{"file": "floes.geojson"}]})",
+                                "scene.json", folder.path());
+  ASSERT_TRUE(scene) << to_string(scene.error().front());
+  const auto& ring = scene->scene.floes[0].polygon_in_world.outer;
+  EXPECT_NEAR(ring[1].x - ring[0].x, 22.8378, 1e-3);
+  EXPECT_NEAR(ring[2].y - ring[1].y, 111.6468, 1e-3);
+  EXPECT_EQ(scene->files.at(0).plane.system, "WGS 84 (CRS84)");
+  const auto south = read_scene(R"({"origin": {"latitude_deg": -75, "longitude_deg": 15.6},
+    "floes": [{"file": "floes.geojson"}]})",
+                                "scene.json", folder.path());
+  ASSERT_FALSE(south);
+  EXPECT_NE(to_string(south.error().front()).find("in the other hemisphere"), std::string::npos);
+}
+
+/// An entry's import does what `polynya import` does, and its resolved scene gives the same floes.
+TEST_F(FloeFile, AnImportRepairsTrimsAndReports) {
+  const std::string bow = R"({"type":"Polygon","coordinates":[[[60,0],[64,3],[64,0],[60,3],[60,0]]]})";
+  write_file(folder / "floes.geojson",
+             collection({square(0, 0, 10), square(8, 0, 4, R"("THICK":80)"), bow, square(100, 0, 1)}));
+  const auto scene = read_scene(R"({"floes": [{"file": "floes.geojson", "import":
+    {"repair": "even-odd", "min_area_m2": 2, "properties": "thickness_m=THICK*0.01"}}]})",
+                                "scene.json", folder.path());
+  ASSERT_TRUE(scene) << to_string(scene.error().front());
+  EXPECT_EQ(scene->scene.floes.size(), 4U);
+  const ImportTotals& totals = scene->files.at(0).totals.value();
+  EXPECT_EQ(totals.trimmed + totals.repaired + totals.dropped, 3U);
+  EXPECT_EQ(totals.area_trimmed, 8);
+  const auto again = read_scene(scene->resolved_text, "scene.json", folder.path());
+  ASSERT_TRUE(again);
+  EXPECT_EQ(tests::fingerprint(again->scene), tests::fingerprint(scene->scene));
+  const auto refused =
+      read_scene(R"({"floes": [{"file": "floes.geojson", "import": {}}]})", "scene.json", folder.path());
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.error().front()).find("self-crossing"), std::string::npos);
+  EXPECT_NE(to_string(refused.error().front()).find(R"("repair": "non-zero")"), std::string::npos);
+}
+
+TEST_F(FloeFile, PropertiesOfTheWrongTypeOrSignAreRefusedAtTheirPlace) {
+  const std::string found = problems(
+      collection({square(0, 0, 5, R"("thickness_m":-0.5)"), square(9, 0, 5, R"("vx_m_per_s":"fast")")}));
+  EXPECT_NE(
+      found.find("features[0].properties.thickness_m: found -0.5, allowed: a number from 0.001 to 20 [m]"),
+      std::string::npos)
+      << found;
+  EXPECT_NE(found.find("features[1].properties.vx_m_per_s: found \"fast\""), std::string::npos) << found;
 }
 
 }  // namespace

@@ -102,6 +102,7 @@ inline std::string fingerprint(const simulation::Scene& s) {
     text += fmt::format("ship {} {} {} {} {} {} {} {} ", ship.name, ship.mass, ship.moment_of_inertia,
                         ship.position_in_world.x, ship.position_in_world.y, ship.heading, ship.speed,
                         ship.hull.stem_angle);
+    text += fmt::format("{} {} ", ship.sway_speed, ship.yaw_rate);
     text += text_of(ship.hull.waterline);
     for (const double angle : ship.hull.angles_from_vertical) text += fmt::format(" {}", angle);
     text += sailing_fingerprint(ship);
@@ -118,6 +119,7 @@ inline std::string fingerprint(const simulation::Scene& s) {
   for (const auto& floe : s.floes) {
     text += fmt::format("floe {} {} {} {} {}", text_of(floe.polygon_in_world.outer), floe.velocity.x,
                         floe.velocity.y, floe.angular_velocity, floe.is_fast);
+    text += fmt::format(" {} {}", floe.has_crushed_overlaps, floe.source_floe);
     const fracture::Ice& ice = ice_of(s, floe.own_ice);
     text += fmt::format(" {} {} {} {} {} {}", ice.thickness, ice.density, ice.flexural_strength,
                         ice.compressive_strength, ice.tensile_strength, ice.fracture_toughness);

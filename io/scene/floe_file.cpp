@@ -1,0 +1,124 @@
+#include "io/scene/floe_file.hpp"
+
+#include <fmt/format.h>
+
+#include "io/import/foreign_file.hpp"
+#include "io/scene/floe_group.hpp"
+#include "io/scene/geojson_reader.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/source_text.hpp"
+
+namespace polynya::io {
+namespace {
+
+std::string origin_in_scene(double latitude, double longitude) {
+  return fmt::format("\"origin\": {{\"latitude_deg\": {:.6g}, \"longitude_deg\": {:.6g}}} in the scene",
+                     latitude, longitude);
+}
+
+/// Reads one file. One use.
+class FloeFileReader {
+ public:
+  FloeFileReader(const FloeFileSettings& settings, std::string path, std::uint32_t offset,
+                 ProblemCollector& problems)
+      : settings_(settings), path_(std::move(path)), offset_(offset), problems_(problems) {}
+
+  std::optional<FloeFile> read(const std::filesystem::path& file,
+                               const std::optional<simulation::GeographicOrigin>& origin) {
+    const std::size_t before = problems_.count();
+    auto text = text_of(file);
+    if (!text) {
+      report_entry("\"" + file.string() + "\": " + text.error(),
+                   fmt::format("a floe file of at most {} bytes", kLongestFloesFile));
+      return {};
+    }
+    result_.source = problems_.add_source({file.string(), std::move(*text)});
+    PropertyNames names;
+    for (const std::string& words : settings_.property_names)
+      if (auto added = add_property_name(words, names); !added)
+        report_entry(added.error(), "KEY=NAME, as thickness_m=THICK or thickness_m=CM*0.01");
+    const GeojsonFloes floes = read_geojson(result_.source, names, problems_);
+    if (problems_.count() > before) return {};
+    result_.run_time = floes.run_time;
+    place(floes, plane_of(floes, origin));
+    if (problems_.count() > before) return {};
+    return std::move(result_);
+  }
+
+ private:
+  Result<std::string> text_of(const std::filesystem::path& file) const {
+    const auto format = foreign_format(file);
+    return format ? read_foreign_file(file, *format, settings_.layer, kLongestFloesFile)
+                  : read_text_file(file, kLongestFloesFile);
+  }
+
+  PlaneSettings plane_of(const GeojsonFloes& floes,
+                         const std::optional<simulation::GeographicOrigin>& origin) const {
+    PlaneSettings plane = settings_.import.plane;
+    if (plane.target.empty()) plane.origin = origin;
+    plane.are_metres = floes.are_metres;
+    plane.origin_in_words = origin_in_scene;
+    plane.shift_in_words =
+        "\"import\": {\"shift\": true} beside \"file\" moves them to the middle of the plane, an origin in "
+        "the "
+        "scene projects them about a place";
+    plane.source_in_words = "\"import\": {\"from\": \"EPSG:n\"} beside \"file\" names it";
+    return plane;
+  }
+
+  void place(const GeojsonFloes& floes, PlaneSettings plane) {
+    std::vector<SourceFloe> sources;
+    sources.reserve(floes.polygons.size());
+    for (const GeojsonPolygon& one : floes.polygons) sources.push_back({one.polygon, one.properties});
+    if (!settings_.is_import) {
+      auto placed = bring_to_plane(sources, floes.crs, plane);
+      if (!placed) return report(floes, placed.error());
+      result_.plane = std::move(*placed);
+      for (std::size_t i = 0; i < sources.size(); ++i)
+        result_.floes.push_back({in_house_notation(std::move(sources[i].polygon)), sources[i].properties,
+                                 floes.polygons[i].offset});
+      return;
+    }
+    ImportSettings settings = settings_.import;
+    settings.plane = std::move(plane);
+    auto imported = import_floes(sources, {}, floes.crs, settings);
+    if (!imported) return report(floes, imported.error());
+    for (const ImportItem& item : imported->items) {
+      if (item.refused.empty()) continue;
+      problems_.report(result_.source, floes.polygons[item.source].offset,
+                       fmt::format("{} (its floe {})", path_, item.source), item.refused,
+                       "a valid polygon, or \"repair\": \"non-zero\" in its \"import\"");
+    }
+    result_.plane = std::move(imported->plane);
+    result_.totals = imported->totals;
+    for (ImportedFloe& floe : imported->floes)
+      result_.floes.push_back(
+          {std::move(floe.polygon), sources[floe.source].properties, floes.polygons[floe.source].offset});
+  }
+
+  void report(const GeojsonFloes& floes, const PlaneError& error) {
+    const std::uint32_t offset = error.floe ? floes.polygons[*error.floe].offset : floes.crs_offset;
+    problems_.add(result_.source, offset, {.path = path_, .sentence = error.words});
+  }
+
+  void report_entry(std::string found, std::string allowed) {
+    problems_.report(0, offset_, path_, std::move(found), std::move(allowed));
+  }
+
+  const FloeFileSettings& settings_;
+  std::string path_;
+  std::uint32_t offset_;
+  ProblemCollector& problems_;
+  FloeFile result_;
+};
+
+}  // namespace
+
+std::optional<FloeFile> read_floe_file(const std::filesystem::path& file, const FloeFileSettings& settings,
+                                       const std::optional<simulation::GeographicOrigin>& origin,
+                                       const std::string& path, std::uint32_t offset,
+                                       ProblemCollector& problems) {
+  return FloeFileReader(settings, path, offset, problems).read(file, origin);
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,136 @@
+// A run's end, or one of its frames, as the start of another.
+#include "views/export/scene_export.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../io/temporary_folder.hpp"
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/run/motion_index.hpp"
+#include "io/run/run_loop.hpp"
+#include "io/text/json_parser.hpp"
+
+namespace polynya::tests {
+namespace {
+
+/// A ship that pushes floes too small to break against each other, in a drifting sheared current.
+std::string crowd(double until) {
+  return fmt::format(R"({{
+    "name": "crowd", "time": {{"step_s": 0.01, "until_s": {}}},
+    "record": {{"forces_interval_s": 0.1, "frames_interval_s": 1}},
+    "water": {{"drift_m_per_s": [0.1, -0.2], "shear": {{"rate_per_s": 1e-4}}}},
+    "ships": [{{"name": "pusher", "hull": {{"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}}, "mass_kg": 3e6,
+               "moment_of_inertia_kg_m2": 5e8, "position_m": [-31, 1], "speed_m_per_s": 2, "propulsion": {{"thrust_N": 2e5}}}}],
+    "floes": [{{"lattice": {{"columns": 8, "rows": 9, "origin_m": [0, -36], "pitch_m": 8, "size_m": 7.9}}}}]}})",
+                     until);
+}
+
+class SceneExport : public testing::Test {
+ protected:
+  /// Runs a scene in the folder and reads the run.
+  io::Run run(const std::string& name, const io::LoadedScene& scene) const {
+    auto active = io::start_run(folder / name, scene);
+    EXPECT_TRUE(active) << active.error();
+    EXPECT_EQ(run_to_end(*active).end, io::RunEnd::kFinished);
+    auto read = io::read_run(folder / name);
+    EXPECT_TRUE(read) << read.error();
+    return std::move(*read);
+  }
+  io::LoadedScene load(const std::string& text, const std::string& name = "scene.json") const {
+    auto loaded = io::read_scene(text, name, folder.path());
+    if (loaded) return std::move(*loaded);
+    ADD_FAILURE() << to_string(loaded.error().front());
+    return {};
+  }
+  /// The scene that continues a run from a time.
+  io::LoadedScene continued(const io::Run& run, double time) const {
+    const auto scene = views::continued_scene(run, time);
+    EXPECT_TRUE(scene) << scene.error();
+    for (const auto& [name, text] : scene->files) write_file(folder / name, text);
+    return load(scene->files[0].second);
+  }
+  TemporaryFolder folder;
+};
+
+/// How far apart two runs are at their ends [m].
+struct Miss {
+  double ship = 0;
+  double floes = 0;  ///< the largest of all
+};
+Miss miss_between(const io::Run& a, const io::Run& b) {
+  const io::MotionIndex motions_a(a), motions_b(b);
+  Miss miss;
+  miss.ship = geometry::distance(motions_a.ship_at(0, a.end_time())->position,
+                                 motions_b.ship_at(0, b.end_time())->position);
+  EXPECT_EQ(a.floes.size(), b.floes.size());
+  for (std::size_t i = 0; i < a.floes.size(); ++i) {
+    const auto id = static_cast<simulation::FloeId>(i);
+    const auto p = motions_a.floe_at(id, a.end_time()), q = motions_b.floe_at(id, b.end_time());
+    if (p && q) miss.floes = std::max(miss.floes, geometry::distance(p->position, q->position));
+  }
+  return miss;
+}
+
+TEST_F(SceneExport, ContinuingFromTheEndMovesAsAnUnbrokenRun) {
+  const io::Run whole = run("whole", load(crowd(12)));
+  const io::Run half = run("half", load(crowd(8)));
+  const io::LoadedScene scene = continued(half, half.end_time());
+  EXPECT_TRUE(std::ranges::any_of(scene.scene.floes, [](const simulation::FloeSpec& floe) {
+    return length(floe.velocity) > 0.05;
+  })) << "ice is on the move";
+  EXPECT_EQ(scene.scene.floes[5].source_floe, 5);
+  const io::LoadedScene again = load(scene.resolved_text);
+  EXPECT_EQ(again.hash, scene.hash);
+  const io::Run rest = run("rest", load([&] {
+                             std::string text = read_file(folder / "scene.json");
+                             const std::size_t at = text.find("\"until_s\": ");
+                             return text.replace(at, text.find_first_of(",\n}", at) - at, "\"until_s\": 4");
+                           }()));
+  const Miss miss = miss_between(whole, rest);
+  EXPECT_LT(miss.ship, 2e-3);
+  EXPECT_LT(miss.floes, 0.2);
+  const double moved = distance(io::MotionIndex(whole).ship_at(0, 12)->position, {-31, 1});
+  EXPECT_GT(moved, 5);
+}
+
+TEST_F(SceneExport, AFrameIsAStartToo) {
+  const io::Run whole = run("whole", load(crowd(12)));
+  const auto scene = views::continued_scene(whole, 8.6);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->time, 8);
+  EXPECT_TRUE(scene->left_out.empty());
+  const io::LoadedScene loaded = continued(whole, 8.6);
+  EXPECT_NEAR(loaded.scene.time.until, 4, 1e-12);
+  EXPECT_NEAR(loaded.scene.water.shear.origin.y, -1.6, 1e-12);
+  const Miss miss = miss_between(whole, run("rest", loaded));
+  EXPECT_LT(miss.ship, 2e-3);
+  EXPECT_LT(miss.floes, 0.2);
+}
+
+TEST_F(SceneExport, AShipGoesOnAsItWent) {
+  const io::Run whole = run("whole", load(crowd(6)));
+  const auto at = io::MotionIndex(whole).ship_at(0, 6);
+  const io::LoadedScene loaded = continued(whole, 6);
+  const simulation::ShipSpec& ship = loaded.scene.ships[0];
+  EXPECT_EQ(ship.position_in_world, at->position);
+  const geometry::Vector ahead{std::cos(at->angle), std::sin(at->angle)};
+  EXPECT_NEAR(length(ship.speed * ahead + ship.sway_speed * perpendicular(ahead) - at->velocity), 0, 1e-12);
+  EXPECT_NEAR(ship.yaw_rate, at->angular_velocity, 1e-12);
+}
+
+TEST_F(SceneExport, TheClockOfATablePilotGoesOn) {
+  const std::string text = R"({"time": {"step_s": 0.1, "until_s": 40}, "ships": [{"ship": "reference",
+    "pilot": {"table": {"rows": [{"t_s": 0, "lever": 0}, {"t_s": 20, "lever": 1}, {"t_s": 60, "lever": 0.2}]}}}]})";
+  const io::LoadedScene loaded = continued(run("sailing", load(text)), 10);
+  const auto& rows = std::get<simulation::TablePilot>(loaded.scene.ships[0].pilot).rows;
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].time, 0);
+  EXPECT_NEAR(rows[0].lever, 0.5, 1e-12);
+  EXPECT_EQ(rows[1].time, 10);
+  EXPECT_EQ(rows[2].time, 50);
+}
+
+}  // namespace
+}  // namespace polynya::tests

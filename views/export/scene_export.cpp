@@ -1,0 +1,218 @@
+#include "views/export/scene_export.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "io/run/placed_floes.hpp"
+#include "io/run/records.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/text/json_parser.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/source_text.hpp"
+
+namespace polynya::views {
+namespace {
+
+using io::JsonMember;
+using io::JsonValue;
+using JsonKind = JsonValue::Kind;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr std::size_t kLongestFinal = std::size_t{1} << 31;  ///< [bytes]
+
+void put(JsonValue& object, std::string_view key, JsonValue value) {
+  if (JsonValue* there = object.find(key))
+    *there = std::move(value);
+  else
+    object.members().push_back({std::string(key), 0, std::move(value)});
+}
+JsonValue pair_of(double x, double y) {
+  return {JsonValue::Array{{x}, {y}}};
+}
+
+/// Which floes are fast ice: the scene's, and of the pieces of one the largest that is ice still.
+std::vector<bool> fast_floes(const io::Run& run) {
+  std::vector<bool> is_fast(run.floes.size());
+  const auto& specs = run.scene.scene.floes;
+  for (std::size_t i = 0; i < std::min(specs.size(), is_fast.size()); ++i) is_fast[i] = specs[i].is_fast;
+  for (const simulation::Event& event : run.events) {
+    if (event.floe < 0 || static_cast<std::size_t>(event.floe) >= is_fast.size() || !is_fast[event.floe])
+      continue;
+    const io::RunFloe* largest = nullptr;
+    for (const simulation::FloeId child : event.children) {
+      const io::RunFloe* floe = run.floe(child);
+      if (floe && (!largest || floe->birth.area > largest->birth.area)) largest = floe;
+    }
+    if (largest) is_fast[largest->birth.floe] = true;
+  }
+  return is_fast;
+}
+
+/// The floes at a frame as final.geojson has them.
+std::string floes_text(const io::Run& run, const io::MotionIndex& motions, double time) {
+  const std::vector<bool> is_fast = fast_floes(run);
+  const std::vector<io::PlacedFloe> placed = floes_at(run, motions, time);
+  std::vector<simulation::FloeState> states;
+  states.reserve(placed.size());
+  for (const io::PlacedFloe& floe : placed) {
+    const simulation::BirthRecord& birth = *floe.birth;
+    simulation::FloeState& state = states.emplace_back();
+    state.floe = birth.floe;
+    state.parent = birth.parent;
+    state.born = birth.time;
+    state.generation = birth.generation;
+    state.world_from_body = floe.world_from_body;
+    if (floe.motion) {
+      state.velocity = floe.motion->velocity;
+      state.angular_velocity = floe.motion->angular_velocity;
+    }
+    state.area = birth.area;
+    state.mass = birth.mass;
+    state.ice = &ice_of(run.scene.scene, birth.own_ice);
+    state.is_fast = is_fast[static_cast<std::size_t>(birth.floe)];
+    state.polygon_in_body = floe.polygon_in_body.get();
+  }
+  return io::to_geojson(states, time);
+}
+
+/// Brings a ship of the resolved scene to where it is.
+void place_ship(JsonValue& ship, const io::Motion& motion) {
+  const geometry::Vector ahead{std::cos(motion.angle), std::sin(motion.angle)};
+  put(ship, "position_m", pair_of(motion.position.x, motion.position.y));
+  put(ship, "heading_deg", {std::remainder(kDegrees * motion.angle, 360)});
+  const JsonValue* propulsion = ship.find("propulsion");
+  if (propulsion && propulsion->find("constant_speed_m_per_s")) return;
+  put(ship, "speed_m_per_s", {dot(motion.velocity, ahead)});
+  put(ship, "sway_speed_m_per_s", {dot(motion.velocity, perpendicular(ahead))});
+  put(ship, "yaw_rate_deg_per_s", {kDegrees * motion.angular_velocity});
+}
+
+/// The clock starts again: rows of a table pilot that lie behind are cut off where it is now.
+void shift_table(JsonValue& rows, double time) {
+  JsonValue::Array later;
+  const JsonValue::Array& all = rows.items();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    JsonValue row = all[i];
+    const double at = row.find("t_s")->number() - time;
+    if (at < 0 && i + 1 < all.size()) {
+      const JsonValue& next = all[i + 1];
+      const double end = next.find("t_s")->number() - time;
+      if (end <= 0) continue;
+      for (JsonMember& member : row.members()) {
+        const JsonValue* other = next.find(member.key);
+        if (other && member.value.is(JsonKind::kNumber))
+          member.value.data = std::lerp(member.value.number(), other->number(), -at / (end - at));
+      }
+    }
+    put(row, "t_s", {std::max(0.0, at)});
+    later.push_back(std::move(row));
+  }
+  rows.data = std::move(later);
+}
+
+/// A pilot that holds the heading of the start holds that one.
+void keep_heading(JsonValue& ship, double heading) {
+  JsonValue* pilot = ship.find("steering") ? ship.find("pilot") : nullptr;
+  for (const char* kind : {"hold_speed", "hold_heading", "ram"}) {
+    JsonValue* settings = pilot ? pilot->find(kind) : nullptr;
+    if (settings && !settings->find("heading_deg")) put(*settings, "heading_deg", {heading});
+  }
+}
+
+/// What a ship's pilot and steering remember that the scene does not have.
+void note_memory(const JsonValue& ship, std::vector<std::string>& left_out) {
+  const JsonValue* name = ship.find("name", JsonKind::kText);
+  const auto note = [&](std::string_view what) {
+    left_out.push_back(fmt::format("{}: {}", name ? name->text() : "a ship", what));
+  };
+  const JsonValue* pilot = ship.find("pilot");
+  if (pilot && pilot->find("route")) note("its route begins again; take out the waypoints that lie behind");
+  if (pilot && pilot->find("ram")) note("its ramming begins with a charge");
+  if (ship.find("steering")) note("its rudder or thrusters start amidships");
+}
+
+/// Walls are behind ships and structures in the scene's list; those that moved are where they came to.
+void place_walls(JsonValue& scene, const io::Run& run, const io::MotionIndex& motions, double time,
+                 std::vector<std::string>& left_out) {
+  JsonValue* walls = scene.find("walls");
+  const std::size_t count = walls ? walls->items().size() : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t index = run.scene.scene.ships.size() - count + i;
+    const simulation::ShipSpec& spec = run.scene.scene.ships.at(index);
+    const auto motion = motions.ship_at(index, time);
+    if (!motion) continue;
+    const geometry::Vector moved = motion->position - spec.position_in_world;
+    JsonValue& wall = walls->items()[i];
+    for (const char* key : {"from_m", "to_m"}) {
+      const JsonValue::Array& end = wall.find(key)->items();
+      put(wall, key, pair_of(end[0].number() + moved.x, end[1].number() + moved.y));
+    }
+    if (wall.find("pressure")) left_out.push_back(spec.name + ": it starts to press from rest");
+  }
+}
+
+void place_ships(JsonValue& scene, const io::Run& run, const io::MotionIndex& motions, double time,
+                 std::vector<std::string>& left_out) {
+  JsonValue* ships = scene.find("ships");
+  for (std::size_t i = 0; ships && i < ships->items().size(); ++i) {
+    JsonValue& ship = ships->items()[i];
+    keep_heading(ship, kDegrees * run.scene.scene.ships.at(i).heading);
+    if (const auto motion = motions.ship_at(i, time)) place_ship(ship, *motion);
+    note_memory(ship, left_out);
+    JsonValue* pilot = ship.find("pilot");
+    JsonValue* table = pilot ? pilot->find("table") : nullptr;
+    if (JsonValue* rows = table ? table->find("rows") : nullptr) shift_table(*rows, time);
+  }
+  const auto under = floes_under_hulls_at(run, motions, time).size();
+  if (under > 0)
+    left_out.push_back(
+        fmt::format("{} floe{} under hulls or waiting behind them", under, under == 1 ? "" : "s"));
+}
+
+/// The scene's own clock and current, from then on.
+void restart_clock(JsonValue& scene, const simulation::Scene& before, double time) {
+  JsonValue* clock = scene.find("time");
+  const double left = before.time.until - time;
+  if (clock && left >= before.time.step) put(*clock, "until_s", {left});
+  JsonValue* water = scene.find("water");
+  JsonValue* shear = water ? water->find("shear") : nullptr;
+  if (!shear || before.water.shear.rate == 0) return;
+  const geometry::Point origin = before.water.shear.origin + time * before.water.drift;
+  put(*shear, "origin_m", pair_of(origin.x, origin.y));
+}
+
+}  // namespace
+
+io::Result<ContinuedScene> continued_scene(const io::Run& run, double time) {
+  if (run.frames.empty()) return io::fail(run.folder.string() + ": it has no frames");
+  ContinuedScene continued;
+  continued.time = run.start_time();
+  for (const io::Frame& frame : run.frames)
+    if (frame.time <= time) continued.time = frame.time;
+  const io::MotionIndex motions(run);
+  // The end is in final.geojson to the last bit, frames are within their tolerances.
+  std::string floes;
+  if (continued.time == run.end_time()) {
+    auto final_floes = io::read_text_file(run.folder / io::run_file::kFinalGeojson, kLongestFinal);
+    std::string begin = R"({"type":"FeatureCollection","t_s":)";
+    io::append_number(begin, continued.time);
+    if (final_floes && final_floes->starts_with(begin + ",")) floes = std::move(*final_floes);
+  }
+  if (floes.empty()) floes = floes_text(run, motions, continued.time);
+  JsonValue scene = io::parse_json(run.scene.resolved_text).root;
+  const std::string name = fmt::format("{}-from-{:g}s", run.scene.scene.name.substr(0, 80), continued.time);
+  put(scene, "name", {name});
+  restart_clock(scene, run.scene.scene, continued.time);
+  place_ships(scene, run, motions, continued.time, continued.left_out);
+  place_walls(scene, run, motions, continued.time, continued.left_out);
+  JsonValue entry{JsonValue::Object{}};
+  entry.members().push_back({"file", 0, {std::string("floes.geojson")}});
+  put(scene, "floes", {JsonValue::Array{std::move(entry)}});
+  continued.files = {{"scene.json", to_json_text(scene)}, {"floes.geojson", std::move(floes)}};
+  return continued;
+}
+
+}  // namespace polynya::views
