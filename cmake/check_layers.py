@@ -36,7 +36,7 @@ PACKAGES = {
     r"boost/math/": ["fracture/bending/", "fracture/scatter"],
     r"boost/crc": ["io/run/"],
     r"nlohmann/": ["io/text/"],
-    r"proj\.h$": ["io/import/projection.cpp"],
+    r"(proj|dlfcn)\.h$": ["io/import/projection.cpp"],
     r"CLI/": ["app/command_line.hpp"],
     r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/", "python/module/"],
     r"pybind11/": ["python/module/"],

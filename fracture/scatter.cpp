@@ -26,7 +26,8 @@ Gauss gauss_of(const ScatterLaw& law) {
 
 bool is_single_value(const ScatterLaw& law) {
   if (law.kind == ScatterKind::kUniform) return law.least == law.most;
-  return law.kind == ScatterKind::kConstant || law.spread == 0;
+  return law.kind == ScatterKind::kConstant ||
+         gauss_of(law).deviation == 0;  // also where its square underflows
 }
 
 double single_value(const ScatterLaw& law) {

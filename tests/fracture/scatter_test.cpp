@@ -87,5 +87,13 @@ TEST(Scatter, TheDistanceIsSmallForItsOwnLawAlone) {
   }
 }
 
+TEST(Scatter, ASpreadWhoseSquareIsNoNumberIsNone) {
+  for (const ScatterKind kind : {ScatterKind::kNormal, ScatterKind::kLogNormal}) {
+    const ScatterLaw law{kind, 1, kind == ScatterKind::kNormal ? 0 : 5.6e-257};
+    EXPECT_EQ(quantile(law, 0.3), 1);
+    EXPECT_EQ(share_within_bounds(law), 1);
+  }
+}
+
 }  // namespace
 }  // namespace polynya::fracture
