@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/field_report.hpp"
 #include "app/load_scene.hpp"
 #include "app/memory_check.hpp"
 #include "app/options.hpp"
@@ -38,6 +39,7 @@ tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
         load_scene(options.scene, {.until = options.until, .seed = options.seed, .assignments = options.set});
     if (!loaded) return tl::unexpected(loaded.error());
     print_hints(*loaded);
+    print_fields(*loaded);
     if (!may_fit(loaded->scene, options.scene, memory_available())) return tl::unexpected(kOutOfMemory);
     auto simulation = std::make_unique<simulation::Simulation>(loaded->scene);
     return Start{std::make_unique<io::LoadedScene>(std::move(*loaded)), std::move(simulation)};

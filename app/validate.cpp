@@ -3,6 +3,7 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/field_report.hpp"
 #include "app/load_scene.hpp"
 #include "app/options.hpp"
 #include "app/validate_cases.hpp"
@@ -32,12 +33,7 @@ struct Options {
 
 /// How the scene's fields, drawn ice and floe files came out.
 void print_floes(const io::LoadedScene& loaded) {
-  for (const io::FieldReport& field : loaded.fields) {
-    const simulation::FloeFieldOutcome& outcome = field.outcome;
-    print_out("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
-              field.group, outcome.count, outcome.mean_size, 100 * outcome.size_spread,
-              100 * outcome.concentration(), outcome.region_area, outcome.left_out);
-  }
+  print_fields(loaded);
   for (const io::IceReport& report : loaded.ice) {
     const io::FloeIceProperty& property = io::floe_ice_properties()[report.property];
     const fracture::ScatterMeasures& drawn = report.measures;

@@ -5,6 +5,9 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/power_diagram.hpp"
+#include "simulation/field/convex.hpp"
+#include "simulation/field/obstacles.hpp"
+#include "simulation/field/packed_field.hpp"
 #include "simulation/random.hpp"
 
 namespace polynya::simulation {
@@ -71,33 +74,13 @@ std::vector<Site> first_sites(const Box& box, const std::vector<double>& areas, 
   return sites;
 }
 
-struct CellMeasures {
-  double area = 0;
-  Point centroid;
-};
-
-/// Of a convex ring, from its first corner: cheaper than geometry::measure, and precise far from the origin.
-CellMeasures measure_cell(const Ring& ring) {
-  double twice_area = 0;
-  Vector moment;
-  for (std::size_t i = 2; i < ring.size(); ++i) {
-    const Vector p = ring[i - 1] - ring[0];
-    const Vector q = ring[i] - ring[0];
-    const double part = cross(p, q);
-    twice_area += part;
-    moment += part * (p + q);
-  }
-  if (!(twice_area > 0)) return {};
-  return {0.5 * twice_area, ring[0] + moment / (3 * twice_area)};
-}
-
 /// Cells whose areas approach `targets` [m²]: sites move to their centroids while weights follow the areas'
 /// errors.
 std::vector<Ring> relaxed_cells(std::vector<Site> sites, const std::vector<double>& targets, const Box& box) {
   std::vector<Ring> cells = power_diagram(sites, box);
   for (int pass = 0; pass < kRelaxations; ++pass) {
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      const CellMeasures cell = cells[i].empty() ? CellMeasures{} : measure_cell(cells[i]);
+      const CellMeasures cell = cells[i].empty() ? CellMeasures{} : measure_convex(cells[i]);
       if (cell.area > 0) sites[i].point = cell.centroid;
       // A hexagon's area grows by √3 per unit of weight while its neighbours stay. Weights wait until the
       // sites have spread: too early, they would leave close sites without a cell.
@@ -106,33 +89,6 @@ std::vector<Ring> relaxed_cells(std::vector<Site> sites, const std::vector<doubl
     cells = power_diagram(sites, box);
   }
   return cells;
-}
-
-double corner_area(const Ring& ring, std::size_t i) {
-  const std::size_t n = ring.size();
-  return 0.5 * cross(ring[i] - ring[(i + n - 1) % n], ring[(i + 1) % n] - ring[i]);
-}
-
-/// Removes corners of a convex ring, those of least area first, until it has few enough and none of its edges
-/// is very short. The result lies within the ring.
-void reduce_corners(Ring& ring, int most, double shortest) {
-  while (ring.size() > 3) {
-    const std::size_t n = ring.size();
-    std::size_t least = n;
-    const auto consider = [&](std::size_t i) {
-      if (least == n || corner_area(ring, i) < corner_area(ring, least)) least = i;
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-      if (distance(ring[i], ring[(i + 1) % n]) >= shortest) continue;
-      consider(i);
-      consider((i + 1) % n);
-    }
-    if (least == n && n > static_cast<std::size_t>(most)) {
-      for (std::size_t i = 0; i < n; ++i) consider(i);
-    }
-    if (least == n) return;
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(least));
-  }
 }
 
 /// A floe in the making: its cell with reduced corners, the area it should have, and the most it can have.
@@ -171,7 +127,7 @@ std::vector<Cell> make_cells(const FloeField& field, const Box& box) {
     Cell cell;
     cell.ring = std::move(rings[i]);
     reduce_corners(cell.ring, field.most_corners, kShortestEdge * std::sqrt(areas[i]));
-    const CellMeasures measures = measure_cell(cell.ring);
+    const CellMeasures measures = measure_convex(cell.ring);
     if (!(measures.area > 0)) continue;
     cell.centroid = measures.centroid;
     cell.area = measures.area;
@@ -197,68 +153,19 @@ double common_factor(const std::vector<Cell>& cells, double total) {
   return 0.5 * (low + high);
 }
 
-double squared_distance(Point p, Point from, Point to) {
-  return squared_length(p - nearest_on_segment(from, to, p));
-}
-
-bool cross_each_other(Point a, Point b, Point c, Point d) {
-  const auto side = [](Point from, Point to, Point p) { return cross(to - from, p - from) > 0; };
-  return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
-}
-
-bool is_near_ring(const Ring& floe, const Ring& ring, double gap) {
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point a = ring[i];
-    const Point b = ring[(i + 1) % ring.size()];
-    for (std::size_t k = 0; k < floe.size(); ++k) {
-      const Point c = floe[k];
-      const Point d = floe[(k + 1) % floe.size()];
-      const double nearest = std::min({squared_distance(a, c, d), squared_distance(b, c, d),
-                                       squared_distance(c, a, b), squared_distance(d, a, b)});
-      if (nearest < gap * gap || cross_each_other(a, b, c, d)) return true;
-    }
-  }
-  return false;
-}
-
-/// Where floes may not be: what is kept clear, and beyond an outline.
-class Obstacles {
- public:
-  explicit Obstacles(const FloeField& field) : field_(field) {
-    for (const Polygon& polygon : field.kept_clear)
-      boxes_.push_back(grown(bounding_box(polygon.outer), field.gap));
-  }
-
-  bool forbid(const Ring& floe) const {
-    if (!field_.is_rectangle &&
-        (is_near_ring(floe, field_.region, 0) || !geometry::contains({field_.region, {}}, floe.front())))
-      return true;
-    const Box box = bounding_box(floe);
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      if (!overlaps(box, boxes_[i])) continue;
-      const Polygon& polygon = field_.kept_clear[i];
-      if (is_near_ring(floe, polygon.outer, field_.gap) || geometry::contains(polygon, floe.front()) ||
-          geometry::contains({floe, {}}, polygon.outer.front()))
-        return true;
-    }
-    return false;
-  }
-
- private:
-  const FloeField& field_;
-  std::vector<Box> boxes_;
-};
-
 }  // namespace
 
 double floe_count(const FloeField& field) {
+  if (field.law)
+    return std::round(field.concentration * geometry::signed_area(field.region) / mean_area(*field.law));
   const Box box = bounding_box(field.region);
   const double area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
-  const double mean_area = field.floe_size * field.floe_size * (1 + field.size_spread * field.size_spread);
-  return std::round(field.concentration * area / mean_area);
+  const double mean = field.floe_size * field.floe_size * (1 + field.size_spread * field.size_spread);
+  return std::round(field.concentration * area / mean);
 }
 
 FloeFieldOutcome make_floe_field(const FloeField& field) {
+  if (field.law) return make_packed_field(field);
   const Box box = bounding_box(field.region);
   const std::vector<Cell> cells = make_cells(field, box);
   const double box_area = (box.high.x - box.low.x) * (box.high.y - box.low.y);

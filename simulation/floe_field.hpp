@@ -1,22 +1,30 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
+#include "simulation/field/field_statistics.hpp"
 
 namespace polynya::simulation {
 
 /// A random field of convex floes, as a scene asks for it. The size of a floe is √area.
 struct FloeField {
-  geometry::Ring region;                      ///< counter-clockwise [m]
-  bool is_rectangle = true;                   ///< the region is a rectangle along the axes
-  double floe_size = 15;                      ///< mean of √area [m]
-  double size_spread = 0.25;                  ///< standard deviation of √area / its mean [-]
-  double concentration = 0.5;                 ///< ice-covered share of the region [-]
-  double gap = 0.05;                          ///< least distance between floes [m]
-  int most_corners = 8;                       ///< of a floe
-  std::uint64_t seed = 0;                     ///< of the scene and of the field together
+  geometry::Ring region;              ///< counter-clockwise [m]
+  bool is_rectangle = true;           ///< the region is a rectangle along the axes
+  std::vector<geometry::Ring> parts;  ///< of the region, filled one after the other; empty: all at once
+  std::optional<SizeLaw> law;         ///< then floe_size and size_spread do not count
+  double aspect = 1;                  ///< of a law: mean length over width; no less than cells' own [-]
+  std::optional<double> orientation;  ///< of a law: of the floes' length, from the x axis; none: any [rad]
+  int least_corners = 3;              ///< of a law
+  double packing = 0;                 ///< of a law: concentration before holes are left [-]
+  double floe_size = 15;              ///< mean of √area [m]
+  double size_spread = 0.25;          ///< standard deviation of √area / its mean [-]
+  double concentration = 0.5;         ///< ice-covered share of the region [-]
+  double gap = 0.05;                  ///< least distance between floes [m]
+  int most_corners = 8;               ///< of a floe
+  std::uint64_t seed = 0;             ///< of the scene and of the field together
   std::vector<geometry::Polygon> kept_clear;  ///< no floe comes nearer to these than the gap [m]
 };
 
@@ -24,12 +32,14 @@ struct FloeField {
 struct FloeFieldOutcome {
   std::vector<geometry::Polygon> floes;  ///< valid and at least the gap apart [m]
   int count = 0;                         ///< of the floes
-  double region_area = 0;                ///< [m²]
+  double region_area = 0;                ///< of a law: less what is kept clear [m²]
   double floe_area = 0;                  ///< [m²]
   double mean_size = 0;                  ///< of √area [m]
   double size_spread = 0;                ///< of √area [-]
   int left_out = 0;                      ///< floes that would be in what is kept clear, or across the outline
   double reachable_concentration = 1;  ///< with every cell filled up to the gap; less than asked: refused [-]
+  double reachable_without_gap = 1;    ///< of a law [-]
+  std::optional<FieldStatistics> statistics;  ///< of a law
 
   double concentration() const { return region_area > 0 ? floe_area / region_area : 0; }
 };
@@ -38,13 +48,13 @@ struct FloeFieldOutcome {
 /// region's bounding box.
 double floe_count(const FloeField& field);
 
-/// Fills the region with floes: sizes are drawn from a lognormal distribution (cut off at 2.5 deviations of
-/// the logarithm); a power diagram of as many sites, relaxed so that each cell's area goes with its floe's
-/// [Balzer2009, deGoes2012], tiles the region; each cell, its corners reduced, is shrunk about its centroid
-/// to its floe's area, or to where the gap is reached, and the others then make up for it. Floes are at
-/// least the gap apart by construction, at any concentration up to what the gap leaves. Sites without
-/// a cell are lost: none in 1000 up to a spread of 0.3, 4 in 100 at 0.5, where the smallest floes are
-/// smaller than drawn. The same numbers on every machine.
+/// Fills the region with floes. With a law by make_packed_field() (field/packed_field.hpp). Else: sizes are
+/// drawn from a lognormal distribution (cut off at 2.5 deviations of the logarithm); a power diagram of as
+/// many sites, relaxed so that each cell's area goes with its floe's [Balzer2009, deGoes2012], tiles the
+/// region; each cell, its corners reduced, is shrunk about its centroid to its floe's area, or to where the
+/// gap is reached, and the others then make up for it. Floes are at least the gap apart by construction, at
+/// any concentration up to what the gap leaves. Sites without a cell are lost: none in 1000 up to a spread of
+/// 0.3, 4 in 100 at 0.5, where the smallest floes are smaller than drawn. The same numbers on every machine.
 FloeFieldOutcome make_floe_field(const FloeField& field);
 
 }  // namespace polynya::simulation

@@ -4,64 +4,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/shape/site_bins.hpp"
+
 namespace polynya::geometry {
 namespace {
-
-/// The sites in square bins over the box, about one a bin.
-class Bins {
- public:
-  Bins(const std::vector<Site>& sites, const Box& box) : low_(box.low) {
-    const Vector extent = box.high - box.low;
-    side_ = std::max(
-        {std::sqrt(extent.x * extent.y / static_cast<double>(sites.size())), extent.x / 1e6, extent.y / 1e6});
-    columns_ = 1 + static_cast<int>(extent.x / side_);
-    rows_ = 1 + static_cast<int>(extent.y / side_);
-    first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
-    for (const Site& site : sites) ++first_[bin_at(site.point) + 1];
-    for (std::size_t bin = 1; bin < first_.size(); ++bin) first_[bin] += first_[bin - 1];
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    members_.resize(sites.size());
-    for (std::size_t i = 0; i < sites.size(); ++i)
-      members_[next[bin_at(sites[i].point)]++] = static_cast<std::uint32_t>(i);
-  }
-
-  double side() const { return side_; }
-  int most_rings() const { return std::max(columns_, rows_); }
-
-  /// Calls visit(site) for the sites of the bins that are `ring` bins away from the point's.
-  template <class Visit>
-  void for_ring(Point p, int ring, Visit visit) const {
-    const int column = column_of(p.x);
-    const int row = row_of(p.y);
-    for (int r = std::max(0, row - ring); r <= std::min(rows_ - 1, row + ring); ++r) {
-      const bool is_end_row = r == row - ring || r == row + ring;
-      const int stride = is_end_row || ring == 0 ? 1 : 2 * ring;
-      for (int c = column - ring; c <= column + ring; c += stride) {
-        if (c < 0 || c >= columns_) continue;
-        const std::size_t bin = index(c, r);
-        for (std::uint32_t k = first_[bin]; k < first_[bin + 1]; ++k) visit(members_[k]);
-      }
-    }
-  }
-
- private:
-  int column_of(double x) const {
-    return std::clamp(static_cast<int>((x - low_.x) / side_), 0, columns_ - 1);
-  }
-  int row_of(double y) const { return std::clamp(static_cast<int>((y - low_.y) / side_), 0, rows_ - 1); }
-  std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
-  }
-  std::size_t bin_at(Point p) const { return index(column_of(p.x), row_of(p.y)); }
-
-  Point low_;
-  double side_ = 1;
-  int columns_ = 1;
-  int rows_ = 1;
-  std::vector<std::uint32_t> first_;  // of each bin among the members, and the end
-  std::vector<std::uint32_t> members_;
-};
 
 /// Leaves of a convex ring what lies within dot(normal, x − origin) ≤ offset.
 void clip(Ring& ring, Ring& scratch, Point origin, Vector normal, double offset) {
@@ -90,7 +36,7 @@ double squared_reach(const Ring& ring, Point from) {
 std::vector<Ring> power_diagram(const std::vector<Site>& sites, const Box& box) {
   std::vector<Ring> cells(sites.size());
   if (sites.empty()) return cells;
-  const Bins bins(sites, box);
+  const SiteBins bins(sites, box);
   double heaviest = sites.front().weight;
   for (const Site& site : sites) heaviest = std::max(heaviest, site.weight);
   Ring scratch;

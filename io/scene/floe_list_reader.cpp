@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/validity.hpp"
+#include "io/scene/field_reader.hpp"
 #include "io/scene/floe_group.hpp"
-#include "io/scene/scene_check.hpp"
 #include "io/scene/scene_resolve.hpp"
 #include "simulation/setup.hpp"
 
@@ -67,57 +66,25 @@ void FloeListReader::add_floes(std::size_t index, const JsonValue& item) {
 
 void FloeListReader::add_field(std::size_t index, const JsonValue& item) {
   const std::string path = fmt::format("floes[{}].field", index);
-  const JsonValue& json = *item.find("field");
-  simulation::FloeField field = draft_.group.field;
-  complete(field);
-  if (!check_rings(field, json, path)) return;
-  const double count = simulation::floe_count(field);
+  JsonValue completed = item;
+  const auto field = complete_field(completed, path, draft_, problems_);
+  if (!field) return;
+  const double count = simulation::floe_count(*field);
   if (count < 1)
-    return report(json.offset, path, "room for less than one floe",
-                  "a region for some floes of floe_size_m at the concentration");
+    return report(item.find("field")->offset, path, "room for less than one floe",
+                  "a region for some floes of that size at the concentration");
   if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), item, path)) return;
-  simulation::FloeFieldOutcome outcome = simulation::make_floe_field(field);
-  if (outcome.reachable_concentration < field.concentration)
-    return report(json.find("concentration")->offset, path + ".concentration",
-                  show(*json.find("concentration")),
-                  fmt::format("at most {:.3g} with this gap_m", outcome.reachable_concentration));
+  simulation::FloeFieldOutcome outcome = simulation::make_floe_field(*field);
+  if (!check_cover(*field, outcome, completed, path, problems_)) return;
   int member = 0;
   for (geometry::Polygon& floe : outcome.floes) {
     add_floe(std::move(floe),
              {.offset = item.offset, .group = index, .member = member++, .is_known_valid = true});
   }
   outcome.floes.clear();
-  fields_.push_back({index, std::move(outcome)});
-  resolved_.items().push_back(item);
-}
-
-/// What a field needs of the rest of the scene.
-void FloeListReader::complete(simulation::FloeField& field) const {
-  const FloeGroup& group = draft_.group;
-  field.is_rectangle = group.extent != geometry::Vector{};
-  field.region = field.is_rectangle ? rectangle(group.origin, group.extent).outer
-                                    : in_house_notation({field.region, {}}).outer;
-  field.seed += draft_.scene.seed;
-  for (geometry::Polygon& clear : field.kept_clear) clear = in_house_notation(std::move(clear));
-  for (const auto& ship : draft_.scene.ships) {
-    if (ship.hull.waterline.size() >= 3) field.kept_clear.push_back(waterline_in_world(ship));
-  }
-}
-
-bool FloeListReader::check_rings(const simulation::FloeField& field, const JsonValue& json,
-                                 const std::string& path) {
-  const auto check = [&](const geometry::Ring& ring, const JsonValue& at, const std::string& key) {
-    const auto defect = geometry::find_defect({ring, {}});
-    if (defect) report(at.offset, path + "." + key, "an invalid ring: " + describe(*defect), "a simple ring");
-    return !defect;
-  };
-  bool is_good = field.is_rectangle || check(field.region, *json.find("outline_m"), "outline_m");
-  const JsonValue& rings = *json.find("keep_clear_m");
-  for (std::size_t i = 0; i < rings.items().size(); ++i) {
-    const std::string key = fmt::format("keep_clear_m[{}]", i);
-    is_good = check(field.kept_clear[i].outer, rings.items()[i], key) && is_good;
-  }
-  return is_good;
+  outcome.floes.shrink_to_fit();
+  fields_.push_back({index, field->gap, std::move(outcome)});
+  resolved_.items().push_back(std::move(completed));
 }
 
 bool FloeListReader::check_lattice(const JsonValue& item, const std::string& path) {

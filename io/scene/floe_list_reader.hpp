@@ -40,8 +40,6 @@ class FloeListReader {
   JsonValue spelled_out(const FileFloe& floe, const JsonValue& item, bool is_of_run) const;
   static void fill_in(simulation::FloeSpec& spec, const JsonValue& entry);
   void add_floe(geometry::Polygon polygon, Origin origin);
-  void complete(simulation::FloeField& field) const;
-  bool check_rings(const simulation::FloeField& field, const JsonValue& json, const std::string& path);
   bool check_lattice(const JsonValue& item, const std::string& path);
   bool has_room_for(std::size_t count, const JsonValue& item, const std::string& path);
   Result<std::filesystem::path> locate(const std::string& name) const;

@@ -50,10 +50,12 @@ struct FloeGroup {
   std::string file;           ///< in the scene's folder
   FloeFileSettings file_settings;
   simulation::FloeField field;
-  geometry::Vector extent;      ///< field: of its region; 0 where that is an outline [m]
-  geometry::Vector velocity;    ///< relative to the water [m/s]
-  double angular_velocity = 0;  ///< [rad/s]
-  bool is_fast = false;         ///< then the velocity is over ground
+  geometry::Vector extent;  ///< field: of its region; 0 where that is an outline or a channel [m]
+  std::vector<geometry::Point> centreline;  ///< field: of a channel; empty for other regions [m]
+  double width = 0;                         ///< field: of a channel [m]
+  geometry::Vector velocity;                ///< relative to the water [m/s]
+  double angular_velocity = 0;              ///< [rad/s]
+  bool is_fast = false;                     ///< then the velocity is over ground
   IceDraft ice;
   bool has_crushed_overlaps = false;
   std::int64_t source_floe = -1;

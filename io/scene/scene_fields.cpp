@@ -79,6 +79,8 @@ std::string describe_allowed(const Field& field) {
       return "a number or [x, y], each" + describe_range(field);
     case Kind::kNumbers:
       return "a list of numbers, each" + describe_range(field);
+    case Kind::kLine:
+      return "a list of two or more [x, y], each" + describe_range(field);
     case Kind::kRing:
       return "a list of three or more [x, y], each" + describe_range(field);
     case Kind::kRings:

@@ -23,6 +23,7 @@ enum class FieldKind {
   kVector,          ///< [x, y]
   kNumberOrVector,  ///< [x, y], or one number for both; resolved to [x, y]
   kNumbers,         ///< a list of numbers
+  kLine,            ///< a list of two or more [x, y]
   kRing,            ///< a list of three or more [x, y]
   kRings,           ///< a list of rings
   kObject,          ///< the fields of `object`

@@ -1,3 +1,5 @@
+#include <variant>
+
 #include "io/scene/scene_field_parts.hpp"
 
 namespace polynya::io {
@@ -6,6 +8,40 @@ namespace {
 using Draft = SceneDraft;
 using Value = JsonValue;
 using Kind = FieldKind;
+
+/// The law of that kind, with its defaults where the field had another.
+template <class Law>
+Law& law_of(Draft& d) {
+  auto& law = d.group.field.law;
+  if (!law || !std::holds_alternative<Law>(*law)) law = Law{};
+  return std::get<Law>(*law);
+}
+using simulation::EqualSizes;
+using simulation::LognormalSizes;
+using simulation::PowerLawSizes;
+
+const Object kSizes{
+    {field(
+         "size_m", Kind::kNumber, "m", from(0.1, 1e4), "", "√area of every floe",
+         [](Draft& d, const Value& v) { law_of<EqualSizes>(d).size = v.number(); }, {}, "equal"),
+     field(
+         "mean_m", Kind::kNumber, "m", from(0.1, 1e4), "",
+         "mean √area of log-normal sizes, cut off at 3 deviations of the logarithm",
+         [](Draft& d, const Value& v) { law_of<LognormalSizes>(d).mean = v.number(); }, {}, "log-normal"),
+     field(
+         "spread", Kind::kNumber, "", from(0, 1), "", "their standard deviation / mean",
+         [](Draft& d, const Value& v) { law_of<LognormalSizes>(d).spread = v.number(); }, {}, "log-normal"),
+     field(
+         "exponent", Kind::kNumber, "", from(-3, 6), "",
+         "a of the number of floes larger than d, ∝ d^−a, d √area; −1 is even in d",
+         [](Draft& d, const Value& v) { law_of<PowerLawSizes>(d).exponent = v.number(); }, {}, "power law"),
+     field(
+         "least_m", Kind::kNumber, "m", from(0.1, 1e4), "", "least √area",
+         [](Draft& d, const Value& v) { law_of<PowerLawSizes>(d).least = v.number(); }, {}, "power law"),
+     field(
+         "largest_m", Kind::kNumber, "m", from(0.1, 1e4), "", "largest √area",
+         [](Draft& d, const Value& v) { law_of<PowerLawSizes>(d).largest = v.number(); }, {}, "power law")},
+    {"equal", "log-normal", "power law"}};
 
 const Object kField{
     {field(
@@ -16,23 +52,48 @@ const Object kField{
          [](Draft& d, const Value& v) { d.group.extent = vector_of(v); }, {}, "rectangle"),
      field(
          "outline_m", Kind::kRing, "m", coordinate(), "",
-         "its region point by point; floes that would cross it are left out",
+         "its region point by point; with floe_size_m, floes that would cross it are left out",
          [](Draft& d, const Value& v) { d.group.field.region = ring_of(v); }, {}, "outline"),
-     field("floe_size_m", Kind::kNumber, "m", from(0.1, 1e4), "", "mean of the floes' √area",
+     field(
+         "centreline_m", Kind::kLine, "m", coordinate(), "",
+         "middle of its region, a channel, point by point",
+         [](Draft& d, const Value& v) { d.group.centreline = ring_of(v); }, {}, "channel"),
+     field(
+         "width_m", Kind::kNumber, "m", from(0.1, 1e5), "", "of the channel",
+         [](Draft& d, const Value& v) { d.group.width = v.number(); }, {}, "channel"),
+     field("sizes", Kind::kObject, "", {}, kLeftOut, "law of the floes' sizes; this or floe_size_m", nullptr,
+           {}, "", &kSizes),
+     field("floe_size_m", Kind::kNumber, "m", from(0.1, 1e4), kLeftOut, "mean of the floes' √area",
+           [](Draft& d, const Value& v) { d.group.field.floe_size = v.number(); }),
+     field("size_spread", Kind::kNumber, "", from(0, 0.5), kLeftOut,
+           "with floe_size_m: standard deviation of the floes' √area / its mean, 0.25 if not given; they are "
+           "lognormal, cut off at 2.5 deviations",
+           [](Draft& d, const Value& v) { d.group.field.size_spread = v.number(); }),
+     field("concentration", Kind::kNumber, "", above(0, 0.99), "",
+           "share of the region that ice covers; with sizes, of the region less what is kept clear",
            [](Draft& d, const Value& v) {
              d.group.form = FloeGroup::Form::kField;
-             d.group.field.floe_size = v.number();
+             d.group.field.concentration = v.number();
            }),
-     field("size_spread", Kind::kNumber, "", from(0, 0.5), "0.25",
-           "standard deviation of the floes' √area / its mean; they are lognormal, cut off at 2.5 deviations",
-           [](Draft& d, const Value& v) { d.group.field.size_spread = v.number(); }),
-     field("concentration", Kind::kNumber, "", above(0, 0.99), "", "share of the region that ice covers",
-           [](Draft& d, const Value& v) { d.group.field.concentration = v.number(); }),
      field("gap_m", Kind::kNumber, "m", from(1e-6, 1000), "0.05",
            "least distance between floes, and of floes from what is kept clear",
            [](Draft& d, const Value& v) { d.group.field.gap = v.number(); }),
-     field("most_corners", Kind::kInteger, "", from(3, 32), "8", "of a floe; floes are convex",
+     field("most_corners", Kind::kInteger, "", from(3, 32), kLeftOut,
+           "of a floe; floes are convex; 8 with floe_size_m and 16 with sizes if not given",
            [](Draft& d, const Value& v) { d.group.field.most_corners = static_cast<int>(v.number()); }),
+     field("least_corners", Kind::kInteger, "", from(3, 32), kLeftOut,
+           "with sizes: of a floe, whose sharpest corners are cut off until it has as many; 3 if not given",
+           [](Draft& d, const Value& v) { d.group.field.least_corners = static_cast<int>(v.number()); }),
+     field("aspect", Kind::kNumber, "", from(1, 5), kLeftOut,
+           "with sizes: mean length / width of the floes; if not given, as the cells come, about 1.3",
+           [](Draft& d, const Value& v) { d.group.field.aspect = v.number(); }),
+     field("orientation_deg", Kind::kNumber, "°", from(-360, 360), kLeftOut,
+           "with aspect: of the floes' length, from the x axis, counter-clockwise; any if not given",
+           [](Draft& d, const Value& v) { d.group.field.orientation = radians(v); }),
+     field("packing", Kind::kNumber, "", above(0, 0.99), kLeftOut,
+           "with sizes: concentration between the holes, which floes of the same sizes would fill; if not "
+           "given, 0.75, but no more than twice the concentration, nor less than that",
+           [](Draft& d, const Value& v) { d.group.field.packing = v.number(); }),
      field("keep_clear_m", Kind::kRings, "m", coordinate(), "[]",
            "regions no floe may reach into; ships and structures are kept clear without being asked for",
            [](Draft& d, const Value& v) {
@@ -41,7 +102,7 @@ const Object kField{
      field("seed", Kind::kInteger, "", from(0, 9007199254740991), "0",
            "another one gives another field; the scene's seed is added",
            [](Draft& d, const Value& v) { d.group.field.seed = static_cast<std::uint64_t>(v.number()); })},
-    {"rectangle", "outline"}};
+    {"rectangle", "outline", "channel"}};
 
 const Object kLattice{
     {field("origin_m", Kind::kVector, "m", coordinate(), "[0, 0]",

@@ -26,6 +26,7 @@ inline constexpr std::size_t kMostFloes = 1'000'000;
 /// How a random field of the scene came out.
 struct FieldReport {
   std::size_t group = 0;                 ///< index in the scene's "floes"
+  double gap = 0;                        ///< at least between its floes [m]
   simulation::FloeFieldOutcome outcome;  ///< without its floes; they are the scene's
 };
 

@@ -219,6 +219,8 @@ class Resolver {
         return vector(value);
       case FieldKind::kNumbers:
         return each(value, 0, number);
+      case FieldKind::kLine:
+        return each(value, 2, vector);
       case FieldKind::kRing:
         return ring(value);
       case FieldKind::kRings:

@@ -81,6 +81,8 @@ void write_type(JsonWriter& json, const Field& field) {
       return;
     case Kind::kNumbers:
       return write_list(json, 0, 0, [&] { write_number(json, field, "number"); });
+    case Kind::kLine:
+      return write_list(json, 2, 0, [&] { write_vector(json, field); });
     case Kind::kRing:
       return write_ring(json, field);
     case Kind::kRings:

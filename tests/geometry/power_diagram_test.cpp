@@ -1,9 +1,8 @@
 // Cells against the definition: every point belongs to the site of least power distance.
-#include "geometry/shape/power_diagram.hpp"
-
 #include <gtest/gtest.h>
 
 #include "geometry/exact/measures.hpp"
+#include "geometry/shape/power_cells.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {
@@ -65,6 +64,49 @@ TEST(PowerDiagram, EveryPointIsInTheCellOfLeastPowerDistance) {
       ASSERT_TRUE(contains({cells[nearest], {}}, p)) << trial << " " << p.x << " " << p.y;
     }
   }
+}
+
+TEST(PowerCells, AreThoseOfThePowerDiagramWhateverTheWeights) {
+  Random random(kSeed + 2);
+  const Ring region{{-3, 100}, {7, 100}, {7, 104}, {-3, 104}};
+  for (int trial = 0; trial < 200; ++trial) {
+    auto sites = random_sites(random, 2 + random.below(80), 0.3);
+    for (Site& site : sites) {  // few of great weight
+      if (trial % 2 == 0 && random.below(8) == 0) site.weight += random.between(1, 40);
+    }
+    const auto cells = power_diagram(sites, {{-3, 100}, {7, 104}});
+    std::vector<std::vector<std::uint32_t>> neighbours(sites.size());
+    std::size_t next = 0;
+    visit_power_cells(sites, region, [&](const PowerCell& cell) {
+      ASSERT_EQ(cell.site, next++);
+      const double area = cell.ring.empty() ? 0 : signed_area(cell.ring);
+      ASSERT_NEAR(area, cells[cell.site].empty() ? 0 : signed_area(cells[cell.site]), 1e-10);
+      ASSERT_EQ(cell.ring.size(), cell.beyond.size());
+      for (std::size_t k = 0; k < cell.ring.size(); ++k) {
+        const Point middle = midpoint(cell.ring[k], cell.ring[(k + 1) % cell.ring.size()]);
+        if (cell.beyond[k] == kNoSite) {
+          ASSERT_TRUE(middle.x < -3 + 1e-9 || middle.x > 7 - 1e-9 || middle.y < 100 + 1e-9 ||
+                      middle.y > 104 - 1e-9);
+        } else {  // an edge is as far from the site beyond it
+          ASSERT_NEAR(power(sites[cell.beyond[k]], middle), power(sites[cell.site], middle), 1e-9);
+        }
+      }
+    });
+    ASSERT_EQ(next, sites.size());
+  }
+}
+
+TEST(PowerCells, OfTwoSitesInOnePlaceOneHasTheCell) {
+  double sum = 0;
+  int cells = 0;
+  visit_power_cells({{{1, 1}, 0}, {{1, 1}, 0}, {{3, 1}, 0}}, {{0, 0}, {4, 0}, {4, 2}, {0, 2}},
+                    [&](const PowerCell& cell) {
+                      if (cell.ring.empty()) return;
+                      sum += signed_area(cell.ring);
+                      ++cells;
+                    });
+  EXPECT_DOUBLE_EQ(sum, 8);
+  EXPECT_EQ(cells, 2);
 }
 
 TEST(PowerDiagram, WithoutWeightsTwoSitesMeetAtTheirBisector) {

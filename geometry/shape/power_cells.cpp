@@ -1,0 +1,175 @@
+#include "geometry/shape/power_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/shape/site_bins.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+constexpr int kMostClasses = 16;
+
+/// Sites of similar weight.
+struct WeightClass {
+  double heaviest = 0;  ///< [m²]
+  SiteBins bins;
+};
+
+/// The classes of weight, each four times as heavy as the one before, counted from the lightest site in units
+/// of the mean area of a cell.
+class WeightClasses {
+ public:
+  WeightClasses(const std::vector<Site>& sites, const Box& box) : class_of_(sites.size()) {
+    const Vector extent = box.high - box.low;
+    const double unit = extent.x * extent.y / static_cast<double>(sites.size());
+    double lightest = sites.front().weight;
+    for (const Site& site : sites) lightest = std::min(lightest, site.weight);
+    std::array<std::vector<std::uint32_t>, kMostClasses> members;
+    std::array<int, kMostClasses> number{};
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      int k = 0;
+      for (double step = unit; k + 1 < kMostClasses && sites[i].weight - lightest > step; step *= 4) ++k;
+      members[static_cast<std::size_t>(k)].push_back(static_cast<std::uint32_t>(i));
+      class_of_[i] = static_cast<std::uint8_t>(k);
+    }
+    for (std::size_t k = 0; k < kMostClasses; ++k) {
+      if (members[k].empty()) continue;
+      number[k] = static_cast<int>(classes_.size());
+      double heaviest = sites[members[k].front()].weight;
+      for (const std::uint32_t i : members[k]) heaviest = std::max(heaviest, sites[i].weight);
+      classes_.push_back({heaviest, SiteBins(sites, members[k], box)});
+    }
+    for (std::uint8_t& k : class_of_) k = static_cast<std::uint8_t>(number[k]);
+  }
+
+  /// Calls visit(class) for a site's own class and then for those nearest to it in weight.
+  template <class Visit>
+  void from(std::size_t site, Visit visit) const {
+    const int own = class_of_[site];
+    const int count = static_cast<int>(classes_.size());
+    visit(classes_[static_cast<std::size_t>(own)]);
+    for (int away = 1; away < count; ++away) {
+      if (own + away < count) visit(classes_[static_cast<std::size_t>(own + away)]);
+      if (own - away >= 0) visit(classes_[static_cast<std::size_t>(own - away)]);
+    }
+  }
+
+ private:
+  std::vector<WeightClass> classes_;
+  std::vector<std::uint8_t> class_of_;
+};
+
+/// A cell in the making.
+struct Clipped {
+  Ring ring;
+  std::vector<std::uint32_t> beyond;
+  Ring ring_scratch;
+  std::vector<std::uint32_t> beyond_scratch;
+
+  void push(Point p, std::uint32_t across) {
+    ring_scratch.push_back(p);
+    beyond_scratch.push_back(across);
+  }
+
+  /// Leaves what lies within dot(normal, x − origin) ≤ offset; beyond the new edge lies `site`.
+  void clip(Point origin, Vector normal, double offset, std::uint32_t site) {
+    ring_scratch.clear();
+    beyond_scratch.clear();
+    double before = dot(normal, ring.back() - origin) - offset;
+    Point previous = ring.back();
+    std::uint32_t previous_beyond = beyond.back();
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Point p = ring[k];
+      const double side = dot(normal, p - origin) - offset;
+      if ((side > 0) != (before > 0))
+        push(previous + (before / (before - side)) * (p - previous), side > 0 ? site : previous_beyond);
+      if (side <= 0) push(p, beyond[k]);
+      previous = p;
+      previous_beyond = beyond[k];
+      before = side;
+    }
+    std::swap(ring, ring_scratch);
+    std::swap(beyond, beyond_scratch);
+    if (ring.size() < 3) {
+      ring.clear();
+      beyond.clear();
+    }
+  }
+
+  double squared_reach(Point from) const {
+    double most = 0;
+    for (const Point p : ring) most = std::max(most, squared_length(p - from));
+    return most;
+  }
+};
+
+/// Makes the cells, one after the other.
+class Cutter {
+ public:
+  Cutter(const std::vector<Site>& sites, const Ring& region)
+      : sites_(sites), region_(region), classes_(sites, bounding_box(region)) {}
+
+  const Clipped& cut(std::size_t i, const NeighbourGuess& guess) {
+    own_ = i;
+    cell_.ring = region_;
+    cell_.beyond.assign(region_.size(), kNoSite);
+    reach2_ = cell_.squared_reach(sites_[i].point);
+    if (!guess.first.empty()) {
+      for (std::size_t k = guess.first[i]; k < guess.first[i + 1]; ++k) clip_by(guess.sites[k]);
+    }
+    classes_.from(i, [&](const WeightClass& other) { clip_by(other); });
+    return cell_;
+  }
+
+ private:
+  void clip_by(const WeightClass& other) {
+    const Site& own = sites_[own_];
+    const SiteBins& bins = other.bins;
+    for (int ring = 0; ring <= bins.most_rings() && !cell_.ring.empty(); ++ring) {
+      // A site at distance d bounds the cell at (d² + w_i − w_j) / 2d: not within its reach R unless
+      // (d − R)² < R² + w_j − w_i.
+      const double square = reach2_ + other.heaviest - own.weight;
+      if (square < 0) return;
+      if (ring > 1 && (ring - 1) * bins.side() >= std::sqrt(reach2_) + std::sqrt(square)) return;
+      bins.for_ring(own.point, ring, [&](std::uint32_t j) { clip_by(j); });
+    }
+  }
+
+  void clip_by(std::uint32_t j) {
+    if (j == own_ || cell_.ring.empty()) return;
+    const Site& own = sites_[own_];
+    const Vector to = sites_[j].point - own.point;
+    const double offset = 0.5 * (squared_length(to) + own.weight - sites_[j].weight);
+    if (offset >= 0 && offset * offset >= squared_length(to) * reach2_) {
+      if (!(to == Vector{} && offset == 0 && j < own_)) return;  // of two in one place, one has the cell
+      cell_.clip(own.point, to, -1, j);
+      return;
+    }
+    if (std::find(cell_.beyond.begin(), cell_.beyond.end(), j) != cell_.beyond.end()) return;
+    cell_.clip(own.point, to, offset, j);
+    reach2_ = cell_.squared_reach(own.point);
+  }
+
+  const std::vector<Site>& sites_;
+  const Ring& region_;
+  WeightClasses classes_;
+  Clipped cell_;
+  std::size_t own_ = 0;
+  double reach2_ = 0;
+};
+
+}  // namespace
+
+void visit_power_cells(const std::vector<Site>& sites, const Ring& region,
+                       const std::function<void(const PowerCell&)>& visit, const NeighbourGuess& guess) {
+  if (sites.empty()) return;
+  Cutter cutter(sites, region);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Clipped& cell = cutter.cut(i, guess);
+    visit({i, cell.ring, cell.beyond});
+  }
+}
+
+}  // namespace polynya::geometry

@@ -1,0 +1,184 @@
+#include "simulation/field/free_area.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/measures.hpp"
+#include "simulation/field/convex.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Box;
+using geometry::Point;
+using geometry::Polygon;
+using geometry::Ring;
+using geometry::Vector;
+
+/// Whether a point is inside a ring that may be concave.
+bool is_inside(const Ring& ring, Point p) {
+  bool inside = false;
+  Point a = ring.back();
+  for (const Point b : ring) {
+    if ((a.y > p.y) != (b.y > p.y)) {
+      const double side = cross(b - a, p - a);
+      if ((b.y > a.y) == (side > 0)) inside = !inside;
+    }
+    a = b;
+  }
+  return inside;
+}
+
+bool holds(const Box& box, Point p) {
+  return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
+}
+
+bool is_convex(const Ring& ring) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (cross(ring[(i + 1) % n] - ring[i], ring[(i + 2) % n] - ring[(i + 1) % n]) < 0) return false;
+  }
+  return true;
+}
+
+/// Whether a segment runs through a convex ring, deeper than rounding.
+bool runs_through(Point from, Point to, const Ring& ring, double depth) {
+  double enter = 0;
+  double leave = 1;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector edge = ring[(i + 1) % ring.size()] - ring[i];
+    const double margin = depth * length(edge);
+    const double at_from = cross(edge, from - ring[i]) - margin;
+    const double at_to = cross(edge, to - ring[i]) - margin;
+    if (at_from <= 0 && at_to <= 0) return false;
+    if (at_from < 0) enter = std::max(enter, at_from / (at_from - at_to));
+    if (at_to < 0) leave = std::min(leave, at_from / (at_from - at_to));
+    if (enter >= leave) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+FreeArea::FreeArea(const Ring& region, const std::vector<Polygon>& kept_clear, double gap,
+                   const Plane& plane) {
+  hull_ = plane.from_world(region);
+  if (!is_convex(region)) {
+    region_ = hull_;
+    const Box box = bounding_box(region_);
+    hull_ = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+    add_edges(region, true, 0, plane);
+  }
+  for (const Polygon& polygon : kept_clear) {
+    const Ring ring = plane.from_world(polygon.outer);
+    const Box reach = grown(bounding_box(ring), 2 * gap * plane.stretch);
+    if (!overlaps(reach, bounding_box(hull_))) continue;
+    clear_.push_back(ring);
+    clear_boxes_.push_back(bounding_box(ring));
+    add_edges(polygon.outer, false, 0.5 * gap, plane);
+  }
+  bin_edges();
+}
+
+/// Edges moved to their free side, and made longer at both ends, by the margin.
+void FreeArea::add_edges(const Ring& in_world, bool is_free_inside, double margin, const Plane& plane) {
+  for (std::size_t i = 0; i < in_world.size(); ++i) {
+    Point from = in_world[i];
+    Point to = in_world[(i + 1) % in_world.size()];
+    if (!is_free_inside) std::swap(from, to);
+    const Vector along = (to - from) / distance(from, to);
+    from += margin * (perpendicular(along) - along);
+    to += margin * (perpendicular(along) + along);
+    edges_.push_back({plane.from_world(from), plane.from_world(to)});
+  }
+}
+
+void FreeArea::bin_edges() {
+  box_ = bounding_box(hull_);
+  bins_ = std::clamp(static_cast<int>(4 * std::sqrt(static_cast<double>(edges_.size()))), 1, 256);
+  near_edges_.resize(static_cast<std::size_t>(bins_) * static_cast<std::size_t>(bins_));
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    for_bins(geometry::box_around(edges_[i].from, edges_[i].to),
+             [&](std::size_t bin) { near_edges_[bin].push_back(static_cast<std::uint32_t>(i)); });
+  }
+}
+
+template <class Visit>
+void FreeArea::for_bins(const Box& box, Visit visit) const {
+  const auto place = [&](double x, double low, double high) {
+    return std::clamp(static_cast<int>(bins_ * ((x - low) / (high - low))), 0, bins_ - 1);
+  };
+  const int first = place(box.low.x, box_.low.x, box_.high.x);
+  const int last = place(box.high.x, box_.low.x, box_.high.x);
+  const int top = place(box.high.y, box_.low.y, box_.high.y);
+  for (int row = place(box.low.y, box_.low.y, box_.high.y); row <= top; ++row) {
+    for (int column = first; column <= last; ++column)
+      visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(bins_) +
+            static_cast<std::size_t>(column));
+  }
+}
+
+bool FreeArea::holds(Point p) const {
+  if (!region_.empty() && !is_inside(region_, p)) return false;
+  for (std::size_t i = 0; i < clear_.size(); ++i) {
+    if (simulation::holds(clear_boxes_[i], p) && is_inside(clear_[i], p)) return false;
+  }
+  return true;
+}
+
+bool FreeArea::clip(Ring& ring) const {
+  if (edges_.empty() || ring.empty()) return false;
+  const Box box = bounding_box(ring);
+  std::vector<std::uint32_t> near;
+  for_bins(box, [&](std::size_t bin) {
+    near.insert(near.end(), near_edges_[bin].begin(), near_edges_[bin].end());
+  });
+  std::ranges::sort(near);
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  const double depth = 1e-7 * distance(box.low, box.high);
+  bool was_met = false;
+  while (!ring.empty()) {
+    Ring best;
+    double most = -1;
+    for (const std::uint32_t i : near) {
+      const auto& [from, to] = edges_[i];
+      if (!runs_through(from, to, ring, depth)) continue;
+      Ring left = ring;
+      clip_to_left(left, from, to);
+      const double area = left.empty() ? 0 : measure_convex(left).area;
+      if (area > most) {
+        most = area;
+        best = std::move(left);
+      }
+    }
+    if (most < 0) break;
+    was_met = true;
+    ring = std::move(best);
+  }
+  if (!ring.empty() && !holds(measure_convex(ring).centroid)) ring.clear();
+  return was_met;
+}
+
+double free_area(const Ring& region, const std::vector<Polygon>& kept_clear) {
+  std::vector<geometry::Shape> pieces{{{region, {}}}};
+  for (const Polygon& clear : kept_clear) {
+    std::vector<geometry::Shape> left;
+    for (geometry::Shape& piece : pieces) {
+      auto cut = geometry::cut_by_polygon(piece, clear);
+      if (!cut) {
+        left.push_back(std::move(piece));  // it does not meet the clearing
+        continue;
+      }
+      for (geometry::Piece& part : cut->pieces) {
+        if (part.part == geometry::Part::kOutside) left.push_back(std::move(part.shape));
+      }
+    }
+    pieces = std::move(left);
+  }
+  double area = 0;
+  for (const geometry::Shape& piece : pieces) area += geometry::measure(piece.polygon).area;
+  return area;
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,250 @@
+#include "simulation/field/tessellation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+#include "geometry/shape/power_cells.hpp"
+#include "simulation/field/cell_couplings.hpp"
+#include "simulation/field/convex.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Box;
+using geometry::Point;
+using geometry::PowerCell;
+using geometry::Ring;
+using geometry::Site;
+using geometry::Vector;
+
+constexpr double kPointsPerSite = 4;
+constexpr int kMoves = 11;       ///< passes in which sites move to their cells' centroids
+constexpr int kSettles = 5;      ///< passes after them in which sites stay and weights alone change
+constexpr int kMostExtras = 6;   ///< more of these while sites are without a cell
+constexpr int kIterations = 12;  ///< of a settling pass's system of equations
+
+/// Points in the free area, one at random in each of the cells of a grid.
+std::vector<Point> strew(const FreeArea& free, double count, Random& random) {
+  const Box box = bounding_box(free.hull());
+  const Vector extent = box.high - box.low;
+  std::vector<Point> points;
+  // Until there are enough: the free area may be a small part of the box.
+  for (double wanted = count; static_cast<double>(points.size()) < count && wanted < 1e9; wanted *= 2) {
+    points.clear();
+    const double side = std::sqrt(extent.x * extent.y / wanted);
+    const auto columns = static_cast<std::size_t>(std::ceil(extent.x / side));
+    const auto rows = static_cast<std::size_t>(std::ceil(extent.y / side));
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t column = 0; column < columns; ++column) {
+        const double x = (static_cast<double>(column) + random.uniform()) / static_cast<double>(columns);
+        const double y = (static_cast<double>(row) + random.uniform()) / static_cast<double>(rows);
+        const Point p = box.low + Vector{x * extent.x, y * extent.y};
+        if (is_in_convex(free.hull(), p) && free.holds(p)) points.push_back(p);
+      }
+    }
+  }
+  return points;
+}
+
+/// Deals the points out to the sites, and puts each site amid its own.
+class Dealer {
+ public:
+  Dealer(const std::vector<double>& areas, std::vector<Point> points)
+      : points_(std::move(points)), sum_before_(areas.size() + 1, 0), sites_(areas.size()) {
+    for (std::size_t i = 0; i < areas.size(); ++i) sum_before_[i + 1] = sum_before_[i] + areas[i];
+  }
+
+  std::vector<Site> deal() {
+    if (points_.size() >= sites_.size()) deal(0, sites_.size(), points_);
+    return std::move(sites_);
+  }
+
+ private:
+  void deal(std::size_t first, std::size_t end, std::span<Point> points) {
+    Box box{points.front(), points.front()};
+    for (const Point p : points) extend(box, p);
+    if (end - first == 1) {
+      sites_[first].point = midpoint(box.low, box.high);
+      return;
+    }
+    const double half = 0.5 * (sum_before_[first] + sum_before_[end]);
+    const auto found = std::lower_bound(sum_before_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                                        sum_before_.begin() + static_cast<std::ptrdiff_t>(end) - 1, half);
+    auto middle = static_cast<std::size_t>(found - sum_before_.begin());
+    if (middle > first + 1 && half - sum_before_[middle - 1] < sum_before_[middle] - half) --middle;
+    const double share = (sum_before_[middle] - sum_before_[first]) / (sum_before_[end] - sum_before_[first]);
+    const auto left =
+        std::clamp(static_cast<std::size_t>(std::round(share * static_cast<double>(points.size()))),
+                   middle - first, points.size() - (end - middle));
+    const bool is_wide = box.high.x - box.low.x > box.high.y - box.low.y;
+    std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(left), points.end(),
+                     [is_wide](Point a, Point b) {
+                       if (is_wide) return a.x < b.x || (a.x == b.x && a.y < b.y);
+                       return a.y < b.y || (a.y == b.y && a.x < b.x);
+                     });
+    deal(first, middle, points.first(left));
+    deal(middle, end, points.subspan(left));
+  }
+
+  std::vector<Point> points_;
+  std::vector<double> sum_before_;
+  std::vector<Site> sites_;
+};
+
+/// What a pass found of a cell.
+struct Found {
+  double area = 0;
+  Point centroid;
+  Point farthest;  ///< corner from the site
+};
+
+class Relaxation {
+ public:
+  Relaxation(const FreeArea& free, const std::vector<double>& areas, std::vector<Site> sites)
+      : free_(free), areas_(areas), sites_(std::move(sites)), found_(sites_.size()) {
+    for (const double area : areas) sum_ += area;
+    share_ = measure_convex(free.hull()).area / sum_;
+    for (std::size_t i = 0; i < sites_.size(); ++i) sites_[i].weight = share_ * areas[i] / std::numbers::pi;
+  }
+
+  std::vector<Tile> relax() {
+    for (int pass = 0; pass < kMoves; ++pass) {
+      measure();
+      move();
+      revive();
+    }
+    bool is_whole = false;
+    for (int pass = 0; pass < kSettles + (is_whole ? 0 : kMostExtras); ++pass) {
+      measure();
+      balance(std::min(1.0, 0.2 * (pass + 2)));
+      is_whole = !revive();
+    }
+    std::vector<Tile> tiles(sites_.size());
+    const auto keep = [&](const PowerCell& cell) {
+      Tile& tile = tiles[cell.site];
+      tile.ring = cell.ring;
+      tile.is_clipped = free_.clip(tile.ring);
+    };
+    geometry::visit_power_cells(sites_, free_.hull(), keep, couplings_.neighbours());
+    return tiles;
+  }
+
+ private:
+  void measure() {
+    std::swap(couplings_, before_);
+    couplings_.begin(sites_.size());
+    geometry::visit_power_cells(
+        sites_, free_.hull(), [this](const PowerCell& cell) { measure(cell); }, before_.neighbours());
+    couplings_.end();
+    double sum = 0;
+    for (const Found& found : found_) sum += found.area;
+    share_ = sum / sum_;
+  }
+
+  void measure(const PowerCell& cell) {
+    Found& found = found_[cell.site];
+    found = {};
+    couplings_.begin_cell();
+    if (cell.ring.empty()) return;
+    const Point own = sites_[cell.site].point;
+    double most = -1;
+    for (std::size_t k = 0; k < cell.ring.size(); ++k) {
+      const Point corner = cell.ring[k];
+      if (const double away = squared_length(corner - own); away > most) {
+        most = away;
+        found.farthest = corner;
+      }
+      if (cell.beyond[k] == geometry::kNoSite) continue;
+      const double across = distance(sites_[cell.beyond[k]].point, own);
+      const Point next = cell.ring[k + 1 < cell.ring.size() ? k + 1 : 0];
+      if (across > 0) couplings_.add(cell.beyond[k], distance(corner, next) / (2 * across));
+    }
+    CellMeasures measures;
+    if (free_.is_hull()) {
+      measures = measure_convex(cell.ring);
+    } else {
+      Ring ring = cell.ring;
+      free_.clip(ring);
+      if (!ring.empty()) measures = measure_convex(ring);
+    }
+    found.area = measures.area;
+    found.centroid = measures.centroid;
+  }
+
+  /// What a cell's area lacks, of which it loses no more than a part at once [m²].
+  double lack(std::size_t i) const {
+    return std::max(share_ * areas_[i] - found_[i].area, -0.7 * found_[i].area);
+  }
+
+  /// Sites to their cells' centroids, and each weight by its own cell's error alone, which is safe far from
+  /// the end.
+  void move() {
+    constexpr double kDamping = 0.6;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (!(found_[i].area > 0)) continue;
+      sites_[i].weight += kDamping * lack(i) / std::max(couplings_.growth(i), 0.5);
+      sites_[i].point = found_[i].centroid;
+    }
+  }
+
+  /// All weights together, by a part of Newton's step.
+  void balance(double part) {
+    std::vector<double> lacks(sites_.size(), 0);
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (found_[i].area > 0) lacks[i] = lack(i);
+    }
+    const std::vector<double> changes = couplings_.solve(lacks, kIterations);
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (found_[i].area > 0) sites_[i].weight += part * changes[i];
+    }
+  }
+
+  /// Puts sites without a cell at far corners of cells that are larger than they should be. False: there were
+  /// none.
+  bool revive() {
+    std::vector<std::size_t> lost;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (!(found_[i].area > 0)) lost.push_back(i);
+    }
+    if (lost.empty()) return false;
+    std::vector<std::size_t> hosts;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (found_[i].area > 0) hosts.push_back(i);
+    }
+    const std::size_t count = std::min(lost.size(), hosts.size());
+    const auto surplus = [&](std::size_t i) { return found_[i].area - share_ * areas_[i]; };
+    std::partial_sort(hosts.begin(), hosts.begin() + static_cast<std::ptrdiff_t>(count), hosts.end(),
+                      [&](std::size_t a, std::size_t b) {
+                        return surplus(a) > surplus(b) || (surplus(a) == surplus(b) && a < b);
+                      });
+    for (std::size_t k = 0; k < count; ++k) {
+      const Site& host = sites_[hosts[k]];
+      const Point place = found_[hosts[k]].farthest;
+      const double power = squared_length(place - host.point) - host.weight;
+      sites_[lost[k]] = {place, 0.5 * share_ * areas_[lost[k]] / std::numbers::pi - power};
+    }
+    return true;
+  }
+
+  const FreeArea& free_;
+  const std::vector<double>& areas_;
+  double sum_ = 0;    ///< of the areas [m²]
+  double share_ = 1;  ///< of the cells' areas / the areas asked for [-]
+  std::vector<Site> sites_;
+  std::vector<Found> found_;
+  CellCouplings couplings_;
+  CellCouplings before_;  ///< those of the pass before
+};
+
+}  // namespace
+
+std::vector<Tile> tessellate(const FreeArea& free, const std::vector<double>& areas, Random& random) {
+  const auto count = static_cast<double>(areas.size());
+  Dealer dealer(areas, strew(free, kPointsPerSite * count, random));
+  return Relaxation(free, areas, dealer.deal()).relax();
+}
+
+}  // namespace polynya::simulation
