@@ -150,7 +150,9 @@ class FieldReader {
                     fmt::format("less than {:g}", power->largest));
     const double count = simulation::floe_count(field_);
     const double width = width_of_region();
-    const double largest = simulation::size_at(*field_.law, 1 - 0.5 / std::max(count, 1.0));
+    // The bounds of a power law are asked for; a log-normal law has none that a field would have to reach.
+    const double largest =
+        power ? power->largest : simulation::size_at(*field_.law, 1 - 0.5 / std::max(count, 1.0));
     if (largest > width) {
       const std::string_view key = power ? "sizes.largest_m" : "sizes";
       return report(key, fmt::format("floes of up to {:.4g} m in a region {:.4g} m across", largest, width),

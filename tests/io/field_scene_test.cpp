@@ -80,7 +80,7 @@ TEST(FieldScene, WhatCannotBeIsRefusedWithItsPlaceAndWhatWouldDo) {
            Case{kSquare + R"("concentration": 0.8)", "", "neither sizes nor floe_size_m"},
            Case{kSquare + R"("concentration": 0.8, "floe_size_m": 10, "aspect": 2)", ".aspect",
                 "sizes instead"},
-           Case{kSquare + R"("concentration": 0.8, "sizes": {"size_m": 200})", "", "less than one floe"},
+           Case{kSquare + R"("concentration": 0.005, "sizes": {"size_m": 100})", "", "less than one floe"},
            Case{kSquare + equal +
                     R"("concentration": 0.8, "keep_clear_m": [[[-9, -9], [400, -9], [400, 400], [-9, 400]]])",
                 "", "all of the region is kept clear"},
