@@ -55,6 +55,14 @@ const std::string kFourth = R"({
              "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], "heading_deg": 1}}]
 })";
 
+/// The fields of a law of sizes.
+const std::string kFifth = R"({
+  "floes": [{"field": {"corner_m": [0, 0], "extent_m": [200, 150], "concentration": 0.6, "gap_m": 0.3, "most_corners": 6, "least_corners": 5,
+                       "aspect": 1.5, "orientation_deg": 20, "packing": 0.8, "sizes": {"mean_m": 12, "spread": 0.3}}},
+            {"field": {"corner_m": [300, 0], "extent_m": [300, 300], "concentration": 0.7, "most_corners": 6, "least_corners": 5, "sizes": {"exponent": 1.5, "least_m": 10, "largest_m": 60}}},
+            {"field": {"centreline_m": [[-300, 0], [-200, 30]], "width_m": 40, "concentration": 0.7, "most_corners": 6, "least_corners": 5, "sizes": {"size_m": 5}}}]
+})";
+
 /// One ship for each other pilot.
 std::string fleet() {
   std::string ships;
@@ -112,6 +120,7 @@ void change(const Field& field, JsonValue& value) {
       return change_number(field, mean ? *mean : value);
     }
     case FieldKind::kRing:
+    case FieldKind::kLine:
       return change_number(field, value.items()[0].items()[0]);
     case FieldKind::kRings:
       return change_number(field, value.items()[0].items()[0].items()[0]);
@@ -150,7 +159,7 @@ std::set<std::string> all_leaves(const Object& table, const std::string& path) {
 }
 
 TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
-  for (const std::string& text : {kFirst, kSecond, kThird, kFourth, fleet(), commented_scene()}) {
+  for (const std::string& text : {kFirst, kSecond, kThird, kFourth, kFifth, fleet(), commented_scene()}) {
     const LoadedScene once = load(text);
     const LoadedScene again = load(once.resolved_text);
     EXPECT_EQ(again.resolved_text, once.resolved_text);
@@ -163,7 +172,7 @@ TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
 /// text.
 TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   std::set<std::string> seen;
-  for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, fleet()}) {
+  for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, fleet()}) {
     const LoadedScene base = load(base_text);
     JsonValue tree = parse_json(base.resolved_text).root;
     walk(scene_object(), tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
