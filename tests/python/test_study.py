@@ -1,4 +1,5 @@
 """Studies: what is planned, run, stopped, killed, gathered and sent, with the program that is built here."""
+import contextlib
 import csv
 import json
 import os
@@ -285,14 +286,12 @@ def test_any_number_of_jobs_gives_the_same_cases_and_a_finished_one_costs_nothin
     assert (folder / "two/cases/000004/case.json").stat().st_mtime_ns == before
 
 
+LONG = {"time.until_s": 150, "time.step_s": 0.001, "record.frames_interval_s": 20}  # a second or more
+
+
 def start_long_case(folder, name):
-    """A case of some seconds that has begun to write."""
-    study(
-        "plan",
-        write_study(folder, name, set={"time.until_s": 150, "record.frames_interval_s": 20}),
-        "--trial-seconds",
-        0,
-    )
+    """A case whose run has begun to write, and is held there by SIGSTOP."""
+    study("plan", write_study(folder, name, set=LONG), "--trial-seconds", 0)
     running = subprocess.Popen(
         [sys.executable, "-m", "polynya.study", "run", f"studies/{name}", "--case", "0"],
         stderr=subprocess.PIPE,
@@ -300,9 +299,23 @@ def start_long_case(folder, name):
     )
     forces = folder / f"studies/{name}/cases/000000/run/forces.csv"
     while running.poll() is None and not (forces.exists() and forces.stat().st_size > 4000):
-        time.sleep(0.01)
+        time.sleep(0.001)
     assert running.poll() is None
-    return running
+    child = child_of(running)
+    os.kill(child, signal.SIGSTOP)
+    return running, child
+
+
+def let_go(held):
+    """Lets a process that is held go on, as soon as a signal waits for it or it is gone."""
+    deadline = time.monotonic() + 20
+    with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+        while time.monotonic() < deadline:
+            status = dict(line.split(":\t", 1) for line in open(f"/proc/{held}/status") if ":\t" in line)
+            if status["State"].startswith("Z") or int(status["SigPnd"], 16) or int(status["ShdPnd"], 16):
+                break
+            time.sleep(0.001)
+        os.kill(held, signal.SIGCONT)
 
 
 def child_of(process):
@@ -310,12 +323,7 @@ def child_of(process):
 
 
 def test_what_is_stopped_or_killed_continues_and_comes_to_the_same_bytes(folder):
-    study(
-        "plan",
-        write_study(folder, "whole", set={"time.until_s": 150, "record.frames_interval_s": 20}),
-        "--trial-seconds",
-        0,
-    )
+    study("plan", write_study(folder, "whole", set=LONG), "--trial-seconds", 0)
     study("run", "studies/whole", "--quiet")
     whole = files_of(folder / "studies/whole/cases/000000")
     for name, end, code in (
@@ -323,8 +331,9 @@ def test_what_is_stopped_or_killed_continues_and_comes_to_the_same_bytes(folder)
         ("killed", lambda p: os.kill(child_of(p), signal.SIGKILL), 75),
         ("orphan", lambda p: p.kill(), -signal.SIGKILL),
     ):
-        running = start_long_case(folder, name)
+        running, child = start_long_case(folder, name)
         end(running)
+        let_go(child)
         words = running.communicate()[1]
         assert running.returncode == code, words
         if name == "orphan":  # the run itself stops when what started it is gone
@@ -337,7 +346,7 @@ def test_what_is_stopped_or_killed_continues_and_comes_to_the_same_bytes(folder)
 
 
 def test_workers_whose_parent_is_killed_stop_their_runs_also_in_the_background(folder):
-    study("plan", write_study(folder, set={"time.until_s": 150, "time.step_s": 0.005}), "--trial-seconds", 0)
+    study("plan", write_study(folder, set=LONG | {"time.step_s": 0.0005}), "--trial-seconds", 0)
     # As a batch script starts it: a background job of a shell, which ignores SIGINT.
     command = f"{sys.executable} -m polynya.study run studies/s --jobs 1 2>/dev/null & echo $!; wait"
     shell = subprocess.Popen(["bash", "-c", command], stdout=subprocess.PIPE, text=True)
@@ -390,9 +399,10 @@ def test_a_case_without_room_on_the_disk_is_unfinished_and_continues(folder):
 
 
 def test_a_case_that_runs_is_refused_to_another_process(folder):
-    running = start_long_case(folder, "busy")
+    running, child = start_long_case(folder, "busy")
     assert "case 0: another process runs it" in study("run", "studies/busy", "--case", 0, code=5)
     running.send_signal(signal.SIGTERM)
+    let_go(child)
     running.wait()
 
 
@@ -409,7 +419,7 @@ def test_a_case_writes_nothing_outside_its_folder(folder):
 
 
 def test_jobs_stop_with_checkpoints_and_go_on(folder):
-    study("plan", write_study(folder, set={"time.until_s": 150}, repetitions=4), "--trial-seconds", 0)
+    study("plan", write_study(folder, set=LONG | {"time.step_s": 0.0005}, repetitions=3), "--trial-seconds", 0)
     running = subprocess.Popen(
         [sys.executable, "-m", "polynya.study", "run", "studies/s", "--jobs", "2"], stderr=subprocess.PIPE
     )
@@ -420,7 +430,7 @@ def test_jobs_stop_with_checkpoints_and_go_on(folder):
     assert running.wait() == 75
     assert list(case.parent.glob("checkpoint-*")) and not (case.parent.parent / "case.json").exists()
     study("run", "studies/s", "--quiet")
-    assert len(list((folder / "studies/s/cases").glob("*/case.json"))) == 4
+    assert len(list((folder / "studies/s/cases").glob("*/case.json"))) == 3
 
 
 def test_a_terminal_has_a_live_table(folder):
