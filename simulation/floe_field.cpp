@@ -6,6 +6,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/power_diagram.hpp"
 #include "simulation/field/convex.hpp"
+#include "simulation/field/filling.hpp"
 #include "simulation/field/obstacles.hpp"
 #include "simulation/field/packed_field.hpp"
 #include "simulation/random.hpp"
@@ -140,19 +141,6 @@ std::vector<Cell> make_cells(const FloeField& field, const Box& box) {
   return cells;
 }
 
-/// λ with Σ min(λ wanted, most) = total, by bisection.
-double common_factor(const std::vector<Cell>& cells, double total) {
-  double low = 0;
-  double high = 64;
-  for (int i = 0; i < 60; ++i) {
-    const double factor = 0.5 * (low + high);
-    double sum = 0;
-    for (const Cell& cell : cells) sum += std::min(factor * cell.wanted, cell.most);
-    (sum < total ? low : high) = factor;
-  }
-  return 0.5 * (low + high);
-}
-
 }  // namespace
 
 double floe_count(const FloeField& field) {
@@ -169,7 +157,7 @@ FloeFieldOutcome make_floe_field(const FloeField& field) {
   const Box box = bounding_box(field.region);
   const std::vector<Cell> cells = make_cells(field, box);
   const double box_area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
-  const double factor = common_factor(cells, field.concentration * box_area);
+  const double factor = common_factor(cells, &Cell::most, field.concentration * box_area);
   FloeFieldOutcome outcome;
   outcome.region_area = geometry::signed_area(field.region);
   outcome.reachable_concentration = 0;
@@ -179,10 +167,7 @@ FloeFieldOutcome make_floe_field(const FloeField& field) {
   for (const Cell& cell : cells) {
     const double area = std::min(factor * cell.wanted, cell.most);
     if (area <= 0) continue;
-    const double s = std::sqrt(area / cell.area);
-    Ring floe;
-    floe.reserve(cell.ring.size());
-    for (const Point p : cell.ring) floe.push_back(cell.centroid + s * (p - cell.centroid));
+    Ring floe = scaled(cell.ring, cell.centroid, std::sqrt(area / cell.area));
     if (obstacles.forbid(floe)) {
       ++outcome.left_out;
       continue;
@@ -191,13 +176,7 @@ FloeFieldOutcome make_floe_field(const FloeField& field) {
     size_sum += std::sqrt(area);
     outcome.floes.push_back({std::move(floe), {}});
   }
-  const auto count = static_cast<double>(outcome.floes.size());
-  outcome.count = static_cast<int>(outcome.floes.size());
-  if (count > 0) {
-    outcome.mean_size = size_sum / count;
-    const double variance = outcome.floe_area / count - outcome.mean_size * outcome.mean_size;
-    outcome.size_spread = std::sqrt(std::max(0.0, variance)) / outcome.mean_size;
-  }
+  enter_sizes(size_sum, outcome);
   return outcome;
 }
 

@@ -95,6 +95,13 @@ Ring inset(const Ring& ring, double distance) {
   return left;
 }
 
+Ring scaled(const Ring& ring, Point centre, double factor) {
+  Ring moved;
+  moved.reserve(ring.size());
+  for (const Point p : ring) moved.push_back(centre + factor * (p - centre));
+  return moved;
+}
+
 void reduce_corners(Ring& ring, int most, double shortest) {
   while (ring.size() > 3) {
     const std::size_t n = ring.size();

@@ -28,6 +28,9 @@ void clip_to_left(geometry::Ring& ring, geometry::Point from, geometry::Point to
 /// The ring with all its edges moved inwards [m]; nothing may be left.
 geometry::Ring inset(const geometry::Ring& ring, double distance);
 
+/// The ring by a factor larger about a point.
+geometry::Ring scaled(const geometry::Ring& ring, geometry::Point centre, double factor);
+
 /// Removes corners, those of least area first, until there are few enough and no edge is very short [m].
 /// The result lies within the ring.
 void reduce_corners(geometry::Ring& ring, int most, double shortest);

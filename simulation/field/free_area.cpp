@@ -30,10 +30,6 @@ bool is_inside(const Ring& ring, Point p) {
   return inside;
 }
 
-bool holds(const Box& box, Point p) {
-  return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
-}
-
 bool is_convex(const Ring& ring) {
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -122,7 +118,7 @@ void FreeArea::for_bins(const Box& box, Visit visit) const {
 bool FreeArea::holds(Point p) const {
   if (!region_.empty() && !is_inside(region_, p)) return false;
   for (std::size_t i = 0; i < clear_.size(); ++i) {
-    if (simulation::holds(clear_boxes_[i], p) && is_inside(clear_[i], p)) return false;
+    if (contains(clear_boxes_[i], {p, p}) && is_inside(clear_[i], p)) return false;
   }
   return true;
 }

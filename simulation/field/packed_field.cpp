@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "simulation/field/convex.hpp"
+#include "simulation/field/filling.hpp"
 #include "simulation/field/free_area.hpp"
 #include "simulation/field/obstacles.hpp"
 #include "simulation/field/portable_math.hpp"
@@ -177,32 +178,12 @@ void fill(const FloeField& field, const Ring& region, Random& random, Making& ma
   }
 }
 
-/// λ with Σ min(λ wanted, most) = total, by bisection.
-double common_factor(const std::vector<Candidate>& candidates, double total) {
-  double low = 0;
-  double high = 64;
-  for (int i = 0; i < 60; ++i) {
-    const double factor = 0.5 * (low + high);
-    double sum = 0;
-    for (const Candidate& candidate : candidates) sum += std::min(factor * candidate.wanted, candidate.room);
-    (sum < total ? low : high) = factor;
-  }
-  return 0.5 * (low + high);
-}
-
-Ring scaled(const Candidate& candidate, double factor) {
-  Ring floe;
-  floe.reserve(candidate.ring.size());
-  for (const Point p : candidate.ring) floe.push_back(candidate.centroid + factor * (p - candidate.centroid));
-  return floe;
-}
-
 /// The candidate at a factor, or a little smaller where it would come too near to what is kept clear: the
 /// corners of its cell were cut by straight lines. Nothing where that does not help.
 Ring clear_of(const Obstacles& obstacles, const Candidate& candidate, double factor) {
   constexpr int kTries = 12;
   for (int i = 0; i < kTries; ++i) {
-    Ring floe = scaled(candidate, factor);
+    Ring floe = scaled(candidate.ring, candidate.centroid, factor);
     if (!obstacles.forbid(floe)) return floe;
     factor *= 0.97;
   }
@@ -220,7 +201,8 @@ bool shrink_candidates(const Obstacles& obstacles, double factor, std::vector<Ca
     if (candidate.room <= 0) continue;
     const double area = std::min(factor * candidate.wanted, candidate.room);
     const double shrunk = std::sqrt(area / candidate.most);
-    floes[i] = candidate.is_at_boundary ? clear_of(obstacles, candidate, shrunk) : scaled(candidate, shrunk);
+    floes[i] = candidate.is_at_boundary ? clear_of(obstacles, candidate, shrunk)
+                                        : scaled(candidate.ring, candidate.centroid, shrunk);
     const double left = floes[i].empty() ? 0 : measure_convex(floes[i]).area;
     if (left >= area * (1 - 1e-9)) continue;
     candidate.room = left;
@@ -238,10 +220,12 @@ void add_floes(const FloeField& field, Making& making, FloeFieldOutcome& outcome
   const Obstacles obstacles(with_rounding);
   std::vector<Ring> floes(making.candidates.size());
   for (int round = 0; round < kRounds; ++round) {
-    const double factor = common_factor(making.candidates, field.concentration * making.free_area);
+    const double factor =
+        common_factor(making.candidates, &Candidate::room, field.concentration * making.free_area);
     if (!shrink_candidates(obstacles, factor, making.candidates, floes)) break;
   }
   outcome.floes.reserve(floes.size());
+  double size_sum = 0;
   for (Ring& floe : floes) {
     if (floe.empty()) {
       ++outcome.left_out;
@@ -249,10 +233,11 @@ void add_floes(const FloeField& field, Making& making, FloeFieldOutcome& outcome
     }
     const double area = measure_convex(floe).area;
     outcome.floe_area += area;
-    outcome.mean_size += std::sqrt(area);
+    size_sum += std::sqrt(area);
     floe.shrink_to_fit();
     outcome.floes.push_back({std::move(floe), {}});
   }
+  enter_sizes(size_sum, outcome);
 }
 
 }  // namespace
@@ -274,12 +259,7 @@ FloeFieldOutcome make_packed_field(const FloeField& field) {
   outcome.reachable_concentration = most / making.free_area;
   outcome.reachable_without_gap = making.cell_area / making.free_area;
   add_floes(field, making, outcome);
-  outcome.count = static_cast<int>(outcome.floes.size());
   if (outcome.count == 0) return outcome;
-  const auto count = static_cast<double>(outcome.count);
-  outcome.mean_size /= count;
-  const double variance = outcome.floe_area / count - outcome.mean_size * outcome.mean_size;
-  outcome.size_spread = std::sqrt(std::max(0.0, variance)) / outcome.mean_size;
   outcome.statistics = statistics_of(*field.law, outcome.floes);
   return outcome;
 }
