@@ -7,6 +7,7 @@
 #include "app/console.hpp"
 #include "app/cut_floes.hpp"
 #include "app/cut_messages.hpp"
+#include "app/failure.hpp"
 #include "app/options.hpp"
 #include "app/read_input.hpp"
 #include "app/write_output.hpp"
@@ -40,17 +41,6 @@ struct Options {
   std::optional<geometry::FillRule> repair;
 };
 
-/// Ends the command; the message has been made.
-struct Failure {
-  ExitCode code;
-  std::string words;
-};
-template <class Value>
-using Outcome = tl::expected<Value, Failure>;
-
-tl::unexpected<Failure> failure(ExitCode code, std::string words) {
-  return tl::unexpected(Failure{code, std::move(words)});
-}
 tl::unexpected<Failure> failure(const std::string& where, const io::ToolError& error) {
   const bool is_invalid = error.kind == io::ToolError::Kind::kInvalidPolygon;
   return failure(is_invalid ? kRefused : kUsage, fmt::format("{}: {}", where, error.words));

@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/failure.hpp"
 #include "app/options.hpp"
 #include "app/read_input.hpp"
 #include "app/write_output.hpp"
@@ -40,18 +41,6 @@ struct Options {
   std::vector<std::string> properties;
   io::ImportSettings settings;
 };
-
-/// Ends the command; the message has been made.
-struct Failure {
-  ExitCode code;
-  std::string words;
-};
-template <class Value>
-using Outcome = tl::expected<Value, Failure>;
-
-tl::unexpected<Failure> failure(ExitCode code, std::string words) {
-  return tl::unexpected(Failure{code, std::move(words)});
-}
 
 std::string origin_option(double latitude, double longitude) {
   return fmt::format("--origin {:.6g},{:.6g}", latitude, longitude);

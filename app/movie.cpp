@@ -10,21 +10,17 @@
 namespace polynya::app {
 namespace {
 
-struct Option {
-  const char* name;
-  const char* value;
-  const char* meaning;
-};
-
 /// polynya.movie (python/polynya/movie) reads and checks their values.
 constexpr std::array kOptions{
-    Option{"--out", "FILE", "The film: .mp4, .gif, or .png, the picture at --from; voyage.mp4 if not given"},
-    Option{"--from", "S", "Simulated time at which it begins; the run's start if not given"},
-    Option{"--to", "S", "Simulated time at which it ends; the run's end if not given"},
-    Option{"--speed", "X",
-           "Simulated seconds a second of the film; one for about half a minute if not given"},
-    Option{"--size", "WxH", "In pixels; 1280x720 if not given"},
-    Option{"--follow", "SHIP", "The ship that the map goes with, by its name; all of the run if not given"},
+    PythonOption{"--out", "FILE",
+                 "The film: .mp4, .gif, or .png, the picture at --from; voyage.mp4 if not given"},
+    PythonOption{"--from", "S", "Simulated time at which it begins; the run's start if not given"},
+    PythonOption{"--to", "S", "Simulated time at which it ends; the run's end if not given"},
+    PythonOption{"--speed", "X",
+                 "Simulated seconds a second of the film; one for about half a minute if not given"},
+    PythonOption{"--size", "WxH", "In pixels; 1280x720 if not given"},
+    PythonOption{"--follow", "SHIP",
+                 "The ship that the map goes with, by its name; all of the run if not given"},
 };
 
 }  // namespace
@@ -45,16 +41,13 @@ Command add_movie(CLI::App& app) {
       "no file.\n"
       "Exit codes: 0 done, 2 usage, 5 input/output.\n");
   auto run = std::make_shared<std::string>();
-  auto values = std::make_shared<std::array<std::string, kOptions.size()>>();
+  auto values = std::make_shared<PythonOptions>(kOptions);
   option(*command, "run", *run, "RUN", "The run folder; a run that is not finished is shown as far as it got")
       ->required();
-  for (std::size_t i = 0; i < kOptions.size(); ++i)
-    option(*command, kOptions[i].name, (*values)[i], kOptions[i].value, kOptions[i].meaning);
+  values->add_to(*command);
   return {command, [run, values] {
             std::vector<std::string> words{*run};
-            for (std::size_t i = 0; i < kOptions.size(); ++i)
-              if (!(*values)[i].empty())
-                words.push_back(fmt::format("{}={}", kOptions[i].name, (*values)[i]));
+            values->append_to(words);
             return become_python("polynya.movie", words);
           }};
 }

@@ -10,23 +10,17 @@
 namespace polynya::app {
 namespace {
 
-struct Option {
-  const char* name;
-  const char* value;
-  const char* meaning;
-};
-
 /// polynya.performance (python/polynya/performance) reads and checks their values.
 constexpr std::array kOptions{
-    Option{"--thickness", "LIST",
-           "Thicknesses [m], as 0.4,0.8,1.2; ten up to where formulas stop the ship if not given"},
-    Option{"--flexural-strength", "PA", "Of the ice; 500e3 if not given"},
-    Option{"--friction", "MU", "Of ice on the hull; 0.1 if not given"},
-    Option{"--error", "SHARE", "Largest error of a mean speed, of that speed; 0.03 if not given"},
-    Option{"--step", "S", "Time step; 0.01 if not given"},
-    Option{"--out", "DIR",
-           "Folder of the runs, the table and the figure; runs/performance-SHIP if not given"},
-    Option{"--jobs", "N", "Runs at a time; one a processor if not given"},
+    PythonOption{"--thickness", "LIST",
+                 "Thicknesses [m], as 0.4,0.8,1.2; ten up to where formulas stop the ship if not given"},
+    PythonOption{"--flexural-strength", "PA", "Of the ice; 500e3 if not given"},
+    PythonOption{"--friction", "MU", "Of ice on the hull; 0.1 if not given"},
+    PythonOption{"--error", "SHARE", "Largest error of a mean speed, of that speed; 0.03 if not given"},
+    PythonOption{"--step", "S", "Time step; 0.01 if not given"},
+    PythonOption{"--out", "DIR",
+                 "Folder of the runs, the table and the figure; runs/performance-SHIP if not given"},
+    PythonOption{"--jobs", "N", "Runs at a time; one a processor if not given"},
 };
 
 }  // namespace
@@ -47,19 +41,16 @@ Command add_performance(CLI::App& app) {
       "was "
       "stopped goes on. Needs Python 3 with numpy, and matplotlib for the figure (./setup.sh python).\n");
   auto ship = std::make_shared<std::string>();
-  auto values = std::make_shared<std::array<std::string, kOptions.size()>>();
+  auto values = std::make_shared<PythonOptions>(kOptions);
   auto is_list = std::make_shared<bool>(false);
   option(*command, "ship", *ship, "SHIP",
          "A preset (polynya ships), or a JSON file with a ship as scenes have it")
       ->required();
-  for (std::size_t i = 0; i < kOptions.size(); ++i)
-    option(*command, kOptions[i].name, (*values)[i], kOptions[i].value, kOptions[i].meaning);
+  values->add_to(*command);
   command->add_flag("--list", *is_list, "Print the formulas' speeds and run nothing");
   return {command, [ship, values, is_list] {
             std::vector<std::string> words{*ship};
-            for (std::size_t i = 0; i < kOptions.size(); ++i)
-              if (!(*values)[i].empty())
-                words.push_back(fmt::format("{}={}", kOptions[i].name, (*values)[i]));
+            values->append_to(words);
             if (*is_list) words.emplace_back("--list");
             return become_python("polynya.performance", words);
           }};

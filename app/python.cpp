@@ -10,6 +10,7 @@
 
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
+#include "app/options.hpp"
 
 namespace polynya::app {
 namespace {
@@ -32,6 +33,16 @@ std::string python() {
 }
 
 }  // namespace
+
+void PythonOptions::add_to(CLI::App& command) {
+  for (std::size_t i = 0; i < options_.size(); ++i)
+    option(command, options_[i].name, values_[i], options_[i].value, options_[i].meaning);
+}
+
+void PythonOptions::append_to(std::vector<std::string>& words) const {
+  for (std::size_t i = 0; i < options_.size(); ++i)
+    if (!values_[i].empty()) words.push_back(fmt::format("{}={}", options_[i].name, values_[i]));
+}
 
 int become_python(const std::string& module, const std::vector<std::string>& words) {
   std::error_code error;
