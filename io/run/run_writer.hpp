@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "io/run/force_columns.hpp"
 #include "io/run/frames.hpp"
 #include "io/run/run_folder.hpp"
-#include "io/run/shown_loads.hpp"
 #include "io/run/summary.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/output_file.hpp"

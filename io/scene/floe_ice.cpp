@@ -110,13 +110,17 @@ bool is_same(const Ice& a, const Ice& b) {
 }  // namespace
 
 const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties() {
-  static const std::array<FloeIceProperty, kFloeIceProperties> kProperties{
-      {{"thickness_m", "m", {.low = 1e-3, .high = 20}, &Ice::thickness},
-       {"density_kg_per_m3", "kg/m³", {.low = 100, .high = 1100}, &Ice::density},
-       {"flexural_strength_Pa", "Pa", {.low = 1, .high = 1e9}, &Ice::flexural_strength},
-       {"compressive_strength_Pa", "Pa", {.low = 1, .high = 1e10}, &Ice::compressive_strength},
-       {"tensile_strength_Pa", "Pa", {.low = 1, .high = 1e9}, &Ice::tensile_strength},
-       {"fracture_toughness_Pa_sqrt_m", "Pa √m", {.low = 1, .high = 1e9}, &Ice::fracture_toughness}}};
+  static const auto kProperties = [] {
+    constexpr std::array<double Ice::*, kFloeIceProperties> kValues{
+        &Ice::thickness,        &Ice::density,           &Ice::flexural_strength, &Ice::compressive_strength,
+        &Ice::tensile_strength, &Ice::fracture_toughness};
+    std::array<FloeIceProperty, kFloeIceProperties> properties;
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+      const FloeProperty& in_file = floe_properties()[i];
+      properties[i] = {in_file.key, in_file.unit, {.low = in_file.low, .high = in_file.high}, kValues[i]};
+    }
+    return properties;
+  }();
   return kProperties;
 }
 

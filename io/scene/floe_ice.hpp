@@ -20,7 +20,7 @@ struct FloeIceProperty {
   std::string_view key;
   std::string_view unit;
   Range range;
-  double fracture::Ice::*value;
+  double fracture::Ice::*value = nullptr;
 };
 const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties();
 
