@@ -18,7 +18,7 @@ import numpy as np
 from study import BEAM, ENTRANCE, HULL, LENGTH, SHIP, rows_of, run_all, run_scene
 
 AIR, C_A, C_W, RHO_I, RHO_W, THICKNESS, FRICTION = 1.3, 0.002, 0.004, 900, 1000, 0.5, 0.2
-UNBREAKABLE = {"fracture": {"breakable_size_factor": 1000, "splitting": {"model": "michel", "shape_factor": 100}}}
+UNBREAKABLE = {"fracture": {"breakable_size_factor": 1000, "splitting": {"model": "none"}}}
 
 
 def column(folder, ship, name):

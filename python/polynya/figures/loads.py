@@ -37,7 +37,7 @@ def chosen(run, choice):
     found["true"] = found["mean"] + found["max"]
     if len(run.ship_names) > 1:
         found["ships"] = [Load("_from_ships", mean), Load("_from_ships_max", largest)]
-    if scene.get("fracture", {}).get("splitting", {}).get("model", "michel") == "michel":
+    if scene.get("fracture", {}).get("splitting", {}).get("model") == "michel":
         found["j-over-tau-c"] = [Load("_j_over_tau_c", r"$j/\tau_c$ of the paper")]
     return found.get(choice, [])
 

@@ -11,6 +11,7 @@ from matplotlib.path import Path
 from polynya.errors import FolderError
 
 from . import map_legend as legend
+from .map_extent import extent_of
 from .page import Page, Sheet
 from .subjects import all_labelled
 
@@ -36,10 +37,10 @@ class Scenery:
     channel: list
     marks: dict  #: points of fractures by kind
 
-    def points(self):
-        """Of all that sets the extent of a map."""
+    def pieces(self):
+        """Points of all that sets the extent of a map."""
         rings = [rings[0] for of in (self.at_start, self.as_in_scene, self.broken, self.came_up) for rings in of]
-        return numpy.concatenate([*rings, *self.hulls, *self.walls, *self.tracks]) if rings or self.hulls or self.walls else numpy.array([[0.0, 0.0], [100.0, 100.0]])
+        return [*rings, *self.hulls, *self.walls, *self.tracks]
 
 
 def chosen_times(runs, wanted, count):
@@ -85,7 +86,7 @@ def scenery_of(labelled, time, has_label):
     marks = {kind: points[is_past & (events["kind"] == kind)] for kind in ("bend", "split", "grind")}
     past = [*run.times[run.times < time], time]
     tracks = numpy.array([run.motions.ships_at(t)[:, :2] for t in past]) if len(run.times) else numpy.empty((0, 0, 2))
-    walls = {wall["name"] for wall in run.scene.get("walls", [])}
+    walls = run.wall_names
     floats = int(numpy.count_nonzero(~under))
     caption = f"{counted(len(marks['bend']), 'cusp')}, {counted(len(marks['split']), 'split')}, {counted(floats, 'floe')}"
     went, up = (int(numpy.count_nonzero(is_past & (events["kind"] == kind))) for kind in ("submerge", "resurface"))
@@ -108,16 +109,6 @@ def scenery_of(labelled, time, has_label):
         channel=channels_at(run, time),
         marks=marks,
     )
-
-
-def extent_of(sceneries, window):
-    """x0, y0, x1, y1 [m]"""
-    if window:
-        return tuple(window)
-    points = numpy.concatenate([scenery.points() for scenery in sceneries])
-    low, high = points.min(axis=0), points.max(axis=0)
-    room = max(1.0, 0.02 * (high - low).max())
-    return (*(low - room), *(high + room))
 
 
 def path_of(rings):
@@ -166,7 +157,7 @@ def draw(runs, page=Page(), at=(), window=None):
     times = chosen_times(runs, at, page.style.maps)
     is_alone = len(runs) == 1
     sceneries = [scenery_of(run, min(time, run.end), not is_alone) for run in runs for time in times]
-    x0, y0, x1, y1 = extent_of(sceneries, window)
+    x0, y0, x1, y1 = window or extent_of([piece for scenery in sceneries for piece in scenery.pieces()])
     title = runs[0].label if is_alone else "Floes and channels"
     if len(sceneries) == 1:
         title, sceneries[0].title = f"{runs[0].label}, {sceneries[0].title.split(', ')[-1]}", ""

@@ -6,6 +6,8 @@ import functools
 import numpy
 from matplotlib.path import Path
 
+from ..figures.map_extent import extent_of
+
 WHOLE, BROKEN, CAME_UP, UNDER = range(4)
 NOTHING = Path(numpy.empty((0, 2)), numpy.empty(0, Path.code_type))
 
@@ -63,9 +65,9 @@ class Scenery:
 
     def hulls(self, frame):
         """Ships and structures as one path, walls as another."""
-        rings = [numpy.concatenate([ring, ring[:1]]) for ring in frame.hulls.values()]
-        first_wall = len(rings) - len(self.run.scene.get("walls", []))
-        return path_of(rings[:first_wall]), path_of(rings[first_wall:])
+        walls = self.run.wall_names
+        closed = {name: numpy.concatenate([ring, ring[:1]]) for name, ring in frame.hulls.items()}
+        return tuple(path_of([ring for name, ring in closed.items() if (name in walls) == is_wall]) for is_wall in (False, True))
 
     def tracks(self, time):
         """Of ships, not of structures and walls, up to a time [s], each n × 2."""
@@ -85,10 +87,7 @@ class Scenery:
         end = self.run.frame(self.run.end_time)
         pieces = [self.ice_at_start.vertices, *(path.vertices for path in (*self.floes(end), *self.hulls(end))),
                   *(path.vertices for path in self.hulls(self.run.frame(self.run.start_time))), *self.tracks(self.run.end_time)]
-        points = numpy.concatenate([piece for piece in pieces if len(piece)] or [numpy.array([[0.0, 0.0], [100.0, 100.0]])])
-        low, high = points.min(axis=0), points.max(axis=0)
-        room = max(1.0, 0.02 * (high - low).max())
-        return (*(low - room), *(high + room))
+        return extent_of(pieces)
 
 
 def path_of(rings):

@@ -11,7 +11,8 @@ import sys
 
 from .. import formulas
 from ..formulas import KNOT
-from ..study.case import DONE, FAILED, STOPPED, program
+from ..program import program
+from ..study.case import DONE, FAILED, STOPPED
 from ..study.located_json import read_json
 from .curve import Curve, RunFailed
 

@@ -70,6 +70,11 @@ class Run:
         """Of ships, then of structures, then of walls: their order everywhere."""
         return list(self.waterlines)
 
+    @property
+    def wall_names(self) -> set[str]:
+        """Of the scene's walls, which `waterlines` has among the others."""
+        return {wall["name"] for wall in self.scene.get("walls", [])}
+
     @functools.cached_property
     def waterlines(self) -> dict[str, numpy.ndarray]:
         """Of ships, structures and walls, in their own frames [m], by name."""

@@ -5,7 +5,8 @@ What an action alone needs is imported there: a case starts in half the time and
 import pathlib
 import sys
 
-from .case import DONE, INPUT_OUTPUT, program, run_case
+from ..program import program
+from .case import DONE, INPUT_OUTPUT, run_case
 from .folder import PLAN, counted, numbers_of_list, open_study, planned_folder
 from .located_json import StudyError
 from .options import PROCESSORS, command_line

@@ -9,6 +9,8 @@ import signal
 import subprocess
 import time
 
+from ..program import program
+
 from . import measures
 from .folder import RESULT, RUN, write_atomically
 
@@ -21,10 +23,6 @@ LIBC = ctypes.CDLL(None)
 def die_with_parent(number):
     """Has the kernel send this process a signal when its parent ends, however that comes."""
     LIBC.prctl(PR_SET_PDEATHSIG, number)
-
-
-def program():
-    return os.environ.get("POLYNYA_PROGRAM", "polynya")
 
 
 def state_of(folder):

@@ -11,8 +11,8 @@ import sys
 import tempfile
 import time
 
+from ..program import program
 from . import trial
-from .case import program
 from .definition import LARGEST_SEED, read_definition
 from .expand import count_cases, expand, repeats_by_seed, varied_paths
 from .folder import CASES, FORMAT, INDEX, PLAN, Study, list_of_numbers, write_atomically

@@ -6,9 +6,9 @@ import html
 import os
 import subprocess
 
+from ..program import program
 from .. import statistics
 from . import channels, pictures
-from .case import program
 from .folder import RUN, write_atomically
 from .gather import TABLE, gather
 from .sample import QUANTILE, choices_of, fits_of, read_sample

@@ -5,7 +5,8 @@ import shlex
 import shutil
 import subprocess
 
-from .case import DONE, program, state_of
+from ..program import program
+from .case import DONE, state_of
 from .folder import list_of_numbers, write_atomically
 from .located_json import StudyError
 
