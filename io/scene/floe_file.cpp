@@ -26,6 +26,8 @@ class FloeFileReader {
   std::optional<FloeFile> read(const std::filesystem::path& file,
                                const std::optional<simulation::GeographicOrigin>& origin) {
     const std::size_t before = problems_.count();
+    if (origin && !settings_.import.plane.target.empty())
+      report_entry("import.crs in a scene that has an origin", "one of the two: the scene has one plane");
     auto text = text_of(file);
     if (!text) {
       report_entry("\"" + file.string() + "\": " + text.error(),

@@ -173,6 +173,16 @@ TEST_F(FloeFile, AnImportRepairsTrimsAndReports) {
   EXPECT_NE(to_string(refused.error().front()).find(R"("repair": "non-zero")"), std::string::npos);
 }
 
+TEST_F(FloeFile, APlaneOfItsOwnIsRefusedBesideTheScenesOrigin) {
+  write_file(folder / "floes.geojson", collection({square(0, 0, 10)}));
+  const auto scene = read_scene(R"({"origin": {"latitude_deg": 75, "longitude_deg": 15.6},
+    "floes": [{"file": "floes.geojson", "import": {"crs": "EPSG:3413"}}]})",
+                                "scene.json", folder.path());
+  ASSERT_FALSE(scene);
+  const std::string found = to_string(scene.error().front());
+  EXPECT_NE(found.find("import.crs in a scene that has an origin"), std::string::npos) << found;
+}
+
 TEST_F(FloeFile, PropertiesOfTheWrongTypeOrSignAreRefusedAtTheirPlace) {
   const std::string found = problems(
       collection({square(0, 0, 5, R"("thickness_m":-0.5)"), square(9, 0, 5, R"("vx_m_per_s":"fast")")}));
