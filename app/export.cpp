@@ -56,12 +56,16 @@ int write_geojson(const io::Run& run, const Options& options) {
   if (!(time >= run.start_time() && time <= run.end_time()))
     return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run.start_time(),
                                     run.end_time()));
-  if (const auto made = make_folder(options.geojson); !made) return fail(kInputOutput, made.error());
-  auto origin = run.scene.scene.origin;
-  if (options.is_in_metres) origin.reset();
-  if (!origin && !options.is_in_metres)
+  io::Project project;
+  if (const auto& origin = run.scene.scene.origin; origin && !options.is_in_metres) {
+    auto degrees = views::degrees_about(*origin);
+    if (!degrees) return fail(kInputOutput, degrees.error() + "; --metres writes the scene's plane");
+    project = std::move(*degrees);
+  } else if (!options.is_in_metres) {
     print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
-  for (const auto& [name, text] : views::geojson_layers(run, time, origin)) {
+  }
+  if (const auto made = make_folder(options.geojson); !made) return fail(kInputOutput, made.error());
+  for (const auto& [name, text] : views::geojson_layers(run, time, project)) {
     const fs::path file = fs::path(options.geojson) / name;
     if (const auto written = io::write_named_file(file, text); !written)
       return fail(kInputOutput, written.error());

@@ -167,15 +167,16 @@ class PlaneImport {
     const auto steps = Projection::between(system, GeographicPlane::system(origin));
     if (!steps) return refuse(steps.error());
     report_.origin = origin;
-    const GeographicPlane plane(origin);
+    const auto plane = GeographicPlane::about(origin);
+    if (!plane) return refuse(plane.error());
     std::vector<SourceFloe> as_read;
     if (is_geographic) as_read = floes_;
     auto applied = apply([&](std::vector<Point>& points) {
       steps->apply(points);
-      plane.turn(points);
+      plane->turn(points);
     });
     if (!applied) return applied;
-    return check_hemisphere(plane, as_read);
+    return check_hemisphere(*plane, as_read);
   }
 
   /// Projects all rings, and turns velocities as their axes turn there.

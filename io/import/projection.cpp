@@ -143,8 +143,11 @@ std::string GeographicPlane::system(const simulation::GeographicOrigin& origin) 
                      kDegrees * origin.latitude, kDegrees * origin.longitude);
 }
 
-GeographicPlane::GeographicPlane(const simulation::GeographicOrigin& origin)
-    : origin_(origin), from_degrees_(Projection::between(kLongitudeLatitude, system(origin)).value()) {}
+Result<GeographicPlane> GeographicPlane::about(const simulation::GeographicOrigin& origin) {
+  auto from_degrees = Projection::between(kLongitudeLatitude, system(origin));
+  if (!from_degrees) return fail(from_degrees.error());
+  return GeographicPlane(origin, std::move(*from_degrees));
+}
 
 Geographic GeographicPlane::geographic_of(Point point) const {
   // The x axis heads `heading` clockwise from north; y is 90° to port of it.

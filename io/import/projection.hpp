@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/shape/point.hpp"
@@ -56,7 +57,8 @@ class Projection {
 /// d²/(6 R²) of themselves, d from the origin: 4 mm over 10 km.
 class GeographicPlane {
  public:
-  explicit GeographicPlane(const simulation::GeographicOrigin& origin);
+  /// Fails where PROJ cannot be loaded.
+  static Result<GeographicPlane> about(const simulation::GeographicOrigin& origin);
 
   Geographic geographic_of(geometry::Point point) const;
   /// From degrees, longitude first.
@@ -68,6 +70,9 @@ class GeographicPlane {
   static std::string system(const simulation::GeographicOrigin& origin);
 
  private:
+  GeographicPlane(const simulation::GeographicOrigin& origin, Projection from_degrees)
+      : origin_(origin), from_degrees_(std::move(from_degrees)) {}
+
   simulation::GeographicOrigin origin_;
   Projection from_degrees_;
 };

@@ -71,7 +71,7 @@ TEST(Projection, OfPolarStereographicIsItsClosedForm) {
 
 TEST(GeographicPlane, ThereAndBackIsTheSamePlace) {
   for (const auto& at : {origin(78.2, 15.6, 30), origin(-64, 179.9), origin(90, 0), origin(0, -30, 200)}) {
-    const GeographicPlane plane_about(at);
+    const GeographicPlane plane_about = *GeographicPlane::about(at);
     for (const Point p : {Point{0, 0}, Point{12345.678, -400}, Point{-3e4, 4e4}}) {
       const Geographic place = plane_about.geographic_of(p);
       std::vector<Point> back{{place.longitude / kRad, place.latitude / kRad}};

@@ -33,8 +33,8 @@ double normal_radius(double latitude) {
 TEST(Geographic, TheOriginIsWhereTheSceneSays) {
   for (const double latitude : {-80.0, 0.0, 45.0, 78.2, 90.0}) {
     const GeographicOrigin origin{latitude * kRad, 15.6 * kRad, 0.4};
-    EXPECT_NEAR(io::GeographicPlane(origin).geographic_of({0, 0}).latitude, latitude * kRad, 1e-14);
-    EXPECT_NEAR(io::GeographicPlane(origin).geographic_of({0, 0}).longitude, 15.6 * kRad, 1e-14);
+    EXPECT_NEAR(io::GeographicPlane::about(origin)->geographic_of({0, 0}).latitude, latitude * kRad, 1e-14);
+    EXPECT_NEAR(io::GeographicPlane::about(origin)->geographic_of({0, 0}).longitude, 15.6 * kRad, 1e-14);
   }
 }
 
@@ -43,23 +43,24 @@ TEST(Geographic, SmallStepsFollowTheRadiiOfCurvature) {
     const double lat = latitude * kRad;
     const GeographicOrigin north_up{lat, 0, 90 * kRad};  // x east, y north
     const double d = 10;
-    EXPECT_NEAR(io::GeographicPlane(north_up).geographic_of({0, d}).latitude - lat, d / meridian_radius(lat),
-                1e-11);
-    EXPECT_NEAR(io::GeographicPlane(north_up).geographic_of({d, 0}).longitude,
+    EXPECT_NEAR(io::GeographicPlane::about(north_up)->geographic_of({0, d}).latitude - lat,
+                d / meridian_radius(lat), 1e-11);
+    EXPECT_NEAR(io::GeographicPlane::about(north_up)->geographic_of({d, 0}).longitude,
                 d / (normal_radius(lat) * std::cos(lat)), 1e-11);
     const GeographicOrigin x_north{lat, 0, 0};  // x north, y west
-    EXPECT_NEAR(io::GeographicPlane(x_north).geographic_of({d, 0}).latitude - lat, d / meridian_radius(lat),
-                1e-11);
-    EXPECT_LT(io::GeographicPlane(x_north).geographic_of({0, d}).longitude, 0);
+    EXPECT_NEAR(io::GeographicPlane::about(x_north)->geographic_of({d, 0}).latitude - lat,
+                d / meridian_radius(lat), 1e-11);
+    EXPECT_LT(io::GeographicPlane::about(x_north)->geographic_of({0, d}).longitude, 0);
   }
 }
 
 TEST(Geographic, ConvergesOnThePole) {
   const GeographicOrigin pole{90 * kRad, 0, 0};
   for (const double angle : {0.1, 1.0, 2.5})
-    EXPECT_NEAR(
-        io::GeographicPlane(pole).geographic_of({1000 * std::cos(angle), 1000 * std::sin(angle)}).latitude,
-        90 * kRad - 1000 / meridian_radius(90 * kRad), 1e-10);
+    EXPECT_NEAR(io::GeographicPlane::about(pole)
+                    ->geographic_of({1000 * std::cos(angle), 1000 * std::sin(angle)})
+                    .latitude,
+                90 * kRad - 1000 / meridian_radius(90 * kRad), 1e-10);
 }
 
 double covered(const Polygon& polygon) {

@@ -17,14 +17,6 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 using io::GeojsonLayer;
 using io::Project;
 
-Project projection(const std::optional<simulation::GeographicOrigin>& origin) {
-  if (!origin) return {};
-  return [plane = std::make_shared<io::GeographicPlane>(*origin)](geometry::Point p) {
-    const io::Geographic at = plane->geographic_of(p);
-    return geometry::Point{kDegrees * at.longitude, kDegrees * at.latitude};
-  };
-}
-
 std::optional<double> speed_of(const io::PlacedFloe& floe) {
   return floe.motion ? std::optional(length(floe.motion->velocity)) : std::nullopt;
 }
@@ -106,9 +98,17 @@ std::string channel_layer(const io::Run& run, double time, const Project& projec
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> geojson_layers(
-    const io::Run& run, double time, const std::optional<simulation::GeographicOrigin>& origin) {
-  const Project project = projection(origin);
+io::Result<Project> degrees_about(const simulation::GeographicOrigin& origin) {
+  auto made = io::GeographicPlane::about(origin);
+  if (!made) return io::fail(made.error());
+  return Project([plane = std::make_shared<io::GeographicPlane>(std::move(*made))](geometry::Point p) {
+    const io::Geographic at = plane->geographic_of(p);
+    return geometry::Point{kDegrees * at.longitude, kDegrees * at.latitude};
+  });
+}
+
+std::vector<std::pair<std::string, std::string>> geojson_layers(const io::Run& run, double time,
+                                                                const Project& project) {
   const io::MotionIndex motions(run);
   std::vector<std::pair<std::string, std::string>> layers{
       {"floes.geojson", floes_layer(run, floes_at(run, motions, time), time, project)},
