@@ -99,6 +99,12 @@ inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b,
           centre_a_from_b.rotation};
 }
 
+/// Whether it is ice of prescribed motion that stands in the water: nothing moves it.
+inline bool is_held(const Bodies& bodies, BodyIndex i) {
+  return bodies.inverse_mass[i] == 0 && bodies.thickness[i] > 0 && bodies.velocity[i] == geometry::Vector{} &&
+         bodies.angular_velocity[i] == 0;
+}
+
 /// Velocity of a point of the body at `arm` from its centre of mass, v + ω × r [m/s].
 inline geometry::Vector velocity_at(const Bodies& bodies, BodyIndex i, geometry::Vector arm) {
   return bodies.velocity[i] + cross(bodies.angular_velocity[i], arm);

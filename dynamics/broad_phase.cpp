@@ -56,6 +56,7 @@ void BroadPhase::place(const Bodies& bodies, BodyIndex body) {
 
 void BroadPhase::remove(BodyIndex body) {
   Entry& entry = entries_[body];
+  leave_movers(body);
   for (const std::uint32_t slot : entry.pairs) {
     const Pair& pair = pairs_[slot];
     std::erase(entries_[pair.a == body ? pair.b : pair.a].pairs, slot);
@@ -66,15 +67,38 @@ void BroadPhase::remove(BodyIndex body) {
   entry.is_in = false;
 }
 
+bool BroadPhase::may_move(const Bodies& bodies, BodyIndex body) const {
+  return bodies.is_awake[body] != 0 && (!rule_.is_culling || !is_held(bodies, body));
+}
+
+void BroadPhase::enter_mover(const Bodies& bodies, BodyIndex body) {
+  Entry& entry = entries_[body];
+  if (entry.mover != kNoMover || !may_move(bodies, body)) return;
+  entry.mover = static_cast<std::int32_t>(movers_.size());
+  movers_.push_back(body);
+}
+
+void BroadPhase::leave_movers(BodyIndex body) {
+  const std::int32_t mover = std::exchange(entries_[body].mover, kNoMover);
+  if (mover == kNoMover) return;
+  const BodyIndex last = movers_.back();
+  movers_.pop_back();
+  if (last == body) return;
+  movers_[mover] = last;
+  entries_[last].mover = mover;
+}
+
 void BroadPhase::wake(const Bodies& bodies, BodyIndex body) {
+  enter_mover(bodies, body);
   add_pairs_of(bodies, body);
 }
 
 void BroadPhase::sleep(const Bodies& bodies, BodyIndex body) {
+  leave_movers(body);
   own_pairs_ = entries_[body].pairs;
   for (const std::uint32_t pair : own_pairs_) {
     const BodyIndex other = pairs_[pair].a == body ? pairs_[pair].b : pairs_[pair].a;
-    if (!bodies.is_awake[other]) drop_pair(pair);
+    if (!may_move(bodies, other)) drop_pair(pair);
   }
 }
 
@@ -93,6 +117,10 @@ void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
     }
     add_pair(bodies, a, b);
   };
+  if (rule_.is_culling && is_held(bodies, body)) {
+    for (const BodyIndex other : movers_) consider(other);
+    return;
+  }
   if (rule_.is_culling) return grid_.for_each_near(box, consider);
   for (BodyIndex other = 0; other < bodies.size(); ++other) {
     if (entries_[other].is_in) consider(other);
@@ -263,31 +291,6 @@ std::int64_t BroadPhase::take_unpaired_stretches() {
   std::int64_t unpaired = 0;
   for (Share& share : shares_) unpaired += std::exchange(share.scratch.unpaired, 0);
   return unpaired;
-}
-
-std::vector<PairState> BroadPhase::pair_states() const {
-  std::vector<PairState> states;
-  for (const std::vector<ActivePair>* list : {&active_, &recent_, &new_}) {
-    for (const ActivePair& active : *list) {
-      const Pair& pair = pairs_[active.slot];
-      if (!pair.is_dropped) states.push_back({active.a, active.b, active.separation_bound, pair.records});
-    }
-  }
-  std::sort(states.begin(), states.end(),
-            [](const PairState& p, const PairState& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
-  return states;
-}
-
-void BroadPhase::restore(const Bodies& bodies, const std::vector<PairState>& pairs) {
-  for (const PairState& pair : pairs) {
-    add_pair(bodies, pair.a, pair.b);
-    new_.back().separation_bound = pair.separation_bound;
-    pairs_[new_.back().slot].records = pair.records;
-  }
-  // The boxes are new, so some may meet that did not before.
-  for (BodyIndex body = 0; body < bodies.size(); ++body) {
-    if (bodies.is_awake[body] != 0) add_pairs_of(bodies, body);
-  }
 }
 
 }  // namespace polynya::dynamics

@@ -54,7 +54,8 @@ class BroadPhase {
   void note_pressed(BodyIndex body);
   /// Passes it on to a piece that was added and woken.
   void inherit(const Bodies& bodies, BodyIndex piece, const Inheritance& inheritance);
-  /// Pairs are kept only where one of the two is awake.
+  /// Pairs are kept only where one of the two is awake and may move: ice that is held where the water stands
+  /// meets only what comes to it, though a fast plate has a thousand pieces at rest in its box.
   void wake(const Bodies& bodies, BodyIndex body);
   void sleep(const Bodies& bodies, BodyIndex body);
 
@@ -100,7 +101,9 @@ class BroadPhase {
     geometry::Box box;  // grown
     std::vector<std::uint32_t> pairs;
     bool is_in = false;
+    std::int32_t mover = kNoMover;  // place in movers_
   };
+  static constexpr std::int32_t kNoMover = -1;
   struct ActivePair {
     BodyIndex a, b;
     double separation_bound;  // the two cannot touch until they have travelled this far together [m]
@@ -110,6 +113,9 @@ class BroadPhase {
     }
   };
   void place(const Bodies& bodies, BodyIndex body);
+  bool may_move(const Bodies& bodies, BodyIndex body) const;
+  void enter_mover(const Bodies& bodies, BodyIndex body);
+  void leave_movers(BodyIndex body);
   void add_pairs_of(const Bodies& bodies, BodyIndex body);
   void add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b);
   void drop_pair(std::uint32_t pair);
@@ -127,6 +133,7 @@ class BroadPhase {
   ContactRule rule_;
   HashGrid grid_;
   std::vector<Entry> entries_;
+  std::vector<BodyIndex> movers_;  // those awake that may move, in no order
   std::vector<double>
       travel_limits_;        // of bodies: the grown box contains one until it has travelled this far
   std::vector<Pair> pairs_;  // slots

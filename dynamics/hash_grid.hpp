@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -10,13 +12,21 @@
 namespace polynya::dynamics {
 
 /// Square cells over the water, each with the bodies whose boxes touch it. Unbounded: cells are hashed.
+/// Bodies that are much smaller than a cell are in grids of finer cells, or a plate's broken pieces would all
+/// be in the one cell that the plate had.
 class HashGrid {
  public:
-  explicit HashGrid(double cell) : cell_(cell) {}
+  explicit HashGrid(double cell) {
+    for (Level& level : levels_) {
+      level.cell = cell;
+      cell /= kFiner;
+    }
+  }
 
   void insert(BodyIndex body, const geometry::Box& box) {
     if (is_wide(box)) return wide_.push_back(body);
-    for_cells(box, [&](std::int64_t key) { cells_[key].push_back(body); });
+    Level& level = level_of(box);
+    for_cells(level.cell, box, [&](std::int64_t key) { level.cells[key].push_back(body); });
   }
 
   void remove(BodyIndex body, const geometry::Box& box) {
@@ -27,30 +37,28 @@ class HashGrid {
       bodies.pop_back();
     };
     if (is_wide(box)) return erase(wide_);
-    for_cells(box, [&](std::int64_t key) { erase(cells_[key]); });
+    Level& level = level_of(box);
+    for_cells(level.cell, box, [&](std::int64_t key) { erase(level.cells[key]); });
   }
 
   /// Calls function(other) for each body in the cells of the box, once per common cell.
   template <typename Function>
   void for_each_near(const geometry::Box& box, Function function) const {
     for (const BodyIndex other : wide_) function(other);
-    if (is_wide(box)) {
-      for (const auto& cell : cells_) {
-        for (const BodyIndex other : cell.second) function(other);
-      }
-      return;
-    }
-    for_cells(box, [&](std::int64_t key) {
-      const auto cell = cells_.find(key);
-      if (cell == cells_.end()) return;
-      for (const BodyIndex other : cell->second) function(other);
-    });
+    for (const Level& level : levels_) for_each_in(level, box, function);
   }
 
  private:
+  struct Level {
+    double cell = 0;  ///< [m]
+    std::unordered_map<std::int64_t, std::vector<BodyIndex>> cells;
+  };
+  static constexpr double kFiner = 8;          ///< a level's cells against the next one's
+  static constexpr double kMostCells = 65536;  ///< a body that spans more is in no cell but near all bodies
+
   template <typename Function>
-  void for_cells(const geometry::Box& box, Function function) const {
-    const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell_)); };
+  static void for_cells(double cell, const geometry::Box& box, Function function) {
+    const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
     for (std::int64_t row = index(box.low.y); row <= index(box.high.y); ++row) {
       for (std::int64_t column = index(box.low.x); column <= index(box.high.x); ++column) {
         function((row << 32) ^ (column & 0xffffffff));
@@ -58,15 +66,38 @@ class HashGrid {
     }
   }
 
-  /// A body that spans more cells than this is in no cell but near all bodies.
-  static constexpr double kMostCells = 65536;
-  bool is_wide(const geometry::Box& box) const {
-    return ((box.high.x - box.low.x) / cell_ + 1) * ((box.high.y - box.low.y) / cell_ + 1) > kMostCells;
+  template <typename Function>
+  static void for_each_in(const Level& level, const geometry::Box& box, Function function) {
+    if (level.cells.empty()) return;
+    if (cells_of(level.cell, box) > std::min(kMostCells, static_cast<double>(level.cells.size()))) {
+      for (const auto& cell : level.cells) {
+        for (const BodyIndex other : cell.second) function(other);
+      }
+      return;
+    }
+    for_cells(level.cell, box, [&](std::int64_t key) {
+      const auto cell = level.cells.find(key);
+      if (cell == level.cells.end()) return;
+      for (const BodyIndex other : cell->second) function(other);
+    });
   }
 
-  double cell_;  ///< [m]
+  /// About how many cells a box touches, at least one.
+  static double cells_of(double cell, const geometry::Box& box) {
+    return ((box.high.x - box.low.x) / cell + 1) * ((box.high.y - box.low.y) / cell + 1);
+  }
+  bool is_wide(const geometry::Box& box) const { return cells_of(levels_.front().cell, box) > kMostCells; }
+
+  /// The finest whose cells are no smaller than the box: there it is in four of them at most.
+  Level& level_of(const geometry::Box& box) {
+    const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+    std::size_t i = 0;
+    while (i + 1 < levels_.size() && levels_[i + 1].cell >= size) ++i;
+    return levels_[i];
+  }
+
   std::vector<BodyIndex> wide_;
-  std::unordered_map<std::int64_t, std::vector<BodyIndex>> cells_;
+  std::array<Level, 4> levels_;
 };
 
 }  // namespace polynya::dynamics

@@ -230,6 +230,48 @@ TEST(BroadPhase, TurningEverythingTurnsTheContacts) {
   EXPECT_GT(checked, 100);
 }
 
+/// A fast plate is awake while a ship breaks it, and had a pair with each piece of brash at rest in its box:
+/// a thousand, which each cusp entered again.
+TEST(BroadPhase, IceThatIsHeldIsPairedOnlyWithWhatMoves) {
+  Bodies bodies;
+  NewBody plate = floe_body(rectangle(100, 100), {});
+  plate.is_prescribed = true;
+  add_body(bodies, plate);
+  for (int i = 0; i < 9; ++i) add_body(bodies, floe_body(rectangle(4, 4), {52.5, 10.0 * i - 40}));
+  BroadPhase finder({}, 150);
+  for (BodyIndex i = 0; i < bodies.size(); ++i) finder.add(bodies, i);
+  const auto wake = [&](BodyIndex i) {
+    bodies.is_awake[i] = 1;
+    finder.wake(bodies, i);
+  };
+  wake(0);
+  EXPECT_TRUE(finder.pair_states().empty());
+  wake(3);
+  ASSERT_EQ(finder.pair_states().size(), 1U);
+  EXPECT_EQ(finder.pair_states()[0].b, 3);
+  bodies.velocity[3] = {-1, 0};
+  integrate(bodies, {0, 3}, 0.6);  // 10 cm into the plate
+  std::vector<Contact> contacts;
+  finder.update(bodies, {0, 3});
+  finder.find_contacts(bodies, 0.6, contacts);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(std::pair(contacts[0].a, contacts[0].b), std::pair(0, 3));
+
+  finder.remove(0);  // the plate breaks: what is left of it meets what moves, too
+  plate.position = {0.05, 0};
+  const BodyIndex rest = add_body(bodies, plate);
+  finder.add(bodies, rest);
+  wake(rest);
+  ASSERT_EQ(finder.pair_states().size(), 1U);
+  EXPECT_EQ(finder.pair_states()[0].a, 3);
+  EXPECT_EQ(finder.pair_states()[0].b, rest);
+  bodies.is_awake[3] = 0;
+  finder.sleep(bodies, 3);
+  EXPECT_TRUE(finder.pair_states().empty()) << "the plate is awake, but neither moves";
+  wake(5);
+  EXPECT_EQ(finder.pair_states().size(), 1U);
+}
+
 TEST(BroadPhase, ARecordIsKeptWhileItsContactLastsAndDroppedAfter) {
   Bodies bodies;
   add_body(bodies, floe_body(rectangle(10, 40), {-5, 0}));

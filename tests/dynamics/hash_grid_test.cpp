@@ -30,5 +30,24 @@ TEST(HashGrid, AVastBodyIsNearAllAndTakesNoCells) {
   EXPECT_EQ(near(grid, plate), (std::set<BodyIndex>{1, 2}));
 }
 
+/// All pieces that broke out of a plate were in the plate's own cell: each looked through all others.
+TEST(HashGrid, PiecesOfAPlateHaveCellsOfTheirSize) {
+  HashGrid grid(900);
+  const auto square = [](double x, double y, double side) {
+    return geometry::Box{{x, y}, {x + side, y + side}};
+  };
+  const geometry::Box plate = square(0, 0, 600);
+  grid.insert(0, plate);
+  for (BodyIndex i = 1; i < 100; ++i) grid.insert(i, square(6.0 * i, 300, 5));
+  const std::set<BodyIndex> found = near(grid, square(300, 300, 5));
+  EXPECT_EQ(found.count(0), 1U);
+  EXPECT_EQ(found.count(50), 1U);  // 300 to 305 m
+  EXPECT_LT(found.size(), 12U);
+  EXPECT_EQ(near(grid, plate).size(), 100U);
+  grid.remove(50, square(300, 300, 5));
+  EXPECT_EQ(near(grid, square(300, 300, 5)).count(50), 0U);
+  EXPECT_EQ(near(grid, square(-2000, 300, 5)), (std::set<BodyIndex>{}));
+}
+
 }  // namespace
 }  // namespace polynya::dynamics
