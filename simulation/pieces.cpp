@@ -26,20 +26,27 @@ NewFloe child_of(const Population& population, FloeId parent) {
   return child;
 }
 
-/// Which piece of fast ice stays fast: the largest of those that float. The others are free. Null: none.
-const geometry::Piece* still_fast(const Population& population, const Breakage& breakage,
-                                  const geometry::CutResult& cut) {
-  if (!population.is_fast(breakage.event.floe)) return nullptr;
-  const geometry::Piece* largest = nullptr;
+/// Which piece of fast ice stays fast: the largest of those that float. The others are free. None: kNoPiece.
+constexpr std::size_t kNoPiece = SIZE_MAX;
+std::size_t still_fast(const Population& population, const Breakage& breakage, const geometry::CutResult& cut,
+                       const std::vector<geometry::Measures>& measures) {
+  if (!population.is_fast(breakage.event.floe)) return kNoPiece;
+  std::size_t largest = kNoPiece;
   double most = 0;
-  for (const geometry::Piece& piece : cut.pieces) {
-    if (piece.part == geometry::Part::kInside && breakage.inside != InsideFate::kFloats) continue;
-    const double area = geometry::measure(piece.shape.polygon).area;
-    if (area <= most) continue;
-    most = area;
-    largest = &piece;
+  for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
+    if (cut.pieces[i].part == geometry::Part::kInside && breakage.inside != InsideFate::kFloats) continue;
+    if (measures[i].area <= most) continue;
+    most = measures[i].area;
+    largest = i;
   }
   return largest;
+}
+
+std::vector<geometry::Measures> measures_of(const geometry::CutResult& cut) {
+  std::vector<geometry::Measures> measures;
+  measures.reserve(cut.pieces.size());
+  for (const geometry::Piece& piece : cut.pieces) measures.push_back(geometry::measure(piece.shape.polygon));
+  return measures;
 }
 
 /// Enters the motion of ice that leaves the floe list with its parent's motion.
@@ -75,14 +82,16 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   NewFloe child = child_of(population, event.floe);
   const bool was_fast = population.is_fast(event.floe);
   const double own_mass_per_area = mass_per_area(ice_of_floe(setup, population, event.floe));
-  const geometry::Piece* fast = still_fast(population, breakage, cut);
+  const std::vector<geometry::Measures> all_measures = measures_of(cut);
+  const std::size_t fast = still_fast(population, breakage, cut, all_measures);
   const dynamics::Inheritance inheritance =
       population.pairs.inheritance_of(population.bodies, population.body_of(event.floe));
   retire_floe(event.floe, population, journal);
   std::vector<Event> submersions;  // of pieces that go under the hull
   double& energy_sink = accounts.audit.energy.*breakage.energy_sink;
-  for (const geometry::Piece& piece : cut.pieces) {
-    const geometry::Measures measures = geometry::measure(piece.shape.polygon);
+  for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
+    const geometry::Piece& piece = cut.pieces[i];
+    const geometry::Measures& measures = all_measures[i];
     const bool is_inside = piece.part == geometry::Part::kInside;
     const bool is_submerged = is_inside && breakage.inside == InsideFate::kSubmerged;
     const bool is_brash = (is_inside && breakage.inside == InsideFate::kBrash) ||
@@ -94,7 +103,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
       continue;
     }
     child.shape = piece.shape;
-    child.is_fast = &piece == fast;
+    child.is_fast = i == fast;
     const FloeId id = add_floe(setup, clock, child, measures, population, journal);
     event.children.push_back(id);
     if (was_fast && !child.is_fast)  // the fast ice gave it, as bodies of prescribed motion do

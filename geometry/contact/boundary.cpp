@@ -8,7 +8,6 @@ namespace polynya::geometry {
 namespace {
 
 constexpr std::uint32_t kLeafCircles = 4;
-constexpr std::uint32_t kTightCircles = 64;  ///< nodes of at most that many have the least reach
 
 /// Centres and radii of some bounding circles.
 struct Extent {
@@ -16,12 +15,17 @@ struct Extent {
   double reach = 0;  ///< the largest
 };
 
-/// The least reach of a node that covers its circles.
-double tight_reach(const Boundary& boundary, const CircleNode& node) {
+/// The least reach of a leaf that covers its circles, or of another node that covers its children's.
+double covering_reach(const Boundary& boundary, std::size_t index, const CircleNode& node) {
   double reach = 0;
-  for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-    const BoundingCircle& circle = boundary.bounding_circles[i];
+  const auto cover = [&](const auto& circle) {
     reach = std::max(reach, distance(node.centre, circle.centre) + circle.reach);
+  };
+  if (node.right == 0) {
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) cover(boundary.bounding_circles[i]);
+  } else {
+    cover(boundary.tree[index + 1]);
+    cover(boundary.tree[node.right]);
   }
   return reach;
 }
@@ -45,11 +49,26 @@ Extent build_node(Boundary& boundary, std::uint32_t first, std::uint32_t count) 
     }
   }
   node.centre = midpoint(extent.centres.low, extent.centres.high);
-  node.reach = count <= kTightCircles ? tight_reach(boundary, node)
-                                      : distance(node.centre, extent.centres.high) + extent.reach;
+  node.reach = std::min(covering_reach(boundary, index, node),
+                        distance(node.centre, extent.centres.high) + extent.reach);
   node.reach *= 1 + 1e-12;
   boundary.tree[index] = node;
   return extent;
+}
+
+/// Each edge of a with each piece of b that one of its own pieces is near, once and in order. Pieces have
+/// consecutive edges, in the order of pieces: by these pairs the edges' own come sorted.
+std::vector<NearPair> edges_near_pieces(const Boundary& a, const std::vector<NearPair>& circle_pairs) {
+  std::vector<NearPair> near;
+  near.reserve(circle_pairs.size());
+  for (const NearPair pair : circle_pairs) {
+    const BoundaryPiece& piece = a.pieces[pair.a];
+    std::uint32_t edge = piece.first_edge;
+    for (std::uint32_t i = 0; i < piece.edges; ++i, edge = a.edges.next[edge]) near.push_back({edge, pair.b});
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
 }
 
 double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
@@ -136,19 +155,14 @@ void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>&
               NearEdges& edges) {
   std::vector<NearPair>& pairs = edges.pairs;
   pairs.clear();
-  for (const NearPair pair : circle_pairs) {
-    const BoundaryPiece& ca = a.pieces[pair.a];
-    const BoundaryPiece& cb = b.pieces[pair.b];
-    std::uint32_t ea = ca.first_edge;
-    for (std::uint32_t i = 0; i < ca.edges; ++i, ea = a.edges.next[ea]) {
-      std::uint32_t eb = cb.first_edge;
-      for (std::uint32_t k = 0; k < cb.edges; ++k, eb = b.edges.next[eb]) {
-        if (pairs.empty() || pairs.back() != NearPair{ea, eb}) pairs.push_back({ea, eb});
-      }
+  const std::vector<NearPair> near = edges_near_pieces(a, circle_pairs);
+  for (const NearPair pair : near) {
+    const BoundaryPiece& piece = b.pieces[pair.b];
+    std::uint32_t eb = piece.first_edge;
+    for (std::uint32_t k = 0; k < piece.edges; ++k, eb = b.edges.next[eb]) {
+      if (pairs.empty() || pairs.back() != NearPair{pair.a, eb}) pairs.push_back({pair.a, eb});
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   edges.stride = (pairs.size() + 3) / 4 * 4;
   edges.ends.assign(8 * edges.stride, 0);
   for (std::size_t i = 0; i < pairs.size(); ++i) {

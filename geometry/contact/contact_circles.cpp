@@ -114,12 +114,13 @@ double inscribed_radius(const EdgeList& edges, const EdgeGrid& grid, Point touch
   return radius;
 }
 
-/// Sets the middle and the reach of a run of whole edges of this length in all [m].
-void measure_run(const EdgeList& edges, BoundaryPiece& piece, double total) {
+/// Sets the middle and the reach of a run of whole edges of these lengths, and of this length in all [m].
+void measure_run(const EdgeList& edges, const std::vector<double>& lengths, BoundaryPiece& piece,
+                 double total) {
   double before = 0;
   std::uint32_t e = piece.first_edge;
   for (std::uint32_t k = 0; k < piece.edges; ++k, e = edges.next[e]) {
-    const double l = distance(edges.from(e), edges.to(e));
+    const double l = lengths[e];
     if (before + l < 0.5 * total && k + 1 < piece.edges) {
       before += l;
       continue;
@@ -174,10 +175,14 @@ EdgeList edge_list(const Polygon& polygon) {
 }
 
 std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius) {
-  std::vector<BoundaryPiece> pieces;
   const auto count = static_cast<std::uint32_t>(edges.size());
+  std::vector<double> lengths(count);
+  double total_length = 0;
+  for (std::uint32_t e = 0; e < count; ++e) total_length += lengths[e] = distance(edges.from(e), edges.to(e));
+  std::vector<BoundaryPiece> pieces;
+  pieces.reserve(static_cast<std::size_t>(std::min<double>(count, 2 * total_length / radius)) + 1);
   for (std::uint32_t e = 0; e < count; ++e) {
-    const double l = distance(edges.from(e), edges.to(e));
+    const double l = lengths[e];
     if (l > radius) {  // a long edge carries several
       const double parts = std::ceil(l / radius);
       const Vector step = (edges.to(e) - edges.from(e)) / parts;
@@ -189,13 +194,13 @@ std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius)
     BoundaryPiece piece{{}, 0, e, 1, e};  // short edges share one
     double total = l;
     while (edges.next[e] == e + 1) {
-      const double more = distance(edges.from(e + 1), edges.to(e + 1));
+      const double more = lengths[e + 1];
       if (total + more > radius) break;
       ++e;
       ++piece.edges;
       total += more;
     }
-    measure_run(edges, piece, total);
+    measure_run(edges, lengths, piece, total);
     pieces.push_back(piece);
   }
   return pieces;

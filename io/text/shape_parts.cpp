@@ -1,7 +1,9 @@
 #include "io/text/shape_parts.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,27 +29,35 @@ class StretchFinder {
       points_.insert(points_.end(), ring->begin(), ring->end());
     }
     is_taken_.resize(points_.size());
-    order_.resize(points_.size());
-    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
-    std::ranges::stable_sort(order_, is_before, [this](std::uint32_t i) { return points_[i]; });
+    same_hash_.resize(points_.size());
+    by_hash_.resize(std::bit_ceil(points_.size() + 1), kNone);
+    for (auto i = static_cast<std::uint32_t>(points_.size()); i-- > 0;)  // each list then ascends
+      same_hash_[i] = std::exchange(by_hash_[bucket_of(points_[i])], i);
   }
 
   /// The longest stretch that the ring follows from its vertex `from` on, and takes it; of no vertices where
   /// the parent has no such vertex left.
   ShapePart take(const Ring& ring, std::size_t from) {
     ShapePart best;
-    auto same = std::ranges::lower_bound(order_, ring[from], is_before,
-                                         [this](std::uint32_t i) { return points_[i]; });
-    for (; same != order_.end() && points_[*same] == ring[from]; ++same) {
-      const ShapePart found = stretch(ring, from, *same);
+    for (std::uint32_t i = by_hash_[bucket_of(ring[from])]; i != kNone; i = same_hash_[i]) {
+      if (!(points_[i] == ring[from])) continue;
+      const ShapePart found = stretch(ring, from, i);
       if (found.count > best.count) best = found;
     }
-    for (std::uint32_t k = 0; k < best.count; ++k) is_taken_[place(best, k)] = true;
+    for (std::uint32_t k = 0; k < best.count; ++k) is_taken_[place(best, k)] = 1;
     return best;
   }
 
  private:
-  static bool is_before(Point p, Point q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  std::size_t bucket_of(Point p) const {
+    const auto bits = [](double x) {
+      return std::bit_cast<std::uint64_t>(x + 0.0);
+    };  // +0 and −0 are the same
+    const std::uint64_t mixed = (bits(p.x) * 0x9e3779b97f4a7c15U + bits(p.y)) * 0xbf58476d1ce4e5b9U;
+    return (mixed ^ (mixed >> 32U)) >> 8U & (by_hash_.size() - 1);
+  }
 
   std::size_t place(const ShapePart& part, std::size_t k) const {
     const auto ring = static_cast<std::size_t>(part.ring);
@@ -59,10 +69,11 @@ class StretchFinder {
     const auto index = static_cast<std::size_t>(next - first_.begin()) - 1;
     ShapePart part{static_cast<std::int32_t>(index), static_cast<std::uint32_t>(vertex - first_[index]), 0};
     const std::size_t most = std::min(ring.size() - from, rings_[index]->size());
-    while (part.count < most) {
-      const std::size_t at = place(part, part.count);
-      if (is_taken_[at] || !(points_[at] == ring[from + part.count])) break;
+    std::size_t at = vertex;
+    const std::size_t end = first_[index] + rings_[index]->size();
+    while (part.count < most && is_taken_[at] == 0 && points_[at] == ring[from + part.count]) {
       ++part.count;
+      if (++at == end) at = first_[index];
     }
     return part;
   }
@@ -70,8 +81,9 @@ class StretchFinder {
   std::vector<const Ring*> rings_;
   std::vector<std::size_t> first_;  ///< of each ring, in points_
   std::vector<Point> points_;       ///< of all rings
-  std::vector<bool> is_taken_;
-  std::vector<std::uint32_t> order_;  ///< of points_, by their coordinates
+  std::vector<std::uint8_t> is_taken_;
+  std::vector<std::uint32_t> by_hash_;    ///< the first of points_ with that hash
+  std::vector<std::uint32_t> same_hash_;  ///< the next one, for each of points_
 };
 
 void append_new(ShapeParts& shape, const Ring& ring, std::size_t from, std::size_t count) {
