@@ -8,20 +8,7 @@ namespace {
 
 constexpr double kGravity = 9.81;  // [m/s²]
 
-/// How much of the way [0, length] lies between two values of s [m].
-double part_of(double length, double from, double to) {
-  return std::clamp(to, 0.0, length) - std::clamp(from, 0.0, length);
-}
-
 }  // namespace
-
-double SubmersionPath::risen_over(double from, double to) const {
-  return bow > 0 ? rise / bow * part_of(bow, from, to) : 0;
-}
-
-double SubmersionPath::slid_over(double from, double to) const {
-  return part_of(sliding, from, to);
-}
 
 SubmersionPath submersion_path(const HullForm& hull) {
   const double tan_phi = std::tan(hull.stem_angle);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace polynya::dynamics {
 
 // Ice under a hull: what the buoyancy of broken ice and its friction along the hull take from the ship, piece
@@ -21,8 +23,18 @@ struct SubmersionPath {
   double bow = 0;      ///< s_b = T / tan φ: over which it is pressed down [m]
   double sliding = 0;  ///< s̄, over which it slides along the hull, Eq. of R_s [m]
 
-  double risen_over(double from, double to) const;  ///< of z̄, between two values of s [m]
-  double slid_over(double from, double to) const;   ///< of s̄, likewise [m]
+  /// Of z̄, between two values of s [m].
+  double risen_over(double from, double to) const {
+    return bow > 0 ? rise / bow * part_of(bow, from, to) : 0;
+  }
+  /// Of s̄, likewise [m].
+  double slid_over(double from, double to) const { return part_of(sliding, from, to); }
+
+ private:
+  /// How much of the way [0, length] lies between two values of s [m].
+  static double part_of(double length, double from, double to) {
+    return std::clamp(to, 0.0, length) - std::clamp(from, 0.0, length);
+  }
 };
 
 /// s̄ = .7 L − T/tan φ − B/(4 tan α) + T cos φ cos ψ √(1/sin² φ + 1/tan² α), ψ = atan(tan φ / sin α).

@@ -48,7 +48,8 @@ void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Pop
                               .path = 0,
                               .weight = weight_under(setup, population, floe, ship),
                               .next_try = clock.time(),
-                              .waited = 0});
+                              .waited = 0,
+                              .area = population.floes[floe].area});
   ++accounts.counts.went_under;
 }
 

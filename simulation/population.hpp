@@ -41,6 +41,7 @@ struct Tile {
   double weight = 0;    ///< w_t: buoyancy of its part within the beam, when it went under [N]
   double next_try = 0;  ///< of coming up [s]
   double waited = 0;    ///< clear of the hull, for room [s]
+  double area = 0;      ///< of the floe, beside what each step reads; in no state [m²]
 };
 
 /// How a ship is steered, and what it may lose.

@@ -29,7 +29,8 @@ double distance_to_port(const Setup& setup, const dynamics::Bodies& bodies, cons
 
 void add_tile(const Setup& setup, const Population& population, const Tile& tile, Pull& pull) {
   const dynamics::SubmersionPath& path = setup.underwater[tile.ship].path;
-  if (tile.path < path.sliding) pull.area += population.floes[tile.floe].area;
+  if (tile.path >= std::max(path.bow, path.sliding)) return;  // behind it
+  if (tile.path < path.sliding) pull.area += tile.area;
   if (pull.speed <= 0) return;
   const double to = tile.path + pull.speed * setup.scene.time.step;
   const double work = tile.weight * (path.risen_over(tile.path, to) +
@@ -85,9 +86,10 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
     apply(setup, ship, pulls[ship], bodies, loads[ship].submerged, audit);
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
   }
+  const bool is_still = setup.current.is_still();
   for (Tile& tile : population.tiles) {
     tile.path += dt * pulls[tile.ship].speed;
-    if (setup.current.is_still()) continue;
+    if (is_still) continue;
     const BodyIndex body = population.body_of(tile.floe);
     move_body(bodies, body, dt * setup.current.velocity_at(bodies.position[body]),
               dt * setup.current.angular_velocity());

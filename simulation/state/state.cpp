@@ -216,13 +216,14 @@ class StateLoader {
       last = {tilted.ship, tilted.floe};
     }
     std::vector<bool> is_tile(population_.floes.size());
-    for (const Tile& tile : population_.tiles) {
+    for (Tile& tile : population_.tiles) {
       bytes_.require(is_hull(tile.ship) && is_floe(tile.floe) && population_.floes[tile.floe].is_under,
                      "ice under a hull that there is not");
       if (!bytes_.is_well()) return;
       bytes_.require(!is_tile[static_cast<std::size_t>(tile.floe)], "ice under two hulls");
       bytes_.require(tile.weight >= 0 && tile.waited >= 0, "a negative weight or wait");
       is_tile[static_cast<std::size_t>(tile.floe)] = true;
+      tile.area = population_.floes[tile.floe].area;
     }
   }
 
