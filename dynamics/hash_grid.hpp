@@ -54,6 +54,7 @@ class HashGrid {
     std::unordered_map<std::int64_t, std::vector<BodyIndex>> cells;
   };
   static constexpr double kFiner = 8;          ///< a level's cells against the next one's
+  static constexpr double kFewCells = 64;      ///< that many are always looked up one by one
   static constexpr double kMostCells = 65536;  ///< a body that spans more is in no cell but near all bodies
 
   template <typename Function>
@@ -69,7 +70,8 @@ class HashGrid {
   template <typename Function>
   static void for_each_in(const Level& level, const geometry::Box& box, Function function) {
     if (level.cells.empty()) return;
-    if (cells_of(level.cell, box) > std::min(kMostCells, static_cast<double>(level.cells.size()))) {
+    const auto used = static_cast<double>(level.cells.size());
+    if (cells_of(level.cell, box) > std::clamp(used, kFewCells, kMostCells)) {
       for (const auto& cell : level.cells) {
         for (const BodyIndex other : cell.second) function(other);
       }
