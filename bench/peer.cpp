@@ -59,9 +59,9 @@ PeerScene peer_scene(const simulation::Simulation& simulation) {
       body.radius = distance(ship.hull.waterline.front(), {});
     scene.bodies.push_back(std::move(body));
   }
-  for (std::size_t id = 0; id < world.setup.scene.floes.size(); ++id) {
+  for (std::size_t id = 0; id < world.population.floes.size(); ++id) {
     const auto i = world.population.body_of(static_cast<simulation::FloeId>(id));
-    PeerBody body = body_at(world, i, world.setup.scene.floes[id].polygon_in_world.outer);
+    PeerBody body = body_at(world, i, world.population.floes[id].shape.polygon.outer);
     body.drag = 0.5 * world.setup.scene.water.drag_coefficient * world.setup.scene.water.water.density *
                 world.population.bodies.thickness[i];
     body.shape = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape({body.outline, {}}, {}));

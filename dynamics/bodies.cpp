@@ -43,6 +43,15 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   return bodies.size() - 1;
 }
 
+void reserve(Bodies& bodies, std::size_t count) {
+  const auto reserve_all = [count](auto&... columns) { (columns.reserve(count), ...); };
+  reserve_all(bodies.position, bodies.angle, bodies.rotation, bodies.velocity, bodies.angular_velocity,
+              bodies.inverse_mass, bodies.inverse_moment, bodies.travel, bodies.bounding_radius,
+              bodies.rim_speed, bodies.drag_span, bodies.is_awake, bodies.is_alive, bodies.mass,
+              bodies.moment, bodies.centroid, bodies.area, bodies.thickness, bodies.is_grounded,
+              bodies.boundary, bodies.drag);
+}
+
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn) {
   bodies.position[i] += shift;
   bodies.travel[i] += length(shift) + std::abs(turn) * bodies.bounding_radius[i];

@@ -78,6 +78,9 @@ struct NewBody {
 
 BodyIndex add_body(Bodies& bodies, const NewBody& body);
 
+/// Makes room for so many bodies in all.
+void reserve(Bodies& bodies, std::size_t count);
+
 /// Placement of a body's frame in the water frame.
 inline geometry::Pose water_from_body(const Bodies& bodies, BodyIndex i) {
   const geometry::Rotation r = bodies.rotation[i];

@@ -43,6 +43,11 @@ class BroadPhase {
  public:
   BroadPhase(const ContactRule& rule, double grid_cell);
 
+  /// Makes room for so many bodies in all.
+  void reserve(std::size_t bodies) {
+    entries_.reserve(bodies);
+    travel_limits_.reserve(bodies);
+  }
   /// Adds a body, asleep.
   void add(const Bodies& bodies, BodyIndex body);
   /// Removes a body and its pairs.

@@ -190,8 +190,10 @@ struct ShipSample {
   int contacts_with_ships = 0;       ///< with other ships and structures, at the sampled step
 };
 
-/// What happened since the caller last cleared it; the vectors keep their capacity.
+/// What happened since the caller last cleared it; the vectors keep their capacity, but for the births of the
+/// scene's many floes.
 struct Journal {
+  static constexpr std::size_t kManyBirths = 1000;
   std::vector<Event> events;
   std::vector<ShipContact> ship_contacts;
   std::vector<MooringBreak> mooring_breaks;
@@ -205,6 +207,7 @@ struct Journal {
     mooring_breaks.clear();
     rejected_cuts.clear();
     births.clear();
+    if (births.capacity() > kManyBirths) births = {};
     deaths.clear();
     samples.clear();
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace polynya::simulation {
 namespace {
@@ -30,10 +31,10 @@ dynamics::ContactRule contact_rule(const Setup& setup) {
           contact.law == ContactLaw::kCrush};
 }
 
-/// A floe of the scene, at the start.
-NewFloe new_floe_of(const FloeSpec& spec, Point centroid, const Setup& setup) {
+/// A floe of the scene, at the start; takes its polygon.
+NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
   NewFloe floe;
-  floe.shape.polygon = spec.polygon_in_world;
+  floe.shape.polygon = std::move(spec.polygon_in_world);
   floe.own_ice = spec.own_ice;
   floe.angular_velocity = spec.angular_velocity;
   floe.velocity = spec.velocity;
@@ -58,20 +59,25 @@ Population::Population(const Setup& setup)
       has_skin_drag(setup.scene.water.skin_drag_coefficient > 0),
       pairs(contact_rule(setup), grid_cell(setup.scene)) {}
 
-void add_scene(const Setup& setup, const Clock& clock, Population& population, Journal& journal) {
+void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
+               Journal& journal) {
   const Scene& scene = setup.scene;
   for (const ShipSpec& ship : scene.ships) {
     const BodyIndex index = add_body(population.bodies, new_body_of(ship, scene.water.drift));
     population.pairs.add(population.bodies, index);
   }
-  for (const FloeSpec& spec : scene.floes) {
+  reserve(population.bodies, population.bodies.position.size() + floes.size());
+  population.pairs.reserve(population.bodies.position.size() + floes.size());
+  population.floes.reserve(floes.size());
+  journal.births.reserve(floes.size());
+  for (FloeSpec& spec : floes) {
     const geometry::Measures measures = geometry::measure(spec.polygon_in_world);
     add_floe(setup, clock, new_floe_of(spec, measures.centroid, setup), measures, population, journal);
   }
   // Only now: a body that wakes looks up its neighbours once, so they all have to be there.
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) wake(ship, population);
-  for (std::size_t i = 0; i < scene.floes.size(); ++i) {
-    const FloeSpec& spec = scene.floes[i];
+  for (std::size_t i = 0; i < floes.size(); ++i) {
+    const FloeSpec& spec = floes[i];
     const BodyIndex body = population.body_of(static_cast<FloeId>(i));
     const bool is_moving = spec.is_fast ? population.bodies.velocity[body] != Vector{}
                                         : spec.velocity != Vector{} || spec.angular_velocity != 0;
@@ -79,14 +85,14 @@ void add_scene(const Setup& setup, const Clock& clock, Population& population, J
         !setup.shortcuts.sleeps)
       wake(body, population);
   }
-  for (std::size_t i = 0; i < scene.floes.size(); ++i) {
-    if (scene.floes[i].has_crushed_overlaps)
+  for (std::size_t i = 0; i < floes.size(); ++i) {
+    if (floes[i].has_crushed_overlaps)
       population.pairs.note_pressed(population.body_of(static_cast<FloeId>(i)));
   }
 }
 
-FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
-                const geometry::Measures& measures, Population& population, Journal& journal) {
+FloeId add_floe(const Setup& setup, const Clock& clock, NewFloe floe, const geometry::Measures& measures,
+                Population& population, Journal& journal) {
   const FloeId id = population.floe_count();
   dynamics::NewBody body =
       new_body_of(floe.shape.polygon, measures, ice_of(setup.scene, floe.own_ice), floe.is_fast);
@@ -95,18 +101,18 @@ FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
   // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
   body.angular_velocity = floe.angular_velocity;
+  journal.births.push_back({{id, floe.parent, clock.time(), floe.generation, measures.area, body.mass,
+                             body.centroid, floe.own_ice},
+                            floe.shape.polygon});
   population.floes.push_back({.parent = floe.parent,
                               .born = clock.time(),
                               .generation = floe.generation,
                               .own_ice = floe.own_ice,
                               .area = measures.area,
-                              .shape = floe.shape});
+                              .shape = std::move(floe.shape)});
   const BodyIndex index = add_body(population.bodies, body);
   assert(population.floe_of(index) == id);
   population.pairs.add(population.bodies, index);
-  journal.births.push_back({{id, floe.parent, clock.time(), floe.generation, measures.area, body.mass,
-                             body.centroid, floe.own_ice},
-                            floe.shape.polygon});
   return id;
 }
 

@@ -91,13 +91,14 @@ struct NewFloe {
   bool is_fast = false;         ///< its motion is prescribed
 };
 
-/// Adds the scene's ships and floes, asleep and awake.
-void add_scene(const Setup& setup, const Clock& clock, Population& population, Journal& journal);
+/// Adds the scene's ships, and its floes, asleep and awake.
+void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
+               Journal& journal);
 
 /// Adds a floe of these measures, at rest or moving as a part of a rigid body whose frame is the floe's;
 /// records its birth.
-FloeId add_floe(const Setup& setup, const Clock& clock, const NewFloe& floe,
-                const geometry::Measures& measures, Population& population, Journal& journal);
+FloeId add_floe(const Setup& setup, const Clock& clock, NewFloe floe, const geometry::Measures& measures,
+                Population& population, Journal& journal);
 
 /// Takes a floe out of the contact world, and puts it to sleep.
 void leave_contacts(FloeId floe, Population& population);

@@ -55,6 +55,7 @@ tl::expected<Simulation, std::string> Simulation::resumed(Scene scene, std::stri
   auto world = std::make_unique<World>(std::move(scene), Shortcuts{}, Start::kEmpty);
   if (std::string reason = load_state(*world, state); !reason.empty())
     return tl::unexpected(std::move(reason));
+  world->setup.scene.floes = {};  // they are in the population now
   return Simulation(std::move(world));
 }
 std::string Simulation::state() const {
@@ -197,24 +198,28 @@ FloeState state_of(const World& world, FloeId id) {
   return state;
 }
 
-template <class Condition>
-std::vector<FloeState> states_where(const World& world, Condition is_wanted) {
+}  // namespace
+
+void Simulation::for_each_floe(const std::function<void(const FloeState&)>& use) const {
+  for (FloeId id = 0; id < world_->population.floe_count(); ++id)
+    if (world_->population.is_floating(id)) use(state_of(*world_, id));
+}
+
+void Simulation::for_each_living(const std::function<void(const FloeState&)>& use) const {
+  for (FloeId id = 0; id < world_->population.floe_count(); ++id)
+    if (world_->population.is_alive(id)) use(state_of(*world_, id));
+}
+
+std::vector<FloeState> Simulation::floe_states() const {
   std::vector<FloeState> states;
-  for (FloeId id = 0; id < world.population.floe_count(); ++id) {
-    if (world.population.is_alive(id) && is_wanted(world.population.floes[id]))
-      states.push_back(state_of(world, id));
-  }
+  for_each_floe([&](const FloeState& state) { states.push_back(state); });
   return states;
 }
 
-}  // namespace
-
-std::vector<FloeState> Simulation::floe_states() const {
-  return states_where(*world_, [](const Floe& floe) { return !floe.is_under; });
-}
-
 std::vector<FloeState> Simulation::all_states() const {
-  return states_where(*world_, [](const Floe&) { return true; });
+  std::vector<FloeState> states;
+  for_each_living([&](const FloeState& state) { states.push_back(state); });
+  return states;
 }
 
 namespace {

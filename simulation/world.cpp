@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {
@@ -10,7 +12,7 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
   accounts.sailing.resize(setup.scene.ships.size());
   population.helms.resize(setup.scene.ships.size());
   if (start == Start::kEmpty) return;
-  add_scene(setup, clock, population, journal);
+  add_scene(setup, std::exchange(setup.scene.floes, {}), clock, population, journal);
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     accounts.ledger.initial_ice_area += population.floes[id].area;
     accounts.masses.initial_ice_mass += population.bodies.mass[population.body_of(id)];

@@ -33,6 +33,14 @@ Motion take_motion(std::string_view& bytes) {
   return m;
 }
 
+/// All of a frame but its floes.
+void write_head(simulation::ByteWriter& frame, double time, std::span<const Motion> ships,
+                std::uint32_t floes) {
+  for (const char letter : kFrameMark) frame(letter);
+  frame(static_cast<std::uint32_t>(ships.size()), floes, std::uint32_t{0}, time);
+  for (const Motion& ship : ships) frame(ship);
+}
+
 bool is_close(const Motion& a, const Motion& b) {
   return std::abs(a.position.x - b.position.x) <= kFramePositionTolerance &&
          std::abs(a.position.y - b.position.y) <= kFramePositionTolerance &&
@@ -59,25 +67,39 @@ std::string FrameEncoder::header() {
 
 std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes) {
   simulation::ByteWriter frame;
-  frame(static_cast<std::uint32_t>(ships.size()), static_cast<std::uint32_t>(floes.size()), std::uint32_t{0},
-        time);
-  for (const Motion& ship : ships) frame(ship);
+  write_head(frame, time, ships, static_cast<std::uint32_t>(floes.size()));
   for (const FloeMotion& floe : floes) frame(floe.floe, floe.motion);
-  return std::string(kFrameMark) + frame.take();
+  return frame.take();
+}
+
+void FrameEncoder::begin(double time, std::span<const Motion> ships) {
+  frame_ = {};
+  floes_ = 0;
+  time_ = time;
+  write_head(frame_, time, ships, 0);
+}
+
+void FrameEncoder::add(const FloeMotion& floe) {
+  const auto id = static_cast<std::size_t>(floe.floe);
+  if (id >= recorded_.size()) recorded_.resize(id + 1);
+  RecordedMotion& last = recorded_[id];
+  if (last.time >= 0 && is_close(carried_on(last.motion, time_ - last.time), floe.motion)) return;
+  last = {time_, floe.motion};
+  frame_(floe.floe, floe.motion);
+  ++floes_;
+}
+
+std::string FrameEncoder::end() {
+  std::string bytes = frame_.take();
+  std::memcpy(bytes.data() + kFrameMark.size() + sizeof(std::uint32_t), &floes_, sizeof floes_);
+  return bytes;
 }
 
 std::string FrameEncoder::encode(double time, std::span<const Motion> ships,
                                  std::span<const FloeMotion> floes) {
-  std::vector<FloeMotion> written;
-  for (const FloeMotion& floe : floes) {
-    const auto id = static_cast<std::size_t>(floe.floe);
-    if (id >= recorded_.size()) recorded_.resize(id + 1);
-    RecordedMotion& last = recorded_[id];
-    if (last.time >= 0 && is_close(carried_on(last.motion, time - last.time), floe.motion)) continue;
-    last = {time, floe.motion};
-    written.push_back(floe);
-  }
-  return frame_bytes(time, ships, written);
+  begin(time, ships);
+  for (const FloeMotion& floe : floes) add(floe);
+  return end();
 }
 
 Result<std::vector<Frame>> decode_frames(std::string_view bytes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -65,12 +66,19 @@ class FrameEncoder {
   explicit FrameEncoder(std::vector<RecordedMotion> recorded) : recorded_(std::move(recorded)) {}
 
   static std::string header();
-  /// One frame. All living floes are given; those that need it are written.
+  /// One frame in parts: add() each living floe between begin() and end(); those that need it are written.
+  void begin(double time, std::span<const Motion> ships);
+  void add(const FloeMotion& floe);
+  std::string end();
+  /// One frame. All living floes are given.
   std::string encode(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
   const std::vector<RecordedMotion>& recorded() const { return recorded_; }
 
  private:
   std::vector<RecordedMotion> recorded_;  ///< by floe id
+  simulation::ByteWriter frame_;          ///< that was begun, with no number of floes yet
+  std::uint32_t floes_ = 0;               ///< in it
+  double time_ = 0;                       ///< of it [s]
 };
 
 struct Frame {

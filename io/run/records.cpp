@@ -199,19 +199,21 @@ void append_mooring_break(std::string& text, const simulation::MooringBreak& bro
 
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time) {
   GeojsonLayer layer(time);
-  for (const simulation::FloeState& floe : floes) {
-    JsonWriter& json = layer.start();
-    json.key("floe_id").value(floe.floe).key("parent_id").value(id_or_none(floe.parent));
-    json.key("born_s").value(floe.born).key("generation").value(floe.generation);
-    json.key("area_m2").value(floe.area).key("mass_kg").value(floe.mass);
-    append_ice(json, *floe.ice);
-    json.key("speed_m_per_s").value(geometry::length(floe.velocity));
-    json.key("vx_m_per_s").value(floe.velocity.x).key("vy_m_per_s").value(floe.velocity.y);
-    json.key("angular_velocity_deg_per_s").value(kDegrees * floe.angular_velocity);
-    if (floe.is_fast) json.key("fast_ice").value(true);
-    layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
-  }
+  for (const simulation::FloeState& floe : floes) append_floe(layer, floe);
   return layer.finish();
+}
+
+void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe) {
+  JsonWriter& json = layer.start();
+  json.key("floe_id").value(floe.floe).key("parent_id").value(id_or_none(floe.parent));
+  json.key("born_s").value(floe.born).key("generation").value(floe.generation);
+  json.key("area_m2").value(floe.area).key("mass_kg").value(floe.mass);
+  append_ice(json, *floe.ice);
+  json.key("speed_m_per_s").value(geometry::length(floe.velocity));
+  json.key("vx_m_per_s").value(floe.velocity.x).key("vy_m_per_s").value(floe.velocity.y);
+  json.key("angular_velocity_deg_per_s").value(kDegrees * floe.angular_velocity);
+  if (floe.is_fast) json.key("fast_ice").value(true);
+  layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
 }
 
 }  // namespace polynya::io

@@ -61,5 +61,8 @@ void append_mooring_break(std::string& text, const simulation::MooringBreak& bro
 
 /// All floes as a GeoJSON FeatureCollection in world coordinates [m].
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time);
+class GeojsonLayer;
+/// One floe of them.
+void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe);
 
 }  // namespace polynya::io

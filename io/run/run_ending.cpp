@@ -3,8 +3,24 @@
 #include "io/run/checkpoint.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_writer.hpp"
+#include "io/text/geojson_layer.hpp"
 
 namespace polynya::io {
+
+namespace {
+
+/// final.geojson in parts: of a million floes it is a gigabyte.
+void write_floes(const simulation::Simulation& simulation, const WritePart& write) {
+  constexpr std::size_t kPart = std::size_t{256} << 10;  // [bytes]
+  GeojsonLayer layer(simulation.time());
+  simulation.for_each_floe([&](const simulation::FloeState& floe) {
+    append_floe(layer, floe);
+    if (layer.size() > kPart) write(layer.take());
+  });
+  write(layer.finish());
+}
+
+}  // namespace
 
 Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulation& simulation) {
   Result<> written = sync_files();
@@ -14,7 +30,10 @@ Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulati
     if (written) written = std::move(done);
   };
   const auto write_ice = [&] {
-    write(run_file::kFinalGeojson, to_geojson(simulation.floe_states(), simulation.time()));
+    auto done = write_whole_file_in_parts(
+        folder() / run_file::kFinalGeojson, [&](const WritePart& part) { write_floes(simulation, part); },
+        Durability::kSynced);
+    if (written) written = std::move(done);
   };
   // A summary with "finished": true comes last, when all is there, and on the disk. Of a run that stopped it
   // comes first: where space is short it matters more than the ice.

@@ -127,8 +127,9 @@ Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, cons
   RunWriter writer(scene, std::move(files), std::move(lock));
   writer.frames_ = FrameEncoder(progress.recorded);
   writer.peaks_ = progress.peaks;
-  for (const simulation::FloeState& floe : simulation.all_states())
+  simulation.for_each_living([&](const simulation::FloeState& floe) {
     writer.add_floe(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
+  });
   return writer;
 }
 
@@ -170,6 +171,7 @@ void RunWriter::record(simulation::Journal& journal) {
     append_line(kFloes, [&](std::string& line) {
       append_birth(line, birth, parent != broken.end() ? parent->second : nullptr, &scene_->scene);
     });
+    if (file(kFloes).buffered() > kMuchBuffered && !is_displaced_) file(kFloes).spill();
   }
   for (const simulation::Event& event : journal.events) {
     append_line(kEvents, [&](std::string& line) {
@@ -214,11 +216,11 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
   for (const simulation::ShipState& ship : simulation.ship_states()) {
     ships.push_back({ship.world_from_ship.position, ship.heading, ship.velocity, ship.angular_velocity});
   }
-  std::vector<FloeMotion> floes;
-  for (const simulation::FloeState& floe : simulation.all_states()) {
-    floes.push_back({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
-  }
-  file(kFrames).append(frames_.encode(simulation.time(), ships, floes));
+  frames_.begin(simulation.time(), ships);
+  simulation.for_each_living([&](const simulation::FloeState& floe) {
+    frames_.add({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
+  });
+  file(kFrames).append(frames_.end());
   line_.clear();  // an instant's contacts are one record: no file holds a part of them
   for (const simulation::ContactState& contact : simulation.contact_states())
     append_contact(line_, simulation.time(), contact, ship_name(scene_->scene, contact.on.ship),

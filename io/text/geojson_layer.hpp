@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
@@ -23,6 +24,9 @@ class GeojsonLayer {
   void end_with(const std::vector<geometry::Polygon>& polygons);
   void end_with(const geometry::Ring& line);
   void end_with(geometry::Point point);
+  /// What was written since the last take(), so that a long layer need not fit into memory.
+  std::string take() { return std::exchange(text_, {}); }
+  std::size_t size() const { return text_.size(); }  ///< of it [bytes]
   std::string finish();
 
  private:

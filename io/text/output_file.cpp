@@ -42,6 +42,10 @@ std::size_t write_all(int descriptor, std::string_view bytes) {
 
 }  // namespace
 
+namespace {
+constexpr std::size_t kMuchKept = std::size_t{4} << 20;  ///< of an empty buffer [bytes]
+}
+
 Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
   const int descriptor = open_new(path.c_str());
   if (descriptor < 0) return failed_in_run_folder(path, errno);
@@ -76,6 +80,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       record_ends_(std::move(other.record_ends_)),
       kept_(other.kept_),
       kept_records_(other.kept_records_),
+      spilled_(other.spilled_),
       size_(other.size_),
       status_(std::move(other.status_)) {}
 
@@ -98,7 +103,28 @@ bool OutputFile::flush() {
   }
   size_ += whole;
   drop();
+  if (buffer_.capacity() > kMuchKept) {  // of the floes at the start: not as many come again
+    buffer_ = {};
+    record_ends_ = {};
+  }
   return status_.has_value();
+}
+
+bool OutputFile::spill() {
+  const std::uint64_t kept_on_disk = size_ - spilled_ + kept_;
+  flush();
+  spilled_ = size_ - std::min(size_, kept_on_disk);
+  return status_.has_value();
+}
+
+void OutputFile::drop_unkept() {
+  buffer_.resize(kept_);
+  record_ends_.resize(kept_records_);
+  if (spilled_ == 0) return;
+  size_ -= std::exchange(spilled_, 0);
+  const auto end = static_cast<off_t>(size_);
+  const bool is_cut = ::ftruncate(descriptor_, end) == 0 && ::lseek(descriptor_, end, SEEK_SET) == end;
+  if (!is_cut && status_) status_ = failed(name_, errno);
 }
 
 bool OutputFile::sync() {
@@ -194,22 +220,60 @@ Result<> trial_of_named_file(const std::filesystem::path& path) {
   return {};
 }
 
+namespace {
+
+/// A file under its temporary name, which is removed unless the file is finished.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::filesystem::path& path)
+      : path_(path), temporary_(temporary_of(path)), descriptor_(open_new(temporary_.c_str())) {
+    if (descriptor_ < 0) error_ = errno;
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!is_finished_) ::unlink(temporary_.c_str());
+  }
+
+  void write(std::string_view part) {
+    if (error_ == 0 && write_all(descriptor_, part) != part.size()) error_ = errno;
+  }
+
+  /// Gives it its name. The error number, 0 where all went well.
+  int finish(bool is_synced) {
+    if (error_ == 0 && is_synced && ::fsync(descriptor_) != 0) error_ = errno;
+    if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
+    if (error_ == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) error_ = errno;
+    is_finished_ = error_ == 0;
+    return error_;
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  std::filesystem::path temporary_;
+  int descriptor_;
+  int error_ = 0;
+  bool is_finished_ = false;
+};
+
+}  // namespace
+
 Result<> write_whole_file(const std::filesystem::path& path, std::string_view text, Durability durability) {
+  return write_whole_file_in_parts(
+      path, [text](const WritePart& write) { write(text); }, durability);
+}
+
+Result<> write_whole_file_in_parts(const std::filesystem::path& path,
+                                   const std::function<void(const WritePart&)>& produce,
+                                   Durability durability) {
   if (auto replaceable = check_replaceable(path); !replaceable) return replaceable;
-  const std::filesystem::path temporary = temporary_of(path);
-  const auto abandon = [&](int error) {
-    ::unlink(temporary.c_str());
-    return failed(path, error);
-  };
-  const int descriptor = open_new(temporary.c_str());
-  if (descriptor < 0) return abandon(errno);
   const bool is_synced = durability == Durability::kSynced;
-  const bool is_whole =
-      write_all(descriptor, text) == text.size() && (!is_synced || ::fsync(descriptor) == 0);
-  const int error = errno;
-  const bool is_closed = ::close(descriptor) == 0;
-  if (!is_whole) return abandon(error);
-  if (!is_closed || ::rename(temporary.c_str(), path.c_str()) != 0) return abandon(errno);
+  {
+    TemporaryFile file(path);
+    produce([&file](std::string_view part) { file.write(part); });
+    if (const int error = file.finish(is_synced); error != 0) return failed(path, error);
+  }
   if (is_synced) return sync_folder(path.parent_path());
   return {};
 }

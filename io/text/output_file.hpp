@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,9 @@ class OutputFile {
 
   /// Writes what is buffered. After a failure nothing more is written and the failure stays.
   bool flush();
+  /// The same in the middle of a step's records, so that they need not fit into memory: drop_unkept() cuts
+  /// the file back to what was kept.
+  bool spill();
   /// Writes what is buffered and waits until it is on the disk.
   bool sync();
   std::uint64_t size() const { return size_; }  ///< on disk [bytes]
@@ -41,12 +45,10 @@ class OutputFile {
   void keep() {
     kept_ = buffer_.size();
     kept_records_ = record_ends_.size();
+    spilled_ = 0;
   }
   /// Forgets what was appended since keep(), in part or in whole. Takes no memory.
-  void drop_unkept() {
-    buffer_.resize(kept_);
-    record_ends_.resize(kept_records_);
-  }
+  void drop_unkept();
   /// Forgets what is buffered.
   void drop() {
     buffer_.clear();
@@ -64,7 +66,8 @@ class OutputFile {
   std::vector<std::size_t> record_ends_;  ///< in the buffer
   std::size_t kept_ = 0;                  ///< of the buffer [bytes]
   std::size_t kept_records_ = 0;
-  std::uint64_t size_ = 0;  ///< on disk [bytes]
+  std::uint64_t spilled_ = 0;  ///< of size_: not kept yet [bytes]
+  std::uint64_t size_ = 0;     ///< on disk [bytes]
   Result<> status_;
 };
 
@@ -82,6 +85,13 @@ Result<> sync_folder(const std::filesystem::path& folder);
 /// too. A pipe, a device or a folder is refused and stays.
 Result<> write_whole_file(const std::filesystem::path& path, std::string_view text,
                           Durability durability = Durability::kRenamed);
+
+/// The same for a long text, in parts: `produce` gives each to the function it is given. What it throws is
+/// passed on, and no file is left of it.
+using WritePart = std::function<void(std::string_view)>;
+Result<> write_whole_file_in_parts(const std::filesystem::path& path,
+                                   const std::function<void(const WritePart&)>& produce,
+                                   Durability durability = Durability::kRenamed);
 
 /// Writes to a name that a user gave. A regular file is replaced at once, and behind a link its target; a
 /// pipe or a device is written to.

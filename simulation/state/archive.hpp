@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace polynya::simulation {
@@ -59,7 +60,7 @@ class Serializer {
 /// Appends values to bytes: numbers in the machine's format.
 class ByteWriter : public Serializer<ByteWriter> {
  public:
-  std::string take() { return std::move(bytes_); }
+  std::string take() { return std::exchange(bytes_, {}); }
 
  private:
   friend Serializer<ByteWriter>;

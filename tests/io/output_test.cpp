@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <csignal>
+#include <new>
 
 #include "temporary_folder.hpp"
 #include <gtest/gtest.h>
@@ -95,6 +97,88 @@ TEST(OutputFile, WritesThroughNoLinkThatWasPutInItsWay) {
   ASSERT_FALSE(cut.has_value());
   EXPECT_NE(cut.error().find("cut: a link"), std::string::npos) << cut.error();
   EXPECT_EQ(read_file(folder / "precious"), "years of work");
+}
+
+std::vector<std::string> names_in(const TemporaryFolder& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+TEST(OutputFile, InPartsIsTheTextThatTheyMake) {
+  const TemporaryFolder folder;
+  std::string whole;
+  const auto produce = [&](const WritePart& write) {
+    for (int i = 0; i < 1000; ++i) {
+      const std::string part(static_cast<std::size_t>(i), static_cast<char>('a' + i % 26));
+      write(part);
+      whole += part;
+    }
+  };
+  EXPECT_TRUE(write_whole_file_in_parts(folder / "file", produce, Durability::kSynced).has_value());
+  EXPECT_EQ(read_file(folder / "file"), whole);
+  EXPECT_EQ(names_in(folder), std::vector<std::string>{"file"});
+}
+
+TEST(OutputFile, InPartsLeavesTheOldFileAndNoOtherWhereItsTextOrTheDiskFails) {
+  const TemporaryFolder folder;
+  write_file(folder / "file", "old");
+  const auto throws = [](const WritePart& write) {
+    write("half of it");
+    throw std::bad_alloc();
+  };
+  const auto descriptors = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+  };
+  const auto before = descriptors();
+  EXPECT_THROW(static_cast<void>(write_whole_file_in_parts(folder / "file", throws)), std::bad_alloc);
+  EXPECT_EQ(descriptors(), before);
+  EXPECT_EQ(read_file(folder / "file"), "old");
+  EXPECT_EQ(names_in(folder), std::vector<std::string>{"file"});
+
+  const pid_t child = fork();
+  if (child == 0) {  // a size limit stands for a full disk
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const auto written = write_whole_file_in_parts(folder / "file", [](const WritePart& write) {
+      for (int i = 0; i < 100; ++i) write("a line of 17 char\n");
+    });
+    _exit(!written && written.error().find("file: File too large") != std::string::npos ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(read_file(folder / "file"), "old");
+  EXPECT_EQ(names_in(folder), std::vector<std::string>{"file"});
+}
+
+TEST(OutputFile, CutsBackWhatItSpilledOfRecordsThatAreNotKept) {
+  const TemporaryFolder folder;
+  auto file = OutputFile::create(folder / "file");
+  ASSERT_TRUE(file.has_value());
+  file->append("kept 1\n");
+  file->flush();
+  file->append("kept 2\n");
+  file->keep();
+  for (int i = 0; i < 3; ++i) {
+    file->append("spilled\n");
+    EXPECT_TRUE(file->spill());
+  }
+  file->append("buffered\n");
+  EXPECT_EQ(read_file(folder / "file"), "kept 1\nkept 2\nspilled\nspilled\nspilled\n");
+  file->drop_unkept();
+  file->append("kept 3\n");
+  file->keep();
+  file->append("spilled and kept\n");
+  file->spill();
+  file->keep();
+  file->drop_unkept();
+  EXPECT_TRUE(file->flush());
+  EXPECT_EQ(read_file(folder / "file"), "kept 1\nkept 2\nkept 3\nspilled and kept\n");
+  EXPECT_EQ(file->size(), read_file(folder / "file").size());
 }
 
 TEST(OutputFile, KnowsWhetherItIsStillThere) {
