@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -18,7 +18,9 @@ struct DragShape {
   static constexpr int kDirections = 128;
   double rotational = 0;       ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
   double skin_rotational = 0;  ///< ∫ r³ dA; 0 where no skin drag acts [m⁵]
-  std::array<double, kDirections + 1> width{};  ///< across drag_direction(k) [m]; last = first
+  double same_width = 0;       ///< across all directions; of kPlan, and of what water does not move [m]
+  std::vector<double> width;   ///< across drag_direction(k) [m]; last = first; empty: not kept
+  bool is_same = false;        ///< same_width holds
 };
 
 /// The part of a body's drag shape that it needed last: in steady motion it needs the same again.

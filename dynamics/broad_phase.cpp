@@ -12,6 +12,7 @@ using geometry::Box;
 using geometry::Point;
 using geometry::Pose;
 
+constexpr double kManyPieces = 512;  ///< a cover of more is always kept: to make it again takes long
 constexpr double kBoxMargin =
     2.0;  ///< boxes are grown by this much, and computed again after that much travel [m]
 
@@ -63,6 +64,7 @@ void BroadPhase::remove(BodyIndex body) {
     mark_dropped(slot);
   }
   entry.pairs.clear();
+  kept_pieces_ -= std::exchange(entry.kept_pieces, 0U);
   if (entry.is_in) grid_.remove(body, entry.box);
   entry.is_in = false;
 }
@@ -127,11 +129,21 @@ void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
   }
 }
 
+/// Makes and keeps the cover of a body that another comes near, unless those kept are many.
+void BroadPhase::keep_cover(const Bodies& bodies, BodyIndex body) {
+  geometry::Boundary& boundary = *bodies.boundary[body];
+  if (boundary.is_ready()) return;
+  const double pieces = pieces_of(boundary.edges, rule_.circle_radius);
+  const bool is_cheap = pieces <= kManyPieces && !rule_.is_circle_centres;
+  if (is_cheap && kept_pieces_ + pieces > rule_.most_kept_pieces) return;
+  make_ready(boundary, {rule_.circle_radius, rule_.is_circle_centres});
+  entries_[body].kept_pieces = static_cast<std::uint32_t>(boundary.cover->pieces.size());
+  kept_pieces_ += entries_[body].kept_pieces;
+}
+
 void BroadPhase::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
-  for (const BodyIndex body : {a, b}) {
-    geometry::Boundary& boundary = *bodies.boundary[body];
-    if (!boundary.is_ready()) make_ready(boundary, {rule_.circle_radius, rule_.is_circle_centres});
-  }
+  keep_cover(bodies, a);
+  keep_cover(bodies, b);
   std::uint32_t slot = 0;
   if (free_pairs_.empty()) {
     slot = static_cast<std::uint32_t>(pairs_.size());
@@ -145,9 +157,7 @@ void BroadPhase::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
   pair.b = b;
   pair.is_dropped = pair.is_outside = false;
   pair.near.distance = pair.apart.distance = pair.near_bound = -1;
-  pair.near_circles.clear();
-  pair.near_edges = {};
-  pair.records.clear();
+  pair.parts.reset();
   entries_[a].pairs.push_back(slot);
   entries_[b].pairs.push_back(slot);
   new_.push_back({a, b, -1, slot});
@@ -171,13 +181,15 @@ void BroadPhase::erase_dropped(std::vector<ActivePair>& list) {
   std::erase_if(list, [&](const ActivePair& active) {
     if (!pairs_[active.slot].is_dropped) return false;
     free_pairs_.push_back(active.slot);
+    pairs_[active.slot].parts.reset();
     return true;
   });
 }
 
 /// Sorts new pairs into the lists. The long list is changed only when enough pairs have accumulated.
 void BroadPhase::merge_new() {
-  const auto merge = [](std::vector<ActivePair>& list, const std::vector<ActivePair>& more) {
+  const auto merge = [](std::vector<ActivePair>& list, std::vector<ActivePair>& more) {
+    if (list.empty()) return list.swap(more);
     const auto middle = static_cast<std::ptrdiff_t>(list.size());
     list.insert(list.end(), more.begin(), more.end());
     std::inplace_merge(list.begin(), list.begin() + middle, list.end());
@@ -258,10 +270,11 @@ void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::siz
     if (i + kAhead / 2 < count) {
       const Pair& pair = pairs_[share.pending[i + kAhead / 2]->slot];
       __builtin_prefetch(&pair.near);
-      __builtin_prefetch(&pair.near_edges);
+      __builtin_prefetch(pair.parts.get());
     }
     collide(bodies, *share.pending[i], dt, share.scratch, contacts);
   }
+  share.scratch.covers.clear();
 }
 
 void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {

@@ -73,6 +73,8 @@ class BroadPhase {
 
   /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
   std::vector<PairState> pair_states() const;
+  /// Those of them that touch: the others are only near, and found again.
+  std::vector<PairState> touching_states() const;
 
   /// Adds saved pairs, after all bodies have been added. Their caches are filled again as they are used.
   void restore(const Bodies& bodies, const std::vector<PairState>& pairs);
@@ -90,7 +92,7 @@ class BroadPhase {
   void for_loaded_overlaps(Use use) const {
     for (const Pair& pair : pairs_) {
       double area = 0;
-      for (const PersistentContact& record : pair.records) area += record.loaded_area;
+      for (const PersistentContact& record : pair.records()) area += record.loaded_area;
       if (area > 0 && !pair.is_dropped) use(pair.a, pair.b, area);
     }
   }
@@ -105,6 +107,7 @@ class BroadPhase {
   struct Entry {        // one body
     geometry::Box box;  // grown
     std::vector<std::uint32_t> pairs;
+    std::uint32_t kept_pieces = 0;  // of its cover
     bool is_in = false;
     std::int32_t mover = kNoMover;  // place in movers_
   };
@@ -123,6 +126,9 @@ class BroadPhase {
   void leave_movers(BodyIndex body);
   void add_pairs_of(const Bodies& bodies, BodyIndex body);
   void add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b);
+  void keep_cover(const Bodies& bodies, BodyIndex body);
+  template <class Wanted>
+  std::vector<PairState> states_where(Wanted is_wanted) const;
   void drop_pair(std::uint32_t pair);
   void mark_dropped(std::uint32_t pair);
   void merge_new();
@@ -147,6 +153,7 @@ class BroadPhase {
   std::vector<ActivePair> recent_;     // the same; merged into active_ when there are many
   std::vector<ActivePair> new_;        // not sorted yet
   std::size_t dropped_ = 0;            // of all three
+  double kept_pieces_ = 0;             // of all bodies' covers
   struct Share {                       // of the pairs in use, for one thread at a time
     std::vector<ActivePair*> pending;  // those that may touch in this step, and room for more
     PairScratch scratch;

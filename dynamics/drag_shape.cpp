@@ -1,6 +1,7 @@
 #include "dynamics/drag_shape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -40,13 +41,21 @@ std::array<UnitAcross, kDirections> make_units() {
   return units;
 }
 
-/// How far a ring reaches from a centre within its hull, along the unit vectors across all directions of a
-/// whole turn [m]. A corner is farthest out only for directions between the normals of its two edges, so each
-/// is measured along those alone, and of many corners most along none.
-std::array<double, kAround> reaches(const geometry::Ring& ring, Point centre,
-                                    const std::array<UnitAcross, kDirections>& units) {
+const std::array<UnitAcross, kDirections>& units_across() {
+  static const std::array<UnitAcross, kDirections> units = make_units();
+  return units;
+}
+
+/// The unit vector across a direction of a whole turn.
+Vector out_at(const std::array<UnitAcross, kDirections>& units, int at) {
+  return at < kDirections ? units[at].across : -units[at - kDirections].across;
+}
+
+/// A corner is farthest out of a ring only for directions between the normals of its two edges, and of many
+/// corners most are for none. Calls use(corner, first, last) with those directions, which may be a turn on.
+template <class Use>
+void for_outward_corners(std::span<const Point> ring, Use use) {
   constexpr double kSlack = 1e-9;  // of the places, far more than rounding can be
-  std::array<double, kAround> reach{};
   const std::size_t count = ring.size();
   const auto normal_place = [&](std::size_t i) {  // along, that is: across is a quarter turn on
     return place_around(-(ring[i + 1 < count ? i + 1 : 0] - ring[i]));
@@ -58,21 +67,31 @@ std::array<double, kAround> reaches(const geometry::Ring& ring, Point centre,
     if (turn < 0) turn += kAround;
     if (turn <= 0.5 * kAround + kSlack || turn >= kAround - kSlack) {  // a corner that points outwards
       const double end = turn >= kAround - kSlack ? before + kSlack : before + turn + kSlack;
-      for (int k = static_cast<int>(std::ceil(before - kSlack)); k <= end; ++k) {
-        const int at = (k + kAround) % kAround;
-        const Vector out = at < kDirections ? units[at].across : -units[at - kDirections].across;
-        reach[at] = std::max(reach[at], dot(ring[i] - centre, out));
-      }
+      use(ring[i], static_cast<int>(std::ceil(before - kSlack)), static_cast<int>(std::floor(end)));
     }
     before = after;
   }
+}
+
+/// How far a ring reaches from a centre within its hull, along the unit vectors across all directions of a
+/// whole turn [m].
+std::array<double, kAround> reaches(std::span<const Point> ring, Point centre,
+                                    const std::array<UnitAcross, kDirections>& units) {
+  std::array<double, kAround> reach{};
+  for_outward_corners(ring, [&](Point corner, int first, int last) {
+    for (int k = first; k <= last; ++k) {
+      const int at = (k + kAround) % kAround;
+      reach[at] = std::max(reach[at], dot(corner - centre, out_at(units, at)));
+    }
+  });
   return reach;
 }
 
 DragShape edge_shape(const geometry::Polygon& polygon, Point centroid) {
-  static const std::array<UnitAcross, kDirections> units = make_units();
+  const std::array<UnitAcross, kDirections>& units = units_across();
   const std::array<double, kAround> reach = reaches(polygon.outer, centroid, units);
   DragShape shape;
+  shape.width.resize(kDirections + 1);
   for (int k = 0; k < kDirections; ++k) {
     const double high = reach[k];
     const double low = reach[k + kDirections];
@@ -120,7 +139,8 @@ DragShape plan_shape(const geometry::Polygon& polygon, Point centroid) {
   DragShape shape;
   shape.rotational = third_moment(polygon, centroid);
   for (const geometry::Ring& hole : polygon.holes) area += geometry::signed_area(hole);
-  shape.width.fill(area);
+  shape.same_width = area;
+  shape.is_same = true;
   return shape;
 }
 
@@ -131,6 +151,29 @@ DragShape make_drag_shape(const geometry::Polygon& polygon, Point centroid, Drag
   if (has_skin)
     shape.skin_rotational = area == DragArea::kPlan ? shape.rotational : third_moment(polygon, centroid);
   return shape;
+}
+
+DragShape make_small_drag_shape(const geometry::Polygon& polygon, Point centroid, DragArea area,
+                                bool has_skin) {
+  constexpr std::size_t kFewCorners = 32;
+  DragShape shape = make_drag_shape(polygon, centroid, area, has_skin);
+  if (polygon.outer.size() <= kFewCorners && polygon.holes.empty()) shape.width = std::vector<double>();
+  return shape;
+}
+
+std::array<double, 2> widths_of_outline(std::span<const Point> corners, Point centroid, int k) {
+  const std::array<UnitAcross, kDirections>& units = units_across();
+  const int next = (k + 1) % kDirections;
+  const std::array<int, 4> places{k, k + kDirections, next, next + kDirections};
+  std::array<double, 4> reach{};
+  for_outward_corners(corners, [&](Point corner, int first, int last) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const int at = places[i];
+      const bool is_between = (first <= at && at <= last) || (first <= at + kAround && at + kAround <= last);
+      if (is_between) reach[i] = std::max(reach[i], dot(corner - centroid, out_at(units, at)));
+    }
+  });
+  return {reach[0] + reach[1], reach[2] + reach[3]};
 }
 
 Vector drag_direction(int k) {

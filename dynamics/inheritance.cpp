@@ -25,7 +25,7 @@ Inheritance BroadPhase::inheritance_of(const Bodies& bodies, BodyIndex body) con
     const BodyIndex other = pair.a == body ? pair.b : pair.a;
     if (pair.is_outside) inheritance.outside.push_back({other, clearance_of(bodies, pair)});
     const Pose water_from_b = water_from_body(bodies, pair.b);
-    for (const PersistentContact& record : pair.records) {
+    for (const PersistentContact& record : pair.records()) {
       if (record.loaded_area == 0) continue;
       inheritance.pressed.push_back(
           {other, transform(water_from_b, record.last_point_in_b), record.reach, record.loaded_area});
@@ -42,7 +42,7 @@ void BroadPhase::note_pressed(BodyIndex body) {
   record.reach = kEverywhere;
   record.loaded_area = kEverywhere * kEverywhere;
   record.is_inherited = true;
-  for (const std::uint32_t slot : entries_[body].pairs) pairs_[slot].records = {record};
+  for (const std::uint32_t slot : entries_[body].pairs) pairs_[slot].own_parts().records = {record};
 }
 
 void BroadPhase::inherit(const Bodies& bodies, BodyIndex piece, const Inheritance& inheritance) {
@@ -61,7 +61,7 @@ void BroadPhase::inherit(const Bodies& bodies, BodyIndex piece, const Inheritanc
       record.reach = old.reach;
       record.loaded_area = old.loaded_area;
       record.is_inherited = true;
-      pair.records.push_back(record);
+      pair.own_parts().records.push_back(record);
     }
   }
 }

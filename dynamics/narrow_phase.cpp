@@ -14,15 +14,26 @@ using geometry::Vector;
 
 constexpr double kNearMargin = 0.75;  ///< bounding circles within this distance are kept with a pair [m]
 
+geometry::CircleRule circle_rule(const ContactRule& rule) {
+  return {rule.circle_radius, rule.is_circle_centres};
+}
+
 /// Finds the circles and edges of a pair that are near each other.
-void find_near(const Bodies& bodies, Pair& pair, const Pose& pose) {
-  const geometry::Boundary& a = *bodies.boundary[pair.a];
-  const geometry::Boundary& b = *bodies.boundary[pair.b];
+void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
+               PairScratch& scratch) {
+  const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
-  pair.near_circles.clear();
-  const double distance = near_circles(a, b, a_from_b, kNearMargin, pair.near_circles);
-  edges_of(a, b, pair.near_circles, pair.near_edges);
-  pair.near = {pose, (pair.near_circles.empty() ? distance : kNearMargin) * (1 - 1e-9)};
+  scratch.near_circles.clear();
+  const double distance = near_circles(a, b, a_from_b, kNearMargin, scratch.near_circles);
+  const bool is_any_near = !scratch.near_circles.empty();
+  if (is_any_near) {
+    edges_of(a, b, scratch.near_circles, scratch.near_edges);
+    pair.own_parts().edges = scratch.near_edges;  // a copy is no larger than it has to be
+    if (rule.is_circle_centres) pair.parts->circles = scratch.near_circles;
+  } else if (pair.parts != nullptr) {
+    pair.parts->edges.pairs.clear();
+  }
+  pair.near = {pose, (is_any_near ? kNearMargin : distance) * (1 - 1e-9)};
 }
 
 /// Notes the manifolds that are blind and removes those that have no direction to part the bodies in.
@@ -45,33 +56,35 @@ void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch
 }
 
 /// Two bodies whose boundaries do not cross: notes where one is inside the other.
-void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, PairScratch& scratch) {
+void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
+                 PairScratch& scratch) {
   if (pair.is_outside) return;
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
-  pair.is_outside = !is_one_inside(*bodies.boundary[pair.a], *bodies.boundary[pair.b], a_from_b);
+  const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
+  pair.is_outside = !is_one_inside(a, b, a_from_b);
   if (pair.is_outside) return;
   const BodyIndex inner = bodies.bounding_radius[pair.a] < bodies.bounding_radius[pair.b] ? pair.a : pair.b;
   scratch.blind.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
 }
 
 /// Appends the contacts of a pair among its near edges. Returns whether the two are apart.
-bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, bool is_circle_centres, PairScratch& scratch,
-             std::vector<Contact>& contacts) {
+bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
+             PairScratch& scratch, std::vector<Contact>& contacts) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
   scratch.manifolds.clear();
   int unpaired = 0;
-  if (is_circle_centres) {
-    find_circle_manifolds(a, b, a_from_b, pair.near_circles, scratch.manifolds);
+  if (rule.is_circle_centres) {
+    find_circle_manifolds(a, b, a_from_b, pair.parts->circles, scratch.manifolds);
   } else {
-    unpaired = find_manifolds(a, b, a_from_b, pair.near_edges, scratch.crossings, scratch.manifolds);
+    unpaired = find_manifolds(a, b, a_from_b, pair.parts->edges, scratch.crossings, scratch.manifolds);
   }
   scratch.unpaired += unpaired;
   if (scratch.manifolds.empty()) {
     const bool is_apart = unpaired == 0;
-    if (is_apart && !is_circle_centres && scratch.crossings.crossings.empty())
-      take_inside(bodies, pair, pose, scratch);
+    if (is_apart && !rule.is_circle_centres && scratch.crossings.crossings.empty())
+      take_inside(bodies, pair, pose, rule, scratch);
     return is_apart;
   }
   const Pose water_from_a = water_from_body(bodies, pair.a);
@@ -113,27 +126,28 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
                     PairScratch& scratch, std::vector<Contact>& contacts) {
   const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
   if (travelled > pair.near_bound) {
-    if (clearance_left(bodies, pair.b, pose, pair.near) < kRounding) find_near(bodies, pair, pose);
+    if (clearance_left(bodies, pair.b, pose, pair.near) < kRounding)
+      find_near(bodies, pair, pose, rule, scratch);
     pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
   }
-  if (pair.near_edges.pairs.empty()) {
-    take_inside(bodies, pair, pose, scratch);
-    pair.records.clear();
+  if (!pair.has_near_edges()) {
+    take_inside(bodies, pair, pose, rule, scratch);
+    pair.parts.reset();
     pair.apart = pair.near;
     return clearance_left(bodies, pair.b, pose, pair.apart);
   }
   const std::size_t first = contacts.size();
-  const bool is_apart = collect(bodies, pair, pose, rule.is_circle_centres, scratch, contacts);
+  const bool is_apart = collect(bodies, pair, pose, rule, scratch, contacts);
   if (!is_apart) {
-    ContactTracker(pair.records, scratch.records, rule.circle_radius, dt)
+    ContactTracker(pair.parts->records, scratch.records, rule.circle_radius, dt)
         .update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
     pair.apart.distance = -1;
     pair.is_outside = false;
     return -1;
   }
   // Circles lie inside the ice: no two can overlap while the boundaries are apart.
-  const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.near_edges);
-  pair.records.clear();
+  const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.parts->edges);
+  pair.parts->records.clear();
   pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};
   return pair.apart.distance;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "dynamics/contact.hpp"
+#include "dynamics/cover_cache.hpp"
 #include "geometry/contact/boundary.hpp"
 
 namespace polynya::dynamics {
@@ -14,22 +17,37 @@ struct Clearance {
   double distance = -1;     ///< [m]; negative: the statement does not hold
 };
 
+/// What is near each other of two bodies, and of their contacts.
+struct NearParts {
+  geometry::NearEdges edges;  ///< of the near circles
+  std::vector<PersistentContact> records;
+  std::vector<geometry::NearPair> circles;  ///< that are near each other; of ContactRule::is_circle_centres
+};
+
 /// Two bodies whose grown boxes meet, with what is known of their distance. a < b. What most steps need of a
 /// pair that does not touch is in its first cache line.
 struct alignas(64) Pair {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  double near_bound = -1;   ///< `near` holds at least until the two have travelled this far together [m]
-  Clearance apart;          ///< statement: they do not touch
-  bool is_dropped = false;  ///< its slot is freed when the lists of pairs are cleaned up
-  bool is_outside = false;  ///< neither is inside the other: so it stays until they touch
+  std::unique_ptr<NearParts> parts;  ///< null: none is near, and there is no record
+  Clearance apart;                   ///< statement: they do not touch
+  bool is_dropped = false;           ///< its slot is freed when the lists of pairs are cleaned up
+  bool is_outside = false;           ///< neither is inside the other: so it stays until they touch
   // The first line ends here.
-  Clearance near;  ///< statement: only the near circles and edges can meet
-  std::vector<PersistentContact> records;
-  // Nor do most need what follows.
-  geometry::NearEdges near_edges;                ///< of the near circles
-  std::vector<geometry::NearPair> near_circles;  ///< bounding circles of boundary pieces near each other
+  double near_bound = -1;  ///< `near` holds at least until the two have travelled this far together [m]
+  Clearance near;          ///< statement: only the near circles and edges can meet
+
+  bool has_near_edges() const { return parts != nullptr && !parts->edges.pairs.empty(); }
+  std::span<const PersistentContact> records() const {
+    return parts != nullptr ? std::span<const PersistentContact>(parts->records)
+                            : std::span<const PersistentContact>();
+  }
+  NearParts& own_parts() {
+    if (parts == nullptr) parts = std::make_unique<NearParts>();
+    return *parts;
+  }
 };
+static_assert(sizeof(Pair) == 128, "of a million floes there are some millions");
 
 /// How contacts are found.
 struct ContactRule {
@@ -38,10 +56,16 @@ struct ContactRule {
   bool is_culling = true;          ///< false: every step collides all pairs with one awake (tests)
   bool presses_prescribed =
       false;  ///< a body without thickness (a hull) presses ice though both motions are prescribed
+  /// Covers are kept until they have this many pieces in all, of 64 bytes each: those of some 50 000 floes of
+  /// 20 m. Of more bodies they are made again where they are needed, for the same contacts.
+  double most_kept_pieces = 4'194'304;
 };
 
 /// Reusable memory of collide_pair.
 struct PairScratch {
+  CoverCache covers;
+  std::vector<geometry::NearPair> near_circles;
+  geometry::NearEdges near_edges;
   std::vector<geometry::ContactManifold> manifolds;
   geometry::ManifoldScratch crossings;
   std::vector<PersistentContact> records;  ///< of the pair at hand, being updated

@@ -31,6 +31,7 @@ inline double place_along(Vector d) {
 double width_across(const DragShape& shape, Vector direction_in_body) {
   const double at = place_along(direction_in_body);
   const int k = std::min(static_cast<int>(at), kDirections - 1);
+  if (shape.is_same) return shape.same_width;
   return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
 }
 
@@ -92,7 +93,9 @@ struct Columns {
         thickness(bodies.thickness.data()),
         area(bodies.area.data()),
         span(bodies.drag_span.data()),
-        drag(bodies.drag.data()) {}
+        drag(bodies.drag.data()),
+        centroid(bodies.centroid.data()),
+        boundary(bodies.boundary.data()) {}
 
   const geometry::Point* position;
   const geometry::Rotation* rotation;
@@ -101,16 +104,24 @@ struct Columns {
   const double *mass, *inverse_mass, *moment, *inverse_moment, *thickness, *area;
   DragSpan* span;
   const std::shared_ptr<const DragShape>* drag;
+  const geometry::Point* centroid;
+  const std::shared_ptr<geometry::Boundary>* boundary;
 };
+
+/// The widths across the k-th direction and the next.
+DragSpan span_at(const Columns& bodies, BodyIndex i, int k) {
+  const DragShape& shape = *bodies.drag[i];
+  if (shape.is_same) return {shape.same_width, shape.same_width, shape.rotational, k};
+  if (!shape.width.empty()) return {shape.width[k], shape.width[k + 1], shape.rotational, k};
+  const auto width = widths_of_outline(bodies.boundary[i]->edges.vertices, bodies.centroid[i], k);
+  return {width[0], width[1], shape.rotational, k};
+}
 
 /// The width across a place between two known directions.
 double width_at(const Columns& bodies, BodyIndex i, double place) {
   DragSpan& span = bodies.span[i];
   const int k = std::min(static_cast<int>(place), kDirections - 1);
-  if (span.place != k) {
-    const DragShape& shape = *bodies.drag[i];
-    span = {shape.width[k], shape.width[k + 1], shape.rotational, k};
-  }
+  if (span.place != k) span = span_at(bodies, i, k);
   return span.width + (place - k) * (span.next_width - span.width);
 }
 

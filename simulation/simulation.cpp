@@ -55,7 +55,7 @@ tl::expected<Simulation, std::string> Simulation::resumed(Scene scene, std::stri
   auto world = std::make_unique<World>(std::move(scene), Shortcuts{}, Start::kEmpty);
   if (std::string reason = load_state(*world, state); !reason.empty())
     return tl::unexpected(std::move(reason));
-  world->setup.scene.floes = {};  // they are in the population now
+  world->setup.scene.floes = std::vector<FloeSpec>();  // they are in the population now
   return Simulation(std::move(world));
 }
 std::string Simulation::state() const {

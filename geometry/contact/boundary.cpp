@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace polynya::geometry {
 namespace {
@@ -16,53 +17,53 @@ struct Extent {
 };
 
 /// The least reach of a leaf that covers its circles, or of another node that covers its children's.
-double covering_reach(const Boundary& boundary, std::size_t index, const CircleNode& node) {
+double covering_reach(const Cover& cover, std::size_t index, const CircleNode& node) {
   double reach = 0;
-  const auto cover = [&](const auto& circle) {
+  const auto include = [&](const auto& circle) {
     reach = std::max(reach, distance(node.centre, circle.centre) + circle.reach);
   };
   if (node.right == 0) {
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) cover(boundary.bounding_circles[i]);
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) include(cover.bounding_circles[i]);
   } else {
-    cover(boundary.tree[index + 1]);
-    cover(boundary.tree[node.right]);
+    include(cover.tree[index + 1]);
+    include(cover.tree[node.right]);
   }
   return reach;
 }
 
 /// Builds the node over bounding circles [first, first + count) and everything below it.
-Extent build_node(Boundary& boundary, std::uint32_t first, std::uint32_t count) {
-  const std::size_t index = boundary.tree.size();
-  boundary.tree.push_back({});
+Extent build_node(Cover& cover, std::uint32_t first, std::uint32_t count) {
+  const std::size_t index = cover.tree.size();
+  cover.tree.push_back({});
   CircleNode node{{}, 0, first, count, 0};
-  Extent extent{{boundary.bounding_circles[first].centre, boundary.bounding_circles[first].centre}, 0};
+  Extent extent{{cover.bounding_circles[first].centre, cover.bounding_circles[first].centre}, 0};
   if (count > kLeafCircles) {
-    extent = build_node(boundary, first, count / 2);
-    node.right = static_cast<std::uint32_t>(boundary.tree.size());
-    const Extent other = build_node(boundary, first + count / 2, count - count / 2);
+    extent = build_node(cover, first, count / 2);
+    node.right = static_cast<std::uint32_t>(cover.tree.size());
+    const Extent other = build_node(cover, first + count / 2, count - count / 2);
     extend(extent.centres, other.centres);
     extent.reach = std::max(extent.reach, other.reach);
   } else {
     for (std::uint32_t i = first; i < first + count; ++i) {
-      extend(extent.centres, boundary.bounding_circles[i].centre);
-      extent.reach = std::max(extent.reach, boundary.bounding_circles[i].reach);
+      extend(extent.centres, cover.bounding_circles[i].centre);
+      extent.reach = std::max(extent.reach, cover.bounding_circles[i].reach);
     }
   }
   node.centre = midpoint(extent.centres.low, extent.centres.high);
-  node.reach = std::min(covering_reach(boundary, index, node),
+  node.reach = std::min(covering_reach(cover, index, node),
                         distance(node.centre, extent.centres.high) + extent.reach);
   node.reach *= 1 + 1e-12;
-  boundary.tree[index] = node;
+  cover.tree[index] = node;
   return extent;
 }
 
 /// Each edge of a with each piece of b that one of its own pieces is near, once and in order. Pieces have
 /// consecutive edges, in the order of pieces: by these pairs the edges' own come sorted.
-std::vector<NearPair> edges_near_pieces(const Boundary& a, const std::vector<NearPair>& circle_pairs) {
+std::vector<NearPair> edges_near_pieces(const Covered& a, const std::vector<NearPair>& circle_pairs) {
   std::vector<NearPair> near;
   near.reserve(circle_pairs.size());
   for (const NearPair pair : circle_pairs) {
-    const BoundaryPiece& piece = a.pieces[pair.a];
+    const PieceEdges& piece = a.cover.pieces[pair.a];
     std::uint32_t edge = piece.first_edge;
     for (std::uint32_t i = 0; i < piece.edges; ++i, edge = a.edges.next[edge]) near.push_back({edge, pair.b});
   }
@@ -94,19 +95,36 @@ Boundary make_outline(const Polygon& polygon) {
   return boundary;
 }
 
-void make_ready(Boundary& boundary, const CircleRule& rule) {
-  boundary.pieces = boundary_pieces(boundary.edges, rule.circle_radius);
-  boundary.bounding_circles.reserve(boundary.pieces.size());
+double pieces_of(const EdgeList& edges, double circle_radius) {
+  double length = 0;
+  for (std::uint32_t e = 0; e < edges.size(); ++e) length += distance(edges.from(e), edges.to(e));
+  return 1 + length / circle_radius;
+}
+
+void make_cover(const EdgeList& edges, const CircleRule& rule, Cover& cover) {
+  const std::vector<BoundaryPiece> pieces = boundary_pieces(edges, rule.circle_radius);
+  cover.pieces.clear();
+  cover.pieces.reserve(pieces.size());
+  for (const BoundaryPiece& piece : pieces) cover.pieces.push_back({piece.first_edge, piece.edges});
+  cover.bounding_circles.clear();
+  cover.bounding_circles.reserve(pieces.size());
   if (rule.has_circles) {
-    boundary.circles = sample_contact_circles(boundary.edges, boundary.pieces, rule.circle_radius);
-    for (const ContactCircle& circle : boundary.circles)
-      boundary.bounding_circles.push_back({circle.centre, circle.reach});
+    cover.circles = sample_contact_circles(edges, pieces, rule.circle_radius);
+    for (const ContactCircle& circle : cover.circles)
+      cover.bounding_circles.push_back({circle.centre, circle.reach});
   } else {
-    for (const BoundaryPiece& piece : boundary.pieces)
-      boundary.bounding_circles.push_back({piece.middle, piece.reach});
+    for (const BoundaryPiece& piece : pieces) cover.bounding_circles.push_back({piece.middle, piece.reach});
   }
-  boundary.tree.reserve(boundary.bounding_circles.size());
-  build_node(boundary, 0, static_cast<std::uint32_t>(boundary.bounding_circles.size()));
+  cover.tree.clear();
+  cover.tree.reserve(pieces.size());
+  build_node(cover, 0, static_cast<std::uint32_t>(pieces.size()));
+}
+
+void make_ready(Boundary& boundary, const CircleRule& rule) {
+  auto cover = std::make_shared<Cover>();
+  make_cover(boundary.edges, rule, *cover);
+  cover->tree.shrink_to_fit();
+  boundary.cover = std::move(cover);
 }
 
 Boundary make_boundary(const Polygon& polygon, const CircleRule& rule) {
@@ -115,7 +133,7 @@ Boundary make_boundary(const Polygon& polygon, const CircleRule& rule) {
   return boundary;
 }
 
-double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
+double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs) {
   double bound = std::numeric_limits<double>::infinity();
   NearPair stack[128];  // depth of both trees: a boundary of 2^60 circles would fit
@@ -123,8 +141,8 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
   stack[top++] = {0, 0};
   while (top > 0) {
     const NearPair pair = stack[--top];
-    const CircleNode& na = a.tree[pair.a];
-    const CircleNode& nb = b.tree[pair.b];
+    const CircleNode& na = a.cover.tree[pair.a];
+    const CircleNode& nb = b.cover.tree[pair.b];
     const double d = gap(na, nb, transform(a_from_b, nb.centre));
     if (d > margin) {
       bound = std::min(bound, d);
@@ -132,10 +150,11 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
     }
     if (na.right == 0 && nb.right == 0) {
       for (std::uint32_t k = nb.first; k < nb.first + nb.count; ++k) {
-        const Point centre = transform(a_from_b, b.bounding_circles[k].centre);
+        const BoundingCircle& of_b = b.cover.bounding_circles[k];
+        const Point centre = transform(a_from_b, of_b.centre);
         for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
-          const double free = distance(a.bounding_circles[i].centre, centre) - a.bounding_circles[i].reach -
-                              b.bounding_circles[k].reach;
+          const BoundingCircle& of_a = a.cover.bounding_circles[i];
+          const double free = distance(of_a.centre, centre) - of_a.reach - of_b.reach;
           bound = std::min(bound, free);
           if (free <= margin) circle_pairs.push_back({i, k});
         }
@@ -151,13 +170,13 @@ double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, 
   return bound;
 }
 
-void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
+void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs,
               NearEdges& edges) {
   std::vector<NearPair>& pairs = edges.pairs;
   pairs.clear();
   const std::vector<NearPair> near = edges_near_pieces(a, circle_pairs);
   for (const NearPair pair : near) {
-    const BoundaryPiece& piece = b.pieces[pair.b];
+    const PieceEdges& piece = b.cover.pieces[pair.b];
     std::uint32_t eb = piece.first_edge;
     for (std::uint32_t k = 0; k < piece.edges; ++k, eb = b.edges.next[eb]) {
       if (pairs.empty() || pairs.back() != NearPair{pair.a, eb}) pairs.push_back({pair.a, eb});
@@ -176,9 +195,9 @@ void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>&
   }
 }
 
-bool is_one_inside(const Boundary& a, const Boundary& b, const Pose& a_from_b) {
-  const CircleNode& around_a = a.tree.front();
-  const CircleNode& around_b = b.tree.front();
+bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b) {
+  const CircleNode& around_a = a.cover.tree.front();
+  const CircleNode& around_b = b.cover.tree.front();
   const double between = distance(around_a.centre, transform(a_from_b, around_b.centre));
   if (between > std::max(around_a.reach, around_b.reach)) return false;
   // All vertices: where two only touch, rounding may find one of them inside.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "geometry/contact/contact_circles.hpp"
@@ -30,22 +31,47 @@ struct CircleRule {
                                ///< their centres; without, they stand on the boundary and are tighter
 };
 
-/// A body's boundary: its edges and, once it is ready for finding contacts, its pieces, their bounding
-/// circles and a tree over these. Everything is in the body frame.
-struct Boundary {
-  EdgeList edges;
-  std::vector<BoundaryPiece> pieces;
+/// The edges that a piece of boundary lies on.
+struct PieceEdges {
+  std::uint32_t first_edge = 0;
+  std::uint32_t edges = 1;  ///< this many in all, the next ones of the same ring
+};
+
+/// What finds the parts of two boundaries that are near each other: pieces of one, their bounding circles and
+/// a tree over these, in the body frame. It follows from the edges, and takes far more memory than they.
+struct Cover {
+  std::vector<PieceEdges> pieces;
   std::vector<ContactCircle> circles;            ///< of the pieces; empty where the rule has none
   std::vector<BoundingCircle> bounding_circles;  ///< of the pieces, about contact circles' centres or middles
   std::vector<CircleNode> tree;
+};
 
-  bool is_ready() const { return !tree.empty(); }
+/// Makes the cover of a boundary, in the memory of the one that was there.
+void make_cover(const EdgeList& edges, const CircleRule& rule, Cover& cover);
+
+/// About how many pieces the boundary has.
+double pieces_of(const EdgeList& edges, double circle_radius);
+
+/// A body's boundary: its edges, in the body frame, and its cover where that is kept.
+struct Boundary {
+  EdgeList edges;
+  std::shared_ptr<const Cover> cover;
+
+  bool is_ready() const { return cover != nullptr; }
+};
+
+/// A boundary with its cover, ready for finding contacts, wherever that is kept.
+struct Covered {
+  Covered(const EdgeList& edges_of_it, const Cover& cover_of_it) : edges(edges_of_it), cover(cover_of_it) {}
+  Covered(const Boundary& ready) : edges(ready.edges), cover(*ready.cover) {}  // NOLINT: it is one
+  const EdgeList& edges;
+  const Cover& cover;
 };
 
 /// A boundary with edges only: enough for a floe that no body comes near.
 Boundary make_outline(const Polygon& polygon);
 
-/// Makes a boundary ready for finding contacts.
+/// Makes a boundary's cover, and keeps it.
 void make_ready(Boundary& boundary, const CircleRule& rule);
 
 Boundary make_boundary(const Polygon& polygon, const CircleRule& rule);
@@ -68,11 +94,11 @@ struct NearEdges {
 /// All pairs of bounding circles of two boundaries within `margin` of each other [m], and so all near pieces.
 /// Appends to `circle_pairs`. Returns a lower bound of the distance between the boundaries [m], of use where
 /// nothing is within the margin.
-double near_circles(const Boundary& a, const Boundary& b, const Pose& a_from_b, double margin,
+double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs);
 
 /// The pairs of edges on the pieces of pairs of bounding circles, each once, in order.
-void edges_of(const Boundary& a, const Boundary& b, const std::vector<NearPair>& circle_pairs,
+void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs,
               NearEdges& edges);
 
 /// Where two bodies overlap, seen as one contact. In the frame of a.
@@ -164,7 +190,7 @@ inline bool is_blind(double width, double area, double extent) {
 bool is_inside(const EdgeList& edges, Point p);
 
 /// Whether boundaries that do not cross are one inside the other.
-bool is_one_inside(const Boundary& a, const Boundary& b, const Pose& a_from_b);
+bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b);
 
 /// Least distance between the edges of the pairs, 0 where two cross or touch [m].
 double least_distance(const Pose& a_from_b, const NearEdges& edges);
@@ -172,7 +198,7 @@ double least_distance(const Pose& a_from_b, const NearEdges& edges);
 /// The paper's own rule: every pair of overlapping contact circles is a contact with its normal along the
 /// line of centres and its contact point half-way into the overlap. [Sawamura2017], Fig. 1. Depth is the
 /// circles' overlap; width and area are those of the circles' lens.
-void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+void find_circle_manifolds(const Covered& a, const Covered& b, const Pose& a_from_b,
                            const std::vector<NearPair>& circle_pairs,
                            std::vector<ContactManifold>& manifolds);
 

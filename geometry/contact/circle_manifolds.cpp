@@ -5,12 +5,12 @@
 
 namespace polynya::geometry {
 
-void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+void find_circle_manifolds(const Covered& a, const Covered& b, const Pose& a_from_b,
                            const std::vector<NearPair>& circle_pairs,
                            std::vector<ContactManifold>& manifolds) {
   for (const NearPair pair : circle_pairs) {
-    const ContactCircle& ca = a.circles[pair.a];
-    const ContactCircle& cb = b.circles[pair.b];
+    const ContactCircle& ca = a.cover.circles[pair.a];
+    const ContactCircle& cb = b.cover.circles[pair.b];
     const Vector line = transform(a_from_b, cb.centre) - ca.centre;
     const double centres = length(line);
     const double depth = ca.radius + cb.radius - centres;
@@ -28,7 +28,7 @@ void find_circle_manifolds(const Boundary& a, const Boundary& b, const Pose& a_f
     manifold.ends[1] = middle + half_chord * perpendicular(manifold.normal);
     manifold.tip_of_a = middle;
     manifold.tip_of_b = ca.centre + (centres - cb.radius) * manifold.normal;
-    manifold.tip_edge_of_b = b.pieces[pair.b].first_edge;
+    manifold.tip_edge_of_b = b.cover.pieces[pair.b].first_edge;
     manifolds.push_back(manifold);
   }
 }

@@ -19,10 +19,11 @@ std::vector<std::uint32_t> edges_near_line(const Boundary& boundary, Point point
   const auto is_near = [&](const auto& circle) {
     return std::abs(cross(direction, circle.centre - point)) <= circle.reach + kRounding;
   };
+  const Cover& cover = *boundary.cover;
   std::vector<std::uint32_t> nodes{0};
   while (!nodes.empty()) {
     const std::uint32_t index = nodes.back();
-    const CircleNode& node = boundary.tree[index];
+    const CircleNode& node = cover.tree[index];
     nodes.pop_back();
     if (!is_near(node)) continue;
     if (node.right != 0) {
@@ -31,10 +32,9 @@ std::vector<std::uint32_t> edges_near_line(const Boundary& boundary, Point point
       continue;
     }
     for (std::uint32_t c = node.first; c < node.first + node.count; ++c) {
-      if (!is_near(boundary.bounding_circles[c])) continue;
-      std::uint32_t e = boundary.pieces[c].first_edge;
-      for (std::uint32_t k = 0; k < boundary.pieces[c].edges; ++k, e = boundary.edges.next[e])
-        near.push_back(e);
+      if (!is_near(cover.bounding_circles[c])) continue;
+      std::uint32_t e = cover.pieces[c].first_edge;
+      for (std::uint32_t k = 0; k < cover.pieces[c].edges; ++k, e = boundary.edges.next[e]) near.push_back(e);
     }
   }
   std::sort(near.begin(), near.end());

@@ -104,8 +104,8 @@ bool OutputFile::flush() {
   size_ += whole;
   drop();
   if (buffer_.capacity() > kMuchKept) {  // of the floes at the start: not as many come again
-    buffer_ = {};
-    record_ends_ = {};
+    buffer_.shrink_to_fit();
+    record_ends_.shrink_to_fit();
   }
   return status_.has_value();
 }

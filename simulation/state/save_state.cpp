@@ -9,12 +9,6 @@ BodyMotion motion_of(const dynamics::Bodies& bodies, BodyIndex i) {
           bodies.angular_velocity[i], bodies.travel[i], bodies.rim_speed[i], bodies.is_awake[i] != 0};
 }
 
-/// Pairs that touch: the others are only near, and found again.
-std::vector<dynamics::PairState> touching(std::vector<dynamics::PairState> pairs) {
-  std::erase_if(pairs, [](const dynamics::PairState& pair) { return pair.records.empty(); });
-  return pairs;
-}
-
 Standing standing_of(const Population& population, FloeId id) {
   if (population.is_fast(id)) return Standing::kFast;  // also when it has broken: its pieces follow it
   return population.floes[id].is_under ? Standing::kUnderHull : Standing::kFree;
@@ -56,7 +50,7 @@ std::string save_state(const World& world) {
 
 std::uint64_t state_hash(const World& world) {
   HashWriter archive;
-  write(archive, world, touching(world.population.pairs.pair_states()));
+  write(archive, world, world.population.pairs.touching_states());
   return archive.hash();
 }
 

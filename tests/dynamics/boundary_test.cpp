@@ -118,19 +118,19 @@ TEST_F(RandomFloes, PiecesAndTheirCirclesCoverAllBoundaryOneForEachRadiusOfIt) {
 TEST_F(RandomFloes, TheTreesNodesCoverTheirPieces) {
   for (int i = 0; i < 100; ++i) {
     const Boundary boundary = make_boundary(random_floe(random_), {1, i % 2 == 0});
-    for (std::size_t n = 0; n < boundary.tree.size(); ++n) {
-      const CircleNode& node = boundary.tree[n];
+    const Cover& cover = *boundary.cover;
+    for (std::size_t n = 0; n < cover.tree.size(); ++n) {
+      const CircleNode& node = cover.tree[n];
       for (std::uint32_t c = node.first; c < node.first + node.count; ++c) {
-        ASSERT_LE(
-            distance(node.centre, boundary.bounding_circles[c].centre) + boundary.bounding_circles[c].reach,
-            node.reach);
+        const BoundingCircle& circle = cover.bounding_circles[c];
+        ASSERT_LE(distance(node.centre, circle.centre) + circle.reach, node.reach);
       }
       if (node.right == 0) continue;
-      ASSERT_EQ(boundary.tree[n + 1].count + boundary.tree[node.right].count, node.count);
-      ASSERT_EQ(boundary.tree[n + 1].first, node.first);
-      ASSERT_EQ(boundary.tree[node.right].first, node.first + boundary.tree[n + 1].count);
+      ASSERT_EQ(cover.tree[n + 1].count + cover.tree[node.right].count, node.count);
+      ASSERT_EQ(cover.tree[n + 1].first, node.first);
+      ASSERT_EQ(cover.tree[node.right].first, node.first + cover.tree[n + 1].count);
     }
-    ASSERT_EQ(boundary.tree.front().count, boundary.bounding_circles.size());
+    ASSERT_EQ(cover.tree.front().count, cover.bounding_circles.size());
   }
 }
 

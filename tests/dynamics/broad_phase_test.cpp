@@ -62,8 +62,10 @@ struct Pack {
   std::vector<BodyIndex> awake;
   BroadPhase finder;
   Random random{kSeed};
+  bool has_covers;  ///< before another body comes near
 
-  Pack(const ContactRule& rule, int columns) : finder(rule, 15) {
+  Pack(const ContactRule& rule, int columns, bool are_covered = true)
+      : finder(rule, 15), has_covers(are_covered) {
     for (int row = 0, i = 0; row < columns; ++row) {
       for (int column = 0; column < columns; ++column, ++i)
         add({14.0 * column, 14.0 * row}, i % 3 != 0, columns);
@@ -80,6 +82,7 @@ struct Pack {
       body.velocity = 0.05 * inwards + Vector{random.between(-2, 2), random.between(-2, 2)};
       body.angular_velocity = random.between(-0.4, 0.4);
     }
+    if (!has_covers) body.boundary->cover.reset();
     const BodyIndex i = add_body(bodies, body);
     finder.add(bodies, i);
   }
@@ -156,6 +159,42 @@ TEST(BroadPhase, FindsWhatASearchOverAllPairsFinds) {
 
 TEST(BroadPhase, FindsWhatASearchOverAllPairsFindsByCircles) {
   run_against_brute_force({1.0, true}, 10, 200);
+}
+
+TEST(BroadPhase, FindsTheSameToTheBitWhereCoversAreMadeAsTheyAreNeeded) {
+  constexpr int kColumns = 14;
+  ContactRule few;
+  few.most_kept_pieces = 1000;
+  Pack keeping({}, kColumns, false), making(few, kColumns, false);
+  const auto covers_of = [](const Pack& pack) {
+    return std::ranges::count_if(pack.bodies.boundary,
+                                 [](const auto& boundary) { return boundary->is_ready(); });
+  };
+  std::vector<Contact> kept, made;
+  std::size_t seen = 0;
+  for (int step = 0; step < 300; ++step) {
+    for (Pack* pack : {&keeping, &making}) pack->finder.update(pack->bodies, pack->awake);
+    keeping.finder.find_contacts(keeping.bodies, kStep, kept);
+    making.finder.find_contacts(making.bodies, kStep, made);
+    ASSERT_EQ(kept.size(), made.size());
+    seen += kept.size();
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Contact &p = kept[i], &q = made[i];
+      ASSERT_EQ(std::tuple(p.a, p.b, p.width, p.depth, p.area, p.normal, p.ends[0], p.ends[1]),
+                std::tuple(q.a, q.b, q.width, q.depth, q.area, q.normal, q.ends[0], q.ends[1]));
+    }
+    const std::vector<PairState> p = keeping.finder.pair_states(), q = making.finder.pair_states();
+    ASSERT_EQ(p.size(), q.size());
+    for (std::size_t i = 0; i < p.size(); ++i) ASSERT_EQ(p[i].separation_bound, q[i].separation_bound);
+    for (Pack* pack : {&keeping, &making}) {
+      integrate(pack->bodies, pack->awake, kStep);
+      if (step % 16 == 15) pack->remove(step % pack->bodies.size());
+    }
+  }
+  EXPECT_GT(seen, 1000U);
+  EXPECT_EQ(covers_of(keeping), keeping.bodies.size());
+  EXPECT_LT(covers_of(making), keeping.bodies.size() / 4);
+  EXPECT_GT(covers_of(making), 0);
 }
 
 TEST(BroadPhase, AFastFloeIsNotMissed) {

@@ -72,6 +72,31 @@ TEST(WaterDrag, AShapeIsAsWideAsItsFarthestCornersInAllDirections) {
         high = std::max(high, dot(p - geometry::Point{}, across));
       }
       ASSERT_NEAR(shape.width[k], high - low, 1e-13);
+      const auto found = widths_of_outline(star.outer, {}, k);
+      ASSERT_EQ(found[0], shape.width[k]) << "star " << i << ", direction " << k;
+      ASSERT_EQ(found[1], shape.width[k + 1]) << "star " << i << ", direction " << k;
+    }
+  }
+}
+
+TEST(WaterDrag, AFloeWithoutATableOfWidthsMovesAsOneWithItToTheBit) {
+  Random random(18);
+  for (int i = 0; i < 50; ++i) {
+    const geometry::Polygon star = random_star(random, 3 + random.below(60), 3, 8);
+    Bodies with = one_floe(star, random.angle());
+    Bodies without = with;
+    const Point centroid = with.centroid[0];
+    with.drag[0] = std::make_shared<DragShape>(make_drag_shape(star, centroid));
+    without.drag[0] = std::make_shared<DragShape>(make_small_drag_shape(star, centroid));
+    EXPECT_EQ(without.drag[0]->width.empty(), star.outer.size() <= 32);
+    for (int step = 0; step < 100; ++step) {
+      for (Bodies* bodies : {&with, &without}) {
+        bodies->velocity[0] += geometry::Vector{0.1 * std::cos(0.2 * step), 0.1 * std::sin(0.2 * step)};
+        apply_water_drag(*bodies, {0}, {kDrag, kWater, {}}, 0.1);
+        integrate(*bodies, {0}, 0.1);
+      }
+      ASSERT_EQ(with.velocity[0], without.velocity[0]);
+      ASSERT_EQ(with.angular_velocity[0], without.angular_velocity[0]);
     }
   }
 }
