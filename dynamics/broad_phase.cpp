@@ -12,7 +12,6 @@ using geometry::Box;
 using geometry::Point;
 using geometry::Pose;
 
-constexpr double kManyPieces = 512;  ///< a cover of more is always kept: to make it again takes long
 constexpr double kBoxMargin =
     2.0;  ///< boxes are grown by this much, and computed again after that much travel [m]
 
@@ -127,18 +126,6 @@ void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
   for (BodyIndex other = 0; other < bodies.size(); ++other) {
     if (entries_[other].is_in) consider(other);
   }
-}
-
-/// Makes and keeps the cover of a body that another comes near, unless those kept are many.
-void BroadPhase::keep_cover(const Bodies& bodies, BodyIndex body) {
-  geometry::Boundary& boundary = *bodies.boundary[body];
-  if (boundary.is_ready()) return;
-  const double pieces = pieces_of(boundary.edges, rule_.circle_radius);
-  const bool is_cheap = pieces <= kManyPieces && !rule_.is_circle_centres;
-  if (is_cheap && kept_pieces_ + pieces > rule_.most_kept_pieces) return;
-  make_ready(boundary, {rule_.circle_radius, rule_.is_circle_centres});
-  entries_[body].kept_pieces = static_cast<std::uint32_t>(boundary.cover->pieces.size());
-  kept_pieces_ += entries_[body].kept_pieces;
 }
 
 void BroadPhase::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {

@@ -1,5 +1,7 @@
 #include "dynamics/cover_cache.hpp"
 
+#include "dynamics/broad_phase.hpp"
+
 namespace polynya::dynamics {
 namespace {
 
@@ -45,6 +47,18 @@ const geometry::Cover& CoverCache::second(const geometry::Boundary& boundary, Bo
   make_cover(boundary.edges, rule, entry.cover);
   entry.body = body;
   return entry.cover;
+}
+
+/// Makes and keeps the cover of a body that another comes near, unless those kept are many.
+void BroadPhase::keep_cover(const Bodies& bodies, BodyIndex body) {
+  geometry::Boundary& boundary = *bodies.boundary[body];
+  if (boundary.is_ready()) return;
+  const double pieces = pieces_of(boundary.edges, rule_.circle_radius);
+  const bool is_cheap = pieces <= kManyPieces && !rule_.is_circle_centres;
+  if (is_cheap && kept_pieces_ + pieces > rule_.most_kept_pieces) return;
+  make_ready(boundary, {rule_.circle_radius, rule_.is_circle_centres});
+  entries_[body].kept_pieces = static_cast<std::uint32_t>(boundary.cover->pieces.size());
+  kept_pieces_ += entries_[body].kept_pieces;
 }
 
 }  // namespace polynya::dynamics

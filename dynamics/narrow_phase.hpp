@@ -49,6 +49,9 @@ struct alignas(64) Pair {
 };
 static_assert(sizeof(Pair) == 128, "of a million floes there are some millions");
 
+/// A cover of more pieces is always kept: to make it again would take long.
+inline constexpr double kManyPieces = 512;
+
 /// How contacts are found.
 struct ContactRule {
   double circle_radius = 1.0;      ///< [m]

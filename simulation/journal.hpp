@@ -207,7 +207,7 @@ struct Journal {
     mooring_breaks.clear();
     rejected_cuts.clear();
     births.clear();
-    if (births.capacity() > kManyBirths) births = {};
+    if (births.capacity() > kManyBirths) births.shrink_to_fit();
     deaths.clear();
     samples.clear();
   }

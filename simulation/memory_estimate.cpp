@@ -68,11 +68,10 @@ class KeptCovers {
       : radius_(contact.circle_radius), has_circles_(contact.normal == ContactNormal::kCircleCentres) {}
 
   void add(const Polygon& polygon) {
-    constexpr double kManyPieces = 512;  // as in dynamics/broad_phase.cpp
     double length = length_of(polygon.outer);
     for (const Ring& hole : polygon.holes) length += length_of(hole);
     const double pieces = std::max(1.0, length / radius_);
-    (pieces > kManyPieces || has_circles_ ? always_ : others_) += pieces;
+    (pieces > dynamics::kManyPieces || has_circles_ ? always_ : others_) += pieces;
   }
 
   double bytes() const {

@@ -50,8 +50,8 @@ Extent build_node(Cover& cover, std::uint32_t first, std::uint32_t count) {
     }
   }
   node.centre = midpoint(extent.centres.low, extent.centres.high);
-  node.reach = std::min(covering_reach(cover, index, node),
-                        distance(node.centre, extent.centres.high) + extent.reach);
+  node.reach =
+      std::min(covering_reach(cover, index, node), distance(node.centre, extent.centres.high) + extent.reach);
   node.reach *= 1 + 1e-12;
   cover.tree[index] = node;
   return extent;

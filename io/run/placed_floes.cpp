@@ -21,26 +21,30 @@ geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simul
   }
 }
 
-template <class Condition>
-std::vector<PlacedFloe> floes_where(const Run& run, const MotionIndex& motions, double time,
-                                    Condition condition) {
-  std::vector<PlacedFloe> floes;
-  for (const RunFloe& floe : run.floes) {
-    if (!condition(floe.birth.floe)) continue;
-    floes.push_back({&floe.birth, run.shape(floe.birth.floe), body_pose(run, motions, floe.birth, time),
-                     motions.floe_at(floe.birth.floe, time)});
-  }
-  return floes;
+PlacedFloe placed(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe,
+                  double time) {
+  return {&floe, run.shape(floe.floe), body_pose(run, motions, floe, time), motions.floe_at(floe.floe, time)};
 }
 
 }  // namespace
 
+void for_floes_at(const Run& run, const MotionIndex& motions, double time,
+                  const std::function<void(const PlacedFloe&)>& use) {
+  for (const RunFloe& floe : run.floes)
+    if (run.is_alive(floe.birth.floe, time)) use(placed(run, motions, floe.birth, time));
+}
+
 std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time) {
-  return floes_where(run, motions, time, [&](simulation::FloeId floe) { return run.is_alive(floe, time); });
+  std::vector<PlacedFloe> floes;
+  for_floes_at(run, motions, time, [&](const PlacedFloe& floe) { floes.push_back(floe); });
+  return floes;
 }
 
 std::vector<PlacedFloe> floes_under_hulls_at(const Run& run, const MotionIndex& motions, double time) {
-  return floes_where(run, motions, time, [&](simulation::FloeId floe) { return run.is_under(floe, time); });
+  std::vector<PlacedFloe> floes;
+  for (const RunFloe& floe : run.floes)
+    if (run.is_under(floe.birth.floe, time)) floes.push_back(placed(run, motions, floe.birth, time));
+  return floes;
 }
 
 geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time) {

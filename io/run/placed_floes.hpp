@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,6 +23,9 @@ struct PlacedFloe {
 /// The floes that float at a time, by id. A floe that lived between two frames is placed as the floe it broke
 /// from was, whose body frame it shares; one that no frame has, where it was born.
 std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time);
+/// Calls use(floe) for each of them, one at a time: all of a million floes, with their polygons, take 200 MB.
+void for_floes_at(const Run& run, const MotionIndex& motions, double time,
+                  const std::function<void(const PlacedFloe&)>& use);
 
 /// Those under hulls then, or waiting for room behind them, likewise.
 std::vector<PlacedFloe> floes_under_hulls_at(const Run& run, const MotionIndex& motions, double time);

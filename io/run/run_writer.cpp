@@ -204,7 +204,6 @@ void RunWriter::record(simulation::Journal& journal) {
       peaks[i].include(peak_columns_[i]->read(sample), sample.time);
   }
   journal.clear();
-  if (journal.births.capacity() > simulation::Journal::kManyBirths) journal.births.shrink_to_fit();
   keep();
 }
 

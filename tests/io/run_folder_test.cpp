@@ -165,6 +165,22 @@ std::vector<std::int64_t> steps_in(const fs::path& folder) {
   return steps;
 }
 
+TEST(Checkpoints, AreWrittenInPartsAsTheyAreInMemory) {
+  const TemporaryFolder folder;
+  Checkpoint checkpoint = checkpoint_at(7);
+  checkpoint.program_version = "0.1.0";
+  checkpoint.progress.file_sizes = {1, 2, 3};
+  checkpoint.progress.recorded.resize(100'000);
+  for (std::size_t i = 0; i < checkpoint.progress.recorded.size(); ++i)
+    checkpoint.progress.recorded[i].time = static_cast<double>(i);
+  checkpoint.state = std::string(1'000'000, 's');
+  checkpoint.failure = "why";
+  ASSERT_TRUE(write_checkpoint(folder.path(), checkpoint).has_value());
+  const fs::path file = checkpoints_in(folder.path()).front();
+  EXPECT_EQ(read_file(file), checkpoint_bytes(checkpoint));
+  EXPECT_EQ(read_checkpoint_file(file, "")->state, checkpoint.state);
+}
+
 /// Whatever is there, the checkpoint that is written stays, and is the newest.
 TEST(Checkpoints, TheOneJustWrittenIsTheNewestThatIsKept) {
   const TemporaryFolder folder;

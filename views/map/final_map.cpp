@@ -14,10 +14,13 @@ namespace polynya::views {
 Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double time) {
   Picture picture;
   const simulation::Scene& scene = run.scene.scene;
+  picture.ice_at_start.reserve(scene.floes.size());
+  picture.floes.reserve(scene.floes.size());
   for (const auto& floe : scene.floes) picture.ice_at_start.push_back(floe.polygon_in_world);
-  for (const io::PlacedFloe& floe : floes_at(run, motions, time))
+  for_floes_at(run, motions, time, [&](const io::PlacedFloe& floe) {
     picture.floes.push_back({transform(floe.world_from_body, *floe.polygon_in_body), floe.birth->generation,
                              run.floe(floe.birth->floe)->came_up});
+  });
   for (const io::PlacedFloe& floe : floes_under_hulls_at(run, motions, time))
     picture.ice_under_hulls.push_back(transform(floe.world_from_body, *floe.polygon_in_body));
   for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
