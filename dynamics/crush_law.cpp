@@ -21,8 +21,11 @@ class EndPair {
     return {free_[0] - mobility_.at[0] * impulse[0] - mobility_.between * impulse[1],
             free_[1] - mobility_.between * impulse[0] - mobility_.at[1] * impulse[1]};
   }
-  CrushPieces pieces(const std::array<double, 2>& speed) const {
-    return {{piece_at(ends_[0], creep_[0], speed[0]), piece_at(ends_[1], creep_[1], speed[1])}};
+  /// The pieces nearest to impulses and the speeds that they leave.
+  CrushPieces pieces_near(const std::array<double, 2>& impulse) const {
+    const auto speed = speeds(impulse);
+    return {{piece_near(ends_[0], speed[0], impulse[0], mobility_.at[0]),
+             piece_near(ends_[1], speed[1], impulse[1], mobility_.at[1])}};
   }
   std::array<double, 2> solve_on(const CrushPieces& pieces) const {
     const CrushBranch p = branch_of(ends_[0], creep_[0], pieces.of[0]);
@@ -73,10 +76,10 @@ std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, c
     return {0, 0};
   }
   const EndPair pair(ends, mobility, closing_speed);
-  if (pieces == CrushPieces{}) pieces = pair.pieces(closing_speed);
+  if (pieces == CrushPieces{}) pieces = pair.pieces_near({0, 0});
   for (int i = 0; i < kMostTries; ++i) {
     const auto impulse = pair.solve_on(pieces);
-    const CrushPieces next = pair.pieces(pair.speeds(impulse));
+    const CrushPieces next = pair.pieces_near(impulse);
     if (next == pieces)
       return {std::clamp(impulse[0], 0.0, ends[0].cap), std::clamp(impulse[1], 0.0, ends[1].cap)};
     pieces = next;
