@@ -1,6 +1,7 @@
 #include "dynamics/internal/jam_matrix.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace polynya::dynamics {
 namespace {
@@ -28,34 +29,49 @@ void for_entries(std::span<const JamRows> rows, Use use) {
 }  // namespace
 
 JamMatrix::JamMatrix(const Eigen::VectorXd& mass, std::span<const JamRows> rows)
-    : lower_(mass.size(), mass.size()) {
+    : upper_(mass.size(), mass.size()) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < mass.size(); ++i) entries.emplace_back(i, i, 1);
   for_entries(rows, [&](std::size_t, int row, int column, const double*, const double*) {
     entries.emplace_back(row, column, 1);
   });
-  lower_.setFromTriplets(entries.begin(), entries.end());
-  const int* numbers = lower_.innerIndexPtr();
+  Matrix lower(mass.size(), mass.size());
+  lower.setFromTriplets(entries.begin(), entries.end());
+  const Matrix whole = lower.selfadjointView<Eigen::Lower>();
+  Eigen::AMDOrdering<int>()(whole, order_);
+  order_ = order_.inverse().eval();  // it gives the way back
+
+  // Eigen puts the elements in order; their numbers as values give where each goes.
+  std::iota(lower.valuePtr(), lower.valuePtr() + lower.nonZeros(), 0.0);
+  upper_.selfadjointView<Eigen::Upper>() = lower.selfadjointView<Eigen::Lower>().twistedBy(order_);
+  std::vector<int> place_of(static_cast<std::size_t>(lower.nonZeros()));
+  for (int i = 0; i < upper_.nonZeros(); ++i) place_of[static_cast<std::size_t>(upper_.valuePtr()[i])] = i;
+  const int* numbers = lower.innerIndexPtr();
   for (const auto& entry : entries) {
-    const int* begin = numbers + lower_.outerIndexPtr()[entry.col()];
-    const int* end = numbers + lower_.outerIndexPtr()[entry.col() + 1];
-    places_.push_back(static_cast<int>(std::lower_bound(begin, end, entry.row()) - numbers));
+    const int* begin = numbers + lower.outerIndexPtr()[entry.col()];
+    const int* end = numbers + lower.outerIndexPtr()[entry.col() + 1];
+    places_.push_back(
+        place_of[static_cast<std::size_t>(std::lower_bound(begin, end, entry.row()) - numbers)]);
   }
-  cholesky_.analyzePattern(lower_);
+  cholesky_.analyzePattern(upper_);
 }
 
 bool JamMatrix::factorize(const Eigen::VectorXd& mass, std::span<const JamRows> rows,
                           std::span<const JamLoad> loads) {
-  double* values = lower_.valuePtr();
-  std::fill_n(values, lower_.nonZeros(), 0.0);
+  double* values = upper_.valuePtr();
+  std::fill_n(values, upper_.nonZeros(), 0.0);
   const int* place = places_.data();
   for (Eigen::Index i = 0; i < mass.size(); ++i) values[*place++] += mass[i];
   for_entries(rows, [&](std::size_t contact, int, int, const double* p, const double* q) {
     const double* slope = loads[contact].slope;
     values[*place++] += slope[0] * p[0] * q[0] + slope[1] * p[3] * q[3] + slope[2] * p[6] * q[6];
   });
-  cholesky_.factorize(lower_);
+  cholesky_.factorize(upper_);
   return cholesky_.info() == Eigen::Success;
+}
+
+Eigen::VectorXd JamMatrix::solve(const Eigen::VectorXd& right) const {
+  return order_.inverse() * cholesky_.solve(order_ * right);
 }
 
 }  // namespace polynya::dynamics

@@ -21,19 +21,22 @@ struct JamLoad {
 };
 
 /// M + Σ Jᵀ slope J of a jam's bodies and contacts: sparse, symmetric, positive definite. Which of its
-/// elements there are is found once, for all slopes.
+/// elements there are, and the order of unknowns in which it is factorized, is found once, for all slopes.
 class JamMatrix {
  public:
   JamMatrix(const Eigen::VectorXd& mass, std::span<const JamRows> rows);
 
   /// Returns whether it succeeded; it fails where masses and slopes differ by more than doubles bear.
   bool factorize(const Eigen::VectorXd& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads);
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) const { return cholesky_.solve(right); }
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
-  Eigen::SparseMatrix<double> lower_;  ///< its lower triangle
-  std::vector<int> places_;            ///< of what factorize() adds up, in its order
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky_;
+  using Matrix = Eigen::SparseMatrix<double>;
+
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_;  ///< by which few elements fill in
+  Matrix upper_;             ///< its upper triangle, in that order
+  std::vector<int> places_;  ///< of what factorize() adds up, in its order
+  Eigen::SimplicialLLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> cholesky_;
 };
 
 }  // namespace polynya::dynamics
