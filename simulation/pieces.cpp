@@ -62,8 +62,10 @@ void enter_removed(const NewFloe& piece, const geometry::Measures& measures, dou
   audit.impulses += length(carried);
 }
 
-void enter_areas(const Event& event, const geometry::CutLedger& cut, double mass_per_area,
-                 Accounts& accounts) {
+/// Enters what the cut left out beside its pieces into the event, and the event's areas into the accounts.
+void enter_areas(Event& event, const geometry::CutLedger& cut, double mass_per_area, Accounts& accounts) {
+  event.brash_area += cut.area_slivers;
+  event.rounding_defect = cut.rounding_defect;
   accounts.counts.snap_rounded += cut.snap_rounded;
   accounts.ledger.submerged_area += event.submerged_area;
   accounts.ledger.brash_area += event.brash_area;
@@ -119,8 +121,6 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
     population.pairs.inherit(population.bodies, population.body_of(id), inheritance);
     accounts.counts.floated_cusps += is_inside ? 1 : 0;
   }
-  event.brash_area += cut.ledger.area_slivers;
-  event.rounding_defect = cut.ledger.rounding_defect;
   enter_areas(event, cut.ledger, own_mass_per_area, accounts);
   ++(accounts.counts.*breakage.count);
   journal.events.push_back(std::move(event));

@@ -27,8 +27,8 @@ double distance_to_port(const Setup& setup, const dynamics::Bodies& bodies, cons
   return std::clamp(rotate_back(bodies.rotation[tile.ship], from_ship).y, -half_beam, half_beam);
 }
 
-void add_tile(const Setup& setup, const Population& population, const Tile& tile, Pull& pull) {
-  const dynamics::SubmersionPath& path = setup.underwater[tile.ship].path;
+void add_tile(const Setup& setup, const dynamics::SubmersionPath& path, const Population& population,
+              const Tile& tile, Pull& pull) {
   if (tile.path >= std::max(path.bow, path.sliding)) return;  // behind it
   if (tile.path < path.sliding) pull.area += tile.area;
   if (pull.speed <= 0) return;
@@ -38,6 +38,20 @@ void add_tile(const Setup& setup, const Population& population, const Tile& tile
   if (work == 0) return;
   pull.work += work;
   pull.moment += work * distance_to_port(setup, population.bodies, tile, population.body_of(tile.floe));
+}
+
+/// Adds tiles in their order, those that follow one another under one ship to a sum of their own: it stays in
+/// registers.
+void add_tiles(const Setup& setup, const Population& population, std::vector<Pull>& pulls) {
+  auto tile = population.tiles.begin();
+  while (tile != population.tiles.end()) {
+    const int ship = tile->ship;
+    const dynamics::SubmersionPath path = setup.underwater[ship].path;
+    Pull pull = pulls[ship];
+    for (; tile != population.tiles.end() && tile->ship == ship; ++tile)
+      add_tile(setup, path, population, *tile, pull);
+    pulls[ship] = pull;
+  }
 }
 
 /// Brakes the ship, which it never reverses, and turns it. Enters both.
@@ -81,7 +95,7 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
   std::vector<Pull> pulls(static_cast<std::size_t>(population.ship_count));
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship)
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
-  for (const Tile& tile : population.tiles) add_tile(setup, population, tile, pulls[tile.ship]);
+  add_tiles(setup, population, pulls);
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
     apply(setup, ship, pulls[ship], bodies, loads[ship].submerged, audit);
     pulls[ship].speed = speed_ahead(setup, bodies, ship);

@@ -5,10 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/contact/boundary_edges.hpp"
+
 namespace polynya::geometry {
 namespace {
 
 constexpr std::uint32_t kLeafCircles = 4;
+constexpr double kMostPieces = 128;  ///< of an edge: every metre of a ship's side, not of a plate's
 
 /// Centres and radii of some bounding circles.
 struct Extent {
@@ -72,6 +75,25 @@ std::vector<NearPair> edges_near_pieces(const Covered& a, const std::vector<Near
   return near;
 }
 
+/// Puts the ends of the pairs' edges beside them. Plain pointers: there may be thousands.
+void fill_ends(const EdgeList& a, const EdgeList& b, NearEdges& edges) {
+  const std::size_t count = edges.pairs.size();
+  const std::size_t stride = edges.stride = (count + 3) / 4 * 4;
+  edges.ends.resize(8 * stride);
+  const Point* const of_a = a.vertices.data();
+  const Point* const of_b = b.vertices.data();
+  double* const ends = edges.ends.data();
+  for (std::size_t i = 0; i < stride; ++i) {
+    const bool is_pair = i < count;  // else what fills the last lanes
+    const NearPair pair = is_pair ? edges.pairs[i] : NearPair{};
+    const Point points[4] = {of_a[pair.a], of_a[a.next[pair.a]], of_b[pair.b], of_b[b.next[pair.b]]};
+    for (std::size_t k = 0; k < 4; ++k) {
+      ends[i + 2 * k * stride] = is_pair ? points[k].x : 0;
+      ends[i + (2 * k + 1) * stride] = is_pair ? points[k].y : 0;
+    }
+  }
+}
+
 double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
   return distance(a.centre, b_centre_in_a) - a.reach - b.reach;
 }
@@ -81,10 +103,7 @@ double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
 bool is_inside(const EdgeList& edges, Point p) {
   bool inside = false;
   for (std::uint32_t edge = 0; edge < edges.size(); ++edge) {
-    const Point from = edges.from(edge);
-    const Point to = edges.to(edge);
-    if ((from.y > p.y) == (to.y > p.y)) continue;
-    if ((cross(to - from, p - from) > 0) == (to.y > from.y)) inside = !inside;
+    if (is_right_of(edges, edge, p)) inside = !inside;
   }
   return inside;
 }
@@ -102,7 +121,10 @@ double pieces_of(const EdgeList& edges, double circle_radius) {
 }
 
 void make_cover(const EdgeList& edges, const CircleRule& rule, Cover& cover) {
-  const std::vector<BoundaryPiece> pieces = boundary_pieces(edges, rule.circle_radius);
+  // Contact circles have their size; what only bounds may be coarse where a plate's rim is long and straight.
+  const std::vector<BoundaryPiece> pieces = rule.has_circles
+                                                ? boundary_pieces(edges, rule.circle_radius)
+                                                : boundary_pieces(edges, rule.circle_radius, kMostPieces);
   cover.pieces.clear();
   cover.pieces.reserve(pieces.size());
   for (const BoundaryPiece& piece : pieces) cover.pieces.push_back({piece.first_edge, piece.edges});
@@ -136,6 +158,7 @@ Boundary make_boundary(const Polygon& polygon, const CircleRule& rule) {
 double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs) {
   double bound = std::numeric_limits<double>::infinity();
+  const std::size_t before = circle_pairs.size();
   NearPair stack[128];  // depth of both trees: a boundary of 2^60 circles would fit
   int top = 0;
   stack[top++] = {0, 0};
@@ -154,9 +177,12 @@ double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, do
         const Point centre = transform(a_from_b, of_b.centre);
         for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
           const BoundingCircle& of_a = a.cover.bounding_circles[i];
-          const double free = distance(of_a.centre, centre) - of_a.reach - of_b.reach;
-          bound = std::min(bound, free);
-          if (free <= margin) circle_pairs.push_back({i, k});
+          const double reaches = of_a.reach + of_b.reach;
+          const double squared = squared_length(centre - of_a.centre);
+          if (squared <= (reaches + margin) * (reaches + margin))
+            circle_pairs.push_back({i, k});
+          else if (circle_pairs.size() == before)
+            bound = std::min(bound, std::sqrt(squared) - reaches);
         }
       }
     } else if (nb.right == 0 || (na.right != 0 && na.reach >= nb.reach)) {
@@ -167,7 +193,7 @@ double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, do
       stack[top++] = {pair.a, pair.b + 1};
     }
   }
-  return bound;
+  return circle_pairs.size() == before ? bound : 0;
 }
 
 void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs,
@@ -182,17 +208,7 @@ void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& c
       if (pairs.empty() || pairs.back() != NearPair{pair.a, eb}) pairs.push_back({pair.a, eb});
     }
   }
-  edges.stride = (pairs.size() + 3) / 4 * 4;
-  edges.ends.assign(8 * edges.stride, 0);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    std::size_t at = i;
-    for (const Point end : {a.edges.from(pairs[i].a), a.edges.to(pairs[i].a), b.edges.from(pairs[i].b),
-                            b.edges.to(pairs[i].b)}) {
-      edges.ends[at] = end.x;
-      edges.ends[at + edges.stride] = end.y;
-      at += 2 * edges.stride;
-    }
-  }
+  fill_ends(a.edges, b.edges, edges);
 }
 
 bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b) {

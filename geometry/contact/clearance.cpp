@@ -1,5 +1,10 @@
 #include "geometry/contact/clearance.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/contact/boundary_edges.hpp"
+
 namespace polynya::geometry {
 namespace {
 
@@ -20,22 +25,82 @@ bool do_meet(const Edge& p, const Edge& q) {
   return !((q_from > 0 && q_to > 0) || (q_from < 0 && q_to < 0));
 }
 
+constexpr double kSlack = 1e-6;  ///< far more than what circles miss of their edges by rounding [m]
+
+/// Finds edges by the bounding circles of their pieces.
+template <class Matters, class Use>
+class EdgeSearch {
+ public:
+  EdgeSearch(const Cover& cover, Matters matters, Use use) : cover_(cover), matters_(matters), use_(use) {}
+
+  void search(std::uint32_t index) {
+    const CircleNode& node = cover_.tree[index];
+    if (!matters_(BoundingCircle{node.centre, node.reach})) return;
+    if (node.right != 0) {
+      search(index + 1);
+      return search(node.right);
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (!matters_(cover_.bounding_circles[i])) continue;
+      const PieceEdges& piece = cover_.pieces[i];
+      const std::uint32_t end = piece.first_edge + piece.edges;
+      for (next_ = std::max(next_, piece.first_edge); next_ < end; ++next_) use_(next_);
+    }
+  }
+
+ private:
+  const Cover& cover_;
+  Matters matters_;
+  Use use_;
+  std::uint32_t next_ = 0;  ///< a long edge has several pieces and is used once
+};
+
+/// Calls use(edge), in order and once, for each edge that has a bounding circle of which matters(circle), and
+/// maybe for others; for all edges of a boundary that is not ready.
+template <class Matters, class Use>
+void for_edges(const Boundary& boundary, Matters matters, Use use) {
+  if (boundary.is_ready()) return EdgeSearch(*boundary.cover, matters, use).search(0);
+  for (std::uint32_t edge = 0; edge < boundary.edges.size(); ++edge) use(edge);
+}
+
+/// As is_inside of all edges: no other edge is to the right of the point.
+bool is_inside_boundary(const Boundary& boundary, Point p) {
+  const auto is_to_the_right = [&](const BoundingCircle& circle) {
+    const double reach = circle.reach + kSlack;
+    return std::abs(circle.centre.y - p.y) <= reach && circle.centre.x + reach >= p.x;
+  };
+  bool inside = false;
+  for_edges(boundary, is_to_the_right, [&](std::uint32_t edge) {
+    if (is_right_of(boundary.edges, edge, p)) inside = !inside;
+  });
+  return inside;
+}
+
+/// Whether an edge of a meets one of b, which is within the box, in a's frame.
+bool do_edges_meet(const Boundary& a, const EdgeList& b, const Ring& b_in_a, const Box& box_of_b) {
+  const Point centre = midpoint(box_of_b.low, box_of_b.high);
+  const double radius = distance(centre, box_of_b.high) + kSlack;
+  bool meets = false;
+  const auto is_near = [&](const BoundingCircle& circle) {
+    return !meets && distance(circle.centre, centre) <= circle.reach + radius;
+  };
+  for_edges(a, is_near, [&](std::uint32_t edge) {
+    const Edge p{a.edges.from(edge), a.edges.to(edge)};
+    if (meets || !overlaps(box_of_b, box_around(p.from, p.to))) return;
+    for (std::uint32_t j = 0; j < b.size() && !meets; ++j) meets = do_meet(p, {b_in_a[j], b_in_a[b.next[j]]});
+  });
+  return meets;
+}
+
 }  // namespace
 
 bool is_clear(const Boundary& a, const Boundary& b, const Pose& a_from_b) {
   Ring b_in_a;
   b_in_a.reserve(b.edges.size());
   for (const Point p : b.edges.vertices) b_in_a.push_back(transform(a_from_b, p));
-  const Box box_of_b = bounding_box(b_in_a);
-  for (std::uint32_t i = 0; i < a.edges.size(); ++i) {
-    const Edge p{a.edges.from(i), a.edges.to(i)};
-    if (!overlaps(box_of_b, box_around(p.from, p.to))) continue;
-    for (std::uint32_t j = 0; j < b.edges.size(); ++j) {
-      if (do_meet(p, {b_in_a[j], b_in_a[b.edges.next[j]]})) return false;
-    }
-  }
+  if (do_edges_meet(a, b.edges, b_in_a, bounding_box(b_in_a))) return false;
   // Where no edges meet, one vertex stands for all of its body.
-  return !is_inside(a.edges, b_in_a.front()) &&
+  return !is_inside_boundary(a, b_in_a.front()) &&
          !is_inside(b.edges, inverse_transform(a_from_b, a.edges.vertices.front()));
 }
 

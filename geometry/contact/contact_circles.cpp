@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+
+#include "geometry/contact/boundary_edges.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -174,7 +177,7 @@ EdgeList edge_list(const Polygon& polygon) {
   return edges;
 }
 
-std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius) {
+std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius, double most) {
   const auto count = static_cast<std::uint32_t>(edges.size());
   std::vector<double> lengths(count);
   double total_length = 0;
@@ -184,7 +187,7 @@ std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius)
   for (std::uint32_t e = 0; e < count; ++e) {
     const double l = lengths[e];
     if (l > radius) {  // a long edge carries several
-      const double parts = std::ceil(l / radius);
+      const double parts = std::min(std::ceil(l / radius), most);
       const Vector step = (edges.to(e) - edges.from(e)) / parts;
       const double reach = 0.5 * l / parts * (1 + 1e-12);
       for (int k = 0; k < static_cast<int>(parts); ++k)
@@ -204,6 +207,10 @@ std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius)
     pieces.push_back(piece);
   }
   return pieces;
+}
+
+std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius) {
+  return boundary_pieces(edges, radius, std::numeric_limits<double>::infinity());
 }
 
 std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges,

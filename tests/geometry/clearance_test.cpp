@@ -17,7 +17,11 @@ Polygon frame() {
 }
 
 bool is_clear_at(const Polygon& a, const Polygon& b, Point place, double turn = 0) {
-  return is_clear(make_outline(a), make_outline(b), {place, Rotation::by(turn)});
+  const Pose pose{place, Rotation::by(turn)};
+  const bool by_outline = is_clear(make_outline(a), make_outline(b), pose);
+  for (const bool has_circles : {false, true})
+    EXPECT_EQ(is_clear(make_boundary(a, {1.0, has_circles}), make_outline(b), pose), by_outline);
+  return by_outline;
 }
 
 TEST(Clearance, BodiesApartAreClearAndBodiesThatCrossAreNot) {
@@ -34,6 +38,28 @@ TEST(Clearance, ABodyInsideAnotherIsNotClearButOneInAHoleIs) {
   EXPECT_FALSE(is_clear_at(frame(), square(-1, 1), {7, 0})) << "in the ice of the frame";
   EXPECT_FALSE(is_clear_at(frame(), square(-1, 1), {4, 0})) << "across its edge";
   EXPECT_FALSE(is_clear_at(frame(), square(-3, 3), {0, 0}, 0.785));
+}
+
+/// Through the tree of bounding circles no edge that matters is passed over: a plate with a channel in it,
+/// and a piece at places all over it and beside it.
+TEST(Clearance, AReadyBoundaryAnswersAsAnOutlineDoes) {
+  Polygon plate{{{0, 0}, {600, 0}, {600, 200}, {0, 200}}, {}};
+  for (int i = 0; i <= 200; ++i) plate.outer.push_back({0.5 * i, 112 + 0.7 * (i % 2)});
+  for (int i = 200; i >= 0; --i) plate.outer.push_back({0.5 * i, 88 - 0.7 * (i % 3)});
+  const Boundary outline = make_outline(plate);
+  const Boundary ready = make_boundary(plate, {1.0, false});
+  ASSERT_LT(ready.cover->pieces.size(), 1200U) << "the rim of 1600 m is in coarse pieces, the channel is not";
+  const Boundary piece = make_outline({{{-1, -0.6}, {1.2, -0.5}, {0.9, 0.8}, {-0.8, 0.7}}, {}});
+  int clear = 0, blocked = 0;
+  for (double x = -3; x < 130; x += 0.83) {
+    for (double y = 80; y < 120; y += 0.71) {
+      const Pose pose{{x, y}, Rotation::by(x + y)};
+      ASSERT_EQ(is_clear(ready, piece, pose), is_clear(outline, piece, pose)) << x << " " << y;
+      (is_clear(outline, piece, pose) ? clear : blocked) += 1;
+    }
+  }
+  EXPECT_GT(clear, 1000);
+  EXPECT_GT(blocked, 1000);
 }
 
 TEST(Clearance, TheAreaInABandIsWhatIsLeftOfThePolygonThere) {
