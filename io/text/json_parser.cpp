@@ -20,9 +20,12 @@ class PlaceFinder {
 
   std::uint32_t start_of_token() {
     while (end_ < text_.size()) {
-      if (std::string_view(" \t\r\n,:").find(text_[end_]) != std::string_view::npos) {
-        if (text_[end_] == ',') commas_.push_back(end_);
+      const char c = text_[end_];
+      if (c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',' || c == ':') {
+        if (c == ',') commas_.push_back(end_);
         ++end_;
+      } else if (c != '/') {
+        break;
       } else if (text_.substr(end_, 2) == "//") {
         end_ = std::min(text_.find_first_of("\r\n", end_), text_.size());
       } else if (text_.substr(end_, 2) == "/*") {
@@ -34,7 +37,13 @@ class PlaceFinder {
     return static_cast<std::uint32_t>(end_);
   }
   void pass(std::size_t length) { begin_gap(end_ + length); }
-  void pass_number() { begin_gap(std::min(text_.find_first_not_of("+-.0123456789eE", end_), text_.size())); }
+  void pass_number() {
+    const auto is_of_number = [](char c) {
+      return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+    };
+    while (end_ < text_.size() && is_of_number(text_[end_])) ++end_;
+    begin_gap(end_);
+  }
   void pass_text() {
     for (++end_; end_ < text_.size() && text_[end_] != '"'; ++end_) {
       if (text_[end_] == '\\') ++end_;
@@ -153,8 +162,19 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     open_.pop_back();
     return true;
   }
+  /// Nearly all objects are small and have none: these take no memory.
+  static bool may_repeat_keys(const JsonValue::Object& members) {
+    constexpr std::size_t kFew = 32;
+    if (members.size() > kFew) return true;
+    for (std::size_t i = 1; i < members.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k)
+        if (members[i].key == members[k].key) return true;
+    }
+    return false;
+  }
   void drop_repeated_keys(JsonValue& object) {
     auto& members = object.members();
+    if (!may_repeat_keys(members)) return;
     std::vector<const JsonMember*> sorted;
     for (const JsonMember& member : members) sorted.push_back(&member);
     std::ranges::stable_sort(sorted, {}, [](const JsonMember* m) { return std::string_view(m->key); });
