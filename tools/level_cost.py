@@ -4,15 +4,18 @@
   tools/level_cost.py cost    five cases of thickness and speed on one core, the median of --repeat runs
   tools/level_cost.py step    mean resistance and number of bends by step, four lateral offsets
 
-The reference ship breaks 270 m into fast ice of 600 x 200 m. Time is that of the processor, user's and system's together: the
-whole command's, with its records and its picture. Other work beside it still takes caches and shared units away.
+The reference ship breaks 270 m into fast ice of 600 x 200 m. Time is that of the processor, user's and system's together: of
+`polynya run --no-map`, as the factor that a run prints, and what its picture takes beside it. Other work on the machine still
+takes caches and shared units away.
 
 Options of both: --polynya PROGRAM (more than one, comma-separated: alternated run by run), --work FOLDER, --repeat N.
 """
 import argparse
+import json
 import math
 import os
 import statistics
+import subprocess
 import tempfile
 
 import numpy as np
@@ -32,28 +35,34 @@ def level_ice(h, v, y=0.3, step=STEP):
             "floes": [{"rectangle": {"corner_m": [0, -100], "size_m": [600, 200]}, "fast_ice": True}]}
 
 
-def processor_seconds():
+def seconds_of(program, scene, folder, *options):
+    """Of the processor, for a run."""
     used = os.times()
-    return used.children_user + used.children_system
+    subprocess.run([program, "run", scene, "--out", folder, "--overwrite", "--progress", "none", *options], check=True, capture_output=True)
+    now = os.times()
+    return now.children_user + now.children_system - used.children_user - used.children_system
 
 
 def cost(arguments):
     programs = arguments.polynya.split(",")
-    print("| h [m] | v [m/s] | step [s] | bends | tiles came up |" + "".join(f" {os.path.basename(p)}: processor [s] | × real time |" for p in programs))
-    print("|---|---|---|---|---|" + "---|---|" * len(programs))
+    columns = " processor [s] | × real time | its picture [s] |"
+    print("| h [m] | v [m/s] | step [s] | bends | came up |" + columns * len(programs))
+    print("|---|---|---|---|---|" + "---|---|---|" * len(programs))
+    folder, scene = os.path.join(arguments.work, "level"), os.path.join(arguments.work, "level.json")
     for h, v in CASES:
-        seconds = {program: [] for program in programs}
+        with open(scene, "w", encoding="utf-8") as file:
+            json.dump(level_ice(h, v), file)
+        runs, drawn = ({program: [] for program in programs} for _ in range(2))
         for _ in range(arguments.repeat):
             for program in programs:
-                arguments.polynya = program
-                began = processor_seconds()
-                _, summary = run_scene(arguments, "level", level_ice(h, v))
-                seconds[program].append(processor_seconds() - began)
-        counts = summary["counts"]
+                drawn[program].append(seconds_of(program, scene, folder))
+                runs[program].append(seconds_of(program, scene, folder, "--no-map"))
+        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+            counts = json.load(file)["counts"]
         row = f"| {h:g} | {v:g} | {STEP:g} | {counts['bends']} | {counts['came_up']} |"
         for program in programs:
-            median = statistics.median(seconds[program])
-            row += f" {median:.2f} | {(FULL + MEASURED) / v / median:.0f} |"
+            run, whole = statistics.median(runs[program]), statistics.median(drawn[program])
+            row += f" {run:.2f} | {(FULL + MEASURED) / v / run:.0f} | {whole - run:.2f} |"
         print(row, flush=True)
 
 
@@ -72,7 +81,7 @@ def step(arguments):
         for dt in (STEP, STEP / 3):
             values = np.array([resistance(arguments, h, v, y, dt) for y in offsets])
             mean, error = values.mean(axis=0), values.std(axis=0, ddof=1) / math.sqrt(len(offsets))
-            print(f"| {h:g} | {v:g} | {dt:.4f} | " + " | ".join(f"{m:.0f} ± {e:.0f}" for m, e in zip(mean, error)) + " |", flush=True)
+            print(f"| {h:g} | {v:g} | {dt:.4f} | " + " | ".join(f"{m:.1f} ± {e:.1f}" for m, e in zip(mean, error)) + " |", flush=True)
 
 
 def main():
