@@ -252,6 +252,7 @@ void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::siz
                                Share& share, std::vector<Contact>& contacts) {
   constexpr std::size_t kAhead = 8;  // pairs whose memory is fetched ahead of their turn
   const std::size_t count = find_pending(bodies, begin, end, share.pending);
+  share.scratch.keeps_distant_edges = static_cast<double>(active_.size()) <= rule_.most_pairs_with_edges;
   for (std::size_t i = 0; i < count; ++i) {
     if (i + kAhead < count) __builtin_prefetch(&pairs_[share.pending[i + kAhead]->slot]);
     if (i + kAhead / 2 < count) {

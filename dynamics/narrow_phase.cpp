@@ -36,6 +36,12 @@ void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const Contact
   pair.near = {pose, (is_any_near ? kNearMargin : distance) * (1 - 1e-9)};
 }
 
+void forget_near(Pair& pair) {
+  pair.parts.reset();
+  pair.near = {};
+  pair.near_bound = -1;
+}
+
 /// Notes the manifolds that are blind and removes those that have no direction to part the bodies in.
 void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch) {
   BlindOverlap blind{pair.a, pair.b, false, 0, 0, 0, {}};
@@ -149,6 +155,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
   const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.parts->edges);
   pair.parts->records.clear();
   pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};
+  if (!scratch.keeps_distant_edges && gap > rule.kept_gap) forget_near(pair);
   return pair.apart.distance;
 }
 

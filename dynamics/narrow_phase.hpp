@@ -62,10 +62,15 @@ struct ContactRule {
   /// Covers are kept until they have this many pieces in all, of 64 bytes each: those of some 50 000 floes of
   /// 20 m. Of more bodies they are made again where they are needed, for the same contacts.
   double most_kept_pieces = 4'194'304;
+  /// Of more pairs, near edges (about half a kilobyte a pair) are kept where bodies are within `kept_gap`; of
+  /// others they are found again, for the same contacts.
+  double most_pairs_with_edges = 1'048'576;
+  double kept_gap = 0.1;  ///< [m]
 };
 
 /// Reusable memory of collide_pair.
 struct PairScratch {
+  bool keeps_distant_edges = true;
   CoverCache covers;
   std::vector<geometry::NearPair> near_circles;
   geometry::NearEdges near_edges;
