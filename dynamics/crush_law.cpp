@@ -77,6 +77,10 @@ std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, c
   }
   const EndPair pair(ends, mobility, closing_speed);
   if (pieces == CrushPieces{}) pieces = pair.pieces_near({0, 0});
+  for (std::size_t end = 0; end < 2; ++end) {
+    const bool never_breaks = std::isinf(ends[end].cap);
+    if (pieces.of[end] == CrushPiece::kBroken && never_breaks) pieces.of[end] = CrushPiece::kCrushing;
+  }
   for (int i = 0; i < kMostTries; ++i) {
     const auto impulse = pair.solve_on(pieces);
     const CrushPieces next = pair.pieces_near(impulse);
