@@ -120,7 +120,7 @@ TEST(Memory, IsEstimatedWithinAFactorOfWhatRunsTake) {
     ASSERT_TRUE(scene.has_value());
     const simulation::MemoryEstimate estimate = simulation::estimate_memory(scene->scene);
     EXPECT_LT(estimate.at_start, taken) << "a run that fits would be refused";
-    EXPECT_LT(taken, 9 * estimate.at_start);
+    EXPECT_LT(taken, 7 * estimate.at_start);
     EXPECT_LT(estimate.all_moving, 1.5 * taken);
     EXPECT_LT(taken, 1.5 * estimate.all_moving);
   }
