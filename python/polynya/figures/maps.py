@@ -6,12 +6,12 @@ import math
 
 import numpy
 from matplotlib.collections import PathCollection
-from matplotlib.path import Path
 
 from polynya.errors import FolderError
 
 from . import map_legend as legend
 from .map_extent import extent_of
+from .map_paths import path_of
 from .page import Page, Sheet
 from .subjects import all_labelled
 
@@ -109,13 +109,6 @@ def scenery_of(labelled, time, has_label):
         channel=channels_at(run, time),
         marks=marks,
     )
-
-
-def path_of(rings):
-    """A polygon with holes as one path."""
-    closed = [numpy.concatenate([ring, ring[:1]]) for ring in rings]
-    codes = [[Path.MOVETO, *[Path.LINETO] * (len(ring) - 2), Path.CLOSEPOLY] for ring in closed]
-    return Path(numpy.concatenate(closed), numpy.concatenate(codes))
 
 
 def add_polygons(axes, polygons, window, **style):

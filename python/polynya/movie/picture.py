@@ -13,9 +13,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 
 from polynya.figures import map_legend as colours
+from polynya.figures.map_paths import NOTHING
 
 from .history import History
-from .scenery import NOTHING, Scenery
+from .scenery import Scenery
 
 FLOES = (("ice", colours.ICE), ("broken off", colours.BROKEN), ("come up from under a hull", colours.CAME_UP), ("under a hull", colours.UNDER))
 FRACTURES = (("bend", "cusp bends off", "o"), ("split", "floe splits", "^"), ("grind", "ice grinds", "s"))

@@ -7,9 +7,9 @@ import numpy
 from matplotlib.path import Path
 
 from ..figures.map_extent import extent_of
+from ..figures.map_paths import NOTHING, codes_of, path_of
 
 WHOLE, BROKEN, CAME_UP, UNDER = range(4)
-NOTHING = Path(numpy.empty((0, 2)), numpy.empty(0, Path.code_type))
 
 
 class Scenery:
@@ -66,8 +66,7 @@ class Scenery:
     def hulls(self, frame):
         """Ships and structures as one path, walls as another."""
         walls = self.run.wall_names
-        closed = {name: numpy.concatenate([ring, ring[:1]]) for name, ring in frame.hulls.items()}
-        return tuple(path_of([ring for name, ring in closed.items() if (name in walls) == is_wall]) for is_wall in (False, True))
+        return tuple(path_of([ring for name, ring in frame.hulls.items() if (name in walls) == is_wall]) for is_wall in (False, True))
 
     def tracks(self, time):
         """Of ships, not of structures and walls, up to a time [s], each n × 2."""
@@ -88,16 +87,3 @@ class Scenery:
         pieces = [self.ice_at_start.vertices, *(path.vertices for path in (*self.floes(end), *self.hulls(end))),
                   *(path.vertices for path in self.hulls(self.run.frame(self.run.start_time))), *self.tracks(self.run.end_time)]
         return extent_of(pieces)
-
-
-def path_of(rings):
-    """Closed rings as one path."""
-    return Path(numpy.concatenate(rings), numpy.concatenate([codes_of(len(ring)) for ring in rings])) if rings else NOTHING
-
-
-@functools.lru_cache(maxsize=None)
-def codes_of(count):
-    """Of a closed ring of so many points, the first of them repeated."""
-    codes = numpy.full(count, Path.LINETO, Path.code_type)
-    codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
-    return codes
