@@ -51,11 +51,7 @@ int write_vtk(const io::Run& run, const Options& options) {
   return kDone;
 }
 
-int write_geojson(const io::Run& run, const Options& options) {
-  const double time = options.at.value_or(run.end_time());
-  if (!(time >= run.start_time() && time <= run.end_time()))
-    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run.start_time(),
-                                    run.end_time()));
+int write_geojson(const io::Run& run, double time, const Options& options) {
   io::Project project;
   if (const auto& origin = run.scene.scene.origin; origin && !options.is_in_metres) {
     auto degrees = views::degrees_about(*origin);
@@ -75,11 +71,7 @@ int write_geojson(const io::Run& run, const Options& options) {
 }
 
 /// A scene of its own that starts where the run was then.
-int write_scene(const io::Run& run, const Options& options) {
-  const double time = options.at.value_or(run.end_time());
-  if (!(time >= run.start_time() && time <= run.end_time()))
-    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run.start_time(),
-                                    run.end_time()));
+int write_scene(const io::Run& run, double time, const Options& options) {
   const auto scene = views::continued_scene(run, time);
   if (!scene) return fail(kInputOutput, scene.error());
   const fs::path folder = options.out.empty() ? fs::path(options.run) / fmt::format("from-{:g}s", scene->time)
@@ -102,10 +94,15 @@ int export_run(const Options& options) {
         "--vtk DIR (for ParaView), --geojson DIR (for QGIS) or --scene (to continue the run) is needed");
   const auto run = io::read_run(options.run);
   if (!run) return fail(kInputOutput, run.error());
+  const bool has_instant = !options.geojson.empty() || options.is_scene;
+  const double time = options.at.value_or(run->end_time());
   int code = kDone;
   if (!options.vtk.empty()) code = write_vtk(*run, options);
-  if (code == kDone && !options.geojson.empty()) code = write_geojson(*run, options);
-  if (code == kDone && options.is_scene) code = write_scene(*run, options);
+  if (code == kDone && has_instant && !(time >= run->start_time() && time <= run->end_time()))
+    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run->start_time(),
+                                    run->end_time()));
+  if (code == kDone && !options.geojson.empty()) code = write_geojson(*run, time, options);
+  if (code == kDone && options.is_scene) code = write_scene(*run, time, options);
   return code;
 }
 
