@@ -95,13 +95,6 @@ std::string FrameEncoder::end() {
   return bytes;
 }
 
-std::string FrameEncoder::encode(double time, std::span<const Motion> ships,
-                                 std::span<const FloeMotion> floes) {
-  begin(time, ships);
-  for (const FloeMotion& floe : floes) add(floe);
-  return end();
-}
-
 Result<std::vector<Frame>> decode_frames(std::string_view bytes) {
   if (bytes.size() < kHeaderSize || !bytes.starts_with(kFileMark)) return fail("not a file of frames");
   bytes.remove_prefix(kFileMark.size());

@@ -70,8 +70,6 @@ class FrameEncoder {
   void begin(double time, std::span<const Motion> ships);
   void add(const FloeMotion& floe);
   std::string end();
-  /// One frame. All living floes are given.
-  std::string encode(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
   const std::vector<RecordedMotion>& recorded() const { return recorded_; }
 
  private:

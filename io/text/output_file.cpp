@@ -40,11 +40,9 @@ std::size_t write_all(int descriptor, std::string_view bytes) {
   return done;
 }
 
-}  // namespace
-
-namespace {
 constexpr std::size_t kMuchKept = std::size_t{4} << 20;  ///< of an empty buffer [bytes]
-}
+
+}  // namespace
 
 Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
   const int descriptor = open_new(path.c_str());

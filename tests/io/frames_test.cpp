@@ -8,13 +8,20 @@
 namespace polynya::io {
 namespace {
 
+std::string encoded(FrameEncoder& encoder, double time, std::span<const Motion> ships,
+                    std::span<const FloeMotion> floes) {
+  encoder.begin(time, ships);
+  for (const FloeMotion& floe : floes) encoder.add(floe);
+  return encoder.end();
+}
+
 TEST(Frames, CarryOnFloesThatKeepTheirMotion) {
   FrameEncoder encoder;
   std::string bytes = FrameEncoder::header();
   const Motion drifting{{10, 20}, 0.5, {-0.05, -0.05}, 0};
   for (int k = 0; k <= 100; ++k) {
     const FloeMotion floe{3, carried_on(drifting, 2.0 * k)};
-    bytes += encoder.encode(2.0 * k, {}, {&floe, 1});
+    bytes += encoded(encoder, 2.0 * k, {}, {&floe, 1});
   }
   const auto frames = decode_frames(bytes);
   ASSERT_TRUE(frames.has_value());
@@ -41,7 +48,7 @@ TEST(Frames, TellEveryMotionWithinTheTolerances) {
       floe.motion.angular_velocity += 0.01 * kick(random);
     }
     truth.push_back(floes);
-    bytes += encoder.encode(0.5 * k, ships, floes);
+    bytes += encoded(encoder, 0.5 * k, ships, floes);
   }
   const auto frames = decode_frames(bytes);
   ASSERT_TRUE(frames.has_value());
@@ -69,8 +76,8 @@ TEST(Frames, LeaveOutALastFrameThatIsCutShort) {
   FrameEncoder encoder;
   const FloeMotion floe{0, {{1, 2}, 3, {4, 5}, 6}};
   const std::string head = FrameEncoder::header();
-  const std::string first = encoder.encode(0, {}, {&floe, 1});
-  const std::string second = encoder.encode(9, {}, {&floe, 1});
+  const std::string first = encoded(encoder, 0, {}, {&floe, 1});
+  const std::string second = encoded(encoder, 9, {}, {&floe, 1});
   for (std::size_t length = 0; length <= second.size(); ++length) {
     const auto frames = decode_frames(head + first + second.substr(0, length));
     ASSERT_TRUE(frames.has_value());
