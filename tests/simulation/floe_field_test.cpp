@@ -1,12 +1,11 @@
 // Random fields: cover, gaps and sizes as asked for, the same on every machine.
 #include "simulation/floe_field.hpp"
 
-#include <cstring>
-
 #include <gtest/gtest.h>
 
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/validity.hpp"
+#include "tests/simulation/hash_of_floes.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {
@@ -139,19 +138,6 @@ TEST(FloeField, ReportsTheReachableConcentration) {
   EXPECT_LT(outcome.reachable_concentration, 0.9);
   EXPECT_GT(outcome.reachable_concentration, 0.6);
   EXPECT_NEAR(outcome.concentration(), outcome.reachable_concentration, 1e-9);
-}
-
-/// FNV-1a of all coordinates' bytes.
-std::uint64_t hash_of(const std::vector<Polygon>& floes) {
-  std::uint64_t hash = 14695981039346656037U;
-  for (const Polygon& floe : floes) {
-    for (const Point p : floe.outer) {
-      unsigned char bytes[sizeof p];
-      std::memcpy(bytes, &p, sizeof p);
-      for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211U;
-    }
-  }
-  return hash;
 }
 
 TEST(FloeField, IsTheSameOnEveryMachineAndAnotherForAnotherSeed) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include "simulation/field/convex.hpp"
 #include "simulation/field/free_area.hpp"
 #include "simulation/field/portable_math.hpp"
+#include "tests/simulation/hash_of_floes.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {
@@ -241,18 +241,6 @@ TEST(PackedField, ReportsWhatTheGapAndTheCornersAllow) {
   EXPECT_LT(outcome.reachable_concentration, 0.85);
   EXPECT_GT(outcome.reachable_without_gap, 0.99);
   EXPECT_NEAR(outcome.concentration(), outcome.reachable_concentration, 1e-9);
-}
-
-std::uint64_t hash_of(const std::vector<Polygon>& floes) {
-  std::uint64_t hash = 14695981039346656037U;
-  for (const Polygon& floe : floes) {
-    for (const auto p : floe.outer) {
-      unsigned char bytes[sizeof p];
-      std::memcpy(bytes, &p, sizeof p);
-      for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211U;
-    }
-  }
-  return hash;
 }
 
 TEST(PackedField, IsTheSameOnEveryMachineAndAnotherForAnotherSeed) {
