@@ -29,9 +29,9 @@ inline double place_along(Vector d) {
 }  // namespace
 
 double width_across(const DragShape& shape, Vector direction_in_body) {
+  if (shape.is_same) return shape.same_width;
   const double at = place_along(direction_in_body);
   const int k = std::min(static_cast<int>(at), kDirections - 1);
-  if (shape.is_same) return shape.same_width;
   return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
 }
 
