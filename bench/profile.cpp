@@ -21,6 +21,11 @@ using simulation::kStages;
 /// Of each stage [s a step].
 using Times = std::array<double, kStages.size()>;
 
+struct Profile {
+  Times times{};
+  double contacts = 0;  ///< mean of a step
+};
+
 struct Case {
   const char* name;
   const char* file;
@@ -30,13 +35,14 @@ constexpr Case kCases[] = {{"voyage", "sawamura2017-fig4b.json", 550},
                            {"field-10000", "field-10000.json", 500},
                            {"cylinder-shear", "cylinder-shear.json", 100}};
 
-Times profile(const Case& at, double part, int threads) {
+Profile profile(const Case& at, double part, int threads) {
   simulation::World world(
       load(at.file, [](simulation::Scene& scene) { scene.contact.law = simulation::ContactLaw::kCrush; }));
   world.threads = threads;
   dynamics::ThreadLimit limit(threads);
   const auto steps = std::lround(at.until * part / world.clock.step);
-  Times seconds{};
+  Profile result;
+  Times& seconds = result.times;
   limit.execute([&] {
     for (long step = 0; step < steps; ++step) {
       auto before = Clock::now();
@@ -46,11 +52,12 @@ Times profile(const Case& at, double part, int threads) {
         seconds[i] += std::chrono::duration<double>(now - before).count();
         before = now;
       }
+      result.contacts += static_cast<double>(world.step.contacts.size()) / static_cast<double>(steps);
       world.journal.clear();
     }
   });
   for (double& s : seconds) s /= static_cast<double>(steps);
-  return seconds;
+  return result;
 }
 
 double sum_of(const Times& times) {
@@ -61,7 +68,7 @@ double sum_of(const Times& times) {
 
 void print_shares(double part) {
   std::array<Times, std::size(kCases)> times{};
-  for (std::size_t c = 0; c < times.size(); ++c) times[c] = profile(kCases[c], part, 1);
+  for (std::size_t c = 0; c < times.size(); ++c) times[c] = profile(kCases[c], part, 1).times;
   std::puts("| stage | voyage | field-10000 | cylinder-shear |\n|---|---|---|---|");
   for (std::size_t i = 0; i < kStages.size(); ++i) {
     std::printf("| %s |", kStages[i].name.data());
@@ -71,12 +78,14 @@ void print_shares(double part) {
 }
 
 void print_threads(const Case& at, double part) {
-  const Times one = profile(at, part, 1);
-  const Times two = profile(at, part, 2);
+  const Profile profiled = profile(at, part, 1);
+  const Times& one = profiled.times;
+  const Times two = profile(at, part, 2).times;
   std::printf("| stage of %s | 1 thread, us | 2 threads, us |\n|---|---|---|\n", at.name);
   for (std::size_t i = 0; i < kStages.size(); ++i)
     std::printf("| %s | %.2f | %.2f |\n", kStages[i].name.data(), 1e6 * one[i], 1e6 * two[i]);
   std::printf("| all | %.2f | %.2f |\n", 1e6 * sum_of(one), 1e6 * sum_of(two));
+  std::printf("%.1f contacts a step\n", profiled.contacts);
 }
 
 }  // namespace
