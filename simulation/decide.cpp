@@ -83,7 +83,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   if (c.approach_speed <= 0) return pending;
   fracture::FailureCriteria& criteria = pending.criteria;
   criteria.floe_size = floe_size(population, c.b);
-  criteria.breakable_size = breakable_size(setup, load.ice);
+  criteria.breakable_size = limits_of_body(setup, population, c.b).breakable_size;
   criteria.collision_force = load.impulse / setup.scene.contact.contact_time;
   if (criteria.floe_size < criteria.breakable_size) return pending;
 

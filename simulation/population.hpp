@@ -131,6 +131,11 @@ inline const fracture::Ice& ice_of_body(const Setup& setup, const Population& po
   return ice_of_floe(setup, population, population.floe_of(body));
 }
 
+inline const IceLimits& limits_of_body(const Setup& setup, const Population& population, BodyIndex body) {
+  const std::int32_t own_ice = population.floes[population.floe_of(body)].own_ice;
+  return setup.ice_limits[own_ice == kSceneIce ? 0 : static_cast<std::size_t>(own_ice) + 1];
+}
+
 /// ρ h of a floe [kg/m²].
 inline double mass_per_area(const fracture::Ice& ice) {
   return ice.density * ice.thickness;

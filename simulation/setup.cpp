@@ -6,6 +6,8 @@
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/kashtelyan.hpp"
 #include "fracture/bending/nevel.hpp"
+#include "fracture/characteristic_length.hpp"
+#include "fracture/splitting.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -22,13 +24,26 @@ std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureS
   return nullptr;  // no other kind
 }
 
+/// Of all ices of a scene, the scene's own first. κ l by Eq. (7) of [Sawamura2017].
+std::vector<IceLimits> limits_of(const Scene& scene) {
+  const auto limits = [&](const fracture::Ice& ice) -> IceLimits {
+    return {scene.fracture.breakable_size_factor *
+                fracture::breakable_length(ice, scene.water.water, scene.fracture.characteristic_length),
+            fracture::lefm_splitting_force(ice, ice.thickness, ice.thickness)};
+  };
+  std::vector<IceLimits> all{limits(scene.ice)};
+  for (const fracture::Ice& ice : scene.own_ice) all.push_back(limits(ice));
+  return all;
+}
+
 }  // namespace
 
 Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
     : scene(std::move(scene_of_run)),
       shortcuts(shortcuts_of_run),
       bending(make_bending_model(scene.fracture)),
-      current(current_of(scene.water.shear)) {
+      current(current_of(scene.water.shear)),
+      ice_limits(limits_of(scene)) {
   solver.restitution = scene.contact.restitution;
   solver.max_iterations = scene.contact.iterations;
   separation.time = scene.contact.separation_time;

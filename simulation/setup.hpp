@@ -25,6 +25,12 @@ struct Underwater {
 /// them again. Rigid impulses put to rest in every step, as the replicas of the paper have it.
 inline constexpr double kRestInterval = 1;
 
+/// What ice breaks under, where that depends on its material alone.
+struct IceLimits {
+  double breakable_size = 0;         ///< κ l: no smaller floe breaks [m]
+  double least_splitting_force = 0;  ///< of the shortest crack, as long and wide as the ice is thick [N]
+};
+
 /// What a run is computed with, the same from its first step to its last.
 struct Setup {
   explicit Setup(Scene scene, Shortcuts shortcuts = {});
@@ -37,6 +43,7 @@ struct Setup {
   dynamics::SeparationSettings separation;
   std::vector<Underwater> underwater;  ///< per ship
   std::vector<Sailing> sailing;        ///< per ship
+  std::vector<IceLimits> ice_limits;   ///< of the scene's ice, then of each own_ice
   std::int64_t steps_per_sample = 1;
   std::int64_t steps_per_rest = 1;  ///< between two steps that put floes to rest
 };

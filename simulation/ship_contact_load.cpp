@@ -65,12 +65,6 @@ double crushing_force(const fracture::Ice& ice, const Contact& c, double hull_an
       ice, fracture::crushed_overlap_area({c.width, c.depth, c.area}, ice.thickness, hull_angle));
 }
 
-double breakable_size(const Setup& setup, const fracture::Ice& ice) {
-  const FractureSettings& fracture = setup.scene.fracture;
-  return fracture.breakable_size_factor *
-         fracture::breakable_length(ice, setup.scene.water.water, fracture.characteristic_length);
-}
-
 double floe_size(const Population& population, BodyIndex body) {
   return std::sqrt(population.floes[population.floe_of(body)].area);
 }
@@ -103,7 +97,7 @@ ShipContactLoad load_of(const Setup& setup, const Population& population, const 
   load.shares = fracture::crushing_shares(load.hull_angle, load.ice.friction, c.approach_speed, c.slip_speed);
   load.penetration = c.depth;
   load.mean_speed = c.record->age > 0 ? c.record->approach / c.record->age : c.approach_speed;
-  const bool can_bend = floe_size(population, c.b) >= breakable_size(setup, load.ice);
+  const bool can_bend = floe_size(population, c.b) >= limits_of_body(setup, population, c.b).breakable_size;
   if (can_bend) load.wedge = wedge_at(setup, bodies, load);
   if (is_crush_law(setup))
     press(setup, can_bend, load);

@@ -29,9 +29,6 @@ bool is_crush_law(const Setup& setup);
 /// F_n at the contact's overlap, a hull's or a vertical wall's [N].
 double crushing_force(const fracture::Ice& ice, const dynamics::Contact& c, double hull_angle);
 
-/// κ l of ice [m].
-double breakable_size(const Setup& setup, const fracture::Ice& ice);
-
 /// √area [m].
 double floe_size(const Population& population, BodyIndex body);
 

@@ -5,13 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/pressing.hpp"
 #include "simulation/world.hpp"
+#include "tests/dynamics/scenery.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {
 namespace {
 
 using namespace scenes;
+using geometry::Point;
+using geometry::Vector;
 
 constexpr double kOpeningOfStem = 0.633;  // per force ahead, of the reference ship with μ 0.2
 
@@ -206,6 +210,46 @@ TEST(Splitting, BetweenParallelChannelsALongCrackRunsWhereTheyAreNearerThanSMax)
   EXPECT_NEAR(near.criteria.crack_length, 0.85 * most, 0.5) << "from the stem to the older channel";
   EXPECT_GT(near.criteria.crack_width, 2 * near.criteria.crack_length);
   EXPECT_EQ(first_at(1.15 * most).kind, EventKind::kBend);
+}
+
+/// 36 floes of three to six corners that rush at each other.
+Scene crowd(scenery::Random& random) {
+  Scene scene = lefm_scene({});
+  scene.water.drag_coefficient = 0;
+  for (int i = 0; i < 36; ++i) {
+    const Point middle{13.0 * (i % 6), 13.0 * (i / 6)};
+    const int corners = 3 + random.below(4);
+    geometry::Polygon polygon;
+    for (int k = 0; k < corners; ++k) {
+      const auto turn = geometry::Rotation::by(2 * std::numbers::pi * (k + random.between(0, 0.4)) / corners);
+      polygon.outer.push_back(middle + 6 * Vector{turn.cosine, turn.sine});
+    }
+    scene.floes.push_back(floe(polygon, {random.between(-2, 2), random.between(-2, 2)}));
+  }
+  return scene;
+}
+
+TEST(Splitting, WhatPassesFloesOverIsNoLessThanTheirPushes) {
+  scenery::Random random(20170611);
+  Simulation simulation(crowd(random));
+  const World& world = simulation.world();
+  int bounded = 0, corners = 0, sharp = 0;
+  while (simulation.time() < 8) {
+    simulation.step();
+    for (const dynamics::Contact& c : world.step.contacts) {
+      const double bound = opening_bound(world.setup, {&c, 1});
+      for (const BodyIndex floe : {c.a, c.b}) {
+        PressedFloe pressed;
+        press(world.setup, world.population.bodies, {&c, 1}, floe, pressed);
+        EXPECT_LE(pressed.most, bound * (1 + 1e-9));
+        corners += !pressed.contacts.empty() && pressed.contacts.front().is_corner ? 1 : 0;
+      }
+      (std::isinf(bound) ? sharp : bounded) += 1;
+    }
+  }
+  EXPECT_GT(bounded, 1000);
+  EXPECT_GT(sharp, 10);
+  EXPECT_GT(corners, 1000);
 }
 
 }  // namespace
