@@ -20,14 +20,17 @@ CrushResponse rigid_law(double inverse_mass);
 ///
 ///   ½ (v − v⁰)ᵀ M (v − v⁰) + Σ Φ_i(u_i(v)) + Σ Ψ_c(s_c(v)),   Φ_i' = λ_i,
 ///
-/// strictly convex and piecewise quadratic (docs/theory.md, "Contact"). Each step solves the quadratic of the
-/// pieces at hand, a sparse symmetric positive definite system of 3 unknowns a body; the next pieces are
-/// those nearest its speeds and impulses (primal-dual active sets, [Hintermueller2003]). Ψ is friction: the
-/// slip impulse grows to its bound within `slip_speed` [m/s], and the bound, μ times the normal impulses,
-/// follows from one step to the next. Starts from the constraints' impulses and the bodies' velocities.
+/// strictly convex and piecewise quadratic (docs/theory.md, "Contact"). Each step solves the equations of the
+/// pieces at hand, a sparse system of 3 unknowns a body; the next pieces of a contact are those that it would
+/// be on by itself, were its bodies free (primal-dual active sets, [Hintermueller2003]). After some steps
+/// half of the contacts wait in each, which ends cycles. Ψ is friction: the slip impulse grows to its bound,
+/// μ times the normal impulses, within `slip_speed` [m/s]. The bound of what slips follows within the step:
+/// the exact derivative of Coulomb's law, not symmetric [Alart1991]. Starts from the constraints' impulses
+/// and the bodies' velocities.
 ///
-/// Enters the impulses into the constraints and the velocities into the bodies and returns true where it came
-/// to the minimum; else both stay as they were. Bodies of prescribed motion are never changed.
+/// Enters the impulses into the constraints and the velocities into the bodies and returns true where no
+/// contact would leave its pieces; else both stay as they were. Bodies of prescribed motion are never
+/// changed.
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws,
                std::span<SolverBody> bodies, double slip_speed);
 

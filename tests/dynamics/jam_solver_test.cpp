@@ -16,6 +16,7 @@ using namespace scenery;
 
 constexpr std::uint64_t kSeed = 20170611;
 constexpr double kSlipSpeed = 0.02;  // [m/s]
+constexpr double kNarrow = 5e-5;     // [m/s]
 
 /// Floes of 10 m, side by side in columns and rows, between a wall that presses and one that stands.
 struct Pack {
@@ -77,6 +78,18 @@ Pack pack_of(Random& random, int columns, int rows, double friction) {
   return pack;
 }
 
+/// Takes the masses of a pack's bodies into its contacts.
+void take_masses(Pack& pack) {
+  for (BodyIndex i = 0; i < pack.bodies.size(); ++i) {
+    pack.solver_bodies[i].inverse_mass = pack.bodies.inverse_mass[i];
+    pack.solver_bodies[i].inverse_moment = pack.bodies.inverse_moment[i];
+  }
+  for (std::size_t k = 0; k < pack.contacts.size(); ++k) {
+    const ContactConstraint& c = pack.constraints[k];
+    pack.constraints[k] = make_constraint(pack.bodies, pack.contacts[k], c.a, c.b, pack.solver_bodies);
+  }
+}
+
 /// By how much impulses and velocities of a pack miss the law, as speeds [m/s].
 double largest_miss(const Pack& pack) {
   double largest = 0;
@@ -129,18 +142,36 @@ TEST(JamSolver, FrictionIsCoulombs) {
 }
 
 /// Where friction's kink is as narrow as the solver of whole steps has it, from a start far away: pieces
-/// chosen by the speeds alone find few of these.
-TEST(JamSolver, SolvesMostJamsWithFrictionOfANarrowKink) {
-  constexpr double kNarrow = 5e-5;  // [m/s]
+/// chosen by the speeds alone find few of these, bounds of friction that follow after each step 17.
+TEST(JamSolver, SolvesJamsWithFrictionOfANarrowKink) {
   Random random(kSeed);
-  int solved = 0;
   for (int trial = 0; trial < 20; ++trial) {
     Pack pack = pack_of(random, 12, 12, 0.2);
+    ASSERT_TRUE(solve_jam(pack.constraints, pack.laws, pack.solver_bodies, kNarrow)) << trial;
+    EXPECT_LT(largest_miss(pack), kNarrow);
+  }
+}
+
+/// Brash between floes, half of the bodies up to a hundred times lighter, from a start far away. Where all
+/// contacts leave their pieces at once, each end by itself, those of light bodies do so in turns for ever: 6
+/// of these 40 are solved.
+TEST(JamSolver, SolvesJamsOfFloesAndBrash) {
+  Random random(kSeed);
+  int solved = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    Pack pack = pack_of(random, 8, 8, 0.2);
+    for (BodyIndex i = 2; i < pack.bodies.size(); ++i) {
+      if (random.below(2) == 0) continue;
+      const double lighter = std::pow(10.0, random.between(0, 2));
+      pack.bodies.inverse_mass[i] *= lighter;
+      pack.bodies.inverse_moment[i] *= lighter;
+    }
+    take_masses(pack);
     if (!solve_jam(pack.constraints, pack.laws, pack.solver_bodies, kNarrow)) continue;
     ++solved;
     EXPECT_LT(largest_miss(pack), kNarrow);
   }
-  EXPECT_GE(solved, 17);
+  EXPECT_GE(solved, 24);
 }
 
 /// Impulses that are there before are no part of the problem: the answer is the same.
