@@ -19,10 +19,6 @@ tl::unexpected<CutError> refuse(CutFailure reason, const DefectAt& found) {
   return refuse(reason, std::string(name_of(found.defect)));
 }
 
-bool are_usable(const std::vector<Point>& points) {
-  return std::all_of(points.begin(), points.end(), is_usable);
-}
-
 // Strictly convex, counter-clockwise and once around: then nothing else can be wrong with a ring.
 bool is_convex(const Ring& ring) {
   const std::size_t n = ring.size();

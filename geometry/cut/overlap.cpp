@@ -1,7 +1,12 @@
 #include "geometry/cut/overlap.hpp"
 
+#include <algorithm>
+#include <string>
+
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/guarded.hpp"
+#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/validity.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -24,6 +29,11 @@ exact::Polygon placed(const Shape& shape, const Pose& world_from_body) {
   exact::Polygon result{placed(body.outer, world_from_body), {}};
   for (const exact::Ring& hole : body.holes) result.holes.push_back(placed(hole, world_from_body));
   return result;
+}
+
+bool is_usable_at(const Shape& shape, const Pose& world_from_body) {
+  return is_usable(world_from_body.position) && are_usable(shape.polygon.outer) &&
+         std::ranges::all_of(shape.polygon.holes, [](const Ring& hole) { return are_usable(hole); });
 }
 
 // The outer ring's box in the world, with room for the rounding of its own arithmetic.
@@ -54,6 +64,9 @@ unsigned sides_beyond(Point p, const Box& box) {
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b) {
   if (!overlaps(box_in_world(a, world_from_a), box_in_world(b, world_from_b))) return Overlap{0, "0"};
+  // CGAL leaks memory where it finds out itself.
+  if (!is_usable_at(a, world_from_a) || !is_usable_at(b, world_from_b))
+    return refuse(CutFailure::kInvalidShape, std::string(name_of(Defect::kNotFinite)));
   return guarded([&]() -> tl::expected<Overlap, CutError> {
     std::vector<exact::SourceSegment> segments;
     append_segments(segments, placed(a, world_from_a), 0);

@@ -15,8 +15,8 @@ struct Overlap {
 
 /// The area two placed shapes share, exactly: each vertex is placed by its pose's doubles in rational
 /// arithmetic. A shape covers the points around which its rings wind more often counter-clockwise than
-/// clockwise: those inside it where it is valid. Rings may cross themselves and each other. Fails (kInternal)
-/// only where CGAL refuses.
+/// clockwise: those inside it where it is valid. Rings may cross themselves and each other. Fails where a
+/// coordinate is not finite or beyond 1e70 m (kInvalidShape), and where CGAL refuses (kInternal).
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b);
 

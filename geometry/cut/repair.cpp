@@ -49,8 +49,7 @@ Ring oriented(Ring ring, int turn) {
 tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule) {
   std::vector<Ring> usable;
   for (const Ring& ring : rings) {
-    if (!std::all_of(ring.begin(), ring.end(), is_usable))
-      return refuse(CutFailure::kInvalidShape, "not-finite");
+    if (!are_usable(ring)) return refuse(CutFailure::kInvalidShape, "not-finite");
     if (Ring kept = without_repeats(ring); kept.size() > 2) usable.push_back(std::move(kept));
   }
   tl::expected<Repaired, CutError> repaired = guarded([&] { return repair_exactly(usable, rule); });
@@ -85,7 +84,7 @@ Ring without_repeats(const Ring& ring) {
 Polygon normalised(const Polygon& polygon) {
   // A ring that is not finite has no orientation; find_defect will name it.
   const auto turned = [&](const Ring& ring, int turn) {
-    return std::all_of(ring.begin(), ring.end(), is_usable) ? oriented(without_repeats(ring), turn) : ring;
+    return are_usable(ring) ? oriented(without_repeats(ring), turn) : ring;
   };
   Polygon result{turned(polygon.outer, 1), {}};
   for (const Ring& hole : polygon.holes) result.holes.push_back(turned(hole, -1));

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "geometry/cut/overlap.hpp"
 #include "geometry/shape/pose.hpp"
 
 namespace polynya::geometry {
@@ -31,6 +33,16 @@ TEST(OverlappingPairs, SharedEdgesAndCornersAreNone) {
                                        100)
                     .empty());
   }
+}
+
+TEST(Overlap, IsRefusedBeyondWhatAreasCanExpress) {
+  const Shape near{{{{0, 0}, {9, 0}, {0, 9}}, {}}};
+  for (const double far : {1e71, 1e300, std::numeric_limits<double>::infinity()}) {
+    const auto found = overlap(near, {}, Shape{{{{0, 0}, {far, 0}, {0, far}}, {}}}, {});
+    ASSERT_FALSE(found.has_value());
+    EXPECT_EQ(found.error().reason, CutFailure::kInvalidShape);
+  }
+  EXPECT_EQ(overlap(near, {}, Shape{{{{0, 0}, {1e60, 0}, {0, 1e60}}, {}}}, {})->area, 40.5);
 }
 
 TEST(OverlappingPairs, TellsPairsWithTheirArea) {

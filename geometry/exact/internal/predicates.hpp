@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "geometry/shape/polygon.hpp"
 
@@ -10,6 +12,10 @@ namespace polynya::geometry {
 inline bool is_usable(Point p) {
   constexpr double kLargest = 1e70;  // [m]
   return std::abs(p.x) <= kLargest && std::abs(p.y) <= kLargest;
+}
+
+inline bool are_usable(std::span<const Point> points) {
+  return std::all_of(points.begin(), points.end(), is_usable);
 }
 
 /// Sign of (b − a) × (d − c), exactly: +1 where the direction c→d is to the left of a→b.
