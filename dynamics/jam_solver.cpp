@@ -11,8 +11,7 @@ namespace polynya::dynamics {
 namespace {
 
 constexpr int kMostSteps = 60;  ///< half a dozen is common
-constexpr int kWholeSteps =
-    8;  ///< after them half of the contacts that leave their pieces wait: that ends cycles
+constexpr int kWholeSteps = 8;  ///< after them half of those that leave their pieces wait: it ends cycles
 constexpr double kBoundFound = 0.05;  ///< what friction's bound may still change the slip by, in slip speeds
 constexpr double kRigid = 1e6;        ///< impulse per speed of rigid ends, in masses
 
