@@ -18,16 +18,27 @@ geometry::CircleRule circle_rule(const ContactRule& rule) {
   return {rule.circle_radius, rule.is_circle_centres};
 }
 
-/// Finds the circles and edges of a pair that are near each other.
-void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
-               PairScratch& scratch) {
+/// Finds the circles and edges of a pair that are near each other. Returns a lower bound of the bodies'
+/// distance, 0 where some are near [m].
+double near_parts(const Bodies& bodies, const Pair& pair, const Pose& a_from_b, const ContactRule& rule,
+                  PairScratch& scratch) {
+  const geometry::EdgeList& edges_of_a = bodies.boundary[pair.a]->edges;
+  const geometry::EdgeList& edges_of_b = bodies.boundary[pair.b]->edges;
+  if (!rule.is_circle_centres && have_few_edges(edges_of_a, edges_of_b))
+    return near_edges(edges_of_a, edges_of_b, a_from_b, kNearMargin, scratch.near_edges);
   const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
-  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
   scratch.near_circles.clear();
   const double distance = near_circles(a, b, a_from_b, kNearMargin, scratch.near_circles);
-  const bool is_any_near = !scratch.near_circles.empty();
+  edges_of(a, b, scratch.near_circles, scratch.near_edges);
+  return distance;
+}
+
+void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
+               PairScratch& scratch) {
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
+  const double distance = near_parts(bodies, pair, a_from_b, rule, scratch);
+  const bool is_any_near = !scratch.near_edges.pairs.empty();
   if (is_any_near) {
-    edges_of(a, b, scratch.near_circles, scratch.near_edges);
     pair.own_parts().edges = scratch.near_edges;  // a copy is no larger than it has to be
     if (rule.is_circle_centres) pair.parts->circles = scratch.near_circles;
   } else if (pair.parts != nullptr) {

@@ -60,40 +60,6 @@ Extent build_node(Cover& cover, std::uint32_t first, std::uint32_t count) {
   return extent;
 }
 
-/// Each edge of a with each piece of b that one of its own pieces is near, once and in order. Pieces have
-/// consecutive edges, in the order of pieces: by these pairs the edges' own come sorted.
-std::vector<NearPair> edges_near_pieces(const Covered& a, const std::vector<NearPair>& circle_pairs) {
-  std::vector<NearPair> near;
-  near.reserve(circle_pairs.size());
-  for (const NearPair pair : circle_pairs) {
-    const PieceEdges& piece = a.cover.pieces[pair.a];
-    std::uint32_t edge = piece.first_edge;
-    for (std::uint32_t i = 0; i < piece.edges; ++i, edge = a.edges.next[edge]) near.push_back({edge, pair.b});
-  }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  return near;
-}
-
-/// Puts the ends of the pairs' edges beside them. Plain pointers: there may be thousands.
-void fill_ends(const EdgeList& a, const EdgeList& b, NearEdges& edges) {
-  const std::size_t count = edges.pairs.size();
-  const std::size_t stride = edges.stride = (count + 3) / 4 * 4;
-  edges.ends.resize(8 * stride);
-  const Point* const of_a = a.vertices.data();
-  const Point* const of_b = b.vertices.data();
-  double* const ends = edges.ends.data();
-  for (std::size_t i = 0; i < stride; ++i) {
-    const bool is_pair = i < count;  // else what fills the last lanes
-    const NearPair pair = is_pair ? edges.pairs[i] : NearPair{};
-    const Point points[4] = {of_a[pair.a], of_a[a.next[pair.a]], of_b[pair.b], of_b[b.next[pair.b]]};
-    for (std::size_t k = 0; k < 4; ++k) {
-      ends[i + 2 * k * stride] = is_pair ? points[k].x : 0;
-      ends[i + (2 * k + 1) * stride] = is_pair ? points[k].y : 0;
-    }
-  }
-}
-
 double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
   return distance(a.centre, b_centre_in_a) - a.reach - b.reach;
 }
@@ -196,21 +162,6 @@ double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, do
   return circle_pairs.size() == before ? bound : 0;
 }
 
-void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs,
-              NearEdges& edges) {
-  std::vector<NearPair>& pairs = edges.pairs;
-  pairs.clear();
-  const std::vector<NearPair> near = edges_near_pieces(a, circle_pairs);
-  for (const NearPair pair : near) {
-    const PieceEdges& piece = b.cover.pieces[pair.b];
-    std::uint32_t eb = piece.first_edge;
-    for (std::uint32_t k = 0; k < piece.edges; ++k, eb = b.edges.next[eb]) {
-      if (pairs.empty() || pairs.back() != NearPair{pair.a, eb}) pairs.push_back({pair.a, eb});
-    }
-  }
-  fill_ends(a.edges, b.edges, edges);
-}
-
 bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b) {
   const CircleNode& around_a = a.cover.tree.front();
   const CircleNode& around_b = b.cover.tree.front();
@@ -221,28 +172,6 @@ bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b) {
                              [&](Point p) { return is_inside(a.edges, transform(a_from_b, p)); }) ||
          std::ranges::all_of(a.edges.vertices,
                              [&](Point p) { return is_inside(b.edges, inverse_transform(a_from_b, p)); });
-}
-
-double least_distance(const Pose& a_from_b, const NearEdges& edges) {
-  double least = std::numeric_limits<double>::infinity();  // squared
-  const auto squared_to_segment = [](Point p, Point from, Point to) {
-    return squared_length(nearest_on_segment(from, to, p) - p);
-  };
-  for (std::size_t i = 0; i < edges.pairs.size(); ++i) {
-    const auto end = [&](std::size_t k) {
-      return Point{edges.ends[i + 2 * k * edges.stride], edges.ends[i + (2 * k + 1) * edges.stride]};
-    };
-    const Point a0 = end(0);
-    const Point a1 = end(1);
-    const Point b0 = transform(a_from_b, end(2));
-    const Point b1 = transform(a_from_b, end(3));
-    const double b_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0);
-    const double a_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0);
-    if (b_sides <= 0 && a_sides <= 0) return 0;
-    least = std::min({least, squared_to_segment(a0, b0, b1), squared_to_segment(a1, b0, b1),
-                      squared_to_segment(b0, a0, a1), squared_to_segment(b1, a0, a1)});
-  }
-  return std::sqrt(least);
 }
 
 }  // namespace polynya::geometry

@@ -97,6 +97,15 @@ struct NearEdges {
 double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs);
 
+/// Whether two boundaries have so few edges that near_edges() serves them.
+bool have_few_edges(const EdgeList& a, const EdgeList& b);
+
+/// The pairs of edges of two boundaries within `margin` of each other [m], in order: those that pairs of
+/// bounding circles show, and no others. Returns a lower bound of the distance between the boundaries [m], of
+/// use where nothing is within the margin.
+double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin,
+                  NearEdges& edges);
+
 /// The pairs of edges on the pieces of pairs of bounding circles, each once, in order.
 void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs,
               NearEdges& edges);

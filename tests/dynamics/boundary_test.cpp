@@ -154,6 +154,12 @@ TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
     ASSERT_TRUE(std::is_sorted(edge_pairs.begin(), edge_pairs.end()));
     ASSERT_TRUE(std::adjacent_find(edge_pairs.begin(), edge_pairs.end()) == edge_pairs.end());
     const std::set<NearPair> found(edge_pairs.begin(), edge_pairs.end());
+    NearEdges by_distance;
+    ASSERT_TRUE(have_few_edges(a.edges, b.edges));
+    const double bound_by_distance = near_edges(a.edges, b.edges, a_from_b, margin, by_distance);
+    ASSERT_TRUE(std::is_sorted(by_distance.pairs.begin(), by_distance.pairs.end()));
+    const std::set<NearPair> nearest_found(by_distance.pairs.begin(), by_distance.pairs.end());
+    ASSERT_EQ(nearest_found.size(), by_distance.pairs.size());
 
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t eb = 0; eb < b.edges.size(); ++eb) {
@@ -163,8 +169,12 @@ TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
         const double d = distance_of_segments(a.edges.from(ea), a.edges.to(ea), b0, b1);
         nearest = std::min(nearest, d);
         crossings += d == 0;
+        if (d > margin * (1 + 1e-12)) {
+          ASSERT_FALSE(nearest_found.contains({ea, eb}));
+        }
         if (d > margin * (1 - 1e-12)) continue;
         ASSERT_TRUE(found.contains({ea, eb})) << "pose " << i << ": edges " << d << " m apart";
+        ASSERT_TRUE(nearest_found.contains({ea, eb})) << "pose " << i << ": edges " << d << " m apart";
       }
     }
     with_near += !edge_pairs.empty();
@@ -172,6 +182,10 @@ TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
     ASSERT_LE(bound, nearest * (1 + 1e-12) + (nearest == 0 ? margin : 0));
     if (edge_pairs.empty()) {
       ASSERT_GT(bound, margin);
+    }
+    if (nearest_found.empty()) {
+      ASSERT_GT(bound_by_distance, margin);
+      ASSERT_LE(bound_by_distance, nearest * (1 + 1e-12));
     }
   }
   EXPECT_GT(with_near, 500);
