@@ -55,7 +55,7 @@ class Jam {
       rows_.push_back(rows_of(c, number_of(c.a), number_of(c.b)));
       const ConstraintSpeeds now = speeds_at(c, bodies);
       speeds_.push_back({now.apart[0], now.apart[1], now.slip});
-      loads_.push_back({{c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse}, {}});
+      loads_.push_back({{c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse}, {}, {}});
       slip_bound_.push_back(c.friction * (c.normal_impulse[0] + c.normal_impulse[1]));
     }
     constraints_before_.assign(constraints.begin(), constraints.end());

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include "dynamics/chunks.hpp"
 
 namespace polynya::dynamics {
 namespace {
@@ -50,13 +51,10 @@ void start_workers(int threads) {
   constexpr auto kPatience = std::chrono::seconds(10);  ///< a busy machine may take longer
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   std::atomic<int> started = 0;
-  tbb::parallel_for(
-      0, threads,
-      [&](int) {
-        ++started;
-        while (started < threads && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
-      },
-      tbb::simple_partitioner());
+  for_chunks(static_cast<std::size_t>(threads), 1, threads, [&](std::size_t, std::size_t, std::size_t) {
+    ++started;
+    while (started < threads && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+  });
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ struct JamRows {
 struct JamLoad {
   double impulse[3];  ///< at both ends, apart; along the line [N s]
   double slope[3];    ///< of each with its own speed, ≥ 0 [N s per m/s]
-  double
-      slip_by_apart[2];  ///< of the one along the line with the speeds apart: Coulomb's bound [N s per m/s]
+  /// Of the one along the line with the speeds apart, by Coulomb's bound [N s per m/s].
+  double slip_by_apart[2];
 };
 
 /// M + Σ Jᵀ S J of a jam's bodies and contacts, S the slopes: sparse, positive definite, and symmetric where

@@ -1,6 +1,7 @@
 #include "geometry/contact/crossings.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "geometry/shape/avx2_clone.hpp"
@@ -14,16 +15,16 @@ using Crossing = ManifoldScratch::Crossing;
 /// arrays: it does not of those that check their indices.
 struct EdgeLanes {
   static constexpr std::size_t kMost = 16;
-  double b0x[kMost], b0y[kMost], b1x[kMost], b1y[kMost];  // b's edges in a's frame [m]
-  double starts_inside[kMost], is_crossing[kMost];        // 1 or 0
+  double along_a[kMost], along_b[kMost];            // where their lines meet, as shares of the edges
+  double starts_inside[kMost], is_crossing[kMost];  // 1 or 0
 };
 
 /// Brings b's edges into a's frame and finds which pairs cross. Which side of an edge along d a point is on
 /// is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were moved
 /// by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
 /// leaving.
-POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* ends, std::size_t stride, std::size_t count,
-                                            const Pose& a_from_b, EdgeLanes& l) {
+POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::size_t stride, std::size_t count,
+                                            const Pose& a_from_b, EdgeLanes& __restrict l) {
   const Pose pose = a_from_b;
   for (std::size_t i = 0; i < count; ++i) {
     const Point a0{ends[i], ends[i + stride]};
@@ -41,10 +42,10 @@ POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* ends, std::size_t stri
     const bool is_b1_left = (b_turns[1] > 0) | ((b_turns[1] == 0) & a_tie);
     const bool is_a0_left = (a_turns[0] > 0) | ((a_turns[0] == 0) & b_tie);
     const bool is_a1_left = (a_turns[1] > 0) | ((a_turns[1] == 0) & b_tie);
-    l.b0x[i] = b0.x;
-    l.b0y[i] = b0.y;
-    l.b1x[i] = b1.x;
-    l.b1y[i] = b1.y;
+    const double turn = cross(da, db);
+    const double per_turn = 1 / turn;
+    l.along_a[i] = turn != 0 ? std::clamp(cross(ab, db) * per_turn, 0.0, 1.0) : 0.5;
+    l.along_b[i] = turn != 0 ? std::clamp(cross(ab, da) * per_turn, 0.0, 1.0) : 0.5;
     l.starts_inside[i] = is_a0_left ? 1 : 0;
     l.is_crossing[i] = (is_b0_left != is_b1_left) & (is_a0_left != is_a1_left) ? 1 : 0;
   }
@@ -91,20 +92,15 @@ void find_crossings(const Pose& a_from_b, const NearEdges& edges, std::vector<Cr
     const double* ends = edges.ends.data() + first;
     const std::size_t count = std::min(EdgeLanes::kMost, edges.pairs.size() - first);
     find_crossing_lanes(ends, edges.stride, (count + 3) / 4 * 4, a_from_b, lanes);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (lanes.is_crossing[i] == 0) continue;
+    unsigned which = 0;  // those that cross, a bit each: without a branch for every pair
+    for (std::size_t i = 0; i < count; ++i) which |= static_cast<unsigned>(lanes.is_crossing[i]) << i;
+    for (; which != 0; which &= which - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(which));
       const Point a0{ends[i], ends[i + edges.stride]};
-      const Point b0{lanes.b0x[i], lanes.b0y[i]};
       const Vector da = Point{ends[i + 2 * edges.stride], ends[i + 3 * edges.stride]} - a0;
-      const Vector db = Point{lanes.b1x[i], lanes.b1y[i]} - b0;
-      const Vector ab = b0 - a0;
-      const double turn = cross(da, db);
-      const double per_turn = 1 / turn;
-      const double along_a = turn != 0 ? std::clamp(cross(ab, db) * per_turn, 0.0, 1.0) : 0.5;
-      const double along_b = turn != 0 ? std::clamp(cross(ab, da) * per_turn, 0.0, 1.0) : 0.5;
       const NearPair pair = edges.pairs[first + i];
-      crossings.push_back(
-          {a0 + along_a * da, pair.a, pair.b, along_a, along_b, lanes.starts_inside[i] == 0, 0});
+      crossings.push_back({a0 + lanes.along_a[i] * da, pair.a, pair.b, lanes.along_a[i], lanes.along_b[i],
+                           lanes.starts_inside[i] == 0, 0});
     }
   }
 }

@@ -185,9 +185,9 @@ void RunWriter::record(simulation::Journal& journal) {
                           ship_name(scene_->scene, contact.other));
     });
   }
-  for (const simulation::MooringBreak& broken : journal.mooring_breaks) {
+  for (const simulation::MooringBreak& mooring : journal.mooring_breaks) {
     append_line(kEvents, [&](std::string& line) {
-      append_mooring_break(line, broken, ship_name(scene_->scene, broken.ship));
+      append_mooring_break(line, mooring, ship_name(scene_->scene, mooring.ship));
     });
   }
   for (const simulation::ShipSample& sample : journal.samples) {
