@@ -90,6 +90,7 @@ void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const Ben
                   SliceAxis axis, const std::vector<double>& abscissae, const FigureText& text) {
   const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
   std::vector<double> shown;
+  shown.reserve(abscissae.size());
   for (const double value : abscissae) shown.push_back(value * scale);
   json.start_line();
   json.open('{').key("name").value(text.name).key("x_label").value(text.x_label);

@@ -174,6 +174,7 @@ void print_for_people(const Options& options, const BendingDatabase& database, c
 /// "softness 0.2, the table's 3e-05 to 0.1; Poisson ratio 0.25, the table's 0.3"
 std::string with_ranges(const std::vector<fracture::OutsideRange>& ranges) {
   std::vector<std::string> parts;
+  parts.reserve(ranges.size());
   for (const auto& [name, value, least, most] : ranges)
     parts.push_back(fmt::format("{} {:.4g}, the table's {:g}", name, value, least) +
                     (most > least ? fmt::format(" to {:g}", most) : ""));

@@ -129,8 +129,10 @@ void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
 }
 
 void BroadPhase::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
-  keep_cover(bodies, a);
-  keep_cover(bodies, b);
+  if (need_covers(bodies, a, b, rule_)) {
+    keep_cover(bodies, a);
+    keep_cover(bodies, b);
+  }
   std::uint32_t slot = 0;
   if (free_pairs_.empty()) {
     slot = static_cast<std::uint32_t>(pairs_.size());

@@ -22,10 +22,9 @@ geometry::CircleRule circle_rule(const ContactRule& rule) {
 /// distance, 0 where some are near [m].
 double near_parts(const Bodies& bodies, const Pair& pair, const Pose& a_from_b, const ContactRule& rule,
                   PairScratch& scratch) {
-  const geometry::EdgeList& edges_of_a = bodies.boundary[pair.a]->edges;
-  const geometry::EdgeList& edges_of_b = bodies.boundary[pair.b]->edges;
-  if (!rule.is_circle_centres && have_few_edges(edges_of_a, edges_of_b))
-    return near_edges(edges_of_a, edges_of_b, a_from_b, kNearMargin, scratch.near_edges);
+  if (!need_covers(bodies, pair.a, pair.b, rule))
+    return near_edges(bodies.boundary[pair.a]->edges, bodies.boundary[pair.b]->edges, a_from_b, kNearMargin,
+                      scratch.near_edges);
   const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
   scratch.near_circles.clear();
   const double distance = near_circles(a, b, a_from_b, kNearMargin, scratch.near_circles);
@@ -77,8 +76,13 @@ void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const Conta
                  PairScratch& scratch) {
   if (pair.is_outside) return;
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
-  const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
-  pair.is_outside = !is_one_inside(a, b, a_from_b);
+  if (need_covers(bodies, pair.a, pair.b, rule)) {
+    const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
+    pair.is_outside = !is_one_inside(a, b, a_from_b);
+  } else {
+    pair.is_outside =
+        !is_one_inside(bodies.boundary[pair.a]->edges, bodies.boundary[pair.b]->edges, a_from_b);
+  }
   if (pair.is_outside) return;
   const BodyIndex inner = bodies.bounding_radius[pair.a] < bodies.bounding_radius[pair.b] ? pair.a : pair.b;
   scratch.blind.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});

@@ -68,6 +68,11 @@ struct ContactRule {
   double kept_gap = 0.1;  ///< [m]
 };
 
+/// Whether what is near of two bodies is found by their covers: few edges are compared without.
+inline bool need_covers(const Bodies& bodies, BodyIndex a, BodyIndex b, const ContactRule& rule) {
+  return rule.is_circle_centres || !have_few_edges(bodies.boundary[a]->edges, bodies.boundary[b]->edges);
+}
+
 /// Reusable memory of collide_pair.
 struct PairScratch {
   bool keeps_distant_edges = true;

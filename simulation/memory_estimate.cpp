@@ -61,13 +61,15 @@ double moving() {
   return block(sizeof(dynamics::DragShape)) + kPairs * (sizeof(dynamics::Pair) + near);
 }
 
-/// The covers of boundaries that are kept, one piece for each contact circle.
+/// The covers of boundaries that are kept, one piece for each contact circle. Floes of few edges have none;
+/// that those beside a plate of many have one is left out.
 class KeptCovers {
  public:
   explicit KeptCovers(const ContactSettings& contact)
       : radius_(contact.circle_radius), has_circles_(contact.normal == ContactNormal::kCircleCentres) {}
 
   void add(const Polygon& polygon) {
+    if (!has_circles_ && vertices_of(polygon) <= geometry::kFewEdges / 2.0) return;
     double length = length_of(polygon.outer);
     for (const Ring& hole : polygon.holes) length += length_of(hole);
     const double pieces = std::max(1.0, length / radius_);

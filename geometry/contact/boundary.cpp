@@ -167,11 +167,14 @@ bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b) {
   const CircleNode& around_b = b.cover.tree.front();
   const double between = distance(around_a.centre, transform(a_from_b, around_b.centre));
   if (between > std::max(around_a.reach, around_b.reach)) return false;
+  return is_one_inside(a.edges, b.edges, a_from_b);
+}
+
+bool is_one_inside(const EdgeList& a, const EdgeList& b, const Pose& a_from_b) {
   // All vertices: where two only touch, rounding may find one of them inside.
-  return std::ranges::all_of(b.edges.vertices,
-                             [&](Point p) { return is_inside(a.edges, transform(a_from_b, p)); }) ||
-         std::ranges::all_of(a.edges.vertices,
-                             [&](Point p) { return is_inside(b.edges, inverse_transform(a_from_b, p)); });
+  return std::ranges::all_of(b.vertices, [&](Point p) { return is_inside(a, transform(a_from_b, p)); }) ||
+         std::ranges::all_of(a.vertices,
+                             [&](Point p) { return is_inside(b, inverse_transform(a_from_b, p)); });
 }
 
 }  // namespace polynya::geometry

@@ -97,8 +97,12 @@ struct NearEdges {
 double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs);
 
+inline constexpr std::size_t kFewEdges = 256;
+
 /// Whether two boundaries have so few edges that near_edges() serves them.
-bool have_few_edges(const EdgeList& a, const EdgeList& b);
+inline bool have_few_edges(const EdgeList& a, const EdgeList& b) {
+  return a.size() + b.size() <= kFewEdges;
+}
 
 /// The pairs of edges of two boundaries within `margin` of each other [m], in order: those that pairs of
 /// bounding circles show, and no others. Returns a lower bound of the distance between the boundaries [m], of
@@ -199,6 +203,7 @@ inline bool is_blind(double width, double area, double extent) {
 bool is_inside(const EdgeList& edges, Point p);
 
 /// Whether boundaries that do not cross are one inside the other.
+bool is_one_inside(const EdgeList& a, const EdgeList& b, const Pose& a_from_b);
 bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b);
 
 /// Least distance between the edges of the pairs, 0 where two cross or touch [m].

@@ -23,8 +23,9 @@ struct EdgeLanes {
 /// is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were moved
 /// by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
 /// leaving.
-POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::size_t stride, std::size_t count,
-                                            const Pose& a_from_b, EdgeLanes& __restrict l) {
+POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::size_t stride,
+                                            std::size_t count, const Pose& a_from_b,
+                                            EdgeLanes& __restrict l) {
   const Pose pose = a_from_b;
   for (std::size_t i = 0; i < count; ++i) {
     const Point a0{ends[i], ends[i + stride]};

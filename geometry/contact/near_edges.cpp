@@ -9,8 +9,6 @@
 namespace polynya::geometry {
 namespace {
 
-constexpr std::size_t kFewEdges = 256;  ///< of two boundaries, for which no tree of circles is needed
-
 /// Each edge of a with each piece of b that one of its own pieces is near, once and in order. Pieces have
 /// consecutive edges, in the order of pieces: by these pairs the edges' own come sorted.
 std::vector<NearPair> edges_near_pieces(const Covered& a, const std::vector<NearPair>& circle_pairs) {
@@ -64,10 +62,6 @@ double squared_gap(const Box& a, const Box& b) {
 }
 
 }  // namespace
-
-bool have_few_edges(const EdgeList& a, const EdgeList& b) {
-  return a.size() + b.size() <= kFewEdges;
-}
 
 double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin,
                   NearEdges& edges) {

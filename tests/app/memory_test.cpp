@@ -48,7 +48,7 @@ void expect_stopped_run(const std::filesystem::path& folder) {
 TEST(Memory, RunsOutAtAnyPointAndLeavesNothingOrAWholeFolder) {
   const TemporaryFolder folder;
   const Start start{folder.path()};
-  write_file(folder / "scene.json", drifting_floes(70));
+  write_file(folder / "scene.json", drifting_floes(100));
   ASSERT_EQ(polynya({"run", "scene.json", "--out", "whole", "--progress", "none"}, start).code, 0);
   int before = 0, during = 0;
   for (rlim_t limit = 40; limit < 400; limit += 5) {
