@@ -76,13 +76,16 @@ double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, do
   const double near = margin * margin;
   for (std::uint32_t i = 0; i < a.size(); ++i) {
     const Point from = a.from(i), to = a.to(i);
-    const double off = squared_gap(box_around(from, to), around_b);
+    const Box around = box_around(from, to);
+    const double off = squared_gap(around, around_b);
     if (off > near) {
       bound = std::min(bound, off);
       continue;
     }
     for (std::uint32_t k = 0; k < b.size(); ++k) {
-      const double between = squared_gap(from, to, b_in_a[k], b_in_a[b.next[k]]);
+      const Point b_from = b_in_a[k], b_to = b_in_a[b.next[k]];
+      double between = squared_gap(around, box_around(b_from, b_to));
+      if (between <= near) between = squared_gap(from, to, b_from, b_to);
       if (between <= near)
         edges.pairs.push_back({i, k});
       else
