@@ -7,7 +7,6 @@
 namespace polynya::dynamics {
 namespace {
 
-using geometry::Point;
 using geometry::Pose;
 using geometry::Rotation;
 using geometry::Vector;

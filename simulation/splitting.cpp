@@ -15,7 +15,6 @@ namespace polynya::simulation {
 namespace {
 
 using dynamics::Contact;
-using geometry::Point;
 using geometry::Vector;
 
 /// Cracks are tried along a contact's normal and this many directions to either side of it, 15° apart.
@@ -69,7 +68,8 @@ std::optional<Candidate> first_to_run(const Setup& setup, const Population& popu
   for (const Mouth& mouth : pressed.mouths) {
     if (mouth.contact->record->was_refused) continue;
     for (int k = 0; k <= 2 * kDirectionsASide; ++k) {  // 0, 15°, −15°, 30°, …
-      const double turn = ((k + 1) / 2) * (k % 2 == 0 ? -kBetweenDirections : kBetweenDirections);
+      const int from_normal = (k + 1) / 2;
+      const double turn = from_normal * (k % 2 == 0 ? -kBetweenDirections : kBetweenDirections);
       const Vector direction = rotate(geometry::Rotation::by(turn), mouth.direction);
       const double share = best ? std::max(least_share, best->share()) : least_share;
       auto candidate = candidate_of(setup, population, floe, pressed, mouth, direction, share);
@@ -169,8 +169,7 @@ void find_splits(const Setup& setup, const Population& population, StepData& ste
     for (const BodyIndex body : {contacts.front().a, contacts.front().b}) {
       if (population.is_ship(body)) continue;
       if (bound < limits_of_body(setup, population, body).least_splitting_force) continue;
-      if (auto split = split_of(setup, population, contacts, body, pressed))
-        splits.push_back(std::move(*split));
+      if (auto split = split_of(setup, population, contacts, body, pressed)) splits.push_back(*split);
     }
   }
   // Before the bends: a bend stops the force at V_b, so what splits at it has split before.
