@@ -37,9 +37,8 @@ std::optional<Candidate> candidate_of(const Setup& setup, const Population& popu
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Opening opening = fracture::opening_of(pressed.pushes, mouth.point, direction);
   const fracture::Ice& ice = ice_of_body(setup, population, floe);
-  if (opening.force() <= 0 ||
-      opening.force() < least_share * fracture::lefm_splitting_force(ice, ice.thickness, ice.thickness))
-    return std::nullopt;
+  const double least_force = limits_of_body(setup, population, floe).least_splitting_force;
+  if (opening.force() <= 0 || opening.force() < least_share * least_force) return std::nullopt;
   Candidate candidate;
   candidate.mouth = mouth;
   fracture::FailureCriteria& criteria = candidate.criteria;

@@ -97,16 +97,15 @@ struct NearEdges {
 double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs);
 
+/// Of two boundaries together, which near_edges() compares without a tree.
 inline constexpr std::size_t kFewEdges = 256;
-
-/// Whether two boundaries have so few edges that near_edges() serves them.
 inline bool have_few_edges(const EdgeList& a, const EdgeList& b) {
   return a.size() + b.size() <= kFewEdges;
 }
 
-/// The pairs of edges of two boundaries within `margin` of each other [m], in order: those that pairs of
-/// bounding circles show, and no others. Returns a lower bound of the distance between the boundaries [m], of
-/// use where nothing is within the margin.
+/// The pairs of edges of two boundaries of few edges (have_few_edges) within `margin` of each other [m], in
+/// order. Returns a lower bound of the distance between the boundaries [m], of use where nothing is within
+/// the margin.
 double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin,
                   NearEdges& edges);
 

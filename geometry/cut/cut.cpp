@@ -15,10 +15,6 @@
 namespace polynya::geometry {
 namespace {
 
-tl::unexpected<CutError> refuse(CutFailure reason, const DefectAt& found) {
-  return refuse(reason, std::string(name_of(found.defect)));
-}
-
 // Strictly convex, counter-clockwise and once around: then nothing else can be wrong with a ring.
 bool is_convex(const Ring& ring) {
   const std::size_t n = ring.size();
@@ -100,15 +96,16 @@ std::string_view name_of(CutFailure reason) {
 
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
   if (!tool_in_body.holes.empty()) return cut_by_polygons(shape, {tool_in_body});
-  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
-  if (const auto found = find_tool_defect(tool_in_body)) return refuse(CutFailure::kInvalidTool, *found);
+  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, found->defect);
+  if (const auto found = find_tool_defect(tool_in_body))
+    return refuse(CutFailure::kInvalidTool, found->defect);
   return cut_by_valid(shape, {tool_in_body});
 }
 
 CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body) {
-  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
+  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, found->defect);
   for (const Polygon& tool : tools_in_body) {
-    if (const auto found = find_tool_defect(tool)) return refuse(CutFailure::kInvalidTool, *found);
+    if (const auto found = find_tool_defect(tool)) return refuse(CutFailure::kInvalidTool, found->defect);
   }
   const std::vector<Polygon> near = near_tools(shape, tools_in_body);
   if (near.empty()) {
@@ -118,11 +115,11 @@ CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools
 }
 
 CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body) {
-  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, *found);
-  if (!are_usable(polyline_in_body)) return refuse(CutFailure::kInvalidTool, {Defect::kNotFinite, {}});
+  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, found->defect);
+  if (!are_usable(polyline_in_body)) return refuse(CutFailure::kInvalidTool, Defect::kNotFinite);
   std::vector<Point> crack = polyline_in_body;
   crack.erase(std::unique(crack.begin(), crack.end()), crack.end());
-  if (crack.size() < 2) return refuse(CutFailure::kInvalidTool, {Defect::kTooFewPoints, {}});
+  if (crack.size() < 2) return refuse(CutFailure::kInvalidTool, Defect::kTooFewPoints);
   if (is_simple(crack)) {
     if (auto outcome = try_locally(shape, {crack, false})) return *std::move(outcome);
   }

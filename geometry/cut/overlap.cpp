@@ -1,12 +1,10 @@
 #include "geometry/cut/overlap.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/guarded.hpp"
 #include "geometry/exact/internal/predicates.hpp"
-#include "geometry/exact/validity.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -66,7 +64,7 @@ tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a
   if (!overlaps(box_in_world(a, world_from_a), box_in_world(b, world_from_b))) return Overlap{0, "0"};
   // CGAL leaks memory where it finds out itself.
   if (!is_usable_at(a, world_from_a) || !is_usable_at(b, world_from_b))
-    return refuse(CutFailure::kInvalidShape, std::string(name_of(Defect::kNotFinite)));
+    return refuse(CutFailure::kInvalidShape, Defect::kNotFinite);
   return guarded([&]() -> tl::expected<Overlap, CutError> {
     std::vector<exact::SourceSegment> segments;
     append_segments(segments, placed(a, world_from_a), 0);

@@ -49,7 +49,7 @@ Ring oriented(Ring ring, int turn) {
 tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule) {
   std::vector<Ring> usable;
   for (const Ring& ring : rings) {
-    if (!are_usable(ring)) return refuse(CutFailure::kInvalidShape, "not-finite");
+    if (!are_usable(ring)) return refuse(CutFailure::kInvalidShape, Defect::kNotFinite);
     if (Ring kept = without_repeats(ring); kept.size() > 2) usable.push_back(std::move(kept));
   }
   tl::expected<Repaired, CutError> repaired = guarded([&] { return repair_exactly(usable, rule); });

@@ -5,11 +5,15 @@
 #include <string>
 
 #include "geometry/cut/cut.hpp"
+#include "geometry/exact/validity.hpp"
 
 namespace polynya::geometry {
 
 inline tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
   return tl::unexpected(CutError{reason, std::move(detail)});
+}
+inline tl::unexpected<CutError> refuse(CutFailure reason, Defect defect) {
+  return refuse(reason, std::string(name_of(defect)));
 }
 
 /// A geometric failure is a value: what CGAL throws in `work` becomes one (kInternal). Out of memory is
