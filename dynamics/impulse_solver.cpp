@@ -17,7 +17,8 @@ constexpr double kFrictionSlack = 2;
 constexpr double kTrustUnconverged = 0.5;
 
 /// Contacts that one thread takes at a time: fewer are not worth another thread.
-constexpr std::size_t kContactsPerChunk = 256;
+constexpr std::size_t kContactsPerChunk = 512;
+constexpr std::size_t kIslandsPerChunk = 32;  ///< most have one or two contacts
 
 }  // namespace
 
@@ -190,7 +191,7 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   fill_constraints(bodies, contacts, settings);
   residuals_.assign(islands_.islands().size(), 0);
   const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
-  for_chunks(islands_.islands().size(), 4, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+  for_chunks(islands_.islands().size(), kIslandsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Island& island = islands_.islands()[k];
       warm_start(island, contacts);

@@ -162,7 +162,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
 
 void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
             Counts& counts) {
-  constexpr std::size_t kContactsPerChunk = 128;  // fewer are not worth another thread
+  constexpr std::size_t kContactsPerChunk = 512;  // fewer are not worth another thread
   step.fractures.clear();
   step.slopes.clear();
   step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
