@@ -17,6 +17,20 @@ quick=()
 # Chipmunk says on stdout that Debian builds it with its checks on.
 "$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 20 --csv "$out/voyages.csv" 2>"$out/voyages.log" |
   grep --line-buffered "^|" | tee "$out/voyages.md"
+# Voyages of the same ship some metres to the side, through the same ice.
+{
+  echo "| case | to port, m | Polynya, µs/step | touching pairs | Box2D 3.2, µs/step | touching pairs | Box2D 3.2 over Polynya |"
+  echo "|---|---|---|---|---|---|---|"
+  for case in voyage field-10000; do
+    for metres in -3 -2 -1 0 1 2 3; do
+      "$bin/polynya_bench_voyages" "${quick[@]}" --only $case --lateral $metres --peer-seconds 5 --csv "$out/lateral.csv" >"$out/lateral.log" 2>&1
+      awk -F, -v case=$case -v metres=$metres '
+        $2 == "Polynya" { ours = $6; pairs = $10 }
+        $2 == "Box2D 3.2" { printf "| %s | %g | %.1f | %.1f | %.1f | %.1f | %s |\n", case, metres, ours, pairs, $6, $10, $16 + 0 }
+      ' "$out/lateral.csv"
+    done
+  done
+} | tee "$out/lateral.md"
 "$bin/polynya_bench_profile" "${quick[@]}" | tee "$out/profile.md"
 "$bin/polynya_bench_scaling" "${quick[@]}" --csv "$out/scaling.csv"
 /usr/bin/python3 bench/scaling_figure.py "$out/scaling.csv" "$out/scaling.svg"
@@ -25,6 +39,6 @@ cat "$out/scaling.csv" "$out/micro.csv"
 if [ ${#quick[@]} -gt 0 ]; then exit 0; fi
 cp "$out/scaling.svg" docs/images/performance-scaling.svg
 cp "$out/voyages.csv" docs/images/performance-voyages.csv
-python3 bench/put_tables.py docs/performance.md voyages="$out/voyages.md" profile="$out/profile.md" \
+python3 bench/put_tables.py docs/performance.md voyages="$out/voyages.md" lateral="$out/lateral.md" profile="$out/profile.md" \
   scaling="$out/scaling.csv" micro="$out/micro.csv" machine=
 echo "docs/performance.md holds these numbers now"

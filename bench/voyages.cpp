@@ -1,11 +1,12 @@
 // Whole runs side by side with Box2D 2.4.1, Chipmunk 7.0.3 and, where its sources are, Box2D 3.2 stepping the
 // same bodies at the same step, without any fracture. One process, one engine after another.
-//   polynya_bench_voyages [--quick] [--csv FILE] [--only CASE] [--peer-seconds S]
+//   polynya_bench_voyages [--quick] [--csv FILE] [--only CASE] [--peer-seconds S] [--lateral METRES]
 // Prints the table of docs/performance.md (Markdown). bench/performance.sh puts it there.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "bench/voyage_run.hpp"
@@ -18,6 +19,9 @@ struct Options {
   std::string csv;
   std::string only;
   double peer_seconds = 120;  ///< at most, for each peer's run of a case [s]
+  /// Of the ships from where their scenes have them, to port: such voyages are run once, for many of them say
+  /// more than the same one again [m].
+  std::optional<double> lateral;
 };
 
 /// One row of the table: a scene, and what is compared.
@@ -66,6 +70,15 @@ Edit round_plate(int corners) {
 /// The scene's bodies under one or the other law of contact.
 Edit with_law(simulation::ContactLaw law) {
   return [law](simulation::Scene& scene) { scene.contact.law = law; };
+}
+
+/// The ships some way to port: another voyage through the same ice.
+Edit moved_to_port(const Edit& edit, double lateral) {
+  return [edit, lateral](simulation::Scene& scene) {
+    if (edit) edit(scene);
+    for (simulation::ShipSpec& ship : scene.ships)
+      ship.position_in_world += rotate(geometry::Rotation::by(ship.heading), geometry::Vector{0, lateral});
+  };
 }
 
 std::vector<Case> cases(bool is_quick) {
@@ -162,8 +175,12 @@ Options options_of(int count, char** words) {
       options.only = words[++i];
     } else if (std::strcmp(words[i], "--peer-seconds") == 0 && has_value) {
       options.peer_seconds = std::atof(words[++i]);
+    } else if (std::strcmp(words[i], "--lateral") == 0 && has_value) {
+      options.lateral = std::atof(words[++i]);
     } else {
-      std::fprintf(stderr, "usage: %s [--quick] [--csv FILE] [--only CASE] [--peer-seconds S]\n", words[0]);
+      std::fprintf(stderr,
+                   "usage: %s [--quick] [--csv FILE] [--only CASE] [--peer-seconds S] [--lateral METRES]\n",
+                   words[0]);
       std::exit(2);
     }
   }
@@ -186,7 +203,13 @@ int main(int count, char** words) {
       "| case | engine | floes | Δt s | run s | µs/step, mean | median | awake | touching pairs | × real "
       "time | load s | peak MiB | step time |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-  const auto all = cases(options.is_quick);
+  auto all = cases(options.is_quick);
+  if (options.lateral) {
+    for (Case& at : all) {
+      at.edit = moved_to_port(at.edit, *options.lateral);
+      at.repeats = 1;
+    }
+  }
   for (const Case& at : all) {
     if (options.only.empty() || options.only == at.name) run_case(at, all, options, csv);
   }
