@@ -85,11 +85,11 @@ Command add_ships(CLI::App& app) {
       "Examples:\n"
       "  polynya ships                  all of them\n"
       "  polynya ships polaris          every particular, its source, and which are assumed\n"
-      "  polynya ships polaris --json   as a ship of a scene\n");
+      "  polynya ships polaris --json   its \"ship\" as scenes have one\n");
   auto name = std::make_shared<std::string>();
   auto is_json = std::make_shared<bool>(false);
   command->add_option("ship", *name, "Its name");
-  command->add_flag("--json", *is_json, "Print it as JSON");
+  command->add_flag("--json", *is_json, "Print that ship as JSON");
   return {command, [name, is_json] { return show(*name, *is_json); }};
 }
 

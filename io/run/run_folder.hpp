@@ -31,7 +31,7 @@ inline constexpr std::string_view kFinalPng = "final.png";
 inline constexpr std::string_view kView = "view.html";           ///< `polynya view` writes it, not the run
 inline constexpr std::string_view kChannel = "channel.geojson";  ///< `polynya channel` writes these two
 inline constexpr std::string_view kChannelCsv = "channel.csv";
-// `polynya figures` writes these, and a PNG beside each where there is a converter.
+// `polynya figures` writes these, and a PNG and a PDF beside each.
 inline constexpr std::string_view kFigureFloes = "figure-floes.svg";
 inline constexpr std::string_view kFigureLoads = "figure-loads.svg";
 inline constexpr std::string_view kFigureMotion = "figure-motion.svg";

@@ -94,11 +94,12 @@ const Object kField{
            "with sizes: concentration between the holes, which floes of the same sizes would fill; if not "
            "given, 0.75, but no more than twice the concentration, nor less than that",
            [](Draft& d, const Value& v) { d.group.field.packing = v.number(); }),
-     field("keep_clear_m", Kind::kRings, "m", coordinate(), "[]",
-           "regions no floe may reach into; ships and structures are kept clear without being asked for",
-           [](Draft& d, const Value& v) {
-             for (const Value& ring : v.items()) d.group.field.kept_clear.push_back({ring_of(ring), {}});
-           }),
+     field(
+         "keep_clear_m", Kind::kRings, "m", coordinate(), "[]",
+         "regions no floe may reach into; ships, structures and walls are kept clear without being asked for",
+         [](Draft& d, const Value& v) {
+           for (const Value& ring : v.items()) d.group.field.kept_clear.push_back({ring_of(ring), {}});
+         }),
      field("seed", Kind::kInteger, "", from(0, 9007199254740991), "0",
            "another one gives another field; the scene's seed is added",
            [](Draft& d, const Value& v) { d.group.field.seed = static_cast<std::uint64_t>(v.number()); })},

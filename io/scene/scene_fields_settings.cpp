@@ -34,7 +34,8 @@ const Object kTime{{field("step_s", Kind::kNumber, "s", from(1e-5, 1), "0.005", 
                           [](Draft& d, const Value& v) { d.scene.time.until = v.number(); })}};
 
 const Object kIce{
-    {field("thickness_m", Kind::kNumber, "m", from(1e-3, 20), "0.5", "thickness h of every floe",
+    {field("thickness_m", Kind::kNumber, "m", from(1e-3, 20), "0.5",
+           "thickness h, of every floe without one of its own",
            [](Draft& d, const Value& v) { d.scene.ice.thickness = v.number(); }),
      field("density_kg_per_m3", Kind::kNumber, "kg/m³", from(100, 1100), "900",
            "density ρ_i, less than the water's",
