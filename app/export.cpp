@@ -109,7 +109,8 @@ int export_run(const Options& options) {
 }  // namespace
 
 Command add_export(CLI::App& app) {
-  auto* command = app.add_subcommand("export", "Write a run for ParaView or QGIS, or a scene that continues it");
+  auto* command =
+      app.add_subcommand("export", "Write a run for ParaView or QGIS, or a scene that continues it");
   command->footer(kExamples);
   auto options = std::make_shared<Options>();
   add_run_folder(*command, options->run);

@@ -128,7 +128,8 @@ struct ConstantSpeed {
 /// A structure that stands on the ground. Its mass is infinite.
 struct FixedInPlace {};
 /// A straight boundary that ice cannot pass: it stands, moves at a prescribed velocity, or presses on the
-/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory.md, "Wind and walls").
+/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory.md, "Wind and
+/// walls").
 struct Wall {
   geometry::Vector velocity;       ///< over ground, of one that does not press [m/s]
   double length = 0;               ///< [m]
