@@ -15,7 +15,7 @@ mkdir -p "$out"
 quick=()
 [ "${1:-}" != --quick ] || quick=(--quick)
 # Chipmunk says on stdout that Debian builds it with its checks on.
-"$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 20 --csv "$out/voyages.csv" 2>"$out/voyages.log" |
+"$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 5 --csv "$out/voyages.csv" 2>"$out/voyages.log" |
   grep --line-buffered "^|" | tee "$out/voyages.md"
 # Voyages of the same ship some metres to the side, through the same ice.
 {
@@ -32,6 +32,8 @@ quick=()
   done
 } | tee "$out/lateral.md"
 "$bin/polynya_bench_profile" "${quick[@]}" | tee "$out/profile.md"
+"$bin/polynya_bench_profile" "${quick[@]}" --only cylinder-shear --until 400 |
+  awk -F'|' 'NR < 3 || $3 >= 1' | tee "$out/threads.md"
 "$bin/polynya_bench_scaling" "${quick[@]}" --csv "$out/scaling.csv"
 /usr/bin/python3 bench/scaling_figure.py "$out/scaling.csv" "$out/scaling.svg"
 "$bin/polynya_bench_micro" --benchmark_format=csv >"$out/micro.csv" 2>"$out/micro.log"
@@ -40,5 +42,5 @@ if [ ${#quick[@]} -gt 0 ]; then exit 0; fi
 cp "$out/scaling.svg" docs/images/performance-scaling.svg
 cp "$out/voyages.csv" docs/images/performance-voyages.csv
 python3 bench/put_tables.py docs/performance.md voyages="$out/voyages.md" lateral="$out/lateral.md" profile="$out/profile.md" \
-  scaling="$out/scaling.csv" micro="$out/micro.csv" machine=
+  threads="$out/threads.md" scaling="$out/scaling.csv" micro="$out/micro.csv" machine=
 echo "docs/performance.md holds these numbers now"

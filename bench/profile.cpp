@@ -1,11 +1,12 @@
 // Where a step's time goes: the stages of simulation/step.hpp, each under the clock, over whole runs.
 //   polynya_bench_profile [--quick]      prints a Markdown table of shares, on one thread
-//   polynya_bench_profile [--quick] --only voyage|field-10000|cylinder-shear
+//   polynya_bench_profile [--quick] --only voyage|field-10000|cylinder-shear [--until SECONDS]
 //                                        prints one case in microseconds a step, on one and on two threads
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 #include "bench/voyage_run.hpp"
@@ -95,16 +96,22 @@ int main(int count, char** words) {
   using namespace polynya::bench;
   double part = 1;
   std::string_view only;
+  double until = 0;  // [s]; 0: the case's own
   for (int i = 1; i < count; ++i) {
     if (std::string_view(words[i]) == "--quick")
       part = 0.1;
     else if (std::string_view(words[i]) == "--only" && i + 1 < count)
       only = words[++i];
+    else if (std::string_view(words[i]) == "--until" && i + 1 < count)
+      until = std::atof(words[++i]);
   }
   if (only.empty()) return print_shares(part), 0;
-  for (const Case& at : kCases) {
-    if (only == at.name) return print_threads(at, part), 0;
+  for (Case at : kCases) {
+    if (only != at.name) continue;
+    if (until > 0) at.until = until;
+    return print_threads(at, part), 0;
   }
-  std::fprintf(stderr, "usage: %s [--quick] [--only voyage|field-10000|cylinder-shear]\n", words[0]);
+  std::fprintf(stderr, "usage: %s [--quick] [--only voyage|field-10000|cylinder-shear [--until SECONDS]]\n",
+               words[0]);
   return 2;
 }
