@@ -85,7 +85,7 @@ Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
   auto text = read_input(file, options.polygon.empty() ? kLongestOps : io::kLongestFloeText);
   if (!text) return failure(kInputOutput, fmt::format("{}: {}", file, text.error()));
   if (!options.polygon.empty()) return one_op(file.c_str(), io::polygon_tool(std::move(*text)), options.keep);
-  auto ops = io::read_cut_ops(std::move(*text), {options.keep, options.sagitta});
+  auto ops = io::read_cut_ops(*text, {options.keep, options.sagitta});
   if (!ops) return failure(file, ops.error());
   return *std::move(ops);
 }

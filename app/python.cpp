@@ -61,6 +61,7 @@ int become_python(const std::string& module, const std::vector<std::string>& wor
   std::vector<std::string> line{python(), "-m", module};
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> arguments;
+  arguments.reserve(line.size() + 1);
   for (std::string& word : line) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   flush_out();

@@ -41,8 +41,10 @@ tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
     print_hints(*loaded);
     print_fields(*loaded);
     if (!may_fit(loaded->scene, options.scene, memory_available())) return tl::unexpected(kOutOfMemory);
-    auto simulation = std::make_unique<simulation::Simulation>(loaded->scene);
-    return Start{std::make_unique<io::LoadedScene>(std::move(*loaded)), std::move(simulation)};
+    Start start;
+    start.simulation = std::make_unique<simulation::Simulation>(loaded->scene);
+    start.scene = std::make_unique<io::LoadedScene>(std::move(*loaded));
+    return start;
   } catch (const std::bad_alloc&) {
     return tl::unexpected(fail(kOutOfMemory, fmt::format("{}: {}; nothing was written; {}", options.scene,
                                                          out_of_memory(), kToNeedLessMemory)));

@@ -65,7 +65,7 @@ tl::expected<ViewedRun, int> read_viewed(const std::string& folder, const io::Fr
 std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const Options& options) {
   if (!options.labels.empty()) return {options.labels[0], options.labels[1]};
   const auto both = [&](auto name) { return std::array<std::string, 2>{name(0), name(1)}; };
-  const auto scenes = both([&](std::size_t k) { return viewed[k].run.scene.scene.name; });
+  auto scenes = both([&](std::size_t k) { return viewed[k].run.scene.scene.name; });
   if (scenes[0] != scenes[1]) return scenes;
   const auto folders = both([&](std::size_t k) {
     const fs::path path = fs::path(options.runs[k]).lexically_normal();
@@ -93,6 +93,7 @@ std::string problem_of(const Options& options) {
 /// "276 frames, 491 floes, 356 events", of several runs one after the other.
 std::string contents(const std::vector<ViewedRun>& viewed) {
   std::vector<std::string> all;
+  all.reserve(viewed.size());
   for (const ViewedRun& one : viewed)
     all.push_back(fmt::format("{} frames, {} floes, {} events", one.data.frames, one.run.floes.size(),
                               one.run.events.size()));

@@ -16,7 +16,6 @@ namespace {
 
 using geometry::Box;
 using geometry::Point;
-using geometry::Polygon;
 using geometry::Ring;
 using geometry::Site;
 using geometry::Vector;

@@ -5,7 +5,6 @@
 namespace polynya::simulation {
 namespace {
 
-using dynamics::Planar;
 using geometry::Vector;
 
 std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies) {

@@ -7,7 +7,6 @@
 namespace polynya::simulation {
 namespace {
 
-using geometry::Point;
 using geometry::Vector;
 
 bool is_known(const std::vector<ShipContact>& contacts, BodyIndex ship, BodyIndex other) {

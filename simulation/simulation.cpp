@@ -238,6 +238,7 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
       [&](BodyIndex a, BodyIndex b, double area) { pairs.emplace_back(a, b, area); });
   std::ranges::sort(pairs);
   std::vector<CrushedOverlap> overlaps;
+  overlaps.reserve(pairs.size());
   for (const auto& [a, b, area] : pairs)
     overlaps.push_back({contact_body(population, a), contact_body(population, b), area,
                         area / std::min(population.bodies.area[a], population.bodies.area[b])});

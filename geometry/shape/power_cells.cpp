@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "geometry/shape/site_bins.hpp"
 
@@ -47,10 +48,10 @@ class WeightClasses {
   /// Calls visit(class) for a site's own class and then for those nearest to it in weight.
   template <class Visit>
   void from(std::size_t site, Visit visit) const {
-    const int own = class_of_[site];
-    const int count = static_cast<int>(classes_.size());
+    const std::ptrdiff_t own = class_of_[site];
+    const std::ptrdiff_t count = std::ssize(classes_);
     visit(classes_[static_cast<std::size_t>(own)]);
-    for (int away = 1; away < count; ++away) {
+    for (std::ptrdiff_t away = 1; away < count; ++away) {
       if (own + away < count) visit(classes_[static_cast<std::size_t>(own + away)]);
       if (own - away >= 0) visit(classes_[static_cast<std::size_t>(own - away)]);
     }

@@ -12,8 +12,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;
-
 namespace polynya::io {
 namespace {
 
@@ -42,6 +40,7 @@ class Pipe {
 int spawn(const std::vector<std::string>& words, const Pipe& out, const Pipe& err, pid_t& child) {
   std::vector<std::string> copies = words;
   std::vector<char*> arguments;
+  arguments.reserve(copies.size() + 1);
   for (std::string& word : copies) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;

@@ -125,9 +125,9 @@ Result<Projection> Projection::between(const std::string& from, const std::strin
   pj_ctx* const context = projection.context_.get();
   const std::unique_ptr<PJ, Free> steps(
       proj().proj_create_crs_to_crs(context, from.c_str(), to.c_str(), nullptr));
-  if (!steps) return fail(fmt::format("PROJ has no way from \"{}\" to \"{}\"", from, to));
+  if (!steps) return fail(fmt::format(R"(PROJ has no way from "{}" to "{}")", from, to));
   projection.steps_.reset(proj().proj_normalize_for_visualization(context, steps.get()));
-  if (!projection.steps_) return fail(fmt::format("PROJ has no way from \"{}\" to \"{}\"", from, to));
+  if (!projection.steps_) return fail(fmt::format(R"(PROJ has no way from "{}" to "{}")", from, to));
   return projection;
 }
 

@@ -1,5 +1,6 @@
 #include "io/run/run_folder.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <vector>
@@ -77,10 +78,11 @@ Result<> make_folder(const fs::path& folder) {
     missing.push_back(path);
     if (path == path.parent_path()) break;
   }
-  for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
-    fs::create_directory(*path, error);
+  std::ranges::reverse(missing);
+  for (const fs::path& path : missing) {
+    fs::create_directory(path, error);
     if (error) return fail(fmt::format("{}: {}", folder.string(), error.message()));
-    if (auto synced = sync_folder(path->parent_path()); !synced) return synced;
+    if (auto synced = sync_folder(path.parent_path()); !synced) return synced;
   }
   return {};
 }

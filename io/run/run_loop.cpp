@@ -48,8 +48,8 @@ class RunLoop {
   }
 
   Stop advance();
-  RunResult finish(Stop stop);
-  RunResult cut_off(Stop stop);
+  RunResult finish(const Stop& stop);
+  RunResult cut_off(const Stop& stop);
   Stop stop_without_memory();
 
  private:
@@ -159,7 +159,7 @@ Result<> RunLoop::checkpoint() {
   return written;
 }
 
-RunResult RunLoop::finish(Stop stop) {
+RunResult RunLoop::finish(const Stop& stop) {
   RunResult result{stop.end, stop.reason, summarise(simulation(), writer(), stop.reason, wall_time())};
   // Before the run is finished: that takes away the checkpoints from which the failure is sought.
   const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
@@ -172,7 +172,7 @@ RunResult RunLoop::finish(Stop stop) {
 }
 
 /// Ends a run whose world is not to be relied on, since memory ran out in it; what it takes is freed first.
-RunResult RunLoop::cut_off(Stop stop) {
+RunResult RunLoop::cut_off(const Stop& stop) {
   { const Simulation freed = std::move(run_.simulation); }
   release_memory_reserve();
   RunResult result{stop.end, stop.reason, {}, true};

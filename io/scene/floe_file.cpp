@@ -12,7 +12,7 @@ namespace polynya::io {
 namespace {
 
 std::string origin_in_scene(double latitude, double longitude) {
-  return fmt::format("\"origin\": {{\"latitude_deg\": {:.6g}, \"longitude_deg\": {:.6g}}} in the scene",
+  return fmt::format(R"("origin": {{"latitude_deg": {:.6g}, "longitude_deg": {:.6g}}} in the scene)",
                      latitude, longitude);
 }
 
@@ -61,10 +61,9 @@ class FloeFileReader {
     plane.are_metres = floes.are_metres;
     plane.origin_in_words = origin_in_scene;
     plane.shift_in_words =
-        "\"import\": {\"shift\": true} beside \"file\" moves them to the middle of the plane, an origin in "
-        "the "
-        "scene projects them about a place";
-    plane.source_in_words = "\"import\": {\"from\": \"EPSG:n\"} beside \"file\" names it";
+        R"("import": {"shift": true} beside "file" moves them to the middle of the plane, )"
+        "an origin in the scene projects them about a place";
+    plane.source_in_words = R"("import": {"from": "EPSG:n"} beside "file" names it)";
     return plane;
   }
 
@@ -89,7 +88,7 @@ class FloeFileReader {
       if (item.refused.empty()) continue;
       problems_.report(result_.source, floes.polygons[item.source].offset,
                        fmt::format("{} (its floe {})", path_, item.source), item.refused,
-                       "a valid polygon, or \"repair\": \"non-zero\" in its \"import\"");
+                       R"(a valid polygon, or "repair": "non-zero" in its "import")");
     }
     result_.plane = std::move(imported->plane);
     result_.totals = imported->totals;

@@ -198,7 +198,7 @@ ToolOutcome<PolygonTool> polygon_tool(std::string text) {
   return tool_of(*floes);
 }
 
-ToolOutcome<std::vector<CutOp>> read_cut_ops(std::string text, const CutDefaults& defaults) {
+ToolOutcome<std::vector<CutOp>> read_cut_ops(const std::string& text, const CutDefaults& defaults) {
   const auto value = parse_lenient_json(text);
   if (!value) return malformed(value.error());
   if (!value->is(JsonKind::kArray)) return malformed("expected a list of cuts");

@@ -71,6 +71,6 @@ ToolOutcome<PolygonTool> polygon_tool(std::string text);
 /// A JSON list of cuts (docs/cut.md):
 ///   [{"disc": [x, y, r], "sagitta_m": s}, {"crack": [x, y, angle_deg]}, {"line": [x0, y0, x1, y1]},
 ///    {"polygon": GeoJSON}], each with an optional "keep" and "must_cut".
-ToolOutcome<std::vector<CutOp>> read_cut_ops(std::string text, const CutDefaults& defaults);
+ToolOutcome<std::vector<CutOp>> read_cut_ops(const std::string& text, const CutDefaults& defaults);
 
 }  // namespace polynya::io

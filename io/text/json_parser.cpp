@@ -24,8 +24,6 @@ class PlaceFinder {
       if (c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',' || c == ':') {
         if (c == ',') commas_.push_back(end_);
         ++end_;
-      } else if (c != '/') {
-        break;
       } else if (text_.substr(end_, 2) == "//") {
         end_ = std::min(text_.find_first_of("\r\n", end_), text_.size());
       } else if (text_.substr(end_, 2) == "/*") {

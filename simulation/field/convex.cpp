@@ -124,8 +124,7 @@ void reduce_corners(Ring& ring, int most, double shortest) {
 
 void add_corners(Ring& ring, int least) {
   constexpr double kCutOff = 0.3;  // of the shorter of a corner's edges
-  while (ring.size() >= 3 && ring.size() < static_cast<std::size_t>(least)) {
-    const std::size_t n = ring.size();
+  for (std::size_t n = ring.size(); n >= 3 && n < static_cast<std::size_t>(least); n = ring.size()) {
     std::size_t sharpest = 0;
     double most = -2;
     for (std::size_t i = 0; i < n; ++i) {
