@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kContactsPerChunk = 512;
 constexpr std::size_t kIslandsPerChunk = 32;  ///< most have one or two contacts
-constexpr int kPlainSweeps = 4;  ///< before the acceleration; most islands need no more
+constexpr int kPlainSweeps = 4;               ///< before the acceleration; most islands need no more
 /// An island that needs more sweeps is jammed: Newton's method, now and again. Most small ones come to their
 /// solution by some more.
 constexpr int sweeps_to_jam(const Island& island) {
@@ -254,17 +254,18 @@ SolverResult CrushSolver::solve(Bodies& bodies, std::vector<Contact>& contacts,
   residuals_.assign(islands_.islands().size(), 0);
   const double tau = settings.step / settings.substeps;
   const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
-  for_chunks(islands_.islands().size(), kIslandsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Island& island = islands_.islands()[k];
-      for (int substep = 0; substep < settings.substeps; ++substep) {
-        begin_substep(island, tau, substep == 0);
-        warm_start(island, contacts, substep == 0, settings.is_warm_started);
-        residuals_[k] = std::max(residuals_[k], sweep(island, settings));
-        end_substep(island, tau);
-      }
-    }
-  });
+  for_chunks(islands_.islands().size(), kIslandsPerChunk, threads,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const Island& island = islands_.islands()[k];
+                 for (int substep = 0; substep < settings.substeps; ++substep) {
+                   begin_substep(island, tau, substep == 0);
+                   warm_start(island, contacts, substep == 0, settings.is_warm_started);
+                   residuals_[k] = std::max(residuals_[k], sweep(island, settings));
+                   end_substep(island, tau);
+                 }
+               }
+             });
   write_back(bodies, contacts, settings.step);
   SolverResult result;
   for (const double residual : residuals_) {

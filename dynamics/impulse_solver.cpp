@@ -191,15 +191,16 @@ SolverResult ImpulseSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   fill_constraints(bodies, contacts, settings);
   residuals_.assign(islands_.islands().size(), 0);
   const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
-  for_chunks(islands_.islands().size(), kIslandsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Island& island = islands_.islands()[k];
-      warm_start(island, contacts);
-      residuals_[k] = iterate(island, settings);
-      if (apply_restitution(island, contacts, settings.restitution, residuals_[k] == 0))
-        residuals_[k] = std::max(residuals_[k], iterate(island, settings));
-    }
-  });
+  for_chunks(islands_.islands().size(), kIslandsPerChunk, threads,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const Island& island = islands_.islands()[k];
+                 warm_start(island, contacts);
+                 residuals_[k] = iterate(island, settings);
+                 if (apply_restitution(island, contacts, settings.restitution, residuals_[k] == 0))
+                   residuals_[k] = std::max(residuals_[k], iterate(island, settings));
+               }
+             });
   write_back(bodies, contacts);
   SolverResult result;
   for (const double residual : residuals_) {

@@ -63,7 +63,7 @@ class Simulation::Stepping {
   Simulation& simulation_;
 };
 
-Simulation::Simulation(std::shared_ptr<Scene> scene, int threads)
+Simulation::Simulation(const std::shared_ptr<Scene>& scene, int threads)
     : Simulation(scene, start(scene->loaded()), threads) {}
 
 Simulation::Simulation(std::shared_ptr<Scene> scene, simulation::Simulation simulation, int threads)

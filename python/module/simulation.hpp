@@ -18,7 +18,7 @@ namespace polynya::python {
 /// A simulation owned by Python. Every method is called with the GIL held; steps release it.
 class Simulation {
  public:
-  Simulation(std::shared_ptr<Scene> scene, int threads);
+  Simulation(const std::shared_ptr<Scene>& scene, int threads);
   /// Continues from the bytes of save(). Raises ValueError where they do not fit.
   static std::unique_ptr<Simulation> resume(std::shared_ptr<Scene> scene, const py::bytes& bytes,
                                             int threads);
