@@ -43,7 +43,7 @@ void print_ship(const io::ShipPreset& ship) {
   print_out("\nassumed: nobody has published it. recall: from memory. Sources: docs/references.md.\n");
 }
 
-void print_json(const io::ShipPreset& ship) {
+io::JsonValue described(const io::ShipPreset& ship) {
   io::JsonValue reported{io::JsonValue::Array{}, 0};
   for (const io::ReportedSpeed& speed : ship.reported) {
     io::JsonValue item{io::JsonValue::Object{}, 0};
@@ -59,12 +59,18 @@ void print_json(const io::ShipPreset& ship) {
   root.members().push_back({"title", 0, {std::string(ship.title), 0}});
   root.members().push_back({"ship", 0, json_of(ship)});
   root.members().push_back({"reported", 0, std::move(reported)});
-  write_out(to_json_text(root) + "\n");
+  return root;
+}
+
+void print_list_as_json() {
+  io::JsonValue all{io::JsonValue::Array{}, 0};
+  for (const io::ShipPreset& ship : io::ship_presets()) all.items().push_back(described(ship));
+  write_out(to_json_text(all) + "\n");
 }
 
 ExitCode show(const std::string& name, bool is_json) {
   if (name.empty()) {
-    print_list();
+    is_json ? print_list_as_json() : print_list();
     return kDone;
   }
   const io::ShipPreset* ship = io::find_ship_preset(name);
@@ -73,7 +79,10 @@ ExitCode show(const std::string& name, bool is_json) {
     for (const io::ShipPreset& other : io::ship_presets()) names += fmt::format(" {}", other.name);
     return fail(kUsage, fmt::format("no ship \"{}\"; there are{}", name, names));
   }
-  is_json ? print_json(*ship) : print_ship(*ship);
+  if (is_json)
+    write_out(to_json_text(described(*ship)) + "\n");
+  else
+    print_ship(*ship);
   return kDone;
 }
 
@@ -89,7 +98,7 @@ Command add_ships(CLI::App& app) {
   auto name = std::make_shared<std::string>();
   auto is_json = std::make_shared<bool>(false);
   command->add_option("ship", *name, "Its name");
-  command->add_flag("--json", *is_json, "Print that ship as JSON");
+  command->add_flag("--json", *is_json, "Print that ship, or the list of all, as JSON");
   return {command, [name, is_json] { return show(*name, *is_json); }};
 }
 

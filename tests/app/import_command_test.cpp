@@ -84,12 +84,13 @@ TEST_F(Import, RefusedFloesAreNamedAndTheOthersWritten) {
                            R"({"type":"Feature","geometry":{"type":"Point","coordinates":[1,2]}}]})";
   const Outcome refused = import(text);
   EXPECT_EQ(refused.code, 4);
-  expect_parts(refused.err,
-               {"mapped.geojson:3: feature 1, polygon 0: refused: self-crossing at (62, 1.5)",
-                "mapped.geojson:4: feature 2, polygon 0: refused: property thickness_m: found -2, allowed: a "
-                "number from 0.001 to 20 [m]",
-                "mapped.geojson:5: feature 3, polygon 0: refused: not-a-polygon", "3 refused; 1 written",
-                "--repair non-zero"});
+  expect_parts(
+      refused.err,
+      {"mapped.geojson:3: feature 1, polygon 0: refused: self-crossing at (62, 1.5)",
+       ("mapped.geojson:4: feature 2, polygon 0: refused: property thickness_m: found -2, allowed: a "
+        "number from 0.001 to 20 [m]"),
+       "mapped.geojson:5: feature 3, polygon 0: refused: not-a-polygon", "3 refused; 1 written",
+       "--repair non-zero"});
   expect_parts(import(text, {"--repair", "even-odd"}).err, {"1 repaired, 2 refused; 3 written"});
 }
 
@@ -161,7 +162,7 @@ TEST_F(Import, ShapefilesGeoPackagesAndFlatGeobufsAreReadByGdal) {
 }
 
 TEST_F(Import, WithoutOgr2ogrAMessageNamesThePackage) {
-  write_file(folder / "mapped.gpkg", "SQLite format 3\0 and more");
+  write_file(folder / "mapped.gpkg", std::string("SQLite format 3\0 and more", 25));
   const Outcome outcome =
       polynya({"import", "mapped.gpkg", "--out", "floes.geojson"},
               {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/nowhere", 1); }});
