@@ -124,7 +124,7 @@ TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
   EXPECT_GT(broken.force, 1e5);
   EXPECT_NEAR(broken.offset_in_moored_place.x, broken.point_in_world.x - 5, 1e-9);
   const std::string line = read_file(folder / "run/events.ndjson");
-  for (const char* key : {"\"kind\":\"mooring_break\"", "\"ship\":\"tanker\"", "force_N",
+  for (const char* key : {R"("kind":"mooring_break")", R"("ship":"tanker")", "force_N",
                           "break_load_N\":1e+05", "offset_m", "point_m", "t_s"})
     EXPECT_NE(line.find(key), std::string::npos) << key << " in " << line;
   const Outcome events = polynya({"inspect", "run", "--events"}, {folder.path()});

@@ -180,7 +180,7 @@ TEST(LevelIce, TakesAFewMegabytesOverSevenHundredMetres) {
     ASSERT_NE(scene.find(from), std::string::npos) << from;
     scene.replace(scene.find(from), from.size(), to);
   };
-  replace("\"until_s\": 200", "\"step_s\": 0.02, \"until_s\": 420");
+  replace("\"until_s\": 200", R"("step_s": 0.02, "until_s": 420)");
   replace("[300, 150]", "[720, 150]");
   replace("constant_speed_m_per_s\": 1.0", "constant_speed_m_per_s\": 2.0");
   write_file(folder / "level.json", scene);

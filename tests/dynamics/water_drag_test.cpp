@@ -212,7 +212,9 @@ double third_moment_of_rectangle(Point low, Point high, Point about) {
   double sum = 0;
   for (int i = 0; i < kCells * 3; ++i) {
     for (int j = 0; j < kCells * 3; ++j) {
-      const Point p{low.x + (i / 3 + x[i % 3]) * dx, low.y + (j / 3 + x[j % 3]) * dy};
+      const int column = i / 3;
+      const int row = j / 3;
+      const Point p{low.x + (column + x[i % 3]) * dx, low.y + (row + x[j % 3]) * dy};
       sum += weight[i % 3] * weight[j % 3] * std::pow(distance(p, about), 3) * dx * dy;
     }
   }

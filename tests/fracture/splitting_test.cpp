@@ -12,7 +12,6 @@
 namespace polynya::fracture {
 namespace {
 
-using geometry::Point;
 using geometry::Vector;
 
 constexpr double kDegree = std::numbers::pi / 180;
