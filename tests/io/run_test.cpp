@@ -362,7 +362,7 @@ TEST(Run, AFolderOfVersionOneReadsTheSame) {
   ASSERT_TRUE(run.has_value()) << run.error();
   for (const simulation::Birth& birth : recorded.births)
     EXPECT_EQ(*run->shape(birth.floe), birth.polygon_in_body);
-  for (const char* other : {"\"folder_version\": 5,", "\"folder_version\": \"3\","}) {
+  for (const char* other : {"\"folder_version\": 5,", R"("folder_version": "3",)"}) {
     tests::write_file(path, std::string(summary).replace(summary.find(version), version.size(), other));
     const auto newer = read_run(folder / "run");
     ASSERT_FALSE(newer.has_value());

@@ -10,7 +10,6 @@
 namespace polynya::tests {
 namespace {
 
-using geometry::Point;
 using geometry::Polygon;
 using geometry::Pose;
 using geometry::Rotation;
