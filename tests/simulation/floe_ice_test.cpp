@@ -145,7 +145,8 @@ Scene mixed(bool comes_up) {
   scene.ships[0].hull.draught = 6;
   scene.floes.clear();
   for (int i = 0; i < 12; ++i) {
-    const double x = 25 * (i / 4), y = 25 * (i % 4) - 50;
+    const int column = i / 4;
+    const double x = 25 * column, y = 25 * (i % 4) - 50;
     scene.floes.push_back(floe(rectangle(x, y, x + 24.9, y + 24.9)));
     change_ice(scene, scene.floes.size() - 1, [&](fracture::Ice& ice) {
       ice.thickness = 0.3 + 0.02 * (i % 7);
@@ -206,8 +207,10 @@ TEST(FloeIce, TheWeakerIceCrushesAsHighAsTheThinnerFloe) {
 
 TEST(BendingScatter, FollowsItsLawAtTheContacts) {
   std::vector<double> factors;
-  for (int i = 0; i < 5000; ++i)
-    factors.push_back(strength_factor(7, {0.37 * (i % 71), 0.11 * (i / 71) - 3}, 0.25));
+  for (int i = 0; i < 5000; ++i) {
+    const int row = i / 71;
+    factors.push_back(strength_factor(7, {0.37 * (i % 71), 0.11 * row - 3}, 0.25));
+  }
   const fracture::ScatterLaw law{fracture::ScatterKind::kLogNormal, 1, 0.25};
   const fracture::ScatterMeasures measures = measure(law, factors);
   EXPECT_LT(measures.distance, 0.023) << "1.63/√n, of 99 in 100";
