@@ -54,7 +54,7 @@ Eigen::MatrixXd dense(const Problem& problem) {
   for (std::size_t k = 0; k < problem.rows.size(); ++k) {
     const JamRows& rows = problem.rows[k];
     const JamLoad& load = problem.loads[k];
-    Eigen::MatrixXd speeds = Eigen::MatrixXd::Zero(3, 3 * problem.bodies);
+    Eigen::MatrixXd speeds = Eigen::MatrixXd::Zero(3, 3 * Eigen::Index{problem.bodies});
     for (int row = 0; row < 3; ++row) {
       for (int i = 0; i < 3; ++i) {
         if (rows.a >= 0) speeds(row, 3 * rows.a + i) = rows.of_a[row][i];
@@ -76,7 +76,7 @@ TEST(JamMatrix, SolvesWhatADenseMatrixSolves) {
       JamMatrix matrix(bodies, problem.rows);
       for (int time = 0; time < 2; ++time) {  // the second with other slopes in the same places
         ASSERT_TRUE(matrix.factorize(problem.mass, problem.rows, problem.loads));
-        const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(3 * bodies, -1, 2);
+        const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(3 * Eigen::Index{bodies}, -1, 2);
         const Eigen::VectorXd expected = dense(problem).partialPivLu().solve(right);
         EXPECT_LT((matrix.solve(right) - expected).norm(), 1e-8 * expected.norm())
             << bodies << " bodies, friction " << friction << ", time " << time;

@@ -12,7 +12,6 @@ namespace {
 
 using namespace scenes;
 using geometry::Point;
-using geometry::Vector;
 
 constexpr double kLength = 120;
 

@@ -217,7 +217,8 @@ Scene crowd(scenery::Random& random) {
   Scene scene = lefm_scene({});
   scene.water.drag_coefficient = 0;
   for (int i = 0; i < 36; ++i) {
-    const Point middle{13.0 * (i % 6), 13.0 * (i / 6)};
+    const int row = i / 6;
+    const Point middle{13.0 * (i % 6), 13.0 * row};
     const int corners = 3 + random.below(4);
     geometry::Polygon polygon;
     for (int k = 0; k < corners; ++k) {

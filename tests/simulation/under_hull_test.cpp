@@ -127,7 +127,7 @@ TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
   scene.ships[0].propulsion = ConstantThrust{0};
   Simulation simulation(scene);
   run(simulation, 20);
-  World& world = const_cast<World&>(simulation.world());
+  auto& world = const_cast<World&>(simulation.world());
   ASSERT_EQ(world.population.tiles.size(), 1U);
   world.population.tiles[0].weight = 1e9;  // as if the whole hull were full of ice
   for (const double speed : {1e-3, 0.0, -1e-3}) {
@@ -201,7 +201,7 @@ TEST(UnderHull, AShipThatStopsKeepsItsIceAndOneThatBacksGivesItBack) {
   Simulation simulation(scene);
   Story story = run(simulation, 20);
   ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
-  World& world = const_cast<World&>(simulation.world());
+  auto& world = const_cast<World&>(simulation.world());
   world.population.bodies.velocity[0] = {0, 0};
   story = run(simulation, 60);
   EXPECT_TRUE(of_kind(story, EventKind::kResurface).empty());
