@@ -62,10 +62,14 @@ io::JsonValue described(const io::ShipPreset& ship) {
   return root;
 }
 
+void print_json(const io::JsonValue& value) {
+  write_out(to_json_text(value) + "\n");
+}
+
 void print_list_as_json() {
   io::JsonValue all{io::JsonValue::Array{}, 0};
   for (const io::ShipPreset& ship : io::ship_presets()) all.items().push_back(described(ship));
-  write_out(to_json_text(all) + "\n");
+  print_json(all);
 }
 
 ExitCode show(const std::string& name, bool is_json) {
@@ -79,10 +83,7 @@ ExitCode show(const std::string& name, bool is_json) {
     for (const io::ShipPreset& other : io::ship_presets()) names += fmt::format(" {}", other.name);
     return fail(kUsage, fmt::format("no ship \"{}\"; there are{}", name, names));
   }
-  if (is_json)
-    write_out(to_json_text(described(*ship)) + "\n");
-  else
-    print_ship(*ship);
+  is_json ? print_json(described(*ship)) : print_ship(*ship);
   return kDone;
 }
 

@@ -38,6 +38,10 @@ inline void join() {}  ///< after the loop
 
 }  // namespace fork_join
 
+// What one thread takes at a time of a step's contacts and islands: fewer are not worth another thread.
+inline constexpr std::size_t kContactsPerChunk = 512;
+inline constexpr std::size_t kIslandsPerChunk = 32;  ///< most have one or two contacts
+
 inline std::size_t chunk_count(std::size_t count, std::size_t chunk) {
   return (count + chunk - 1) / chunk;
 }

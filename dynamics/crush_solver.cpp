@@ -10,9 +10,7 @@
 namespace polynya::dynamics {
 namespace {
 
-constexpr std::size_t kContactsPerChunk = 512;
-constexpr std::size_t kIslandsPerChunk = 32;  ///< most have one or two contacts
-constexpr int kPlainSweeps = 4;               ///< before the acceleration; most islands need no more
+constexpr int kPlainSweeps = 4;  ///< before the acceleration; most islands need no more
 /// An island that needs more sweeps is jammed: Newton's method, now and again. Most small ones come to their
 /// solution by some more.
 constexpr int sweeps_to_jam(const Island& island) {

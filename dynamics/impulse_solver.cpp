@@ -16,10 +16,6 @@ constexpr double kFrictionSlack = 2;
 /// How much of an unconverged step's impulses the next one starts from: a wrong start must decay, not grow.
 constexpr double kTrustUnconverged = 0.5;
 
-/// Contacts that one thread takes at a time: fewer are not worth another thread.
-constexpr std::size_t kContactsPerChunk = 512;
-constexpr std::size_t kIslandsPerChunk = 32;  ///< most have one or two contacts
-
 }  // namespace
 
 void ImpulseSolver::fill_constraints(const Bodies& bodies, std::vector<Contact>& contacts,

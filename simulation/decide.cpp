@@ -162,11 +162,10 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
 
 void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
             Counts& counts) {
-  constexpr std::size_t kContactsPerChunk = 512;  // fewer are not worth another thread
   step.fractures.clear();
   step.slopes.clear();
   step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
-  dynamics::for_chunks(step.contacts.size(), kContactsPerChunk, threads,
+  dynamics::for_chunks(step.contacts.size(), dynamics::kContactsPerChunk, threads,
                        [&](std::size_t, std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
                            Contact& c = step.contacts[i];
