@@ -29,7 +29,7 @@ Result<ChildOutput> convert(const std::filesystem::path& file, ForeignFormat for
                             bool to_degrees, std::size_t longest) {
   std::vector<std::string> words{
       kConverter, "-f", "GeoJSON", "-lco", "RFC7946=NO", "-lco", "COORDINATE_PRECISION=15", "-dim", "XY"};
-  if (to_degrees) words.insert(words.end(), {"-t_srs", "EPSG:4326"});
+  if (to_degrees) words.insert(words.end(), {"-t_srs", "OGC:CRS84"});
   words.insert(words.end(), {"/vsistdout/", std::filesystem::absolute(file).string()});
   if (!layer.empty()) words.push_back(layer);
   auto output = run_child(words, longest);
@@ -71,12 +71,16 @@ Result<std::string> read_foreign_file(const std::filesystem::path& file, Foreign
     return fail(fmt::format("ogr2ogr could not read it: {}",
                             reason.empty() ? fmt::format("it ended with code {}", output->code) : reason));
   }
-  // A system without a code is not written: where the file has one, ogr2ogr can convert from it.
-  const std::string_view head = std::string_view(output->out).substr(0, output->out.find("\"features\""));
-  if (head.find("\"crs\"") != std::string_view::npos) return std::move(output->out);
+  // ogr2ogr writes no system that has no code, and of a GeoPackage not WGS 84 either: where the layer has
+  // one, it can convert from it. Without one it fails.
+  const std::string_view head = std::string_view(output->out).substr(0, output->out.find("\"features\":"));
+  if (head.find("\"crs\":") != std::string_view::npos) return std::move(output->out);
   auto in_degrees = convert(file, format, layer, true, longest);
-  if (in_degrees && in_degrees->code == 0 && !in_degrees->out.empty()) return std::move(in_degrees->out);
-  return std::move(output->out);
+  if (!in_degrees || in_degrees->code != 0 || in_degrees->out.empty()) return std::move(output->out);
+  std::string& text = in_degrees->out;
+  if (text.substr(0, text.find("\"features\":")).find("\"crs\":") == std::string::npos)
+    text.insert(text.find('{') + 1, R"("crs": {"type": "name", "properties": {"name": "OGC:CRS84"}},)");
+  return std::move(text);
 }
 
 }  // namespace polynya::io
