@@ -120,6 +120,8 @@ NameAndUnit part_at_unit(std::string_view key) {
 /// The property that a key may be meant for, and the factor of its unit.
 std::optional<NearMiss> near_miss_of(const std::string& key) {
   constexpr std::size_t kShort = 4;  // letters: names this short are all near one another
+  constexpr std::size_t kLong = 100;
+  if (key.size() > kLong) return {};
   const NameAndUnit given = part_at_unit(key);
   std::vector<std::string> names;
   std::vector<std::string_view> long_names;

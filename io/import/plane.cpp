@@ -87,6 +87,7 @@ class PlaneImport {
   tl::expected<PlaneReport, PlaneError> run(const std::string& crs) {
     auto system = system_of(crs);
     if (!system) return tl::unexpected(system.error());
+    if (auto checked = check_numbers(); !checked) return tl::unexpected(checked.error());
     if (!system->empty()) {
       if (auto projected = project(*system, !crs.empty()); !projected)
         return tl::unexpected(projected.error());
@@ -115,12 +116,14 @@ class PlaneImport {
     return found;
   }
 
-  /// Refuses floes one by one; the file where they are all of it. words_of(floe, others) is why: `others` are
-  /// how many more there are where the file is refused, none where the floe is.
+  /// Refuses floes one by one; the file where they are more of it than `share`, or all. words_of(floe,
+  /// others) is why: `others` are how many more there are where the file is refused, none where the floe is.
   template <class Words>
-  Done refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of) {
+  Done refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of, double share = 1) {
     if (misplaced.empty()) return {};
-    if (std::ranges::count(refused_, "") == std::ssize(misplaced))
+    const auto kept = static_cast<std::size_t>(std::ranges::count(refused_, ""));
+    const auto count = static_cast<double>(misplaced.size());
+    if (misplaced.size() == kept || count > share * static_cast<double>(kept))
       return refuse(words_of(misplaced.front(), Others(misplaced.size() - 1)), misplaced.front().floe);
     for (const MisplacedFloe& one : misplaced) refused_[one.floe] = words_of(one, Others());
     return {};
@@ -222,8 +225,16 @@ class PlaneImport {
     return {};
   }
 
+  Done check_numbers() {
+    const auto is_none = [](Point p) { return !is_finite(p); };
+    return refuse_floes(find_floes(is_none), [](const MisplacedFloe& one, Others) {
+      return fmt::format("found [{}, {}], allowed: coordinates that are finite numbers", one.point.x,
+                         one.point.y);
+    });
+  }
+
   Done check_degrees() {
-    const auto is_beyond = [](Point p) { return is_finite(p) && !is_in_degrees(p); };
+    const auto is_beyond = [](Point p) { return !is_in_degrees(p); };
     return refuse_floes(find_floes(is_beyond), [](const MisplacedFloe& one, Others others) {
       const Point p = one.point;
       if (std::abs(p.y) <= 90)
@@ -277,7 +288,7 @@ class PlaneImport {
         const Ring before = ring;
         steps(ring);
         for (std::size_t k = 0; k < ring.size(); ++k)
-          if (is_finite(before[k]) && !is_finite(ring[k])) without_image = before[k];
+          if (!is_finite(ring[k])) without_image = before[k];
       });
       if (without_image) lost.push_back({i, *without_image});
     }
@@ -340,7 +351,7 @@ class PlaneImport {
     std::vector<double> xs, ys;
     std::vector<Point> points;
     for (std::size_t i = 0; i < floes_.size(); ++i)
-      if (is_kept(i)) std::ranges::copy_if(floes_[i].polygon.outer, std::back_inserter(points), is_finite);
+      if (is_kept(i)) std::ranges::copy(floes_[i].polygon.outer, std::back_inserter(points));
     if (points.empty()) return;
     for (const Point p : points) {
       xs.push_back(p.x);
@@ -362,11 +373,12 @@ class PlaneImport {
   Done check_distance() {
     const auto far =
         find_floes([](Point p) { return std::max(std::abs(p.x), std::abs(p.y)) > kFarthestFloe; });
-    return refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
+    const auto words_of = [&](const MisplacedFloe& one, Others others) {
       return fmt::format("found [{:.12g}, {:.12g}]{}, allowed: coordinates from {:g} to {:g} [m]: {}",
                          one.point.x, one.point.y, more_in_words(others), -kFarthestFloe, kFarthestFloe,
                          settings_.shift_in_words);
-    });
+    };
+    return refuse_floes(far, words_of, 0.5);  // most of them: the file needs a shift
   }
 
   /// ", and as far in 3 more floes"

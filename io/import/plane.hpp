@@ -50,11 +50,11 @@ struct PlaneError {
 
 /// Brings floes to metres in a plane, by PROJ, their velocities with them. `crs` is the system that the file
 /// names, or empty. `refused` has for each floe why it is refused, "" for none: those are left as they are.
-/// Added to it are floes with a latitude beyond ±90, without an image, and farther from the origin than
-/// kFarthestFloe (in the other hemisphere, say). Where that is all of them, it is the error; others are
-/// degrees without a system or an origin, systems that PROJ does not know, and planes that are not in metres.
-/// Coordinates without system that do not look like degrees (io/text/degrees.hpp) are metres of the plane.
-/// Vertices that are not finite stay so.
+/// Added to it are floes with a coordinate that is not finite, with a latitude beyond ±90, without an image,
+/// and farther than kFarthestFloe from the origin (in the other hemisphere, say). Where that is all of them
+/// (most, of those far in the plane), it is the error; others are degrees without a system or an origin,
+/// systems that PROJ does not know, and planes that are not in metres. Coordinates without system that do not
+/// look like degrees (io/text/degrees.hpp) are metres of the plane.
 tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes,
                                                      std::vector<std::string>& refused,
                                                      const std::string& crs, const PlaneSettings& settings);

@@ -96,6 +96,9 @@ TEST_F(FloeFile, CoordinatesTooFarAwayAreNamedOnce) {
   for (const char* part :
        {"found [1104312.5, -512345.25], and as far in 1 more", "-1e+06 to 1e+06", R"("shift": true)"})
     EXPECT_NE(found.find(part), std::string::npos) << part << "\n" << found;
+  EXPECT_NE(problems(collection({square(0, 0, 5), square(9, 0, 5), square(1.2e6, 0, 800)}))
+                .find("floes[0].file (its floe 2): found [1200000, 0], allowed"),
+            std::string::npos);
   EXPECT_NE(problems(collection({R"({"type":"Polygon","coordinates":[[[0,0],[null,0],[1,1],[0,0]]]})"}))
                 .find("found null, allowed: a coordinate [m]"),
             std::string::npos);
