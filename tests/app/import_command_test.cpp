@@ -136,7 +136,8 @@ TEST_F(Import, PropertiesThatAreNearlyReadAreNoted) {
   expect_parts(
       done.err,
       {"none of 2 floes has a thickness of its own",
-       R"(note: mapped.geojson: property "thickness_cm" of 1 floe is not read; did you mean thickness_m? --property 'thickness_m=thickness_cm*0.01' reads it)",
+       R"(note: mapped.geojson: property "thickness_cm" of 1 floe is not read; did you mean thickness_m? )"
+       "--property 'thickness_m=thickness_cm*0.01' reads it",
        "--property 'thickness_m=Thickness_M'"});
   const io::JsonDocument report = io::parse_json(done.out);
   EXPECT_EQ(report.root.find("near_misses")->items().size(), 2U) << done.out;
