@@ -199,17 +199,18 @@ class SceneReader {
                      .severity = severity});
     };
     const std::string thickness = thickness_in_words(file.with_thickness, file.floes);
+    bool is_partial = file.with_thickness > 0 && file.with_thickness < file.floes;
     for (const NearMiss& miss : file.near_misses) {
       if (miss.floes == 0) continue;
+      const bool is_thickness = miss.meant == "thickness_m";
       add(Severity::kWarning,
-          fmt::format(
-              "property \"{}\" of {} floe{} is not read; did you mean {}? \"import\": {{\"properties\": "
-              "\"{}\"}} reads it; {}",
-              miss.key, miss.floes, miss.floes == 1 ? "" : "s", miss.meant, as_property_name(miss),
-              thickness));
+          fmt::format("property \"{}\" of {} floe{} is not read; did you mean {}? \"import\": "
+                      "{{\"properties\": \"{}\"}} reads it{}",
+                      miss.key, miss.floes, miss.floes == 1 ? "" : "s", miss.meant, as_property_name(miss),
+                      is_thickness ? "; " + thickness : ""));
+      is_partial = is_partial && !is_thickness;
     }
-    if (file.with_thickness > 0 && file.with_thickness < file.floes)
-      add(Severity::kHint, thickness + "; the others have that of the scene");
+    if (is_partial) add(Severity::kHint, thickness + "; the others have that of the scene");
   }
 
   std::filesystem::path folder_;

@@ -198,7 +198,7 @@ TEST_F(FloeFile, PropertiesThatAreNearlyReadAreWarnedOf) {
   for (const char* part :
        {R"(warning: floes[0].file: property "thickness_cm" of 1 floe is not read; did you mean thickness_m?)",
         R"("import": {"properties": "thickness_m=thickness_cm*0.01"} reads it)",
-        "hint: floes[0].file: 1 of 2 floes has a thickness of its own"})
+        "reads it; 1 of 2 floes has a thickness of its own"})
     EXPECT_NE(hints.find(part), std::string::npos) << part << "\n" << hints;
   const auto named = read_scene(
       R"({"floes": [{"file": "floes.geojson", "import": {"properties": "thickness_m=thickness_cm*0.01"}}]})",
