@@ -181,16 +181,31 @@ class PlaneImport {
     return floes > 0 && (area < kLeastIce || 10 * near >= floes);
   }
 
-  /// The middle of the points in degrees on the sphere, longitude first, to 0.001°.
+  /// The middle of the points in degrees on the sphere, longitude first, to 0.001°; without points farther
+  /// than kFarthestFloe from most, which wrong numbers bring there.
   Point middle_of_degrees() const {
+    std::vector<Point> points;
+    std::vector<double> latitudes, longitudes;
+    for (std::size_t i = 0; i < floes_.size(); ++i)
+      if (is_kept(i))
+        std::ranges::copy_if(floes_[i].polygon.outer, std::back_inserter(points), is_in_degrees);
+    if (points.empty()) return {};
+    for (const Point p : points) {
+      latitudes.push_back(p.y / kDegrees);
+      longitudes.push_back(std::remainder(p.x - points[0].x, 360) / kDegrees);  // also across 180°
+    }
+    const double latitude = median(std::move(latitudes));
+    const double longitude = median(std::move(longitudes)) + points[0].x / kDegrees;
+    const auto is_near = [&](Point p) {
+      return great_circle(p.y / kDegrees, p.x / kDegrees, latitude, longitude) < kFarthestFloe;
+    };
+    const bool are_all = std::ranges::none_of(points, is_near);
     double x = 0, y = 0, z = 0;
-    for (std::size_t i = 0; i < floes_.size(); ++i) {
-      for (const Point p : floes_[i].polygon.outer) {
-        if (!is_kept(i) || !is_in_degrees(p)) continue;
-        x += std::cos(p.y / kDegrees) * std::cos(p.x / kDegrees);
-        y += std::cos(p.y / kDegrees) * std::sin(p.x / kDegrees);
-        z += std::sin(p.y / kDegrees);
-      }
+    for (const Point p : points) {
+      if (!are_all && !is_near(p)) continue;
+      x += std::cos(p.y / kDegrees) * std::cos(p.x / kDegrees);
+      y += std::cos(p.y / kDegrees) * std::sin(p.x / kDegrees);
+      z += std::sin(p.y / kDegrees);
     }
     const auto to_thousandths = [](double value) { return std::round(1000 * value) / 1000; };
     return {to_thousandths(kDegrees * std::atan2(y, x)),

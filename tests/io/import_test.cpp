@@ -225,6 +225,20 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
   }
 }
 
+/// A chosen origin is the middle of the floes, wherever a wrong number has one of them.
+TEST(Plane, AWrongNumberDoesNotMoveTheOriginThatIsChosen) {
+  PlaneSettings settings = plane();
+  settings.chooses_origin = true;
+  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.01), square(15.62, 78.2, 0.01),
+                                square(78.2, 15.6, 0.01)};
+  std::vector<std::string> refused(floes.size());
+  const auto report = bring_to_plane(floes, refused, "EPSG:4326", settings);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->origin->latitude / kRad, 78.205, 0.001);
+  EXPECT_NEAR(report->origin->longitude / kRad, 15.615, 0.001);
+  EXPECT_NE(refused[2].find("With latitude and longitude exchanged"), std::string::npos) << refused[2];
+}
+
 /// A wrong number: of one vertex, or of all of a floe.
 enum class Damage {
   kLatitudeTimesTen,
