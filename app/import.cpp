@@ -78,7 +78,7 @@ Outcome<io::FloeText> read_floes(const Options& options, const std::string& name
 
 /// What is wrong with the floes before their outlines are inspected, by floe.
 std::vector<std::string> read_properties(const io::FloeText& text, const io::PropertyNames& names,
-                                         std::vector<io::SourceFloe>& floes) {
+                                         std::vector<io::SourceFloe>& floes, io::NearMisses& near_misses) {
   std::vector<std::string> refused(text.entries.size());
   for (std::size_t i = 0; i < text.entries.size(); ++i) {
     const io::FloeEntry& entry = text.entries[i];
@@ -92,6 +92,7 @@ std::vector<std::string> read_properties(const io::FloeText& text, const io::Pro
     if (entry.properties) {
       const io::JsonDocument properties = io::parse_json("{" + *entry.properties + "}");
       floe.properties = read_floe_properties(properties.root, names, bad);
+      near_misses.add(properties.root, floe.properties);
     }
     if (entry.floe_id) floe.properties.floe_id = entry.floe_id;
     for (const io::BadProperty& one : bad)
@@ -115,8 +116,28 @@ void report_items(const std::string& name, const io::ImportOutcome& imported,
   if (reported > kMostReported) print_err("polynya: {} more; the report has all\n", reported - kMostReported);
 }
 
-io::Result<> write_results(const Options& options, const std::string& geojson, const std::string& report) {
-  if (auto written = write_output(options.out, geojson); !written) return written;
+void report_totals(const std::string& name, const io::ImportOutcome& imported,
+                   const std::vector<io::NearMiss>& near_misses) {
+  const io::ImportTotals& totals = imported.totals;
+  if (totals.read == 0) print_err("note: {}: no floes in it\n", name);
+  print_err("polynya: {}: {}\npolynya: {}\npolynya: {}\n", name, plane_in_words(imported.plane),
+            counts_in_words(totals), areas_in_words(totals));
+  if (totals.written > 0)
+    print_err("polynya: {}\n", io::thickness_in_words(totals.with_thickness, totals.written));
+  for (const io::NearMiss& miss : near_misses) {
+    if (miss.floes > 0)
+      print_err("note: {}: property \"{}\" of {} is not read; did you mean {}? --property '{}' reads it\n",
+                name, miss.key, counted(miss.floes, "floe"), miss.meant, as_property_name(miss));
+  }
+  if (std::ranges::any_of(imported.items, &io::ImportItem::is_outline_refused))
+    print_err("polynya: --repair non-zero, or even-odd, makes valid polygons of crossing outlines\n");
+}
+
+/// Without `geojson` the report alone.
+io::Result<> write_results(const Options& options, const std::optional<std::string>& geojson,
+                           const std::string& report) {
+  if (geojson)
+    if (auto written = write_output(options.out, *geojson); !written) return written;
   if (!options.report.empty()) return write_output(options.report, report);
   return options.out == "-" ? io::Result<>{} : write_output("-", report);
 }
@@ -130,6 +151,7 @@ Outcome<bool> import_all(const Options& options) {
     return failure(kUsage, "--origin and --crs: the plane is either about a place or that of a system");
   settings.plane.origin = *origin;
   settings.plane.chooses_origin = true;
+  settings.plane.keeps_metres = false;
   settings.plane.origin_in_words = origin_option;
   settings.plane.shift_in_words =
       "--shift moves the floes to the middle of the plane, --origin LAT,LON projects them about a place";
@@ -143,7 +165,8 @@ Outcome<bool> import_all(const Options& options) {
   if (!text) return tl::unexpected(text.error());
   const std::string crs = text->crs.empty() ? "" : io::crs_name(io::parse_json(text->crs).root);
   std::vector<io::SourceFloe> floes;
-  const std::vector<std::string> refused = read_properties(*text, names, floes);
+  io::NearMisses near_misses(names);
+  const std::vector<std::string> refused = read_properties(*text, names, floes, near_misses);
   const auto imported = import_floes(floes, refused, crs, settings);
   if (!imported) {
     std::string place = name;
@@ -154,19 +177,18 @@ Outcome<bool> import_all(const Options& options) {
     return failure(kRefused, fmt::format("{}: {}; nothing was written", place, imported.error().words));
   }
   report_items(name, *imported, text->entries);
-  if (const auto written = write_results(options, to_geojson(*imported, floes, text->entries),
-                                         to_json_text(*imported, name, text->entries));
+  const io::ImportTotals& totals = imported->totals;
+  const bool are_all_refused = totals.refused > 0 && totals.refused == totals.read;
+  std::optional<std::string> geojson;
+  if (!are_all_refused) geojson = to_geojson(*imported, floes, text->entries);
+  if (const auto written =
+          write_results(options, geojson, to_json_text(*imported, name, text->entries, near_misses.found()));
       !written)
     return failure(kInputOutput, written.error());
-  if (text->entries.empty()) print_err("note: {}: no floes in it\n", name);
-  print_err("polynya: {}: {}\npolynya: {}\npolynya: {}\n", name, plane_in_words(imported->plane),
-            counts_in_words(imported->totals), areas_in_words(imported->totals));
-  const bool has_invalid = std::ranges::any_of(imported->items, [](const io::ImportItem& item) {
-    return item.refused.starts_with("self-crossing") || item.refused.starts_with("overlapping-edges");
-  });
-  if (has_invalid)
-    print_err("polynya: --repair non-zero, or even-odd, makes valid polygons of crossing outlines\n");
-  return imported->totals.refused == 0;
+  report_totals(name, *imported, near_misses.found());
+  if (are_all_refused)
+    return failure(kRefused, name + ": every floe was refused; only the report was written");
+  return totals.refused == 0;
 }
 
 int import_command(const Options& options) {

@@ -43,11 +43,12 @@ void print_floes(const io::LoadedScene& loaded) {
         drawn.most, drawn.distance);
   }
   for (const io::FileReport& file : loaded.files) {
-    print_out("floes[{}]: {}{}\n", file.group, io::plane_in_words(file.plane),
+    print_out("floes[{}]: {}{}; {}\n", file.group, io::plane_in_words(file.plane),
               file.run_time
                   ? fmt::format("; {} of a run at {:g} s", counted(file.floes, "floe"), *file.run_time)
               : file.totals ? "; " + io::counts_in_words(*file.totals)
-                            : "; " + counted(file.floes, "floe"));
+                            : "; " + counted(file.floes, "floe"),
+              io::thickness_in_words(file.with_thickness, file.floes));
     if (file.totals) print_out("floes[{}]: {}\n", file.group, io::areas_in_words(*file.totals));
   }
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/import/import_report.hpp"
 #include "io/scene/floe_group.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/pilot_check.hpp"
@@ -71,6 +72,7 @@ class SceneReader {
     check_scene(draft_, resolved_, problems_);
     if (problems_.count() > 0) return tl::unexpected(problems_.take());
     add_scene_hints(draft_, resolved_, problems_);
+    for (const FileReport& file : files_) add_file_hints(file);
     std::vector<Problem> hints = problems_.take();
     LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description),
                        to_json_text(resolved_), "",
@@ -185,6 +187,30 @@ class SceneReader {
     structure.propulsion = simulation::FixedInPlace{};
     draft_.ship_origins.push_back(
         {.offset = item.offset, .group = index, .is_structure = true, .list = "structures"});
+  }
+
+  /// Properties of a floe file that are probably meant to be read, and floes without a thickness among
+  /// others.
+  void add_file_hints(const FileReport& file) {
+    const auto add = [&](Severity severity, std::string sentence) {
+      problems_.add(0, file.offset,
+                    {.path = fmt::format("floes[{}].file", file.group),
+                     .sentence = std::move(sentence),
+                     .severity = severity});
+    };
+    const std::string thickness = thickness_in_words(file.with_thickness, file.floes);
+    bool is_partial = file.with_thickness > 0 && file.with_thickness < file.floes;
+    for (const NearMiss& miss : file.near_misses) {
+      if (miss.floes == 0) continue;
+      const bool is_thickness = miss.meant == "thickness_m";
+      add(Severity::kWarning,
+          fmt::format("property \"{}\" of {} floe{} is not read; did you mean {}? \"import\": "
+                      "{{\"properties\": \"{}\"}} reads it{}",
+                      miss.key, miss.floes, miss.floes == 1 ? "" : "s", miss.meant, as_property_name(miss),
+                      is_thickness ? "; " + thickness : ""));
+      is_partial = is_partial && !is_thickness;
+    }
+    if (is_partial) add(Severity::kHint, thickness + "; the others have that of the scene");
   }
 
   std::filesystem::path folder_;
