@@ -7,7 +7,6 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/memory_check.hpp"
-#include "geometry/exact/exact_memory.hpp"
 #include "io/text/version.hpp"
 
 namespace polynya::app {
@@ -74,6 +73,5 @@ int guarded_command_line(int count, char** words) {
 
 int main(int count, char** words) {
   polynya::app::open_streams();
-  polynya::geometry::let_exact_numbers_outlast_memory();
   return polynya::app::close_streams(polynya::app::guarded_command_line(count, words));
 }

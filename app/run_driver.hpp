@@ -14,7 +14,7 @@ namespace polynya::app {
 /// The map of a run's last frame.
 struct DrawnMap {
   std::string name;                        ///< of the picture in the folder; empty where none was drawn
-  io::RunEnd end = io::RunEnd::kFinished;  ///< or kFolderFailure, kOutOfMemory
+  io::RunEnd end = io::RunEnd::kFinished;  ///< or kFolderFailure
   std::string reason = {};                 ///< of another end
 };
 
