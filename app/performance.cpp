@@ -44,7 +44,7 @@ Command add_performance(CLI::App& app) {
   auto values = std::make_shared<PythonOptions>(kOptions);
   auto is_list = std::make_shared<bool>(false);
   option(*command, "ship", *ship, "SHIP",
-         "A preset (polynya ships), or a JSON file with a ship as scenes have it")
+         "A preset (polynya ships), or a JSON file with a ship as scenes have it, which polynya ships checks")
       ->required();
   values->add_to(*command);
   command->add_flag("--list", *is_list, "Print the formulas' speeds and run nothing");
