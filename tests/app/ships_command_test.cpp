@@ -73,9 +73,11 @@ TEST(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
     const Outcome refused = polynya({"ships", "ship.json", "--json"}, {folder.path()});
     EXPECT_EQ(refused.code, 3) << text;
     EXPECT_TRUE(refused.out.empty()) << refused.out;
-    if (const bool is_whole = text.ends_with('}'); is_whole)
+    if (text.ends_with('}') || text.ends_with(']')) {
       EXPECT_EQ(refused.err.substr(0, expected.size()), expected) << text;
-    EXPECT_NE(refused.err.find("ship.json:1:"), std::string::npos) << refused.err;
+    }
+    EXPECT_TRUE(refused.err.starts_with("ship.json:1:") || refused.err.starts_with("ship.json:3:"))
+        << refused.err;
   }
 }
 
@@ -109,8 +111,8 @@ TEST(ShipsCommand, PerformanceNeedsMore) {
   EXPECT_EQ(polynya({"ships", "outline.json"}, {folder.path()}).code, 0);
   const Outcome refused = polynya({"ships", "outline.json", "--for-performance"}, {folder.path()});
   EXPECT_EQ(refused.code, 3);
-  for (const char* place : {"outline.json:2:28: hull.waterline_m: ", "outline.json:2:13: hull.draught_m: ",
-                            "outline.json:3:20: propulsion.engine: ", "outline.json:3:48: mooring: "})
+  for (const char* place : {"outline.json:2:29: hull.waterline_m: ", "outline.json:2:13: hull.draught_m: ",
+                            "outline.json:3:19: propulsion.engine: ", "outline.json:3:49: mooring: "})
     EXPECT_NE(refused.err.find(place), std::string::npos) << refused.err;
   const Outcome paper = polynya({"ships", "sawamura2017", "--for-performance"}, {folder.path()});
   EXPECT_EQ(paper.code, 3);
