@@ -22,6 +22,7 @@ Command add_inspect(CLI::App& app);
 Command add_man(CLI::App& app);
 Command add_movie(CLI::App& app);
 Command add_performance(CLI::App& app);
+Command add_read_json(CLI::App& app);
 Command add_resume(CLI::App& app);
 Command add_run(CLI::App& app);
 Command add_schema(CLI::App& app);

@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/options.hpp"
+#include "app/python.hpp"
 #include "app/write_output.hpp"
 #include "io/text/version.hpp"
 
@@ -190,6 +191,7 @@ Command add_page(CLI::App& app, const char* name, const char* meaning, std::stri
   auto file = std::make_shared<std::string>();
   option(*command, "file", *file, "FILE", "Where to; stdout if not given");
   return {command, [file, page, &app] {
+            describe_python_commands(app);
             const auto written = write_output(file->empty() ? "-" : *file, page(app));
             return written ? kDone : fail(kInputOutput, written.error());
           }};

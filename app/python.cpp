@@ -1,21 +1,30 @@
 #include "app/python.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/exit_code.hpp"
-#include "app/options.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr auto kModule =
+    "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
 /// The folder that holds the Python package: beside the build's app/, or the installed one.
 std::optional<fs::path> package_folder(const fs::path& program) {
@@ -32,19 +41,82 @@ std::string python() {
   return access(debians, X_OK) == 0 ? debians : "python3";
 }
 
+/// What Python prints on stdout; nothing where it cannot be started or fails.
+std::string printed_by_python(const std::vector<std::string>& words) {
+  int ends[2];
+  if (pipe(ends) != 0) return "";
+  flush_out();
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(ends[1], STDOUT_FILENO);
+    close(ends[0]);
+    close(ends[1]);
+    _exit(become_python(words));
+  }
+  close(ends[1]);
+  std::string text;
+  char block[1 << 12];
+  for (ssize_t count = 0; child > 0 && (count = read(ends[0], block, sizeof block)) > 0;)
+    text.append(block, static_cast<std::size_t>(count));
+  close(ends[0]);
+  int status = 0;
+  return child > 0 && waitpid(child, &status, 0) == child && status == 0 ? text : "";
+}
+
+/// Members of an object whose values are texts, as Python wrote them.
+std::string text_of(const io::JsonValue& object, std::string_view key) {
+  const io::JsonValue* found = object.find(key, io::JsonValue::Kind::kText);
+  return found ? found->text() : "";
+}
+
+/// As `python3 -m polynya.command --describe` has it.
+void describe(CLI::App& command, const io::JsonValue& described) {
+  command.footer(text_of(described, "footer"));
+  command.set_help_flag("-h,--help", "Print this help message and exit");
+  for (const io::JsonValue& option : described.find("options")->items()) {
+    const std::string name = text_of(option, "name"), type = text_of(option, "type"),
+                      meaning = text_of(option, "meaning");
+    if (type.empty())
+      command.add_flag(name, meaning);
+    else
+      command
+          .add_option_function<std::string>(
+              name, [](const std::string&) {}, meaning)
+          ->type_name(type);
+  }
+  for (const io::JsonValue& action : described.find("commands")->items())
+    describe(*command.add_subcommand(text_of(action, "name"), text_of(action, "meaning")), action);
+}
+
+/// All that follows the command's name is for Python, --help too.
+Command add_python_command(CLI::App& app, const char* name, const char* meaning) {
+  auto* command = app.add_subcommand(name, meaning);
+  command->set_help_flag();
+  command->prefix_command();
+  return {command, [command, name] {
+            std::vector<std::string> words{name};
+            for (std::string& word : command->remaining()) words.push_back(std::move(word));
+            return become_python(words);
+          }};
+}
+
 }  // namespace
 
-void PythonOptions::add_to(CLI::App& command) {
-  for (std::size_t i = 0; i < options_.size(); ++i)
-    option(command, options_[i].name, values_[i], options_[i].value, options_[i].meaning);
+Command add_figures(CLI::App& app) {
+  return add_python_command(app, "figures", "Draw a run, or several side by side, for print");
+}
+Command add_movie(CLI::App& app) {
+  return add_python_command(app, "movie", "Make a film of a run: the ice, and the force on the ship");
+}
+Command add_performance(CLI::App& app) {
+  return add_python_command(app, "performance",
+                            "Find the speed that a ship keeps in level ice, by thickness");
+}
+Command add_study(CLI::App& app) {
+  return add_python_command(app, "study", "Plan, run and gather many runs of one scene");
 }
 
-void PythonOptions::append_to(std::vector<std::string>& words) const {
-  for (std::size_t i = 0; i < options_.size(); ++i)
-    if (!values_[i].empty()) words.push_back(fmt::format("{}={}", options_[i].name, values_[i]));
-}
-
-int become_python(const std::string& module, const std::vector<std::string>& words) {
+int become_python(const std::vector<std::string>& words) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const auto package = package_folder(program);
@@ -58,7 +130,7 @@ int become_python(const std::string& module, const std::vector<std::string>& wor
   setenv("PYTHONPATH", (package->string() + (more && *more ? ":" + std::string(more) : "")).c_str(), 1);
   setenv("PYTHONSAFEPATH", "1", 1);  // no module of the working folder
   setenv("POLYNYA_PROGRAM", program.c_str(), 1);
-  std::vector<std::string> line{python(), "-m", module};
+  std::vector<std::string> line{python(), "-m", kModule};
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> arguments;
   arguments.reserve(line.size() + 1);
@@ -69,6 +141,17 @@ int become_python(const std::string& module, const std::vector<std::string>& wor
   return fail(kInputOutput,
               fmt::format("{}: {}; this command needs Python: ./setup.sh python, or apt-get install python3",
                           line[0], std::strerror(errno)));
+}
+
+void describe_python_commands(CLI::App& app) {
+  const io::JsonDocument described = io::parse_json(printed_by_python({"--describe"}));
+  for (const char* name : {"figures", "movie", "performance", "study"}) {
+    CLI::App& command = *app.get_subcommand(name);
+    if (const io::JsonValue* found = described.root.find(name))
+      describe(command, *found);
+    else
+      command.footer(fmt::format("polynya {} --help explains its options.\n", name));
+  }
 }
 
 }  // namespace polynya::app

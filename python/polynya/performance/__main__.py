@@ -1,5 +1,4 @@
-"""`polynya performance SHIP` (app/performance.cpp starts it)."""
-import argparse
+"""`polynya performance SHIP` (polynya.command starts it)."""
 import concurrent.futures
 import csv
 import json
@@ -15,43 +14,9 @@ from ..program import program
 from ..study.case import DONE, FAILED, STOPPED
 from ..study.located_json import read_json
 from .curve import Curve, RunFailed
+from .options import command_line
 
 INVALID = 3
-
-
-def thicknesses(text):
-    try:
-        values = sorted({float(part) for part in text.split(",")})
-    except ValueError:
-        values = []
-    if not values or not all(0 < value <= 10 for value in values):
-        raise argparse.ArgumentTypeError(f"found {text}, allowed: thicknesses > 0, ≤ 10 [m], as 0.4,0.8,1.2")
-    return values
-
-
-def share(text):
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0
-    if not 0 < value < 1:
-        raise argparse.ArgumentTypeError(f"found {text}, allowed: a share > 0, < 1")
-    return value
-
-
-def command_line():
-    """What app/performance.cpp passes on; it has the help."""
-    parser = argparse.ArgumentParser(prog="polynya performance")
-    parser.add_argument("ship")
-    parser.add_argument("--thickness", type=thicknesses)
-    parser.add_argument("--flexural-strength", type=float, default=500e3)
-    parser.add_argument("--friction", type=float, default=0.1)
-    parser.add_argument("--error", type=share, default=0.03)
-    parser.add_argument("--step", type=float, default=0.01)
-    parser.add_argument("--out")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
-    parser.add_argument("--list", action="store_true")
-    return parser
 
 
 def fail(code, message):
@@ -222,4 +187,6 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    from ..command import run
+
+    sys.exit(run("performance", main))
