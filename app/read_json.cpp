@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 
 #include "app/commands.hpp"
@@ -57,7 +58,7 @@ class LocatedWriter {
         json_value_.value(value.boolean());
         break;
       case io::JsonValue::Kind::kNumber:
-        json_value_.value(value.number());
+        write_number(value.number());
         break;
       case io::JsonValue::Kind::kText:
         json_value_.value(value.text());
@@ -69,6 +70,14 @@ class LocatedWriter {
         write_members(value.members());
         break;
     }
+  }
+  /// A whole number without point and exponent, by which Python knows one.
+  void write_number(double number) {
+    constexpr double kLargestWhole = 9007199254740992.0;  // 2^53, from where doubles are more than 1 apart
+    if (std::trunc(number) == number && std::abs(number) <= kLargestWhole)
+      json_value_.json(fmt::format("{}", static_cast<std::int64_t>(number)));
+    else
+      json_value_.value(number);
   }
   void write_items(const io::JsonValue::Array& items) {
     json_value_.open('[');

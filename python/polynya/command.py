@@ -4,6 +4,7 @@ How a command may end is decided here, once for all of them: by the exit codes o
 sentences. A traceback goes into a file.
 """
 import importlib
+import io
 import json
 import os
 import signal
@@ -18,25 +19,49 @@ OPTIONS = {  # where the command line of each is made
 }
 
 
+class Stdout(io.FileIO):
+    """stdout whose errors name it: a full disk, or a reader that went away."""
+
+    def write(self, data):
+        try:
+            return super().write(data)
+        except OSError as error:
+            error.filename = "stdout"
+            raise
+
+
+def open_streams():
+    """Makes stdout one whose errors name it; both take any file's name, in any locale, as in the commands in C++."""
+    buffer = io.BufferedWriter(Stdout(1, "w", closefd=False))
+    sys.stdout = io.TextIOWrapper(buffer, "utf-8", "surrogateescape", line_buffering=os.isatty(1))
+    sys.stderr.reconfigure(encoding="utf-8", errors="surrogateescape")
+
+
 def run(name, main):
-    """Runs the main() of a command, and ends its text on stdout. Returns an exit code, whatever main() raises."""
-    for stream in (sys.stdout, sys.stderr):  # as the commands in C++: any file's name can be printed, in any locale
-        stream.reconfigure(encoding="utf-8", errors="surrogateescape")
+    """Runs the main() of a command and writes what it printed. Returns an exit code, whatever main() raises."""
     try:
         code = main()
     except BaseException as error:
         code = end_of(name, error)
-    fault = fault_of_stdout()
-    if fault is None:
-        return code
-    if isinstance(fault, BrokenPipeError):
-        return CLOSED_PIPE if code in (0, DEFECT, INPUT_OUTPUT) else code
-    return code or fail("polynya", f"stdout: {fault.strerror}")
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        code = code or end_of(name, error)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left is lost, without another message
+    return code
 
 
 def fail(name, message, code=INPUT_OUTPUT):
-    print(f"{name}: {message}", file=sys.stderr)
+    report(f"{name}: {message}")
     return code
+
+
+def report(message):
+    """Prints a message on stderr, where that is still read."""
+    try:
+        print(message, file=sys.stderr, flush=True)
+    except OSError:
+        pass
 
 
 def end_of(name, error):
@@ -50,7 +75,7 @@ def end_of(name, error):
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGINT)
     if isinstance(error, InputError):
-        print(error, file=sys.stderr)
+        report(error)
         return error.code
     if isinstance(error, FolderError):
         return fail(command, error)
@@ -58,23 +83,14 @@ def end_of(name, error):
         return fail(command, missing_package(error))
     if isinstance(error, MemoryError):
         return fail(command, "out of memory", FAILED)
-    if isinstance(error, OSError) and error.filename is not None:
-        return fail(command, f"{os.fsdecode(error.filename)}: {error.strerror}")
-    if isinstance(error, OSError) and error.strerror:
-        # Of stdout, run() reports it.
-        return INPUT_OUTPUT if fault_of_stdout(keep=True) else fail(command, error.strerror)
+    if isinstance(error, BrokenPipeError):  # the reader of stdout or stderr went away
+        return CLOSED_PIPE
+    if isinstance(error, OSError) and error.filename == "stdout":
+        return fail("polynya", f"stdout: {error.strerror}")
+    if isinstance(error, OSError):
+        place = f"{os.fsdecode(error.filename)}: " if isinstance(error.filename, (str, bytes)) else ""
+        return fail(command, f"{place}{error.strerror or error}")
     return fail(command, defect(name, error), DEFECT)
-
-
-def fault_of_stdout(keep=False):
-    """Why what was printed cannot be written; None where it can. Nothing more is written then, but to `keep` it."""
-    try:
-        sys.stdout.flush()
-    except OSError as error:
-        if not keep:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return error
-    return None
 
 
 def defect(name, error):
@@ -103,6 +119,7 @@ def describe():
 
 
 def main():
+    open_streams()
     name, *words = sys.argv[1:]
     if name == "--describe":
         return run("--describe", describe)

@@ -103,14 +103,14 @@ def test_wrong_words_are_answered_as_by_the_commands_in_c():
     for words, message in (
         ("figures x --load most", 'figures: --load: "most" is not one of: true, mean, max, ships, j-over-tau-c\n'),
         ("figures x --style slide", "; did you mean slides?\n"),
-        ("figures x --widnow 0,0,1,1", "figures: not expected: --widnow; did you mean --window?\n"),
+        ("figures x --widnow 0,0,1,1", "figures: not expected: --widnow 0,0,1,1; did you mean --window?\n"),
         ("figures x --window -1,-2,3", "figures: --window: found -1,-2,3, allowed: 4 numbers"),
         ("figures", "figures: RUN is missing: The run folders\n"),
         ("movie x --from", "movie: --from needs a value\n"),
         ("movie x --speed -inf", "movie: --speed: found -inf, allowed: a number > 0\n"),
         ("study", "study: a command is missing\ncommands: plan, run, slurm, parallel, gather, report\n"),
         ("study pln x", "study: no such command: pln; did you mean plan?\n"),
-        ("study run x --job 2", "study run: not expected: --job; did you mean --jobs?\npolynya study run --help explains"),
+        ("study run x --job 2", "study run: not expected: --job 2; did you mean --jobs?\npolynya study run --help explains"),
         ("performance araon --friction -1", "performance: --friction: found -1, allowed: a number ≥ 0, ≤ 2\n"),
     ):
         done = ended([PROGRAM, *words.split()])

@@ -297,7 +297,7 @@ def test_a_case_that_the_scene_does_not_allow_is_refused_before_anything_runs(fo
     path.write_text('{"scene": "plate.json", "set": {"floes[0].rectangle.corner_m": [-20, 0]}}')
     assert "plate.json:4:12" in study("plan", path, code=3)
     path.write_text('{"scene": "gone.json"}')
-    assert f"{path}:1:11: scene: gone.json: no such file" in study("plan", path, code=3)
+    assert f"{path}:1:11: scene: {folder}/gone.json: no such file\n" in study("plan", path, code=3)
     path.write_text('{"scene": "s.json",}')
     assert study("plan", path, code=3).startswith(f"{path}:1:19: a comma too many")
 
@@ -683,7 +683,7 @@ def test_slurm_gets_the_memory_asked_for_twice_and_each_job_is_named_as_it_is_ta
         """#!/bin/sh
 for script; do :; done  # the last word
 grep -q mem-per-cpu=$LEAST "$script" || { echo "Memory specification can not be satisfied" >&2; exit 1; }
-case $script in */array.sbatch) echo 71 ;; *) echo "$1" >"$0.words"; echo "72;cluster" ;; esac
+case $script in */array.sbatch) echo 71 ;; *) echo "$2" >"$0.words"; echo "72;cluster" ;; esac
 """
     )
     sbatch.chmod(0o755)

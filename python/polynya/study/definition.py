@@ -11,6 +11,7 @@ from .located_json import LocatedJson, StudyError, shortened, shown
 
 LARGEST_SEED = 2**53 - 1
 LONGEST_RANGE = 10**6  # values
+LONGEST_NAME = 1000  # of a file [characters]
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
 KEYS = (
     "name",
@@ -82,7 +83,7 @@ class Reader:
         scene = study.get("scene")
         scenes = scene if isinstance(scene, list) else [scene]
         for i, name in enumerate(scenes or [None]):
-            if not isinstance(name, str) or not name or "\0" in name:
+            if not isinstance(name, str) or not name or "\0" in name or len(name) > LONGEST_NAME:
                 found = "nothing" if name is None else shown(name)
                 self.report(["scene", i], f"found {found}, allowed: a scene's file or a list of them")
         definition = Definition(
