@@ -175,62 +175,68 @@ int import_command(const Options& options) {
   return *done ? kDone : kRefused;
 }
 
-void add_plane_options(CLI::App& command, Options& options) {
+void add_plane_options(CommandLine& command, Options& options) {
   const char* const group = "The plane";
-  option(command, "--origin", options.origin, "LAT,LON",
-         "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
-         "origin")
-      ->group(group);
-  option(command, "--crs", options.settings.plane.target, "EPSG:n",
-         "The plane of this projected system instead; any name PROJ knows", not_empty())
-      ->group(group);
-  option(command, "--from", options.settings.plane.source, "EPSG:n",
-         "The file's system, where the file names none", not_empty())
-      ->group(group);
   command
-      .add_flag("--shift", options.settings.plane.is_shifted,
-                "Move the middle of the floes' box to (0, 0), by whole metres")
-      ->group(group);
+      .option(
+          "--origin", options.origin, "LAT,LON",
+          "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
+          "origin")
+      .in_group(group);
+  command
+      .option("--crs", options.settings.plane.target, "EPSG:n",
+              "The plane of this projected system instead; any name PROJ knows", not_empty())
+      .in_group(group);
+  command
+      .option("--from", options.settings.plane.source, "EPSG:n",
+              "The file's system, where the file names none", not_empty())
+      .in_group(group);
+  command
+      .flag("--shift", options.settings.plane.is_shifted,
+            "Move the middle of the floes' box to (0, 0), by whole metres")
+      .in_group(group);
 }
 
-void add_floe_options(CLI::App& command, Options& options) {
+void add_floe_options(CommandLine& command, Options& options) {
   io::ImportSettings& settings = options.settings;
-  set_choices<geometry::FillRule>(
-      *command.add_option("--repair", settings.repair,
-                          "Make valid polygons of outlines that are not, exactly, by what the rule fills; "
-                          "else they are refused"),
-      {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
-  option(command, "--simplify", settings.simplify, "M",
-         "Leave out vertices, each at most so far from the outline that is left [m]", between(0, 1e4));
-  option(command, "--min-area", settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
-  option(command, "--gap", settings.gap, "M",
-         "Least distance between floes: the smaller of two is trimmed to it [m]", between(0, 1e3));
-  option(command, "--layer", options.layer, "NAME", "Of a GeoPackage with several", not_empty());
   command
-      .add_option("--property", options.properties,
-                  "The file's name for a property, with a factor for its unit: thickness_m=THICK, "
-                  "thickness_m=CM*0.01; may be repeated")
-      ->type_name("KEY=NAME")
-      ->allow_extra_args(false);
+      .option("--repair", settings.repair, "",
+              "Make valid polygons of outlines that are not, exactly, by what the rule fills; "
+              "else they are refused")
+      .one_of<geometry::FillRule>(
+          {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
+  command.option("--simplify", settings.simplify, "M",
+                 "Leave out vertices, each at most so far from the outline that is left [m]",
+                 between(0, 1e4));
+  command.option("--min-area", settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
+  command.option("--gap", settings.gap, "M",
+                 "Least distance between floes: the smaller of two is trimmed to it [m]", between(0, 1e3));
+  command.option("--layer", options.layer, "NAME", "Of a GeoPackage with several", not_empty());
+  command
+      .option("--property", options.properties, "KEY=NAME",
+              "The file's name for a property, with a factor for its unit: thickness_m=THICK, "
+              "thickness_m=CM*0.01; may be repeated")
+      .takes_one_each_time();
 }
 
 }  // namespace
 
-Command add_import(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("import", "Make a floe file of mapped ice: project, repair, part overlaps");
-  command->footer(kExamples);
+Command add_import(CommandLine& app) {
+  CommandLine command =
+      app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kExamples);
   auto options = std::make_shared<Options>();
-  option(*command, "file", options->file, "FILE",
-         "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
-         "for stdin")
-      ->required();
-  option(*command, "--out", options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty())
-      ->required();
-  option(*command, "--report", options->report, "FILE",
-         "The report, JSON; stdout if not given, unless the floes go there");
-  add_plane_options(*command, *options);
-  add_floe_options(*command, *options);
+  command
+      .option(
+          "file", options->file, "FILE",
+          "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
+          "for stdin")
+      .required();
+  command.option("--out", options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty())
+      .required();
+  command.option("--report", options->report, "FILE",
+                 "The report, JSON; stdout if not given, unless the floes go there");
+  add_plane_options(command, *options);
+  add_floe_options(command, *options);
   return {command, [options] { return import_command(*options); }};
 }
 

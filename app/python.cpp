@@ -1,5 +1,6 @@
 #include "app/python.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::array<std::string_view, 4> kPythonCommands{"figures", "movie", "performance", "study"};
 constexpr auto kModule =
     "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
@@ -69,50 +72,52 @@ std::string text_of(const io::JsonValue& object, std::string_view key) {
   return found ? found->text() : "";
 }
 
-/// As `python3 -m polynya.command --describe` has it.
-void describe(CLI::App& command, const io::JsonValue& described) {
-  command.footer(text_of(described, "footer"));
-  command.set_help_flag("-h,--help", "Print this help message and exit");
+/// As `python3 -m polynya.command --describe` has a command.
+void describe(CommandDescription& command, const io::JsonValue& described) {
+  command.examples = text_of(described, "examples");
+  command.rest = text_of(described, "rest");
+  command.options.clear();
   for (const io::JsonValue& option : described.find("options")->items()) {
-    const std::string name = text_of(option, "name"), type = text_of(option, "type"),
-                      meaning = text_of(option, "meaning");
-    if (type.empty())
-      command.add_flag(name, meaning);
-    else
-      command
-          .add_option_function<std::string>(
-              name, [](const std::string&) {}, meaning)
-          ->type_name(type);
+    OptionDescription added;
+    added.type = text_of(option, "type");
+    added.meaning = text_of(option, "meaning");
+    for (const io::JsonValue& name : option.find("names")->items()) added.names.push_back(name.text());
+    added.is_positional = added.names.empty();
+    added.takes_value = !added.is_positional && !added.type.empty();
+    command.options.push_back(std::move(added));
   }
-  for (const io::JsonValue& action : described.find("commands")->items())
-    describe(*command.add_subcommand(text_of(action, "name"), text_of(action, "meaning")), action);
+  for (const io::JsonValue& action : described.find("commands")->items()) {
+    CommandDescription& added = command.commands.emplace_back();
+    added.name = text_of(action, "name");
+    added.meaning = text_of(action, "meaning");
+    describe(added, action);
+  }
 }
 
 /// All that follows the command's name is for Python, --help too.
-Command add_python_command(CLI::App& app, const char* name, const char* meaning) {
-  auto* command = app.add_subcommand(name, meaning);
-  command->set_help_flag();
-  command->prefix_command();
+Command add_python_command(CommandLine& app, const char* name, const char* meaning) {
+  CommandLine command = app.add_command(name, meaning, "");
+  command.hand_on_arguments();
   return {command, [command, name] {
             std::vector<std::string> words{name};
-            for (std::string& word : command->remaining()) words.push_back(std::move(word));
+            for (std::string& word : command.remaining()) words.push_back(std::move(word));
             return become_python(words);
           }};
 }
 
 }  // namespace
 
-Command add_figures(CLI::App& app) {
+Command add_figures(CommandLine& app) {
   return add_python_command(app, "figures", "Draw a run, or several side by side, for print");
 }
-Command add_movie(CLI::App& app) {
+Command add_movie(CommandLine& app) {
   return add_python_command(app, "movie", "Make a film of a run: the ice, and the force on the ship");
 }
-Command add_performance(CLI::App& app) {
+Command add_performance(CommandLine& app) {
   return add_python_command(app, "performance",
                             "Find the speed that a ship keeps in level ice, by thickness");
 }
-Command add_study(CLI::App& app) {
+Command add_study(CommandLine& app) {
   return add_python_command(app, "study", "Plan, run and gather many runs of one scene");
 }
 
@@ -143,14 +148,14 @@ int become_python(const std::vector<std::string>& words) {
                           line[0], std::strerror(errno)));
 }
 
-void describe_python_commands(CLI::App& app) {
+void describe_python_commands(std::vector<CommandDescription>& commands) {
   const io::JsonDocument described = io::parse_json(printed_by_python({"--describe"}));
-  for (const char* name : {"figures", "movie", "performance", "study"}) {
-    CLI::App& command = *app.get_subcommand(name);
-    if (const io::JsonValue* found = described.root.find(name))
+  for (CommandDescription& command : commands) {
+    if (std::ranges::find(kPythonCommands, command.name) == kPythonCommands.end()) continue;
+    if (const io::JsonValue* found = described.root.find(command.name))
       describe(command, *found);
     else
-      command.footer(fmt::format("polynya {} --help explains its options.\n", name));
+      command.rest = fmt::format("polynya {} --help explains its options.\n", command.name);
   }
 }
 

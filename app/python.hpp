@@ -11,8 +11,8 @@ namespace polynya::app {
 /// Returns, with an ExitCode, only where that fails.
 int become_python(const std::vector<std::string>& words);
 
-/// Adds to the commands that are written in Python the options and examples that Python has for them: for
-/// pages that list all commands. Where there is no Python, each refers to its --help.
-void describe_python_commands(CLI::App& app);
+/// Gives those of the commands that are written in Python the options and examples that Python has for them:
+/// for pages that list all commands. Where there is no Python, each refers to its --help.
+void describe_python_commands(std::vector<CommandDescription>& commands);
 
 }  // namespace polynya::app

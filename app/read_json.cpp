@@ -3,7 +3,6 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/options.hpp"
 #include "app/read_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_writer.hpp"
@@ -133,11 +132,11 @@ int read_json(const std::string& file) {
 }  // namespace
 
 /// For the commands that are written in Python, not in the help.
-Command add_read_json(CLI::App& app) {
-  auto* command = app.add_subcommand("read-json", "Print a JSON file's value and the place of all in it");
-  command->group("");
+Command add_read_json(CommandLine& app) {
+  CommandLine command =
+      app.add_hidden_command("read-json", "Print a JSON file's value and the place of all in it");
   auto file = std::make_shared<std::string>();
-  option(*command, "file", *file, "FILE", "JSON with comments")->required();
+  command.option("file", *file, "FILE", "JSON with comments").required();
   return {command, [file] { return read_json(*file); }};
 }
 

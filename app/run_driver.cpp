@@ -117,17 +117,18 @@ DrawnMap draw_map(const std::filesystem::path& folder) {
   }
 }
 
-void add_run_options(CLI::App& command, DriverOptions& options) {
+void add_run_options(CommandLine& command, DriverOptions& options) {
   io::RunControl& control = options.control;
-  option(command, "--threads", control.threads, "N", "Threads to step on; results do not depend on it",
-         CLI::Range(1, 1024));
-  option(command, "--checkpoint-every", control.checkpoint_every, "S",
-         "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
-  option(command, "--checkpoint-every-wall", control.checkpoint_every_wall, "S",
-         "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
-  command.add_flag("--check", control.check,
-                   "Recompute every cross-index and sum after every step; stop if one differs");
-  command.add_flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
+  command.option("--threads", control.threads, "N", "Threads to step on; results do not depend on it",
+                 whole(1, 1024));
+  command.option("--checkpoint-every", control.checkpoint_every, "S",
+                 "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
+  command.option("--checkpoint-every-wall", control.checkpoint_every_wall, "S",
+                 "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]",
+                 between(0, 1e7));
+  command.flag("--check", control.check,
+               "Recompute every cross-index and sum after every step; stop if one differs");
+  command.flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
   add_progress(command, options.progress);
 }
 

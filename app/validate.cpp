@@ -86,20 +86,19 @@ int validate(const Options& options) {
 
 }  // namespace
 
-Command add_validate(CLI::App& app) {
-  auto* command = app.add_subcommand("validate", "Check a scene and report everything that is wrong with it");
-  command->footer(kExamples);
+Command add_validate(CommandLine& app) {
+  CommandLine command =
+      app.add_command("validate", "Check a scene and report everything that is wrong with it", kExamples);
   auto options = std::make_shared<Options>();
-  add_scene(*command, options->scene);
-  add_set(*command, options->set);
-  auto* cases =
-      option(*command, "--cases", options->cases, "FILE",
-             "Check the scene once for each line of this file, an object of paths and values", not_empty());
-  auto* resolved =
-      command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
-  resolved->excludes(cases);
-  command->add_flag("--json", options->json, "Print the problems as a JSON array; [] for none")
-      ->excludes(resolved);
+  add_scene(command, options->scene);
+  add_set(command, options->set);
+  auto cases = command.option(
+      "--cases", options->cases, "FILE",
+      "Check the scene once for each line of this file, an object of paths and values", not_empty());
+  auto resolved =
+      command.flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  resolved.excludes(cases);
+  command.flag("--json", options->json, "Print the problems as a JSON array; [] for none").excludes(resolved);
   return {command, [options] { return validate(*options); }};
 }
 

@@ -95,7 +95,7 @@ class Parser(argparse.ArgumentParser):
         positionals = [argument for argument in self.arguments() if not argument.option_strings]
         options = [argument for argument in self.arguments() if argument.option_strings]
         names = ["ACTION"] if self.actions_of else [f"{a.metavar}{'...' if a.nargs == '+' else ''}" for a in positionals]
-        parts = [self.meaning + ".\n" if self.meaning else "", self.footer(with_rest=False)]
+        parts = [self.meaning + ".\n" if self.meaning else "", self.shown_examples()]
         parts.append(f"Usage: {self.prog} {' '.join(['[OPTIONS]', *names])}\n")
         for title, found in (("Positionals", positionals), ("Options", options)):
             if found:
@@ -104,23 +104,17 @@ class Parser(argparse.ArgumentParser):
             parts.append("Subcommands:\n" + "".join(entry(name, of.meaning) for name, of in self.commands().items()))
         return "\n".join([*filter(None, parts), self.rest]).rstrip("\n") + "\n"
 
-    def footer(self, with_rest=True):
-        examples = "Examples:\n" + "".join(f"  polynya {example}\n" for example in self.examples)
-        return examples + (f"\n{self.rest}" if with_rest and self.rest else "")
+    def shown_examples(self):
+        return "Examples:\n" + "".join(f"  polynya {example}\n" for example in self.examples)
 
     def described(self):
         """For the manual page and the completion (app/python.cpp)."""
         options = [
-            {
-                "name": argument.option_strings[-1] if argument.option_strings else argument.dest,
-                "type": argument.metavar or "",
-                "meaning": argument.help,
-            }
+            {"names": argument.option_strings, "type": argument.metavar or "", "meaning": argument.help}
             for argument in self.arguments()
-            if argument.option_strings != ["-h", "--help"]
         ]
         commands = [{"name": name, "meaning": of.meaning, **of.described()} for name, of in self.commands().items()]
-        return {"footer": self.footer(), "options": options, "commands": commands}
+        return {"examples": self.shown_examples(), "rest": self.rest, "options": options, "commands": commands}
 
     def parse_known_args(self, args=None, namespace=None):
         found, rest = super().parse_known_args(self.joined(sys.argv[1:] if args is None else args), namespace)

@@ -122,6 +122,6 @@ def test_every_option_is_in_the_manual_page():
     for name, described in json.loads(ended([sys.executable, "-m", "polynya.command", "--describe"]).stdout).items():
         section = page[page.index(f".SS {name}\n"):]
         for part in [described, *described["commands"]]:
-            assert all(f".B {option['name']}" in section for option in part["options"] if option["name"].startswith("--"))
+            assert all(f".B {', '.join(option['names'])}" in section for option in part["options"])
     without = ended([PROGRAM, "man"], env={**os.environ, "POLYNYA_PYTHON": "/no/such"})
     assert without.returncode == 0 and "polynya movie \\-\\-help explains its options" in without.stdout
