@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from polynya._core import FloeMemory, Floes, PilotView, Scene, SeenShip, Ship, Simulation
     from polynya.cutting import Cut, cut
     from polynya.errors import (
-        FolderError, NotARunError, NotAStudyError, Problem, SceneError, SimulationError, UnfinishedError, VersionError, require)
+        FolderError, NotARunError, NotAStudyError, Problem, SceneError, SimulationError, UnfinishedError, VersionError,
+        require)
     from polynya.results.run import Run
     from polynya.results.study import Study
 
@@ -58,14 +59,15 @@ def _compiled():
     built = [match for folder in __path__ for match in glob.glob(_os.path.join(folder, "_core.cpython-*.so"))]
     digits = built[0].rpartition("_core.cpython-")[2].partition("-")[0] if built else ""
     running = "%d.%d" % sys.version_info[:2]
-    if digits and f"{digits[0]}.{digits[1:]}" != running:
+    version = f"{digits[:1]}.{digits[1:]}"
+    if digits and version != running:
         raise ImportError(
-            f"polynya's compiled module is built for Python {digits[0]}.{digits[1:]}, and this is {running} ({sys.executable}): use "
-            "/usr/bin/python3, or build Polynya again with -DPython_EXECUTABLE=" + sys.executable) from None
+            f"polynya's compiled module is built for Python {version}, and this is {running} ({sys.executable}): use "
+            f"/usr/bin/python3, or build Polynya again with -DPython_EXECUTABLE={sys.executable}") from None
     raise ImportError(
-        f"polynya's compiled module cannot be imported ({reason}): install what it needs with ./setup.sh python, build Polynya "
-        "again (cmake --preset dev && cmake --build --preset dev), and have build/dev/python in PYTHONPATH, not the source's "
-        "python folder") from reason
+        f"polynya's compiled module cannot be imported ({reason}): install what it needs with ./setup.sh python, build "
+        "Polynya again (cmake --preset dev && cmake --build --preset dev), and have build/dev/python in PYTHONPATH, not "
+        "the source's python folder") from reason
 
 
 def __getattr__(name):

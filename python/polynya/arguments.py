@@ -1,5 +1,5 @@
-"""Command lines of the commands that are written in Python: argparse, with the help and the messages of the commands in C++
-(app/guide.cpp, app/usage.cpp)."""
+"""Command lines of the commands that are written in Python: argparse, with the help and the messages of those in C++
+(app/command_line.cpp)."""
 import argparse
 import difflib
 import math
@@ -94,7 +94,8 @@ class Parser(argparse.ArgumentParser):
     def format_help(self):
         positionals = [argument for argument in self.arguments() if not argument.option_strings]
         options = [argument for argument in self.arguments() if argument.option_strings]
-        names = ["ACTION"] if self.actions_of else [f"{a.metavar}{'...' if a.nargs == '+' else ''}" for a in positionals]
+        names = [f"{argument.metavar}{'...' if argument.nargs == '+' else ''}" for argument in positionals]
+        names += ["ACTION"] if self.actions_of else []
         parts = [self.meaning + ".\n" if self.meaning else "", self.shown_examples()]
         parts.append(f"Usage: {self.prog} {' '.join(['[OPTIONS]', *names])}\n")
         for title, found in (("Positionals", positionals), ("Options", options)):

@@ -56,7 +56,8 @@ def missing_package(error):
     name = (error.name or "").partition(".")[0]
     if name == "polynya":
         return ""
-    found = f"{sys.executable} (Python {sys.version.split()[0]}) has no {name}" if name else f"{sys.executable}: {error}"
+    version = sys.version.split()[0]
+    found = f"{sys.executable} (Python {version}) has no {name}" if name else f"{sys.executable}: {error}"
     debians = "./setup.sh python, or apt-get install python3-numpy python3-scipy python3-matplotlib"
     if os.path.realpath(sys.executable) == os.path.realpath(DEBIANS):
         return f"{found}: {debians}"

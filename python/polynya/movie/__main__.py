@@ -15,7 +15,8 @@ EXAMPLES = (
     "movie runs/sawamura2017-fig4b --out voyage.mp4 --follow icebreaker",
     "movie runs/sawamura2017-fig4b --out frame.png --from 330          one picture, without ffmpeg",
 )
-REST = """Needs Python 3 with numpy and matplotlib, and ffmpeg (./setup.sh python). A film that is stopped leaves no file.
+REST = """Needs Python 3 with numpy and matplotlib, and ffmpeg (./setup.sh python). A film that is stopped
+leaves no file.
 Exit codes: 0 done, 2 usage, 5 input/output, or numpy, matplotlib or ffmpeg is missing.
 """
 

@@ -9,10 +9,14 @@ EXAMPLES = (
     "performance ship.json --thickness 0.4,0.8,1.2 --out runs/our-ship",
     "performance oden --list                   the formulas alone, without a run",
 )
-REST = """Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error and its
-change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes on.
+REST = """Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error
+and its change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes on.
 Needs Python 3 with numpy, and matplotlib for the figure (./setup.sh python).
 """
+
+
+def thicknesses(text):
+    return sorted(set(numbers(number(1e-3, 20, "m"))(text)))
 
 
 def command_line():
@@ -20,7 +24,7 @@ def command_line():
     parser = Parser("polynya performance", meaning, EXAMPLES, REST)
     parser.add("ship", "A preset (polynya ships), or a JSON file with a ship as scenes have it", metavar="SHIP")
     meaning = "Thicknesses [m], as 0.4,0.8,1.2; ten up to where formulas stop the ship if not given"
-    parser.add("--thickness", meaning, type=lambda text: sorted(set(numbers(number(1e-3, 20, "m"))(text))), metavar="LIST")
+    parser.add("--thickness", meaning, type=thicknesses, metavar="LIST")
     meaning = "Of the ice; 500e3 if not given"
     parser.add("--flexural-strength", meaning, type=number(1, 1e9, "Pa"), default=500e3, metavar="PA")
     parser.add("--friction", "Of ice on the hull; 0.1 if not given", type=number(0, 2), default=0.1, metavar="MU")

@@ -147,7 +147,7 @@ def main(words=None):
     except FileNotFoundError as error:
         if error.filename != program():
             raise
-        return command.fail("polynya study", f"{program()} is not there; start studies by `polynya study`", INPUT_OUTPUT)
+        return command.fail("polynya study", f"{program()} is not there; start studies by `polynya study`")
 
 
 if __name__ == "__main__":

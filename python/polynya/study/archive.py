@@ -94,13 +94,13 @@ def results_of(study, chunk):
     try:
         with tarfile.open(study.archive(chunk), "r") as tar:
             first = tar.next()  # extractfile(ROWS) would go through all of it
-            is_ours = first is not None and first.name == ROWS
-            results = [json.loads(line) for line in tar.extractfile(first).read().decode().splitlines()] if is_ours else []
+            text = tar.extractfile(first).read().decode() if first is not None and first.name == ROWS else ""
+            results = [json.loads(line) for line in text.splitlines()]
             if len(results) == len(study.cases_of(chunk)) and all("state" in result for result in results):
                 return results
     except (tarfile.TarError, ValueError, TypeError):
         pass
-    raise StudyError(f"{study.archive(chunk)}: no archive of a study's chunk, or damaged; remove it to run its cases", 5)
+    raise StudyError(f"{study.archive(chunk)}: damaged, or no study's; remove it to run its cases again", 5)
 
 
 def all_states(study):

@@ -1,4 +1,4 @@
-"""JSON whose values know their place, as the program itself reads it (`polynya read-json`), and problems that name it."""
+"""JSON whose values know their place, as the program itself reads it (`polynya read-json`), and problems with it."""
 import dataclasses
 import json
 import re
@@ -38,7 +38,8 @@ class LocatedJson:
         done = subprocess.run([program(), "read-json", "--", self.file], capture_output=True, check=False)
         if done.returncode != 0:
             words = done.stderr.decode("utf-8", "surrogateescape").splitlines()
-            raise StudyError(words or f"{self.file}: polynya read-json: {done.returncode}", 3 if done.returncode == 3 else 5)
+            code = 3 if done.returncode == 3 else 5
+            raise StudyError(words or f"{self.file}: polynya read-json: {done.returncode}", code)
         read = json.loads(done.stdout)
         self.value, self._places = read["value"], read["places"]
 

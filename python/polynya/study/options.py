@@ -11,11 +11,11 @@ EXAMPLES = (
     "study gather studies/pack-ice-loads             one table of all cases",
     "study report studies/pack-ice-loads             statistics, pictures and a page",
 )
-REST = """polynya study plan --help, and so on, explains each one's options. Studies need Python 3, report also numpy, scipy and
-matplotlib (./setup.sh python).
+REST = """polynya study plan --help, and so on, explains each one's options. Studies need Python 3, report also numpy,
+scipy and matplotlib (./setup.sh python).
 
-Exit codes: 0 all cases finished, 2 usage, 3 study or scene invalid, 4 cases failed, 5 input/output, 75 cases are unfinished
-or were stopped.
+Exit codes: 0 all cases finished, 2 usage, 3 study or scene invalid, 4 cases failed, 5 input/output, 75 cases are
+unfinished or were stopped.
 """
 
 
@@ -67,7 +67,8 @@ def add_run(actions):
     add(which, "--chunk", meaning, dest="chunk_to_run", type=number(0, kind=int), metavar="K")
     meaning = "how many at a time; one a processor if not given"
     add(run, "--jobs", meaning, type=WHOLE, default=PROCESSORS, metavar="N")
-    add(run, "--keep", "which records stay, instead of the study's own choice", type=choice(("all", "summary")), metavar="all|summary")
+    meaning = "which records stay, instead of the study's own choice"
+    add(run, "--keep", meaning, type=choice(("all", "summary")), metavar="all|summary")
     add(run, "--retry-failed", "try those again that failed", action="store_true")
     add(run, "--quiet", "do not report how far the study is", action="store_true")
 

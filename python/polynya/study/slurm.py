@@ -102,7 +102,8 @@ def submit(array, gather):
     try:
         print(f"            job {sbatch(words)}, to gather after it")
     except StudyError as error:
-        error.problems.append(f"job {job} runs the cases; what gathers after it is still to submit: sbatch {shlex.join(words)}")
+        left = f"sbatch {shlex.join(words)}"
+        error.problems.append(f"job {job} runs the cases; what gathers after it is still to submit: {left}")
         raise
 
 
