@@ -6,7 +6,8 @@ import pytest
 
 from polynya import formulas
 from polynya.performance import level_ice
-from polynya.performance.__main__ import engine_of, hull_of, ship_of, thicknesses
+from polynya.performance.__main__ import engine_of, hull_of, ship_of
+from polynya.performance.options import thicknesses
 from polynya.performance.curve import Curve
 
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
