@@ -101,7 +101,7 @@ def test_what_a_ship_needs_is_asked_for():
         hull_of({"hull": {"length_m": 100, "beam_m": 20}})
     assert thicknesses("0.8,0.4") == [0.4, 0.8]
     for wrong in ("", "a", "0,1", "-1"):
-        with pytest.raises(Exception, match="allowed: thicknesses"):
+        with pytest.raises(Exception, match="allowed: a number"):
             thicknesses(wrong)
 
 
