@@ -12,7 +12,6 @@ import numpy
 import pytest
 
 import polynya
-from polynya.figures import __main__ as command
 from polynya.figures import database, energy, loads, maps, motion, page, sizes
 from polynya.figures.subjects import labelled
 
@@ -315,7 +314,7 @@ def test_an_unfinished_and_a_damaged_run(home, tmp_path):
     floes = (folder / "floes.ndjson").read_text()
     for ring in ("[]", "[[0,0]]", "[[0,0],[1,0],[1,1e999]]", '"x"'):
         (folder / "floes.ndjson").write_text(re.sub(r'"ring_m":.*?\]\]', f'"ring_m":{ring}', floes, count=1))
-        assert command.main([str(folder), "--only", "floes", "--format", "svg"]) == 5
+        assert figures(tmp_path, folder, "--only", "floes", "--format", "svg").returncode == 5
 
 
 def test_what_is_missing_is_named_with_what_to_install(home, tmp_path):

@@ -181,7 +181,7 @@ def test_wrong_words_are_answered(folder, tmp_path):
     for words, code, message in (
         ((folder, "--out", tmp_path / "film.avi"), 2, ".mp4, .gif, .png"),
         ((folder, "--out", tmp_path / "a.png", "--from", 13), 2, "the run goes from 0 to 12 s"),
-        ((folder, "--out", tmp_path / "a.png", "--speed", 0), 2, "allowed: > 0"),
+        ((folder, "--out", tmp_path / "a.png", "--speed", 0), 2, "allowed: a number > 0"),
         ((folder, "--out", tmp_path / "a.png", "--follow", "sailor"), 2, "the run has breaker"),
         ((tmp_path, "--out", tmp_path / "a.png"), 5, "not a run folder"),
         ((folder, "--out", tmp_path / "none" / "a.png"), 5, "its folder does not exist"),
