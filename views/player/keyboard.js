@@ -19,6 +19,37 @@ const keyHelp = [
   ["?", "this help"],
 ];
 
+/** Whether a key is for the control that has the focus. Space and Escape are the page's on a list, which Enter opens. */
+function isForControl({ target, key }) {
+  if (target.closest("select")) return key !== " " && key !== "Escape";
+  if (target.closest("input[type=number]")) return key !== "Escape";
+  if (target.type === "radio" && key.startsWith("Arrow")) return true;
+  return Boolean(target.closest("button, input")) && (key === " " || key === "Enter");
+}
+
+/** A control that a pointer has used gives the focus back to the page, so that Space plays; one that keys have reached keeps it, but
+ * for a list once its choice is made. */
+function returnFocus() {
+  let byPointer = false;
+  let lastKey = "";
+  document.addEventListener("pointerdown", () => { byPointer = true; }, true);
+  document.addEventListener("keydown", (event) => {
+    byPointer = false;
+    lastKey = event.key;
+    if (event.key === "Enter" && event.target.closest("select") && event.target.showPicker) {
+      event.preventDefault();
+      event.target.showPicker();
+    }
+  }, true);
+  const giveBack = ({ type, target }) => {
+    const control = target.closest("button, select, input:not([type=number])");
+    if (!control || control !== document.activeElement) return;
+    const isList = control.tagName === "SELECT";
+    if (isList ? type === "change" && (byPointer || !lastKey.startsWith("Arrow")) : byPointer) control.blur();
+  };
+  for (const name of ["change", "click"]) document.addEventListener(name, giveBack);
+}
+
 function watchKeys(actions) {
   const keys = {
     " ": () => actions.togglePlay(),
@@ -57,12 +88,11 @@ function watchKeys(actions) {
   };
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const inField = event.target.closest("select, input[type=number]") || (event.target.type === "radio" && event.key.startsWith("Arrow"));
-    const onButton = event.target.closest("button, input, summary") && (event.key === " " || event.key === "Enter");
     const action = keys[event.key] ?? keys[event.key.toLowerCase()];
-    if (!action || onButton || (inField && event.key !== "Escape")) return;
+    if (!action || isForControl(event)) return;
     event.preventDefault();
     action(event);
   });
+  returnFocus();
   byId("keys").replaceChildren(...keyHelp.flatMap(([key, words]) => [make("dt", {}, key), make("dd", {}, words)]));
 }

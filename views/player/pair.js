@@ -176,8 +176,7 @@ function watchBar(players, clock, shared, address) {
   byId("rate").replaceChildren(...rates.map((rate) => make("option", { value: String(rate) }, `${rate}\u00d7`)));
   byId("rate").addEventListener("change", (event) => clock.setRate(Number(event.target.value)));
   document.addEventListener("keydown", (event) => { // as if it were pressed in the first player
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select")) return;
-    if (event.target.closest("button, input") && (event.key === " " || event.key === "Enter")) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || isForControl(event)) return;
     const { contentWindow, contentDocument } = players[0].frame;
     const passed = new contentWindow.KeyboardEvent("keydown", { key: event.key, shiftKey: event.shiftKey, bubbles: true, cancelable: true });
     if (!contentDocument.body.dispatchEvent(passed)) event.preventDefault();
@@ -185,6 +184,7 @@ function watchBar(players, clock, shared, address) {
 }
 
 async function startPair() {
+  returnFocus();
   const players = await openPlayers();
   const clock = makeClock(players);
   const words = () => momentOfPair(players, clock);
