@@ -24,7 +24,7 @@ void ColumnWriter::add(const std::string& name, std::string_view bytes) {
 
 namespace {
 
-/// The shapes of floes while they are gathered (views/player/floe_shapes.js reads them).
+/// The shapes of floes while they are gathered (views/player/run_data.js reads them).
 class ShapeColumns {
  public:
   explicit ShapeColumns(const io::Run& run) : run_(run) {}
