@@ -7,7 +7,8 @@ function fillFacts({ run: { info, floes }, name }) {
   const counts = { bend: 0, split: 0, grind: 0, rejected_cut: 0, submerge: 0, resurface: 0, stay_under: 0, mooring_break: 0 };
   for (const event of info.events) ++counts[event.kind];
   const facts = {
-    "floes in all": floes.count, bends: counts.bend, splits: counts.split, ...(counts.grind && { ground: counts.grind }), "rejected cuts": counts.rejected_cut,
+    "floes in all": info.floes === floes.count ? floes.count : `${info.floes} of ${floes.count}`,
+    ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }), bends: counts.bend, splits: counts.split, ...(counts.grind && { ground: counts.grind }), "rejected cuts": counts.rejected_cut,
     ...(counts.submerge && { "went under": counts.submerge, "came up": counts.resurface, ...(counts.stay_under && { "stayed under": counts.stay_under }) }),
     ...(counts.mooring_break && { "moorings broken": counts.mooring_break }),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",

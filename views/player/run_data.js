@@ -9,7 +9,7 @@ const mostKeptPoints = 4e6; // of assembled shapes, 64 MB
 function shapeParts(columns) {
   const { parent, rings_of: ringsOf, ring_ends: ringEnds } = columns;
   const { part_floe: floeOf, part_ring: ringOf, part_count: countOf } = columns;
-  const sizeOf = (floe) => ringEnds[ringsOf[floe + 1] - 1];
+  const sizeOf = (floe) => (ringsOf[floe + 1] > ringsOf[floe] ? ringEnds[ringsOf[floe + 1] - 1] : 0);
   const partsOf = new Map(); // by floe: its first part, and one past its last one
   floeOf.forEach((floe, part) => partsOf.set(floe, [partsOf.get(floe)?.[0] ?? part, part + 1]));
   const newAt = new Int32Array(parent.length + 1); // the first of each floe's new points
@@ -99,12 +99,30 @@ function bytesOfBase64(text) {
 
 const columnTypes = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 
+const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "came_up", "area_m2", "mass_kg", "thickness_m", "flexural_strength_Pa",
+  "centroid_x_m", "centroid_y_m", "reach_m"];
+
+/** Gives the floes of a page of an area their ids: rows of all floes of the run, in which those left out are never born and have no shape. */
+function spreadFloes(columns, count) {
+  const ids = columns.floe_id;
+  for (const name of floeRows) {
+    const kept = columns[name];
+    columns[name] = new kept.constructor(count).fill(name === "parent" ? -1 : name.endsWith("_s") ? Infinity : 0);
+    ids.forEach((id, row) => { columns[name][id] = kept[row]; });
+  }
+  const ends = new Int32Array(count + 1);
+  ids.forEach((id, row) => { ends[id + 1] = columns.rings_of[row + 1]; });
+  for (let id = 0; id < count; ++id) ends[id + 1] = Math.max(ends[id], ends[id + 1]);
+  columns.rings_of = ends;
+}
+
 function readRun() {
   const info = JSON.parse(byId("run-info").textContent);
   const bytes = bytesOfBase64(byId("run-columns").textContent.trim());
   byId("run-columns").remove();
   const columns = {};
   for (const c of info.columns) columns[c.name] = new columnTypes[c.type](bytes.buffer, c.offset, c.count);
+  if (columns.floe_id) spreadFloes(columns, info.floes_of_run);
   const floes = readFloes(columns);
   const frames = readFrames(columns.frames, floes.count, info.ships.length);
   return { info, columns, floes, frames, forces: readForces(info, columns) };
