@@ -74,7 +74,7 @@ class Outlines:
         self._run = run
         self._first = numpy.full(len(run.births["floe_id"]), -1)
         self._count = numpy.zeros(len(self._first), dtype=int)
-        self._reach = numpy.zeros(len(self._first))  # farthest vertex from the body's origin [m]
+        self._reach = numpy.zeros(len(self._first))  # farthest vertex from the centroid [m]
         self._points, self._codes = numpy.empty((0, 2)), numpy.empty(0, Path.code_type)
 
     def load(self, ids):
@@ -90,7 +90,7 @@ class Outlines:
                 codes.append(codes_of(len(ring) + 1))
                 at += len(ring) + 1
             self._count[floe] = at - self._first[floe]
-            self._reach[floe] = numpy.sqrt(numpy.square(rings[0]).sum(axis=1).max())
+            self._reach[floe] = numpy.sqrt(numpy.square(rings[0] - self._run.centroids[floe]).sum(axis=1).max())
         self._points, self._codes = numpy.concatenate(points), numpy.concatenate(codes)
 
     def forget(self, floes):
@@ -102,6 +102,7 @@ class Outlines:
         self._first[kept] = numpy.cumsum(self._count[kept]) - self._count[kept]
 
     def reach(self, ids):
+        """From the centroids to the farthest vertices [m]."""
         self.load(ids)
         return self._reach[ids]
 
@@ -113,6 +114,12 @@ class Outlines:
     def _rows(self, ids):
         counts = self._count[ids]
         return numpy.arange(counts.sum()) + numpy.repeat(self._first[ids] - (numpy.cumsum(counts) - counts), counts)
+
+    def boxes(self, ids, poses):
+        """Lower left and upper right corners in the world, each n × 2."""
+        points = self.path(ids, poses).vertices
+        first = numpy.cumsum(self._count[ids]) - self._count[ids]
+        return numpy.minimum.reduceat(points, first), numpy.maximum.reduceat(points, first)
 
     def path(self, ids, poses):
         """In the world, as one path."""
@@ -153,9 +160,14 @@ class Scenery:
         """Which floes of a frame reach into x0, y0, x1, y1 [m]: a mask; all without a window."""
         if window is None:
             return numpy.ones(len(frame.ids), dtype=bool)
-        reach, (x, y) = self.outlines.reach(frame.ids), frame.poses[:, :2].T
-        x0, y0, x1, y1 = window
-        return (x + reach > x0) & (x - reach < x1) & (y + reach > y0) & (y - reach < y1)
+        corners, ids, poses = numpy.reshape(window, (2, 2)), frame.ids, frame.poses
+        centres, reach = turned(self.run.centroids[ids], poses), self.outlines.reach(ids)[:, None]
+        shown = ((centres + reach > corners[0]) & (centres - reach < corners[1])).all(axis=1)
+        at_edge = numpy.flatnonzero(shown & ~((centres - reach > corners[0]) & (centres + reach < corners[1])).all(axis=1))
+        if len(at_edge):
+            low, high = self.outlines.boxes(ids[at_edge], poses[at_edge])
+            shown[at_edge] = ((high > corners[0]) & (low < corners[1])).all(axis=1)
+        return shown
 
     def floes(self, frame, window=None, least=0.0, among=None):
         """Floes as one path a kind: those of a mask `among` that reach into the window; of a √area below `least` [m] squares of their area."""

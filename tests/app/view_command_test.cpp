@@ -3,6 +3,7 @@
 #include <map>
 
 #include "plate_run.hpp"
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/run/motion_index.hpp"

@@ -89,7 +89,7 @@ function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   sizePanel.show();
   if (run.under.went > 0) showCountsUnderHulls(run, places, state.time);
   plotPanel.setTime(state.time);
-  timeline.setTime(state.time, `${words}, ${places.count} floes`);
+  timeline.setTime(state.time, `${words}, ${counted(places.count, "floe")}`);
 }
 
 function startDrawing(player, canvases) {
