@@ -76,7 +76,7 @@ function paleOutOfSizes(colouring, floes, range, colours) {
 const plotInset = { left: 4, right: 4, top: 16, bottom: 18 }; // [px]
 
 /** A number of floes or an area as people read it. */
-const amountWords = (value, isArea) => (isArea ? `${sixDigits(Number(value.toPrecision(4)))} m\u00b2` : `${value} ${value === 1 ? "floe" : "floes"}`);
+const amountWords = (value, isArea) => (isArea ? `${sixDigits(Number(value.toPrecision(4)))} m\u00b2` : counted(value, "floe"));
 
 function drawHistogram(canvas, { width, height }, { edges }, bars, { chosen, pointed, words }, colours) {
   const ratio = Math.min(window.devicePixelRatio || 1, 2);
