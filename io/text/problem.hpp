@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,6 +45,9 @@ std::string to_json_text(const std::vector<Problem>& problems);
 
 /// " at (5, 5), (0, 0)": the first few of what is wrong, for messages; empty where there are none.
 std::string places_in_words(std::span<const geometry::Point> places, std::size_t most);
+
+/// "1 floe", "2 floes"; "1 box", "2 boxes" where the plural is given.
+std::string counted(std::int64_t count, std::string_view noun, std::string_view plural = {});
 
 /// The candidate fewest edits away from a word, or "" where none is near enough to be meant.
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates);

@@ -3,6 +3,7 @@ import argparse
 import os
 import signal
 import sys
+import time
 
 from ..arguments import Parser, number
 from ..command import INPUT_OUTPUT, run
@@ -69,9 +70,23 @@ def fail(code, message):
     return fail_command("polynya movie", message, code)
 
 
-def show_progress(done, count):
-    end = "\n" if done == count else ""
-    print(f"\rpicture {done} of {count}", end=end, file=sys.stderr, flush=True)
+class Progress:
+    """How far a film is, on stderr: one line on a terminal, which is written over, else a line every ten seconds."""
+
+    def __init__(self):
+        self._start = self._shown = time.monotonic()
+        self._least = 0.1 if sys.stderr.isatty() else 10.0  # between two reports [s]
+
+    def __call__(self, done, count):
+        now = time.monotonic()
+        is_last = done == count and sys.stderr.isatty()
+        if now - self._shown < self._least and not is_last:
+            return
+        self._shown = now
+        left = (now - self._start) / done * (count - done)
+        words = f"picture {done} of {count}, {left:.0f} s left"
+        print(f"\r{words:<48}" + ("\n" if is_last else "") if sys.stderr.isatty() else words, end="" if sys.stderr.isatty() else "\n",
+              file=sys.stderr, flush=True)
 
 
 def make(options):
@@ -100,7 +115,7 @@ def make(options):
         look = picture.Look(size=options.size, follow=options.follow, speed=speed, is_film=suffix != ".png",
                             start=run.start_time if suffix == ".png" else None,
                             end=run.end_time if suffix == ".png" else None)
-        film.write(run, options.out, times, look, show_progress if sys.stderr.isatty() else None)
+        film.write(run, options.out, times, look, Progress())
     except FolderError:
         raise
     except ValueError as error:
