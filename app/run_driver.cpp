@@ -128,6 +128,8 @@ void add_run_options(CLI::App& command, DriverOptions& options) {
   command.add_flag("--check", control.check,
                    "Recompute every cross-index and sum after every step; stop if one differs");
   command.add_flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
+  command.add_flag("--final-geojson", control.final_geojson,
+                   fmt::format("Write final.geojson also of more than {} floes", io::kMostFloesInFinal));
   add_progress(command, options.progress);
 }
 

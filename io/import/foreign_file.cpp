@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -50,6 +51,8 @@ std::string_view name_of(ForeignFormat format) {
 
 std::optional<ForeignFormat> foreign_format(const std::filesystem::path& file) {
   std::array<char, 16> bytes{};
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};  // opening a pipe would wait for its writer
   std::FILE* const stream = std::fopen(file.c_str(), "rb");
   if (!stream) return {};
   const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), stream);

@@ -65,9 +65,9 @@ class RunWriter {
   /// Peaks of the samples so far.
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
-  /// Ends the run: everything buffered, final.geojson, and last summary.json. All of it is on the disk before
-  /// a summary with "finished": true is, and that one before the checkpoints are removed.
-  Result<> finish(const RunSummary& summary, const simulation::Simulation& simulation);
+  /// Ends the run: everything buffered, final.geojson of a simulation, and last summary.json. All of it is on
+  /// the disk before a summary with "finished": true is, and that one before the checkpoints are removed.
+  Result<> finish(const RunSummary& summary, const simulation::Simulation* simulation);
 
   /// Ends a run that ran out of memory, which perhaps was in the middle of record() or frame(): what these
   /// recorded in part is left out. No final.geojson, which takes memory; checkpoints stay.

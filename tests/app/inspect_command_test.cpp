@@ -65,7 +65,10 @@ TEST_F(InspectCommand, AFloesShapeReadsBackToTheSameDoubles) {
   const io::JsonDocument feature = io::parse_json(inspect({"--floe", "3", "--format", "geojson"}).out);
   EXPECT_EQ(feature.root.find("properties")->find("parent_id")->number(), static_cast<double>(birth.parent));
   EXPECT_EQ(feature.root.find("properties")->find("frame")->text(), "body");
+  EXPECT_NE(inspect({"--floe", "3"}).err.find("body frame"), std::string::npos);
+  EXPECT_EQ(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).err, "");
   const std::string svg = inspect({"--floe", "3", "--format", "svg"}).out;
+  EXPECT_NE(svg.find("in its body frame"), std::string::npos);
   EXPECT_EQ(svg.find("<svg "), 0U);
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
