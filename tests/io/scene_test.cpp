@@ -398,10 +398,11 @@ TEST(Scene, ALongKeyIsShortenedBetweenTwoCharacters) {
 TEST(Scene, WhatNeedsNoIceIsCheckedBeforeAFieldIsMade) {
   const std::string field =
       R"({"floes": [{"field": {"corner_m": [-100, -100], "extent_m": [200, 200],
-      "concentration": 0.7, "floe_size_m": 20}}], "ships": [)" +
+      "concentration": 0.7, "floe_size_m": 20}},
+      {"rectangle": {"corner_m": [0, 50], "size_m": 30}}], "ships": [)" +
       std::string(kShip);
   const std::string ice = all_of(problems_of(field + "]}"));
-  EXPECT_NE(ice.find("an overlap with ships[0]"), std::string::npos) << ice;
+  EXPECT_NE(ice.find("an overlap with floes[0]"), std::string::npos) << ice;
   const std::string both = all_of(problems_of(field + R"(], "time": {"until_s": 0.001}})"));
   EXPECT_NE(both.find("less than one step"), std::string::npos) << both;
   EXPECT_EQ(both.find("an overlap"), std::string::npos) << both;
