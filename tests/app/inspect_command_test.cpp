@@ -6,6 +6,7 @@
 #include "io/run/run_reader.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -193,7 +194,7 @@ TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {
 TEST_F(InspectCommand, TheSizeDistributionCountsEveryFloe) {
   const auto all = lines(inspect({"--fsd"}).out);
   ASSERT_GT(all.size(), 3U);
-  EXPECT_EQ(all[0].find(std::to_string(living_at(run->end_time())) + " floes, "), 0U);
+  EXPECT_EQ(all[0].find(io::counted(living_at(run->end_time()), "floe") + ", "), 0U);
   std::size_t floes = 0;
   double percent = 0;
   for (std::size_t i = 3; i < all.size(); ++i) {

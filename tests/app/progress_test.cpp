@@ -61,11 +61,10 @@ TEST(ProgressBar, IsThereWhileASceneIsReadAndGoesAway) {
   const TemporaryFolder folder;
   write_file(folder / "tiny.json", kTinyScene);
   Start start{folder.path()};
-  start.under = {"/bin/sh", "-c", "{ sleep 4; cat tiny.json; } | \"$@\"", "sh"};
+  start.under = {"/bin/sh", "-c", "{ /bin/sleep 4; /bin/cat tiny.json; } | \"$@\"", "sh"};
   const Outcome outcome = polynya({"validate", "-", "--progress", "json"}, start);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find(R"({"work":"reading the scene","part":null,"wall_time_s":)"),
-            std::string::npos)
+  EXPECT_NE(outcome.err.find(R"({"work":"reading the scene","part":null,"wall_time_s":)"), std::string::npos)
       << outcome.err;
   EXPECT_EQ(polynya({"validate", "tiny.json", "--progress", "json"}, {folder.path()}).err, "");
 }
