@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "dynamics/impulse_solver.hpp"
-#include "dynamics/separation.hpp"
-#include "dynamics/submerged_ice.hpp"
-#include "dynamics/water_drag.hpp"
+#include "dynamics/contact/impulse_solver.hpp"
+#include "dynamics/contact/separation.hpp"
+#include "dynamics/water/submerged_ice.hpp"
+#include "dynamics/water/water_drag.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "simulation/sailing.hpp"
 #include "simulation/scene.hpp"

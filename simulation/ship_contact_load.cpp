@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/collision.hpp"
+#include "dynamics/contact/collision.hpp"
 #include "fracture/bending/edge_deflection.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "simulation/hull_angle.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/contact.hpp"
+#include "dynamics/contact/contact.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/contact/wedge.hpp"

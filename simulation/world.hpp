@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/crush_solver.hpp"
+#include "dynamics/contact/crush_solver.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/contact/crack_path.hpp"
 #include "simulation/energy.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/broad_phase.hpp"
+#include "dynamics/contact/broad_phase.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "simulation/state/archive.hpp"
 #include "simulation/world.hpp"

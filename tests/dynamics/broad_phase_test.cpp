@@ -1,12 +1,12 @@
 // The pair finder against a search over all pairs, while a pack of floes moves, collides, sleeps, breaks up
 // and grows.
-#include "dynamics/broad_phase.hpp"
+#include "dynamics/contact/broad_phase.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/separation.hpp"
+#include "dynamics/contact/separation.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {

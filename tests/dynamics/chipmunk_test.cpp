@@ -10,7 +10,7 @@
 #include <chipmunk/chipmunk.h>
 #include <gtest/gtest.h>
 
-#include "dynamics/broad_phase.hpp"
+#include "dynamics/contact/broad_phase.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {

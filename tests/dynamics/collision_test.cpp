@@ -1,6 +1,6 @@
 // Eq. (5) of [Sawamura2017], corrected: restitution, momentum and energy over random contacts, and contacts
 // together.
-#include "dynamics/collision.hpp"
+#include "dynamics/contact/collision.hpp"
 
 #include <algorithm>
 

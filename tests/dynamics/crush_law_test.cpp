@@ -1,11 +1,11 @@
 // The law of crushing ice, at one contact and where many press on each other.
-#include "dynamics/crush_law.hpp"
+#include "dynamics/contact/crush_law.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/crush_solver.hpp"
+#include "dynamics/contact/crush_solver.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {

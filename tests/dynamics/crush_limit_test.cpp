@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/broad_phase.hpp"
-#include "dynamics/separation.hpp"
+#include "dynamics/contact/broad_phase.hpp"
+#include "dynamics/contact/separation.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {

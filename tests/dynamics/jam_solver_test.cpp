@@ -1,11 +1,11 @@
 // Newton's method for jams: at the velocities found every contact obeys its law, in hard jams too.
-#include "dynamics/jam_solver.hpp"
+#include "dynamics/contact/jam_solver.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/crush_solver.hpp"
+#include "dynamics/contact/crush_solver.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {
