@@ -11,7 +11,7 @@ import sys
 
 ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "python"]
 SUFFIXES = {".cpp", ".hpp", ".js"}
-MOST_LINES_OF_FILE = 300
+MOST_LINES_OF_FILE = 600
 MOST_LINES_OF_FUNCTION = 50
 # "path: name of the function" -> why it is a table that reads best in one piece.
 TABLES = {}

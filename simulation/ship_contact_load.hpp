@@ -24,8 +24,6 @@ struct ShipContactLoad {
   fracture::CrushingShares shares{};
 };
 
-bool is_crush_law(const Setup& setup);
-
 /// F_n at the contact's overlap, a hull's or a vertical wall's [N].
 double crushing_force(const fracture::Ice& ice, const dynamics::Contact& c, double hull_angle);
 

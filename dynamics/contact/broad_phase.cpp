@@ -12,8 +12,19 @@ using geometry::Box;
 using geometry::Point;
 using geometry::Pose;
 
-constexpr double kBoxMargin =
-    2.0;  ///< boxes are grown by this much, and computed again after that much travel [m]
+/// Boxes are grown by this much, and computed again after that much travel [m]. It decides only how often
+/// pairs are sought (smaller: more often) against how many are kept (greater: more).
+constexpr double kBoxMargin = 2.0;
+
+/// Fragments' vertices are rounded by far less than that [m]. Smaller than the rounding, fragments that touch
+/// may be taken for apart.
+constexpr double kPieceRounding = 1e-6;
+
+/// How far a body that breaks can move without touching the pair's other one, 0 where that is not known [m].
+double clearance_of(const Bodies& bodies, const Pair& pair) {
+  const Pose pose = centre_a_from_b(bodies, pair.a, pair.b);
+  return std::max(0.0, clearance_left(bodies, pair.b, pose, pair.apart) - kPieceRounding);
+}
 
 Box box_in_water(const Bodies& bodies, BodyIndex i) {
   const Pose pose = water_from_body(bodies, i);
@@ -294,6 +305,106 @@ std::int64_t BroadPhase::take_unpaired_stretches() {
   std::int64_t unpaired = 0;
   for (Share& share : shares_) unpaired += std::exchange(share.scratch.unpaired, 0);
   return unpaired;
+}
+
+/// Makes and keeps the cover of a body that another comes near, unless those kept are many.
+void BroadPhase::keep_cover(const Bodies& bodies, BodyIndex body) {
+  geometry::Boundary& boundary = *bodies.boundary[body];
+  if (boundary.is_ready()) return;
+  const double pieces = pieces_of(boundary.edges, rule_.circle_radius);
+  const bool is_cheap = pieces <= kManyPieces && !rule_.is_circle_centres;
+  if (is_cheap && kept_pieces_ + pieces > rule_.most_kept_pieces) return;
+  make_ready(boundary, {rule_.circle_radius, rule_.is_circle_centres});
+  entries_[body].kept_pieces = static_cast<std::uint32_t>(boundary.cover->pieces.size());
+  kept_pieces_ += entries_[body].kept_pieces;
+}
+
+// Contact memory of a body that breaks, and of what a saved run keeps of pairs.
+
+ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex parent) const {
+  ContactMemory memory;
+  for (const std::uint32_t slot : entries_[parent].pairs) {
+    const Pair& pair = pairs_[slot];
+    const BodyIndex other = pair.a == parent ? pair.b : pair.a;
+    if (pair.is_outside) memory.outside.push_back({other, clearance_of(bodies, pair)});
+    const Pose water_from_b = water_from_body(bodies, pair.b);
+    for (const PersistentContact& record : pair.records()) {
+      if (record.loaded_area == 0) continue;
+      memory.pressed.push_back(
+          {other, transform(water_from_b, record.last_point_in_b), record.reach, record.loaded_area});
+    }
+  }
+  std::sort(memory.outside.begin(), memory.outside.end(),
+            [](const Outside& p, const Outside& q) { return p.other < q.other; });
+  return memory;
+}
+
+void BroadPhase::note_pressed(BodyIndex body) {
+  constexpr double kEverywhere = 1e9;  // [m], and [m²] of the overlap that is found there
+  PersistentContact record;
+  record.reach = kEverywhere;
+  record.loaded_area = kEverywhere * kEverywhere;
+  record.is_inherited = true;
+  for (const std::uint32_t slot : entries_[body].pairs) pairs_[slot].own_parts().records = {record};
+}
+
+void BroadPhase::pass_contact_memory(const Bodies& bodies, BodyIndex fragment, const ContactMemory& memory) {
+  for (const std::uint32_t slot : entries_[fragment].pairs) {
+    Pair& pair = pairs_[slot];
+    const BodyIndex other = pair.a == fragment ? pair.b : pair.a;
+    const auto outside = std::lower_bound(memory.outside.begin(), memory.outside.end(), other,
+                                          [](const Outside& o, BodyIndex body) { return o.other < body; });
+    pair.is_outside = outside != memory.outside.end() && outside->other == other;
+    if (pair.is_outside && outside->clearance > 0)
+      pair.apart = {centre_a_from_b(bodies, pair.a, pair.b), outside->clearance};
+    for (const PressedOverlap& old : memory.pressed) {
+      if (old.other != other) continue;
+      PersistentContact record;
+      record.last_point_in_b = inverse_transform(water_from_body(bodies, pair.b), old.place);
+      record.reach = old.reach;
+      record.loaded_area = old.loaded_area;
+      record.is_inherited = true;
+      pair.own_parts().records.push_back(record);
+    }
+  }
+}
+
+template <class Wanted>
+std::vector<PairState> BroadPhase::states_where(Wanted is_wanted) const {
+  std::vector<PairState> states;
+  for (const std::vector<ActivePair>* list : {&active_, &recent_, &new_}) {
+    for (const ActivePair& active : *list) {
+      const Pair& pair = pairs_[active.slot];
+      if (pair.is_dropped || !is_wanted(pair)) continue;
+      const auto records = pair.records();
+      states.push_back({active.a, active.b, active.separation_bound, {records.begin(), records.end()}});
+    }
+  }
+  std::sort(states.begin(), states.end(),
+            [](const PairState& p, const PairState& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  return states;
+}
+
+std::vector<PairState> BroadPhase::pair_states() const {
+  return states_where([](const Pair&) { return true; });
+}
+
+std::vector<PairState> BroadPhase::touching_states() const {
+  return states_where([](const Pair& pair) { return !pair.records().empty(); });
+}
+
+void BroadPhase::restore(const Bodies& bodies, const std::vector<PairState>& pairs) {
+  for (const PairState& pair : pairs) {
+    add_pair(bodies, pair.a, pair.b);
+    new_.back().separation_bound = pair.separation_bound;
+    if (!pair.records.empty()) pairs_[new_.back().slot].own_parts().records = pair.records;
+  }
+  // The boxes are new, so some may meet that did not before.
+  for (BodyIndex body = 0; body < bodies.size(); ++body) {
+    if (bodies.is_awake[body] == 0) continue;
+    enter_mover(bodies, body);
+    add_pairs_of(bodies, body);
+  }
 }
 
 }  // namespace polynya::dynamics

@@ -29,8 +29,8 @@ struct Outside {
   double clearance = 0;  ///< how far the two can move without touching [m]
 };
 
-/// What is known of a body that breaks, and holds of its pieces too.
-struct Inheritance {
+/// What a floe that breaks passes on to its fragments.
+struct ContactMemory {
   std::vector<PressedOverlap> pressed;
   std::vector<Outside> outside;  ///< by other
 };
@@ -52,13 +52,13 @@ class BroadPhase {
   void add(const Bodies& bodies, BodyIndex body);
   /// Removes a body and its pairs.
   void remove(BodyIndex body);
-  /// What has pressed against a body, in water, and what is outside it: for the pieces that it breaks into.
-  Inheritance inheritance_of(const Bodies& bodies, BodyIndex body) const;
+  /// What has pressed against a floe that breaks, in water, and what is outside it.
+  ContactMemory contact_memory_of(const Bodies& bodies, BodyIndex parent) const;
+  /// Passes it on to a fragment that was added and woken.
+  void pass_contact_memory(const Bodies& bodies, BodyIndex fragment, const ContactMemory& memory);
   /// What a body shares with others where it is has all pressed before: it was crushed. Of a body that was
   /// woken.
   void note_pressed(BodyIndex body);
-  /// Passes it on to a piece that was added and woken.
-  void inherit(const Bodies& bodies, BodyIndex piece, const Inheritance& inheritance);
   /// Pairs are kept only where one of the two is awake and may move: ice that is held where the water stands
   /// meets only what comes to it, though a fast plate has a thousand pieces at rest in its box.
   void wake(const Bodies& bodies, BodyIndex body);

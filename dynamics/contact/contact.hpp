@@ -7,6 +7,14 @@
 
 namespace polynya::dynamics {
 
+/// What restitution keeps of a contact from step to step (restitution_law.hpp); 0 by the law of crushing ice.
+struct RestitutionMemory {
+  double owed_impulse = 0;           ///< that crushing ice could not carry yet [N s]
+  double given_impulse = 0;          ///< since first contact [N s]
+  double limit = 0;                  ///< of it, by the fastest approach so far of the two alone [N s]
+  double start_impulse[2] = {0, 0};  ///< where the next step's compression starts, by the last two [N s]
+};
+
 /// What is kept of a contact from step to step.
 struct PersistentContact {
   geometry::Point last_point_in_b;   ///< where it was at the last step, in b's frame [m]
@@ -14,14 +22,11 @@ struct PersistentContact {
   double age = 0;                    ///< since first contact [s]
   double approach = 0;               ///< ∫ max(0, v_n) dt [m]
   double crushed_depth = 0;         ///< overlap that crushing made: the ice is gone, nothing separates it [m]
-  double owed_impulse = 0;          ///< of restitution, that crushing ice could not carry yet [N s]
-  double given_impulse = 0;         ///< of restitution, since first contact [N s]
-  double restitution_limit = 0;     ///< bound of it, by the fastest approach so far of the two alone [N s]
-  double last_impulse[2] = {0, 0};  ///< compression at the last step [N s]
-  double warm_start_impulse[2] = {0, 0};  ///< where the solver starts, predicted from two steps [N s]
-  double loaded_depth = 0;                ///< deepest overlap that pressed: the ice is gone so far [m]
-  double loaded_area = 0;                 ///< of that overlap [m²]
-  double reach = 0;                       ///< of the contact from last_point_in_b, at the last step [m]
+  double last_impulse[2] = {0, 0};  ///< of compression, at each end, in the last substep solved [N s]
+  double loaded_depth = 0;          ///< deepest overlap that pressed: the ice is gone so far [m]
+  double loaded_area = 0;           ///< of that overlap [m²]
+  double reach = 0;                 ///< of the contact from last_point_in_b, at the last step [m]
+  RestitutionMemory restitution;
   bool has_crushed = false;
   bool is_pierced = false;    ///< of a pierced body, at the last step
   bool was_refused = false;   ///< a fracture here was rejected by geometry: not tried again
@@ -46,21 +51,20 @@ struct Contact {
   std::uint32_t place = 0;              ///< among the contacts of its two bodies
   PersistentContact* record = nullptr;  ///< in its pair; valid during the step
 
-  // Decided between finding and solving.
-  /// What crushing ice carries in the step [N s].
-  double impulse_limit = std::numeric_limits<double>::infinity();
+  // Decided between finding and solving, along the normal, both ends together.
   double friction = 0;  ///< most tangential per normal impulse [-]
-  // Of contacts that crush by crush_law.hpp: along the normal, both ends together.
-  double crushing_force = 0;      ///< F, at the overlap now or the deepest that pressed [N]
+  /// F, what crushing ice carries at the overlap now or the deepest that pressed [N]; infinite: steel on
+  /// steel, which does not crush.
+  double crushing_force = std::numeric_limits<double>::infinity();
   double crushing_stiffness = 0;  ///< k = dF/dξ there [N/m]
   double missed_impulse = 0;      ///< in the step of the first contact, before it was found [N s]
   double breaking_force = std::numeric_limits<double>::infinity();  ///< at which the ice breaks [N]
-  bool is_rigid = false;                                            ///< steel on steel: does not crush
 
   // Found by the solver.
   double normal_impulse[2] = {0, 0};  ///< on b along the normal, at each end [N s]
   double normal_work = 0;             ///< of the normal impulses on the two bodies together [J]
   double slip_work = 0;               ///< of the slip impulse [J]
+  bool is_at_limit = false;           ///< it pressed with all that crushing ice carries
   bool is_broken = false;             ///< the force reached breaking_force
   double steady_share = 1;     ///< of the impulses: without what was missed before the contact was found [-]
   double prescribed_work = 0;  ///< by one of prescribed motion on the other [J]
@@ -76,8 +80,7 @@ struct Contact {
     const double total = total_normal_impulse();
     return total > 0 ? ends[0] + (normal_impulse[1] / total) * (ends[1] - ends[0]) : middle();
   }
-  /// Whether it presses with all that crushing ice carries.
-  bool is_at_limit() const { return total_normal_impulse() >= impulse_limit * (1 - 1e-9); }
+  bool is_rigid() const { return crushing_force == std::numeric_limits<double>::infinity(); }
 };
 
 /// Two bodies that are in each other where the gradient of the overlap's area does not show it: no contact

@@ -1,5 +1,6 @@
 #include "dynamics/contact/contact_constraint.hpp"
 
+#include <limits>
 #include <tuple>
 
 namespace polynya::dynamics {
@@ -8,9 +9,12 @@ namespace {
 using geometry::Vector;
 
 /// Below this share of the product of its diagonal, det K counts as 0 and the ends are solved one by one.
+/// Where it is much smaller, the inverse magnifies rounding errors to impulses that turn the bodies; where it
+/// is much greater, sound lines are solved end by end, in more sweeps.
 constexpr double kSingular = 1e-9;
-/// Stands for that of two bodies of prescribed motion, which nothing moves: far below that of any ship, so
-/// that the impulse is the law's at their speeds [1/kg].
+/// Stands for that of two bodies of prescribed motion, which nothing moves, so that the impulse is the law's
+/// at their speeds. Times the impulse of a step, up to some 1e6 N s, it has to stay far below the creep
+/// speed, or the impulse falls short of the law's [1/kg].
 constexpr double kHeldInverseMass = 1e-13;
 
 }  // namespace
@@ -63,7 +67,7 @@ ContactConstraint make_constraint(const Bodies& bodies, const Contact& c, std::i
   k.inverse_slip_mass = inverse_masses + k.arm_cross_tangent_a * k.arm_cross_tangent_a * a.inverse_moment +
                         k.arm_cross_tangent_b * k.arm_cross_tangent_b * b.inverse_moment;
   k.slip_mass = 1 / k.inverse_slip_mass;
-  k.limit = 0.5 * c.impulse_limit;
+  k.limit = std::numeric_limits<double>::infinity();
   k.friction = c.friction;
   k.slip_impulse = 0;
   return k;
@@ -84,13 +88,14 @@ double isolated_impulse(const ContactConstraint& k, const ConstraintSpeeds& spee
 double prescribed_work(const ContactConstraint& k, std::span<const SolverBody> solver_bodies,
                        const Bodies& bodies, const Contact& c) {
   double work = 0;
+  if (solver_bodies[k.a].inverse_mass != 0 && solver_bodies[k.b].inverse_mass != 0) return work;
   for (const auto& [solver_body, body, sign] : {std::tuple{k.a, c.a, 1.0}, std::tuple{k.b, c.b, -1.0}}) {
     if (solver_bodies[solver_body].inverse_mass != 0) continue;
     const auto along = [&, body = body, sign = sign](geometry::Point at, Vector impulse) {
       return sign * dot(impulse, velocity_at(bodies, body, at - bodies.position[body]));
     };
-    for (int end = 0; end < 2; ++end) work += along(c.ends[end], k.normal_impulse[end] * k.normal);
-    work += along(c.middle(), k.slip_impulse * perpendicular(k.normal));
+    for (int end = 0; end < 2; ++end) work += along(c.ends[end], c.normal_impulse[end] * c.normal);
+    work += along(c.middle(), c.slip_impulse * perpendicular(c.normal));
   }
   return work;
 }

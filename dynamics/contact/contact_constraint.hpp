@@ -59,7 +59,7 @@ ContactConstraint make_constraint(const Bodies& bodies, const Contact& contact, 
 /// speeds [N s].
 double isolated_impulse(const ContactConstraint& constraint, const ConstraintSpeeds& speeds);
 
-/// The work of a body of prescribed motion on the other one [J].
+/// The work of a body of prescribed motion on the other one, by the contact's impulses [J].
 double prescribed_work(const ContactConstraint& constraint, std::span<const SolverBody> solver_bodies,
                        const Bodies& bodies, const Contact& contact);
 

@@ -12,6 +12,8 @@ using geometry::Vector;
 namespace {
 
 /// An overlap may be larger than what has pressed by this share of the smaller body, then it presses.
+/// Greater: faces that turn onto each other overlap further before they press; 0: they press again by
+/// rounding alone.
 constexpr double kUncrushedShare = 0.005;
 
 Point point_in_b(const Bodies& bodies, const Contact& c, Point point_in_water) {

@@ -10,10 +10,17 @@
 namespace polynya::dynamics {
 namespace {
 
-constexpr int kMostSteps = 60;  ///< half a dozen is common
-constexpr int kWholeSteps = 8;  ///< after them half of those that leave their pieces wait: it ends cycles
-constexpr double kBoundFound = 0.05;  ///< what friction's bound may still change the slip by, in slip speeds
-constexpr double kRigid = 1e6;        ///< impulse per speed of rigid ends, in masses
+/// Newton steps; half a dozen is common. Fewer: more jams are left to the sweeps, which converge slowly.
+constexpr int kMostSteps = 60;
+/// After them half of the contacts that leave their branches wait in each step, which ends cycles. Fewer:
+/// every jam takes more steps; many more: those that cycle are not solved within kMostSteps.
+constexpr int kWholeSteps = 8;
+/// What friction's bound may still change the slip by, in slip speeds. Greater: the slip impulses found miss
+/// Coulomb's law by that share.
+constexpr double kBoundFound = 0.05;
+/// Impulse per speed of rigid ends, in masses. Smaller: steel sinks into steel at a visible speed; far
+/// greater: the masses are lost to rounding beside it, and the matrix is singular.
+constexpr double kRigid = 1e6;
 
 using Vector = Eigen::VectorXd;
 
@@ -30,11 +37,11 @@ JamRows rows_of(const ContactConstraint& c, int a, int b) {
           .b = b};
 }
 
-/// The pieces that a contact is on: of its ends, and whether it slips to a side (−1, 1) or sticks (0).
-struct ContactPieces {
-  CrushPieces ends;
+/// The branches that a contact is on: of its ends, and whether it slips to a side (−1, 1) or sticks (0).
+struct ActiveSet {
+  ActiveBranches ends;
   int slip = 0;
-  friend bool operator==(const ContactPieces&, const ContactPieces&) = default;
+  friend bool operator==(const ActiveSet&, const ActiveSet&) = default;
 };
 
 /// Which half of the contacts waits in a step, without any pattern that a cycle could follow.
@@ -64,14 +71,14 @@ class Jam {
       apply_impulses(c, -c.normal_impulse[0], -c.normal_impulse[1], -c.slip_impulse, bodies);
     bodies_without_ = taken();
     without_ = velocities();
-    pieces_.resize(rows_.size());
+    active_sets_.resize(rows_.size());
   }
 
   bool solve() {
     JamMatrix matrix(static_cast<int>(body_of_.size()), rows_);
     for (int step = 0; step < kMostSteps; ++step) {
-      const Choice choice = choose_pieces(step);
-      if (step > 0 && choice.are_pieces_found && choice.are_bounds_found && enter()) return true;
+      const Choice choice = update_active_sets(step);
+      if (step > 0 && choice.are_sets_found && choice.are_bounds_found && enter()) return true;
       if (!matrix.factorize(mass_, rows_, loads_)) break;
       advance(matrix.solve(-gradient_now()));
     }
@@ -82,7 +89,7 @@ class Jam {
  private:
   using Speeds = std::array<double, 3>;  ///< of one contact: apart at both ends, along the line [m/s]
   struct Choice {
-    bool are_pieces_found = true;  ///< no contact would leave its own
+    bool are_sets_found = true;    ///< no contact would leave its own
     bool are_bounds_found = true;  ///< of friction
   };
 
@@ -118,14 +125,14 @@ class Jam {
     return v;
   }
 
-  Choice choose_pieces(int step) {
+  Choice update_active_sets(int step) {
     Choice choice;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       double normal = 0;
-      const ContactPieces next = pieces_near(k, normal);
-      if (next != pieces_[k]) {
-        choice.are_pieces_found = false;
-        if (step < kWholeSteps || !waits(k, step)) pieces_[k] = next;
+      const ActiveSet next = active_set_of(k, normal);
+      if (next != active_sets_[k]) {
+        choice.are_sets_found = false;
+        if (step < kWholeSteps || !waits(k, step)) active_sets_[k] = next;
       }
       const double bound = constraints_[k].friction * normal;
       const double off = std::abs(bound - slip_bound_[k]) * constraints_[k].inverse_slip_mass;
@@ -135,39 +142,38 @@ class Jam {
     }
     return choice;
   }
-  /// The pieces that a contact would be on by itself, were its bodies free but for the impulses of the
+  /// The branches that a contact would be on by itself, were its bodies free but for the impulses of the
   /// others: both ends together, then its slip within the bound so far. (Within the new bound, stick and slip
   /// may follow each other for ever.) `normal`: its impulses then, both ends' [N s].
-  ContactPieces pieces_near(std::size_t k, double& normal) const {
+  ActiveSet active_set_of(std::size_t k, double& normal) const {
     const ContactConstraint& c = constraints_[k];
     const Speeds& speed = speeds_[k];
     const double(&impulse)[3] = loads_[k].impulse;
-    const EndsMobility mobility{{c.inverse_mass_at[0], c.inverse_mass_at[1]}, c.inverse_mass_between};
-    const std::array<double, 2> free{-speed[0] + mobility.at[0] * impulse[0] + mobility.between * impulse[1],
-                                     -speed[1] + mobility.between * impulse[0] + mobility.at[1] * impulse[1]};
-    ContactPieces pieces = pieces_[k];
-    const std::array<double, 2> ends = crush_impulses(laws_[k], mobility, free, pieces.ends);
+    const EndsMobility mobility = mobility_of(c);
+    const auto trial = trial_speeds(mobility, {speed[0], speed[1]}, impulse);
+    ActiveSet set = active_sets_[k];
+    const std::array<double, 2> ends = crush_impulses(laws_[k], mobility, trial, set.ends);
     normal = ends[0] + ends[1];
     const double place = c.inverse_slip_mass * impulse[2] - speed[2];
     const double most = c.inverse_slip_mass * slip_bound_[k] + slip_speed_;
-    pieces.slip = std::abs(place) <= most ? 0 : place > 0 ? 1 : -1;
-    return pieces;
+    set.slip = std::abs(place) <= most ? 0 : place > 0 ? 1 : -1;
+    return set;
   }
-  /// By the speeds now, on the pieces as if they had no ends. The bound of what slips follows the normal
+  /// By the speeds now, on the branches as if they had no ends. The bound of what slips follows the normal
   /// impulses within the step: the exact derivative of Coulomb's law, which is not symmetric.
   JamLoad load_of(std::size_t k) const {
     JamLoad load{};
     for (std::size_t end = 0; end < 2; ++end) {
-      const CrushBranch branch = branch_of(laws_[k][end], pieces_[k].ends.of[end]);
-      load.impulse[end] = branch.at_rest - branch.slope * (speeds_[k][end] + laws_[k][end].gap_speed);
-      load.slope[end] = branch.slope;
+      const BranchLine line = line_of(laws_[k][end], active_sets_[k].ends.of[end]);
+      load.impulse[end] = line.at_rest - line.slope * (speeds_[k][end] + laws_[k][end].gap_speed);
+      load.slope[end] = line.slope;
     }
-    if (pieces_[k].slip == 0) {
+    if (active_sets_[k].slip == 0) {
       load.slope[2] = slip_bound_[k] / slip_speed_;
       load.impulse[2] = -load.slope[2] * speeds_[k][2];
       return load;
     }
-    const double friction = pieces_[k].slip * constraints_[k].friction;
+    const double friction = active_sets_[k].slip * constraints_[k].friction;
     load.impulse[2] = friction * (load.impulse[0] + load.impulse[1]);
     for (int end = 0; end < 2; ++end) load.slip_by_apart[end] = friction * load.slope[end];
     return load;
@@ -197,9 +203,9 @@ class Jam {
         }
       }
       loads_[k] = load_of(k);
-      if (pieces_[k].slip != 0) {  // by impulses within their laws: others would turn the slip round
+      if (active_sets_[k].slip != 0) {  // by impulses within their laws: others would turn the slip round
         slip_bound_[k] = constraints_[k].friction * normal_within_law(k);
-        loads_[k].impulse[2] = pieces_[k].slip * slip_bound_[k];
+        loads_[k].impulse[2] = active_sets_[k].slip * slip_bound_[k];
       }
     }
   }
@@ -259,8 +265,8 @@ class Jam {
   std::vector<std::int32_t> body_of_;                       ///< those free to move, three unknowns each
   std::vector<JamRows> rows_;
   std::vector<Speeds> speeds_;
-  std::vector<JamLoad> loads_;  ///< by the speeds, on the pieces; the impulses need not obey their laws
-  std::vector<ContactPieces> pieces_;
+  std::vector<JamLoad> loads_;  ///< by the speeds, on the branches; the impulses need not obey their laws
+  std::vector<ActiveSet> active_sets_;
   std::vector<double> slip_bound_;    ///< [N s]
   Vector mass_, velocity_, without_;  ///< now, and without any impulses
 };

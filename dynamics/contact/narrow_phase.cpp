@@ -11,7 +11,12 @@ using geometry::Pose;
 using geometry::Rotation;
 using geometry::Vector;
 
-constexpr double kNearMargin = 0.75;  ///< bounding circles within this distance are kept with a pair [m]
+/// Bounding circles within this distance are kept with a pair [m]. It decides only how often they are sought
+/// again (smaller: more often) against how many are compared in each step (greater: more).
+constexpr double kNearMargin = 0.75;
+
+/// A body's neighbours in a field, and some of the next one's. Fewer: covers are made again more often.
+constexpr std::size_t kSecond = 32;
 
 geometry::CircleRule circle_rule(const ContactRule& rule) {
   return {rule.circle_radius, rule.is_circle_centres};
@@ -133,6 +138,46 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
 }
 
 }  // namespace
+
+std::pair<geometry::Covered, geometry::Covered> CoverCache::of(const Bodies& bodies, BodyIndex a, BodyIndex b,
+                                                               const geometry::CircleRule& rule) {
+  const geometry::Boundary& of_a = *bodies.boundary[a];
+  const geometry::Boundary& of_b = *bodies.boundary[b];
+  return {{of_a.edges, of_a.is_ready() ? *of_a.cover : first(of_a, a, rule)},
+          {of_b.edges, of_b.is_ready() ? *of_b.cover : second(of_b, b, rule)}};
+}
+
+void CoverCache::clear() {
+  first_ = {};
+  second_ = std::vector<Entry>();
+}
+
+const geometry::Cover& CoverCache::first(const geometry::Boundary& boundary, BodyIndex body,
+                                         const geometry::CircleRule& rule) {
+  if (first_.body == body) return first_.cover;
+  if (!second_.empty()) {  // pairs are ordered by their first body: most have been the second one before
+    Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
+    if (entry.body == body) {
+      std::swap(first_, entry);
+      return first_.cover;
+    }
+  }
+  first_.body = -1;
+  make_cover(boundary.edges, rule, first_.cover);
+  first_.body = body;
+  return first_.cover;
+}
+
+const geometry::Cover& CoverCache::second(const geometry::Boundary& boundary, BodyIndex body,
+                                          const geometry::CircleRule& rule) {
+  if (second_.empty()) second_.resize(kSecond);
+  Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
+  if (entry.body == body) return entry.cover;
+  entry.body = -1;
+  make_cover(boundary.edges, rule, entry.cover);
+  entry.body = body;
+  return entry.cover;
+}
 
 double clearance_left(const Bodies& bodies, BodyIndex b, const Pose& pose, const Clearance& clearance) {
   if (clearance.distance < 0) return clearance.distance;

@@ -2,10 +2,10 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "dynamics/contact/contact.hpp"
-#include "dynamics/contact/cover_cache.hpp"
 #include "geometry/contact/boundary.hpp"
 
 namespace polynya::dynamics {
@@ -49,7 +49,8 @@ struct alignas(64) Pair {
 };
 static_assert(sizeof(Pair) == 128, "of a million floes there are some millions");
 
-/// A cover of more pieces is always kept: to make it again would take long.
+/// A cover of more pieces is always kept: to make it again would take long. Greater, hulls and plates are
+/// covered again in every step where covers are many; smaller, memory grows.
 inline constexpr double kManyPieces = 512;
 
 /// How contacts are found.
@@ -73,6 +74,29 @@ inline bool need_covers(const Bodies& bodies, BodyIndex a, BodyIndex b, const Co
   return rule.is_circle_centres || !have_few_edges(bodies.boundary[a]->edges, bodies.boundary[b]->edges);
 }
 
+/// Covers of boundaries that keep none, made as they are needed: the last few of them.
+class CoverCache {
+ public:
+  /// Two bodies' boundaries with their covers, valid until the next call.
+  std::pair<geometry::Covered, geometry::Covered> of(const Bodies& bodies, BodyIndex a, BodyIndex b,
+                                                     const geometry::CircleRule& rule);
+  /// Frees them all.
+  void clear();
+
+ private:
+  struct Entry {
+    BodyIndex body = -1;
+    geometry::Cover cover;
+  };
+  const geometry::Cover& first(const geometry::Boundary& boundary, BodyIndex body,
+                               const geometry::CircleRule& rule);
+  const geometry::Cover& second(const geometry::Boundary& boundary, BodyIndex body,
+                                const geometry::CircleRule& rule);
+
+  Entry first_;                ///< the first body of the last pair
+  std::vector<Entry> second_;  ///< by body; empty until one is needed
+};
+
 /// Reusable memory of collide_pair.
 struct PairScratch {
   bool keeps_distant_edges = true;
@@ -95,7 +119,8 @@ double clearance_left(const Bodies& bodies, BodyIndex b, const geometry::Pose& p
 double collide_pair(const Bodies& bodies, Pair& pair, const geometry::Pose& pose, const ContactRule& rule,
                     double dt, PairScratch& scratch, std::vector<Contact>& contacts);
 
-/// Far more than the rounding errors of positions and distances [m].
+/// Far more than the rounding errors of positions and distances. Smaller, bodies that touch may be
+/// taken for apart [m].
 inline constexpr double kRounding = 1e-9;
 
 }  // namespace polynya::dynamics

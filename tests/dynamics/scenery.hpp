@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/bodies.hpp"
-#include "dynamics/contact/impulse_solver.hpp"
+#include "dynamics/contact/contact_solver.hpp"
 #include "dynamics/water/water_drag.hpp"
 #include "geometry/exact/measures.hpp"
 

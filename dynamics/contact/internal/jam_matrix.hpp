@@ -14,7 +14,7 @@ struct JamRows {
   int a, b;  ///< number of the body; −1 of bodies of prescribed motion
 };
 
-/// The impulses of one contact on b, on the straight pieces of its laws, and how they fall with the speeds.
+/// The impulses of one contact on b, on the straight branchs of its laws, and how they fall with the speeds.
 struct JamLoad {
   double impulse[3];  ///< at both ends, apart; along the line [N s]
   double slope[3];    ///< of each with its own speed, ≥ 0 [N s per m/s]
