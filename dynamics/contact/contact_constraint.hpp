@@ -24,11 +24,8 @@ void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched,
 void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched,
                       Bodies& bodies);
 
-/// The constraint of one contact line, with the impulses found so far; [0] and [1] are its ends. With J_e the
-/// row that gives the separating speed at end e from the velocities of the two bodies,
-///   J_e = (−n, −r_a,e × n, n, r_b,e × n),   K = J M⁻¹ Jᵀ,
-/// impulses p ≥ 0 at the ends change the separating speeds by K p. K is 2 × 2 and symmetric; it is singular
-/// where both ends turn the bodies alike.
+/// The constraint of one contact line, with the impulses found so far; [0] and [1] are its ends. J and K are
+/// those of contact_solver.hpp; K is singular where both ends turn the bodies alike.
 struct ContactConstraint {
   std::int32_t a, b;  ///< indices of the solver bodies
   geometry::Vector normal;
