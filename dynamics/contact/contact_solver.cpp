@@ -167,7 +167,7 @@ void ContactSolver::finish(const Island& island, const Law& law) {
 template <class Law>
 double ContactSolver::solve_island(const Island& island, const Law& law, const SolverSettings& settings) {
   double residual = 0;
-  for (int substep = 0; substep < law.substeps; ++substep) {
+  for (int substep = 0; substep < substeps_of(law); ++substep) {
     start(island, law, substep == 0);
     residual = std::max(residual, sweep(island, law, settings));
     if constexpr (Law::kRestores) {

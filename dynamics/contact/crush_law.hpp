@@ -156,6 +156,9 @@ struct CrushLaw {
   };
 };
 
+constexpr int substeps_of(const CrushLaw& law) {
+  return law.substeps;
+}
 CrushLaw::State state_of(const CrushLaw& law, const Contact& contact);
 void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_first, CrushLaw::State& state,
                    ContactConstraint& constraint);

@@ -36,9 +36,8 @@ inline double collision_impulse(double approach_speed, double restitution, doubl
 ///      bodies alone, so that a squeeze from elsewhere does not charge it.
 ///   3. Compression again, of what restitution pushed together.
 struct RestitutionLaw {
-  double restitution = 0.1;           ///< ε of Eq. (5) [-]
-  double step = 1;                    ///< Δt [s]
-  static constexpr int substeps = 1;  ///< Poisson's share is of a whole step's compression
+  double restitution = 0.1;  ///< ε of Eq. (5) [-]
+  double step = 1;           ///< Δt [s]
   static constexpr bool kHasJams = false, kRestores = true;
 
   struct State {
@@ -47,6 +46,10 @@ struct RestitutionLaw {
   };
 };
 
+/// Poisson's share is of a whole step's compression.
+constexpr int substeps_of(const RestitutionLaw& /*law*/) {
+  return 1;
+}
 inline RestitutionLaw::State state_of(const RestitutionLaw& law, const Contact& contact) {
   return {contact.record, contact.crushing_force * law.step};
 }
