@@ -85,7 +85,8 @@ class SceneReader {
              "one ship, as an entry of a scene's \"ships\"");
       return tl::unexpected(problems_of_ship());
     }
-    LoadedShip ship{.given = given};
+    LoadedShip ship;
+    ship.given = given;
     if (const JsonValue* preset = given.find("ship", JsonKind::kText)) ship.preset = preset->text();
     JsonValue scene{JsonValue::Object{}, given.offset};
     put(scene, "ships", JsonValue::Array{std::move(given)});
