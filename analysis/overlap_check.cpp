@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geometry/cut/overlap.hpp"
-#include "geometry/cut/overlapping_pairs.hpp"
 #include "geometry/exact/measures.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 #include "io/run/placed_floes.hpp"
 
 namespace polynya::analysis {

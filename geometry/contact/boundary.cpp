@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/contact/boundary_edges.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -69,7 +69,7 @@ double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
 bool is_inside(const EdgeList& edges, Point p) {
   bool inside = false;
   for (std::uint32_t edge = 0; edge < edges.size(); ++edge) {
-    if (is_right_of(edges, edge, p)) inside = !inside;
+    if (crosses_ray(edges.from(edge), edges.to(edge), p)) inside = !inside;
   }
   return inside;
 }

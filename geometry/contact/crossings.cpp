@@ -1,9 +1,8 @@
-#include "geometry/contact/crossings.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include "geometry/contact/manifolds.hpp"
 #include "geometry/shape/avx2_clone.hpp"
 
 namespace polynya::geometry {

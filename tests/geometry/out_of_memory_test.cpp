@@ -14,7 +14,7 @@
 #include "geometry/cut/overlap.hpp"
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/exact_memory.hpp"
-#include "geometry/shape/triangulation.hpp"
+#include "geometry/shape/outline.hpp"
 
 namespace {
 
