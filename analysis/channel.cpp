@@ -29,7 +29,9 @@ std::string describe(const geometry::CutError& error) {
   return fmt::format("{}: {}", name_of(error.reason), error.detail);
 }
 
-constexpr double kTrackTolerance = 0.05;  ///< [m]
+/// Of the track and of the hull's corners [m]. Larger, and widths are off by as much; smaller, and bands have
+/// more pieces, whose union takes longer.
+constexpr double kTrackTolerance = 0.05;
 
 /// The track's corners with the way to them and when they were passed.
 struct Waypoint {

@@ -101,13 +101,13 @@ bool shrink_candidates(const Obstacles& obstacles, double factor, int tries,
 
 /// Adds the floes that the cells' candidates become, with their number and the mean and spread of their
 /// sizes.
-void add_floes(const FloeField& field, FieldCells& cells, FloeFieldOutcome& outcome) {
+void add_floes(const FloeField& field, FieldLayout& layout, FloeFieldOutcome& outcome) {
   const GivingWay way = giving_way_of(field);
   const Obstacles obstacles(field, std::max(0.0, field.gap - way.rounding));
-  std::vector<Ring> floes(cells.candidates.size());
+  std::vector<Ring> floes(layout.candidates.size());
   for (int round = 0; round < way.rounds; ++round) {
-    const double factor = common_factor(cells.candidates, field.concentration * cells.tiled_area);
-    if (!shrink_candidates(obstacles, factor, way.tries, cells.candidates, floes)) break;
+    const double factor = common_factor(layout.candidates, field.concentration * layout.tiled_area);
+    if (!shrink_candidates(obstacles, factor, way.tries, layout.candidates, floes)) break;
   }
   outcome.floes.reserve(floes.size());
   double size_sum = 0;
@@ -142,16 +142,16 @@ double floe_count(const FloeField& field) {
 }
 
 FloeFieldOutcome make_floe_field(const FloeField& field) {
-  FieldCells cells = field.law ? packed_cells(field) : lattice_cells(field);
+  FieldLayout layout = field.law ? packed_cells(field) : lattice_cells(field);
   FloeFieldOutcome outcome;
-  outcome.region_area = cells.region_area;
-  outcome.left_out = cells.left_out;
-  if (!(cells.tiled_area > 0)) return outcome;
+  outcome.region_area = layout.region_area;
+  outcome.left_out = layout.left_out;
+  if (!(layout.tiled_area > 0)) return outcome;
   double room = 0;
-  for (const Candidate& candidate : cells.candidates) room += candidate.room;
-  outcome.reachable_concentration = room / cells.tiled_area;
-  outcome.reachable_without_gap = cells.cell_area / cells.tiled_area;
-  add_floes(field, cells, outcome);
+  for (const Candidate& candidate : layout.candidates) room += candidate.room;
+  outcome.reachable_concentration = room / layout.tiled_area;
+  outcome.reachable_without_gap = layout.cell_area / layout.tiled_area;
+  add_floes(field, layout, outcome);
   if (field.law && outcome.count > 0) outcome.statistics = statistics_of(*field.law, outcome.floes);
   return outcome;
 }

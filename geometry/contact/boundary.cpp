@@ -10,8 +10,11 @@
 namespace polynya::geometry {
 namespace {
 
+/// Bounding circles of a leaf. More are compared one by one, fewer make a larger tree.
 constexpr std::uint32_t kLeafCircles = 4;
-constexpr double kMostPieces = 128;  ///< of an edge: every metre of a ship's side, not of a plate's
+/// Pieces of an edge: every metre of a ship's side, not of a plate's. More take memory, 64 bytes each; fewer
+/// make more of a long edge near, and contacts slower.
+constexpr double kMostPieces = 128;
 
 /// Centres and radii of some bounding circles.
 struct Extent {

@@ -98,7 +98,8 @@ struct NearEdges {
 double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs);
 
-/// Of two boundaries together, which near_edges() compares without a tree.
+/// Edges of two boundaries together, which near_edges() compares without a tree [-]. Its stack holds that
+/// many points: more costs their product, fewer makes covers for bodies that do not need them.
 inline constexpr std::size_t kFewEdges = 256;
 inline bool have_few_edges(const EdgeList& a, const EdgeList& b) {
   return a.size() + b.size() <= kFewEdges;
@@ -132,7 +133,8 @@ struct ContactManifold {
   double extent = 0;  ///< of the overlap along the normal or along the line, the greater [m]
 };
 
-/// Widths of a contact line below this are 0 but for rounding [m].
+/// Widths of a contact line below this are 0 but for rounding [m]. Smaller, normals are directions of
+/// rounding errors; larger than some 1e-6, contacts that just begin are lost for a step.
 inline constexpr double kNoWidth = 1e-12;
 
 /// A stretch of a's boundary inside b and the stretch of b's inside a that follows it around an overlap: the
@@ -190,7 +192,8 @@ struct ManifoldScratch {
 int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, const NearEdges& edges,
                    ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds);
 
-/// A width below this share of an overlap's mean width, area / extent, is blind.
+/// A width below this share of an overlap's mean width, area / extent, is blind [-]. Larger, healthy contacts
+/// of wedges (a half) are ground off; smaller, bodies lie in each other without a force that parts them.
 inline constexpr double kBlindShare = 0.25;
 
 /// Whether the gradient of an overlap's area does not show the overlap: whichever way the bodies move apart,

@@ -24,7 +24,9 @@ bool do_meet(const EdgeEnds& p, const EdgeEnds& q) {
   return !((q_from > 0 && q_to > 0) || (q_from < 0 && q_to < 0));
 }
 
-constexpr double kSlack = 1e-6;  ///< far more than what circles miss of their edges by rounding [m]
+/// Far more than what circles miss of their edges by rounding [m]. Without it an edge may be overlooked, and
+/// bodies that overlap are clear; larger only costs time.
+constexpr double kSlack = 1e-6;
 
 /// As is_inside of all edges: no other edge is to the right of the point.
 bool is_inside_boundary(const Boundary& boundary, Point p) {

@@ -67,8 +67,10 @@ double off_at(const std::vector<Point>& profile, double along) {
 /// greatest extents do not simply add: two faces shifted along each other reach farthest at opposite ends of
 /// the line.
 double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& b_side, double line) {
-  constexpr std::size_t kMostProduct =
-      4096;  // beyond, the sum is near enough for bodies that lie deep in each other
+  // Of the sides' corners. Beyond, the sum of both extents stands for the thickness, which is too large where
+  // faces are shifted along each other: bodies that lie deep in each other. More costs the product, in every
+  // step.
+  constexpr std::size_t kMostProduct = 4096;
   double most = 0;
   double sum = 0;
   for (const Point p : a_side) sum = std::max(sum, p.y);

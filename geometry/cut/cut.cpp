@@ -176,8 +176,8 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
 
 Ring disc_polygon(Point centre, double radius, double sagitta) {
   // A chord subtending an angle 2π/n leaves the circle by r(1 − cos(π/n)).
-  constexpr int kFewest = 8;
-  constexpr int kMost = 4096;
+  constexpr int kFewest = 8;   // fewer, and a cusp's area is less by more than a tenth of the disc's
+  constexpr int kMost = 4096;  // more, and a mistyped sagitta makes rings that no step can carry
   const double half_angle = std::acos(std::clamp(1 - sagitta / radius, -1.0, 1.0));
   const double wanted = half_angle > 0 ? std::ceil(std::numbers::pi / half_angle) : kMost;
   const int n = static_cast<int>(std::clamp(wanted, double{kFewest}, double{kMost}));

@@ -90,8 +90,12 @@ double area_in_common(const Polygon& a, const Polygon& b) {
   return cut.error().reason == CutFailure::kMisses ? 0 : std::numeric_limits<double>::quiet_NaN();
 }
 
-constexpr int kDiscSides = 12;  ///< of the polygon about a disc of the gap: its corners reach 1/cos(15°)
-constexpr double kLeastStrip = 1e-9;  ///< what a gap takes less of is rounding [m²]
+/// Of the polygon about a disc of the gap: its corners reach 1/cos(15°), 4 % beyond it. More make floes'
+/// corners rounder and cuts slower.
+constexpr int kDiscSides = 12;
+/// What a gap takes less of is rounding [m²]. With 0 floes that are a gap apart already are cut again and
+/// again.
+constexpr double kLeastStrip = 1e-9;
 
 /// Cuts tools off one polygon.
 class Trimmer {

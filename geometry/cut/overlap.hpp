@@ -33,9 +33,11 @@ tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_f
 /// the result may cross itself. Few vertices are left of a long ring beside a small box.
 Ring near_part(const Ring& ring, const Box& box);
 
-/// Overlaps thinner than this are taken for the rounding of shared edges [m].
+/// Overlaps thinner than this are taken for the rounding of shared edges [m]. Below some 1e-12 (of
+/// coordinates of kilometres) floes that share an edge overlap.
 inline constexpr double kTouchingDepth = 1e-9;
-/// Exactly found overlaps of less area than this likewise [m²].
+/// Exactly found overlaps of less area than this likewise [m²]: a shared edge of a kilometre times
+/// kTouchingDepth.
 inline constexpr double kTouchingArea = 1e-6;
 
 struct OverlappingPair {

@@ -19,7 +19,7 @@ struct Candidate {
 };
 
 /// Cells, and what they were made for.
-struct FieldCells {
+struct FieldLayout {
   std::vector<Candidate> candidates;
   double tiled_area = 0;   ///< that the cells tile, and of which the floes cover the concentration [m²]
   double region_area = 0;  ///< of it in the region and not kept clear [m²]
@@ -31,12 +31,12 @@ struct FieldCells {
 /// the logarithm); a power diagram of as many sites, relaxed so that each cell's area goes with its floe's
 /// [Balzer2009, deGoes2012], tiles the region's box. Sites without a cell are lost: none in 1000 up to a
 /// spread of 0.3, 4 in 100 at 0.5, where the smallest floes are smaller than drawn.
-FieldCells lattice_cells(const FloeField& field);
+FieldLayout lattice_cells(const FloeField& field);
 
 /// Of a field with a size law. Cells for the floes drawn, and for as many holes as the packing asks for, tile
 /// the free area (tessellation.hpp); with an aspect and no orientation, cells of two and more floes are cut
 /// across a random direction. Each floe's cell, its corners reduced or cut off, is moved inwards by half the
 /// gap. Holes are drawn from the same law as floes, so that no size is favoured.
-FieldCells packed_cells(const FloeField& field);
+FieldLayout packed_cells(const FloeField& field);
 
 }  // namespace polynya::simulation

@@ -16,9 +16,10 @@ using geometry::Ring;
 using geometry::Site;
 using geometry::Vector;
 
+// Every one of these changes all fields without a size law, to the bit.
 constexpr double kFarthestDeviation = 2.5;  ///< of the logarithm of a floe's size, in standard deviations
-constexpr int kRelaxations = 12;
-constexpr double kShortestEdge = 0.1;  ///< of a floe, in sizes of its cell
+constexpr int kRelaxations = 12;            ///< fewer leave cells slender and off their areas
+constexpr double kShortestEdge = 0.1;  ///< of a floe, in sizes of its cell; smaller leaves slivers of edges
 
 /// e^x for moderate x, without a library's: (1 + x/2²⁰)^(2²⁰), to 1e-6.
 double exponential(double x) {
@@ -98,7 +99,7 @@ double least_distance_to_edges(const Ring& ring, Point inside) {
 
 }  // namespace
 
-FieldCells lattice_cells(const FloeField& field) {
+FieldLayout lattice_cells(const FloeField& field) {
   const Box box = bounding_box(field.region);
   // Consecutive seeds must not give shifted copies of one sequence.
   Random random(Random(field.seed).next());
@@ -107,11 +108,11 @@ FieldCells lattice_cells(const FloeField& field) {
   std::vector<Site> sites = first_sites(box, areas, random);
   double sum = 0;
   for (const double area : areas) sum += area;
-  FieldCells cells;
-  cells.tiled_area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
-  cells.cell_area = cells.tiled_area;
-  cells.region_area = geometry::signed_area(field.region);
-  for (double& area : areas) area *= cells.tiled_area / sum;
+  FieldLayout layout;
+  layout.tiled_area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
+  layout.cell_area = layout.tiled_area;
+  layout.region_area = geometry::signed_area(field.region);
+  for (double& area : areas) area *= layout.tiled_area / sum;
   std::vector<Ring> rings = relaxed_cells(std::move(sites), areas, box);
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (rings[i].empty()) continue;
@@ -126,9 +127,9 @@ FieldCells lattice_cells(const FloeField& field) {
     // Shrunk by s about a point at distance d from an edge, the edge moves in by (1 − s) d.
     const double s = 1 - 0.5 * field.gap / least_distance_to_edges(cell.ring, cell.centroid);
     if (s > 0) cell.room = s * s * cell.area;
-    if (cell.room > 0) cells.candidates.push_back(std::move(cell));
+    if (cell.room > 0) layout.candidates.push_back(std::move(cell));
   }
-  return cells;
+  return layout;
 }
 
 }  // namespace polynya::simulation

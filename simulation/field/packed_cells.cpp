@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulation/field/cells.hpp"
 #include "simulation/field/convex.hpp"
 #include "simulation/field/free_area.hpp"
+#include "simulation/field/layout.hpp"
 #include "simulation/field/portable_math.hpp"
 #include "simulation/field/tessellation.hpp"
 
@@ -16,8 +16,10 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
-constexpr double kShortestEdge = 0.03;  ///< of a floe, in sizes
-constexpr double kLeastShare = 0.25;    ///< of a floe's area that its cell must have room for
+constexpr double kShortestEdge = 0.03;  ///< of a floe, in sizes; smaller leaves slivers of edges
+/// Of a floe's area that its cell must have room for. Smaller, and floes far off the law stand at boundaries;
+/// larger, and boundaries are left bare.
+constexpr double kLeastShare = 0.25;
 
 /// Of floes one, two, three … of which share a round cell, cut across a random direction: measured.
 constexpr std::array kAspectOfStrips{1.27, 1.97, 2.9, 3.85, 4.83, 5.8};
@@ -105,8 +107,8 @@ std::vector<Run> shuffled_runs(const FloeField& field, std::size_t count, Random
 }
 
 void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_at_boundary,
-                   FieldCells& cells) {
-  const auto lose = [&cells] { ++cells.left_out; };
+                   FieldLayout& layout) {
+  const auto lose = [&layout] { ++layout.left_out; };
   if (ring.empty()) return lose();
   const double shortest = kShortestEdge * std::sqrt(item.area);
   reduce_corners(ring, field.most_corners, shortest);
@@ -118,16 +120,16 @@ void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_
   add_corners(candidate.ring, field.least_corners);
   const CellMeasures measures = measure_convex(candidate.ring);
   if (!(measures.area >= kLeastShare * item.area)) return lose();
-  cells.cell_area += cell_area * measures.area / whole;
+  layout.cell_area += cell_area * measures.area / whole;
   candidate.centroid = measures.centroid;
   candidate.area = candidate.room = measures.area;
-  cells.candidates.push_back(std::move(candidate));
+  layout.candidates.push_back(std::move(candidate));
 }
 
 /// Adds the floes of one part of the region.
-void fill(const FloeField& field, const Ring& region, Random& random, FieldCells& cells) {
+void fill(const FloeField& field, const Ring& region, Random& random, FieldLayout& layout) {
   const double area = free_area(region, field.kept_clear);
-  cells.region_area += area;
+  layout.region_area += area;
   if (!(area > 0)) return;
   const std::vector<Item> items = draw_items(field, area, random);
   const std::vector<Run> runs = shuffled_runs(field, items.size(), random);
@@ -143,7 +145,7 @@ void fill(const FloeField& field, const Ring& region, Random& random, FieldCells
     Ring cell = plane.to_world(std::move(tiles[i].ring));
     if (run.count == 1) {
       if (items[run.first].is_floe)
-        add_candidate(field, items[run.first], std::move(cell), tiles[i].is_clipped, cells);
+        add_candidate(field, items[run.first], std::move(cell), tiles[i].is_clipped, layout);
       continue;
     }
     const auto [x, y] = portable_direction(random.uniform());
@@ -153,20 +155,20 @@ void fill(const FloeField& field, const Ring& region, Random& random, FieldCells
     if (!cell.empty()) strips = strips_of(cell, {x, y}, shares);
     for (std::size_t k = 0; k < run.count; ++k) {
       if (items[run.first + k].is_floe)
-        add_candidate(field, items[run.first + k], std::move(strips[k]), tiles[i].is_clipped, cells);
+        add_candidate(field, items[run.first + k], std::move(strips[k]), tiles[i].is_clipped, layout);
     }
   }
 }
 
 }  // namespace
 
-FieldCells packed_cells(const FloeField& field) {
+FieldLayout packed_cells(const FloeField& field) {
   Random random(Random(field.seed).next());
-  FieldCells cells;
+  FieldLayout layout;
   for (const Ring& part : field.parts.empty() ? std::vector<Ring>{field.region} : field.parts)
-    fill(field, part, random, cells);
-  cells.tiled_area = cells.region_area;
-  return cells;
+    fill(field, part, random, layout);
+  layout.tiled_area = layout.region_area;
+  return layout;
 }
 
 }  // namespace polynya::simulation

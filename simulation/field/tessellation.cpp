@@ -20,11 +20,14 @@ using geometry::Ring;
 using geometry::Site;
 using geometry::Vector;
 
-constexpr double kPointsPerSite = 4;
-constexpr int kMoves = 11;       ///< passes in which sites move to their cells' centroids
-constexpr int kSettles = 5;      ///< passes after them in which sites stay and weights alone change
-constexpr int kMostExtras = 6;   ///< more of these while sites are without a cell
-constexpr int kIterations = 12;  ///< of a settling pass's system of equations
+// Every one of these changes all fields with a size law, to the bit: their goldens and pinned hashes go with
+// them.
+constexpr double kPointsPerSite = 4;  ///< fewer, and sites start where others' floes are to lie
+constexpr int kMoves = 11;  ///< passes in which sites move to their centroids; fewer leave slender cells
+constexpr int kSettles =
+    5;  ///< passes after them in which weights alone change; fewer miss areas by above 1 %
+constexpr int kMostExtras = 6;   ///< more of these while sites are without a cell; fewer lose floes
+constexpr int kIterations = 12;  ///< of a settling pass's system of equations; as kSettles
 
 /// Points in the free area, one at random in each of the cells of a grid.
 std::vector<Point> strew(const FreeArea& free, double count, Random& random) {
@@ -277,7 +280,7 @@ class Relaxation {
   /// Sites to their cells' centroids, and each weight by its own cell's error alone, which is safe far from
   /// the end.
   void move() {
-    constexpr double kDamping = 0.6;
+    constexpr double kDamping = 0.6;  // above 1, weights of neighbours overshoot in turn and cells vanish
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!(found_[i].area > 0)) continue;
       sites_[i].weight += kDamping * lack(i) / std::max(couplings_.growth(i), 0.5);

@@ -56,8 +56,9 @@ TEST(Predicates, MeetingsDoNotDependOnTheOrderOfEnds) {
     const SegmentMeeting meeting = meet(a, b, c, d);
     for (const SegmentMeeting& other : {meet(c, d, a, b), meet(b, a, c, d), meet(a, b, d, c)})
       ASSERT_EQ(other.kind, meeting.kind) << "law 5";
-    if (meeting.kind == Meeting::kTouch || meeting.kind == Meeting::kOverlap)
+    if (meeting.kind == Meeting::kTouch || meeting.kind == Meeting::kOverlap) {
       ASSERT_TRUE(meeting.at == a || meeting.at == b || meeting.at == c || meeting.at == d) << "law 6";
+    }
   }
 }
 
@@ -87,7 +88,9 @@ TEST(Predicates, APointIsInARingWhereItsRayCrossesItOnceMore) {
     for (std::size_t i = 0; i < ring.size(); ++i)
       is_odd ^= crosses_ray(ring[i], ring[(i + 1) % ring.size()], p);
     const int side = side_of_ring(ring, p);
-    if (side != 0) ASSERT_EQ(side > 0, is_odd);
+    if (side != 0) {
+      ASSERT_EQ(side > 0, is_odd);
+    }
     std::rotate(ring.begin(), ring.begin() + 2, ring.end());
     ASSERT_EQ(side_of_ring(ring, p), side);
     std::reverse(ring.begin(), ring.end());

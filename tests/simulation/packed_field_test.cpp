@@ -1,7 +1,5 @@
 // Fields by a size law: cover, sizes, shapes, clearings and gaps as asked for, without overlap, on every
 // machine.
-#include "simulation/floe_field.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +10,7 @@
 #include "simulation/field/convex.hpp"
 #include "simulation/field/free_area.hpp"
 #include "simulation/field/portable_math.hpp"
+#include "simulation/floe_field.hpp"
 #include "tests/simulation/hash_of_floes.hpp"
 #include "tests/simulation/scenes.hpp"
 

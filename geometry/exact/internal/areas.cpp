@@ -164,7 +164,7 @@ double area_of(const Polygon& polygon, const std::vector<RingArea>& rings) {
     sum.area += ring.area;
     sum.doubt += ring.doubt;
   }
-  constexpr double kWorstDoubt = 1e-6;  // of the area
+  constexpr double kWorstDoubt = 1e-6;  // of the area; more, and thin pieces weigh too much or too little
   return sum.doubt > kWorstDoubt * std::abs(sum.area) ? nearest_area(polygon) : sum.area;
 }
 
