@@ -25,10 +25,9 @@ constexpr std::array kOptions{
 
 }  // namespace
 
-Command add_performance(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("performance", "Find the speed that a ship keeps in level ice, by thickness");
-  command->footer(
+Command add_performance(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "performance", "Find the speed that a ship keeps in level ice, by thickness",
       "Examples:\n"
       "  polynya performance polaris                       ten thicknesses, on all processors\n"
       "  polynya performance araon --flexural-strength 630e3 --friction 0.1\n"
@@ -39,15 +38,18 @@ Command add_performance(CLI::App& app) {
       "standard error "
       "and its change between the halves are below the error asked for. Finished runs are kept: a curve that "
       "was "
-      "stopped goes on. Needs Python 3 with numpy, and matplotlib for the figure (./setup.sh python).\n");
+      "stopped goes on. Points outside the range of validation are marked (docs/ships.md). Needs Python 3 "
+      "with numpy, and matplotlib for the figure (./setup.sh python).\n");
   auto ship = std::make_shared<std::string>();
   auto values = std::make_shared<PythonOptions>(kOptions);
   auto is_list = std::make_shared<bool>(false);
-  option(*command, "ship", *ship, "SHIP",
-         "A preset (polynya ships), or a JSON file with a ship as scenes have it")
-      ->required();
-  values->add_to(*command);
-  command->add_flag("--list", *is_list, "Print the formulas' speeds and run nothing");
+  command
+      .option("ship", *ship, "SHIP",
+              "A preset (polynya ships), or a JSON file with a ship as scenes have it, which polynya ships "
+              "checks")
+      .required();
+  values->add_to(command);
+  command.flag("--list", *is_list, "Print the formulas' speeds and run nothing");
   return {command, [ship, values, is_list] {
             std::vector<std::string> words{*ship};
             values->append_to(words);

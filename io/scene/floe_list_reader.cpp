@@ -129,7 +129,10 @@ void FloeListReader::add_file(std::size_t index, const JsonValue& item) {
                                    .member = static_cast<int>(i),
                                    .is_known_valid = file->totals.has_value()});
   }
-  files_.push_back({index, std::move(file->plane), file->run_time, file->totals, file->floes.size()});
+  const auto with_thickness = std::ranges::count_if(
+      file->floes, [](const FileFloe& floe) { return floe.properties.thickness.has_value(); });
+  files_.push_back({index, std::move(file->plane), file->run_time, file->totals, file->floes.size(),
+                    static_cast<std::size_t>(with_thickness), std::move(file->near_misses), name.offset});
 }
 
 /// The entry that the floe of a file that was added last is in the resolved scene: what the file states of it

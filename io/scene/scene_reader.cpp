@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/import/import_report.hpp"
 #include "io/scene/floe_group.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/pilot_check.hpp"
@@ -51,26 +52,14 @@ class SceneReader {
       : folder_(std::move(folder)), problems_(SourceText{name, std::move(text)}) {}
 
   SceneOutcome read(const std::string& default_name, const SceneOverrides& overrides, std::size_t longest) {
-    JsonDocument document = parse_json(problems_.source(0).text);
-    problems_.add_faults(0, document.faults);
-    if (std::ranges::any_of(document.faults, [](const JsonFault& fault) { return fault.path.empty(); }))
-      return tl::unexpected(problems_.take());
+    JsonDocument document;
+    if (!parse(document)) return tl::unexpected(problems_.take());
     assign(document.root, overrides.assignments, problems_);
     if (!document.root.find("name")) put(document.root, "name", default_name);
     override_scene(document.root, overrides);
-    fill_in_presets(document.root);
-    resolved_ = resolve_scene(document.root, problems_);
-    if (resolved_.members().empty()) return tl::unexpected(problems_.take());
-    hold_constant_speeds(document.root);
-    choose_fate_of_ice(document.root);
-    choose_hull_water(document.root, resolved_);
-    choose_skin_drag(document.root, resolved_);
-    build();
-    fill_in_masses(draft_, resolved_);
-    complete_pilots(resolved_, draft_, problems_);
-    check_scene(draft_, resolved_, problems_);
-    if (problems_.count() > 0) return tl::unexpected(problems_.take());
+    if (!complete(document.root)) return tl::unexpected(problems_.take());
     add_scene_hints(draft_, resolved_, problems_);
+    for (const FileReport& file : files_) add_file_hints(file);
     std::vector<Problem> hints = problems_.take();
     LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description),
                        to_json_text(resolved_), "",
@@ -85,7 +74,84 @@ class SceneReader {
     return loaded;
   }
 
+  tl::expected<LoadedShip, std::vector<Problem>> read_ship(ShipUse use) {
+    JsonDocument document;
+    if (!parse(document)) return tl::unexpected(problems_of_ship());
+    JsonValue& given = document.root;
+    for (const char* key : {"ships", "floes"}) {
+      if (!given.find(key)) continue;
+      report(given.offset, "", fmt::format("a scene, with its \"{}\"", key),
+             "one ship, as an entry of a scene's \"ships\"");
+      return tl::unexpected(problems_of_ship());
+    }
+    LoadedShip ship{.given = given};
+    if (const JsonValue* preset = given.find("ship", JsonKind::kText)) ship.preset = preset->text();
+    JsonValue scene{JsonValue::Object{}, given.offset};
+    put(scene, "ships", JsonValue::Array{std::move(given)});
+    const bool is_valid = complete(scene);
+    if (use == ShipUse::kLevelIce) check_for_level_ice(scene.find("ships")->items().front());
+    if (!is_valid || problems_.count() > 0) return tl::unexpected(problems_of_ship());
+    ship.resolved = std::move(resolved_.find("ships")->items().front());
+    if (auto* engine = std::get_if<simulation::Engine>(&draft_.ship().propulsion)) ship.engine = *engine;
+    return ship;
+  }
+
  private:
+  bool parse(JsonDocument& document) {
+    document = parse_json(problems_.source(0).text);
+    problems_.add_faults(0, document.faults);
+    return std::ranges::none_of(document.faults, [](const JsonFault& fault) { return fault.path.empty(); });
+  }
+
+  /// Makes the draft and the resolved scene; false where anything is wrong, which has been reported.
+  bool complete(JsonValue& root) {
+    fill_in_presets(root);
+    resolved_ = resolve_scene(root, problems_);
+    if (resolved_.members().empty()) return false;
+    hold_constant_speeds(root);
+    choose_fate_of_ice(root);
+    choose_hull_water(root, resolved_);
+    choose_skin_drag(root, resolved_);
+    build();
+    fill_in_masses(draft_, resolved_);
+    complete_pilots(resolved_, draft_, problems_);
+    check_scene(draft_, resolved_, problems_);
+    return problems_.count() == 0;
+  }
+
+  std::vector<Problem> problems_of_ship() {
+    std::vector<Problem> problems = problems_.take();
+    for (Problem& problem : problems) {
+      constexpr std::string_view kPrefix = "ships[0]";
+      if (!problem.path.starts_with(kPrefix)) continue;
+      problem.path.erase(0, kPrefix.size());
+      if (problem.path.starts_with('.')) problem.path.erase(0, 1);
+    }
+    return problems;
+  }
+
+  /// What the formulas and the course of `polynya performance` need, of a ship with its preset filled in.
+  void check_for_level_ice(const JsonValue& ship) {
+    const auto report_at = [&](const JsonValue& at, const std::string& key, std::string found,
+                               std::string allowed) {
+      report(at.offset, "ships[0]." + key, std::move(found), std::move(allowed));
+    };
+    const std::string reason = ": the formulas and the course in level ice need it";
+    if (const JsonValue* hull = ship.find("hull", JsonKind::kObject)) {
+      if (const JsonValue* waterline = hull->find("waterline_m"))
+        report_at(*waterline, "hull.waterline_m", "a waterline point by point",
+                  "length_m, beam_m and entrance_angle_deg, which the formulas and the course need");
+      if (!hull->find("draught_m"))
+        report_at(*hull, "hull.draught_m", "nothing", "a number > 0, ≤ 1000 [m]" + reason);
+    }
+    const JsonValue* propulsion = ship.find("propulsion", JsonKind::kObject);
+    if (propulsion && !propulsion->members().empty() && !propulsion->find("engine"))
+      report_at(*propulsion, "propulsion.engine", "nothing",
+                "an engine, by which is known what the ship can push with");
+    if (const JsonValue* mooring = ship.find("mooring"))
+      report_at(*mooring, "mooring", "a mooring", "none: the ship sails");
+  }
+
   void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {
     problems_.report(0, offset, std::move(path), std::move(found), std::move(allowed));
   }
@@ -187,6 +253,30 @@ class SceneReader {
         {.offset = item.offset, .group = index, .is_structure = true, .list = "structures"});
   }
 
+  /// Properties of a floe file that are probably meant to be read, and floes without a thickness among
+  /// others.
+  void add_file_hints(const FileReport& file) {
+    const auto add = [&](Severity severity, std::string sentence) {
+      problems_.add(0, file.offset,
+                    {.path = fmt::format("floes[{}].file", file.group),
+                     .sentence = std::move(sentence),
+                     .severity = severity});
+    };
+    const std::string thickness = thickness_in_words(file.with_thickness, file.floes);
+    bool is_partial = file.with_thickness > 0 && file.with_thickness < file.floes;
+    for (const NearMiss& miss : file.near_misses) {
+      if (miss.floes == 0) continue;
+      const bool is_thickness = miss.meant == "thickness_m";
+      add(Severity::kWarning,
+          fmt::format("property \"{}\" of {} floe{} is not read; did you mean {}? \"import\": "
+                      "{{\"properties\": \"{}\"}} reads it{}",
+                      miss.key, miss.floes, miss.floes == 1 ? "" : "s", miss.meant, as_property_name(miss),
+                      is_thickness ? "; " + thickness : ""));
+      is_partial = is_partial && !is_thickness;
+    }
+    if (is_partial) add(Severity::kHint, thickness + "; the others have that of the scene");
+  }
+
   std::filesystem::path folder_;
   ProblemCollector problems_;
   JsonValue resolved_;
@@ -196,7 +286,8 @@ class SceneReader {
   std::vector<IceReport> ice_;
 };
 
-/// A file's stem as a scene's name.
+}  // namespace
+
 std::string name_from(const std::string& file) {
   std::string name = std::filesystem::path(file).stem().string().substr(0, 100);
   const auto is_plain = [](char c) {
@@ -207,11 +298,14 @@ std::string name_from(const std::string& file) {
   return name.empty() || !is_plain(name.front()) ? "scene" : name;
 }
 
-}  // namespace
-
 SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
                         const SceneOverrides& overrides, std::size_t longest) {
   return SceneReader(std::move(text), name, folder).read(name_from(name), overrides, longest);
+}
+
+tl::expected<LoadedShip, std::vector<Problem>> read_ship(std::string text, const std::string& name,
+                                                         ShipUse use) {
+  return SceneReader(std::move(text), name, {}).read_ship(use);
 }
 
 SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides) {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/field/cells.hpp"
 #include "simulation/field/convex.hpp"
 #include "simulation/field/free_area.hpp"
-#include "simulation/field/layout.hpp"
 #include "simulation/field/portable_math.hpp"
 #include "simulation/field/tessellation.hpp"
 
@@ -139,13 +139,13 @@ void fill(const FloeField& field, const Ring& region, Random& random, FieldLayou
   }
   const Plane plane = plane_of(field, region);
   const FreeArea free(region, field.kept_clear, field.gap, plane);
-  std::vector<Tile> tiles = tessellate(free, areas, random);
+  std::vector<FieldCell> cells = tessellate(free, areas, random);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Run& run = runs[i];
-    Ring cell = plane.to_world(std::move(tiles[i].ring));
+    Ring cell = plane.to_world(std::move(cells[i].ring));
     if (run.count == 1) {
       if (items[run.first].is_floe)
-        add_candidate(field, items[run.first], std::move(cell), tiles[i].is_clipped, layout);
+        add_candidate(field, items[run.first], std::move(cell), cells[i].is_clipped, layout);
       continue;
     }
     const auto [x, y] = portable_direction(random.uniform());
@@ -155,7 +155,7 @@ void fill(const FloeField& field, const Ring& region, Random& random, FieldLayou
     if (!cell.empty()) strips = strips_of(cell, {x, y}, shares);
     for (std::size_t k = 0; k < run.count; ++k) {
       if (items[run.first + k].is_floe)
-        add_candidate(field, items[run.first + k], std::move(strips[k]), tiles[i].is_clipped, layout);
+        add_candidate(field, items[run.first + k], std::move(strips[k]), cells[i].is_clipped, layout);
     }
   }
 }
