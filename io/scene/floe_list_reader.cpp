@@ -74,6 +74,7 @@ void FloeListReader::add_field(std::size_t index, const JsonValue& item) {
     return report(item.find("field")->offset, path, "room for less than one floe",
                   "a region for some floes of that size at the concentration");
   if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), item, path)) return;
+  if (problems_.count() > 0) return;  // a million floes take half a minute; the scene is refused anyway
   simulation::FloeFieldOutcome outcome = simulation::make_floe_field(*field);
   if (!check_cover(*field, outcome, completed, path, problems_)) return;
   int member = 0;

@@ -36,9 +36,6 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, Pr
   if (scene.time.until / scene.time.step > kMostSteps)
     report("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
            fmt::format("at most {:g} steps", kMostSteps));
-  if (scene.ships.empty() && scene.floes.empty() && problems.count() == 0)
-    problems.add(0, resolved.offset,
-                 {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
 }
 
 /// The first floe of each entry whose own ice sinks.
@@ -85,8 +82,7 @@ struct Named {
   std::size_t index;  ///< in the scene
 };
 
-void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vector<Named>& named,
-                 std::vector<Polygon>& outlines) {
+void check_ships(const SceneDraft& draft, ProblemCollector& problems) {
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
     const auto& ship = draft.scene.ships[i];
     const Origin& origin = draft.ship_origins[i];
@@ -108,14 +104,18 @@ void check_ships(const SceneDraft& draft, ProblemCollector& problems, std::vecto
     if (!hull.angles_from_vertical.empty() && hull.angles_from_vertical.size() != hull.waterline.size())
       report("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
              fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
-    if (const auto defect = geometry::find_defect({hull.waterline, {}})) {
+    if (const auto defect = geometry::find_defect({hull.waterline, {}}))
       report(origin.is_structure ? "waterline_m" : "hull", "an invalid waterline: " + describe(*defect),
              origin.is_structure ? "a simple ring with an area"
                                  : "a simple ring with an area; a wedge bow must end before the stern");
-      continue;
-    }
-    outlines.push_back(waterline_in_world(ship));
-    named.push_back({path, &origin, true, i});
+  }
+}
+
+void add_valid_hulls(const SceneDraft& draft, std::vector<Named>& named, std::vector<Polygon>& outlines) {
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
+    if (geometry::find_defect({draft.scene.ships[i].hull.waterline, {}})) continue;
+    outlines.push_back(waterline_in_world(draft.scene.ships[i]));
+    named.push_back({ship_path(draft, i), &draft.ship_origins[i], true, i});
   }
 }
 
@@ -219,16 +219,24 @@ Polygon waterline_in_world(const simulation::ShipSpec& ship) {
   return {transform(world_from_ship, ship.hull.waterline), {}};
 }
 
-void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+void check_without_ice(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
   check_water_and_time(draft, resolved, problems);
-  if (problems.count() == 0) check_own_density(draft, problems);
   check_fast_ice(draft, resolved, problems);
   check_walls(draft, resolved, problems);
+  check_ships(draft, problems);
+  check_speeds_of_ships(draft, resolved, problems);
+}
+
+void check_ice(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+  if (draft.scene.ships.empty() && draft.scene.floes.empty() && problems.count() == 0)
+    problems.add(0, resolved.offset,
+                 {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
+  if (problems.count() == 0) check_own_density(draft, problems);
   std::vector<Named> named;
   std::vector<Polygon> outlines;
-  check_ships(draft, problems, named, outlines);
+  add_valid_hulls(draft, named, outlines);
   check_floes(draft, problems, named, outlines);
-  check_speeds(draft, resolved, problems);
+  check_speeds_of_floes(draft, resolved, problems);
   check_overlaps(draft, named, outlines, problems);
 }
 

@@ -17,8 +17,12 @@ geometry::Polygon waterline_in_world(const simulation::ShipSpec& ship);
 /// "self-crossing at (5, 5), (0, 0)".
 std::string describe(const geometry::DefectAt& defect);
 
-/// What no single field shows: ice that would sink, a step too long for the speeds, invalid outlines,
-/// floes that overlap each other or lie in a ship. Reports every problem with its place.
-void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems);
+/// What no single field shows and needs no floe: water, time, walls, hulls. Reports every problem with its
+/// place.
+void check_without_ice(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems);
+
+/// The rest, once the floes are there: ice that would sink, a step too long for the speeds, invalid outlines,
+/// floes that overlap each other or lie in a ship.
+void check_ice(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems);
 
 }  // namespace polynya::io

@@ -86,6 +86,7 @@ class Hinter {
       if (wall_of(scene_.ships[i])) hint_at_side(i);
       if (is_grounded(scene_.ships[i])) continue;
       hint_at_mass(i);
+      hint_at_mooring(i);
       hint_at_speed(i);
       hint_at_course(i);
     }
@@ -163,6 +164,15 @@ class Hinter {
             "{:.4g} kg for a hull of {:.4g} × {:.4g} m, which displaces {:.2g} to {:.2g} kg of water at a "
             "draught of {:.2g} to {:.2g} m and block coefficients of {:g} to {:g}",
             ship.mass, length, beam, least, most, shallow, deep, kLeastBlock, kMostBlock));
+  }
+
+  void hint_at_mooring(std::size_t i) {
+    const auto& m = scene_.ships[i].mooring;
+    if (!m || m->surge_stiffness + m->sway_stiffness + m->yaw_stiffness > 0 ||
+        m->surge_damping + m->sway_damping + m->yaw_damping > 0)
+      return;
+    add(Severity::kWarning, i, "mooring",
+        "all its stiffnesses and dampings are 0: it holds nothing; give surge_stiffness_N_per_m");
   }
 
   void hint_at_speed(std::size_t i) {

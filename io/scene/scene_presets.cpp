@@ -47,6 +47,13 @@ void merge(const Object& table, JsonValue& given, const JsonValue& preset, std::
   }
 }
 
+/// Whether the ship is driven by something else than an engine: then the preset's steering, which needs one,
+/// gives way with it.
+bool has_no_engine(const JsonValue& ship) {
+  const JsonValue* propulsion = ship.find("propulsion", JsonValue::Kind::kObject);
+  return propulsion && !propulsion->members().empty() && !propulsion->find("engine");
+}
+
 }  // namespace
 
 void fill_in_presets(JsonValue& scene) {
@@ -62,7 +69,10 @@ void fill_in_presets(JsonValue& scene) {
     if (preset) std::erase_if(ship.members(), [](const JsonMember& member) { return member.key == "ship"; });
     // Of an unknown one the name is reported, and not all that it would have filled in.
     if (!preset) preset = find_ship_preset("reference");
-    merge(*table->object, ship, json_of(*preset), offset);
+    JsonValue particulars = json_of(*preset);
+    if (has_no_engine(ship) && !ship.find("steering"))
+      std::erase_if(particulars.members(), [](const JsonMember& member) { return member.key == "steering"; });
+    merge(*table->object, ship, particulars, offset);
   }
 }
 

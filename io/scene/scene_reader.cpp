@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -114,8 +115,7 @@ class SceneReader {
     choose_skin_drag(root, resolved_);
     build();
     fill_in_masses(draft_, resolved_);
-    complete_pilots(resolved_, draft_, problems_);
-    check_scene(draft_, resolved_, problems_);
+    check_ice(draft_, resolved_, problems_);
     return problems_.count() == 0;
   }
 
@@ -205,10 +205,18 @@ class SceneReader {
              "false, or cusp_fate under_hull, or going_under.enabled");
   }
 
+  /// The floes come last, since fields take long: what needs no ice is checked before (FloeListReader).
   void build() {
     JsonValue floes{JsonValue::Array{}, resolved_.find("floes")->offset};
     FloeListReader reader{folder_, draft_, problems_, floes, fields_, ice_, files_};
+    bool is_checked = false;
+    const auto check_the_rest = [&] {
+      if (std::exchange(is_checked, true)) return;
+      complete_pilots(resolved_, draft_, problems_);
+      check_without_ice(draft_, resolved_, problems_);
+    };
     bind_scene(resolved_, draft_, [&](std::string_view list, std::size_t index, const JsonValue& item) {
+      if (list == "floes") check_the_rest();
       if (list == "ships")
         add_ship(index, item);
       else if (list == "structures")
@@ -218,6 +226,7 @@ class SceneReader {
       else if (list == "floes")
         reader.add(index, item);
     });
+    check_the_rest();
     *resolved_.find("floes") = std::move(floes);
   }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "io/scene/scene_field_parts.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 
@@ -30,6 +31,27 @@ bool is_name(const std::string& text) {
       text, [&](char c) { return is_plain(c) || c == ' ' || c == '.' || c == '_' || c == '-'; });
 }
 
+/// The keys that an object cannot be without: "radius_m, or waterline_m" where there are alternatives.
+std::string keys_needed_by(const Object& table) {
+  const auto keys_of = [&](std::string_view alternative) {
+    std::vector<std::string_view> keys;
+    for (const Field& field : table.fields)
+      if (field.alternative == alternative && field.default_json.empty()) keys.push_back(field.key);
+    return fmt::format("{}", fmt::join(keys, " and "));
+  };
+  std::string forms = table.alternatives.empty() ? keys_of("") : "";
+  for (const auto form : table.alternatives) forms += (forms.empty() ? "" : ", or ") + keys_of(form);
+  return forms;
+}
+
+/// What is allowed in place of a field that is missing.
+std::string describe_missing(const Object& table, const Field& field) {
+  if (field.kind != FieldKind::kObject) return describe_allowed(field);
+  const bool is_of_ship = &table == &ship_object();
+  return fmt::format("an object with {}{}", keys_needed_by(*field.object),
+                     is_of_ship ? R"(; or "ship": a preset's name, as "reference" (polynya ships))" : "");
+}
+
 class Resolver {
  public:
   explicit Resolver(ProblemCollector& problems) : problems_(problems) {}
@@ -47,7 +69,7 @@ class Resolver {
     for (const Field& field : table.fields) {
       if (!field.alternative.empty() && field.alternative != alternative) continue;
       if (field.default_json == kLeftOut && !value.find(field.key)) continue;
-      auto member = one_field(field, value, path);
+      auto member = one_field(table, field, value, path);
       if (!member)
         is_whole = false;
       else
@@ -88,28 +110,20 @@ class Resolver {
       if (std::ranges::find(chosen, field.alternative) == chosen.end()) chosen.push_back(field.alternative);
     }
     if (chosen.size() == 1) return chosen.front();
-    std::vector<std::string> forms;
-    for (const auto alternative : table.alternatives) {
-      std::vector<std::string_view> keys;
-      for (const Field& field : table.fields) {
-        if (field.alternative == alternative && field.default_json.empty()) keys.push_back(field.key);
-      }
-      forms.push_back(fmt::format("{}", fmt::join(keys, " and ")));
-    }
     report(value.offset, path,
            chosen.empty() ? "none of them" : fmt::format("{} together", fmt::join(chosen, " and ")),
-           fmt::format("either {}", fmt::join(forms, ", or ")));
+           fmt::format("either {}", keys_needed_by(table)));
     is_whole = false;
     return chosen.empty() ? "" : chosen.front();
   }
 
-  std::optional<JsonValue> one_field(const Field& field, const JsonValue& parent,
+  std::optional<JsonValue> one_field(const Object& table, const Field& field, const JsonValue& parent,
                                      const std::string& parent_path) {
     const std::string path = join(parent_path, field.key);
     const JsonValue* given = parent.find(field.key);
     if (!given) {
       if (!field.default_json.empty()) return default_of(field, parent.offset, path);
-      report(parent.offset, path, "nothing", describe_allowed(field));
+      report(parent.offset, path, "nothing", describe_missing(table, field));
       return std::nullopt;
     }
     std::optional<JsonValue> resolved = checked(field, *given, path);
@@ -265,7 +279,7 @@ std::string show(const JsonValue& value) {
       append_number(text, value.number());
       return text;
     case JsonKind::kText:
-      append_text(text, value.text().substr(0, 60));
+      append_text(text, shortened(value.text(), 60));
       return text;
     case JsonKind::kBoolean:
       return value.boolean() ? "true" : "false";

@@ -40,34 +40,62 @@ struct Fastest {
   std::string path;
 };
 
+void report_runaway(const Fastest& body, const Origin& origin, ProblemCollector& problems) {
+  if (body.speed < simulation::kRunawaySpeed) return;
+  problems.add(
+      origin.source, origin.offset,
+      {.path = body.path,
+       .found = fmt::format("a rim that moves at {:.4g} m/s at the start", body.speed),
+       .allowed = fmt::format("less than {:g} m/s, the water's shear included", simulation::kRunawaySpeed)});
+}
+
+/// Of the water and the ships.
+Fastest fastest_ship(const SceneDraft& draft) {
+  Fastest fastest{length(draft.scene.water.drift), "the drift"};
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
+    if (const double speed = speed_of(draft.scene, draft.scene.ships[i]); speed > fastest.speed)
+      fastest = {speed, ship_path(draft, i)};
+  return fastest;
+}
+
+bool is_too_fast_for_step(const Fastest& fastest, const simulation::Scene& scene) {
+  return fastest.speed < simulation::kRunawaySpeed &&  // else no step helps
+         fastest.speed * scene.time.step >= scene.contact.circle_radius;
+}
+
+void report_step(const Fastest& fastest, const simulation::Scene& scene, const JsonValue& resolved,
+                 ProblemCollector& problems) {
+  problems.add(0, nearest_offset(resolved, "time.step_s"),
+               {.path = "time.step_s",
+                .found = fmt::format("{}: {} moves {:.3g} m in one step at {:.3g} m/s", scene.time.step,
+                                     fastest.path, fastest.speed * scene.time.step, fastest.speed),
+                .allowed = fmt::format("a step in which nothing moves as far as a circle's radius, {} m",
+                                       scene.contact.circle_radius)});
+}
+
 }  // namespace
 
-void check_speeds(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+void check_speeds_of_ships(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
+    report_runaway({speed_of(draft.scene, draft.scene.ships[i]), ship_path(draft, i)}, draft.ship_origins[i],
+                   problems);
+  const Fastest fastest = fastest_ship(draft);
+  if (is_too_fast_for_step(fastest, draft.scene)) report_step(fastest, draft.scene, resolved, problems);
+}
+
+void check_speeds_of_floes(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
   const simulation::Scene& scene = draft.scene;
   const dynamics::ShearCurrent current = simulation::current_of(scene.water.shear);
-  Fastest fastest{length(scene.water.drift), "the drift"};
-  const auto check = [&](double speed, const std::string& path, const Origin& origin) {
-    if (speed > fastest.speed) fastest = {speed, path};
-    if (speed < simulation::kRunawaySpeed) return;
-    problems.add(origin.source, origin.offset,
-                 {.path = path,
-                  .found = fmt::format("a rim that moves at {:.4g} m/s at the start", speed),
-                  .allowed = fmt::format("less than {:g} m/s, the water's shear included",
-                                         simulation::kRunawaySpeed)});
-  };
-  for (std::size_t i = 0; i < scene.ships.size(); ++i)
-    check(speed_of(scene, scene.ships[i]), ship_path(draft, i), draft.ship_origins[i]);
-  for (std::size_t i = 0; i < scene.floes.size(); ++i)
-    check(rim_speed_of(current, scene.floes[i]), floe_path(draft, i), draft.floe_origins[i]);
-  const double radius = scene.contact.circle_radius;
-  if (fastest.speed >= simulation::kRunawaySpeed) return;  // no step helps
-  if (!(fastest.speed * scene.time.step >= radius)) return;
-  problems.add(
-      0, nearest_offset(resolved, "time.step_s"),
-      {.path = "time.step_s",
-       .found = fmt::format("{}: {} moves {:.3g} m in one step at {:.3g} m/s", scene.time.step, fastest.path,
-                            fastest.speed * scene.time.step, fastest.speed),
-       .allowed = fmt::format("a step in which nothing moves as far as a circle's radius, {} m", radius)});
+  Fastest fastest = fastest_ship(draft);
+  if (is_too_fast_for_step(fastest, scene)) return;  // reported with the ships
+  for (std::size_t i = 0; i < scene.floes.size(); ++i) {
+    const double speed = rim_speed_of(current, scene.floes[i]);
+    if (speed <= fastest.speed && speed < simulation::kRunawaySpeed) continue;
+    const Fastest floe{speed, floe_path(draft, i)};
+    report_runaway(floe, draft.floe_origins[i], problems);
+    if (speed > fastest.speed) fastest = floe;
+  }
+  if (is_too_fast_for_step(fastest, scene)) report_step(fastest, scene, resolved, problems);
 }
 
 }  // namespace polynya::io

@@ -8,7 +8,8 @@ namespace polynya::io {
 
 /// Refuses bodies that start faster than a run allows, and a step in which one moves as far as a contact
 /// circle's radius. Speeds are those of rims, relative to the water; ships' include what thrust adds in the
-/// first step.
-void check_speeds(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems);
+/// first step. The ships are checked before the floes are there; then the floes.
+void check_speeds_of_ships(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems);
+void check_speeds_of_floes(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems);
 
 }  // namespace polynya::io
