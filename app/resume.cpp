@@ -115,7 +115,8 @@ int resume(const ResumeOptions& options) {
     return report_finished(folder, options.driver.no_map);  // by another polynya meanwhile
   watch_signals();
   const auto scene = load_scene(scene_file.string(), {}, ProblemFormat::kText, options.driver.progress);
-  return scene ? resume_from_checkpoint(*scene, std::move(*lock), options) : scene.error();
+  if (!scene) return scene.error();
+  return within_memory(folder, [&] { return resume_from_checkpoint(*scene, std::move(*lock), options); });
 }
 
 }  // namespace

@@ -60,9 +60,11 @@ int run(const RunOptions& options) {
                                            ? std::filesystem::path("runs") / start->scene->scene.name
                                            : std::filesystem::path(options.out);
   watch_signals();
-  auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
-  if (!writer) return fail(kInputOutput, writer.error());
-  return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
+  return within_memory(folder, [&]() -> int {
+    auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
+    if (!writer) return fail(kInputOutput, writer.error());
+    return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
+  });
 }
 
 }  // namespace

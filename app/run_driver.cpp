@@ -64,15 +64,6 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
   return exit_code_of(result.end);
 }
 
-/// Of a run whose memory ran out: it is as if it had been killed.
-ExitCode report_out_of_memory(const std::filesystem::path& folder) {
-  print_err("polynya: {}\n", out_of_memory());
-  print_err("polynya: {} is that of a run that was killed; {}\n", folder.string(), kToNeedLessMemory);
-  print_err("polynya: with more memory, continue from its newest checkpoint with: polynya resume {}\n",
-            folder.string());
-  return kOutOfMemory;
-}
-
 }  // namespace
 
 ExitCode exit_code_of(RunEnd end) {
@@ -121,13 +112,20 @@ ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
   io::RunControl control = options.control;
   control.progress = [&](const io::RunStatus& at) { progress.show(at.time, at.fractures); };
   control.stop = reason_to_stop;
-  const std::filesystem::path folder = run.writer.folder();
+  const io::RunResult result = run_to_end(run, control);
+  progress.finish(result.summary.sim_time, io::fractures_of(result.summary.counts));
+  return report(run, result, options.no_map);
+}
+
+int within_memory(const std::filesystem::path& folder, const std::function<int()>& make_or_continue) {
   try {
-    const io::RunResult result = run_to_end(run, control);
-    progress.finish(result.summary.sim_time, io::fractures_of(result.summary.counts));
-    return report(run, result, options.no_map);
+    return make_or_continue();
   } catch (const std::bad_alloc&) {
-    return report_out_of_memory(folder);
+    print_err("polynya: {}\n", out_of_memory());
+    print_err("polynya: {} is that of a run that was killed; {}\n", folder.string(), kToNeedLessMemory);
+    print_err("polynya: with more memory, continue from its newest checkpoint with: polynya resume {}\n",
+              folder.string());
+    return kOutOfMemory;
   }
 }
 

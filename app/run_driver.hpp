@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "app/command_line.hpp"
@@ -33,5 +34,8 @@ void add_run_options(CommandLine& command, DriverOptions& options);
 
 /// Takes a run to its end, or to what stops it (io/run/run_loop.hpp), and prints the result.
 ExitCode drive_run(io::ActiveRun run, const DriverOptions& options);
+
+/// Does what makes or continues the run of a folder; where memory runs out, it reports that and what to do.
+int within_memory(const std::filesystem::path& folder, const std::function<int()>& make_or_continue);
 
 }  // namespace polynya::app
