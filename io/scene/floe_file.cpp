@@ -1,5 +1,7 @@
 #include "io/scene/floe_file.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "io/import/foreign_file.hpp"
@@ -16,17 +18,33 @@ std::string origin_in_scene(double latitude, double longitude) {
                      latitude, longitude);
 }
 
+/// Words between commas.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const std::size_t first = text.find_first_not_of(' ', start);
+    if (first < end) words.push_back(text.substr(first, text.find_last_not_of(' ', end - 1) - first + 1));
+    start = end + 1;
+  }
+  return words;
+}
+
 /// Reads one file. One use.
 class FloeFileReader {
  public:
-  FloeFileReader(const FloeFileSettings& settings, std::string path, std::uint32_t offset,
+  FloeFileReader(const std::optional<FileImport>& import, std::string path, std::uint32_t offset,
                  ProblemCollector& problems)
-      : settings_(settings), path_(std::move(path)), offset_(offset), problems_(problems) {}
+      : is_imported_(import.has_value()),
+        import_(import.value_or(FileImport{})),
+        path_(std::move(path)),
+        offset_(offset),
+        problems_(problems) {}
 
   std::optional<FloeFile> read(const std::filesystem::path& file,
                                const std::optional<simulation::GeographicOrigin>& origin) {
     const std::size_t before = problems_.count();
-    if (origin && !settings_.import.plane.target.empty())
+    if (origin && !import_.settings.plane.target.empty())
       report_entry("import.crs in a scene that has an origin", "one of the two: the scene has one plane");
     auto text = text_of(file);
     if (!text) {
@@ -36,7 +54,7 @@ class FloeFileReader {
     }
     result_.source = problems_.add_source({file.string(), std::move(*text)});
     PropertyNames names;
-    for (const std::string& words : settings_.property_names)
+    for (const std::string& words : words_of(import_.properties))
       if (auto added = add_property_name(words, names); !added)
         report_entry(added.error(), "KEY=NAME, as thickness_m=THICK or thickness_m=CM*0.01");
     const GeojsonFloes floes = read_geojson(result_.source, names, problems_);
@@ -50,13 +68,13 @@ class FloeFileReader {
  private:
   Result<std::string> text_of(const std::filesystem::path& file) const {
     const auto format = foreign_format(file);
-    return format ? read_foreign_file(file, *format, settings_.layer, kLongestFloesFile)
+    return format ? read_foreign_file(file, *format, import_.layer, kLongestFloesFile)
                   : read_text_file(file, kLongestFloesFile);
   }
 
   PlaneSettings plane_of(const GeojsonFloes& floes,
                          const std::optional<simulation::GeographicOrigin>& origin) const {
-    PlaneSettings plane = settings_.import.plane;
+    PlaneSettings plane = import_.settings.plane;
     if (plane.target.empty()) plane.origin = origin;
     plane.are_metres = floes.are_metres;
     plane.origin_in_words = origin_in_scene;
@@ -71,7 +89,7 @@ class FloeFileReader {
     std::vector<SourceFloe> sources;
     sources.reserve(floes.polygons.size());
     for (const GeojsonPolygon& one : floes.polygons) sources.push_back({one.polygon, one.properties});
-    if (!settings_.is_import) {
+    if (!is_imported_) {
       auto placed = bring_to_plane(sources, floes.crs, plane);
       if (!placed) return report(floes, placed.error());
       result_.plane = std::move(*placed);
@@ -80,7 +98,7 @@ class FloeFileReader {
                                  floes.polygons[i].offset});
       return;
     }
-    ImportSettings settings = settings_.import;
+    ImportSettings settings = import_.settings;
     settings.plane = std::move(plane);
     auto imported = import_floes(sources, {}, floes.crs, settings);
     if (!imported) return report(floes, imported.error());
@@ -106,7 +124,8 @@ class FloeFileReader {
     problems_.report(0, offset_, path_, std::move(found), std::move(allowed));
   }
 
-  const FloeFileSettings& settings_;
+  const bool is_imported_;
+  const FileImport import_;
   std::string path_;
   std::uint32_t offset_;
   ProblemCollector& problems_;
@@ -115,11 +134,12 @@ class FloeFileReader {
 
 }  // namespace
 
-std::optional<FloeFile> read_floe_file(const std::filesystem::path& file, const FloeFileSettings& settings,
+std::optional<FloeFile> read_floe_file(const std::filesystem::path& file,
+                                       const std::optional<FileImport>& import,
                                        const std::optional<simulation::GeographicOrigin>& origin,
                                        const std::string& path, std::uint32_t offset,
                                        ProblemCollector& problems) {
-  return FloeFileReader(settings, path, offset, problems).read(file, origin);
+  return FloeFileReader(import, path, offset, problems).read(file, origin);
 }
 
 }  // namespace polynya::io

@@ -13,19 +13,6 @@ using geometry::Polygon;
 using geometry::Ring;
 using geometry::Vector;
 
-std::vector<Polygon> lattice(const FloeGroup& group) {
-  std::vector<Polygon> floes;
-  floes.reserve(static_cast<std::size_t>(group.columns) * static_cast<std::size_t>(group.rows));
-  const Vector margin = 0.5 * (group.pitch - group.size);
-  for (int row = 0; row < group.rows; ++row) {
-    for (int column = 0; column < group.columns; ++column) {
-      const Vector cell{column * group.pitch.x, row * group.pitch.y};
-      floes.push_back(rectangle(group.origin + cell + margin, group.size));
-    }
-  }
-  return floes;
-}
-
 void open_ring(Ring& ring) {
   if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
 }
@@ -36,24 +23,25 @@ Polygon rectangle(Point corner, Vector size) {
   return {{corner, {corner.x + size.x, corner.y}, corner + size, {corner.x, corner.y + size.y}}, {}};
 }
 
-std::vector<Polygon> floes_of(const FloeGroup& group) {
-  switch (group.form) {
-    case FloeGroup::Form::kLattice:
-      return lattice(group);
-    case FloeGroup::Form::kRectangle: {
-      Polygon floe = rectangle(group.origin, group.size);
-      if (group.angle == 0) return {floe};
-      const geometry::Pose turned{group.origin, geometry::Rotation::by(group.angle)};
-      for (Point& p : floe.outer) p = transform(turned, Point{} + (p - group.origin));
-      return {floe};
+std::vector<Polygon> floes_of(const LatticeInput& lattice) {
+  std::vector<Polygon> floes;
+  floes.reserve(static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows));
+  const Vector margin = 0.5 * (lattice.pitch - lattice.size);
+  for (int row = 0; row < lattice.rows; ++row) {
+    for (int column = 0; column < lattice.columns; ++column) {
+      const Vector cell{column * lattice.pitch.x, row * lattice.pitch.y};
+      floes.push_back(rectangle(lattice.origin + cell + margin, lattice.size));
     }
-    case FloeGroup::Form::kPolygon:
-      return {in_house_notation(group.polygon)};
-    case FloeGroup::Form::kField:
-    case FloeGroup::Form::kFile:
-      break;
   }
-  return {};
+  return floes;
+}
+
+Polygon floe_of(const RectangleInput& input) {
+  Polygon floe = rectangle(input.corner, input.size);
+  if (input.angle == 0) return floe;
+  const geometry::Pose turned{input.corner, geometry::Rotation::by(input.angle)};
+  for (Point& p : floe.outer) p = transform(turned, Point{} + (p - input.corner));
+  return floe;
 }
 
 Polygon in_house_notation(Polygon polygon) {

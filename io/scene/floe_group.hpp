@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "io/scene/scene_draft.hpp"
+#include "io/scene/scene_input.hpp"
 
 namespace polynya::io {
 
-/// The floes of a lattice (row by row), a rectangle or a polygon, in the world. A file's are not
-/// (geojson_reader.hpp), nor a field's (simulation/floe_field.hpp).
-std::vector<geometry::Polygon> floes_of(const FloeGroup& group);
+/// The floes of a lattice, row by row, in the world.
+std::vector<geometry::Polygon> floes_of(const LatticeInput& lattice);
+/// The floe of a rectangle, turned about its corner.
+geometry::Polygon floe_of(const RectangleInput& input);
 
 /// A rectangle along the axes, counter-clockwise from its corner with the least x and y.
 geometry::Polygon rectangle(geometry::Point corner, geometry::Vector size);

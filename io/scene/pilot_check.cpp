@@ -155,11 +155,10 @@ class PilotCheck {
 
 }  // namespace
 
-void complete_pilots(const JsonValue& resolved, SceneDraft& draft, ProblemCollector& problems) {
-  const std::vector<JsonValue>& items = resolved.find("ships")->items();
+void complete_pilots(const JsonValue& given, SceneDraft& draft, ProblemCollector& problems) {
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
     if (!draft.ship_origins[i].is_structure)
-      PilotCheck(i, items[draft.ship_origins[i].group], draft, problems).run();
+      PilotCheck(i, given.find("ships")->items()[draft.ship_origins[i].group], draft, problems).run();
   }
 }
 

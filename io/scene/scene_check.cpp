@@ -58,25 +58,6 @@ void check_own_density(const SceneDraft& draft, ProblemCollector& problems) {
   }
 }
 
-/// Fast ice does not turn, and what rigid impulses do between two prescribed motions is not defined.
-void check_fast_ice(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
-  const bool is_rigid = draft.scene.contact.law == simulation::ContactLaw::kImpulse;
-  const auto* floes = resolved.find("floes", JsonValue::Kind::kArray);
-  if (!floes) return;
-  for (std::size_t i = 0; i < floes->items().size(); ++i) {
-    const JsonValue& group = floes->items()[i];
-    const JsonValue* is_fast = group.find("fast_ice", JsonValue::Kind::kBoolean);
-    if (!is_fast || !is_fast->boolean()) continue;
-    const JsonValue* turn = group.find("angular_velocity_deg_per_s", JsonValue::Kind::kNumber);
-    if (turn && turn->number() != 0)
-      problems.report(0, turn->offset, fmt::format("floes[{}].angular_velocity_deg_per_s", i),
-                      fmt::format("{:g}, of fast ice", turn->number()), "0: fast ice does not turn");
-    if (is_rigid)
-      problems.report(0, is_fast->offset, fmt::format("floes[{}].fast_ice", i),
-                      "true with contact.law impulse", "contact.law crush, or false");
-  }
-}
-
 /// A body that takes part in the search for overlaps.
 struct Named {
   std::string path;
@@ -222,7 +203,6 @@ Polygon waterline_in_world(const simulation::ShipSpec& ship) {
 void check_scene(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
   check_water_and_time(draft, resolved, problems);
   if (problems.count() == 0) check_own_density(draft, problems);
-  check_fast_ice(draft, resolved, problems);
   check_walls(draft, resolved, problems);
   std::vector<Named> named;
   std::vector<Polygon> outlines;

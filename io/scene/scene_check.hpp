@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/exact/validity.hpp"
-#include "io/scene/scene_draft.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/text/json_value.hpp"
 #include "io/text/problem_collector.hpp"
 

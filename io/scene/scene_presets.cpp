@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/scene/scene_fields.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/scene/ship_presets.hpp"
 
 namespace polynya::io {
@@ -51,7 +51,6 @@ void merge(const Object& table, JsonValue& given, const JsonValue& preset, std::
 
 void fill_in_presets(JsonValue& scene) {
   JsonValue* ships = scene.find("ships");
-  const Field* table = field_of(scene_object(), "ships");
   if (!ships || !ships->is(JsonValue::Kind::kArray)) return;
   for (JsonValue& ship : ships->items()) {
     const JsonValue* name =
@@ -62,7 +61,7 @@ void fill_in_presets(JsonValue& scene) {
     if (preset) std::erase_if(ship.members(), [](const JsonMember& member) { return member.key == "ship"; });
     // Of an unknown one the name is reported, and not all that it would have filled in.
     if (!preset) preset = find_ship_preset("reference");
-    merge(*table->object, ship, json_of(*preset), offset);
+    merge(ship_description(), ship, json_of(*preset), offset);
   }
 }
 

@@ -9,8 +9,8 @@
 #include <tl/expected.hpp>
 
 #include "io/import/floe_import.hpp"
+#include "io/scene/floe_ice.hpp"
 #include "io/scene/scene_assign.hpp"
-#include "io/scene/scene_draft.hpp"
 #include "io/text/problem.hpp"
 #include "simulation/floe_field.hpp"
 #include "simulation/scene.hpp"

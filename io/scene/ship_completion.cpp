@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "io/scene/floe_group.hpp"
 #include "simulation/sailing.hpp"
 
 namespace polynya::io {
@@ -20,29 +21,73 @@ constexpr double kPropellerOfDraught = 0.65;  ///< D of T (recall) [-]
 constexpr double kGyrationOfLength = 0.25;    ///< [-]
 constexpr double kLeastBlock = 0.2;           ///< [-]
 
+/// The outline in house notation, with the angles of its vertices.
+void set_waterline(const HullOutline& outline, simulation::Hull& hull) {
+  hull.waterline = in_house_notation(geometry::Polygon{outline.waterline, {}}).outer;
+  hull.angles_from_vertical = outline.angles_from_vertical;
+  if (hull.waterline == outline.waterline) return;
+  auto& angles = hull.angles_from_vertical;
+  if (angles.size() == outline.waterline.size()) angles.resize(hull.waterline.size());
+  if (hull.waterline.front() != outline.waterline.front()) std::ranges::reverse(angles);
+}
+
 /// One ship while it is completed.
 class Completion {
  public:
-  Completion(const JsonValue& item, const std::string& path, SceneDraft& draft, ProblemCollector& problems)
-      : item_(item),
-        path_(path),
-        density_(draft.scene.water.water.density),
-        drive_(draft.drive),
-        ship_(draft.ship()),
-        problems_(problems) {}
+  Completion(ShipInput& input, const JsonValue& given, const std::string& path, double density,
+             ProblemCollector& problems)
+      : input_(input), item_(given), path_(path), density_(density), problems_(problems) {}
 
-  void run() {
+  ShipSpec run() {
+    choose_water_and_speed();
+    ship_ = input_.spec;
+    ship_.name = input_.name;
+    set_form();
+    ship_.sway_speed = input_.sway_speed.value_or(0);
+    ship_.yaw_rate = input_.yaw_rate.value_or(0);
+    if (input_.steering) ship_.steering = *input_.steering;
+    if (input_.pilot) ship_.pilot = *input_.pilot;
+    std::visit([&](const auto& propulsion) { set_propulsion(propulsion); }, input_.propulsion);
     add_mass();
-    if (auto* engine = std::get_if<simulation::Engine>(&ship_.propulsion)) add_engine(*engine);
+    if (const auto* engine = std::get_if<EngineInput>(&input_.propulsion)) add_engine(*engine);
     if (ship_.water.acts) check_hull();
     check_steering();
-    if (ship_.mooring) add_mooring(*ship_.mooring);
+    if (input_.mooring) add_mooring(*input_.mooring);
+    return std::move(ship_);
   }
 
  private:
   void report(std::string_view key, std::string found, std::string allowed) {
     problems_.report(0, nearest_offset(item_, key), fmt::format("{}.{}", path_, key), std::move(found),
                      std::move(allowed));
+  }
+
+  /// Water acts on the hulls of ships with an engine, and a ship at constant speed starts at that speed,
+  /// unless the scene states otherwise.
+  void choose_water_and_speed() {
+    const JsonValue* water = item_.find("water");
+    if (std::holds_alternative<EngineInput>(input_.propulsion) && !(water && water->find("model")))
+      input_.spec.water.acts = true;
+    const auto* held = std::get_if<simulation::ConstantSpeed>(&input_.propulsion);
+    if (!held) return;
+    double& speed = input_.spec.speed;
+    if (item_.find("speed_m_per_s") && speed != held->speed)
+      report("speed_m_per_s", show({speed}),
+             fmt::format("the constant speed, {} [m/s], or nothing", show({held->speed})));
+    speed = held->speed;
+  }
+
+  void set_form() {
+    if (const auto* bow = std::get_if<WedgeBow>(&input_.form))
+      ship_.hull.waterline = simulation::wedge_bow_waterline(bow->length, bow->beam, bow->entrance_angle);
+    else
+      set_waterline(std::get<HullOutline>(input_.form), ship_.hull);
+  }
+
+  void set_propulsion(const EngineInput& input) { ship_.propulsion = input.engine; }
+  template <class Propulsion>
+  void set_propulsion(const Propulsion& propulsion) {
+    ship_.propulsion = propulsion;
   }
 
   dynamics::MainDimensions dimensions() const { return dimensions_of(ship_, density_); }
@@ -58,19 +103,21 @@ class Completion {
     if (ship_.mass == 0) report("mass_kg", "nothing", "a number ≥ 1, ≤ 1e+12 [kg]" + from_form);
     if (ship_.moment_of_inertia == 0)
       report("moment_of_inertia_kg_m2", "nothing", "a number ≥ 0.001, ≤ 1e+16 [kg m²]" + from_form);
+    input_.spec.mass = ship_.mass;
+    input_.spec.moment_of_inertia = ship_.moment_of_inertia;
     for (double* missing : {&ship_.mass, &ship_.moment_of_inertia})
       if (*missing == 0) *missing = std::numeric_limits<double>::infinity();  // no further faults by it
   }
 
-  void add_engine(simulation::Engine& engine) {
+  void add_engine(const EngineInput& input) {
+    auto& engine = std::get<simulation::Engine>(ship_.propulsion);
     const std::string key = "propulsion.engine";
-    engine.power = drive_.power;
     const double diameter =
-        drive_.propeller_diameter > 0 ? drive_.propeller_diameter : kPropellerOfDraught * ship_.hull.draught;
-    engine.propeller_area = drive_.propellers * 0.25 * std::numbers::pi * diameter * diameter;
-    if (engine.bollard_pull == 0 && drive_.power > 0 && drive_.propeller_diameter > 0)
+        input.propeller_diameter > 0 ? input.propeller_diameter : kPropellerOfDraught * ship_.hull.draught;
+    engine.propeller_area = input.propellers * 0.25 * std::numbers::pi * diameter * diameter;
+    if (engine.bollard_pull == 0 && engine.power > 0 && input.propeller_diameter > 0)
       engine.bollard_pull =
-          dynamics::bollard_pull(drive_.power, diameter, drive_.propellers, drive_.has_nozzles);
+          dynamics::bollard_pull(engine.power, diameter, input.propellers, input.has_nozzles.value_or(false));
     if (engine.bollard_pull == 0)
       return report(key, "neither bollard_pull_kN nor power_MW with propeller_diameter_m",
                     "bollard_pull_kN, or power_MW and propeller_diameter_m");
@@ -132,12 +179,12 @@ class Completion {
     rudder->area = kRudderShare * d.length * d.draught;
   }
 
-  void add_mooring(simulation::MooringSettings& mooring) {
+  void add_mooring(const MooringInput& input) {
+    simulation::MooringSettings& mooring = ship_.mooring.emplace(input.settings);
+    mooring.position_in_world = input.position.value_or(ship_.position_in_world);
+    mooring.heading = input.heading.value_or(ship_.heading);
     if (std::holds_alternative<simulation::ConstantSpeed>(ship_.propulsion))
       return report("mooring", "a mooring of a ship whose speed is prescribed", "thrust_N or an engine");
-    const JsonValue* given = item_.find("mooring");
-    if (!given->find("position_m")) mooring.position_in_world = ship_.position_in_world;
-    if (!given->find("heading_deg")) mooring.heading = ship_.heading;
     const geometry::Vector off = rotate_back(geometry::Rotation::by(mooring.heading),
                                              ship_.position_in_world - mooring.position_in_world);
     const double load = std::hypot(mooring.surge_stiffness * off.x, mooring.sway_stiffness * off.y);
@@ -148,47 +195,32 @@ class Completion {
              "a greater load, or a ship nearer to mooring.position_m");
   }
 
+  ShipInput& input_;
   const JsonValue& item_;
   const std::string& path_;
   const double density_;
-  const DriveDraft& drive_;
-  ShipSpec& ship_;
   ProblemCollector& problems_;
+  ShipSpec ship_;
 };
 
 }  // namespace
 
-void choose_hull_water(const JsonValue& root, JsonValue& resolved) {
-  std::vector<JsonValue>& ships = resolved.find("ships")->items();
-  for (std::size_t i = 0; i < ships.size(); ++i) {
-    const JsonValue* propulsion = ships[i].find("propulsion");
-    JsonValue* water = ships[i].find("water");
-    if (!propulsion || !propulsion->find("engine") || !water) continue;
-    const JsonValue* given = root.find("ships")->items()[i].find("water");
-    if (!given || !given->find("model")) water->find("model")->data = std::string("manoeuvring");
-  }
+simulation::ShipSpec complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
+                                   double density, ProblemCollector& problems) {
+  return Completion(input, given, path, density, problems).run();
 }
 
-void complete_ship(const JsonValue& item, const std::string& path, SceneDraft& draft,
-                   ProblemCollector& problems) {
-  Completion(item, path, draft, problems).run();
-}
-
-void fill_in_masses(const SceneDraft& draft, JsonValue& resolved) {
-  std::vector<JsonValue>& ships = resolved.find("ships")->items();
-  const auto insert_after = [](JsonValue& ship, std::string_view before, std::string_view key, double value) {
-    if (ship.find(key)) return;
-    auto& members = ship.members();
-    const auto place = std::ranges::find(members, before, &JsonMember::key);
-    members.insert(place + 1, {std::string(key), ship.offset, {value, ship.offset}});
-  };
-  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
-    const Origin& origin = draft.ship_origins[i];
-    if (origin.is_structure) continue;
-    const ShipSpec& ship = draft.scene.ships[i];
-    insert_after(ships[origin.group], "hull", "mass_kg", ship.mass);
-    insert_after(ships[origin.group], "mass_kg", "moment_of_inertia_kg_m2", ship.moment_of_inertia);
-  }
+simulation::ShipSpec complete_structure(const StructureInput& input) {
+  ShipSpec structure = input.spec;
+  structure.name = input.name;
+  if (const auto* cylinder = std::get_if<Cylinder>(&input.form))
+    structure.hull.waterline = simulation::cylinder_waterline(cylinder->radius);
+  else
+    set_waterline(std::get<HullOutline>(input.form), structure.hull);
+  structure.hull.angles_from_vertical.assign(structure.hull.waterline.size(), input.slope);
+  structure.mass = structure.moment_of_inertia = std::numeric_limits<double>::infinity();
+  structure.propulsion = simulation::FixedInPlace{};
+  return structure;
 }
 
 }  // namespace polynya::io

@@ -2,21 +2,18 @@
 
 #include <string>
 
-#include "io/scene/scene_draft.hpp"
-#include "io/text/json_value.hpp"
-#include "io/text/problem_collector.hpp"
+#include "io/scene/scene_input.hpp"
 
 namespace polynya::io {
 
-/// Water acts on the hulls of ships with an engine, unless the scene as given states otherwise.
-void choose_hull_water(const JsonValue& root, JsonValue& resolved);
+/// A ship as the simulation has it. What is not given follows from its other particulars: mass, moment of
+/// inertia, bollard pull, rudder, mooring, whether water acts on the hull. What is written of it with the
+/// scene, masses, the speed of one at constant speed and the model of the water, is put into the input.
+/// Reports what does not go together, at the ship's path; `given` is its JSON, `density` the water's [kg/m³].
+simulation::ShipSpec complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
+                                   double density, ProblemCollector& problems);
 
-/// Fills in what follows from other particulars of the draft's last ship: mass, moment of inertia, bollard
-/// pull, rudder, mooring. Reports what does not go together, at the ship's path.
-void complete_ship(const JsonValue& item, const std::string& path, SceneDraft& draft,
-                   ProblemCollector& problems);
-
-/// Puts masses and moments of inertia that were left out into the resolved scene.
-void fill_in_masses(const SceneDraft& draft, JsonValue& resolved);
+/// A structure is a ship that stands on the ground.
+simulation::ShipSpec complete_structure(const StructureInput& input);
 
 }  // namespace polynya::io

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/scene/scene_draft.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/text/json_value.hpp"
 #include "io/text/problem_collector.hpp"
 
