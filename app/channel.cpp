@@ -55,25 +55,24 @@ int measure(const Options& options) {
 
 }  // namespace
 
-Command add_channel(CLI::App& app) {
-  auto* command = app.add_subcommand("channel", "Measure the channel behind a ship");
-  command->footer(kExamples);
+Command add_channel(CommandLine& app) {
+  CommandLine command = app.add_command("channel", "Measure the channel behind a ship", kExamples);
   auto options = std::make_shared<Options>();
-  add_run_folder(*command, options->run);
-  option(*command, "--at", options->measure.time, "S", "At that time instead of the end [s]", finite());
-  option(*command, "--ship", options->ship, "NAME", "Which ship; the first one if not given");
-  option(*command, "--spacing", options->measure.spacing, "M",
-         "Length of a station [m]; the beam if not given", between(0.1, 1e5));
-  option(*command, "--reach", options->measure.reach, "M",
-         "How far from the track ice is searched [m]; four beams if not given", between(0.1, 1e5));
-  auto* format = command->add_option("--format", options->format, "What stdout gets; json: as --json");
-  set_choices(*format, {"table", "csv", "json"});
+  add_run_folder(command, options->run);
+  command.option("--at", options->measure.time, "S", "At that time instead of the end [s]", finite());
+  command.option("--ship", options->ship, "NAME", "Which ship; the first one if not given");
+  command.option("--spacing", options->measure.spacing, "M", "Length of a station [m]; the beam if not given",
+                 between(0.1, 1e5));
+  command.option("--reach", options->measure.reach, "M",
+                 "How far from the track ice is searched [m]; four beams if not given", between(0.1, 1e5));
+  const Option format = command.option("--format", options->format, "", "What stdout gets; json: as --json")
+                            .one_of({"table", "csv", "json"});
   command
-      ->add_flag_callback(
+      .flag(
           "--json", [options] { options->format = "json"; }, "Print the sums as JSON instead of the table")
-      ->excludes(format);
-  option(*command, "--out", options->out, "DIR",
-         "Folder for channel.csv and channel.geojson; the run's if not given");
+      .excludes(format);
+  command.option("--out", options->out, "DIR",
+                 "Folder for channel.csv and channel.geojson; the run's if not given");
   return {command, [options] { return measure(*options); }};
 }
 

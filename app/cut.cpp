@@ -179,36 +179,36 @@ int cut(const Options& options) {
 
 }  // namespace
 
-Command add_cut(CLI::App& app) {
-  auto* command = app.add_subcommand("cut", "Cut floes exactly, with every square metre accounted for");
-  command->footer(kExamples);
+Command add_cut(CommandLine& app) {
+  CommandLine command =
+      app.add_command("cut", "Cut floes exactly, with every square metre accounted for", kExamples);
   auto options = std::make_shared<Options>();
-  option(*command, "floes", options->floes, "FLOES",
-         "GeoJSON, NDJSON or WKT, recognised by content; - for stdin")
-      ->required();
+  command
+      .option("floes", options->floes, "FLOES", "GeoJSON, NDJSON or WKT, recognised by content; - for stdin")
+      .required();
   const auto tool = [&](const char* name, std::string& value, const char* type, const char* meaning) {
-    option(*command, name, value, type, meaning)->group("Tools, one of them");
+    command.option(name, value, type, meaning).in_group("Tools, one of them");
   };
   tool("--disc", options->disc, "X,Y,R", "The disc of that centre and radius [m]");
   tool("--crack", options->crack, "X,Y,ANGLE_DEG", "The straight line through that point, across every floe");
   tool("--line", options->line, "X0,Y0,X1,Y1", "From end to end; separates where it crosses ice fully");
   tool("--polygon", options->polygon, "FILE", "Polygons, with holes or not, in any format of FLOES");
   tool("--ops", options->ops, "FILE", "A JSON list of cuts, in order, each of all pieces");
-  set_choices<io::Keep>(
-      *command->add_option("--keep", options->keep,
-                           "Which side of a disc or polygon stays; outside if not given"),
-      {{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
-  option(*command, "--sagitta", options->sagitta, "M",
-         "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less",
-         between(1e-12, 1e6));
-  option(*command, "--out", options->out, "FILE",
-         "The pieces; format by extension, else that of FLOES; - for stdout");
-  option(*command, "--ledger", options->ledger, "FILE", "The ledger, JSON; stdout if not given");
-  set_choices<geometry::FillRule>(
-      *command->add_option("--repair", options->repair,
-                           "Make valid polygons of those that are not, exactly, by what the rule fills; else "
-                           "they are refused"),
-      {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
+  command.option("--keep", options->keep, "", "Which side of a disc or polygon stays; outside if not given")
+      .one_of<io::Keep>(
+          {{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
+  command.option("--sagitta", options->sagitta, "M",
+                 "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less",
+                 between(1e-12, 1e6));
+  command.option("--out", options->out, "FILE",
+                 "The pieces; format by extension, else that of FLOES; - for stdout");
+  command.option("--ledger", options->ledger, "FILE", "The ledger, JSON; stdout if not given");
+  command
+      .option("--repair", options->repair, "",
+              "Make valid polygons of those that are not, exactly, by what the rule fills; else "
+              "they are refused")
+      .one_of<geometry::FillRule>(
+          {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
   return {command, [options] { return cut(*options); }};
 }
 

@@ -90,24 +90,23 @@ int build(const Options& options) {
 
 }  // namespace
 
-Command add_database_build(CLI::App& app) {
-  auto* command = app.add_subcommand("build", "Solve the wedges and write a database");
-  command->footer(kExamples);
+Command add_database_build(CommandLine& app) {
+  CommandLine command = app.add_command("build", "Solve the wedges and write a database", kExamples);
   auto options = std::make_shared<Options>();
-  option(*command, "--out", options->out, "FILE", "The file to write", not_empty())->capture_default_str();
-  set_choices<fracture::FluidModel>(
-      *command->add_option("--fluid", options->fluid, "What the water does; potential if not given"),
-      {{"winkler", fracture::FluidModel::kWinkler},
-       {"local-mass", fracture::FluidModel::kLocalMass},
-       {"potential", fracture::FluidModel::kPotential},
-       {"free-surface", fracture::FluidModel::kFreeSurface}});
-  option(*command, "--wedge-angles", options->wedge_angles_deg, "DEG,DEG,...",
-         "Opening angles of the wedges, ascending; the shipped database's if not given [deg]",
-         between(5, 180))
-      ->delimiter(',');
-  add_threads(*command, options->threads);
-  add_progress(*command, options->progress);
-  command->add_flag("--overwrite", options->overwrite, "Replace the file");
+  command.option("--out", options->out, "FILE", "The file to write", not_empty()).shows_default();
+  command.option("--fluid", options->fluid, "", "What the water does; potential if not given")
+      .one_of<fracture::FluidModel>({{"winkler", fracture::FluidModel::kWinkler},
+                                     {"local-mass", fracture::FluidModel::kLocalMass},
+                                     {"potential", fracture::FluidModel::kPotential},
+                                     {"free-surface", fracture::FluidModel::kFreeSurface}});
+  command
+      .option("--wedge-angles", options->wedge_angles_deg, "DEG,DEG,...",
+              "Opening angles of the wedges, ascending; the shipped database's if not given [deg]",
+              between(5, 180))
+      .separated_by(',');
+  add_threads(command, options->threads);
+  add_progress(command, options->progress);
+  command.flag("--overwrite", options->overwrite, "Replace the file");
   return {command, [options] { return build(*options); }};
 }
 

@@ -25,26 +25,26 @@ tl::unexpected<ExitCode> usage(const std::string& problem) {
 
 }  // namespace
 
-void add_threads(CLI::App& command, int& threads) {
-  option(command, "--threads", threads, "N",
-         "As many as the machine runs at once if not given; no result depends on it", whole(1, 1024));
+void add_threads(CommandLine& command, int& threads) {
+  command.option("--threads", threads, "N",
+                 "As many as the machine runs at once if not given; no result depends on it", whole(1, 1024));
 }
 
-void add_database_file(CLI::App& command, std::string& file) {
-  option(command, "--database", file, "FILE", "The database; the shipped one if not given", not_empty());
+void add_database_file(CommandLine& command, std::string& file) {
+  command.option("--database", file, "FILE", "The database; the shipped one if not given", not_empty());
 }
 
-void add_load(CLI::App& command, DatabaseLoadOptions& load) {
-  option(command, "--wedge-angle", load.wedge_angle_deg, "DEG", "Opening angle of the wedge of ice",
-         between(kNarrowestWedge, 179.9));
-  option(command, "--front-angle", load.front_angle_deg, "DEG",
-         "Instead: from the inward normal to the front edge", between(0, 89.9));
-  option(command, "--back-angle", load.back_angle_deg, "DEG", "and to the back edge", between(0, 89.9));
+void add_load(CommandLine& command, DatabaseLoadOptions& load) {
+  command.option("--wedge-angle", load.wedge_angle_deg, "DEG", "Opening angle of the wedge of ice",
+                 between(kNarrowestWedge, 179.9));
+  command.option("--front-angle", load.front_angle_deg, "DEG",
+                 "Instead: from the inward normal to the front edge", between(0, 89.9));
+  command.option("--back-angle", load.back_angle_deg, "DEG", "and to the back edge", between(0, 89.9));
   const auto add = [&command](const char* name, double& value, const char* unit, const char* meaning,
                               double least, double most) {
-    option(command, name, value, unit, meaning, between(least, most))
-        ->group("Ice and water")
-        ->capture_default_str();
+    command.option(name, value, unit, meaning, between(least, most))
+        .in_group("Ice and water")
+        .shows_default();
   };
   add("--density", load.ice.density, "KG_PER_M3", "of the ice", 1, 5000);
   add("--youngs-modulus", load.ice.youngs_modulus, "PA", "of the ice", 1e3, 1e12);
@@ -55,14 +55,14 @@ void add_load(CLI::App& command, DatabaseLoadOptions& load) {
   add("--water-density", load.water.density, "KG_PER_M3", "", 1, 5000);
 }
 
-void add_point(CLI::App& command, DatabaseLoadOptions& load, bool is_required) {
+void add_point(CommandLine& command, DatabaseLoadOptions& load, bool is_required) {
   const auto add = [&](const char* name, double& value, const char* unit, const char* meaning, double least,
                        double most) {
-    auto* added = option(command, name, value, unit, meaning, between(least, most));
+    auto added = command.option(name, value, unit, meaning, between(least, most));
     if (is_required)
-      added->required();
+      added.required();
     else
-      added->capture_default_str();
+      added.shows_default();
   };
   add("--thickness", load.ice.thickness, "M", "of the ice", 1e-3, 100);
   add("--speed", load.speed, "M_PER_S", "of approach, normal to the hull's waterline", 0, 100);

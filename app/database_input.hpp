@@ -32,12 +32,12 @@ struct DatabaseLoadOptions {
   double hull_angle_deg = 60;             ///< θ_s, from the vertical
 };
 /// The options of the ice, the water and the hull; defaults are the paper's.
-void add_load(CLI::App& command, DatabaseLoadOptions& load);
+void add_load(CommandLine& command, DatabaseLoadOptions& load);
 /// Those of the load's size and speed, required or with the defaults of a slice.
-void add_point(CLI::App& command, DatabaseLoadOptions& load, bool is_required);
+void add_point(CommandLine& command, DatabaseLoadOptions& load, bool is_required);
 /// --database and --threads.
-void add_database_file(CLI::App& command, std::string& file);
-void add_threads(CLI::App& command, int& threads);
+void add_database_file(CommandLine& command, std::string& file);
+void add_threads(CommandLine& command, int& threads);
 
 /// The database of that file, or the shipped one for an empty name. Reports on stderr why a file cannot be
 /// read or is not a database of this version; the code is then kInputOutput.

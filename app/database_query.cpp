@@ -204,18 +204,18 @@ int query(const Options& options) {
 
 }  // namespace
 
-Command add_database_query(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("query", "What a wedge of ice bears, by the database and by published forms");
-  command->footer(kExamples);
+Command add_database_query(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "query", "What a wedge of ice bears, by the database and by published forms", kExamples);
   auto options = std::make_shared<Options>();
-  add_point(*command, options->load, true);
-  add_load(*command, options->load);
-  option(*command, "--slip-speed", options->load.slip_speed, "M_PER_S", "along the hull's waterline",
-         between(-100, 100))
-      ->capture_default_str();
-  add_database_file(*command, options->file);
-  command->add_flag("--json", options->json, "Answer as JSON, in SI units");
+  add_point(command, options->load, true);
+  add_load(command, options->load);
+  command
+      .option("--slip-speed", options->load.slip_speed, "M_PER_S", "along the hull's waterline",
+              between(-100, 100))
+      .shows_default();
+  add_database_file(command, options->file);
+  command.flag("--json", options->json, "Answer as JSON, in SI units");
   return {command, [options] { return query(*options); }};
 }
 

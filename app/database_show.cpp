@@ -129,22 +129,22 @@ int show(const Options& options) {
 
 }  // namespace
 
-Command add_database_show(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("show", "Print a database's parameters, grids and slices, and plot them");
-  command->footer(
-      "Examples:\n"
-      "  polynya database show                      the database that ships with Polynya\n"
-      "  polynya database show winkler.txt --svg plots --thickness 1\n");
+Command add_database_show(CommandLine& app) {
+  CommandLine command =
+      app.add_command("show", "Print a database's parameters, grids and slices, and plot them",
+                      "Examples:\n"
+                      "  polynya database show                      the database that ships with Polynya\n"
+                      "  polynya database show winkler.txt --svg plots --thickness 1\n");
   auto options = std::make_shared<Options>();
-  option(*command, "file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
-  option(*command, "--svg", options->svg_folder, "DIR",
-         "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
-         "(needs "
-         "Python and matplotlib: ./setup.sh python)",
-         not_empty());
-  add_point(*command, options->load, false);
-  add_load(*command, options->load);
+  command.option("file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
+  command.option(
+      "--svg", options->svg_folder, "DIR",
+      "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
+      "(needs "
+      "Python and matplotlib: ./setup.sh python)",
+      not_empty());
+  add_point(command, options->load, false);
+  add_load(command, options->load);
   return {command, [options] { return show(*options); }};
 }
 

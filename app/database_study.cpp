@@ -135,27 +135,24 @@ int study(const Options& options) {
 
 }  // namespace
 
-Command add_database_study(CLI::App& app) {
-  auto* command = app.add_subcommand("study", "Print the tables of docs/theory-bending.md");
-  command->footer(kExamples);
+Command add_database_study(CommandLine& app) {
+  CommandLine command = app.add_command("study", "Print the tables of docs/theory-bending.md", kExamples);
   auto options = std::make_shared<Options>();
-  set_choices<Study>(*command->add_option("study", options->study, "Which one")->required(),
-                     {{"fluid", Study::kFluid}, {"couple", Study::kCouple}, {"accuracy", Study::kAccuracy}});
-  add_point(*command, options->load, false);
-  add_load(*command, options->load);
-  command->add_option("--points", options->points, "of accuracy")
-      ->check(whole(1, 100000))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "of accuracy's points")
-      ->check(whole(0, 9007199254740991))
-      ->capture_default_str();
-  option(*command, "--inner-radius", options->inner_radius, "L",
-         "of the solution that accuracy compares with; a quarter of the table's if not given",
-         between(1e-6, 0.1));
-  option(*command, "--elements", options->elements, "N",
-         "along its radius; as closely spaced as the table's if not given", whole(8, 400));
-  add_threads(*command, options->threads);
-  add_database_file(*command, options->file);
+  command.option("study", options->study, "", "Which one")
+      .required()
+      .one_of<Study>({{"fluid", Study::kFluid}, {"couple", Study::kCouple}, {"accuracy", Study::kAccuracy}});
+  add_point(command, options->load, false);
+  add_load(command, options->load);
+  command.option("--points", options->points, "N", "of accuracy", whole(1, 100000)).shows_default();
+  command.option("--seed", options->seed, "N", "of accuracy's points", whole(0, 9007199254740991))
+      .shows_default();
+  command.option("--inner-radius", options->inner_radius, "L",
+                 "of the solution that accuracy compares with; a quarter of the table's if not given",
+                 between(1e-6, 0.1));
+  command.option("--elements", options->elements, "N",
+                 "along its radius; as closely spaced as the table's if not given", whole(8, 400));
+  add_threads(command, options->threads);
+  add_database_file(command, options->file);
   return {command, [options] { return study(*options); }};
 }
 

@@ -8,7 +8,7 @@ enum ExitCode {
   kUsage = 2,             ///< the command line is wrong
   kSceneInvalid = 3,      ///< the scene is wrong; nothing was written
   kNumericalFailure = 4,  ///< the numbers stopped being numbers; the folder holds the run up to there
-  kOutOfMemory = 4,       ///< memory ran out; a run folder holds the run up to there
+  kOutOfMemory = 4,       ///< memory ran out; a run folder is as one of a run that was killed
   kRefused = 4,           ///< geometry was refused or found wrong; the rest was done
   kInputOutput = 5,       ///< a file, stdout or stderr could not be read or written
   kStopped = 75,          ///< stopped on a signal; the folder has a checkpoint to resume from

@@ -108,25 +108,25 @@ int export_run(const Options& options) {
 
 }  // namespace
 
-Command add_export(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("export", "Write a run for ParaView or QGIS, or a scene that continues it");
-  command->footer(kExamples);
+Command add_export(CommandLine& app) {
+  CommandLine command =
+      app.add_command("export", "Write a run for ParaView or QGIS, or a scene that continues it", kExamples);
   auto options = std::make_shared<Options>();
-  add_run_folder(*command, options->run);
-  option(*command, "--vtk", options->vtk, "DIR", "Folder for run.pvd and its .vtp frames");
-  option(*command, "--every", options->every, "N", "Of VTK only each N-th frame, and the last",
-         CLI::Range(1, 1000000));
-  option(*command, "--geojson", options->geojson, "DIR",
-         "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
-         "scene has an origin, metres where not");
-  option(*command, "--at", options->at, "S", "Instant of GeoJSON and scene [s]; the end if not given",
-         finite());
-  command->add_flag("--scene", options->is_scene,
-                    "A scene of its own, scene.json and floes.geojson, that starts where the run was then");
-  option(*command, "--out", options->out, "DIR", "Folder of the scene; one in the run's if not given",
-         not_empty());
-  command->add_flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
+  add_run_folder(command, options->run);
+  command.option("--vtk", options->vtk, "DIR", "Folder for run.pvd and its .vtp frames");
+  command.option("--every", options->every, "N", "Of VTK only each N-th frame, and the last",
+                 whole(1, 1000000));
+  command.option(
+      "--geojson", options->geojson, "DIR",
+      "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
+      "scene has an origin, metres where not");
+  command.option("--at", options->at, "S", "Instant of GeoJSON and scene [s]; the end if not given",
+                 finite());
+  command.flag("--scene", options->is_scene,
+               "A scene of its own, scene.json and floes.geojson, that starts where the run was then");
+  command.option("--out", options->out, "DIR", "Folder of the scene; one in the run's if not given",
+                 not_empty());
+  command.flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
   return {command, [options] { return export_run(*options); }};
 }
 

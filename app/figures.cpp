@@ -60,51 +60,50 @@ std::vector<std::string> words_of(const Options& options) {
   return words;
 }
 
-void add_choices(CLI::App& command, Options& options) {
-  set_choices(
-      *command.add_option("--only", options.only, "Which figures, separated by commas; all if not given")
-           ->delimiter(','),
-      {"floes", "loads", "motion", "sizes", "energy"});
-  set_choices(
-      *command.add_option(
-          "--load", options.load,
-          "True force of the ice (mean of each recorded interval and largest step, or one of the two), "
-          "force of other ships and structures, or the paper's j/tau_c; true if not given"),
-      {"true", "mean", "max", "ships", "j-over-tau-c"});
-  set_choices(*command.add_option("--style", options.style,
-                                  "What for: a column of a page, its whole width (if not given), or slides"),
-              {"one-column", "two-columns", "slides"});
-  set_choices(
-      *command.add_option("--format", options.formats, "Which files, separated by commas; all if not given")
-           ->delimiter(','),
-      {"svg", "png", "pdf"});
+void add_choices(CommandLine& command, Options& options) {
+  command.option("--only", options.only, "", "Which figures, separated by commas; all if not given")
+      .separated_by(',')
+      .one_of({"floes", "loads", "motion", "sizes", "energy"});
+  command
+      .option("--load", options.load, "",
+              "True force of the ice (mean of each recorded interval and largest step, or one of the two), "
+              "force of other ships and structures, or the paper's j/tau_c; true if not given")
+      .one_of({"true", "mean", "max", "ships", "j-over-tau-c"});
+  command
+      .option("--style", options.style, "",
+              "What for: a column of a page, its whole width (if not given), or slides")
+      .one_of({"one-column", "two-columns", "slides"});
+  command.option("--format", options.formats, "", "Which files, separated by commas; all if not given")
+      .separated_by(',')
+      .one_of({"svg", "png", "pdf"});
 }
 
 }  // namespace
 
-Command add_figures(CLI::App& app) {
-  auto* command = app.add_subcommand("figures", "Draw a run, or several side by side, for print");
-  command->footer(kFooter);
+Command add_figures(CommandLine& app) {
+  CommandLine command = app.add_command("figures", "Draw a run, or several side by side, for print", kFooter);
   auto options = std::make_shared<Options>();
-  option(*command, "runs", options->runs, "RUN", "The run folders")->required();
-  add_choices(*command, *options);
-  option(*command, "--at", options->at, "S,S,...", "Instants of the maps [s]; chosen if not given", finite())
-      ->delimiter(',');
-  option(*command, "--from", options->from, "S", "Draw from this time on [s]; from the start if not given",
-         finite());
-  option(*command, "--until", options->until, "S", "Draw up to this time [s]; to the end if not given",
-         finite());
-  option(*command, "--window", options->window, "X0,Y0,X1,Y1",
-         "The part of the world that the maps show [m]; all if not given", finite())
-      ->delimiter(',')
-      ->expected(4);
-  option(*command, "--label", options->labels, "NAME,...", "Names of the runs; their scenes' if not given")
-      ->delimiter(',');
-  option(*command, "--title", options->title, "TEXT",
-         "Title of the figures instead of their own; \"\" for none");
-  option(*command, "--width-mm", options->width, "MM",
-         "Width on paper instead of the style's, 85, 170 or 300; text keeps its size", between(60, 400));
-  option(*command, "--out", options->out, "DIR", "Folder for the figures; the first run's if not given");
+  command.option("runs", options->runs, "RUN", "The run folders").required();
+  add_choices(command, *options);
+  command.option("--at", options->at, "S,S,...", "Instants of the maps [s]; chosen if not given", finite())
+      .separated_by(',');
+  command.option("--from", options->from, "S", "Draw from this time on [s]; from the start if not given",
+                 finite());
+  command.option("--until", options->until, "S", "Draw up to this time [s]; to the end if not given",
+                 finite());
+  command
+      .option("--window", options->window, "X0,Y0,X1,Y1",
+              "The part of the world that the maps show [m]; all if not given", finite())
+      .separated_by(',')
+      .takes(4);
+  command.option("--label", options->labels, "NAME,...", "Names of the runs; their scenes' if not given")
+      .separated_by(',');
+  command.option("--title", options->title, "TEXT",
+                 "Title of the figures instead of their own; \"\" for none");
+  command.option("--width-mm", options->width, "MM",
+                 "Width on paper instead of the style's, 85, 170 or 300; text keeps its size",
+                 between(60, 400));
+  command.option("--out", options->out, "DIR", "Folder for the figures; the first run's if not given");
   return {command, [options] { return become_python("polynya.figures", words_of(*options)); }};
 }
 

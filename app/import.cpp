@@ -78,7 +78,7 @@ Outcome<io::FloeText> read_floes(const Options& options, const std::string& name
 
 /// What is wrong with the floes before their outlines are inspected, by floe.
 std::vector<std::string> read_properties(const io::FloeText& text, const io::PropertyNames& names,
-                                         std::vector<io::SourceFloe>& floes) {
+                                         std::vector<io::SourceFloe>& floes, io::NearMisses& near_misses) {
   std::vector<std::string> refused(text.entries.size());
   for (std::size_t i = 0; i < text.entries.size(); ++i) {
     const io::FloeEntry& entry = text.entries[i];
@@ -92,6 +92,7 @@ std::vector<std::string> read_properties(const io::FloeText& text, const io::Pro
     if (entry.properties) {
       const io::JsonDocument properties = io::parse_json("{" + *entry.properties + "}");
       floe.properties = read_floe_properties(properties.root, names, bad);
+      near_misses.add(properties.root, floe.properties);
     }
     if (entry.floe_id) floe.properties.floe_id = entry.floe_id;
     for (const io::BadProperty& one : bad)
@@ -115,8 +116,28 @@ void report_items(const std::string& name, const io::ImportOutcome& imported,
   if (reported > kMostReported) print_err("polynya: {} more; the report has all\n", reported - kMostReported);
 }
 
-io::Result<> write_results(const Options& options, const std::string& geojson, const std::string& report) {
-  if (auto written = write_output(options.out, geojson); !written) return written;
+void report_totals(const std::string& name, const io::ImportOutcome& imported,
+                   const std::vector<io::NearMiss>& near_misses) {
+  const io::ImportTotals& totals = imported.totals;
+  if (totals.read == 0) print_err("note: {}: no floes in it\n", name);
+  print_err("polynya: {}: {}\npolynya: {}\npolynya: {}\n", name, plane_in_words(imported.plane),
+            counts_in_words(totals), areas_in_words(totals));
+  if (totals.written > 0)
+    print_err("polynya: {}\n", io::thickness_in_words(totals.with_thickness, totals.written));
+  for (const io::NearMiss& miss : near_misses) {
+    if (miss.floes > 0)
+      print_err("note: {}: property \"{}\" of {} is not read; did you mean {}? --property '{}' reads it\n",
+                name, miss.key, counted(miss.floes, "floe"), miss.meant, as_property_name(miss));
+  }
+  if (std::ranges::any_of(imported.items, &io::ImportItem::is_outline_refused))
+    print_err("polynya: --repair non-zero, or even-odd, makes valid polygons of crossing outlines\n");
+}
+
+/// Without `geojson` the report alone.
+io::Result<> write_results(const Options& options, const std::optional<std::string>& geojson,
+                           const std::string& report) {
+  if (geojson)
+    if (auto written = write_output(options.out, *geojson); !written) return written;
   if (!options.report.empty()) return write_output(options.report, report);
   return options.out == "-" ? io::Result<>{} : write_output("-", report);
 }
@@ -130,6 +151,7 @@ Outcome<bool> import_all(const Options& options) {
     return failure(kUsage, "--origin and --crs: the plane is either about a place or that of a system");
   settings.plane.origin = *origin;
   settings.plane.chooses_origin = true;
+  settings.plane.keeps_metres = false;
   settings.plane.origin_in_words = origin_option;
   settings.plane.shift_in_words =
       "--shift moves the floes to the middle of the plane, --origin LAT,LON projects them about a place";
@@ -143,7 +165,8 @@ Outcome<bool> import_all(const Options& options) {
   if (!text) return tl::unexpected(text.error());
   const std::string crs = text->crs.empty() ? "" : io::crs_name(io::parse_json(text->crs).root);
   std::vector<io::SourceFloe> floes;
-  const std::vector<std::string> refused = read_properties(*text, names, floes);
+  io::NearMisses near_misses(names);
+  const std::vector<std::string> refused = read_properties(*text, names, floes, near_misses);
   const auto imported = import_floes(floes, refused, crs, settings);
   if (!imported) {
     std::string place = name;
@@ -154,19 +177,18 @@ Outcome<bool> import_all(const Options& options) {
     return failure(kRefused, fmt::format("{}: {}; nothing was written", place, imported.error().words));
   }
   report_items(name, *imported, text->entries);
-  if (const auto written = write_results(options, to_geojson(*imported, floes, text->entries),
-                                         to_json_text(*imported, name, text->entries));
+  const io::ImportTotals& totals = imported->totals;
+  const bool are_all_refused = totals.refused > 0 && totals.refused == totals.read;
+  std::optional<std::string> geojson;
+  if (!are_all_refused) geojson = to_geojson(*imported, floes, text->entries);
+  if (const auto written =
+          write_results(options, geojson, to_json_text(*imported, name, text->entries, near_misses.found()));
       !written)
     return failure(kInputOutput, written.error());
-  if (text->entries.empty()) print_err("note: {}: no floes in it\n", name);
-  print_err("polynya: {}: {}\npolynya: {}\npolynya: {}\n", name, plane_in_words(imported->plane),
-            counts_in_words(imported->totals), areas_in_words(imported->totals));
-  const bool has_invalid = std::ranges::any_of(imported->items, [](const io::ImportItem& item) {
-    return item.refused.starts_with("self-crossing") || item.refused.starts_with("overlapping-edges");
-  });
-  if (has_invalid)
-    print_err("polynya: --repair non-zero, or even-odd, makes valid polygons of crossing outlines\n");
-  return imported->totals.refused == 0;
+  report_totals(name, *imported, near_misses.found());
+  if (are_all_refused)
+    return failure(kRefused, name + ": every floe was refused; only the report was written");
+  return totals.refused == 0;
 }
 
 int import_command(const Options& options) {
@@ -175,62 +197,68 @@ int import_command(const Options& options) {
   return *done ? kDone : kRefused;
 }
 
-void add_plane_options(CLI::App& command, Options& options) {
+void add_plane_options(CommandLine& command, Options& options) {
   const char* const group = "The plane";
-  option(command, "--origin", options.origin, "LAT,LON",
-         "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
-         "origin")
-      ->group(group);
-  option(command, "--crs", options.settings.plane.target, "EPSG:n",
-         "The plane of this projected system instead; any name PROJ knows", not_empty())
-      ->group(group);
-  option(command, "--from", options.settings.plane.source, "EPSG:n",
-         "The file's system, where the file names none", not_empty())
-      ->group(group);
   command
-      .add_flag("--shift", options.settings.plane.is_shifted,
-                "Move the middle of the floes' box to (0, 0), by whole metres")
-      ->group(group);
+      .option(
+          "--origin", options.origin, "LAT,LON",
+          "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
+          "origin")
+      .in_group(group);
+  command
+      .option("--crs", options.settings.plane.target, "EPSG:n",
+              "The plane of this projected system instead; any name PROJ knows", not_empty())
+      .in_group(group);
+  command
+      .option("--from", options.settings.plane.source, "EPSG:n",
+              "The file's system, where the file names none", not_empty())
+      .in_group(group);
+  command
+      .flag("--shift", options.settings.plane.is_shifted,
+            "Move the middle of the floes' box to (0, 0), by whole metres")
+      .in_group(group);
 }
 
-void add_floe_options(CLI::App& command, Options& options) {
+void add_floe_options(CommandLine& command, Options& options) {
   io::ImportSettings& settings = options.settings;
-  set_choices<geometry::FillRule>(
-      *command.add_option("--repair", settings.repair,
-                          "Make valid polygons of outlines that are not, exactly, by what the rule fills; "
-                          "else they are refused"),
-      {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
-  option(command, "--simplify", settings.simplify, "M",
-         "Leave out vertices, each at most so far from the outline that is left [m]", between(0, 1e4));
-  option(command, "--min-area", settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
-  option(command, "--gap", settings.gap, "M",
-         "Least distance between floes: the smaller of two is trimmed to it [m]", between(0, 1e3));
-  option(command, "--layer", options.layer, "NAME", "Of a GeoPackage with several", not_empty());
   command
-      .add_option("--property", options.properties,
-                  "The file's name for a property, with a factor for its unit: thickness_m=THICK, "
-                  "thickness_m=CM*0.01; may be repeated")
-      ->type_name("KEY=NAME")
-      ->allow_extra_args(false);
+      .option("--repair", settings.repair, "",
+              "Make valid polygons of outlines that are not, exactly, by what the rule fills; "
+              "else they are refused")
+      .one_of<geometry::FillRule>(
+          {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
+  command.option("--simplify", settings.simplify, "M",
+                 "Leave out vertices, each at most so far from the outline that is left [m]",
+                 between(0, 1e4));
+  command.option("--min-area", settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
+  command.option("--gap", settings.gap, "M",
+                 "Least distance between floes: the smaller of two is trimmed to it [m]", between(0, 1e3));
+  command.option("--layer", options.layer, "NAME", "Of a GeoPackage with several", not_empty());
+  command
+      .option("--property", options.properties, "KEY=NAME",
+              "The file's name for a property, with a factor for its unit: thickness_m=THICK, "
+              "thickness_m=CM*0.01; may be repeated")
+      .takes_one_each_time();
 }
 
 }  // namespace
 
-Command add_import(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("import", "Make a floe file of mapped ice: project, repair, part overlaps");
-  command->footer(kExamples);
+Command add_import(CommandLine& app) {
+  CommandLine command =
+      app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kExamples);
   auto options = std::make_shared<Options>();
-  option(*command, "file", options->file, "FILE",
-         "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
-         "for stdin")
-      ->required();
-  option(*command, "--out", options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty())
-      ->required();
-  option(*command, "--report", options->report, "FILE",
-         "The report, JSON; stdout if not given, unless the floes go there");
-  add_plane_options(*command, *options);
-  add_floe_options(*command, *options);
+  command
+      .option(
+          "file", options->file, "FILE",
+          "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
+          "for stdin")
+      .required();
+  command.option("--out", options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty())
+      .required();
+  command.option("--report", options->report, "FILE",
+                 "The report, JSON; stdout if not given, unless the floes go there");
+  add_plane_options(command, *options);
+  add_floe_options(command, *options);
   return {command, [options] { return import_command(*options); }};
 }
 

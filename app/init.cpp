@@ -24,14 +24,13 @@ int init(const std::string& file) {
 
 }  // namespace
 
-Command add_init(CLI::App& app) {
-  auto* command = app.add_subcommand("init", "Write a commented scene to start from");
-  command->footer(
-      "Examples:\n"
-      "  polynya init my-scene.json && polynya run my-scene.json\n"
-      "  polynya init                         to stdout\n");
+Command add_init(CommandLine& app) {
+  CommandLine command = app.add_command("init", "Write a commented scene to start from",
+                                        "Examples:\n"
+                                        "  polynya init my-scene.json && polynya run my-scene.json\n"
+                                        "  polynya init                         to stdout\n");
   auto file = std::make_shared<std::string>();
-  option(*command, "file", *file, "FILE", "Where to; stdout if not given");
+  command.option("file", *file, "FILE", "Where to; stdout if not given");
   return {command, [file] { return init(*file); }};
 }
 

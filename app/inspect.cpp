@@ -102,31 +102,30 @@ int inspect(const Options& options) {
 
 }  // namespace
 
-Command add_inspect(CLI::App& app) {
-  auto* command = app.add_subcommand("inspect", "Show the floes of a run");
-  command->footer(kExamples);
+Command add_inspect(CommandLine& app) {
+  CommandLine command = app.add_command("inspect", "Show the floes of a run", kExamples);
   auto options = std::make_shared<Options>();
-  add_run_folder(*command, options->run);
-  option(*command, "--at", options->at, "T", "At that time; the end of the run if not given [s]", finite());
-  auto* floe = option(*command, "--floe", options->floe, "N",
-                      "The shape of one floe: in its body frame, or with --at where it was in the world");
-  auto* lineage =
-      option(*command, "--lineage", options->lineage, "N", "The tree of fractures that led to a floe");
-  auto* events = command->add_flag("--events", options->events,
-                                   "Every event of the run: fractures, ships that meet, moorings that break");
-  auto* check =
-      command->add_flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
-  auto* fsd = command->add_flag("--fsd", options->fsd, "The distribution of floe sizes");
-  auto* format = command->add_option("--format", options->format, "Of --floe; wkt if not given");
-  format->needs(floe);
-  set_choices<ShapeFormat>(
-      *format, {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}});
-  auto* json =
-      command->add_flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
-  floe->excludes(lineage)->excludes(events)->excludes(check)->excludes(fsd)->excludes(json);
-  lineage->excludes(events)->excludes(check)->excludes(fsd);
-  events->excludes(check)->excludes(fsd);
-  check->excludes(fsd);
+  add_run_folder(command, options->run);
+  command.option("--at", options->at, "T", "At that time; the end of the run if not given [s]", finite());
+  auto floe =
+      command.option("--floe", options->floe, "N",
+                     "The shape of one floe: in its body frame, or with --at where it was in the world");
+  auto lineage =
+      command.option("--lineage", options->lineage, "N", "The tree of fractures that led to a floe");
+  auto events = command.flag("--events", options->events,
+                             "Every event of the run: fractures, ships that meet, moorings that break");
+  auto check =
+      command.flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
+  auto fsd = command.flag("--fsd", options->fsd, "The distribution of floe sizes");
+  command.option("--format", options->format, "", "Of --floe; wkt if not given")
+      .one_of<ShapeFormat>(
+          {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}})
+      .needs(floe);
+  auto json = command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
+  floe.excludes(lineage).excludes(events).excludes(check).excludes(fsd).excludes(json);
+  lineage.excludes(events).excludes(check).excludes(fsd);
+  events.excludes(check).excludes(fsd);
+  check.excludes(fsd);
   return {command, [options] { return inspect(*options); }};
 }
 

@@ -1,5 +1,4 @@
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -7,22 +6,17 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/guide.hpp"
 #include "app/memory_check.hpp"
-#include "app/usage.hpp"
-#include "geometry/exact/exact_memory.hpp"
 #include "io/text/version.hpp"
 
 namespace polynya::app {
 namespace {
 
-using AddCommand = Command (*)(CLI::App&);
-
 /// In the order of the help.
-constexpr AddCommand kCommands[] = {add_run,         add_resume, add_validate, add_schema,    add_ships,
-                                    add_performance, add_init,   add_view,     add_channel,   add_figures,
-                                    add_movie,       add_export, add_inspect,  add_cut,       add_import,
-                                    add_database,    add_study,  add_man,      add_completion};
+const std::vector<Command (*)(CommandLine&)> kCommands{
+    add_run,    add_resume,   add_validate, add_schema, add_ships,     add_performance, add_init,
+    add_view,   add_channel,  add_figures,  add_movie,  add_export,    add_inspect,     add_cut,
+    add_import, add_database, add_study,    add_man,    add_completion};
 
 constexpr auto kExamples =
     "Examples:\n"
@@ -56,25 +50,8 @@ int report_out_of_memory() {
 }
 
 int command_line(int count, char** words) {
-  CLI::App app(kExamples, "polynya");
-  lead_with_examples(app);
-  app.footer(kCodes);
-  app.set_version_flag("--version", "polynya " + std::string(io::version()));
-  app.require_subcommand(1);
-  std::vector<Command> commands;
-  for (const AddCommand add : kCommands) commands.push_back(add(app));
-  try {
-    app.parse(count, words);
-  } catch (const CLI::ParseError& error) {
-    std::ostringstream out, unused;
-    if (app.exit(error, out, unused) != 0) {
-      write_err(usage_message(app, error));
-      return kUsage;
-    }
-    write_out(out.str());  // help or version
-    return kDone;
-  }
-  return run_chosen(commands);
+  return run_command_line({kExamples, kCodes, "polynya " + std::string(io::version())}, kCommands, count,
+                          words);
 }
 
 /// What the standard library throws, as an exit code.
@@ -96,6 +73,5 @@ int guarded_command_line(int count, char** words) {
 
 int main(int count, char** words) {
   polynya::app::open_streams();
-  polynya::geometry::let_exact_numbers_outlast_memory();
   return polynya::app::close_streams(polynya::app::guarded_command_line(count, words));
 }

@@ -25,9 +25,9 @@ constexpr std::array kOptions{
 
 }  // namespace
 
-Command add_movie(CLI::App& app) {
-  auto* command = app.add_subcommand("movie", "Make a film of a run: the ice, and the force on the ship");
-  command->footer(
+Command add_movie(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "movie", "Make a film of a run: the ice, and the force on the ship",
       "Examples:\n"
       "  polynya movie runs/sawamura2017-fig4b --out voyage.mp4\n"
       "  polynya movie runs/sawamura2017-fig4b --out voyage.gif --size 800x450 --from 100 --to 300 --speed "
@@ -42,9 +42,9 @@ Command add_movie(CLI::App& app) {
       "Exit codes: 0 done, 2 usage, 5 input/output.\n");
   auto run = std::make_shared<std::string>();
   auto values = std::make_shared<PythonOptions>(kOptions);
-  option(*command, "run", *run, "RUN", "The run folder; a run that is not finished is shown as far as it got")
-      ->required();
-  values->add_to(*command);
+  command.option("run", *run, "RUN", "The run folder; a run that is not finished is shown as far as it got")
+      .required();
+  values->add_to(command);
   return {command, [run, values] {
             std::vector<std::string> words{*run};
             values->append_to(words);

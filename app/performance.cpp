@@ -25,10 +25,9 @@ constexpr std::array kOptions{
 
 }  // namespace
 
-Command add_performance(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("performance", "Find the speed that a ship keeps in level ice, by thickness");
-  command->footer(
+Command add_performance(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "performance", "Find the speed that a ship keeps in level ice, by thickness",
       "Examples:\n"
       "  polynya performance polaris                       ten thicknesses, on all processors\n"
       "  polynya performance araon --flexural-strength 630e3 --friction 0.1\n"
@@ -43,11 +42,11 @@ Command add_performance(CLI::App& app) {
   auto ship = std::make_shared<std::string>();
   auto values = std::make_shared<PythonOptions>(kOptions);
   auto is_list = std::make_shared<bool>(false);
-  option(*command, "ship", *ship, "SHIP",
-         "A preset (polynya ships), or a JSON file with a ship as scenes have it")
-      ->required();
-  values->add_to(*command);
-  command->add_flag("--list", *is_list, "Print the formulas' speeds and run nothing");
+  command
+      .option("ship", *ship, "SHIP", "A preset (polynya ships), or a JSON file with a ship as scenes have it")
+      .required();
+  values->add_to(command);
+  command.flag("--list", *is_list, "Print the formulas' speeds and run nothing");
   return {command, [ship, values, is_list] {
             std::vector<std::string> words{*ship};
             values->append_to(words);

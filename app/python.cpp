@@ -34,9 +34,9 @@ std::string python() {
 
 }  // namespace
 
-void PythonOptions::add_to(CLI::App& command) {
+void PythonOptions::add_to(CommandLine& command) {
   for (std::size_t i = 0; i < options_.size(); ++i)
-    option(command, options_[i].name, values_[i], options_[i].value, options_[i].meaning);
+    command.option(options_[i].name, values_[i], options_[i].value, options_[i].meaning);
 }
 
 void PythonOptions::append_to(std::vector<std::string>& words) const {

@@ -24,7 +24,7 @@ class PythonOptions {
       : options_(options), values_(options.size()) {}
 
   /// The command refers to this from then on.
-  void add_to(CLI::App& command);
+  void add_to(CommandLine& command);
 
   /// Appends those that were given, each as NAME=VALUE.
   void append_to(std::vector<std::string>& words) const;

@@ -119,22 +119,22 @@ int resume(const ResumeOptions& options) {
 
 }  // namespace
 
-Command add_resume(CLI::App& app) {
-  auto* command = app.add_subcommand("resume", "Resume a run that was stopped, killed or ran out of disk");
-  command->footer(
+Command add_resume(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "resume", "Resume a run that was stopped, killed or ran out of disk",
       "Examples:\n"
       "  polynya resume runs/level-plate\n"
       "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
       "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
   auto options = std::make_shared<ResumeOptions>();
-  option(*command, "folder", options->folder, "RUN", "The run folder")->required();
-  auto* checkpoint =
-      option(*command, "--checkpoint", options->checkpoint, "FILE", "This one, instead of the newest");
+  command.option("folder", options->folder, "RUN", "The run folder").required();
+  auto checkpoint =
+      command.option("--checkpoint", options->checkpoint, "FILE", "This one, instead of the newest");
   command
-      ->add_flag("--from-failure", options->from_failure,
-                 "Repeat the step for which failure.bin was dumped; nothing is written")
-      ->excludes(checkpoint);
-  add_run_options(*command, options->driver);
+      .flag("--from-failure", options->from_failure,
+            "Repeat the step for which failure.bin was dumped; nothing is written")
+      .excludes(checkpoint);
+  add_run_options(command, options->driver);
   return {command, [options] { return resume(*options); }};
 }
 

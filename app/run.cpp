@@ -65,23 +65,22 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
-Command add_run(CLI::App& app) {
-  auto* command = app.add_subcommand("run", "Run a scene and write its run folder");
-  command->footer(
+Command add_run(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "run", "Run a scene and write its run folder",
       "Examples:\n"
       "  polynya run scenes/sawamura2017-fig4b.json\n"
       "  polynya run scenes/level-plate.json --until 60 --out /tmp/plate --overwrite\n"
       "  polynya run scenes/level-plate.json --set ice.thickness_m=0.7 --set ships[0].position_m[1]=5\n");
   auto options = std::make_shared<RunOptions>();
-  add_scene(*command, options->scene);
-  option(*command, "--out", options->out, "DIR", "The run folder; runs/<scene name> if not given");
-  option(*command, "--until", options->until, "S", "Simulated time to run to, instead of the scene's [s]",
-         between(1e-9, 1e7));
-  option(*command, "--seed", options->seed, "N", "Seed instead of the scene's",
-         CLI::Range(0.0, 9007199254740991.0));
-  add_set(*command, options->set);
-  add_run_options(*command, options->driver);
-  command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
+  add_scene(command, options->scene);
+  command.option("--out", options->out, "DIR", "The run folder; runs/<scene name> if not given");
+  command.option("--until", options->until, "S", "Simulated time to run to, instead of the scene's [s]",
+                 between(1e-9, 1e7));
+  command.option("--seed", options->seed, "N", "Seed instead of the scene's", whole(0, 9007199254740991));
+  add_set(command, options->set);
+  add_run_options(command, options->driver);
+  command.flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
   return {command, [options] { return run(*options); }};
 }
 

@@ -24,11 +24,6 @@ std::optional<std::string> reason_to_stop() {
   return signal == 2 ? "SIGINT" : signal == 15 ? "SIGTERM" : fmt::format("signal {}", signal);
 }
 
-/// A reason, with how much memory there is where that ran out.
-std::string in_words(const std::string& reason) {
-  return reason == io::kMemoryRanOut ? out_of_memory() : reason;
-}
-
 /// What stopped the run, and how to continue it.
 void report_stop(const io::ActiveRun& run, const io::RunResult& result) {
   const std::string folder = run.writer.folder().string();
@@ -51,7 +46,7 @@ void report_dump(const std::string& folder, const io::Result<>& dump) {
         "--from-failure\n",
         folder);
   else
-    print_err("polynya: the failure could not be dumped: {}\n", in_words(dump.error()));
+    print_err("polynya: the failure could not be dumped: {}\n", dump.error());
 }
 
 ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
@@ -69,19 +64,12 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
   return exit_code_of(result.end);
 }
 
-/// Of a run whose memory ran out within a step.
-ExitCode report_cut_off(const io::ActiveRun& run, const io::RunResult& result) {
-  if (result.end == RunEnd::kFolderFailure) {
-    report_stop(run, result);
-    return kInputOutput;
-  }
-  const std::string folder = run.writer.folder().string();
-  const auto checkpoints = io::checkpoints_in(folder);
-  print_err("polynya: stopped at {:.6g} s: {}\n", result.summary.sim_time, in_words(result.reason));
-  print_err("polynya: {} holds the run up to there, without the final map; {}\n", folder, kToNeedLessMemory);
-  print_err("polynya: with more memory, continue {} with: polynya resume {}\n",
-            checkpoints.empty() ? "from the start" : "from " + checkpoints.front().filename().string(),
-            folder);
+/// Of a run whose memory ran out: it is as if it had been killed.
+ExitCode report_out_of_memory(const std::filesystem::path& folder) {
+  print_err("polynya: {}\n", out_of_memory());
+  print_err("polynya: {} is that of a run that was killed; {}\n", folder.string(), kToNeedLessMemory);
+  print_err("polynya: with more memory, continue from its newest checkpoint with: polynya resume {}\n",
+            folder.string());
   return kOutOfMemory;
 }
 
@@ -95,8 +83,6 @@ ExitCode exit_code_of(RunEnd end) {
       return kStopped;
     case RunEnd::kNumericalFailure:
       return kNumericalFailure;
-    case RunEnd::kOutOfMemory:
-      return kOutOfMemory;
     case RunEnd::kFolderFailure:
       return kInputOutput;
   }
@@ -104,30 +90,27 @@ ExitCode exit_code_of(RunEnd end) {
 }
 
 DrawnMap draw_map(const std::filesystem::path& folder) {
-  try {
-    const auto run = io::read_run(folder);
-    if (!run) print_err("note: no map is drawn: {}\n", run.error());
-    if (!run) return {};
-    if (auto drawn = views::draw_final_map(*run))
-      return {*drawn};
-    else
-      return {"", RunEnd::kFolderFailure, drawn.error()};
-  } catch (const std::bad_alloc&) {
-    return {"", RunEnd::kOutOfMemory, "the final map: " + out_of_memory()};
-  }
+  const auto run = io::read_run(folder);
+  if (!run) print_err("note: no map is drawn: {}\n", run.error());
+  if (!run) return {};
+  if (auto drawn = views::draw_final_map(*run))
+    return {*drawn};
+  else
+    return {"", RunEnd::kFolderFailure, drawn.error()};
 }
 
-void add_run_options(CLI::App& command, DriverOptions& options) {
+void add_run_options(CommandLine& command, DriverOptions& options) {
   io::RunControl& control = options.control;
-  option(command, "--threads", control.threads, "N", "Threads to step on; results do not depend on it",
-         CLI::Range(1, 1024));
-  option(command, "--checkpoint-every", control.checkpoint_every, "S",
-         "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
-  option(command, "--checkpoint-every-wall", control.checkpoint_every_wall, "S",
-         "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
-  command.add_flag("--check", control.check,
-                   "Recompute every cross-index and sum after every step; stop if one differs");
-  command.add_flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
+  command.option("--threads", control.threads, "N", "Threads to step on; results do not depend on it",
+                 whole(1, 1024));
+  command.option("--checkpoint-every", control.checkpoint_every, "S",
+                 "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
+  command.option("--checkpoint-every-wall", control.checkpoint_every_wall, "S",
+                 "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]",
+                 between(0, 1e7));
+  command.flag("--check", control.check,
+               "Recompute every cross-index and sum after every step; stop if one differs");
+  command.flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
   add_progress(command, options.progress);
 }
 
@@ -136,9 +119,14 @@ ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
   io::RunControl control = options.control;
   control.progress = [&](const io::RunStatus& at) { progress.show(at.time, at.fractures); };
   control.stop = reason_to_stop;
-  const io::RunResult result = run_to_end(run, control);
-  progress.finish(result.summary.sim_time, io::fractures_of(result.summary.counts));
-  return result.is_cut_off ? report_cut_off(run, result) : report(run, result, options.no_map);
+  const std::filesystem::path folder = run.writer.folder();
+  try {
+    const io::RunResult result = run_to_end(run, control);
+    progress.finish(result.summary.sim_time, io::fractures_of(result.summary.counts));
+    return report(run, result, options.no_map);
+  } catch (const std::bad_alloc&) {
+    return report_out_of_memory(folder);
+  }
 }
 
 }  // namespace polynya::app

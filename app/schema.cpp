@@ -6,14 +6,14 @@
 
 namespace polynya::app {
 
-Command add_schema(CLI::App& app) {
-  auto* command = app.add_subcommand("schema", "Print the JSON Schema of scenes");
-  command->footer(
-      "Examples:\n"
-      "  polynya schema > polynya.schema.json\n"
-      "  polynya schema --markdown            the tables of docs/scene.md\n");
+Command add_schema(CommandLine& app) {
+  CommandLine command =
+      app.add_command("schema", "Print the JSON Schema of scenes",
+                      "Examples:\n"
+                      "  polynya schema > polynya.schema.json\n"
+                      "  polynya schema --markdown            the tables of docs/scene.md\n");
   auto is_markdown = std::make_shared<bool>(false);
-  command->add_flag("--markdown", *is_markdown, "Print the fields as Markdown tables");
+  command.flag("--markdown", *is_markdown, "Print the fields as Markdown tables");
   return {command, [is_markdown] {
             write_out(*is_markdown ? io::scene_tables() : io::scene_schema());
             return kDone;

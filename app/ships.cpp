@@ -89,17 +89,17 @@ ExitCode show(const std::string& name, bool is_json) {
 
 }  // namespace
 
-Command add_ships(CLI::App& app) {
-  auto* command = app.add_subcommand("ships", "List the ships that scenes can ask for by name");
-  command->footer(
-      "Examples:\n"
-      "  polynya ships                  all of them\n"
-      "  polynya ships polaris          every particular, its source, and which are assumed\n"
-      "  polynya ships polaris --json   its \"ship\" as scenes have one\n");
+Command add_ships(CommandLine& app) {
+  CommandLine command =
+      app.add_command("ships", "List the ships that scenes can ask for by name",
+                      "Examples:\n"
+                      "  polynya ships                  all of them\n"
+                      "  polynya ships polaris          every particular, its source, and which are assumed\n"
+                      "  polynya ships polaris --json   its \"ship\" as scenes have one\n");
   auto name = std::make_shared<std::string>();
   auto is_json = std::make_shared<bool>(false);
-  command->add_option("ship", *name, "Its name");
-  command->add_flag("--json", *is_json, "Print that ship, or the list of all, as JSON");
+  command.option("ship", *name, "NAME", "Its name");
+  command.flag("--json", *is_json, "Print that ship, or the list of all, as JSON");
   return {command, [name, is_json] { return show(*name, *is_json); }};
 }
 

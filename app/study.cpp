@@ -25,25 +25,24 @@ constexpr std::array kActions{
 };
 
 /// All that follows is for Python, --help too.
-Command add_action(CLI::App& study, const Action& action) {
-  auto* command = study.add_subcommand(action.name, action.meaning);
-  command->set_help_flag();
-  command->prefix_command();
+Command add_action(CommandLine& study, const Action& action) {
+  CommandLine command = study.add_command(action.name, action.meaning, "");
+  command.hand_on_arguments();
   auto given = std::make_shared<std::string>();
-  option(*command, "study", *given, "FILE", "The study's JSON file, or the folder that plan made of it");
+  command.option("study", *given, "FILE", "The study's JSON file, or the folder that plan made of it");
   return {command, [command, given, name = std::string(action.name)] {
             std::vector<std::string> words{name};
             if (!given->empty()) words.push_back(*given);
-            for (std::string& word : command->remaining()) words.push_back(std::move(word));
+            for (std::string& word : command.remaining()) words.push_back(std::move(word));
             return become_python("polynya.study", words);
           }};
 }
 
 }  // namespace
 
-Command add_study(CLI::App& app) {
-  auto* command = app.add_subcommand("study", "Plan, run and gather many runs of one scene");
-  command->footer(
+Command add_study(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "study", "Plan, run and gather many runs of one scene",
       "Examples:\n"
       "  polynya study plan scenes/studies/pack-ice-loads.json   expand, check and estimate\n"
       "  polynya study run studies/pack-ice-loads --jobs 2       all cases on this machine; resumes what "
@@ -58,9 +57,9 @@ Command add_study(CLI::App& app) {
       "Exit codes: 0 all cases finished, 2 usage, 3 study or scene invalid, 4 cases failed, 5 input/output, "
       "75 "
       "cases are unfinished or were stopped.\n");
-  command->require_subcommand(1);
+  command.require_command();
   auto commands = std::make_shared<std::vector<Command>>();
-  for (const Action& action : kActions) commands->push_back(add_action(*command, action));
+  for (const Action& action : kActions) commands->push_back(add_action(command, action));
   return {command, [commands] { return run_chosen(*commands); }};
 }
 

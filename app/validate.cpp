@@ -43,11 +43,12 @@ void print_floes(const io::LoadedScene& loaded) {
         drawn.most, drawn.distance);
   }
   for (const io::FileReport& file : loaded.files) {
-    print_out("floes[{}]: {}{}\n", file.group, io::plane_in_words(file.plane),
+    print_out("floes[{}]: {}{}; {}\n", file.group, io::plane_in_words(file.plane),
               file.run_time
                   ? fmt::format("; {} of a run at {:g} s", counted(file.floes, "floe"), *file.run_time)
               : file.totals ? "; " + io::counts_in_words(*file.totals)
-                            : "; " + counted(file.floes, "floe"));
+                            : "; " + counted(file.floes, "floe"),
+              io::thickness_in_words(file.with_thickness, file.floes));
     if (file.totals) print_out("floes[{}]: {}\n", file.group, io::areas_in_words(*file.totals));
   }
 }
@@ -86,20 +87,19 @@ int validate(const Options& options) {
 
 }  // namespace
 
-Command add_validate(CLI::App& app) {
-  auto* command = app.add_subcommand("validate", "Check a scene and report everything that is wrong with it");
-  command->footer(kExamples);
+Command add_validate(CommandLine& app) {
+  CommandLine command =
+      app.add_command("validate", "Check a scene and report everything that is wrong with it", kExamples);
   auto options = std::make_shared<Options>();
-  add_scene(*command, options->scene);
-  add_set(*command, options->set);
-  auto* cases =
-      option(*command, "--cases", options->cases, "FILE",
-             "Check the scene once for each line of this file, an object of paths and values", not_empty());
-  auto* resolved =
-      command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
-  resolved->excludes(cases);
-  command->add_flag("--json", options->json, "Print the problems as a JSON array; [] for none")
-      ->excludes(resolved);
+  add_scene(command, options->scene);
+  add_set(command, options->set);
+  auto cases = command.option(
+      "--cases", options->cases, "FILE",
+      "Check the scene once for each line of this file, an object of paths and values", not_empty());
+  auto resolved =
+      command.flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  resolved.excludes(cases);
+  command.flag("--json", options->json, "Print the problems as a JSON array; [] for none").excludes(resolved);
   return {command, [options] { return validate(*options); }};
 }
 

@@ -125,22 +125,21 @@ int write_view(const Options& options) {
 
 }  // namespace
 
-Command add_view(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "view", "Write a page that plays a run, or two side by side, in any browser, offline");
-  command->footer(kExamples);
+Command add_view(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "view", "Write a page that plays a run, or two side by side, in any browser, offline", kExamples);
   auto options = std::make_shared<Options>();
-  option(*command, "run", options->runs, "RUN", "The run folder; two are shown side by side, with one clock")
-      ->required()
-      ->expected(1, 2);
-  option(*command, "--out", options->out, "FILE", "The page; view.html in the run folder if not given");
-  option(*command, "--label", options->labels, "NAME,NAME", "Names of two runs")->delimiter(',');
-  option(*command, "--every", options->frames.every, "N", "Only each N-th frame, and the last",
-         CLI::Range(1, 1000000));
-  option(*command, "--from", options->frames.from, "S", "Only from that time on [s]", finite());
-  option(*command, "--until", options->frames.until, "S", "Only up to that time [s]", finite());
-  option(*command, "--limit", options->most_megabytes, "MB",
-         "The largest page to write [MB]; 100 if not given", between(0.001, 2000));
+  command.option("run", options->runs, "RUN", "The run folder; two are shown side by side, with one clock")
+      .required()
+      .takes(1, 2);
+  command.option("--out", options->out, "FILE", "The page; view.html in the run folder if not given");
+  command.option("--label", options->labels, "NAME,NAME", "Names of two runs").separated_by(',');
+  command.option("--every", options->frames.every, "N", "Only each N-th frame, and the last",
+                 whole(1, 1000000));
+  command.option("--from", options->frames.from, "S", "Only from that time on [s]", finite());
+  command.option("--until", options->frames.until, "S", "Only up to that time [s]", finite());
+  command.option("--limit", options->most_megabytes, "MB", "The largest page to write [MB]; 100 if not given",
+                 between(0.001, 2000));
   return {command, [options] { return write_view(*options); }};
 }
 

@@ -23,6 +23,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(polynya_warnings INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
 
+# Headers of the standard library, and with fmt::fmt those of fmt too, are compiled once instead of in every source: a third
+# of the time. Sources include what they use all the same (`./test -L odr` compiles each without this). A source with
+# options of its own has to leave it out: SKIP_PRECOMPILE_HEADERS.
+set(POLYNYA_STANDARD_HEADERS <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits>
+  <map> <memory> <numbers> <numeric> <optional> <ranges> <set> <span> <sstream> <string> <string_view> <system_error>
+  <unordered_map> <utility> <variant> <vector>)
+set(POLYNYA_TEXT_HEADERS ${POLYNYA_STANDARD_HEADERS} <fmt/format.h> <fmt/ranges.h> <tl/expected.hpp>)
+
 function(polynya_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target polynya_${name})
@@ -34,6 +42,13 @@ function(polynya_room name)
   target_link_libraries(${target}
     PUBLIC polynya_options ${ROOM_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:polynya_warnings> ${ROOM_PRIVATE})
+  if("fmt::fmt" IN_LIST ROOM_PRIVATE AND TARGET polynya_simulation AND NOT name STREQUAL "simulation")
+    target_precompile_headers(${target} REUSE_FROM polynya_simulation)
+  elseif("fmt::fmt" IN_LIST ROOM_PRIVATE)
+    target_precompile_headers(${target} PRIVATE ${POLYNYA_TEXT_HEADERS})
+  else()
+    target_precompile_headers(${target} PRIVATE ${POLYNYA_STANDARD_HEADERS})
+  endif()
   set_property(GLOBAL APPEND PROPERTY POLYNYA_ROOMS ${target})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION include/polynya/${name}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "internal" EXCLUDE)

@@ -37,7 +37,7 @@ PACKAGES = {
     r"boost/crc": ["io/run/"],
     r"nlohmann/": ["io/text/"],
     r"(proj|dlfcn)\.h$": ["io/import/projection.cpp"],
-    r"CLI/": ["app/command_line.hpp"],
+    r"CLI/": ["app/command_line.cpp"],
     r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/", "python/module/"],
     r"pybind11/": ["python/module/"],
     r"tl/expected": [""],

@@ -1,4 +1,4 @@
-"""Fails on a product file above 300 lines and on a function above 50, in C++ and JavaScript.
+"""Fails on a product file above 600 lines and on a function above 50, in C++ and JavaScript.
 
     python3 cmake/check_sizes.py SOURCE
 
@@ -11,7 +11,7 @@ import sys
 
 ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "python"]
 SUFFIXES = {".cpp", ".hpp", ".js"}
-MOST_LINES_OF_FILE = 300
+MOST_LINES_OF_FILE = 600
 MOST_LINES_OF_FUNCTION = 50
 # "path: name of the function" -> why it is a table that reads best in one piece.
 TABLES = {}

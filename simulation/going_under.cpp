@@ -43,13 +43,13 @@ void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Pop
   population.bodies.rim_speed[body] = 0;
   population.bodies.drag[body].reset();
   population.floes[floe].is_under = true;
-  population.tiles.push_back({.floe = floe,
-                              .ship = ship,
-                              .path = 0,
-                              .weight = weight_under(setup, population, floe, ship),
-                              .next_try = clock.time(),
-                              .waited = 0,
-                              .area = population.floes[floe].area});
+  population.submerged.push_back({.floe = floe,
+                                  .ship = ship,
+                                  .path = 0,
+                                  .weight = weight_under(setup, population, floe, ship),
+                                  .next_try = clock.time(),
+                                  .waited = 0,
+                                  .area = population.floes[floe].area});
   ++accounts.counts.went_under;
 }
 

@@ -218,7 +218,7 @@ struct Journal {
 struct AreaLedger {
   double initial_ice_area = 0;
   double floe_area = 0;
-  double under_hull_area = 0;  ///< of tiles, also of those that wait for room
+  double under_hull_area = 0;  ///< of submerged pieces, also of those that wait for room
   double under_ice_area = 0;   ///< of those that found none
   double submerged_area = 0;   ///< gone by cusp_fate submerge
   double brash_area = 0;

@@ -23,7 +23,7 @@ struct Floe {
   std::int32_t own_ice = kSceneIce;  ///< index in Scene::own_ice, as its parent's
   double area = 0;                   ///< [m²]
   geometry::Shape shape;  ///< body frame: the scene's coordinates of its oldest ancestor; empty once it broke
-  bool is_under = false;  ///< a tile under a hull: it meets no body, and rests in the water
+  bool is_under = false;  ///< a submerged piece under a hull: it meets no body, and rests in the water
 };
 
 /// A floe that a ship's hull presses down.
@@ -34,7 +34,7 @@ struct TiltedFloe {
 };
 
 /// A floe under a ship's hull, or under the ice behind it.
-struct Tile {
+struct SubmergedPiece {
   FloeId floe = 0;
   int ship = 0;         ///< whose hull it is under
   double path = 0;      ///< s: how far the ship has come over it [m]
@@ -59,15 +59,15 @@ struct Population {
   explicit Population(const Setup& setup);
 
   int ship_count = 0;
-  dynamics::DragArea drag_area;    ///< the scene's
-  bool has_skin_drag = false;      ///< likewise
-  dynamics::Bodies bodies;         ///< the ships first, then floes by id
-  std::vector<Helm> helms;         ///< per ship
-  std::vector<Floe> floes;         ///< by id
-  std::vector<BodyIndex> awake;    ///< ascending
-  dynamics::BroadPhase pairs;      ///< of bodies that may touch, with the memory of their contacts
-  std::vector<TiltedFloe> tilted;  ///< by (ship, floe)
-  std::vector<Tile> tiles;         ///< in the order in which they went under
+  dynamics::DragArea drag_area;           ///< the scene's
+  bool has_skin_drag = false;             ///< likewise
+  dynamics::Bodies bodies;                ///< the ships first, then floes by id
+  std::vector<Helm> helms;                ///< per ship
+  std::vector<Floe> floes;                ///< by id
+  std::vector<BodyIndex> awake;           ///< ascending
+  dynamics::BroadPhase pairs;             ///< of bodies that may touch, with the memory of their contacts
+  std::vector<TiltedFloe> tilted;         ///< by (ship, floe)
+  std::vector<SubmergedPiece> submerged;  ///< in the order in which they went under
 
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
   bool is_ship(BodyIndex body) const { return body < ship_count; }

@@ -71,32 +71,32 @@ bool has_room(const Population& population, const geometry::Boundary& piece, con
 }
 
 /// Whether a piece would come up where another is that has not come up yet: that one keeps its room.
-bool is_over_another(const Population& population, const Tile& tile, const geometry::Boundary& piece,
-                     const Pose& water_from_piece, Point centre) {
+bool is_over_another(const Population& population, const SubmergedPiece& submerged,
+                     const geometry::Boundary& piece, const Pose& water_from_piece, Point centre) {
   const dynamics::Bodies& bodies = population.bodies;
-  const double radius = bodies.bounding_radius[population.body_of(tile.floe)];
-  return std::ranges::any_of(population.tiles, [&](const Tile& other) {
+  const double radius = bodies.bounding_radius[population.body_of(submerged.floe)];
+  return std::ranges::any_of(population.submerged, [&](const SubmergedPiece& other) {
     const BodyIndex body = population.body_of(other.floe);
-    if (other.floe == tile.floe || !population.floes[other.floe].is_under) return false;
+    if (other.floe == submerged.floe || !population.floes[other.floe].is_under) return false;
     if (distance(bodies.position[body], centre) > radius + bodies.bounding_radius[body]) return false;
     return !is_clear_of(population, body, piece, water_from_piece);
   });
 }
 
-Event event_of(const Setup& setup, const Clock& clock, const Population& population, const Tile& tile,
-               EventKind kind) {
+Event event_of(const Setup& setup, const Clock& clock, const Population& population,
+               const SubmergedPiece& submerged, EventKind kind) {
   Event event;
   event.time = clock.time();
   event.kind = kind;
-  event.ship = tile.ship;
-  event.floe = tile.floe;
-  event.point_in_world = population.bodies.position[population.body_of(tile.floe)] + clock.drift();
-  event.resurfacing = {tile.path, setup.underwater[tile.ship].path.sliding, tile.waited,
+  event.ship = submerged.ship;
+  event.floe = submerged.floe;
+  event.point_in_world = population.bodies.position[population.body_of(submerged.floe)] + clock.drift();
+  event.resurfacing = {submerged.path, setup.underwater[submerged.ship].path.sliding, submerged.waited,
                        setup.scene.fracture.resurface.give_up};
   return event;
 }
 
-/// One tile's attempts to come up.
+/// One submerged piece's attempts to come up.
 class Resurfacing {
  public:
   Resurfacing(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
@@ -108,37 +108,37 @@ class Resurfacing {
         accounts_(accounts),
         journal_(journal) {}
 
-  /// Returns whether the tile is one no more.
-  bool ends(Tile& tile) {
-    const bool is_ahead = tile.path < 0;  // the ship backed off it
-    if (tile.path < setup_.underwater[tile.ship].path.sliding && !is_ahead) return false;
-    if (clock_.time() < tile.next_try) return false;
-    if (!settings_.is_enabled && !is_ahead) return stay_under(tile);
-    tile.next_try = clock_.time() + settings_.retry;
-    return try_to_come_up(tile);
+  /// Returns whether it is submerged no more.
+  bool ends(SubmergedPiece& submerged) {
+    const bool is_ahead = submerged.path < 0;  // the ship backed off it
+    if (submerged.path < setup_.underwater[submerged.ship].path.sliding && !is_ahead) return false;
+    if (clock_.time() < submerged.next_try) return false;
+    if (!settings_.is_enabled && !is_ahead) return stay_under(submerged);
+    submerged.next_try = clock_.time() + settings_.retry;
+    return try_to_come_up(submerged);
   }
 
  private:
-  bool stay_under(const Tile& tile) {
-    Event event = event_of(setup_, clock_, population_, tile, EventKind::kStayUnder);
-    event.under_ice_area = population_.floes[tile.floe].area;
+  bool stay_under(const SubmergedPiece& submerged) {
+    Event event = event_of(setup_, clock_, population_, submerged, EventKind::kStayUnder);
+    event.under_ice_area = population_.floes[submerged.floe].area;
     accounts_.ledger.under_ice_area += event.under_ice_area;
-    accounts_.masses.under_ice_mass += population_.bodies.mass[population_.body_of(tile.floe)];
+    accounts_.masses.under_ice_mass += population_.bodies.mass[population_.body_of(submerged.floe)];
     ++accounts_.counts.stayed_under;
-    retire_floe(tile.floe, population_, journal_);
+    retire_floe(submerged.floe, population_, journal_);
     journal_.events.push_back(std::move(event));
     return true;
   }
 
-  bool try_to_come_up(Tile& tile) {
-    const BodyIndex body = population_.body_of(tile.floe);
-    const Floe& floe = population_.floes[tile.floe];
+  bool try_to_come_up(SubmergedPiece& submerged) {
+    const BodyIndex body = population_.body_of(submerged.floe);
+    const Floe& floe = population_.floes[submerged.floe];
     const geometry::Polygon polygon =
         shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
     const geometry::Boundary boundary = geometry::make_outline(polygon);
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
     if (is_under_ship(population_, boundary, in_place)) return false;  // not behind it yet
-    Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(tile.floe) << 32U) ^
+    Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(submerged.floe) << 32U) ^
                   static_cast<std::uint64_t>(clock_.steps));
     for (int i = 0; i < kPlaces; ++i) {
       const double share = 1 - static_cast<double>(i) / (kPlaces - 1);
@@ -146,40 +146,41 @@ class Resurfacing {
           scattered(population_.bodies, body, std::sqrt(floe.area), share * settings_.scatter, random);
       if (!has_room(population_, boundary, place.water_from_body)) continue;
       const Point centre = transform(place.water_from_body, population_.bodies.centroid[body]);
-      if (share > 0 && is_over_another(population_, tile, boundary, place.water_from_body, centre)) continue;
-      come_up(tile, polygon, place);
+      if (share > 0 && is_over_another(population_, submerged, boundary, place.water_from_body, centre))
+        continue;
+      come_up(submerged, polygon, place);
       return true;
     }
-    if (tile.waited >= settings_.give_up) return stay_under(tile);
-    tile.waited += settings_.retry;
+    if (submerged.waited >= settings_.give_up) return stay_under(submerged);
+    submerged.waited += settings_.retry;
     return false;
   }
 
-  void come_up(const Tile& tile, const geometry::Polygon& polygon, const Place& place) {
-    Event event = event_of(setup_, clock_, population_, tile, EventKind::kResurface);
+  void come_up(const SubmergedPiece& submerged, const geometry::Polygon& polygon, const Place& place) {
+    Event event = event_of(setup_, clock_, population_, submerged, EventKind::kResurface);
     const geometry::Measures measures = geometry::measure(polygon);
-    const double area_before = population_.floes[tile.floe].area;
+    const double area_before = population_.floes[submerged.floe].area;
     const bool is_floe = can_be_floe(measures) && measures.area >= setup_.scene.fracture.smallest_floe_area &&
                          !geometry::find_defect(polygon);
     event.brash_area = is_floe ? area_before - measures.area : area_before;
-    if (is_floe) event.children.push_back(add_piece(tile, polygon, measures, place));
+    if (is_floe) event.children.push_back(add_piece(submerged, polygon, measures, place));
     accounts_.counts.brash_pieces += is_floe ? 0 : 1;
     accounts_.ledger.brash_area += event.brash_area;
     accounts_.masses.brash_mass +=
-        mass_per_area(ice_of_floe(setup_, population_, tile.floe)) * event.brash_area;
+        mass_per_area(ice_of_floe(setup_, population_, submerged.floe)) * event.brash_area;
     ++accounts_.counts.came_up;
-    retire_floe(tile.floe, population_, journal_);
+    retire_floe(submerged.floe, population_, journal_);
     journal_.events.push_back(std::move(event));
   }
 
   /// Adds the floe, going with the water.
-  FloeId add_piece(const Tile& tile, const geometry::Polygon& polygon, const geometry::Measures& measures,
-                   const Place& place) {
+  FloeId add_piece(const SubmergedPiece& submerged, const geometry::Polygon& polygon,
+                   const geometry::Measures& measures, const Place& place) {
     NewFloe piece;
     piece.shape = {polygon, true};
-    piece.own_ice = population_.floes[tile.floe].own_ice;
-    piece.parent = tile.floe;
-    piece.generation = population_.floes[tile.floe].generation + 1;
+    piece.own_ice = population_.floes[submerged.floe].own_ice;
+    piece.parent = submerged.floe;
+    piece.generation = population_.floes[submerged.floe].generation + 1;
     piece.water_from_body = place.water_from_body;
     piece.angle = place.angle;
     if (!setup_.current.is_still()) {
@@ -212,16 +213,16 @@ class Resurfacing {
 
 void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
              Journal& journal) {
-  if (population.tiles.empty()) return;
+  if (population.submerged.empty()) return;
   Resurfacing resurfacing(setup, clock, population, accounts, journal);
-  std::vector<FloeId> ended;  // in the order of the tiles
-  for (Tile& tile : population.tiles) {
-    if (resurfacing.ends(tile)) ended.push_back(tile.floe);
+  std::vector<FloeId> ended;  // in the order of the submerged pieces
+  for (SubmergedPiece& submerged : population.submerged) {
+    if (resurfacing.ends(submerged)) ended.push_back(submerged.floe);
   }
   if (ended.empty()) return;
   auto next = ended.begin();
-  std::erase_if(population.tiles, [&](const Tile& tile) {
-    const bool has_ended = next != ended.end() && *next == tile.floe;
+  std::erase_if(population.submerged, [&](const SubmergedPiece& submerged) {
+    const bool has_ended = next != ended.end() && *next == submerged.floe;
     if (has_ended) ++next;
     return has_ended;
   });

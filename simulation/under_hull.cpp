@@ -20,36 +20,36 @@ Vector heading_of(const dynamics::Bodies& bodies, BodyIndex ship) {
 }
 
 /// How far the piece is to port of the ship's centre line; no farther than its hull [m].
-double distance_to_port(const Setup& setup, const dynamics::Bodies& bodies, const Tile& tile,
+double distance_to_port(const Setup& setup, const dynamics::Bodies& bodies, const SubmergedPiece& piece,
                         BodyIndex body) {
-  const double half_beam = 0.5 * setup.underwater[tile.ship].form.beam;
-  const Vector from_ship = bodies.position[body] - bodies.position[tile.ship];
-  return std::clamp(rotate_back(bodies.rotation[tile.ship], from_ship).y, -half_beam, half_beam);
+  const double half_beam = 0.5 * setup.underwater[piece.ship].form.beam;
+  const Vector from_ship = bodies.position[body] - bodies.position[piece.ship];
+  return std::clamp(rotate_back(bodies.rotation[piece.ship], from_ship).y, -half_beam, half_beam);
 }
 
-void add_tile(const Setup& setup, const dynamics::SubmersionPath& path, const Population& population,
-              const Tile& tile, Pull& pull) {
-  if (tile.path >= std::max(path.bow, path.sliding)) return;  // behind it
-  if (tile.path < path.sliding) pull.area += tile.area;
+void add_piece(const Setup& setup, const dynamics::SubmersionPath& path, const Population& population,
+               const SubmergedPiece& piece, Pull& pull) {
+  if (piece.path >= std::max(path.bow, path.sliding)) return;  // behind it
+  if (piece.path < path.sliding) pull.area += piece.area;
   if (pull.speed <= 0) return;
-  const double to = tile.path + pull.speed * setup.scene.time.step;
-  const double work = tile.weight * (path.risen_over(tile.path, to) +
-                                     setup.scene.ice.friction * path.slid_over(tile.path, to));
+  const double to = piece.path + pull.speed * setup.scene.time.step;
+  const double work = piece.weight * (path.risen_over(piece.path, to) +
+                                      setup.scene.ice.friction * path.slid_over(piece.path, to));
   if (work == 0) return;
   pull.work += work;
-  pull.moment += work * distance_to_port(setup, population.bodies, tile, population.body_of(tile.floe));
+  pull.moment += work * distance_to_port(setup, population.bodies, piece, population.body_of(piece.floe));
 }
 
-/// Adds tiles in their order, those that follow one another under one ship to a sum of their own: it stays in
-/// registers.
+/// Adds submerged pieces in their order, those that follow one another under one ship to a sum of their own:
+/// it stays in registers.
 void add_tiles(const Setup& setup, const Population& population, std::vector<Pull>& pulls) {
-  auto tile = population.tiles.begin();
-  while (tile != population.tiles.end()) {
-    const int ship = tile->ship;
+  auto piece = population.submerged.begin();
+  while (piece != population.submerged.end()) {
+    const int ship = piece->ship;
     const dynamics::SubmersionPath path = setup.underwater[ship].path;
     Pull pull = pulls[ship];
-    for (; tile != population.tiles.end() && tile->ship == ship; ++tile)
-      add_tile(setup, path, population, *tile, pull);
+    for (; piece != population.submerged.end() && piece->ship == ship; ++piece)
+      add_piece(setup, path, population, *piece, pull);
     pulls[ship] = pull;
   }
 }
@@ -89,7 +89,7 @@ double speed_ahead(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex
 
 void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads,
                            AuditSums& audit) {
-  if (population.tiles.empty()) return;
+  if (population.submerged.empty()) return;
   dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
   std::vector<Pull> pulls(static_cast<std::size_t>(population.ship_count));
@@ -101,10 +101,10 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
   }
   const bool is_still = setup.current.is_still();
-  for (Tile& tile : population.tiles) {
-    tile.path += dt * pulls[tile.ship].speed;
+  for (SubmergedPiece& piece : population.submerged) {
+    piece.path += dt * pulls[piece.ship].speed;
     if (is_still) continue;
-    const BodyIndex body = population.body_of(tile.floe);
+    const BodyIndex body = population.body_of(piece.floe);
     move_body(bodies, body, dt * setup.current.velocity_at(bodies.position[body]),
               dt * setup.current.angular_velocity());
   }

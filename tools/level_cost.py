@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a run through level ice costs, with tiles under the hull and brash behind it; the tables of docs/validation.md.
+"""What a run through level ice costs, with pieces under the hull and brash behind it; the tables of docs/validation.md.
 
   tools/level_cost.py cost    five cases of thickness and speed on one core, the median of --repeat runs
   tools/level_cost.py step    mean resistance and number of bends by step, four lateral offsets

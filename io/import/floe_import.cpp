@@ -58,7 +58,7 @@ class FloeImport {
   void take(std::size_t i) {
     drawn_.push_back(geometry::normalised(sources_[i].polygon));
     const Polygon& polygon = drawn_.back();
-    if (!refused_.empty() && !refused_[i].empty()) return refuse(i, refused_[i]);
+    if (!refused_[i].empty()) return refuse(i, refused_[i]);
     const auto defect = geometry::find_defect(polygon);
     if (!defect) {
       read_.push_back(i);
@@ -66,7 +66,10 @@ class FloeImport {
       return;
     }
     std::string words = fmt::format("{}{}", name_of(defect->defect), places_in_words(defect->places, 3));
-    if (!settings_.repair) return refuse(i, words);
+    if (!settings_.repair) {
+      item(i).is_outline_refused = true;
+      return refuse(i, words);
+    }
     auto repaired = geometry::repair(rings_of(polygon), *settings_.repair);
     if (!repaired) return refuse(i, words + ": " + repaired.error().detail);
     read_.push_back(i);
@@ -167,6 +170,7 @@ class FloeImport {
     for (const ImportedFloe& floe : outcome_.floes) {
       written.push_back(&floe.polygon);
       ++pieces[floe.source];
+      if (sources_[floe.source].properties.thickness) ++totals.with_thickness;
       if (const auto found = items_.find(floe.source); found != items_.end())
         found->second.area_after += geometry::measure(floe.polygon).area;
     }
@@ -199,9 +203,10 @@ class FloeImport {
 }  // namespace
 
 tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes,
-                                                     const std::vector<std::string>& refused,
-                                                     const std::string& crs, const ImportSettings& settings) {
-  auto plane = bring_to_plane(floes, crs, settings.plane);
+                                                     std::vector<std::string> refused, const std::string& crs,
+                                                     const ImportSettings& settings) {
+  refused.resize(floes.size());
+  auto plane = bring_to_plane(floes, refused, crs, settings.plane);
   if (!plane) return tl::unexpected(std::move(plane.error()));
   return FloeImport(floes, refused, settings).run(std::move(*plane));
 }

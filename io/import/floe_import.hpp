@@ -28,6 +28,7 @@ struct ImportedFloe {
 struct ImportItem {
   std::size_t source = 0;
   std::string refused;                                  ///< why; empty: it was not
+  bool is_outline_refused = false;                      ///< for its outline, which a repair may make valid
   std::string defect;                                   ///< of its outline, repaired; empty: it had none
   double repaired = 0;                                  ///< area that the repair added
   std::size_t vertices_before = 0, vertices_after = 0;  ///< of a simplified outline; equal: it was not
@@ -44,7 +45,8 @@ struct ImportItem {
 /// Counts of floes of the file, and sums that are computed exactly and rounded once each [m²].
 struct ImportTotals {
   std::size_t read = 0, refused = 0, repaired = 0, simplified = 0, trimmed = 0, dropped = 0, written = 0;
-  double area_read = 0;  ///< of all that were not refused
+  std::size_t with_thickness = 0;  ///< of their own, of those written
+  double area_read = 0;            ///< of all that were not refused
   double area_repaired = 0, area_simplified = 0, area_trimmed = 0, area_dropped = 0;
   double area_written = 0;
   double area_change = 0;  ///< written − read
@@ -61,7 +63,7 @@ struct ImportOutcome {
 /// overlaps from the smaller of two (geometry/cut/disjoint.hpp). `refused` has what is known to be wrong with
 /// floes before, by their index, "" elsewhere; it may be empty. The floes' properties are left in `floes`.
 tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes,
-                                                     const std::vector<std::string>& refused,
-                                                     const std::string& crs, const ImportSettings& settings);
+                                                     std::vector<std::string> refused, const std::string& crs,
+                                                     const ImportSettings& settings);
 
 }  // namespace polynya::io

@@ -85,6 +85,63 @@ void read_id(const Place& place, FloeProperties& result, std::vector<BadProperty
   bad.push_back({place.value, place.key, shown(*place.value), "a whole number ≥ 0"});
 }
 
+/// Units in a property's name, and what they are of the SI's.
+struct UnitName {
+  std::string_view name, si;
+  double factor;
+};
+constexpr UnitName kUnits[] = {{"m", "m", 1},   {"cm", "m", 0.01},  {"mm", "m", 0.001}, {"dm", "m", 0.1},
+                               {"pa", "pa", 1}, {"kpa", "pa", 1e3}, {"mpa", "pa", 1e6}, {"gpa", "pa", 1e9},
+                               {"kg", "kg", 1}, {"deg", "deg", 1}};
+
+/// A key in small letters, parted at its unit: "thickness", and cm.
+struct NameAndUnit {
+  std::string name;
+  std::optional<UnitName> unit;
+};
+NameAndUnit part_at_unit(std::string_view key) {
+  std::string small;
+  for (const char c : key) {
+    if (c >= 'A' && c <= 'Z')
+      small += static_cast<char>(c | 0x20);
+    else
+      small += c == ' ' || c == '-' || c == '.' || c == '[' || c == '(' ? '_' : c;
+  }
+  while (!small.empty() && (small.back() == ']' || small.back() == ')')) small.pop_back();
+  for (std::size_t start = small.find('_'); start < small.size(); start = small.find('_', start + 1)) {
+    const std::string_view word =
+        std::string_view(small).substr(start + 1).substr(0, small.find('_', start + 1) - start - 1);
+    const auto* unit = std::ranges::find(kUnits, word, &UnitName::name);
+    if (unit != std::end(kUnits)) return {small.substr(0, small.find_last_not_of('_', start) + 1), *unit};
+  }
+  return {std::move(small), std::nullopt};
+}
+
+/// The property that a key may be meant for, and the factor of its unit.
+std::optional<NearMiss> near_miss_of(const std::string& key) {
+  constexpr std::size_t kShort = 4;  // letters: names this short are all near one another
+  constexpr std::size_t kLong = 100;
+  if (key.size() > kLong) return {};
+  const NameAndUnit given = part_at_unit(key);
+  std::vector<std::string> names;
+  std::vector<std::string_view> long_names;
+  for (const FloeProperty& property : kProperties) names.push_back(part_at_unit(property.key).name);
+  for (const std::string& name : names)
+    if (name.size() > kShort) long_names.push_back(name);
+  std::string meant = given.name;
+  if (std::ranges::find(names, meant) == names.end()) {
+    meant = given.name.size() > kShort ? nearest(given.name, long_names) : "";
+    if (!meant.empty() && meant.front() != given.name.front()) meant = "";  // "intensity" is no density
+    if (meant.empty() && given.name.find("thick") != std::string::npos) meant = names.front();
+  }
+  const auto found = std::ranges::find(names, meant);
+  if (found == names.end()) return {};
+  const std::string property(kProperties[found - names.begin()].key);
+  const auto si = part_at_unit(property).unit;
+  const bool is_convertible = given.unit && si && given.unit->si == si->si;
+  return NearMiss{key, property, is_convertible ? given.unit->factor : 1, 0};
+}
+
 }  // namespace
 
 std::span<const FloeProperty> floe_properties() {
@@ -130,6 +187,33 @@ FloeProperties read_floe_properties(const JsonValue& properties, const PropertyN
   for (const FloeProperty& property : kProperties)
     read_number(property, place_of(property.key, properties, names), result, bad);
   return result;
+}
+
+void NearMisses::add(const JsonValue& properties, const FloeProperties& read, std::size_t floes) {
+  if (!properties.is(JsonKind::kObject)) return;
+  for (const JsonMember& member : properties.members()) {
+    const auto is_it = [&](const FloeProperty& property) { return property.key == member.key; };
+    const auto is_named = [&](const auto& named) { return named.second.name == member.key; };
+    if (!member.value.is(JsonKind::kNumber) && !member.value.is(JsonKind::kText)) continue;
+    if (std::ranges::any_of(kProperties, is_it) || std::ranges::any_of(*names_, is_named)) continue;
+    auto known = index_.find(member.key);
+    if (known == index_.end()) {
+      known = index_.emplace(member.key, std::nullopt).first;
+      if (auto miss = near_miss_of(member.key)) {
+        known->second = found_.size();
+        found_.push_back(std::move(*miss));
+      }
+    }
+    if (!known->second) continue;
+    NearMiss& miss = found_[*known->second];
+    const auto* property = std::ranges::find(kProperties, miss.meant, &FloeProperty::key);
+    if (!(read.*property->member)) miss.floes += floes;
+  }
+}
+
+std::string as_property_name(const NearMiss& miss) {
+  return fmt::format("{}={}{}", miss.meant, miss.key,
+                     miss.factor == 1 ? "" : fmt::format("*{:g}", miss.factor));
 }
 
 }  // namespace polynya::io

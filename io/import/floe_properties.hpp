@@ -62,4 +62,30 @@ struct BadProperty {
 FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names,
                                     std::vector<BadProperty>& bad);
 
+/// A property that is not read, though its name is near that of one that is.
+struct NearMiss {
+  std::string key;        ///< in the file
+  std::string meant;      ///< Polynya's
+  double factor = 1;      ///< to Polynya's unit, by the unit in its name
+  std::size_t floes = 0;  ///< that have it, and none by the meant name
+};
+
+/// Finds near misses among the properties of many floes.
+class NearMisses {
+ public:
+  explicit NearMisses(const PropertyNames& names) : names_(&names) {}
+  /// Adds the properties of floes, and what was read of them.
+  void add(const JsonValue& properties, const FloeProperties& read, std::size_t floes = 1);
+  /// By their first occurrence.
+  const std::vector<NearMiss>& found() const { return found_; }
+
+ private:
+  const PropertyNames* names_;
+  std::map<std::string, std::optional<std::size_t>, std::less<>> index_;  ///< in found_, by the file's key
+  std::vector<NearMiss> found_;
+};
+
+/// "thickness_m=thickness_cm*0.01", for add_property_name().
+std::string as_property_name(const NearMiss& miss);
+
 }  // namespace polynya::io

@@ -17,9 +17,9 @@ std::string_view name_of(ForeignFormat format);
 std::optional<ForeignFormat> foreign_format(const std::filesystem::path& file);
 
 /// The file as GeoJSON with a crs member where it has a system, by GDAL's ogr2ogr, run as a child process.
-/// `layer` is empty where the file has one. Coordinates in a system
-/// without a code are converted to longitude and latitude. Fails where ogr2ogr is not installed, with what
-/// ogr2ogr reports, or where the text would be longer than `longest` [bytes].
+/// `layer` is empty where the file has one. Coordinates in a system that ogr2ogr does not name are converted
+/// to longitude and latitude (OGC:CRS84). Fails where ogr2ogr is not installed, with what ogr2ogr reports, or
+/// where the text would be longer than `longest` [bytes].
 Result<std::string> read_foreign_file(const std::filesystem::path& file, ForeignFormat format,
                                       const std::string& layer, std::size_t longest);
 

@@ -114,7 +114,7 @@ void write_totals(JsonWriter& json, const ImportTotals& totals) {
   json.key("floes").open('{').key("read").value(totals.read).key("refused").value(totals.refused);
   json.key("repaired").value(totals.repaired).key("simplified").value(totals.simplified);
   json.key("trimmed").value(totals.trimmed).key("dropped").value(totals.dropped);
-  json.key("written").value(totals.written).close('}');
+  json.key("written").value(totals.written).key("with_thickness").value(totals.with_thickness).close('}');
   json.key("area_m2").open('{').key("read").value(totals.area_read);
   json.key("repaired").value(totals.area_repaired).key("simplified").value(totals.area_simplified);
   json.key("trimmed").value(-totals.area_trimmed).key("dropped").value(-totals.area_dropped);
@@ -155,7 +155,7 @@ std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFl
 }
 
 std::string to_json_text(const ImportOutcome& imported, const std::string& file,
-                         const std::vector<FloeEntry>& entries) {
+                         const std::vector<FloeEntry>& entries, const std::vector<NearMiss>& near_misses) {
   std::string text;
   JsonWriter json(text);
   json.open('{').key("file").value(file);
@@ -164,6 +164,13 @@ std::string to_json_text(const ImportOutcome& imported, const std::string& file,
   write_plane(json, imported.plane);
   json.start_line();
   write_totals(json, imported.totals);
+  json.start_line();
+  json.key("near_misses").open('[');
+  for (const NearMiss& miss : near_misses) {
+    json.open('{').key("property").value(miss.key).key("meant").value(miss.meant);
+    json.key("factor").value(miss.factor).key("floes").value(miss.floes).close('}');
+  }
+  json.close(']');
   json.start_line();
   json.key("changed").open('[');
   for (const ImportItem& item : imported.items) {
@@ -184,6 +191,16 @@ std::string counts_in_words(const ImportTotals& totals) {
     if (count > 0) words += fmt::format(", {} {}", count, what);
   }
   return words + fmt::format("; {} written", totals.written);
+}
+
+std::string thickness_in_words(std::size_t with_thickness, std::size_t floes) {
+  if (floes == 1)
+    return with_thickness == 1 ? "the floe has a thickness of its own"
+                               : "the floe has no thickness of its own";
+  if (with_thickness == 0) return fmt::format("none of {} floes has a thickness of its own", floes);
+  if (with_thickness == floes) return fmt::format("all {} floes have a thickness of their own", floes);
+  return fmt::format("{} of {} floes {} a thickness of {} own", with_thickness, floes,
+                     with_thickness == 1 ? "has" : "have", with_thickness == 1 ? "its" : "their");
 }
 
 std::string areas_in_words(const ImportTotals& totals) {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "geometry/exact/measures.hpp"
 #include "io/text/degrees.hpp"
 
 namespace polynya::io {
@@ -34,15 +37,17 @@ void for_rings(SourceFloe& floe, Use use) {
   for (Ring& hole : floe.polygon.holes) use(hole);
 }
 
-/// The first floe with a point of which it is true, and the point.
+/// The first point of a floe of which it is true.
 template <class Condition>
-std::optional<std::pair<std::size_t, Point>> find_point(const std::vector<SourceFloe>& floes,
-                                                        Condition is_it) {
-  for (std::size_t i = 0; i < floes.size(); ++i) {
-    const auto found = std::ranges::find_if(floes[i].polygon.outer, is_it);
-    if (found != floes[i].polygon.outer.end()) return {{i, *found}};
-  }
-  return {};
+std::optional<Point> find_point(const geometry::Polygon& polygon, Condition is_it) {
+  const auto find_in = [&](const Ring& ring) -> std::optional<Point> {
+    const auto found = std::ranges::find_if(ring, is_it);
+    return found != ring.end() ? std::optional(*found) : std::nullopt;
+  };
+  auto found = find_in(polygon.outer);
+  for (const Ring& hole : polygon.holes)
+    if (!found) found = find_in(hole);
+  return found;
 }
 
 /// "75.1° S, 16° E"
@@ -52,37 +57,40 @@ std::string place_in_words(double latitude, double longitude) {
                      lon < 0 ? "W" : "E");
 }
 
-/// The middle of points in degrees on the sphere, longitude first, to 0.001°.
-Point middle_of_degrees(const std::vector<SourceFloe>& floes) {
-  double x = 0, y = 0, z = 0;
-  for (const SourceFloe& floe : floes) {
-    for (const Point p : floe.polygon.outer) {
-      if (!is_finite(p)) continue;
-      x += std::cos(p.y / kDegrees) * std::cos(p.x / kDegrees);
-      y += std::cos(p.y / kDegrees) * std::sin(p.x / kDegrees);
-      z += std::sin(p.y / kDegrees);
-    }
-  }
-  const auto to_thousandths = [](double value) { return std::round(1000 * value) / 1000; };
-  return {to_thousandths(kDegrees * std::atan2(y, x)),
-          to_thousandths(kDegrees * std::atan2(z, std::hypot(x, y)))};
+/// Between two places, latitude and longitude, on a sphere of the Earth's radius [m]; angles [rad].
+double great_circle(double latitude_a, double longitude_a, double latitude_b, double longitude_b) {
+  constexpr double kEarthRadius = 6371e3;  // [m]
+  const double cosine = std::sin(latitude_a) * std::sin(latitude_b) +
+                        std::cos(latitude_a) * std::cos(latitude_b) * std::cos(longitude_a - longitude_b);
+  return kEarthRadius * std::acos(std::clamp(cosine, -1.0, 1.0));
 }
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// A floe that has no place in the plane, and its first point that has none.
+struct MisplacedFloe {
+  std::size_t floe = 0;
+  Point point;
+};
 
 /// Brings one file's floes to the plane, step by step.
 class PlaneImport {
  public:
-  PlaneImport(std::vector<SourceFloe>& floes, const PlaneSettings& settings)
-      : floes_(floes), settings_(settings) {}
+  PlaneImport(std::vector<SourceFloe>& floes, std::vector<std::string>& refused,
+              const PlaneSettings& settings)
+      : floes_(floes), refused_(refused), settings_(settings) {}
 
   tl::expected<PlaneReport, PlaneError> run(const std::string& crs) {
     auto system = system_of(crs);
     if (!system) return tl::unexpected(system.error());
+    if (auto checked = check_numbers(); !checked) return tl::unexpected(checked.error());
     if (!system->empty()) {
-      if (auto projected = project(*system, crs.empty()); !projected)
+      if (auto projected = project(*system, !crs.empty()); !projected)
         return tl::unexpected(projected.error());
-    } else if (!settings_.target.empty()) {
-      return refuse(fmt::format("the file names no coordinate system to project to {} from: {}",
-                                settings_.target, settings_.source_in_words));
     } else if (settings_.origin) {
       report_.origin = settings_.origin;
     }
@@ -92,6 +100,35 @@ class PlaneImport {
   }
 
  private:
+  using Done = tl::expected<void, PlaneError>;
+  using Others = std::optional<std::size_t>;  ///< how many floes more
+
+  bool is_kept(std::size_t floe) const { return refused_[floe].empty(); }
+
+  /// The floes, of those not refused before, with a point of which it is true.
+  template <class Condition>
+  std::vector<MisplacedFloe> find_floes(Condition is_it) const {
+    std::vector<MisplacedFloe> found;
+    for (std::size_t i = 0; i < floes_.size(); ++i) {
+      if (!is_kept(i)) continue;
+      if (const auto point = find_point(floes_[i].polygon, is_it)) found.push_back({i, *point});
+    }
+    return found;
+  }
+
+  /// Refuses floes one by one; the file where they are more of it than `share`, or all. words_of(floe,
+  /// others) is why: `others` are how many more there are where the file is refused, none where the floe is.
+  template <class Words>
+  Done refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of, double share = 1) {
+    if (misplaced.empty()) return {};
+    const auto kept = static_cast<std::size_t>(std::ranges::count(refused_, ""));
+    const auto count = static_cast<double>(misplaced.size());
+    if (misplaced.size() == kept || count > share * static_cast<double>(kept))
+      return refuse(words_of(misplaced.front(), Others(misplaced.size() - 1)), misplaced.front().floe);
+    for (const MisplacedFloe& one : misplaced) refused_[one.floe] = words_of(one, Others());
+    return {};
+  }
+
   /// The system that the coordinates are in; empty where they are metres of the plane already.
   tl::expected<std::string, PlaneError> system_of(const std::string& crs) {
     if (!crs.empty() && !settings_.source.empty() && crs != settings_.source)
@@ -100,24 +137,85 @@ class PlaneImport {
     if (!crs.empty() || !settings_.source.empty()) return crs.empty() ? settings_.source : crs;
     CoordinateEvidence evidence;
     for (const SourceFloe& floe : floes_) evidence.add(floe.polygon);
-    if (settings_.are_metres || !evidence.look_like_degrees()) return std::string();
-    if (settings_.origin || !settings_.target.empty()) return std::string(kLongitudeLatitude);
-    const Point middle = middle_of_degrees(floes_);
-    return refuse(fmt::format(
-        "these look like longitude and latitude, and the file names no coordinate system: all within ±180, "
-        "±90, and as metres {:.4g} m² of ice in all. {} projects them; metres are kept where {}",
-        evidence.area, settings_.origin_in_words(middle.y, middle.x),
-        "a crs member names a projected system"));
+    const bool is_projected = settings_.origin || !settings_.target.empty();
+    if (!settings_.are_metres && (evidence.look_like_degrees() || (settings_.origin && lie_about_origin()))) {
+      if (is_projected) return std::string(kLongitudeLatitude);
+      const Point middle = middle_of_degrees();
+      return refuse(
+          fmt::format("these look like longitude and latitude, and the file names no coordinate system: {} "
+                      "within ±180, ±90, and as metres {:.4g} m² of ice in all. {} projects them; metres "
+                      "are kept where a crs member names a projected system",
+                      evidence.are_all_whole ? "all" : "most", evidence.area,
+                      settings_.origin_in_words(middle.y, middle.x)));
+    }
+    if (!settings_.target.empty())
+      return refuse(fmt::format("the file names no coordinate system to project to {} from: {}",
+                                settings_.target, settings_.source_in_words));
+    if (settings_.origin && !settings_.keeps_metres && evidence.floes > 0)
+      return refuse(
+          fmt::format("the file names no coordinate system to project from, and its coordinates do "
+                      "not look like longitude and latitude: {}; metres of the plane are kept "
+                      "where no origin is given",
+                      settings_.source_in_words));
+    return std::string();
   }
 
-  tl::expected<void, PlaneError> project(const std::string& system, bool is_given) {
-    const auto crs = find_crs(system);
-    const bool is_wanted = is_given || settings_.origin || !settings_.target.empty();
-    if (!crs) {
-      if (is_wanted) return refuse(crs.error());
-      report_.system = system;  // a plane with a name of its own
-      return {};
+  /// Whether the floes are degrees about the origin, whatever a few wrong numbers show: those of a tenth or
+  /// more of the floes are, and small; or as metres they are no ice to simulate.
+  bool lie_about_origin() const {
+    constexpr double kLeastIce = 1;  // [m²], or squares of a degree
+    double area = 0;
+    std::size_t near = 0, floes = 0;
+    for (const SourceFloe& floe : floes_) {
+      const Ring& ring = floe.polygon.outer;
+      if (ring.empty() || !std::ranges::all_of(ring, is_finite)) continue;
+      const double of_floe = std::abs(geometry::signed_area(ring));
+      area += of_floe;
+      ++floes;
+      const Point at = ring.front();
+      if (of_floe < kLeastIce && std::ranges::all_of(ring, is_in_degrees) &&
+          great_circle(at.y / kDegrees, at.x / kDegrees, settings_.origin->latitude,
+                       settings_.origin->longitude) < kFarthestFloe)
+        ++near;
     }
+    return floes > 0 && (area < kLeastIce || 10 * near >= floes);
+  }
+
+  /// The middle of the points in degrees on the sphere, longitude first, to 0.001°; without points farther
+  /// than kFarthestFloe from most, which wrong numbers bring there.
+  Point middle_of_degrees() const {
+    std::vector<Point> points;
+    std::vector<double> latitudes, longitudes;
+    for (std::size_t i = 0; i < floes_.size(); ++i)
+      if (is_kept(i))
+        std::ranges::copy_if(floes_[i].polygon.outer, std::back_inserter(points), is_in_degrees);
+    if (points.empty()) return {};
+    for (const Point p : points) {
+      latitudes.push_back(p.y / kDegrees);
+      longitudes.push_back(std::remainder(p.x - points[0].x, 360) / kDegrees);  // also across 180°
+    }
+    const double latitude = median(std::move(latitudes));
+    const double longitude = median(std::move(longitudes)) + points[0].x / kDegrees;
+    const auto is_near = [&](Point p) {
+      return great_circle(p.y / kDegrees, p.x / kDegrees, latitude, longitude) < kFarthestFloe;
+    };
+    const bool are_all = std::ranges::none_of(points, is_near);
+    double x = 0, y = 0, z = 0;
+    for (const Point p : points) {
+      if (!are_all && !is_near(p)) continue;
+      x += std::cos(p.y / kDegrees) * std::cos(p.x / kDegrees);
+      y += std::cos(p.y / kDegrees) * std::sin(p.x / kDegrees);
+      z += std::sin(p.y / kDegrees);
+    }
+    const auto to_thousandths = [](double value) { return std::round(1000 * value) / 1000; };
+    return {to_thousandths(kDegrees * std::atan2(y, x)),
+            to_thousandths(kDegrees * std::atan2(z, std::hypot(x, y)))};
+  }
+
+  Done project(const std::string& system, bool is_of_file) {
+    const auto crs = find_crs(system);
+    if (!crs)
+      return refuse(crs.error() + (is_of_file ? "; a file of metres in a plane of its own has no crs" : ""));
     report_.system = crs->name;
     if (crs->is_geographic) {
       if (auto checked = check_degrees(); !checked) return checked;
@@ -127,7 +225,7 @@ class PlaneImport {
     if (!settings_.target.empty()) return project_to_target(system);
     std::optional<simulation::GeographicOrigin> origin = settings_.origin;
     if (!origin && crs->is_geographic) {
-      const Point middle = middle_of_degrees(floes_);
+      const Point middle = middle_of_degrees();
       if (!settings_.chooses_origin)
         return refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}",
                                   crs->name, settings_.origin_in_words(middle.y, middle.x)));
@@ -142,16 +240,30 @@ class PlaneImport {
     return {};
   }
 
-  tl::expected<void, PlaneError> check_degrees() const {
-    const auto beyond = find_point(floes_, [](Point p) { return std::abs(p.y) > 90 || std::abs(p.x) > 540; });
-    if (!beyond) return {};
-    const auto [floe, p] = *beyond;
-    return refuse(fmt::format("found [{}, {}], allowed: [longitude, latitude], a latitude from -90 to 90{}",
-                              p.x, p.y, std::abs(p.x) <= 90 ? "; here latitude seems to come first" : ""),
-                  floe);
+  Done check_numbers() {
+    const auto is_none = [](Point p) { return !is_finite(p); };
+    return refuse_floes(find_floes(is_none), [](const MisplacedFloe& one, Others) {
+      return fmt::format("found [{}, {}], allowed: coordinates that are finite numbers", one.point.x,
+                         one.point.y);
+    });
   }
 
-  tl::expected<void, PlaneError> project_to_target(const std::string& system) {
+  Done check_degrees() {
+    const auto is_beyond = [](Point p) { return !is_in_degrees(p); };
+    return refuse_floes(find_floes(is_beyond), [](const MisplacedFloe& one, Others others) {
+      const Point p = one.point;
+      if (std::abs(p.y) <= 90)
+        return fmt::format(
+            "found [{}, {}], allowed: [longitude, latitude], a longitude from -180 to 180, or "
+            "one turn more or less",
+            p.x, p.y);
+      const bool is_swapped = others && std::abs(p.x) <= 90 && std::abs(p.y) <= 180;
+      return fmt::format("found [{}, {}], allowed: [longitude, latitude], a latitude from -90 to 90{}", p.x,
+                         p.y, is_swapped ? "; here latitude seems to come first" : "");
+    });
+  }
+
+  Done project_to_target(const std::string& system) {
     const auto target = find_crs(settings_.target);
     if (!target) return refuse(target.error());
     if (!target->is_metric)
@@ -162,8 +274,8 @@ class PlaneImport {
     return apply([&](std::vector<Point>& points) { steps->apply(points); });
   }
 
-  tl::expected<void, PlaneError> project_about(const simulation::GeographicOrigin& origin,
-                                               const std::string& system, bool is_geographic) {
+  Done project_about(const simulation::GeographicOrigin& origin, const std::string& system,
+                     bool is_geographic) {
     const auto steps = Projection::between(system, GeographicPlane::system(origin));
     if (!steps) return refuse(steps.error());
     report_.origin = origin;
@@ -181,19 +293,23 @@ class PlaneImport {
 
   /// Projects all rings, and turns velocities as their axes turn there.
   template <class Steps>
-  tl::expected<void, PlaneError> apply(Steps steps) {
+  Done apply(Steps steps) {
+    std::vector<MisplacedFloe> lost;
     for (std::size_t i = 0; i < floes_.size(); ++i) {
+      if (!is_kept(i)) continue;
       turn_velocity(floes_[i], steps);
-      std::optional<Point> lost;
+      std::optional<Point> without_image;
       for_rings(floes_[i], [&](Ring& ring) {
         const Ring before = ring;
         steps(ring);
         for (std::size_t k = 0; k < ring.size(); ++k)
-          if (is_finite(before[k]) && !is_finite(ring[k])) lost = before[k];
+          if (!is_finite(ring[k])) without_image = before[k];
       });
-      if (lost) return refuse(fmt::format("[{}, {}] has no image in that plane", lost->x, lost->y), i);
+      if (without_image) lost.push_back({i, *without_image});
     }
-    return {};
+    return refuse_floes(lost, [](const MisplacedFloe& one, Others) {
+      return fmt::format("[{}, {}] has no image in that plane", one.point.x, one.point.y);
+    });
   }
 
   template <class Steps>
@@ -213,32 +329,28 @@ class PlaneImport {
   }
 
   /// Floes beyond the plane's reach from the origin, named by where they are on the Earth.
-  tl::expected<void, PlaneError> check_hemisphere(const GeographicPlane& plane,
-                                                  const std::vector<SourceFloe>& as_read) const {
-    const auto is_far = [](Point p) { return length(p - Point{}) > kFarthestFloe; };
-    const auto far = find_point(floes_, is_far);
-    if (!far) return {};
-    const simulation::GeographicOrigin& origin = *report_.origin;
-    const Geographic at = plane.geographic_of(far->second);
-    const bool is_other_hemisphere = at.latitude * origin.latitude < 0;
-    std::string words = fmt::format(
-        "{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km",
-        place_in_words(kDegrees * at.latitude, kDegrees * at.longitude), length(far->second - Point{}) / 1000,
-        place_in_words(kDegrees * origin.latitude, kDegrees * origin.longitude),
-        is_other_hemisphere ? ", in the other hemisphere" : "", more_in_words(is_far), kFarthestFloe / 1000);
-    if (are_swapped(plane, as_read))
-      return refuse(words +
-                        ". With latitude and longitude exchanged they lie near it: GeoJSON has [longitude, "
-                        "latitude]",
-                    far->first);
-    return refuse(
-        words + ": " +
-            settings_.origin_in_words(kDegrees * at.latitude, std::remainder(kDegrees * at.longitude, 360)),
-        far->first);
+  Done check_hemisphere(const GeographicPlane& plane, const std::vector<SourceFloe>& as_read) {
+    const auto far = find_floes([](Point p) { return length(p - Point{}) > kFarthestFloe; });
+    return refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
+      const simulation::GeographicOrigin& origin = *report_.origin;
+      const Geographic at = plane.geographic_of(one.point);
+      const double latitude = kDegrees * at.latitude, longitude = kDegrees * at.longitude;
+      std::string words = fmt::format("{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km",
+                                      place_in_words(latitude, longitude), length(one.point - Point{}) / 1000,
+                                      place_in_words(kDegrees * origin.latitude, kDegrees * origin.longitude),
+                                      latitude * origin.latitude < 0 ? ", in the other hemisphere" : "",
+                                      more_in_words(others), kFarthestFloe / 1000);
+      const std::span<const SourceFloe> all(as_read);
+      if (are_swapped(plane, others || all.empty() ? all : all.subspan(one.floe, 1)))
+        return words +
+               ". With latitude and longitude exchanged it lies near it: GeoJSON has [longitude, latitude]";
+      if (others) words += ": " + settings_.origin_in_words(latitude, std::remainder(longitude, 360));
+      return words;
+    });
   }
 
   /// Whether degrees with latitude first lie near the origin.
-  static bool are_swapped(const GeographicPlane& plane, const std::vector<SourceFloe>& as_read) {
+  static bool are_swapped(const GeographicPlane& plane, std::span<const SourceFloe> as_read) {
     std::vector<Point> exchanged;
     for (const SourceFloe& floe : as_read) {
       for (const Point p : floe.polygon.outer)
@@ -249,14 +361,22 @@ class PlaneImport {
     return std::ranges::all_of(exchanged, [](Point p) { return length(p - Point{}) <= kFarthestFloe; });
   }
 
+  /// Floes far from most others, by a wrong number, do not count.
   void shift() {
-    std::optional<Box> box;
-    for (const SourceFloe& floe : floes_) {
-      for (const Point p : floe.polygon.outer)
-        if (is_finite(p)) box = box ? united(*box, {p, p}) : Box{p, p};
+    std::vector<double> xs, ys;
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < floes_.size(); ++i)
+      if (is_kept(i)) std::ranges::copy(floes_[i].polygon.outer, std::back_inserter(points));
+    if (points.empty()) return;
+    for (const Point p : points) {
+      xs.push_back(p.x);
+      ys.push_back(p.y);
     }
-    if (!box) return;
-    const Point middle = midpoint(box->low, box->high);
+    const Point centre{median(std::move(xs)), median(std::move(ys))};
+    Box box{centre, centre};
+    for (const Point p : points)
+      if (length(p - centre) <= 2 * kFarthestFloe) extend(box, {p, p});
+    const Point middle = midpoint(box.low, box.high);
     report_.shift = {-std::round(middle.x), -std::round(middle.y)};
     for (SourceFloe& floe : floes_) {
       for_rings(floe, [&](Ring& ring) {
@@ -265,34 +385,35 @@ class PlaneImport {
     }
   }
 
-  tl::expected<void, PlaneError> check_distance() const {
-    const auto is_far = [](Point p) { return std::max(std::abs(p.x), std::abs(p.y)) > kFarthestFloe; };
-    const auto far = find_point(floes_, is_far);
-    if (!far) return {};
-    return refuse(fmt::format("found [{:.12g}, {:.12g}]{}, allowed: coordinates from {:g} to {:g} [m]: {}",
-                              far->second.x, far->second.y, more_in_words(is_far), -kFarthestFloe,
-                              kFarthestFloe, settings_.shift_in_words),
-                  far->first);
+  Done check_distance() {
+    const auto far =
+        find_floes([](Point p) { return std::max(std::abs(p.x), std::abs(p.y)) > kFarthestFloe; });
+    const auto words_of = [&](const MisplacedFloe& one, Others others) {
+      return fmt::format("found [{:.12g}, {:.12g}]{}, allowed: coordinates from {:g} to {:g} [m]: {}",
+                         one.point.x, one.point.y, more_in_words(others), -kFarthestFloe, kFarthestFloe,
+                         settings_.shift_in_words);
+    };
+    return refuse_floes(far, words_of, 0.5);  // most of them: the file needs a shift
   }
 
   /// ", and as far in 3 more floes"
-  template <class Condition>
-  std::string more_in_words(Condition is_far) const {
-    const auto count = std::ranges::count_if(
-        floes_, [&](const SourceFloe& floe) { return std::ranges::any_of(floe.polygon.outer, is_far); });
-    return count > 1 ? fmt::format(", and as far in {} more floe{}", count - 1, count == 2 ? "" : "s") : "";
+  static std::string more_in_words(Others count) {
+    if (count.value_or(0) == 0) return "";
+    return fmt::format(", and as far in {} more floe{}", *count, *count == 1 ? "" : "s");
   }
 
   std::vector<SourceFloe>& floes_;
+  std::vector<std::string>& refused_;
   const PlaneSettings& settings_;
   PlaneReport report_;
 };
 
 }  // namespace
 
-tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const std::string& crs,
-                                                     const PlaneSettings& settings) {
-  return PlaneImport(floes, settings).run(crs);
+tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes,
+                                                     std::vector<std::string>& refused,
+                                                     const std::string& crs, const PlaneSettings& settings) {
+  return PlaneImport(floes, refused, settings).run(crs);
 }
 
 }  // namespace polynya::io

@@ -25,6 +25,7 @@ struct PlaneSettings {
   std::string source;           ///< the file's system, where the file names none; or empty
   bool chooses_origin = false;  ///< of a file in degrees without either: the middle of its floes
   bool are_metres = false;      ///< known to be no degrees
+  bool keeps_metres = true;     ///< also beside an origin, of a file without system that is not in degrees
   bool is_shifted = false;      ///< then the middle of the floes' box comes to (0, 0), to a metre
   /// How a user gives an origin [°], in messages.
   std::string (*origin_in_words)(double latitude, double longitude) = nullptr;
@@ -48,10 +49,14 @@ struct PlaneError {
 };
 
 /// Brings floes to metres in a plane, by PROJ, their velocities with them. `crs` is the system that the file
-/// names, or empty. Refused are degrees without a system or an origin, what lies farther from the origin than
-/// kFarthestFloe (in the other hemisphere, say), and planes that are not in metres. Coordinates without
-/// system that do not look like degrees (io/text/degrees.hpp) are metres of the plane already.
-tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const std::string& crs,
-                                                     const PlaneSettings& settings);
+/// names, or empty. `refused` has for each floe why it is refused, "" for none: those are left as they are.
+/// Added to it are floes with a coordinate that is not finite, with a latitude beyond ±90, without an image,
+/// and farther than kFarthestFloe from the origin (in the other hemisphere, say). Where that is all of them
+/// (most, of those far in the plane), it is the error; others are degrees without a system or an origin,
+/// systems that PROJ does not know, and planes that are not in metres. Coordinates without system that do not
+/// look like degrees (io/text/degrees.hpp) are metres of the plane.
+tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes,
+                                                     std::vector<std::string>& refused,
+                                                     const std::string& crs, const PlaneSettings& settings);
 
 }  // namespace polynya::io

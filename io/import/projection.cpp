@@ -102,7 +102,9 @@ Result<Crs> find_crs(const std::string& definition) {
   const std::unique_ptr<pj_ctx, Projection::Free> context(quiet_context());
   std::unique_ptr<PJ, Projection::Free> crs(proj().proj_create(context.get(), definition.c_str()));
   if (!crs || proj().proj_is_crs(crs.get()) == 0)
-    return fail(fmt::format("PROJ knows no coordinate system \"{}\"", definition));
+    return fail(
+        fmt::format("PROJ knows no coordinate system \"{}\", allowed: EPSG:n, OGC:CRS84, a PROJ string, WKT",
+                    definition));
   Crs found;
   if (const char* name = proj().proj_get_name(crs.get())) found.name = name;
   PJ_TYPE type = proj().proj_get_type(crs.get());

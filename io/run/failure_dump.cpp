@@ -1,6 +1,5 @@
 #include "io/run/failure_dump.hpp"
 
-#include <new>
 
 #include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"
@@ -59,11 +58,7 @@ Result<> find_and_dump(const ActiveRun& run) {
 }  // namespace
 
 Result<> dump_failure(const ActiveRun& run) {
-  try {
-    return find_and_dump(run);
-  } catch (const std::bad_alloc&) {
-    return fail(std::string(kMemoryRanOut));
-  }
+  return find_and_dump(run);
 }
 
 }  // namespace polynya::io

@@ -44,13 +44,4 @@ Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulati
   return written;
 }
 
-Result<> RunWriter::cut_off(const RunSummary& summary) {
-  for (OutputFile& file : files_) file.drop_unkept();
-  Result<> synced = sync_files();
-  if (is_displaced_) return synced;
-  auto written =
-      write_whole_file(folder() / run_file::kSummary, to_json_text(summary, *scene_), Durability::kSynced);
-  return synced ? written : synced;
-}
-
 }  // namespace polynya::io

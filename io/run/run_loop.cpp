@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
-#include <new>
 
 #include "io/run/failure_dump.hpp"
-#include "io/run/last_whole_step.hpp"
-#include "io/run/memory_reserve.hpp"
 #include "simulation/world.hpp"
 
 namespace polynya::io {
@@ -24,10 +20,6 @@ struct Stop {
   std::string reason;
 };
 
-Stop memory_ran_out() {
-  return {RunEnd::kOutOfMemory, std::string(kMemoryRanOut)};
-}
-
 double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
@@ -39,8 +31,7 @@ std::int64_t steps_in(double duration, double step) {
 
 class RunLoop {
  public:
-  RunLoop(ActiveRun& run, const RunControl& control)
-      : run_(run), control_(control), last_whole_step_(run.simulation) {
+  RunLoop(ActiveRun& run, const RunControl& control) : run_(run), control_(control) {
     const simulation::StepSettings& time = simulation().scene().time;
     last_step_ = static_cast<std::int64_t>(std::ceil(time.until / time.step - 1e-9));
     steps_per_frame_ = steps_in(simulation().scene().record.frames_interval, time.step);
@@ -49,15 +40,12 @@ class RunLoop {
 
   Stop advance();
   RunResult finish(const Stop& stop);
-  RunResult cut_off(const Stop& stop);
-  Stop stop_without_memory();
 
  private:
   std::optional<Stop> advance_to_end();
   std::optional<Stop> advance_step();
   std::optional<Stop> stop_on_request();
   std::optional<Stop> work_between_steps();
-  void record_step();
   std::optional<std::string> failure_of_step() const;
   Result<> checkpoint();
 
@@ -67,7 +55,6 @@ class RunLoop {
 
   ActiveRun& run_;
   const RunControl& control_;
-  LastWholeStep last_whole_step_;
   std::int64_t last_step_ = 0;
   std::int64_t steps_per_frame_ = 1;
   std::int64_t steps_per_checkpoint_ = 0;  ///< 0: by the clock alone
@@ -76,12 +63,8 @@ class RunLoop {
 };
 
 Stop RunLoop::advance() {
-  try {
-    simulation().set_threads(control_.threads);
-    return advance_to_end().value_or(Stop{});
-  } catch (const std::bad_alloc&) {
-    return memory_ran_out();
-  }
+  simulation().set_threads(control_.threads);
+  return advance_to_end().value_or(Stop{});
 }
 
 std::optional<Stop> RunLoop::advance_to_end() {
@@ -96,35 +79,18 @@ std::optional<Stop> RunLoop::advance_to_end() {
 
 std::optional<Stop> RunLoop::advance_step() {
   simulation().step();
-  record_step();
+  writer().record(simulation().journal());
   if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
   const std::int64_t step = simulation().steps();
   if (step % steps_per_frame_ == 0 || step == last_step_) writer().frame(simulation());
-  if (is_memory_reserve_used()) return stop_without_memory();
   if (auto stop = stop_on_request()) return stop;
   return work_between_steps();
-}
-
-void RunLoop::record_step() {
-  simulation::Journal& journal = simulation().journal();
-  const auto more_floes = std::ssize(journal.births) - std::ssize(journal.deaths);
-  writer().record(journal);
-  last_whole_step_.take(simulation(), more_floes);
 }
 
 std::optional<std::string> RunLoop::failure_of_step() const {
   if (control_.check) return failure_after_step(run_.simulation);
   if (auto failure = run_.simulation.numerical_failure()) return "numerical failure: " + *failure;
   return {};
-}
-
-/// Between two steps: there may be memory for a checkpoint still.
-Stop RunLoop::stop_without_memory() {
-  try {
-    if (const auto written = checkpoint(); !written) return {RunEnd::kFolderFailure, written.error()};
-  } catch (const std::bad_alloc&) {
-  }  // an older one, or the start, has to do
-  return memory_ran_out();
 }
 
 std::optional<Stop> RunLoop::stop_on_request() {
@@ -171,38 +137,11 @@ RunResult RunLoop::finish(const Stop& stop) {
   return result;
 }
 
-/// Ends a run whose world is not to be relied on, since memory ran out in it; what it takes is freed first.
-RunResult RunLoop::cut_off(const Stop& stop) {
-  { const Simulation freed = std::move(run_.simulation); }
-  release_memory_reserve();
-  RunResult result{stop.end, stop.reason, {}, true};
-  RunSummary& summary = result.summary;
-  last_whole_step_.fill(summary);
-  summary.stopped_by = stop.reason;
-  summary.wall_time = wall_time();
-  summary.peaks = writer().peaks();
-  summary.warnings.emplace_back(
-      "memory ran out: floe area, kinetic energy and momentum are what the accounts leave, not measured");
-  if (const auto written = writer().cut_off(summary); !written) {
-    result.end = RunEnd::kFolderFailure;
-    result.reason = written.error();
-  }
-  return result;
-}
-
 }  // namespace
 
 RunResult run_to_end(ActiveRun& run, const RunControl& control) {
-  keep_memory_reserve();
   RunLoop loop(run, control);
-  Stop stop = loop.advance();
-  try {
-    if (stop.end != RunEnd::kOutOfMemory) return loop.finish(stop);
-  } catch (const std::bad_alloc&) {  // in final.geojson
-    if (stop.end == RunEnd::kFinished) loop.stop_without_memory();
-    stop = memory_ran_out();
-  }
-  return loop.cut_off(stop);
+  return loop.finish(loop.advance());
 }
 
 }  // namespace polynya::io

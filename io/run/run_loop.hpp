@@ -33,27 +33,20 @@ enum class RunEnd {
   kFinished,
   kStopped,           ///< by RunControl::stop
   kNumericalFailure,  ///< numbers that are none, or what RunControl::check found
-  kOutOfMemory,
-  kFolderFailure,  ///< a file of the folder could not be written
+  kFolderFailure,     ///< a file of the folder could not be written
 };
-
-/// The reason where memory ran out.
-inline constexpr std::string_view kMemoryRanOut = "memory";
 
 struct RunResult {
   RunEnd end = RunEnd::kFinished;
   std::string reason;  ///< of any other end
   RunSummary summary;  ///< as in summary.json
-  /// Memory ran out within a step: the folder ends with the last whole one, without final.geojson, and the
-  /// simulation is gone.
-  bool is_cut_off = false;
   /// Where a failure was to be dumped (failure_dump.hpp): whether that went well.
   std::optional<Result<>> dump = {};
 };
 
 /// Steps a run to the end of its scene, or to what stops it, and writes its folder; docs/architecture.md
-/// shows an example. Memory is kept in reserve (memory_reserve.hpp), so that a run which needs more ends with
-/// a usable folder.
+/// shows an example. Throws std::bad_alloc where memory runs out: the folder is then that of a run that was
+/// killed, which resume_run continues from its newest checkpoint.
 RunResult run_to_end(ActiveRun& run, const RunControl& control = {});
 
 }  // namespace polynya::io

@@ -171,7 +171,7 @@ void RunWriter::record(simulation::Journal& journal) {
     append_line(kFloes, [&](std::string& line) {
       append_birth(line, birth, parent != broken.end() ? parent->second : nullptr, &scene_->scene);
     });
-    if (file(kFloes).buffered() > kMuchBuffered && !is_displaced_) file(kFloes).spill();
+    if (file(kFloes).buffered() > kMuchBuffered && !is_displaced_) file(kFloes).flush();
   }
   for (const simulation::Event& event : journal.events) {
     append_line(kEvents, [&](std::string& line) {
@@ -204,11 +204,6 @@ void RunWriter::record(simulation::Journal& journal) {
       peaks[i].include(peak_columns_[i]->read(sample), sample.time);
   }
   journal.clear();
-  keep();
-}
-
-void RunWriter::keep() {
-  for (OutputFile& file : files_) file.keep();
 }
 
 void RunWriter::frame(const simulation::Simulation& simulation) {
@@ -236,7 +231,6 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
   line_.clear();
   append_state(line_, simulation.time(), simulation.counts().steps, simulation.state_hash());
   file(kStates).append(line_);
-  keep();
 }
 
 Result<> RunWriter::sync_files() {

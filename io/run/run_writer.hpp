@@ -69,10 +69,6 @@ class RunWriter {
   /// a summary with "finished": true is, and that one before the checkpoints are removed.
   Result<> finish(const RunSummary& summary, const simulation::Simulation& simulation);
 
-  /// Ends a run that ran out of memory, which perhaps was in the middle of record() or frame(): what these
-  /// recorded in part is left out. No final.geojson, which takes memory; checkpoints stay.
-  Result<> cut_off(const RunSummary& summary);
-
   const std::filesystem::path& folder() const { return lock_.folder(); }
   /// Whether the folder and its files were removed, moved or replaced by another program.
   bool is_displaced() const { return is_displaced_; }
@@ -84,7 +80,6 @@ class RunWriter {
   OutputFile& file(std::size_t which) { return files_[which]; }
   void flush();
   Result<> sync_files();
-  void keep();
   /// Keeps it as the failure if the folder or a file in it has lost its name.
   void check_place();
 

@@ -60,6 +60,7 @@ class FloeFileReader {
     const GeojsonFloes floes = read_geojson(result_.source, names, problems_);
     if (problems_.count() > before) return {};
     result_.run_time = floes.run_time;
+    result_.near_misses = floes.near_misses;
     place(floes, plane_of(floes, origin));
     if (problems_.count() > before) return {};
     return std::move(result_);
@@ -90,8 +91,11 @@ class FloeFileReader {
     sources.reserve(floes.polygons.size());
     for (const GeojsonPolygon& one : floes.polygons) sources.push_back({one.polygon, one.properties});
     if (!is_imported_) {
-      auto placed = bring_to_plane(sources, floes.crs, plane);
+      std::vector<std::string> refused(sources.size());
+      auto placed = bring_to_plane(sources, refused, floes.crs, plane);
       if (!placed) return report(floes, placed.error());
+      for (std::size_t i = 0; i < refused.size(); ++i)
+        if (!refused[i].empty()) report(floes, {i, refused[i]});
       result_.plane = std::move(*placed);
       for (std::size_t i = 0; i < sources.size(); ++i)
         result_.floes.push_back({in_house_notation(std::move(sources[i].polygon)), sources[i].properties,
@@ -104,6 +108,10 @@ class FloeFileReader {
     if (!imported) return report(floes, imported.error());
     for (const ImportItem& item : imported->items) {
       if (item.refused.empty()) continue;
+      if (!item.is_outline_refused) {
+        report(floes, {item.source, item.refused});
+        continue;
+      }
       problems_.report(result_.source, floes.polygons[item.source].offset,
                        fmt::format("{} (its floe {})", path_, item.source), item.refused,
                        R"(a valid polygon, or "repair": "non-zero" in its "import")");
@@ -117,7 +125,8 @@ class FloeFileReader {
 
   void report(const GeojsonFloes& floes, const PlaneError& error) {
     const std::uint32_t offset = error.floe ? floes.polygons[*error.floe].offset : floes.crs_offset;
-    problems_.add(result_.source, offset, {.path = path_, .sentence = error.words});
+    const std::string path = error.floe ? fmt::format("{} (its floe {})", path_, *error.floe) : path_;
+    problems_.add(result_.source, offset, {.path = path, .sentence = error.words});
   }
 
   void report_entry(std::string found, std::string allowed) {

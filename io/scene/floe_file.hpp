@@ -25,6 +25,7 @@ struct FloeFile {
   std::optional<double> run_time;  ///< where the floes are those of a run at that time [s]
   PlaneReport plane;
   std::optional<ImportTotals> totals;  ///< where its entry has an "import"
+  std::vector<NearMiss> near_misses;
 };
 
 /// Reads a floe file of a scene: GeoJSON, or what GDAL converts (io/import/foreign_file.hpp), brought to the

@@ -118,7 +118,10 @@ void FloeListReader::add_floes(const FileInput& input) {
     entry.ice = ice_.spelled_out(draft_.scene, given);
     written.items().push_back(write(floes_description(), entry));
   }
-  files.push_back({index_, std::move(file->plane), file->run_time, file->totals, file->floes.size()});
+  const auto with_thickness = std::ranges::count_if(
+      file->floes, [](const FileFloe& floe) { return floe.properties.thickness.has_value(); });
+  files.push_back({index_, std::move(file->plane), file->run_time, file->totals, file->floes.size(),
+                   static_cast<std::size_t>(with_thickness), std::move(file->near_misses), name});
 }
 
 /// The entry that a floe of a file is in the resolved scene: what the file states of it stands there instead

@@ -17,7 +17,7 @@ using JsonKind = JsonValue::Kind;
 class GeojsonReader {
  public:
   GeojsonReader(std::size_t source, const PropertyNames& names, ProblemCollector& problems)
-      : source_(source), names_(names), problems_(problems) {}
+      : source_(source), names_(names), problems_(problems), near_misses_(names) {}
 
   void read(const JsonValue& value, const std::string& path) {
     const JsonValue* type = value.find("type", JsonKind::kText);
@@ -44,6 +44,11 @@ class GeojsonReader {
     return own_area_ > 0 && std::abs(own_area_ - evidence_.area) <= 1e-3 * evidence_.area;
   }
 
+  GeojsonFloes take() {
+    floes.near_misses = near_misses_.found();
+    return std::move(floes);
+  }
+
   GeojsonFloes floes;
 
  private:
@@ -67,7 +72,9 @@ class GeojsonReader {
     properties_ = properties ? read_properties(*properties, path + ".properties") : FloeProperties{};
     if (!geometry || geometry->is_null())
       return report(value, path, "a feature without geometry", "a Polygon or MultiPolygon");
+    const std::size_t before = floes.polygons.size();
     read(*geometry, path + ".geometry");
+    if (properties) near_misses_.add(*properties, properties_, floes.polygons.size() - before);
     properties_ = {};
   }
 
@@ -122,6 +129,7 @@ class GeojsonReader {
   std::size_t source_;
   const PropertyNames& names_;
   ProblemCollector& problems_;
+  NearMisses near_misses_;
   CoordinateEvidence evidence_;
   double own_area_ = 0;        ///< Σ of the features' area_m2 [m²]
   FloeProperties properties_;  ///< of the feature at hand
@@ -153,7 +161,7 @@ GeojsonFloes read_geojson(std::size_t source, const PropertyNames& names, Proble
     reader.floes.crs = crs_name(*crs);
     reader.floes.crs_offset = crs->offset;
   }
-  return std::move(reader.floes);
+  return reader.take();
 }
 
 }  // namespace polynya::io

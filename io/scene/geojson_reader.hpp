@@ -22,7 +22,8 @@ struct GeojsonFloes {
   std::optional<double> run_time;  ///< where the floes are those of a run at that time [s]
   std::string crs;                 ///< the system that the text names; empty: none
   std::uint32_t crs_offset = 0;    ///< of it in the text
-  bool are_metres = false;         ///< the features' area_m2 are those of their coordinates
+  std::vector<NearMiss> near_misses;
+  bool are_metres = false;  ///< the features' area_m2 are those of their coordinates
 };
 
 /// The polygons of a GeoJSON text (Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection), in

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/import/import_report.hpp"
 #include "io/scene/floe_group.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/pilot_check.hpp"
@@ -99,6 +100,7 @@ class SceneReader {
     check_scene(draft_, given, problems_);
     if (problems_.count() > 0) return false;
     add_scene_hints(draft_, given, problems_);
+    for (const FileReport& file : floes_.files) add_file_hints(file);
     return true;
   }
 
@@ -201,6 +203,30 @@ class SceneReader {
       if (is_good && is_whole) floes_.add(i, std::move(group), list[i]);
     }
     *resolved_.find("floes") = std::move(floes_.written);
+  }
+
+  /// Properties of a floe file that are probably meant to be read, and floes without a thickness among
+  /// others.
+  void add_file_hints(const FileReport& file) {
+    const auto add = [&](Severity severity, std::string sentence) {
+      problems_.add(0, file.offset,
+                    {.path = fmt::format("floes[{}].file", file.group),
+                     .sentence = std::move(sentence),
+                     .severity = severity});
+    };
+    const std::string thickness = thickness_in_words(file.with_thickness, file.floes);
+    bool is_partial = file.with_thickness > 0 && file.with_thickness < file.floes;
+    for (const NearMiss& miss : file.near_misses) {
+      if (miss.floes == 0) continue;
+      const bool is_thickness = miss.meant == "thickness_m";
+      add(Severity::kWarning,
+          fmt::format("property \"{}\" of {} floe{} is not read; did you mean {}? \"import\": "
+                      "{{\"properties\": \"{}\"}} reads it{}",
+                      miss.key, miss.floes, miss.floes == 1 ? "" : "s", miss.meant, as_property_name(miss),
+                      is_thickness ? "; " + thickness : ""));
+      is_partial = is_partial && !is_thickness;
+    }
+    if (is_partial) add(Severity::kHint, thickness + "; the others have that of the scene");
   }
 
   std::filesystem::path folder_;

@@ -37,6 +37,9 @@ struct FileReport {
   std::optional<double> run_time;      ///< of floes of a run [s]
   std::optional<ImportTotals> totals;  ///< where it was imported
   std::size_t floes = 0;               ///< that it gave
+  std::size_t with_thickness = 0;      ///< of their own
+  std::vector<NearMiss> near_misses;
+  std::uint32_t offset = 0;  ///< of its name in the scene
 };
 
 struct LoadedScene {

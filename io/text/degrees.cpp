@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -44,24 +45,30 @@ std::string geographic_crs(const JsonValue& crs) {
                                                                                                       : "";
 }
 
+bool is_in_degrees(geometry::Point point) {
+  return std::abs(point.x) <= 540 && std::abs(point.y) <= 90;
+}
+
 void CoordinateEvidence::add(const geometry::Polygon& polygon) {
   if (polygon.outer.empty()) return;
-  const geometry::Box of_polygon = bounding_box(polygon.outer);
-  if (is_empty) box = of_polygon;
-  is_empty = false;
-  extend(box, of_polygon);
-  area += std::abs(geometry::signed_area(polygon.outer));
+  geometry::Ring within;
+  std::ranges::copy_if(polygon.outer, std::back_inserter(within), is_in_degrees);
+  ++floes;
+  are_all_whole = are_all_whole && within.size() == polygon.outer.size();
+  if (2 * within.size() <= polygon.outer.size()) return;
+  const geometry::Box of_floe = bounding_box(within);
+  if (++in_range == 1) box = of_floe;
+  extend(box, of_floe);
+  area += std::abs(geometry::signed_area(within));
 }
 
 bool CoordinateEvidence::look_polar() const {
-  const bool is_in_range = box.low.x >= -180 && box.high.x <= 360 && box.low.y >= -90 && box.high.y <= 90;
   const bool is_far_north_or_south = box.low.y >= kPolarLatitude || box.high.y <= -kPolarLatitude;
-  return !is_empty && is_in_range && is_far_north_or_south && area < kMostPolarIce;
+  return 2 * in_range > floes && is_far_north_or_south && area < kMostPolarIce;
 }
 
 bool CoordinateEvidence::look_like_degrees() const {
-  const bool is_in_range = box.low.x >= -180 && box.high.x <= 360 && box.low.y >= -90 && box.high.y <= 90;
-  return !is_empty && ((is_in_range && area < kLeastIce) || look_polar());
+  return (floes > 0 && are_all_whole && area < kLeastIce) || look_polar();
 }
 
 std::string how_to_project(const geometry::Box& box_in_degrees, const std::string& file) {

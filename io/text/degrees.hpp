@@ -14,17 +14,23 @@ std::string crs_name(const JsonValue& crs);
 /// every other: those are taken to be metres.
 std::string geographic_crs(const JsonValue& crs);
 
-/// What a file's coordinates show without its crs.
+/// Whether a point may be a longitude and a latitude: one turn more or less names the same meridian.
+bool is_in_degrees(geometry::Point point);
+
+/// What a file's coordinates show without its crs. A wrong number here and there does not hide the rest.
 struct CoordinateEvidence {
-  geometry::Box box{};
-  double area = 0;  ///< Σ of the floes, in squares of the unit they are in
-  bool is_empty = true;
+  geometry::Box box{};        ///< of the floes in the range of degrees, without vertices that are not
+  double area = 0;            ///< Σ of these floes, in squares of the unit they are in
+  std::size_t floes = 0;      ///< with an outline
+  std::size_t in_range = 0;   ///< of them with most of their vertices in the range of degrees
+  bool are_all_whole = true;  ///< all of their vertices are
 
   void add(const geometry::Polygon& polygon);
-  /// All lie on one side beyond 40 of latitude, in the range of degrees, and cover less than 100 squares,
-  /// which are 3000 km² each at 75°.
+  /// Most floes lie on one side beyond 40 of latitude, in the range of degrees, and cover less than 100
+  /// squares, which are 3000 km² each at 75°.
   bool look_polar() const;
-  /// Or they cover less than one square at any latitude: no ice to simulate if it is in m².
+  /// Or all are in the range of degrees and cover less than one square at any latitude: no ice to simulate if
+  /// it is in m².
   bool look_like_degrees() const;
 };
 

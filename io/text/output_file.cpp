@@ -76,9 +76,6 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       name_(std::move(other.name_)),
       buffer_(std::move(other.buffer_)),
       record_ends_(std::move(other.record_ends_)),
-      kept_(other.kept_),
-      kept_records_(other.kept_records_),
-      spilled_(other.spilled_),
       size_(other.size_),
       status_(std::move(other.status_)) {}
 
@@ -106,23 +103,6 @@ bool OutputFile::flush() {
     record_ends_.shrink_to_fit();
   }
   return status_.has_value();
-}
-
-bool OutputFile::spill() {
-  const std::uint64_t kept_on_disk = size_ - spilled_ + kept_;
-  flush();
-  spilled_ = size_ - std::min(size_, kept_on_disk);
-  return status_.has_value();
-}
-
-void OutputFile::drop_unkept() {
-  buffer_.resize(kept_);
-  record_ends_.resize(kept_records_);
-  if (spilled_ == 0) return;
-  size_ -= std::exchange(spilled_, 0);
-  const auto end = static_cast<off_t>(size_);
-  const bool is_cut = ::ftruncate(descriptor_, end) == 0 && ::lseek(descriptor_, end, SEEK_SET) == end;
-  if (!is_cut && status_) status_ = failed(name_, errno);
 }
 
 bool OutputFile::sync() {

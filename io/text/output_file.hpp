@@ -32,28 +32,16 @@ class OutputFile {
 
   /// Writes what is buffered. After a failure nothing more is written and the failure stays.
   bool flush();
-  /// The same in the middle of a step's records, so that they need not fit into memory: drop_unkept() cuts
-  /// the file back to what was kept.
-  bool spill();
   /// Writes what is buffered and waits until it is on the disk.
   bool sync();
   std::uint64_t size() const { return size_; }  ///< on disk [bytes]
   /// Whether the file still has its name: it was neither removed nor replaced.
   bool is_in_place() const;
   const std::string& name() const { return name_; }
-  /// What was appended so far is whole: a step's records, or a frame's.
-  void keep() {
-    kept_ = buffer_.size();
-    kept_records_ = record_ends_.size();
-    spilled_ = 0;
-  }
-  /// Forgets what was appended since keep(), in part or in whole. Takes no memory.
-  void drop_unkept();
   /// Forgets what is buffered.
   void drop() {
     buffer_.clear();
     record_ends_.clear();
-    keep();
   }
   /// The failure that flush() or sync() met, with the file's name.
   const Result<>& status() const { return status_; }
@@ -64,10 +52,7 @@ class OutputFile {
   std::string name_;
   std::string buffer_;
   std::vector<std::size_t> record_ends_;  ///< in the buffer
-  std::size_t kept_ = 0;                  ///< of the buffer [bytes]
-  std::size_t kept_records_ = 0;
-  std::uint64_t spilled_ = 0;  ///< of size_: not kept yet [bytes]
-  std::uint64_t size_ = 0;     ///< on disk [bytes]
+  std::uint64_t size_ = 0;                ///< on disk [bytes]
   Result<> status_;
 };
 

@@ -157,13 +157,13 @@ void fill(const FloeField& field, const Ring& region, Random& random, Making& ma
   }
   const Plane plane = plane_of(field, region);
   const FreeArea free(region, field.kept_clear, field.gap, plane);
-  std::vector<Tile> tiles = tessellate(free, areas, random);
+  std::vector<FieldCell> cells = tessellate(free, areas, random);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Run& run = runs[i];
-    Ring cell = plane.to_world(std::move(tiles[i].ring));
+    Ring cell = plane.to_world(std::move(cells[i].ring));
     if (run.count == 1) {
       if (items[run.first].is_floe)
-        add_candidate(field, items[run.first], std::move(cell), tiles[i].is_clipped, making);
+        add_candidate(field, items[run.first], std::move(cell), cells[i].is_clipped, making);
       continue;
     }
     const auto [x, y] = portable_direction(random.uniform());
@@ -173,7 +173,7 @@ void fill(const FloeField& field, const Ring& region, Random& random, Making& ma
     if (!cell.empty()) strips = strips_of(cell, {x, y}, shares);
     for (std::size_t k = 0; k < run.count; ++k) {
       if (items[run.first + k].is_floe)
-        add_candidate(field, items[run.first + k], std::move(strips[k]), tiles[i].is_clipped, making);
+        add_candidate(field, items[run.first + k], std::move(strips[k]), cells[i].is_clipped, making);
     }
   }
 }

@@ -110,7 +110,7 @@ class Relaxation {
     for (std::size_t i = 0; i < sites_.size(); ++i) sites_[i].weight = share_ * areas[i] / std::numbers::pi;
   }
 
-  std::vector<Tile> relax() {
+  std::vector<FieldCell> relax() {
     for (int pass = 0; pass < kMoves; ++pass) {
       measure();
       move();
@@ -122,14 +122,14 @@ class Relaxation {
       balance(std::min(1.0, 0.2 * (pass + 2)));
       is_whole = !revive();
     }
-    std::vector<Tile> tiles(sites_.size());
+    std::vector<FieldCell> cells(sites_.size());
     const auto keep = [&](const PowerCell& cell) {
-      Tile& tile = tiles[cell.site];
-      tile.ring = cell.ring;
-      tile.is_clipped = free_.clip(tile.ring);
+      FieldCell& kept = cells[cell.site];
+      kept.ring = cell.ring;
+      kept.is_clipped = free_.clip(kept.ring);
     };
     geometry::visit_power_cells(sites_, free_.hull(), keep, couplings_.neighbours());
-    return tiles;
+    return cells;
   }
 
  private:
@@ -241,7 +241,7 @@ class Relaxation {
 
 }  // namespace
 
-std::vector<Tile> tessellate(const FreeArea& free, const std::vector<double>& areas, Random& random) {
+std::vector<FieldCell> tessellate(const FreeArea& free, const std::vector<double>& areas, Random& random) {
   const auto count = static_cast<double>(areas.size());
   Dealer dealer(areas, strew(free, kPointsPerSite * count, random));
   return Relaxation(free, areas, dealer.deal()).relax();

@@ -8,7 +8,7 @@
 
 namespace polynya::simulation {
 
-struct Tile {
+struct FieldCell {
   geometry::Ring
       ring;  ///< convex, counter-clockwise, in the field's plane [m]; empty where no room was found
   bool is_clipped = false;  ///< by a boundary other than the hull's
@@ -24,6 +24,6 @@ struct Tile {
 /// as those of discs of the areas. Sites then move to their cells' centroids while each weight follows its
 /// cell's error; at last sites stay, and all weights change together by parts of Newton's step [Balzer2009,
 /// deGoes2012].
-std::vector<Tile> tessellate(const FreeArea& free, const std::vector<double>& areas, Random& random);
+std::vector<FieldCell> tessellate(const FreeArea& free, const std::vector<double>& areas, Random& random);
 
 }  // namespace polynya::simulation

@@ -32,7 +32,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
     archive(motion_of(population.bodies, population.body_of(id)));
   }
-  archive(population.tilted, population.tiles, pairs);
+  archive(population.tilted, population.submerged, pairs);
 }
 
 }  // namespace

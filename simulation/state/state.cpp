@@ -203,7 +203,7 @@ class StateLoader {
   }
 
   void load_ice_at_hulls() {
-    bytes_(population_.tilted, population_.tiles);
+    bytes_(population_.tilted, population_.submerged);
     const auto is_floe = [&](FloeId floe) {
       return floe >= 0 && floe < population_.floe_count() && population_.is_alive(floe);
     };
@@ -215,15 +215,16 @@ class StateLoader {
       bytes_.require(last < std::pair(tilted.ship, tilted.floe), "tilted floes out of their order");
       last = {tilted.ship, tilted.floe};
     }
-    std::vector<bool> is_tile(population_.floes.size());
-    for (Tile& tile : population_.tiles) {
-      bytes_.require(is_hull(tile.ship) && is_floe(tile.floe) && population_.floes[tile.floe].is_under,
-                     "ice under a hull that there is not");
+    std::vector<bool> is_submerged(population_.floes.size());
+    for (SubmergedPiece& submerged : population_.submerged) {
+      bytes_.require(
+          is_hull(submerged.ship) && is_floe(submerged.floe) && population_.floes[submerged.floe].is_under,
+          "ice under a hull that there is not");
       if (!bytes_.is_well()) return;
-      bytes_.require(!is_tile[static_cast<std::size_t>(tile.floe)], "ice under two hulls");
-      bytes_.require(tile.weight >= 0 && tile.waited >= 0, "a negative weight or wait");
-      is_tile[static_cast<std::size_t>(tile.floe)] = true;
-      tile.area = population_.floes[tile.floe].area;
+      bytes_.require(!is_submerged[static_cast<std::size_t>(submerged.floe)], "ice under two hulls");
+      bytes_.require(submerged.weight >= 0 && submerged.waited >= 0, "a negative weight or wait");
+      is_submerged[static_cast<std::size_t>(submerged.floe)] = true;
+      submerged.area = population_.floes[submerged.floe].area;
     }
   }
 

@@ -64,7 +64,7 @@ void fields(Archive& archive, Is<TiltedFloe> auto& t) {
   archive(t.floe, t.ship, t.edge.deflection, t.edge.rate);
 }
 template <class Archive>
-void fields(Archive& archive, Is<Tile> auto& t) {
+void fields(Archive& archive, Is<SubmergedPiece> auto& t) {
   archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
 }
 template <class Archive>

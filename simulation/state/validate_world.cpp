@@ -128,10 +128,10 @@ Defect check_sums(const World& world) {
     if (population.is_alive(id)) mass += population.bodies.mass[population.body_of(id)];
     broken += population.is_alive(id) ? 0 : 1;
   }
-  for (const Tile& tile : population.tiles) {
-    if (!population.is_alive(tile.floe) || !population.floes[tile.floe].is_under)
-      return fmt::format("floe {} is a tile and not under a hull", tile.floe);
-    area += population.floes[tile.floe].area;
+  for (const SubmergedPiece& submerged : population.submerged) {
+    if (!population.is_alive(submerged.floe) || !population.floes[submerged.floe].is_under)
+      return fmt::format("floe {} is submerged and not under a hull", submerged.floe);
+    area += population.floes[submerged.floe].area;
   }
   for (const TiltedFloe& tilted : population.tilted) {
     if (!population.is_floating(tilted.floe))

@@ -94,6 +94,56 @@ TEST_F(Import, RefusedFloesAreNamedAndTheOthersWritten) {
   expect_parts(import(text, {"--repair", "even-odd"}).err, {"1 repaired, 2 refused; 3 written"});
 }
 
+/// A wrong number refuses its floe; the others come out as if it were not there. Exit code 4, as of every
+/// refusal.
+TEST_F(Import, AFloeWithAWrongNumberIsRefusedByItself) {
+  ASSERT_EQ(import(collection(square(15.6, 78.2, 0.002)), {"--origin", "78.201,15.601"}).code, 0);
+  const double alone = area_of(scene()->scene);
+  const auto with = [](const std::string& ring) {
+    return collection(square(15.6, 78.2, 0.002) + ",\n" + R"({"type":"Polygon","coordinates":[[)" + ring +
+                      "]]}");
+  };
+  for (const auto& [ring, part] : std::vector<std::pair<std::string, std::string>>{
+           {"[15.61,78.2],[15.612,782],[15.612,78.202]",
+            "found [15.612, 782], allowed: [longitude, latitude], a latitude from -90 to 90"},
+           {"[15.61,78.2],[156120,78.2],[15.612,78.202]",
+            "a longitude from -180 to 180, or one turn more or less"},
+           {"[15.61,78.2],[15.612,7.82],[15.612,78.202]", "km from the origin at"},
+           {"[15.61,78.2],[15.612,NaN],[15.612,78.202]",
+            "found [15.612, nan], allowed: coordinates that are finite numbers"}}) {
+    const Outcome done = import(with(ring), {"--origin", "78.201,15.601"});
+    EXPECT_EQ(done.code, 4) << done.err;
+    expect_parts(done.err, {"mapped.geojson:2: feature 1, polygon 0: refused: ", part,
+                            "2 floes read, 1 refused; 1 written"});
+    EXPECT_NEAR(area_of(scene()->scene), alone, 0.01) << part;
+    expect_parts(done.out, {R"("refused":1)"});
+  }
+  const Outcome turned =
+      import(with("[375.61,78.2],[375.612,78.2],[375.612,78.202]"), {"--origin", "78.201,15.601"});
+  EXPECT_EQ(turned.code, 0) << turned.err;
+  EXPECT_NEAR(area_of(scene()->scene), 1.5 * alone, 2);
+  std::filesystem::remove(folder / "floes.geojson");
+  const Outcome all = import(collection(square(0, 0, 10, R"("thickness_m":-1)")));
+  EXPECT_EQ(all.code, 4);
+  expect_parts(all.err, {"every floe was refused; only the report was written"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "floes.geojson"));
+}
+
+TEST_F(Import, PropertiesThatAreNearlyReadAreNoted) {
+  const Outcome done = import(collection(square(0, 0, 10, R"("thickness_cm":80)") + "," +
+                                         square(20, 0, 10, R"("Thickness_M":0.8,"sensor":1)")));
+  EXPECT_EQ(done.code, 0);
+  expect_parts(
+      done.err,
+      {"none of 2 floes has a thickness of its own",
+       R"(note: mapped.geojson: property "thickness_cm" of 1 floe is not read; did you mean thickness_m? )"
+       "--property 'thickness_m=thickness_cm*0.01' reads it",
+       "--property 'thickness_m=Thickness_M'"});
+  const io::JsonDocument report = io::parse_json(done.out);
+  EXPECT_EQ(report.root.find("near_misses")->items().size(), 2U) << done.out;
+  EXPECT_EQ(report.root.find("floes")->find("with_thickness")->number(), 0);
+}
+
 TEST_F(Import, WhatCannotBeReadIsRefusedInOneSentence) {
   for (const auto& [text, more, code, part] :
        std::vector<std::tuple<std::string, std::vector<std::string>, int, std::string>>{
@@ -104,6 +154,16 @@ TEST_F(Import, WhatCannotBeReadIsRefusedInOneSentence) {
            {kSvalbard, {"--origin", "78.2,15.6", "--crs", "EPSG:3413"}, 2, "either about a place"},
            {kSvalbard, {"--crs", "EPSG:4326"}, 4, "not a plane in metres"},
            {kSvalbard, {"--crs", "EPSG:3413"}, 4, "--shift moves the floes"},
+           {kSvalbard,
+            {"--crs", "EPSG:99999"},
+            4,
+            "PROJ knows no coordinate system \"EPSG:99999\", allowed: EPSG:n"},
+           {kSvalbard, {"--from", "+proj=nonsense"}, 4, "PROJ knows no coordinate system \"+proj=nonsense\""},
+           {collection(square(0, 0, 9), R"("crs":{"type":"name","properties":{"name":"+proj=nonsense"}},)"),
+            {},
+            4,
+            "\"+proj=nonsense\""},
+           {collection(square(0, 0, 900)), {"--origin", "78.2,15.6"}, 4, "kept where no origin is given"},
            {kSvalbard,
             {"--origin", "78.2,15.6", "--property", "thicknes_m=H"},
             2,
@@ -148,6 +208,15 @@ TEST_F(Import, ShapefilesGeoPackagesAndFlatGeobufsAreReadByGdal) {
     const auto read = scene();
     ASSERT_TRUE(read) << to_string(read.error().front());
     EXPECT_NEAR(area_of(read->scene), area_of(expected->scene), 1e-3) << name;
+  }
+  ASSERT_EQ(import(kSvalbard, {"--origin", "78.201,15.606"}).code, 0);
+  const double area = area_of(scene()->scene);
+  for (const std::string name : {"degrees.shp", "degrees.gpkg", "degrees.fgb"}) {
+    ASSERT_TRUE(convert(name + " mapped.geojson")) << name;
+    const Outcome done = polynya({"import", name, "--out", "floes.geojson"}, {folder.path()});
+    EXPECT_EQ(done.code, 0) << done.err;
+    expect_parts(done.err, {name + ": WGS 84 (CRS84), projected about 78.20", "the floes' middle"});
+    EXPECT_NEAR(area_of(scene()->scene), area, 0.1) << name;
   }
   // A system without a code is converted; a file without a system is not in degrees.
   ASSERT_TRUE(convert("-t_srs '+proj=laea +lat_0=78 +lon_0=15 +datum=WGS84' own.shp mapped.geojson"));

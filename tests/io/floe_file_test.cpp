@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "geometry/exact/measures.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace polynya::io {
@@ -65,8 +66,14 @@ TEST_F(FloeFile, ACrsDecidesWhereThereIsOne) {
     EXPECT_NE(found.find("no origin"), std::string::npos) << name << found;
     EXPECT_EQ(lines_in(found), 1U) << found;
   }
-  for (const char* name : {"urn:ogc:def:crs:EPSG::3413", "EPSG:32633", "metres of the ice tank"})
+  for (const char* name : {"urn:ogc:def:crs:EPSG::3413", "EPSG:32633"})
     EXPECT_EQ(problems(collection({square(15, 78, 0.2)}, crs(name))), "") << name;
+  for (const std::string name : {"EPSG:99999", "+proj=nonsense", "metres of the ice tank"}) {
+    const std::string found = problems(collection({square(15, 78, 0.2)}, crs(name)));
+    EXPECT_NE(found.find("PROJ knows no coordinate system \"" + name + "\", allowed: EPSG:n"),
+              std::string::npos)
+        << found;
+  }
   EXPECT_NE(problems(R"({"crs":{"type":"EPSG","properties":{"code":4326}},)" + square(0, 0, 9).substr(1)),
             "");
 }
@@ -88,6 +95,9 @@ TEST_F(FloeFile, CoordinatesTooFarAwayAreNamedOnce) {
   for (const char* part :
        {"found [1104312.5, -512345.25], and as far in 1 more", "-1e+06 to 1e+06", R"("shift": true)"})
     EXPECT_NE(found.find(part), std::string::npos) << part << "\n" << found;
+  EXPECT_NE(problems(collection({square(0, 0, 5), square(9, 0, 5), square(1.2e6, 0, 800)}))
+                .find("floes[0].file (its floe 2): found [1200000, 0], allowed"),
+            std::string::npos);
   EXPECT_NE(problems(collection({R"({"type":"Polygon","coordinates":[[[0,0],[null,0],[1,1],[0,0]]]})"}))
                 .find("found null, allowed: a coordinate [m]"),
             std::string::npos);
@@ -147,6 +157,53 @@ TEST_F(FloeFile, ASceneWithAnOriginProjectsDegrees) {
                                 "scene.json", folder.path());
   ASSERT_FALSE(south);
   EXPECT_NE(to_string(south.error().front()).find("in the other hemisphere"), std::string::npos);
+}
+
+/// One wrong number among degrees: its floe is named, and the others are not taken for metres.
+TEST_F(FloeFile, AWrongLatitudeIsAProblemOfItsFloe) {
+  const std::string wrong =
+      R"({"type":"Polygon","coordinates":[[[15.61,78.2],[15.612,782],[15.612,78.202],[15.61,78.2]]]})";
+  for (const char* entry :
+       {R"({"file": "floes.geojson"})", R"({"file": "floes.geojson", "import": {"repair": "non-zero"}})"}) {
+    for (const std::string& name : {std::string(), crs("EPSG:4326")}) {
+      const std::string scene = fmt::format(
+          R"({{"origin": {{"latitude_deg": 78.2, "longitude_deg": 15.6}}, "floes": [{}]}})", entry);
+      write_file(folder / "floes.geojson", collection({square(15.6, 78.2, 0.001), wrong}, name));
+      const auto refused = read_scene(scene, "scene.json", folder.path());
+      ASSERT_FALSE(refused) << entry << name;
+      ASSERT_EQ(refused.error().size(), 1U);
+      const std::string found = to_string(refused.error().front());
+      EXPECT_NE(found.find("(its floe 1): found [15.612, 782], allowed: [longitude, latitude]"),
+                std::string::npos)
+          << found;
+      write_file(folder / "floes.geojson",
+                 collection({square(15.6, 78.2, 0.001), square(375.61, 78.2, 0.001)}, name));
+      const auto turned = read_scene(scene, "scene.json", folder.path());
+      ASSERT_TRUE(turned) << to_string(turned.error().front());
+      for (const simulation::FloeSpec& floe : turned->scene.floes)
+        EXPECT_NEAR(geometry::measure(floe.polygon_in_world).area, 22.8378 * 111.6468, 2);
+    }
+  }
+}
+
+TEST_F(FloeFile, PropertiesThatAreNearlyReadAreWarnedOf) {
+  write_file(folder / "floes.geojson",
+             collection({square(0, 0, 5, R"("thickness_cm":80)"), square(9, 0, 5, R"("thickness_m":0.4)")}));
+  const auto scene = read_scene(R"({"floes": [{"file": "floes.geojson"}]})", "scene.json", folder.path());
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->files.at(0).with_thickness, 1U);
+  std::string hints;
+  for (const Problem& hint : scene->hints) hints += to_string(hint) + "\n";
+  for (const char* part :
+       {R"(warning: floes[0].file: property "thickness_cm" of 1 floe is not read; did you mean thickness_m?)",
+        R"("import": {"properties": "thickness_m=thickness_cm*0.01"} reads it)",
+        "reads it; 1 of 2 floes has a thickness of its own"})
+    EXPECT_NE(hints.find(part), std::string::npos) << part << "\n" << hints;
+  const auto named = read_scene(
+      R"({"floes": [{"file": "floes.geojson", "import": {"properties": "thickness_m=thickness_cm*0.01"}}]})",
+      "scene.json", folder.path());
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->scene.floes.size(), 2U);
 }
 
 /// An entry's import does what `polynya import` does, and its resolved scene gives the same floes.

@@ -1,7 +1,10 @@
 // Floes of files from elsewhere: where they come to in the plane, what is repaired, trimmed and refused.
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "geometry/cut/overlapping_pairs.hpp"
@@ -36,6 +39,15 @@ PlaneSettings about(double latitude, double longitude, double heading = 90) {
   PlaneSettings settings = plane();
   settings.origin = origin(latitude, longitude, heading);
   return settings;
+}
+
+/// Where none of the floes is refused by itself.
+tl::expected<PlaneReport, PlaneError> bring(std::vector<SourceFloe>& floes, const std::string& crs,
+                                            const PlaneSettings& settings) {
+  std::vector<std::string> refused(floes.size());
+  auto report = bring_to_plane(floes, refused, crs, settings);
+  EXPECT_EQ(refused, std::vector<std::string>(floes.size()));
+  return report;
 }
 
 /// The polar stereographic of EPSG:3413 in closed form (Snyder 1987, 21-33 to 21-40), true at 70° N, 45° W
@@ -96,7 +108,7 @@ TEST(Plane, DegreesComeToMetresAboutTheOrigin) {
   // By the radii of curvature a thousandth of a degree of latitude is 111.6468 m at 78.2°, of
   // longitude 22.8378 m.
   std::vector<SourceFloe> floes{square(15.6, 78.2, 0.001)};
-  const auto report = bring_to_plane(floes, "", about(78.2, 15.6));
+  const auto report = bring(floes, "", about(78.2, 15.6));
   ASSERT_TRUE(report) << report.error().words;
   EXPECT_EQ(report->system, "WGS 84 (CRS84)");
   const Polygon& floe = floes[0].polygon;
@@ -109,7 +121,7 @@ TEST(Plane, DegreesComeToMetresAboutTheOrigin) {
 TEST(Plane, ARunsCoordinatesAcrossTheAntimeridianStayTogether) {
   std::vector<SourceFloe> floes{square(179.999, 70, 0.002)};
   floes[0].polygon.outer[1].x = floes[0].polygon.outer[2].x = -179.999;
-  ASSERT_TRUE(bring_to_plane(floes, "EPSG:4326", about(70, 180)));
+  ASSERT_TRUE(bring(floes, "EPSG:4326", about(70, 180)));
   EXPECT_LT(std::abs(floes[0].polygon.outer[1].x - floes[0].polygon.outer[0].x), 80);
 }
 
@@ -117,11 +129,11 @@ TEST(Plane, MetresOfThePlaneStayAsTheyAre) {
   const std::vector<SourceFloe> before{square(100.1, -7.3, 800)};
   for (const PlaneSettings& settings : {plane(), about(78.2, 15.6)}) {
     std::vector<SourceFloe> floes = before;
-    ASSERT_TRUE(bring_to_plane(floes, "", settings));
+    ASSERT_TRUE(bring(floes, "", settings));
     EXPECT_EQ(floes[0].polygon, before[0].polygon);
   }
   std::vector<SourceFloe> floes = before;
-  const auto report = bring_to_plane(floes, "EPSG:3413", plane());
+  const auto report = bring(floes, "EPSG:3413", plane());
   ASSERT_TRUE(report) << report.error().words;
   EXPECT_EQ(floes[0].polygon, before[0].polygon);
   EXPECT_EQ(report->target, "EPSG:3413");
@@ -131,7 +143,7 @@ TEST(Plane, AShiftIsOfWholeMetres) {
   std::vector<SourceFloe> floes{square(1104312.5, -512345.25, 800)};
   PlaneSettings settings = plane();
   settings.is_shifted = true;
-  const auto report = bring_to_plane(floes, "EPSG:3413", settings);
+  const auto report = bring(floes, "EPSG:3413", settings);
   ASSERT_TRUE(report);
   EXPECT_EQ(report->shift, (geometry::Vector{-1104713, 511945}));
   EXPECT_EQ(floes[0].polygon.outer[0], (Point{-400.5, -400.25}));
@@ -139,9 +151,9 @@ TEST(Plane, AShiftIsOfWholeMetres) {
 
 TEST(Plane, VelocitiesTurnWithTheAxes) {
   std::vector<SourceFloe> floes{square(15.6, 78.2, 0.001)};
-  floes[0].properties.velocity_x = 0.3;                                   // east
-  floes[0].properties.velocity_y = 0.1;                                   // north
-  ASSERT_TRUE(bring_to_plane(floes, "EPSG:4326", about(78.2, 15.6, 0)));  // x is north, y west
+  floes[0].properties.velocity_x = 0.3;                          // east
+  floes[0].properties.velocity_y = 0.1;                          // north
+  ASSERT_TRUE(bring(floes, "EPSG:4326", about(78.2, 15.6, 0)));  // x is north, y west
   EXPECT_NEAR(*floes[0].properties.velocity_x, 0.1, 1e-6);
   EXPECT_NEAR(*floes[0].properties.velocity_y, -0.3, 1e-6);
 }
@@ -159,6 +171,8 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
   to_nowhere.target = "EPSG:99";
   to_polar.target = "EPSG:3413";
   from_polar.source = "EPSG:3413";
+  PlaneSettings of_command = about(78.2, 15.6);
+  of_command.keeps_metres = false;
   for (const Case& c : std::vector<Case>{
            {square(15.6, 78.2, 0.01),
             "",
@@ -192,12 +206,163 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
             "EPSG:3413",
             plane(),
             {"found [1200000, 0]", "-1e+06 to 1e+06", "shift them"}},
+           {square(0, 0, 800),
+            "+proj=nonsense",
+            plane(),
+            {"no coordinate system \"+proj=nonsense\"", "allowed: EPSG:n", "has no crs"}},
+           {square(0, 0, 800), "EPSG:99999", plane(), {"no coordinate system \"EPSG:99999\""}},
+           {square(0, 0, 800), "metres of the ice tank", about(78.2, 15.6), {"\"metres of the ice tank\""}},
+           {square(0, 0, 800),
+            "",
+            of_command,
+            {"names no coordinate system", "name it", "where no origin is given"}},
            {square(6e6, 2e6, 900), "EPSG:2229", plane(), {"not in metres"}}}) {
     std::vector<SourceFloe> floes{c.floe};
-    const auto report = bring_to_plane(floes, c.crs, c.settings);
+    const auto report = bring(floes, c.crs, c.settings);
     ASSERT_FALSE(report) << c.parts[0];
     for (const std::string& part : c.parts)
       EXPECT_NE(report.error().words.find(part), std::string::npos) << part << "\n" << report.error().words;
+  }
+}
+
+/// A chosen origin is the middle of the floes, wherever a wrong number has one of them.
+TEST(Plane, AWrongNumberDoesNotMoveTheOriginThatIsChosen) {
+  PlaneSettings settings = plane();
+  settings.chooses_origin = true;
+  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.01), square(15.62, 78.2, 0.01),
+                                square(78.2, 15.6, 0.01)};
+  std::vector<std::string> refused(floes.size());
+  const auto report = bring_to_plane(floes, refused, "EPSG:4326", settings);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->origin->latitude / kRad, 78.205, 0.001);
+  EXPECT_NEAR(report->origin->longitude / kRad, 15.615, 0.001);
+  EXPECT_NE(refused[2].find("With latitude and longitude exchanged"), std::string::npos) << refused[2];
+}
+
+/// A wrong number: of one vertex, or of all of a floe.
+enum class Damage {
+  kLatitudeTimesTen,
+  kLatitudePlus180,
+  kNan,
+  kInfinity,
+  kLongitudeTimes1000,
+  kNoPoint,
+  kOtherHemisphere,
+  kExchanged
+};
+void damage(Point& p, Damage kind) {
+  switch (kind) {
+    case Damage::kLatitudeTimesTen:
+      p.y *= 10;
+      return;
+    case Damage::kLatitudePlus180:
+      p.y += 180;
+      return;
+    case Damage::kNan:
+      p.x = std::nan("");
+      return;
+    case Damage::kInfinity:
+      p.y = std::numeric_limits<double>::infinity();
+      return;
+    case Damage::kLongitudeTimes1000:
+      p.x *= 1000;
+      return;
+    case Damage::kNoPoint:
+      p.y = std::round(1e4 * p.y);
+      return;
+    case Damage::kOtherHemisphere:
+      p.y = -p.y;
+      return;
+    case Damage::kExchanged:
+      std::swap(p.x, p.y);
+      return;
+  }
+}
+
+/// Degrees, some of them wrong, never become metres: each floe is projected as it would be without the
+/// others, or refused by itself. A longitude and one turn more is the same meridian.
+TEST(FloeImport, WrongNumbersInDegreesRefuseTheirFloesAlone) {
+  std::mt19937 dice(1);
+  const auto draw = [&](int below) { return static_cast<int>(dice() % static_cast<unsigned>(below)); };
+  constexpr int kFloes = 6;
+  std::vector<ImportSettings> ways(4);
+  const char* const systems[] = {"", "", "EPSG:4326", "EPSG:4326"};
+  for (ImportSettings& way : ways) way.plane = about(78.2, 15.6);
+  ways[1].plane.keeps_metres = false;
+  ways[3].plane.origin.reset();
+  ways[3].plane.target = "EPSG:3413";
+  ways[3].plane.is_shifted = true;
+  std::vector<SourceFloe> whole;
+  for (int i = 0; i < kFloes; ++i) whole.push_back(square(15.6 + 0.01 * i, 78.2, 0.001 * (1 + i)));
+  std::vector<ImportOutcome> expected;
+  for (std::size_t way = 0; way < ways.size(); ++way) {
+    std::vector<SourceFloe> floes = whole;
+    expected.push_back(import_floes(floes, {}, systems[way], ways[way]).value());
+    ASSERT_EQ(expected.back().floes.size(), whole.size());
+  }
+  int refused_files = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const std::size_t way = dice() % ways.size();
+    const auto kind = static_cast<Damage>(draw(8));
+    const int most = kind < Damage::kOtherHemisphere ? kFloes : 2;
+    const int damaged = draw(most + 1);
+    const bool is_of_one_vertex = draw(2) == 0;
+    std::vector<SourceFloe> floes = whole;
+    for (int i = 0; i < kFloes; ++i) {
+      const double turn = 360 * (draw(3) - 1);
+      for (Point& p : floes[i].polygon.outer)
+        if (!is_of_one_vertex || &p == &floes[i].polygon.outer[2]) {
+          if (i < damaged)
+            damage(p, kind);
+          else
+            p.x += turn;
+        }
+    }
+    SCOPED_TRACE(fmt::format("trial {}, way {}, damage {} of {} floes, one vertex {}", trial, way,
+                             static_cast<int>(kind), damaged, is_of_one_vertex));
+    const auto outcome = import_floes(floes, {}, systems[way], ways[way]);
+    if (!outcome) {
+      ++refused_files;
+      EXPECT_GT(damaged, 2);
+      continue;
+    }
+    EXPECT_EQ(outcome->totals.refused, static_cast<std::size_t>(damaged));
+    ASSERT_EQ(outcome->floes.size(), static_cast<std::size_t>(kFloes - damaged));
+    for (const ImportedFloe& floe : outcome->floes) {
+      const double area = geometry::exact_area(expected[way].floes[floe.source].polygon);
+      EXPECT_GE(floe.source, static_cast<std::size_t>(damaged));
+      EXPECT_NEAR(geometry::exact_area(floe.polygon), area, 1e-6 * area);
+    }
+  }
+  EXPECT_LT(refused_files, 150);
+}
+
+TEST(FloeProperties, NamesNearAKnownOneAreFound) {
+  for (const auto& [key, meant] : std::vector<std::pair<std::string, std::string>>{
+           {"thickness", "thickness_m=thickness"},
+           {"thickness_cm", "thickness_m=thickness_cm*0.01"},
+           {"Thickness_M", "thickness_m=Thickness_M"},
+           {"THICK_MM", "thickness_m=THICK_MM*0.001"},
+           {"ice thickness [cm]", "thickness_m=ice thickness [cm]*0.01"},
+           {"thicknes_m", "thickness_m=thicknes_m"},
+           {"flexural_strength_MPa", "flexural_strength_Pa=flexural_strength_MPa*1e+06"},
+           {"vx", "vx_m_per_s=vx"},
+           {"density", "density_kg_per_m3=density"},
+           {"intensity", ""},
+           {"area_m2", ""},
+           {"id", ""},
+           {"x", ""}}) {
+    NearMisses misses({});
+    misses.add(parse_json(fmt::format(R"({{"{}": 5}})", key)).root, {}, 3);
+    ASSERT_EQ(misses.found().size(), meant.empty() ? 0U : 1U) << key;
+    if (meant.empty()) continue;
+    EXPECT_EQ(as_property_name(misses.found()[0]), meant);
+    EXPECT_EQ(misses.found()[0].floes, 3U);
+    PropertyNames names;
+    ASSERT_TRUE(add_property_name(meant, names)) << meant;
+    NearMisses read(names);
+    read.add(parse_json(fmt::format(R"({{"{}": 5}})", key)).root, {});
+    EXPECT_TRUE(read.found().empty()) << "read under its own name";
   }
 }
 

@@ -155,32 +155,6 @@ TEST(OutputFile, InPartsLeavesTheOldFileAndNoOtherWhereItsTextOrTheDiskFails) {
   EXPECT_EQ(names_in(folder), std::vector<std::string>{"file"});
 }
 
-TEST(OutputFile, CutsBackWhatItSpilledOfRecordsThatAreNotKept) {
-  const TemporaryFolder folder;
-  auto file = OutputFile::create(folder / "file");
-  ASSERT_TRUE(file.has_value());
-  file->append("kept 1\n");
-  file->flush();
-  file->append("kept 2\n");
-  file->keep();
-  for (int i = 0; i < 3; ++i) {
-    file->append("spilled\n");
-    EXPECT_TRUE(file->spill());
-  }
-  file->append("buffered\n");
-  EXPECT_EQ(read_file(folder / "file"), "kept 1\nkept 2\nspilled\nspilled\nspilled\n");
-  file->drop_unkept();
-  file->append("kept 3\n");
-  file->keep();
-  file->append("spilled and kept\n");
-  file->spill();
-  file->keep();
-  file->drop_unkept();
-  EXPECT_TRUE(file->flush());
-  EXPECT_EQ(read_file(folder / "file"), "kept 1\nkept 2\nkept 3\nspilled and kept\n");
-  EXPECT_EQ(file->size(), read_file(folder / "file").size());
-}
-
 TEST(OutputFile, KnowsWhetherItIsStillThere) {
   const TemporaryFolder folder;
   auto file = OutputFile::create(folder / "file");

@@ -1,4 +1,5 @@
-// Ice that goes under a hull: floes that tilt, tiles that brake the ship, pieces that come up behind it.
+// Ice that goes under a hull: floes that tilt, submerged pieces that brake the ship, pieces that come up
+// behind it.
 #include <algorithm>
 #include <cmath>
 
@@ -128,8 +129,8 @@ TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
   Simulation simulation(scene);
   run(simulation, 20);
   auto& world = const_cast<World&>(simulation.world());
-  ASSERT_EQ(world.population.tiles.size(), 1U);
-  world.population.tiles[0].weight = 1e9;  // as if the whole hull were full of ice
+  ASSERT_EQ(world.population.submerged.size(), 1U);
+  world.population.submerged[0].weight = 1e9;  // as if the whole hull were full of ice
   for (const double speed : {1e-3, 0.0, -1e-3}) {
     world.population.bodies.velocity[0] = {speed, 0};
     std::vector<ShipLoads> loads(1);
@@ -205,8 +206,8 @@ TEST(UnderHull, AShipThatStopsKeepsItsIceAndOneThatBacksGivesItBack) {
   world.population.bodies.velocity[0] = {0, 0};
   story = run(simulation, 60);
   EXPECT_TRUE(of_kind(story, EventKind::kResurface).empty());
-  EXPECT_EQ(world.population.tiles.size(), 1U);
-  const double path = world.population.tiles[0].path;
+  EXPECT_EQ(world.population.submerged.size(), 1U);
+  const double path = world.population.submerged[0].path;
   world.population.bodies.velocity[0] = {-1, 0};
   story = run(simulation, 60 + path + 30);
   const std::vector<Event> up = of_kind(story, EventKind::kResurface);
@@ -249,7 +250,7 @@ TEST(UnderHull, AChannelFillsWithBrashAndAResumedRunGoesOnBitByBit) {
   const Counts counts = simulation.counts();
   EXPECT_GT(counts.came_up, 50);
   EXPECT_GT(counts.went_under, counts.came_up);
-  EXPECT_GT(simulation.world().population.tiles.size(), 50U);
+  EXPECT_GT(simulation.world().population.submerged.size(), 50U);
   EXPECT_EQ(simulation.state_hash(), resumed->state_hash());
 }
 

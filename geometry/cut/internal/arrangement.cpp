@@ -47,7 +47,6 @@ Point from_cgal(const Kernel::Point_2& p) {
   return {p.x().exact(), p.y().exact()};
 }
 
-// Where memory runs out, CGAL leaves an arrangement whose destructor never ends: that one is leaked.
 std::unique_ptr<const Arrangement> arrange(const std::vector<SourceSegment>& segments) {
   make_cgal_throw_quietly();
   std::vector<Traits::Curve_2> curves;
@@ -56,12 +55,7 @@ std::unique_ptr<const Arrangement> arrange(const std::vector<SourceSegment>& seg
     curves.emplace_back(Kernel::Segment_2(to_cgal(segments[i].from), to_cgal(segments[i].to)), i);
   }
   auto arrangement = std::make_unique<Arrangement>();
-  try {
-    CGAL::insert(*arrangement, curves.begin(), curves.end());
-  } catch (const std::bad_alloc&) {
-    static_cast<void>(arrangement.release());
-    throw;
-  }
+  CGAL::insert(*arrangement, curves.begin(), curves.end());
   return arrangement;
 }
 

@@ -15,6 +15,8 @@ from . import measures
 from .folder import RESULT, RUN, write_atomically
 
 DONE, FAILED, INPUT_OUTPUT, STOPPED = 0, 4, 5, 75
+# Of a run that another signal or the lack of memory ended (docs/run-folder.md).
+KILLED = "still running, or killed"
 KEPT_WORDS = 2000  # of a failed run's messages [characters]
 PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None)
@@ -102,7 +104,7 @@ def failed(study, number, folder, code, words):
     """Records a failure that another try would repeat. What the machine is to blame for, a full disk or too little
     memory, leaves the case unfinished."""
     words = words.strip()[-KEPT_WORDS:] or f"exit code {code}"
-    if code == INPUT_OUTPUT or (summary_of(folder / RUN) or {}).get("stopped_by") == "memory":
+    if code == INPUT_OUTPUT or (summary_of(folder / RUN) or {}).get("stopped_by") == KILLED:
         return code, f"case {number}: {gist(words)}"
     result = {"state": "failed", **case_in_words(study, number), "exit_code": code, "message": words}
     write_atomically(folder / RESULT, json.dumps(result) + "\n")
