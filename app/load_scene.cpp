@@ -8,14 +8,10 @@
 
 namespace polynya::app {
 
-namespace {
-
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems) {
   for (const io::Problem& problem : problems) print_err("{}\n", to_string(problem));
   print_err("polynya: {} in {}; nothing was written\n", counted(problems.size(), "problem"), name);
 }
-
-}  // namespace
 
 tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
                                                    const io::SceneOverrides& overrides,

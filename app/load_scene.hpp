@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -18,6 +19,9 @@ enum class ProblemFormat { kText, kJson };
 tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
                                                    const io::SceneOverrides& overrides = {},
                                                    ProblemFormat format = ProblemFormat::kText);
+
+/// Each problem of that file on stderr, a line each, and how many there are.
+void print_problems(const std::string& name, const std::vector<io::Problem>& problems);
 
 /// The scene's warnings and hints on stderr, a line each.
 void print_hints(const io::LoadedScene& scene);

@@ -38,12 +38,15 @@ Command add_performance(CommandLine& app) {
       "standard error "
       "and its change between the halves are below the error asked for. Finished runs are kept: a curve that "
       "was "
-      "stopped goes on. Needs Python 3 with numpy, and matplotlib for the figure (./setup.sh python).\n");
+      "stopped goes on. Points outside the range of validation are marked (docs/ships.md). Needs Python 3 "
+      "with numpy, and matplotlib for the figure (./setup.sh python).\n");
   auto ship = std::make_shared<std::string>();
   auto values = std::make_shared<PythonOptions>(kOptions);
   auto is_list = std::make_shared<bool>(false);
   command
-      .option("ship", *ship, "SHIP", "A preset (polynya ships), or a JSON file with a ship as scenes have it")
+      .option("ship", *ship, "SHIP",
+              "A preset (polynya ships), or a JSON file with a ship as scenes have it, which polynya ships "
+              "checks")
       .required();
   values->add_to(command);
   command.flag("--list", *is_list, "Print the formulas' speeds and run nothing");

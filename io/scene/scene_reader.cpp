@@ -51,14 +51,14 @@ class SceneReader {
       : folder_(std::move(folder)), problems_(SourceText{name, std::move(text)}) {}
 
   SceneOutcome read(const std::string& default_name, const SceneOverrides& overrides, std::size_t longest) {
-    JsonDocument document = parse_json(problems_.source(0).text);
-    problems_.add_faults(0, document.faults);
-    if (std::ranges::any_of(document.faults, [](const JsonFault& fault) { return fault.path.empty(); }))
-      return tl::unexpected(problems_.take());
+    JsonDocument document;
+    if (!parse(document)) return tl::unexpected(problems_.take());
     assign(document.root, overrides.assignments, problems_);
     if (!document.root.find("name")) put(document.root, "name", default_name);
     override_scene(document.root, overrides);
     if (!complete(document.root)) return tl::unexpected(problems_.take());
+    add_scene_hints(draft_, document.root, problems_);
+    for (const FileReport& file : floes_.files) add_file_hints(file);
     std::vector<Problem> hints = problems_.take();
     LoadedScene loaded{
         std::move(draft_.scene),  std::move(input_.description), to_json_text(resolved_), "",
@@ -72,7 +72,69 @@ class SceneReader {
     return loaded;
   }
 
+  tl::expected<LoadedShip, std::vector<Problem>> read_ship(ShipUse use) {
+    JsonDocument document;
+    if (!parse(document)) return tl::unexpected(problems_of_ship());
+    JsonValue& given = document.root;
+    for (const char* key : {"ships", "floes"}) {
+      if (!given.find(key)) continue;
+      report(given.offset, "", fmt::format("a scene, with its \"{}\"", key),
+             "one ship, as an entry of a scene's \"ships\"");
+      return tl::unexpected(problems_of_ship());
+    }
+    LoadedShip ship{.given = given};
+    if (const JsonValue* preset = given.find("ship", JsonKind::kText)) ship.preset = preset->text();
+    JsonValue scene{JsonValue::Object{}, given.offset};
+    put(scene, "ships", JsonValue::Array{std::move(given)});
+    const bool is_valid = complete(scene);
+    if (use == ShipUse::kLevelIce) check_for_level_ice(scene.find("ships")->items().front());
+    if (!is_valid || problems_.count() > 0) return tl::unexpected(problems_of_ship());
+    ship.resolved = std::move(resolved_.find("ships")->items().front());
+    if (auto* engine = std::get_if<simulation::Engine>(&draft_.scene.ships.back().propulsion))
+      ship.engine = *engine;
+    return ship;
+  }
+
  private:
+  bool parse(JsonDocument& document) {
+    document = parse_json(problems_.source(0).text);
+    problems_.add_faults(0, document.faults);
+    return std::ranges::none_of(document.faults, [](const JsonFault& fault) { return fault.path.empty(); });
+  }
+
+  std::vector<Problem> problems_of_ship() {
+    std::vector<Problem> problems = problems_.take();
+    for (Problem& problem : problems) {
+      constexpr std::string_view kPrefix = "ships[0]";
+      if (!problem.path.starts_with(kPrefix)) continue;
+      problem.path.erase(0, kPrefix.size());
+      if (problem.path.starts_with('.')) problem.path.erase(0, 1);
+    }
+    return problems;
+  }
+
+  /// What the formulas and the course of `polynya performance` need, of a ship with its preset filled in.
+  void check_for_level_ice(const JsonValue& ship) {
+    const auto report_at = [&](const JsonValue& at, const std::string& key, std::string found,
+                               std::string allowed) {
+      report(at.offset, "ships[0]." + key, std::move(found), std::move(allowed));
+    };
+    const std::string reason = ": the formulas and the course in level ice need it";
+    if (const JsonValue* hull = ship.find("hull", JsonKind::kObject)) {
+      if (const JsonValue* waterline = hull->find("waterline_m"))
+        report_at(*waterline, "hull.waterline_m", "a waterline point by point",
+                  "length_m, beam_m and entrance_angle_deg, which the formulas and the course need");
+      if (!hull->find("draught_m"))
+        report_at(*hull, "hull.draught_m", "nothing", "a number > 0, ≤ 1000 [m]" + reason);
+    }
+    const JsonValue* propulsion = ship.find("propulsion", JsonKind::kObject);
+    if (propulsion && !propulsion->members().empty() && !propulsion->find("engine"))
+      report_at(*propulsion, "propulsion.engine", "nothing",
+                "an engine, by which is known what the ship can push with");
+    if (const JsonValue* mooring = ship.find("mooring"))
+      report_at(*mooring, "mooring", "a mooring", "none: the ship sails");
+  }
+
   void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {
     problems_.report(0, offset, std::move(path), std::move(found), std::move(allowed));
   }
@@ -98,10 +160,7 @@ class SceneReader {
     if (!is_whole) return false;
     complete_pilots(given, draft_, problems_);
     check_scene(draft_, given, problems_);
-    if (problems_.count() > 0) return false;
-    add_scene_hints(draft_, given, problems_);
-    for (const FileReport& file : floes_.files) add_file_hints(file);
-    return true;
+    return problems_.count() == 0;
   }
 
   /// Of a list of the scene; empty where that is none.
@@ -237,7 +296,8 @@ class SceneReader {
   FloeListReader floes_{folder_, draft_, problems_};
 };
 
-/// A file's stem as a scene's name.
+}  // namespace
+
 std::string name_from(const std::string& file) {
   std::string name = std::filesystem::path(file).stem().string().substr(0, 100);
   const auto is_plain = [](char c) {
@@ -248,11 +308,14 @@ std::string name_from(const std::string& file) {
   return name.empty() || !is_plain(name.front()) ? "scene" : name;
 }
 
-}  // namespace
-
 SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
                         const SceneOverrides& overrides, std::size_t longest) {
   return SceneReader(std::move(text), name, folder).read(name_from(name), overrides, longest);
+}
+
+tl::expected<LoadedShip, std::vector<Problem>> read_ship(std::string text, const std::string& name,
+                                                         ShipUse use) {
+  return SceneReader(std::move(text), name, {}).read_ship(use);
 }
 
 SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides) {

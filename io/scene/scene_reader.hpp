@@ -54,6 +54,20 @@ struct LoadedScene {
   std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_hints.hpp)
 };
 
+/// A ship as scenes have it, of a file of its own.
+struct LoadedShip {
+  JsonValue given;     ///< as written
+  JsonValue resolved;  ///< with its preset's particulars and every default filled in
+  std::string preset;  ///< its name, or empty
+  std::optional<simulation::Engine> engine;
+};
+
+/// What a ship is read for.
+enum class ShipUse {
+  kScene,
+  kLevelIce,  ///< `polynya performance`: also main dimensions, draught and engine are needed, and no mooring
+};
+
 /// What the command line puts in place of the scene's own.
 struct SceneOverrides {
   std::optional<double> until;  ///< [s]
@@ -70,5 +84,15 @@ SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverr
 /// whose resolved text is longer than `longest` [bytes] could not be read back, and is refused.
 SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
                         const SceneOverrides& overrides = {}, std::size_t longest = kLongestScene);
+
+inline constexpr std::size_t kLongestShip = std::size_t{16} << 20;  ///< [bytes]
+
+/// Reads an entry of a scene's "ships" that is a text of its own, as read_scene() reads it in a scene whose
+/// other keys have their defaults. Paths of problems are those below the ship: "hull.length_m".
+tl::expected<LoadedShip, std::vector<Problem>> read_ship(std::string text, const std::string& name,
+                                                         ShipUse use = ShipUse::kScene);
+
+/// A file's stem as a scene's or a run's name.
+std::string name_from(const std::string& file);
 
 }  // namespace polynya::io

@@ -44,7 +44,7 @@ py::dict forces_of(const simulation::ShipSample& sample) {
   return forces;
 }
 
-py::list ships_of(const Simulation& python) {
+py::object ships_of(const Simulation& python) {
   const simulation::Simulation& simulation = python.between_steps();
   const std::vector<simulation::ShipState> states = simulation.ship_states();
   py::list ships;
@@ -57,7 +57,7 @@ py::list ships_of(const Simulation& python) {
                       pair_of(state.velocity.x, state.velocity.y), state.heading, state.angular_velocity,
                       helm.lever, helm.steering_angle, sample ? forces_of(*sample) : py::dict()});
   }
-  return ships;
+  return py::module_::import("polynya.named").attr("Named")(ships);
 }
 
 template <class Value, class Read>
@@ -174,7 +174,11 @@ void bind_floes(py::module_& module) {
 void bind_arrays(py::module_& module, py::class_<Simulation>& simulation) {
   bind_ship(module);
   bind_floes(module);
-  simulation.def_property_readonly("ships", &ships_of, "Ships and structures, in the scene's order: Ship.")
+  simulation
+      .def_property_readonly(
+          "ships", &ships_of,
+          "Ships and structures, in the scene's order: a list of Ship, of which each is found by its name\n"
+          "too: ships[\"icebreaker\"].")
       .def_property_readonly("floes", &floes_of, "The floes' state as numpy arrays: Floes.");
 }
 

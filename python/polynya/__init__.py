@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         FolderError, NotARunError, NotAStudyError, Problem, SceneError, SimulationError, UnfinishedError, VersionError)
     from polynya.results.run import Run
     from polynya.results.study import Study
+    __version__: str
 
 __all__ = ["Cut", "FloeMemory", "Floes", "PilotView", "Problem", "Run", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
 __all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError"]
@@ -43,6 +44,18 @@ def _compiled():
     return _core
 
 
+def _version():
+    """CMake's PROJECT_VERSION: as it wrote it beside the package, or in a source tree that is not built, its own text."""
+    try:
+        from polynya import _written_version
+        return _written_version.VERSION
+    except ImportError:
+        import pathlib
+        import re
+        project = pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt"
+        return re.search(r"^project\(polynya VERSION ([0-9.]+)", project.read_text(encoding="utf-8"), re.M)[1]
+
+
 def __getattr__(name):
     if name in _COMPILED:
         return getattr(_compiled(), name)
@@ -59,6 +72,8 @@ def __getattr__(name):
     if name in _ERRORS:
         from polynya import errors
         return getattr(errors, name)
+    if name == "__version__":
+        return _version()
     raise AttributeError(f"module 'polynya' has no attribute {name!r}")
 
 

@@ -6,6 +6,7 @@ import numpy
 from numpy.typing import NDArray
 
 from polynya.errors import Problem
+from polynya.named import Named
 
 _Given = Union[Mapping[str, Any], str, os.PathLike[str]]
 _Command = Optional[Sequence[float]]
@@ -169,7 +170,7 @@ class Simulation:
     @property
     def state_hash(self) -> str: ...
     @property
-    def ships(self) -> list[Ship]: ...
+    def ships(self) -> Named[Ship]: ...
     @property
     def floes(self) -> Floes: ...
     @property

@@ -48,6 +48,13 @@ def _numbers(name, values, count):
     return numbers.tolist()
 
 
+def _fault(rejected):
+    """"self-crossing at (5, 5)": the reason of a ledger, what more there is to it, and the first places of the fault."""
+    words = ": ".join(filter(None, (rejected["reason"], rejected.get("detail"))))
+    places = ", ".join(f"({x:g}, {y:g})" for x, y in rejected["vertices"][:3])
+    return f"{words} at {places}" if places else words
+
+
 def cut(polygon, *, disc=None, crack=None, by=None, keep="both", repair=None):
     """Cuts a polygon exactly, and accounts for every square metre.
 
@@ -71,6 +78,6 @@ def cut(polygon, *, disc=None, crack=None, by=None, keep="both", repair=None):
     pieces, ledger = map(json.loads, _core.cut_geojson(json.dumps(feature), json.dumps([operation]), repair or ""))
     floe = ledger["floes"][0]
     if floe.get("rejected"):
-        raise ValueError("the polygon cannot be cut: {reason}: {detail}".format(**{"detail": "", **floe["rejected"]}))
+        raise ValueError("the polygon cannot be cut: " + _fault(floe["rejected"]))
     rings = [[numpy.array(ring[:-1]) for ring in piece["geometry"]["coordinates"]] for piece in pieces["features"]]
     return Cut(rings, [piece["properties"]["part"] for piece in pieces["features"]], floe)

@@ -48,12 +48,12 @@ def lindqvist(hull, ice, speed):
     R = (R_c + R_b)(1 + 1.4 v/√(g h)) + R_s (1 + 9.4 v/√(g L))."""
     stem, entrance, mu, h = hull.stem, hull.entrance, ice.friction, ice.thickness
     psi = math.atan(math.tan(stem) / math.sin(entrance))
+    # How much of the ice's force turns it down: none where so steep or rough a stem crushes it all the way.
+    downward = 1 - mu * math.sin(stem) / math.cos(psi)
     crushing = (
-        0.5
-        * ice.flexural_strength
-        * h**2
-        * (math.tan(stem) + mu * math.cos(stem) / math.cos(psi))
-        / (1 - mu * math.sin(stem) / math.cos(psi))
+        0.5 * ice.flexural_strength * h**2 * (math.tan(stem) + mu * math.cos(stem) / math.cos(psi)) / downward
+        if downward > 0
+        else math.inf
     )
     modulus = ice.young / (12 * (1 - ice.poisson**2) * ice.water_density * G)
     bending = (

@@ -2,6 +2,7 @@
 import collections.abc
 import errno
 import json
+import math
 import os
 
 
@@ -14,11 +15,29 @@ def _plain(value):
     raise TypeError(f"a scene has no {type(value).__name__}: {value!r}")
 
 
+def _first_not_finite(value, path=""):
+    """The path of the first number below a value that JSON has not, and the number; None where there is none."""
+    if isinstance(value, float):
+        return None if math.isfinite(value) else (path, value)
+    if isinstance(value, collections.abc.Mapping):
+        below = ((f"{path}.{key}" if path else str(key), item) for key, item in value.items())
+    elif isinstance(value, (list, tuple)):
+        below = ((f"{path}[{i}]", item) for i, item in enumerate(value))
+    else:
+        return _first_not_finite(value.tolist(), path) if hasattr(value, "tolist") else None
+    return next(filter(None, (_first_not_finite(item, at) for at, item in below)), None)
+
+
 def scene_parts(given):
     """A scene's file and its JSON text, of which one is empty, and whether the text is the caller's own, with lines to name."""
     if isinstance(given, collections.abc.Mapping):
         try:
             return "", json.dumps(dict(given), default=_plain, allow_nan=False), False
+        except ValueError:
+            found = _first_not_finite(given)
+            if found is None:
+                raise
+            raise ValueError(f"{found[0]}: found {found[1]}, allowed: a finite number") from None
         except RecursionError:
             raise ValueError("the scene holds itself, or is nested too deep") from None
     if isinstance(given, str) and "{" in given:

@@ -1,8 +1,9 @@
-// What `ships` prints: the list, a ship with its sources, and both as JSON.
+// What `ships` prints: the list, a ship with its sources, both as JSON; and the ship of a file.
 #include "program.hpp"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/scene/scene_reader.hpp"
 #include "io/scene/ship_presets.hpp"
 
 namespace polynya::tests {
@@ -37,6 +38,97 @@ TEST(ShipsCommand, NamesTheShipsWhereThereIsNoneOfAName) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("no ship \"titanic\"; there are"), std::string::npos) << refused.err;
   EXPECT_NE(refused.err.find(" polaris"), std::string::npos) << refused.err;
+}
+
+constexpr const char* kWrongShips[] = {
+    R"({"hull": {"length_m": 121.2, "beam_m": 25.0, "entrance_angle_deg": 30, "draught_m": 8.92, "block_coefficient": 0.58},
+ "mass_kg": 16.5e6,
+ "propulsion": {"engine": {"power_MW": 22.4, "propellers": 2, "diameter_m": 4.87, "open_water_speed_m_per_s": 9.0}}})",
+    R"({"ship": "araoon"})",
+    R"({"ship": "polaris", "hull": {"draught_m": -8.9}, "propulsion": {"engine": {"power_MW": "22.4"}}})",
+    R"({"ship": "polaris", "hull": 0, "pilot": {"hold_headin": {}}})",
+    R"({"ship": "polaris", "propulsion": {"engine": {"open_water_speed_m_per_s": Infinity}}})",
+    R"({"ship": "polaris", "propulsion": {"engine": {"open_water_speed_m_per_s": 1e999}}})",
+    R"({"ship": "polaris", "mass_kg": NaN})",
+    R"({"ship": "polaris", "mass_kg": 1, "mass_kg": 2})",
+    R"({"ship": "polaris",})",
+    R"({"ship": "polaris", "mooring": {"break_load_N": 1)",
+    "[1]",
+    ""};
+
+/// A ship of a file is read by the code that reads a scene's: the same problems at the same places.
+TEST(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
+  const TemporaryFolder folder;
+  for (const std::string text : kWrongShips) {
+    const auto scene = io::read_scene("{\"ships\": [\n" + text + "\n]}", "ship.json", ".");
+    ASSERT_FALSE(scene) << text;
+    std::string expected;
+    for (io::Problem problem : scene.error()) {
+      --problem.line;
+      const std::string prefix = "ships[0]";
+      if (problem.path.starts_with(prefix)) problem.path.erase(0, prefix.size() + (problem.path.size() > 8));
+      expected += to_string(problem) + "\n";
+    }
+    write_file(folder / "ship.json", text);
+    const Outcome refused = polynya({"ships", "ship.json", "--json"}, {folder.path()});
+    EXPECT_EQ(refused.code, 3) << text;
+    EXPECT_TRUE(refused.out.empty()) << refused.out;
+    if (text.ends_with('}') || text.ends_with(']')) {
+      EXPECT_EQ(refused.err.substr(0, expected.size()), expected) << text;
+    }
+    EXPECT_TRUE(refused.err.starts_with("ship.json:1:") || refused.err.starts_with("ship.json:3:"))
+        << refused.err;
+  }
+}
+
+TEST(ShipsCommand, AShipOfAFileIsPrintedAsItsSceneResolvesIt) {
+  const TemporaryFolder folder;
+  const std::string text = R"({"ship": "polaris", // as scenes have it
+    "hull": {"draught_m": 8.5}})";
+  write_file(folder / "deeper.json", text);
+  const Outcome printed = polynya({"ships", "deeper.json", "--json"}, {folder.path()});
+  ASSERT_EQ(printed.code, 0) << printed.err;
+  const auto ship = nlohmann::json::parse(printed.out);
+  const auto scene = io::read_scene("{\"ships\": [" + text + "]}", "scene.json", ".");
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(ship.at("ship"), nlohmann::json::parse(scene->resolved_text).at("ships").at(0));
+  EXPECT_EQ(ship.at("title"), "deeper");
+  EXPECT_EQ(ship.at("engine").at("bollard_pull_N"), 2.1e6);
+  EXPECT_EQ(ship.at("reported").size(), 2u);
+  const Outcome list = polynya({"ships", "deeper.json"}, {folder.path()});
+  for (const char* line : {"hull.draught_m                                         8.5  given\n",
+                           "hull.beam_m                                             24  polaris\n",
+                           "hull.submersion_speed_factor                   \"lindqvist\"  default\n"})
+    EXPECT_NE(list.out.find(line), std::string::npos) << line << list.out;
+}
+
+TEST(ShipsCommand, PerformanceNeedsMore) {
+  const TemporaryFolder folder;
+  const std::string outline = R"({"name": "x", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
+    "hull": {"waterline_m": [[60, 0], [30, 12], [-60, 12], [-60, -12], [30, -12]]},
+    "propulsion": {"thrust_N": 1e6}, "mooring": {}})";
+  write_file(folder / "outline.json", outline);
+  EXPECT_EQ(polynya({"ships", "outline.json"}, {folder.path()}).code, 0);
+  const Outcome refused = polynya({"ships", "outline.json", "--for-performance"}, {folder.path()});
+  EXPECT_EQ(refused.code, 3);
+  for (const char* place : {"outline.json:2:29: hull.waterline_m: ", "outline.json:2:13: hull.draught_m: ",
+                            "outline.json:3:19: propulsion.engine: ", "outline.json:3:49: mooring: "})
+    EXPECT_NE(refused.err.find(place), std::string::npos) << refused.err;
+  const Outcome paper = polynya({"ships", "sawamura2017", "--for-performance"}, {folder.path()});
+  EXPECT_EQ(paper.code, 3);
+  EXPECT_EQ(paper.err.find("sawamura2017: "), 0U) << paper.err;
+}
+
+TEST(ShipsCommand, AFileAndANameThatAreNoneAreDistinct) {
+  const TemporaryFolder folder;
+  write_file(folder / "scene.json", R"({"ships": []})");
+  const auto refused = [&](const char* name) { return polynya({"ships", name, "--json"}, {folder.path()}); };
+  EXPECT_NE(refused("araoon").err.find("no ship \"araoon\"; did you mean araon?"), std::string::npos);
+  EXPECT_EQ(refused("araoon").code, 2);
+  EXPECT_EQ(refused("nofile.json").err, "polynya: nofile.json: no such file\n");
+  EXPECT_EQ(refused("nofile.json").code, 5);
+  EXPECT_EQ(refused("scene.json").err.find("scene.json:1:1: found a scene, with its \"ships\""), 0U);
+  EXPECT_EQ(refused("scene.json").code, 3);
 }
 
 }  // namespace

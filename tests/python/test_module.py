@@ -149,6 +149,39 @@ def test_wrong_arguments_are_refused(wrong, error):
         wrong()
 
 
+@pytest.mark.parametrize("change, path", [
+    (lambda scene: scene["ships"][0]["hull"].update(beam_m=float("nan")), r"ships\[0\]\.hull\.beam_m: found nan"),
+    (lambda scene: scene.update(seed=float("inf")), "seed: found inf"),
+    (lambda scene: scene["floes"].append({"polygon": {"outer_m": numpy.array([[0, 0], [1, float("nan")]])}}),
+     r"floes\[1\]\.polygon\.outer_m\[1\]\[1\]: found nan"),
+])
+def test_a_number_that_is_none_is_named_by_its_path(change, path):
+    scene = json.loads(json.dumps(ICE))
+    change(scene)
+    with pytest.raises(ValueError, match="^" + path + ", allowed: a finite number"):
+        polynya.Scene(scene)
+
+
+def test_ships_are_found_by_index_and_by_name():
+    ships = polynya.Simulation({**SEA, "ships": [*SEA["ships"], {**SEA["ships"][0], "name": "other", "position_m": [0, 400]}]}).ships
+    assert ships["other"] is ships[1] is ships[-1] and [ship.name for ship in ships[:1]] == ["sailing"] and len(ships) == 2
+    with pytest.raises(KeyError, match="titanic; there are sailing, other"):
+        ships["titanic"]
+
+
+def test_a_bowtie_is_refused_with_the_place_where_it_crosses_itself():
+    with pytest.raises(ValueError, match=r"self-crossing at \(5, 5\)"):
+        polynya.cut([[0, 0], [10, 10], [10, 0], [0, 10]], disc=(5, 5, 3))
+
+
+def test_the_version_is_the_programs_with_and_without_the_compiled_module():
+    version = subprocess.run([PROGRAM, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
+    assert polynya.__version__ == version
+    code = "import polynya; print(polynya.__version__)"
+    alone = subprocess.run([sys.executable, "-c", code], env={"PYTHONPATH": str(SOURCE_PACKAGE)}, check=True, capture_output=True, text=True)
+    assert alone.stdout.strip() == version
+
+
 def test_floes_are_arrays_of_one_length():
     simulation = polynya.Simulation(ICE)
     simulation.run()

@@ -1,14 +1,20 @@
 """Published formulas, and the curve of a ship's speed in level ice."""
 import csv
+import json
 import math
+import os
+import random
+import re
+import subprocess
 
 import pytest
 
 from polynya import formulas
 from polynya.performance import level_ice
-from polynya.performance.__main__ import engine_of, hull_of, ship_of, thicknesses
-from polynya.performance.curve import Curve
+from polynya.performance.__main__ import command_line, hull_of, print_table, ship_of
+from polynya.performance.curve import VALIDATED_THICKNESS, Curve
 
+PROGRAM = os.environ["POLYNYA_PROGRAM"]
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
 
 
@@ -43,6 +49,12 @@ def test_the_other_formulas():
     assert 1e-3 * formulas.riska(HULL, ice, 1, parallel=96.4) == pytest.approx(466, rel=2e-3)
     for speed, resistance in ((0.5, 255), (1, 344), (2, 473)):
         assert 1e-3 * formulas.spencer_jones(HULL, ice, speed) == pytest.approx(resistance, rel=2e-3)
+
+
+def test_a_stem_too_steep_or_rough_to_turn_ice_down_is_no_small_resistance():
+    for hull in (HULL, formulas.Hull(120, 24, 6, math.radians(90), math.radians(27))):
+        assert sum(formulas.lindqvist(hull, formulas.Ice(0.5, friction=2), 1)) == math.inf
+    assert formulas.equilibrium(1e6, 8, lambda v: math.inf) == 0
 
 
 def test_thrust_and_equilibrium():
@@ -92,21 +104,124 @@ def test_a_ship_that_stops_has_no_speed(tmp_path):
     assert measured.is_stuck and measured.speed == 0 and measured.is_within(0.03)
 
 
-def test_what_a_ship_needs_is_asked_for():
-    assert engine_of(SHIP) == {"bollard_pull": 1e6, "open_water_speed": 8}
-    with pytest.raises(ValueError, match="propulsion.engine"):
-        engine_of({"propulsion": {"thrust_N": 1e6}})
-    with pytest.raises(ValueError, match="hull.draught_m"):
-        hull_of({"hull": {"length_m": 100, "beam_m": 20}})
-    assert thicknesses("0.8,0.4") == [0.4, 0.8]
-    for wrong in ("", "a", "0,1", "-1"):
-        with pytest.raises(Exception, match="allowed: thicknesses"):
-            thicknesses(wrong)
+ENGINE = {"bollard_pull_N": 1e6, "open_water_speed_m_per_s": 8}
+
+
+@pytest.mark.parametrize("option, key", [
+    ("--thickness", "ice.thickness_m"), ("--flexural-strength", "ice.flexural_strength_Pa"), ("--friction", "ice.friction"),
+    ("--step", "time.step_s")])
+def test_options_have_the_ranges_of_the_scenes_keys(option, key, capsys):
+    done = subprocess.run([PROGRAM, "schema"], check=True, capture_output=True, text=True)
+    field = json.loads(done.stdout)
+    for step in key.split("."):
+        field = field["properties"][step]
+    field = field.get("anyOf", [field])[0]
+    low, high = field["minimum"], field["maximum"]
+    read = lambda value: getattr(command_line().parse_args(["ship", f"{option}={value!r}"]), option[2:].replace("-", "_"))
+    assert read(low) in (low, [low]) and read(high) in (high, [high])
+    for wrong in (math.nextafter(low, -1), math.nextafter(high, math.inf), math.nan, math.inf, "x", ""):
+        with pytest.raises(SystemExit) as ended:
+            read(wrong)
+        assert ended.value.code == 2
+        assert re.search(rf"{option}: found .*, allowed: a number ≥ {low:g}, ≤ {high:g}".replace("+", r"\+"), capsys.readouterr().err)
+
+
+@pytest.mark.parametrize("wrong", ["--error=0", "--error=1", "--error=nan", "--jobs=0", "--jobs=1.5", "--thickness=0.5,,1"])
+def test_other_options_have_ranges_too(wrong, capsys):
+    with pytest.raises(SystemExit):
+        command_line().parse_args(["ship", wrong])
+    assert "allowed: " in capsys.readouterr().err
+
+
+def changed(ship, chance):
+    """The text of a ship with one thing wrong, or at least changed."""
+    where = chance.choice([(ship, key) for key in ship] + [(part, key) for part in ship.values() if isinstance(part, dict) for key in part])
+    part, key = where
+    kind = chance.choice(["drop", "rename", "type", "negative", "huge", "infinity", "nan", "overflow", "null", "truncate", "comma"])
+    value = part[key]
+    if kind in ("drop", "rename"):
+        del part[key]
+        if kind == "rename":
+            part[key[:-1] + "q"] = value
+    elif kind in ("type", "negative", "huge", "infinity", "nan", "overflow", "null"):
+        part[key] = {"type": chance.choice(["22.4", [1], {}, True, 7]), "negative": -8.9, "huge": 1e300, "infinity": math.inf,
+                     "nan": math.nan, "overflow": 0.123456789, "null": None}[kind]
+    text = json.dumps(ship, indent=1).replace("0.123456789", "1e999")
+    if kind == "truncate":
+        return text[: chance.randrange(len(text))]
+    if kind == "comma":
+        at = chance.choice([match.start() for match in re.finditer("[,}]", text)])
+        return text[:at] + "," + text[at:]
+    return text
+
+
+def test_two_hundred_changed_ships_are_read_or_refused_with_their_places(tmp_path):
+    chance = random.Random(31)
+    path, refused = tmp_path / "ship.json", []
+    for _ in range(200):
+        ship = {"name": "x", "mass_kg": 1.65e7, "speed_m_per_s": 2, **json.loads(json.dumps(SHIP))}
+        ship["propulsion"]["engine"] |= {"power_MW": 22.4, "propellers": 2, "propeller_diameter_m": 4.87}
+        ship["hull"]["block_coefficient"] = 0.58
+        text = changed(ship, chance)
+        path.write_text(text)
+        words = [PROGRAM, "ships", "ship.json", "--json", "--for-performance"]
+        done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+        assert done.returncode in (0, 3), text
+        if done.returncode == 0:
+            hull_of(json.loads(done.stdout)["ship"])
+            assert all(0 < number < math.inf for number in json.loads(done.stdout)["engine"].values())
+        else:
+            refused.append(text)
+            *problems, count = done.stderr.splitlines()
+            assert problems and all(re.match(r"ship\.json:\d+:\d+: ", problem) for problem in problems), text
+            assert count.endswith(" in ship.json; nothing was written")
+    assert 100 < len(refused) < 200
+    for text in refused[:4]:
+        path.write_text(text)
+        done = subprocess.run(
+            [PROGRAM, "performance", "ship.json", "--list"], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+        assert done.returncode == 3 and done.stdout == ""
+        assert done.stderr.startswith("ship.json:") and "Traceback" not in done.stderr
+
+
+def test_a_ship_that_is_none_ends_the_command_with_what_was_meant(capfd, tmp_path):
+    for name, code, message in (("araoon", 2, "did you mean araon?"), (str(tmp_path / "none.json"), 5, "none.json: no such file")):
+        with pytest.raises(SystemExit) as ended:
+            ship_of(name)
+        assert ended.value.code == code and message in capfd.readouterr().err
+
+
+def rows_of(*thickness):
+    speeds = {f"{name}_m_per_s": 3.0 for name in ("speed", "lindqvist", "riska", "spencer_jones")}
+    return [speeds | {"thickness_m": h, "error_m_per_s": 0.01, "is_stuck": False, "is_steady": True, "contact_kN": 1.0, "submerged_kN": 1.0,
+                      "is_in_validated_range": h <= 0.5} for h in thickness]
+
+
+def test_points_outside_validation_are_marked_in_table_and_figure(capsys, tmp_path):
+    matplotlib = pytest.importorskip("matplotlib")
+    from polynya.performance import figure
+    matplotlib.rcParams["svg.fonttype"] = "none"
+    for thickness, is_marked in (((0.25, 0.5), False), ((0.5, 0.8), True)):
+        print_table(rows_of(*thickness))
+        table = capsys.readouterr().out
+        assert ("0.8*" in table) == is_marked and "0.5*" not in table
+        assert ("outside the range of validation" in table) == is_marked
+        assert "statistical scatter alone, not the model's error" in table
+        figure.draw(rows_of(*thickness), "title", [], tmp_path / "figure.svg")
+        drawn = (tmp_path / "figure.svg").read_text()
+        assert ("outside validation (&gt; 0.5 m)" in drawn) == is_marked and "run's own scatter" in drawn
+
+
+def test_the_range_of_validation_is_the_documents():
+    documents = os.path.join(os.path.dirname(os.environ["POLYNYA_SCENES"]), "docs")
+    for page in ("validation.md", "ships.md"):
+        with open(os.path.join(documents, page), encoding="utf-8") as file:
+            assert f"up to {VALIDATED_THICKNESS:g} m" in " ".join(file.read().split()), page
 
 
 def test_the_curve_starts_near_the_formulas(tmp_path):
     ice = formulas.Ice(0, flexural_strength=500e3, friction=0.1)
-    curve = Curve(SHIP, hull_of(SHIP), engine_of(SHIP), ice, str(tmp_path), "polynya", 0.03, 0.01)
+    curve = Curve(SHIP, hull_of(SHIP), ENGINE, ice, str(tmp_path), "polynya", 0.03, 0.01)
     speeds = curve.formula_speeds(0.5)
     assert min(speeds.values()) > 1
     assert speeds["lindqvist"] < curve.first_speed(0.5) < 8
@@ -119,8 +234,15 @@ def test_the_curve_starts_near_the_formulas(tmp_path):
 def test_a_file_that_names_a_preset_starts_from_all_of_it(tmp_path):
     path = tmp_path / "deeper.json"
     path.write_text('{"ship": "polaris", // as scenes have it\n "hull": {"draught_m": 8.5}}')
-    title, ship, reported = ship_of(str(path))
-    _, polaris, _ = ship_of("polaris")
-    assert title == "deeper" and reported
+    found = ship_of(str(path))
+    ship, polaris = found["ship"], ship_of("polaris")["ship"]
+    assert found["title"] == "deeper" and found["reported"]
     assert ship["hull"] == polaris["hull"] | {"draught_m": 8.5}
     assert ship["propulsion"] == polaris["propulsion"]
+
+
+def test_the_course_is_straight_ahead_wherever_the_ship_of_the_file_went():
+    turned = SHIP | {"heading_deg": 90, "yaw_rate_deg_per_s": 3, "pilot": {"hold_speed": {}}, "position_m": [7, 7], "steering": {"rudder": {}}}
+    (ship,) = level_ice.scene(turned, formulas.Ice(0.5), 2, 8, 0.01)["ships"]
+    assert ship["heading_deg"] == 0 and ship["position_m"] == [-52, 0] and "yaw_rate_deg_per_s" not in ship
+    assert ship["pilot"] == {"hold_heading": {"heading_deg": 0, "lever": 1}}

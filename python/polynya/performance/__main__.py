@@ -5,7 +5,6 @@ import csv
 import json
 import math
 import os
-import pathlib
 import subprocess
 import sys
 
@@ -13,30 +12,36 @@ from .. import formulas
 from ..formulas import KNOT
 from ..program import program
 from ..study.case import DONE, FAILED, STOPPED
-from ..study.located_json import read_json
-from .curve import Curve, RunFailed
+from .curve import OUTSIDE, Curve, RunFailed
 
-INVALID = 3
+INPUT_OUTPUT = 5  # app/exit_code.hpp
+
+
+def number(kind, low, high, unit="", excludes_ends=False):
+    """Reads a number of a range; where a scene's key has one, the same (io/scene/scene_fields_settings.cpp)."""
+    what, least, most = "a whole number" if kind is int else "a number", "≥", "≤"
+    if excludes_ends:
+        least, most = ">", "<"
+    allowed = f"{what} {least} {low:g}, {most} {high:g}" + (f" [{unit}]" if unit else "")
+
+    def read(text):
+        try:
+            value = kind(text)
+        except ValueError:
+            value = math.nan
+        if not (low < value < high if excludes_ends else low <= value <= high):
+            raise argparse.ArgumentTypeError(f"found {text[:60]}, allowed: {allowed}")
+        return value
+
+    return read
 
 
 def thicknesses(text):
+    one = number(float, 1e-3, 20, "m")
     try:
-        values = sorted({float(part) for part in text.split(",")})
-    except ValueError:
-        values = []
-    if not values or not all(0 < value <= 10 for value in values):
-        raise argparse.ArgumentTypeError(f"found {text}, allowed: thicknesses > 0, ≤ 10 [m], as 0.4,0.8,1.2")
-    return values
-
-
-def share(text):
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0
-    if not 0 < value < 1:
-        raise argparse.ArgumentTypeError(f"found {text}, allowed: a share > 0, < 1")
-    return value
+        return sorted({one(part) for part in text.split(",")})
+    except argparse.ArgumentTypeError as error:
+        raise argparse.ArgumentTypeError(f"{error}, or several, as 0.4,0.8,1.2") from None
 
 
 def command_line():
@@ -44,12 +49,12 @@ def command_line():
     parser = argparse.ArgumentParser(prog="polynya performance")
     parser.add_argument("ship")
     parser.add_argument("--thickness", type=thicknesses)
-    parser.add_argument("--flexural-strength", type=float, default=500e3)
-    parser.add_argument("--friction", type=float, default=0.1)
-    parser.add_argument("--error", type=share, default=0.03)
-    parser.add_argument("--step", type=float, default=0.01)
+    parser.add_argument("--flexural-strength", type=number(float, 1, 1e9, "Pa"), default=500e3)
+    parser.add_argument("--friction", type=number(float, 0, 2), default=0.1)
+    parser.add_argument("--error", type=number(float, 0, 1, excludes_ends=True), default=0.03)
+    parser.add_argument("--step", type=number(float, 1e-5, 1, "s"), default=0.01)
     parser.add_argument("--out")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--jobs", type=number(int, 1, 1024), default=os.cpu_count() or 1)
     parser.add_argument("--list", action="store_true")
     return parser
 
@@ -60,57 +65,17 @@ def fail(code, message):
 
 
 def ship_of(name):
-    """A title, the ship and its reported speeds: of a preset, or of a file."""
-    if not os.path.exists(name):
-        preset = preset_of(name)
-        return preset["title"], preset["ship"], preset["reported"]
-    ship = read_json(pathlib.Path(name))
-    title = pathlib.Path(name).stem
-    if "ship" not in ship:
-        return title, ship, []
-    preset = preset_of(ship.pop("ship"))
-    return title, filled_in(ship, preset["ship"]), preset["reported"]
-
-
-def filled_in(own, preset):
-    """What a preset has and the ship does not give itself, as scenes fill it in (io/scene/scene_presets.cpp)."""
-    merged = preset | own
-    for key in own.keys() & preset.keys():
-        if isinstance(own[key], dict) and isinstance(preset[key], dict):
-            merged[key] = filled_in(own[key], preset[key])
-    return merged
-
-
-def preset_of(name):
-    done = subprocess.run([program(), "ships", name, "--json"], capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise ValueError(done.stderr.strip().removeprefix("polynya ships: "))
+    """What `polynya ships` has of a preset, or of a file's ship: its title, the ship with every default, its engine,
+    reported speeds. Ends as that does where the ship is refused; what is wrong then stands on stderr."""
+    words = [program(), "ships", name, "--json", "--for-performance"]
+    done = subprocess.run(words, stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode != DONE:
+        sys.exit(done.returncode)
     return json.loads(done.stdout)
-
-
-def engine_of(ship):
-    """Bollard pull [N] and open-water speed [m/s]."""
-    engine = ship.get("propulsion", {}).get("engine")
-    if not engine:
-        raise ValueError("a ship without propulsion.engine: what it can push with is not known")
-    pull = (
-        1e3 * engine["bollard_pull_kN"]
-        if "bollard_pull_kN" in engine
-        else formulas.bollard_pull(
-            1e6 * engine["power_MW"],
-            engine["propeller_diameter_m"],
-            engine.get("propellers", 1),
-            engine.get("nozzles", False),
-        )
-    )
-    return {"bollard_pull": pull, "open_water_speed": engine["open_water_speed_m_per_s"]}
 
 
 def hull_of(ship):
     hull = ship["hull"]
-    for key in ("length_m", "beam_m", "draught_m", "stem_angle_deg", "entrance_angle_deg"):
-        if key not in hull:
-            raise ValueError(f"hull.{key} is not given: the formulas and the course need it")
     return formulas.Hull(
         hull["length_m"],
         hull["beam_m"],
@@ -132,16 +97,21 @@ def ten_thicknesses(curve):
 
 def print_table(rows):
     print(
-        f"{'h [m]':>7}{'v [m/s]':>10}{'± [m/s]':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
+        f"{'h [m]':>7} {'v [m/s]':>10}{'± scatter':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
         f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}"
     )
     for row in rows:
         note = "  stops" if row["is_stuck"] else "" if row["is_steady"] else "  not steady"
+        mark = " " if row["is_in_validated_range"] else "*"
         print(
-            f"{row['thickness_m']:7g}{row['speed_m_per_s']:10.2f}{row['error_m_per_s']:10.2f}{row['speed_m_per_s'] / KNOT:8.1f}   "
-            f"{row['contact_kN']:13.0f}{row['submerged_kN']:12.0f}   {row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}"
-            f"{row['spencer_jones_m_per_s']:15.2f}{note}"
+            f"{row['thickness_m']:7g}{mark}{row['speed_m_per_s']:10.2f}{row['error_m_per_s']:10.2f}"
+            f"{row['speed_m_per_s'] / KNOT:8.1f}   {row['contact_kN']:13.0f}{row['submerged_kN']:12.0f}   "
+            f"{row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}{row['spencer_jones_m_per_s']:15.2f}{note}"
         )
+    print("±: standard error of the run's own mean speed [m/s], its statistical scatter alone, not the model's error")
+    outside = [row for row in rows if not row["is_in_validated_range"]]
+    if outside:
+        print(f"*: {OUTSIDE}: the ship may go much too fast (docs/validation.md, \"A ship in level ice\")")
 
 
 def report_progress(done, total, row):
@@ -175,15 +145,15 @@ def run_all(curve, wanted, jobs):
 def main():
     arguments = command_line().parse_args()
     try:
-        title, ship, reported = ship_of(arguments.ship)
-        ice = formulas.Ice(
-            thickness=0, flexural_strength=arguments.flexural_strength, friction=arguments.friction
-        )  # of each thickness in turn
-        name = os.path.splitext(os.path.basename(arguments.ship))[0]
-        folder = arguments.out or os.path.join("runs", f"performance-{name}")
-        curve = Curve(ship, hull_of(ship), engine_of(ship), ice, folder, program(), arguments.error, arguments.step)
-    except (OSError, ValueError, KeyError) as error:
-        return fail(INVALID, error)
+        found = ship_of(arguments.ship)
+    except OSError as error:
+        return fail(INPUT_OUTPUT, error)
+    ice = formulas.Ice(
+        thickness=0, flexural_strength=arguments.flexural_strength, friction=arguments.friction
+    )  # of each thickness in turn
+    folder = arguments.out or os.path.join("runs", f"performance-{found['name']}")
+    ship, reported = found["ship"], found["reported"]
+    curve = Curve(ship, hull_of(ship), found["engine"], ice, folder, program(), arguments.error, arguments.step)
     wanted = arguments.thickness or ten_thicknesses(curve)
     if arguments.list:
         print(f"{'h [m]':>7}{'Lindqvist':>11}{'Riska':>8}{'Spencer-Jones':>15}   speeds [m/s]")
@@ -216,7 +186,7 @@ def main():
         return DONE
     picture = os.path.join(folder, "performance.png")
     strength = f"σf {arguments.flexural_strength / 1e3:g} kPa, μ {arguments.friction:g}"
-    figure.draw(rows, f"{title}: level ice, full power\n{strength}", reported, picture)
+    figure.draw(rows, f"{found['title']}: level ice, full power\n{strength}", reported, picture)
     print(f"figure  {picture}")
     return DONE
 

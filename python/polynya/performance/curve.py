@@ -9,6 +9,8 @@ from ..study.case import DONE, STOPPED, summary_of
 from . import level_ice
 
 FIRST, MOST = 5, 20  # lengths of the course
+VALIDATED_THICKNESS = 0.5  # [m], docs/validation.md, "A ship in level ice"
+OUTSIDE = f"thicker than {VALIDATED_THICKNESS:g} m, outside the range of validation"
 
 
 class RunFailed(Exception):
@@ -27,7 +29,7 @@ class Curve:
     def formula_speeds(self, thickness):
         """The speeds at which published resistances equal the net thrust [m/s]."""
         ice = self.level(thickness)
-        pull, fast = self.engine["bollard_pull"], self.engine["open_water_speed"]
+        pull, fast = self.engine["bollard_pull_N"], self.engine["open_water_speed_m_per_s"]
         resistances = {
             "lindqvist": lambda v: sum(formulas.lindqvist(self.hull, ice, v)),
             "riska": lambda v: formulas.riska(self.hull, ice, v),
@@ -39,8 +41,8 @@ class Curve:
         """A speed to start at [m/s]: where a bit less than Lindqvist's resistance equals the net thrust."""
         ice = self.level(thickness)
         speed = formulas.equilibrium(
-            self.engine["bollard_pull"],
-            self.engine["open_water_speed"],
+            self.engine["bollard_pull_N"],
+            self.engine["open_water_speed_m_per_s"],
             lambda v: 0.8 * sum(formulas.lindqvist(self.hull, ice, v)),
         )
         return max(0.5, speed)
@@ -83,6 +85,7 @@ class Curve:
             "error_m_per_s": measured.error,
             "is_steady": measured.is_within(self.error),
             "is_stuck": bool(measured.is_stuck),
+            "is_in_validated_range": thickness <= VALIDATED_THICKNESS,
             "contact_kN": 1e-3 * measured.contact,
             "submerged_kN": 1e-3 * measured.submerged,
             "way_m": measured.way,

@@ -5,6 +5,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 from ..formulas import KNOT  # noqa: E402
+from .curve import VALIDATED_THICKNESS  # noqa: E402
 
 FORMULAS = (
     ("lindqvist", "Lindqvist 1989", "-"),
@@ -38,8 +39,20 @@ def draw(rows, title, reported, path):
         markersize=3.5,
         linewidth=1.2,
         capsize=2,
-        label="Polynya, with 95 % of its error",
+        label="Polynya, ± 95 % of the run's own scatter",
     )
+    outside = [row for row in rows if not row["is_in_validated_range"]]
+    if outside:
+        axes.plot(
+            [row["thickness_m"] for row in outside],
+            [row["speed_m_per_s"] for row in outside],
+            "o",
+            color="#0072b2",
+            markerfacecolor="white",
+            markersize=3.5,
+            zorder=3,
+            label=f"outside validation (> {VALIDATED_THICKNESS:g} m)",
+        )
     if reported:
         axes.plot(
             [r["thickness_m"] for r in reported],

@@ -7,6 +7,8 @@ import numpy as np
 from ..study.measures import rows_by_ship
 
 BLOCKS = 6  # of the measured way
+# What a ship file may have of its own start and pilot gives way to the course: full ahead along the x axis.
+OF_THE_START = ("pilot", "sway_speed_m_per_s", "yaw_rate_deg_per_s")
 # A plate without end does not split; what comes up behind the stern does not load the ship.
 ENDLESS = {"splitting": {"model": "none"}, "resurface": {"enabled": False}}
 
@@ -28,14 +30,15 @@ def scene(ship, ice, speed, lengths, step):
     hull = ship["hull"]
     length, width = hull["length_m"], 5 * hull["beam_m"]
     way = (lengths + 1) * length
-    can_steer = "steering" in ship
-    ahead = {"pilot": {"hold_heading": {"heading_deg": 0, "lever": 1}}} if can_steer else {}
+    start = {"name": "ship", "position_m": [-0.5 * length - 2, 0], "heading_deg": 0, "speed_m_per_s": speed}
+    if "steering" in ship:
+        start["pilot"] = {"hold_heading": {"heading_deg": 0, "lever": 1}}
     return {
         "name": f"level-{ice.thickness:g}",
         "time": {"step_s": step, "until_s": math.ceil(way / speed)},
         "ice": ice_keys(ice),
         "fracture": ENDLESS,
-        "ships": [ship | ahead | {"name": "ship", "position_m": [-0.5 * length - 2, 0], "speed_m_per_s": speed}],
+        "ships": [{key: value for key, value in ship.items() if key not in OF_THE_START} | start],
         "floes": [
             {"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way, width]}, "fast_ice": True}
         ],

@@ -1,0 +1,16 @@
+"""Lists whose items have names."""
+import typing
+
+Item = typing.TypeVar("Item")
+
+
+class Named(typing.List[Item]):
+    """A list whose items are found by their `name` too: ships["icebreaker"]."""
+
+    def __getitem__(self, key):
+        if not isinstance(key, str):
+            return super().__getitem__(key)
+        for item in self:
+            if item.name == key:
+                return item
+        raise KeyError(f"{key}; there are {', '.join(item.name for item in self)}")
