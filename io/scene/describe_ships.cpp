@@ -212,11 +212,17 @@ FieldOf<ShipInput> preset() {
   return field;
 }
 
+/// A required object that a preset would give.
+FieldOf<ShipInput> or_preset(FieldOf<ShipInput> field) {
+  field.instead = R"(; or "ship": a preset's name, as "reference" (polynya ships))";
+  return required(std::move(field));
+}
+
 const Description<ShipInput> kShip{
     {preset(),
      as(FieldKind::kName,
         member("name", "", {}, "its name in the outputs; # is its number", &ShipInput::name)),
-     required(object("hull", kHull, "the waterline, by its main dimensions or point by point")),
+     or_preset(object("hull", kHull, "the waterline, by its main dimensions or point by point")),
      left_out(member("mass_kg", "kg", from(1, 1e12),
                      "displacement; if not given, of the water that draught and block coefficient displace",
                      &ShipInput::spec, &ShipSpec::mass)),
@@ -237,7 +243,7 @@ const Description<ShipInput> kShip{
             &ShipInput::sway_speed),
      member("yaw_rate_deg_per_s", "°/s", from(-90, 90), "counter-clockwise at the start",
             &ShipInput::yaw_rate),
-     required(object("propulsion", kPropulsion, "constant thrust, constant speed or an engine")),
+     or_preset(object("propulsion", kPropulsion, "constant thrust, constant speed or an engine")),
      object("water", kHullWater, "", &ShipInput::spec, &ShipSpec::water),
      object("steering", kSteering, "a rudder or thrusters that turn; needs an engine", &ShipInput::steering),
      object("pilot", kPilot, "works lever and steering; if not given, full ahead with the rudder amidships",

@@ -55,4 +55,12 @@ class FloeListReader {
   GroupIce ice_;
 };
 
+/// A rectangle along the axes, counter-clockwise from its corner with the least x and y.
+geometry::Polygon rectangle(geometry::Point corner, geometry::Vector size);
+
+/// The same region with rings that are not closed by a repeated first point, outer counter-clockwise, holes
+/// clockwise. Which way rings run and whether they are closed are matters of notation; nothing else is
+/// changed.
+geometry::Polygon in_house_notation(geometry::Polygon polygon);
+
 }  // namespace polynya::io

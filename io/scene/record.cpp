@@ -101,6 +101,26 @@ const JsonValue* first_wrong(const Field& field, const JsonValue& value) {
   return nullptr;
 }
 
+/// The keys that an object cannot be without: "radius_m, or waterline_m" where there are alternatives.
+std::string keys_needed_by(const Object& table) {
+  const auto keys_of = [&](std::string_view alternative) {
+    std::vector<std::string_view> keys;
+    for (const Field& field : table.fields)
+      if (field.alternative == alternative && field.presence == Presence::kRequired)
+        keys.push_back(field.key);
+    return fmt::format("{}", fmt::join(keys, " and "));
+  };
+  std::string forms = table.alternatives.empty() ? keys_of("") : "";
+  for (const auto form : table.alternatives) forms += (forms.empty() ? "" : ", or ") + keys_of(form);
+  return forms;
+}
+
+/// What is allowed in place of a field that is missing.
+std::string describe_missing(const Field& field) {
+  if (field.kind != FieldKind::kObject) return describe_allowed(field);
+  return fmt::format("an object with {}{}", keys_needed_by(*field.object), field.instead);
+}
+
 std::optional<JsonValue> write_field(const Field& field, const void* record) {
   const auto part = [&](std::size_t item) { return field.find ? field.find(record, item) : nullptr; };
   if (field.kind == FieldKind::kList) {
@@ -153,18 +173,9 @@ bool RecordReader::choose_alternative(const Object& table, const JsonValue& valu
   }
   if (!given.empty()) chosen = given.front();
   if (given.size() == 1) return true;
-  std::vector<std::string> forms;
-  for (const auto alternative : table.alternatives) {
-    std::vector<std::string_view> keys;
-    for (const Field& field : table.fields) {
-      if (field.alternative == alternative && field.presence == Presence::kRequired)
-        keys.push_back(field.key);
-    }
-    forms.push_back(fmt::format("{}", fmt::join(keys, " and ")));
-  }
   report(value.offset, path,
          given.empty() ? "none of them" : fmt::format("{} together", fmt::join(given, " and ")),
-         fmt::format("either {}", fmt::join(forms, ", or ")));
+         fmt::format("either {}", keys_needed_by(table)));
   return false;
 }
 
@@ -174,7 +185,7 @@ bool RecordReader::one_field(const Field& field, const JsonValue& parent, const 
   const JsonValue* given = parent.find(field.key);
   if (given && checked(field, *given, path, record)) return true;
   if (!given && field.presence == Presence::kRequired)
-    report(parent.offset, path, "nothing", describe_allowed(field));
+    report(parent.offset, path, "nothing", describe_missing(field));
   const bool has_default = field.presence == Presence::kDefault;
   if (has_default && field.kind == FieldKind::kName && field.default_value.text().ends_with('#')) {
     std::string name = field.default_value.text();

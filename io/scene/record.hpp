@@ -56,6 +56,7 @@ struct Field {
   std::string_view unit = {};  ///< as shown to people; empty for none
   Range range = {};            ///< of the number, of each component, or of a list's length
   std::string_view meaning = {};
+  std::string_view instead = {};  ///< what else may be given, where a required one is missing
   Presence presence = Presence::kDefault;
   std::vector<std::string_view> choices = {};
   std::string_view alternative = {};  ///< belongs to this one of its object's alternatives; empty: to all

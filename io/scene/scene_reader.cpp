@@ -6,14 +6,10 @@
 #include <fmt/format.h>
 
 #include "io/import/import_report.hpp"
-#include "io/scene/floe_group.hpp"
 #include "io/scene/floe_list_reader.hpp"
-#include "io/scene/pilot_check.hpp"
 #include "io/scene/scene_check.hpp"
-#include "io/scene/scene_hints.hpp"
-#include "io/scene/scene_presets.hpp"
 #include "io/scene/ship_completion.hpp"
-#include "io/scene/wall_check.hpp"
+#include "io/scene/ship_presets.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 
@@ -82,7 +78,8 @@ class SceneReader {
              "one ship, as an entry of a scene's \"ships\"");
       return tl::unexpected(problems_of_ship());
     }
-    LoadedShip ship{.given = given};
+    LoadedShip ship;
+    ship.given = given;
     if (const JsonValue* preset = given.find("ship", JsonKind::kText)) ship.preset = preset->text();
     JsonValue scene{JsonValue::Object{}, given.offset};
     put(scene, "ships", JsonValue::Array{std::move(given)});
@@ -156,10 +153,13 @@ class SceneReader {
     add_ships(given, ships);
     add_structures(given, structures);
     add_walls(given, walls);
+    if (is_whole) {
+      complete_pilots(given, draft_, problems_);
+      check_without_ice(draft_, given, problems_);
+    }
     add_floes(given, is_whole, reader);
     if (!is_whole) return false;
-    complete_pilots(given, draft_, problems_);
-    check_scene(draft_, given, problems_);
+    check_ice(draft_, given, problems_);
     return problems_.count() == 0;
   }
 

@@ -51,7 +51,7 @@ struct LoadedScene {
   std::vector<FieldReport> fields;
   std::vector<FileReport> files;
   std::vector<IceReport> ice;  ///< what was drawn of it, by floe groups and properties
-  std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_hints.hpp)
+  std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_check.hpp)
 };
 
 /// A ship as scenes have it, of a file of its own.

@@ -16,4 +16,13 @@ simulation::ShipSpec complete_ship(ShipInput& input, const JsonValue& given, con
 /// A structure is a ship that stands on the ground.
 simulation::ShipSpec complete_structure(const StructureInput& input);
 
+/// Adds a wall to the draft's ships, or reports why it is none.
+void add_wall(std::size_t index, const JsonValue& item, const WallInput& wall, SceneDraft& draft,
+              ProblemCollector& problems);
+
+/// Finds whom ships follow. Reports pilots that cannot do what they are to do: without an engine or steering,
+/// beyond the rudder's stop, on a route that begins behind the ship or leads through a structure, behind a
+/// ship that is not there or that follows them. `given` is the scene's JSON.
+void complete_pilots(const JsonValue& given, SceneDraft& draft, ProblemCollector& problems);
+
 }  // namespace polynya::io
