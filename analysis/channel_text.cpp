@@ -127,9 +127,9 @@ void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t nu
 
 std::string to_table(const Channel& channel) {
   std::string text =
-      fmt::format("channel of {} at {:g} s: {} stations of {:g} m, {} with ice on both sides within {:g} m\n",
-                  channel.ship, channel.time, channel.stations.size(), channel.spacing, widths(channel).count,
-                  channel.reach);
+      fmt::format("channel of {} at {:g} s: {} of {:g} m, {} with ice on both sides within {:g} m\n",
+                  channel.ship, channel.time, io::counted(channel.stations.size(), "station"),
+                  channel.spacing, widths(channel).count, channel.reach);
   const bool has_brash = !channel.brash_pieces.empty();
   text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>9} {:>10}{}\n", "along_m", "passed_s",
                       "x_m", "y_m", "port_m", "starboard_m", "width_m", "over_beam", "ice_beam_%",

@@ -6,6 +6,7 @@
 #include "geometry/cut/overlap.hpp"
 #include "geometry/cut/overlapping_pairs.hpp"
 #include "geometry/exact/measures.hpp"
+#include "geometry/shape/box_pairs.hpp"
 #include "io/run/placed_floes.hpp"
 
 namespace polynya::analysis {
@@ -100,7 +101,6 @@ void OverlapCheck::place_bodies(double time) {
   for (const io::RunFloe& floe : run_.floes) {
     if (run_.is_alive(floe.birth.floe, time)) add(floe.birth.floe, motions_.floe_at(floe.birth.floe, time));
   }
-  std::ranges::stable_sort(bodies_, {}, [](const Placed& body) { return body.box_in_world.low.x; });
 }
 
 void OverlapCheck::read_crushed(double time) {
@@ -120,13 +120,12 @@ void OverlapCheck::read_crushed(double time) {
 
 template <class Use>
 void OverlapCheck::for_near_pairs(Use use) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Box& box = bodies_[i].box_in_world;
-    for (std::size_t j = i + 1; j < bodies_.size() && bodies_[j].box_in_world.low.x <= box.high.x; ++j) {
-      if (!overlaps(box, bodies_[j].box_in_world)) continue;
-      const bool is_first = bodies_[i].body < bodies_[j].body;
-      use(is_first ? bodies_[i] : bodies_[j], is_first ? bodies_[j] : bodies_[i]);
-    }
+  std::vector<Box> boxes;
+  boxes.reserve(bodies_.size());
+  for (const Placed& body : bodies_) boxes.push_back(body.box_in_world);
+  for (const auto& [i, j] : geometry::pairs_of_boxes(boxes)) {
+    const bool is_first = bodies_[i].body < bodies_[j].body;
+    use(is_first ? bodies_[i] : bodies_[j], is_first ? bodies_[j] : bodies_[i]);
   }
 }
 

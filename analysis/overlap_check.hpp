@@ -50,7 +50,7 @@ class OverlapCheck {
   RunCheck& check_;
   io::MotionIndex motions_;
   std::vector<std::shared_ptr<const geometry::Polygon>> hulls_;
-  std::vector<Placed> bodies_;                             ///< living, by the left of their boxes
+  std::vector<Placed> bodies_;                             ///< living
   std::map<std::pair<BodyKey, BodyKey>, double> crushed_;  ///< at the instant [m²]
   bool is_recorded_ = false;                               ///< the instant is that of a frame
   std::map<std::pair<BodyKey, BodyKey>, Known> known_;

@@ -1,5 +1,6 @@
 #include "analysis/run_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -22,18 +23,14 @@ void see(Worst& worst, double value, double scale, FloeId floe) {
   if (!(std::abs(value) <= kAreaTolerance * scale)) ++worst.wrong;
 }
 
-void check_shapes(const io::Run& run, RunCheck& check) {
-  for (const io::RunFloe& floe : run.floes) {
-    ++check.shapes;
-    const simulation::BirthRecord& birth = floe.birth;
-    const auto polygon = run.shape(birth.floe);
-    if (const auto found = geometry::find_defect(*polygon)) {
-      check.invalid.push_back({birth.floe, std::string(name_of(found->defect)), found->places});
-    }
-    const Polygon* const ring[]{polygon.get()};
-    const double recorded[]{birth.area};
-    see(check.recorded_area, geometry::exact_balance({}, ring, recorded), birth.area, birth.floe);
-  }
+void check_shape(const io::Run& run, const simulation::BirthRecord& birth, RunCheck& check) {
+  ++check.shapes;
+  const auto polygon = run.shape(birth.floe);
+  if (const auto found = geometry::find_defect(*polygon))
+    check.invalid.push_back({birth.floe, std::string(name_of(found->defect)), found->places});
+  const Polygon* const ring[]{polygon.get()};
+  const double recorded[]{birth.area};
+  see(check.recorded_area, geometry::exact_balance({}, ring, recorded), birth.area, birth.floe);
 }
 
 void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck& check) {
@@ -65,19 +62,32 @@ void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck
 
 }  // namespace
 
-RunCheck check_run(const io::Run& run, std::optional<double> only_at) {
+RunCheck check_run(const io::Run& run, std::optional<double> only_at,
+                   const std::function<void(double)>& on_part) {
   RunCheck check;
-  check_shapes(run, check);
+  check.has_crushed = run.has_crushed;
+  const std::size_t instants = only_at ? 1 : run.frames.size();
+  // An instant takes about as long as an eighth of the shapes: most pairs have not moved.
+  const double all = static_cast<double>(run.floes.size()) * (1 + static_cast<double>(instants) / 8) +
+                     static_cast<double>(run.events.size());
+  double done = 0;
+  const auto advance = [&](double work) {
+    done += work;
+    if (on_part && all > 0) on_part(std::min(1.0, done / all));
+  };
+  for (const io::RunFloe& floe : run.floes) {
+    check_shape(run, floe.birth, check);
+    advance(1);
+  }
   for (const simulation::Event& event : run.events) {
     if (event.kind != simulation::EventKind::kRejectedCut && event.kind != simulation::EventKind::kSubmerge)
       check_fracture(run, event, check);
+    advance(1);
   }
-  check.has_crushed = run.has_crushed;
   OverlapCheck overlaps(run, check);
-  if (only_at) {
-    overlaps.measure(*only_at);
-  } else {
-    for (const io::Frame& frame : run.frames) overlaps.measure(frame.time);
+  for (std::size_t i = 0; i < instants; ++i) {
+    overlaps.measure(only_at ? *only_at : run.frames[i].time);
+    advance(static_cast<double>(run.floes.size()) / 8);
   }
   return check;
 }

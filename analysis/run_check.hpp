@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +86,8 @@ struct RunCheck {
 /// once for the report. Measures overlaps at every frame, or at one instant only. Frames are right to 1 mm
 /// (frames.hpp). What bodies share at a frame is compared with what was crushed there (crushed.csv), hulls
 /// and structures included; runs of versions that did not record it are measured only.
-RunCheck check_run(const io::Run& run, std::optional<double> only_at = {});
+/// `on_part` is called often, with how much is done (0..1).
+RunCheck check_run(const io::Run& run, std::optional<double> only_at = {},
+                   const std::function<void(double)>& on_part = {});
 
 }  // namespace polynya::analysis

@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/options.hpp"
+#include "app/read_input.hpp"
 #include "app/write_output.hpp"
 #include "io/run/run_folder.hpp"
 
@@ -28,10 +29,11 @@ struct Options {
   std::string ship;
   analysis::ChannelOptions measure;
   std::string format = "table";
+  ProgressKind progress = ProgressKind::kAuto;
 };
 
 int measure(const Options& options) {
-  const auto run = io::read_run(options.run);
+  const auto run = read_run(options.run, options.progress);
   if (!run) return fail(kInputOutput, run.error());
   analysis::ChannelOptions wanted = options.measure;
   const auto& ships = run->scene.scene.ships;
@@ -40,7 +42,8 @@ int measure(const Options& options) {
     if (found == ships.end()) return fail(kUsage, fmt::format("the run has no ship \"{}\"", options.ship));
     wanted.ship = static_cast<std::size_t>(found - ships.begin());
   }
-  const auto channel = analysis::measure_channel(*run, wanted);
+  const auto channel = with_progress(options.progress, "measuring the channel",
+                                     [&] { return analysis::measure_channel(*run, wanted); });
   if (!channel) return fail(kUsage, channel.error());
   for (const auto& [name, text] : {std::pair{io::run_file::kChannelCsv, to_csv(*channel)},
                                    std::pair{io::run_file::kChannel, to_geojson(*channel)}}) {
@@ -73,6 +76,7 @@ Command add_channel(CommandLine& app) {
       .excludes(format);
   command.option("--out", options->out, "DIR",
                  "Folder for channel.csv and channel.geojson; the run's if not given");
+  add_progress(command, options->progress);
   return {command, [options] { return measure(*options); }};
 }
 

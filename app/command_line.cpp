@@ -316,10 +316,10 @@ Option CommandLine::repeated(const char* name, const char* type, const char* mea
                     ->allow_extra_args(false)
                     ->check(validator_of(std::move(check))));
 }
-Option CommandLine::flag(const char* name, bool& value, const char* meaning) {
+Option CommandLine::flag(const char* name, bool& value, const std::string& meaning) {
   return Option(app_->add_flag(name, value, meaning));
 }
-Option CommandLine::flag(const char* name, std::function<void()> set, const char* meaning) {
+Option CommandLine::flag(const char* name, std::function<void()> set, const std::string& meaning) {
   return Option(app_->add_flag_callback(name, std::move(set), meaning));
 }
 

@@ -126,8 +126,8 @@ class CommandLine {
   /// One that may be repeated; each word goes to the function once all are right.
   Option repeated(const char* name, const char* type, const char* meaning, WordCheck check,
                   std::function<void(const std::string&)> take);
-  Option flag(const char* name, bool& value, const char* meaning);
-  Option flag(const char* name, std::function<void()> set, const char* meaning);
+  Option flag(const char* name, bool& value, const std::string& meaning);
+  Option flag(const char* name, std::function<void()> set, const std::string& meaning);
 
   CommandDescription described() const;
   bool is_chosen() const;

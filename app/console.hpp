@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/exit_code.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::app {
 
@@ -36,10 +37,7 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// "1 floe", "2 floes".
-inline std::string counted(std::size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
+using io::counted;
 
 /// "polynya: " and the message on stderr; returns the code.
 ExitCode fail(ExitCode code, std::string_view message);

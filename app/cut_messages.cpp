@@ -49,8 +49,8 @@ void report_totals(const io::CutReport& report) {
   print_err(
       "polynya: {} -> {}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect {}, rounding {:.2e} "
       "m2)\n",
-      counted(static_cast<std::size_t>(floes), "floe"), counted(totals.pieces, "piece"), totals.area,
-      totals.area_of_pieces, totals.removed, totals.exact_defect, totals.rounding_defect);
+      counted(floes, "floe"), counted(totals.pieces, "piece"), totals.area, totals.area_of_pieces,
+      totals.removed, totals.exact_defect, totals.rounding_defect);
   if (totals.snap_rounded > 0) {
     print_err("polynya: {} piece{} snap-rounded: nearest doubles did not make a valid polygon\n",
               totals.snap_rounded, totals.snap_rounded == 1 ? " was" : "s were");

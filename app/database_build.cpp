@@ -79,9 +79,9 @@ int build(const Options& options) {
   if (written) written = io::write_named_file(options.out, text);
   if (!written) return fail(kInputOutput, written.error());
   print_out("database    {}, {} bytes\n", options.out, text.size());
-  print_out("solved      {} wedges, {} pushes, fluid {}, in {:.3g} s on {}\n", wedges,
-            built->entries().size(), fracture::fluid_name(options.fluid), wall,
-            counted(static_cast<std::size_t>(threads), "thread"));
+  print_out("solved      {}, {}, fluid {}, in {:.3g} s on {}\n", counted(wedges, "wedge"),
+            counted(built->entries().size(), "push", "pushes"), fracture::fluid_name(options.fluid), wall,
+            counted(threads, "thread"));
   print_out("hash        fnv1a64 {}\n", fracture::database_hash(*built));
   if (text == fracture::default_database_text())
     print_out("            byte for byte the database that ships with Polynya\n");

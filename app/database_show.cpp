@@ -106,7 +106,7 @@ int draw_slices(const std::string& slices, const std::filesystem::path& folder) 
   if (const auto written = io::write_named_file(file, slices); !written)
     return fail(kInputOutput, written.error());
   print_out("\nnumbers         {}\n", file.string());
-  return become_python("polynya.figures.database", {file.string()});
+  return become_python({"database", file.string()});
 }
 
 int show(const Options& options) {

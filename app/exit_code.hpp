@@ -11,6 +11,7 @@ enum ExitCode {
   kOutOfMemory = 4,       ///< memory ran out; a run folder is as one of a run that was killed
   kRefused = 4,           ///< geometry was refused or found wrong; the rest was done
   kInputOutput = 5,       ///< a file, stdout or stderr could not be read or written
+  kDefect = 70,           ///< polynya itself is wrong; the traceback of a command in Python is in a file
   kStopped = 75,          ///< stopped on a signal; the folder has a checkpoint to resume from
   kClosedPipe = 141,      ///< the reader of stdout or stderr went away, as a shell reports SIGPIPE
 };

@@ -4,6 +4,7 @@
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/options.hpp"
+#include "app/read_input.hpp"
 #include "app/write_output.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/geojson_export.hpp"
@@ -26,12 +27,13 @@ constexpr auto kExamples =
 
 struct Options {
   std::string run;
-  std::string vtk;            ///< folder; empty: none
-  std::string geojson;        ///< folder; empty: none
-  std::optional<double> at;   ///< instant of the GeoJSON [s]; the end if not given
-  int every = 1;              ///< of VTK: each N-th frame
-  bool is_scene = false;      ///< a scene that continues the run
-  std::string out;            ///< folder of that; empty: one in the run's
+  std::string vtk;           ///< folder; empty: none
+  std::string geojson;       ///< folder; empty: none
+  std::optional<double> at;  ///< instant of the GeoJSON [s]; the end if not given
+  int every = 1;             ///< of VTK: each N-th frame
+  bool is_scene = false;     ///< a scene that continues the run
+  std::string out;           ///< folder of that; empty: one in the run's
+  ProgressKind progress = ProgressKind::kAuto;
   bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
 };
 
@@ -39,15 +41,16 @@ int write_vtk(const io::Run& run, const Options& options) {
   if (const auto made = make_folder(options.vtk); !made) return fail(kInputOutput, made.error());
   io::FrameSelection selection;
   selection.every = options.every;
-  const auto written = views::export_vtk(run, selection, options.vtk);
+  const auto written = with_progress(options.progress, "writing the frames",
+                                     [&] { return views::export_vtk(run, selection, options.vtk); });
   if (!written) return fail(kInputOutput, written.error());
   if (const std::size_t count = written->only_outlines.size(); count > 0)
     print_err(
         "note: {} without triangles, only with outlines, since the rings bound no valid area; the first is "
         "floe {}; polynya inspect {} --check lists what is wrong\n",
         counted(count, "floe"), written->only_outlines.front(), options.run);
-  print_out("{}  {} frames; open it in ParaView\n", (fs::path(options.vtk) / "run.pvd").string(),
-            written->frames);
+  print_out("{}  {}; open it in ParaView\n", (fs::path(options.vtk) / "run.pvd").string(),
+            counted(written->frames, "frame"));
   return kDone;
 }
 
@@ -61,7 +64,9 @@ int write_geojson(const io::Run& run, double time, const Options& options) {
     print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
   }
   if (const auto made = make_folder(options.geojson); !made) return fail(kInputOutput, made.error());
-  for (const auto& [name, text] : views::geojson_layers(run, time, project)) {
+  const auto layers = with_progress(options.progress, "making the layers",
+                                    [&] { return views::geojson_layers(run, time, project); });
+  for (const auto& [name, text] : layers) {
     const fs::path file = fs::path(options.geojson) / name;
     if (const auto written = io::write_named_file(file, text); !written)
       return fail(kInputOutput, written.error());
@@ -72,7 +77,8 @@ int write_geojson(const io::Run& run, double time, const Options& options) {
 
 /// A scene of its own that starts where the run was then.
 int write_scene(const io::Run& run, double time, const Options& options) {
-  const auto scene = views::continued_scene(run, time);
+  const auto scene =
+      with_progress(options.progress, "making the scene", [&] { return views::continued_scene(run, time); });
   if (!scene) return fail(kInputOutput, scene.error());
   const fs::path folder = options.out.empty() ? fs::path(options.run) / fmt::format("from-{:g}s", scene->time)
                                               : fs::path(options.out);
@@ -92,7 +98,7 @@ int export_run(const Options& options) {
     return fail(
         kUsage,
         "--vtk DIR (for ParaView), --geojson DIR (for QGIS) or --scene (to continue the run) is needed");
-  const auto run = io::read_run(options.run);
+  const auto run = read_run(options.run, options.progress);
   if (!run) return fail(kInputOutput, run.error());
   const bool has_instant = !options.geojson.empty() || options.is_scene;
   const double time = options.at.value_or(run->end_time());
@@ -127,6 +133,7 @@ Command add_export(CommandLine& app) {
   command.option("--out", options->out, "DIR", "Folder of the scene; one in the run's if not given",
                  not_empty());
   command.flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
+  add_progress(command, options->progress);
   return {command, [options] { return export_run(*options); }};
 }
 

@@ -39,8 +39,8 @@ std::string against(const PowerLawSizes& law, const FieldStatistics& field) {
 void print_fields(const io::LoadedScene& scene) {
   for (const io::FieldReport& field : scene.fields) {
     const simulation::FloeFieldOutcome& outcome = field.outcome;
-    print_out("floes[{}]: {} floes, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
-              field.group, outcome.count, outcome.mean_size, 100 * outcome.size_spread,
+    print_out("floes[{}]: {}, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
+              field.group, counted(outcome.count, "floe"), outcome.mean_size, 100 * outcome.size_spread,
               100 * outcome.concentration(), outcome.region_area, outcome.left_out);
     if (!outcome.statistics) continue;
     const FieldStatistics& statistics = *outcome.statistics;

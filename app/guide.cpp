@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/python.hpp"
 #include "app/write_output.hpp"
 #include "io/text/version.hpp"
 
@@ -46,7 +47,7 @@ void append_command(std::string& text, const CommandDescription& command, const 
 /// How bash completes a type of value.
 std::string_view completed_by(std::string_view type) {
   type = type.substr(0, type.find(':'));  // a range may follow
-  if (type == "FILE" || type == "SCENE" || type == "FLOES") return "-f";
+  if (type == "FILE" || type == "SCENE" || type == "FLOES" || type == "STUDY") return "-f";
   if (type == "RUN" || type == "DIR") return "-d";
   return "none";
 }
@@ -146,7 +147,9 @@ Command add_page(CommandLine& program, const char* name, const char* meaning,
   auto file = std::make_shared<std::string>();
   command.option("file", *file, "FILE", "Where to; stdout if not given");
   return {command, [file, page, program] {
-            const auto written = write_output(file->empty() ? "-" : *file, page(program.described()));
+            CommandDescription described = program.described();
+            describe_python_commands(described.commands);
+            const auto written = write_output(file->empty() ? "-" : *file, page(described));
             return written ? kDone : fail(kInputOutput, written.error());
           }};
 }

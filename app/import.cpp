@@ -38,6 +38,7 @@ struct Options {
   std::string report;  ///< empty: stdout, unless the floes go there
   std::string origin;  ///< "LAT,LON" or "LAT,LON,HEADING" [°]
   std::string layer;
+  ProgressKind progress = ProgressKind::kAuto;
   std::vector<std::string> properties;
   io::ImportSettings settings;
 };
@@ -167,7 +168,8 @@ Outcome<bool> import_all(const Options& options) {
   std::vector<io::SourceFloe> floes;
   io::NearMisses near_misses(names);
   const std::vector<std::string> refused = read_properties(*text, names, floes, near_misses);
-  const auto imported = import_floes(floes, refused, crs, settings);
+  const auto imported = with_progress(options.progress, "projecting and taking apart",
+                                      [&] { return import_floes(floes, refused, crs, settings); });
   if (!imported) {
     std::string place = name;
     if (const auto floe = imported.error().floe) {
@@ -259,6 +261,7 @@ Command add_import(CommandLine& app) {
                  "The report, JSON; stdout if not given, unless the floes go there");
   add_plane_options(command, *options);
   add_floe_options(command, *options);
+  add_progress(command, options->progress);
   return {command, [options] { return import_command(*options); }};
 }
 

@@ -4,6 +4,7 @@
 #include "app/console.hpp"
 #include "app/inspect_views.hpp"
 #include "app/options.hpp"
+#include "app/read_input.hpp"
 #include "io/run/motion_index.hpp"
 
 namespace polynya::app {
@@ -33,6 +34,7 @@ struct Options {
   bool events = false;
   bool check = false;
   bool fsd = false;
+  ProgressKind progress = ProgressKind::kAuto;
   bool json = false;  ///< the report as JSON; a floe's shape has its own formats
 };
 
@@ -59,8 +61,17 @@ int print_floe(const io::Run& run, const Options& options) {
     view.polygon = polygon_in_world(view.polygon, floe->birth.centroid_in_body, *motion);
     view.time_in_world = options.at;
   }
+  if (!view.time_in_world && options.format == ShapeFormat::kWkt)
+    print_err("note: floe {} in its body frame [m]; --at T gives it where it was in the world at T\n",
+              *options.floe);
   write_out(to_text(view, options.format));
   return kDone;
+}
+
+analysis::RunCheck check_of(const io::Run& run, const Options& options) {
+  return with_progress(options.progress, "checking the run", [&](WorkProgress& progress) {
+    return analysis::check_run(run, options.at, [&](double part) { progress.set_part(part); });
+  });
 }
 
 int print(const io::Run& run, const Options& options) {
@@ -80,7 +91,7 @@ int print(const io::Run& run, const Options& options) {
     return kDone;
   }
   if (options.check) {
-    const analysis::RunCheck check = analysis::check_run(run, options.at);
+    const analysis::RunCheck check = check_of(run, options);
     write_out(options.json ? check_json(check, run.scene.scene.ships)
                            : check_text(check, run.scene.scene.ships));
     return check.is_sound() ? kDone : kRefused;
@@ -96,7 +107,7 @@ int print(const io::Run& run, const Options& options) {
 }
 
 int inspect(const Options& options) {
-  const auto run = io::read_run(options.run);
+  const auto run = read_run(options.run, options.progress);
   return run ? print(*run, options) : fail(kInputOutput, run.error());
 }
 
@@ -122,6 +133,7 @@ Command add_inspect(CommandLine& app) {
           {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}})
       .needs(floe);
   auto json = command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
+  add_progress(command, options->progress);
   floe.excludes(lineage).excludes(events).excludes(check).excludes(fsd).excludes(json);
   lineage.excludes(events).excludes(check).excludes(fsd);
   events.excludes(check).excludes(fsd);

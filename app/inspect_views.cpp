@@ -44,9 +44,11 @@ std::string as_svg(const ShapeView& view) {
   const geometry::Vector size = box.high - box.low;
   const double margin = 0.02 * std::max(size.x, size.y);
   std::string text = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='{} {} {} {}'>\n<title>floe {}, metres</title>\n<path "
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='{} {} {} {}'>\n<title>floe {} {}, "
+      "metres</title>\n<path "
       "d='",
-      box.low.x - margin, -box.high.y - margin, size.x + 2 * margin, size.y + 2 * margin, view.birth.floe);
+      box.low.x - margin, -box.high.y - margin, size.x + 2 * margin, size.y + 2 * margin, view.birth.floe,
+      view.time_in_world ? fmt::format("in the world at {:g} s", *view.time_in_world) : "in its body frame");
   const auto write = [&text](const Ring& ring) {
     char command = 'M';
     for (const geometry::Point p : ring) {
@@ -129,8 +131,8 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
 }
 
 std::string size_text(const analysis::SizeDistribution& sizes) {
-  std::string text = fmt::format("{} floes, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
-                                 sizes.count, sizes.area, sizes.time);
+  std::string text = fmt::format("{}, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
+                                 counted(sizes.count, "floe"), sizes.area, sizes.time);
   if (sizes.without_size > 0)
     text += fmt::format("left out: {} whose recorded area is not a positive number\n",
                         counted(sizes.without_size, "floe"));
@@ -152,16 +154,18 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
   const auto add = [&text](const std::string& line) { text += line + "\n"; };
   if (check.worst_with_hull.area > 0)
     add(fmt::format(
-        "hulls      {} pairs with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
+        "hulls      {} with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
         "vertex {:.4g} m deep",
-        check.hull_pairs, ships[static_cast<std::size_t>(check.worst_hull)].name,
+        counted(check.hull_pairs, "pair"), ships[static_cast<std::size_t>(check.worst_hull)].name,
         check.worst_with_hull.second, check.worst_with_hull.time, check.worst_with_hull.area,
         check.worst_with_hull.depth));
   if (!check.has_crushed) {
     add("crushed    not on record (no crushed.csv): overlaps are measured, not judged");
   } else {
-    add(fmt::format("crushed    {} pairs share more than was crushed there and {:g} % of the smaller body",
-                    check.uncrushed_pairs, 100 * analysis::kUncrushedShare));
+    add(fmt::format(
+        "crushed    {} more than was crushed there and {:g} % of the smaller body",
+        check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
+        100 * analysis::kUncrushedShare));
     const auto name = [&](const simulation::ContactState::Body& body) {
       return body.ship >= 0 ? ships[static_cast<std::size_t>(body.ship)].name
                             : fmt::format("floe {}", body.floe);
@@ -183,7 +187,7 @@ std::string check_text(const analysis::RunCheck& check, const std::vector<simula
   const auto from = [](simulation::FloeId floe) {
     return floe == simulation::kNoFloe ? std::string() : fmt::format(" (floe {})", floe);
   };
-  add(fmt::format("validity   {} shapes, {} invalid", check.shapes, check.invalid.size()));
+  add(fmt::format("validity   {}, {} invalid", counted(check.shapes, "shape"), check.invalid.size()));
   for (const analysis::InvalidFloe& floe : check.invalid) {
     add(fmt::format("           floe {}: {}{}", floe.floe, floe.defect,
                     io::places_in_words(floe.places_in_body, 4)));
@@ -200,11 +204,11 @@ std::string check_text(const analysis::RunCheck& check, const std::vector<simula
                                             "their body frame (floes {} and {})",
                                             check.siblings.area, check.siblings.first, check.siblings.second)
                               : "           pieces of one fracture share 0 m2 in their body frame, exactly");
-  add(
-      fmt::format("overlap    {} instants, {} pairs with boxes that meet, {} not decided; {} pairs of floes "
-                  "share more than "
-                  "1e-6 m2 at some instant",
-                  check.instants, check.pairs, check.undecided, check.overlapping_pairs));
+  add(fmt::format(
+      "overlap    {}, {} with boxes that meet, {} not decided; {} more than 1e-6 m2 at some instant",
+      counted(check.instants, "instant"), counted(check.pairs, "pair"), check.undecided,
+      check.overlapping_pairs == 1 ? "1 pair of floes shares"
+                                   : fmt::format("{} pairs of floes share", check.overlapping_pairs)));
   add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice",
                   check.most_shared, check.most_shared_time,
                   check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));

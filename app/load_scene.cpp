@@ -14,16 +14,19 @@ void print_problems(const std::string& name, const std::vector<io::Problem>& pro
 }
 
 tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
-                                                   const io::SceneOverrides& overrides,
-                                                   ProblemFormat format) {
+                                                   const io::SceneOverrides& overrides, ProblemFormat format,
+                                                   ProgressKind progress) {
   const bool is_json = format == ProblemFormat::kJson;
   const std::string name = file == "-" ? "stdin" : file;
-  auto text = read_input(file, io::kLongestScene);
+  auto text =
+      with_progress(progress, "reading the scene", [&] { return read_input(file, io::kLongestScene); });
   if (!text) {
     if (is_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
     return tl::unexpected(fail(kInputOutput, fmt::format("{}: {}", name, text.error())));
   }
-  auto loaded = io::read_scene(std::move(*text), name, std::filesystem::path(file).parent_path(), overrides);
+  auto loaded = with_progress(progress, "making the scene", [&] {
+    return io::read_scene(std::move(*text), name, std::filesystem::path(file).parent_path(), overrides);
+  });
   if (loaded) return std::move(*loaded);
   if (is_json)
     write_out(io::to_json_text(loaded.error()));

@@ -6,6 +6,7 @@
 #include <tl/expected.hpp>
 
 #include "app/exit_code.hpp"
+#include "app/progress.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace polynya::app {
@@ -14,11 +15,12 @@ namespace polynya::app {
 enum class ProblemFormat { kText, kJson };
 
 /// The scene of that file, or of stdin where its name is "-" (floe files are then searched in the working
-/// folder). Where it cannot be read or is wrong, every problem has been printed, and it is the code to exit
-/// with.
+/// folder), with its progress on stderr. Where it cannot be read or is wrong, every problem has been printed,
+/// and it is the code to exit with.
 tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
                                                    const io::SceneOverrides& overrides = {},
-                                                   ProblemFormat format = ProblemFormat::kText);
+                                                   ProblemFormat format = ProblemFormat::kText,
+                                                   ProgressKind progress = ProgressKind::kNone);
 
 /// Each problem of that file on stderr, a line each, and how many there are.
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems);

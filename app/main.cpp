@@ -14,9 +14,9 @@ namespace {
 
 /// In the order of the help.
 const std::vector<Command (*)(CommandLine&)> kCommands{
-    add_run,    add_resume,   add_validate, add_schema, add_ships,     add_performance, add_init,
-    add_view,   add_channel,  add_figures,  add_movie,  add_export,    add_inspect,     add_cut,
-    add_import, add_database, add_study,    add_man,    add_completion};
+    add_run,    add_resume,   add_validate, add_schema, add_ships,      add_performance, add_init,
+    add_view,   add_channel,  add_figures,  add_movie,  add_export,     add_inspect,     add_cut,
+    add_import, add_database, add_study,    add_man,    add_completion, add_read_json};
 
 constexpr auto kExamples =
     "Examples:\n"
@@ -37,7 +37,8 @@ constexpr auto kExamples =
 constexpr auto kCodes =
     "Exit codes: 0 done, 2 usage, 3 scene invalid, 4 numerical failure, geometry refused or out of memory, "
     "5 input/output, 75 stopped on a "
-    "signal with a checkpoint (polynya resume), 141 the reader of stdout or stderr closed the pipe.\n"
+    "signal with a checkpoint (polynya resume), 70 a defect of polynya itself, 141 the reader of stdout or "
+    "stderr closed the pipe.\n"
     "Data goes to stdout, messages to stderr.\n";
 
 int report_out_of_memory() {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/console.hpp"
+#include "io/run/run_folder.hpp"
 #include "simulation/memory_estimate.hpp"
 
 namespace polynya::app {
@@ -10,10 +11,9 @@ namespace polynya::app {
 bool may_fit(const simulation::Scene& scene, const std::string& name, const MemoryAvailable& available) {
   const simulation::MemoryEstimate needed = simulation::estimate_memory(scene);
   if (needed.at_start > available.bytes) {
-    print_err(
-        "polynya: {}: {} floes take at least {} of memory, and there are {} ({}); nothing was written; {}\n",
-        name, scene.floes.size(), amount_of_memory(needed.at_start), amount_of_memory(available.bytes),
-        available.source, kToNeedLessMemory);
+    print_err("polynya: {}: {} take at least {} of memory, and there are {} ({}); nothing was written; {}\n",
+              name, counted(scene.floes.size(), "floe"), amount_of_memory(needed.at_start),
+              amount_of_memory(available.bytes), available.source, kToNeedLessMemory);
     return false;
   }
   if (needed.all_moving > available.bytes) {
@@ -23,6 +23,15 @@ bool may_fit(const simulation::Scene& scene, const std::string& name, const Memo
         name, amount_of_memory(needed.all_moving), amount_of_memory(available.bytes), available.source);
   }
   return true;
+}
+
+void print_folder_size(const simulation::Scene& scene, bool has_final_geojson) {
+  if (scene.floes.size() <= io::kMostFloesInFinal) return;
+  const io::FolderSize size = io::estimate_folder_size(scene);
+  print_err("note: {} begin floes.ndjson with about {}; final.geojson, about {}, {}\n",
+            counted(scene.floes.size(), "floe"), amount_of_memory(size.floes),
+            amount_of_memory(size.final_geojson),
+            has_final_geojson ? "is written at the end" : "is written only with --final-geojson");
 }
 
 std::string out_of_memory() {

@@ -11,6 +11,9 @@ namespace polynya::app {
 /// it does only while most of the ice rests, a note is. `name` stands in messages.
 bool may_fit(const simulation::Scene& scene, const std::string& name, const MemoryAvailable& available);
 
+/// Prints how large the files with all floes become, where they are many (io/run/run_folder.hpp).
+void print_folder_size(const simulation::Scene& scene, bool has_final_geojson);
+
 /// The message where memory ran out, with how much there is.
 std::string out_of_memory();
 

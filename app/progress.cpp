@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -14,10 +16,6 @@
 
 namespace polynya::app {
 namespace {
-
-double pause_of(ProgressKind kind) {
-  return kind == ProgressKind::kBar ? 0.1 : kind == ProgressKind::kLines ? 10 : 1;
-}
 
 /// A bar needs a terminal that can rewrite its line.
 ProgressKind kind_for_stderr(ProgressKind kind) {
@@ -61,10 +59,18 @@ double ProgressOutput::wall_time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+double ProgressOutput::pause() const {
+  return kind_ == ProgressKind::kBar ? 0.1 : kind_ == ProgressKind::kLines ? 10 : 1;
+}
+
+void ProgressOutput::clear() const {
+  if (kind_ == ProgressKind::kBar) show_progress("\r\x1b[K");
+}
+
 bool ProgressOutput::is_due() {
   if (kind_ == ProgressKind::kNone) return false;
   const double now = wall_time();
-  if (now - last_shown_ < pause_of(kind_)) return false;
+  if (now - last_shown_ < pause()) return false;
   last_shown_ = now;
   return true;
 }
@@ -78,8 +84,9 @@ void ProgressOutput::show(const ProgressReport& report) const {
   } else {
     const int columns = terminal_width() - 1;  // the last one would wrap some terminals
     const int room = columns - static_cast<int>(report.beside_bar.size());
-    line = fmt::format("\r{}{}\x1b[K", room >= 8 ? bar(report.part, std::min(room, 40)) : "",
-                       fitted(report.beside_bar, columns));
+    line =
+        fmt::format("\r{}{}\x1b[K", room >= 8 && report.part >= 0 ? bar(report.part, std::min(room, 40)) : "",
+                    fitted(report.beside_bar, columns));
   }
   show_progress(line);
 }
@@ -87,6 +94,41 @@ void ProgressOutput::show(const ProgressReport& report) const {
 void ProgressOutput::finish(const ProgressReport& report) const {
   if (kind_ == ProgressKind::kBar || kind_ == ProgressKind::kJson) show(report);
   if (kind_ == ProgressKind::kBar) show_progress("\n");
+}
+
+WorkProgress::WorkProgress(ProgressKind kind, std::string work) : output_(kind), work_(std::move(work)) {
+  if (output_.kind() == ProgressKind::kNone) return;
+  try {
+    thread_ = std::jthread([this](const std::stop_token& stop) { show_until(stop); });
+  } catch (const std::system_error&) {  // no thread: nothing is shown
+  }
+}
+
+WorkProgress::~WorkProgress() {
+  thread_.request_stop();
+}
+
+void WorkProgress::show_until(const std::stop_token& stop) {
+  constexpr double kFirst = 2;  // [s]
+  double pause = std::max(kFirst, output_.pause());
+  bool is_shown = false;
+  std::unique_lock lock(mutex_);
+  while (!ended_.wait_for(lock, stop, std::chrono::duration<double>(pause),
+                          [&stop] { return stop.stop_requested(); })) {
+    output_.show(report());
+    is_shown = true;
+    pause = output_.pause();
+  }
+  if (is_shown) output_.clear();
+}
+
+ProgressReport WorkProgress::report() const {
+  const double part = part_, wall = output_.wall_time();
+  const std::string percent = part >= 0 ? fmt::format("{:3.0f} %  ", 100 * part) : "";
+  const std::string text = fmt::format("{}{}  {}", percent, work_, clock_time(wall));
+  return {part, (part >= 0 ? " " : "") + text, fmt::format("{}{}, {}", percent, work_, clock_time(wall)),
+          fmt::format(R"({{"work":"{}","part":{},"wall_time_s":{:.3f}}})", work_,
+                      part >= 0 ? fmt::format("{:.4g}", part) : "null", wall)};
 }
 
 std::string clock_time(double seconds) {
@@ -102,10 +144,10 @@ ProgressReport Progress::report(double sim_time, long long fractures) const {
   const double left = rate > 0 ? std::max(0.0, until_ - sim_time) / rate : 0;
   return {
       part,
-      fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {} fractures", 100 * part, sim_time,
-                  until_, rate, clock_time(left), fractures),
-      fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {} fractures",
-                  100 * part, sim_time, until_, rate, clock_time(left), fractures),
+      fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {}", 100 * part, sim_time, until_,
+                  rate, clock_time(left), counted(fractures, "fracture")),
+      fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {}", 100 * part,
+                  sim_time, until_, rate, clock_time(left), counted(fractures, "fracture")),
       fmt::format(
           R"({{"sim_time_s":{:.6g},"until_s":{:.6g},"wall_time_s":{:.3f},"real_time_factor":{:.4g},"time_left_s":{:.1f},"fractures":{}}})",
           sim_time, until_, wall, rate, left, fractures)};

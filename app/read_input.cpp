@@ -23,18 +23,30 @@ tl::expected<std::string, std::string> read_all(std::FILE* stream, std::size_t l
   return text;
 }
 
+/// Whether it is a pipe that the shell made and writes to, as `<(command)` does. Opening any other one would
+/// wait for its writer, for ever where there is none.
+bool is_of_shell(const std::string& file) {
+  return file.starts_with("/dev/") || file.starts_with("/proc/");
+}
+
 }  // namespace
 
 tl::expected<std::string, std::string> read_input(const std::string& file, std::size_t longest) {
   if (file == "-") return read_all(stdin, longest);
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
+  if (is_fifo(status) && !is_of_shell(file))
+    return tl::unexpected(fmt::format("a named pipe; read it from stdin: - < {}", file));
   if (!is_fifo(status) && !is_character_file(status)) return io::read_text_file(file, longest);
-  std::FILE* const stream = std::fopen(file.c_str(), "r");  // as `<(command)` gives
+  std::FILE* const stream = std::fopen(file.c_str(), "r");
   if (!stream) return tl::unexpected(std::string(std::strerror(errno)));
   auto text = read_all(stream, longest);
   std::fclose(stream);
   return text;
+}
+
+io::Result<io::Run> read_run(const std::string& folder, ProgressKind progress) {
+  return with_progress(progress, "reading the run", [&] { return io::read_run(folder); });
 }
 
 }  // namespace polynya::app

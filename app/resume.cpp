@@ -65,10 +65,11 @@ std::string no_run_in(const fs::path& folder) {
   return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
 }
 
-/// A kill between the end of a run and the end of the command leaves checkpoints, or no picture.
+/// A kill between the end of a run and the end of the command leaves checkpoints, or a part of the pictures.
 int report_finished(const fs::path& folder, bool no_map) {
   print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
-  const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg);
+  const bool is_drawn =
+      fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
   if (is_drawn && io::checkpoints_in(folder).empty()) return kDone;
   const auto lock = io::RunLock::take(folder);
   if (!lock) return kDone;                            // another polynya holds it and does what is left
@@ -113,7 +114,7 @@ int resume(const ResumeOptions& options) {
   if (io::is_finished_run(folder))
     return report_finished(folder, options.driver.no_map);  // by another polynya meanwhile
   watch_signals();
-  const auto scene = load_scene(scene_file.string());
+  const auto scene = load_scene(scene_file.string(), {}, ProblemFormat::kText, options.driver.progress);
   return scene ? resume_from_checkpoint(*scene, std::move(*lock), options) : scene.error();
 }
 

@@ -36,11 +36,13 @@ struct Start {
 tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
   try {
     auto loaded =
-        load_scene(options.scene, {.until = options.until, .seed = options.seed, .assignments = options.set});
+        load_scene(options.scene, {.until = options.until, .seed = options.seed, .assignments = options.set},
+                   ProblemFormat::kText, options.driver.progress);
     if (!loaded) return tl::unexpected(loaded.error());
     print_hints(*loaded);
     print_fields(*loaded);
     if (!may_fit(loaded->scene, options.scene, memory_available())) return tl::unexpected(kOutOfMemory);
+    print_folder_size(loaded->scene, options.driver.control.final_geojson);
     Start start;
     start.simulation = std::make_unique<simulation::Simulation>(loaded->scene);
     start.scene = std::make_unique<io::LoadedScene>(std::move(*loaded));

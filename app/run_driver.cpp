@@ -111,6 +111,8 @@ void add_run_options(CommandLine& command, DriverOptions& options) {
   command.flag("--check", control.check,
                "Recompute every cross-index and sum after every step; stop if one differs");
   command.flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
+  command.flag("--final-geojson", control.final_geojson,
+               fmt::format("Write final.geojson also of more than {} floes", io::kMostFloesInFinal));
   add_progress(command, options.progress);
 }
 

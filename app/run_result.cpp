@@ -53,9 +53,8 @@ namespace {
 
 void print_under_hull(const simulation::Counts& counts, const simulation::AreaLedger& ledger) {
   if (counts.went_under == 0) return;
-  print_out(
-      "under hull  {} pieces went under, {} of them tilted floes; {} came up, {} stayed under the ice\n",
-      counts.went_under, counts.tilted_under, counts.came_up, counts.stayed_under);
+  print_out("under hull  {} went under, {} of them tilted floes; {} came up, {} stayed under the ice\n",
+            counted(counts.went_under, "piece"), counts.tilted_under, counts.came_up, counts.stayed_under);
   print_out("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n",
             ledger.under_hull_area, ledger.under_ice_area);
 }
@@ -68,10 +67,10 @@ void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
   const auto& ledger = summary.ledger;
   print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time\n", summary.sim_time, summary.wall_time,
             summary.real_time_factor());
-  print_out("fractures   {} cusps broken by bending, {} splits, {} rejected cuts\n", counts.bends,
-            counts.splits, counts.rejected_cuts);
+  print_out("fractures   {} broken by bending, {}, {}\n", counted(counts.bends, "cusp"),
+            counted(counts.splits, "split"), counted(counts.rejected_cuts, "rejected cut"));
   if (counts.ground > 0)
-    print_out("ground      {} overlaps that no contact could part, to brash\n", counts.ground);
+    print_out("ground      {} that no contact could part, to brash\n", counted(counts.ground, "overlap"));
   print_under_hull(counts, ledger);
   print_out("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
   const double submerged = ledger.submerged_area + ledger.under_hull_area + ledger.under_ice_area;

@@ -3,10 +3,11 @@
 #include <string>
 #include <vector>
 
+#include <fmt/ranges.h>
+
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/load_scene.hpp"
-#include "app/options.hpp"
 #include "app/read_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/scene_resolve.hpp"

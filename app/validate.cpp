@@ -28,7 +28,8 @@ struct Options {
   std::vector<io::Assignment> set;
   std::string cases;      ///< a file of them; empty: none
   bool resolved = false;  ///< print the scene with every default filled in
-  bool json = false;      ///< print its problems as a JSON array
+  ProgressKind progress = ProgressKind::kAuto;
+  bool json = false;  ///< print its problems as a JSON array
 };
 
 /// How the scene's fields, drawn ice and floe files came out.
@@ -58,7 +59,7 @@ int validate(const Options& options) {
   io::SceneOverrides overrides;
   overrides.assignments = options.set;
   if (!options.cases.empty()) return validate_cases(options.scene, options.cases, overrides, format);
-  const auto loaded = load_scene(options.scene, overrides, format);
+  const auto loaded = load_scene(options.scene, overrides, format, options.progress);
   if (!loaded) return loaded.error();
   if (options.json) {
     write_out(io::to_json_text(loaded->hints));
@@ -100,6 +101,7 @@ Command add_validate(CommandLine& app) {
       command.flag("--resolved", options->resolved, "Print the scene with every default filled in");
   resolved.excludes(cases);
   command.flag("--json", options->json, "Print the problems as a JSON array; [] for none").excludes(resolved);
+  add_progress(command, options->progress);
   return {command, [options] { return validate(*options); }};
 }
 

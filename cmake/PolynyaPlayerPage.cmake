@@ -7,11 +7,9 @@
 
 # In the order they stand in the page.
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
-set(POLYNYA_PLAYER_SCRIPTS numbers.js floe_shapes.js run_data.js motion.js breakage.js palette.js map_view.js floe_raster.js size_classes.js draw_ice.js still_ice.js
-  under_hull.js floe_card.js shown_floe.js channel.js contact_forces.js contact_circles.js draw_marks.js draw_ship.js legend.js map_picture.js
-  plot_scale.js force_causes.js plot_curves.js plot_stack.js plot_reading.js plot_off_scale.js plot_chart.js plot_gestures.js plot.js plot_panel.js timeline.js gestures.js size_panel.js moment_link.js save_picture.js keyboard.js page.js
-  actions.js draw_loop.js player.js)
-set(POLYNYA_PAIR_SCRIPTS numbers.js moment_link.js pair_link.js pair.js)
+set(POLYNYA_PLAYER_SCRIPTS numbers.js run_data.js motion.js map_view.js colours.js sizes.js draw_ice.js channel.js draw_marks.js floe_card.js
+  plot_curves.js plot.js timeline.js input.js moment_link.js save_picture.js actions.js player.js)
+set(POLYNYA_PAIR_SCRIPTS numbers.js input.js moment_link.js pair.js)
 
 function(polynya_player_page folder output)
   set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} ${POLYNYA_PAIR_SCRIPTS} player.html pair.html pair.css vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)

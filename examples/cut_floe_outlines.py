@@ -12,12 +12,14 @@ import argparse
 import json
 import pathlib
 
+import polynya
+
+polynya.require("numpy", "matplotlib")
+
 import numpy
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-
-import polynya
 
 HERE = pathlib.Path(__file__).resolve().parent
 BEAM = 24.0  # of the channel [m]

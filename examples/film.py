@@ -12,6 +12,9 @@ import pathlib
 import subprocess
 
 import polynya
+
+polynya.require("numpy", "matplotlib")
+
 from polynya.movie import film, picture
 from polynya.program import program
 

@@ -9,11 +9,14 @@ and the floes as numpy arrays. Draws first-run.png: the ice at the end, and the 
 import argparse
 import pathlib
 
+import polynya
+
+polynya.require("numpy", "matplotlib")
+
 import numpy
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-import polynya
 from polynya.results.hulls import waterline
 
 SCENE = {

@@ -12,6 +12,10 @@ import concurrent.futures
 import os
 import pathlib
 
+import polynya
+
+polynya.require("numpy", "matplotlib")
+
 from polynya import formulas
 from polynya.performance import figure
 from polynya.performance.__main__ import hull_of, print_table, ship_of

@@ -11,10 +11,13 @@ import argparse
 import concurrent.futures
 import pathlib
 
+import polynya
+
+polynya.require("numpy", "scipy", "matplotlib")
+
 import numpy
 from matplotlib.figure import Figure
 
-import polynya
 from polynya import statistics
 
 CONCENTRATIONS = (0.4, 0.6)

@@ -9,11 +9,13 @@ some directions would cross, and turns into the cheapest one. Draws python-pilot
 import argparse
 import pathlib
 
+import polynya
+
+polynya.require("numpy", "matplotlib")
+
 import numpy
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-
-import polynya
 
 SCENE = {
     "name": "big-floes",

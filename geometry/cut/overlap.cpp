@@ -1,6 +1,7 @@
 #include "geometry/cut/overlap.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/guarded.hpp"
@@ -41,14 +42,31 @@ Box box_in_world(const Shape& shape, const Pose& world_from_body) {
   return grown(box, 1e-12 * size);
 }
 
-// The box of b in a's frame, with room for the rounding of its own arithmetic.
-Box box_in_frame(const Pose& world_from_a, const Polygon& b, const Pose& world_from_b) {
+// b's outer ring in a's frame, in doubles, and how far it may be off there.
+struct RingInFrame {
   Ring ring;
-  for (const Point p : b.outer) ring.push_back(inverse_transform(world_from_a, transform(world_from_b, p)));
-  const Box box = bounding_box(ring);
-  const double size = length(box.low - Point{}) + length(box.high - Point{}) +
-                      length(world_from_a.position - Point{}) + length(world_from_b.position - Point{});
-  return grown(box, 1e-12 * size);
+  Box box;
+  double error = 0;  // [m]
+};
+RingInFrame ring_in_frame(const Pose& world_from_a, const Polygon& b, const Pose& world_from_b) {
+  RingInFrame in_a;
+  in_a.ring.reserve(b.outer.size());
+  for (const Point p : b.outer)
+    in_a.ring.push_back(inverse_transform(world_from_a, transform(world_from_b, p)));
+  in_a.box = bounding_box(in_a.ring);
+  in_a.error = 1e-12 * (length(in_a.box.low - Point{}) + length(in_a.box.high - Point{}) +
+                        length(world_from_a.position - Point{}) + length(world_from_b.position - Point{}));
+  return in_a;
+}
+
+// Whether an edge of one leaves the other so far aside that rounding cannot have done it: they share nothing.
+bool are_apart(const Ring& a, const RingInFrame& b) {
+  double size = 0;
+  for (const Point p : a) size = std::max({size, std::abs(p.x), std::abs(p.y)});
+  const double off = b.error + 1e-12 * size;
+  constexpr double kFar = 1e50;  ///< beyond it products may overflow [m]
+  if (!(off < kFar)) return false;
+  return has_separating_edge(a, b.ring, off, -4 * off) || has_separating_edge(b.ring, a, off, -4 * off);
 }
 
 // Beyond which sides of the box a point is, a bit each.
@@ -80,9 +98,10 @@ tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a
 tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_from_a, const Polygon& b,
                                            const Pose& world_from_b) {
   if (vertex_count(a) < vertex_count(b)) return shared_area(b, world_from_b, a, world_from_a);
-  const Box box = box_in_frame(world_from_a, b, world_from_b);
+  const RingInFrame b_in_a = ring_in_frame(world_from_a, b, world_from_b);
+  const Box box = grown(b_in_a.box, b_in_a.error);
   Polygon near{near_part(a.outer, box), {}};
-  if (near.outer.size() < 3) return 0;
+  if (near.outer.size() < 3 || are_apart(near.outer, b_in_a)) return 0;
   for (const Ring& hole : a.holes) {
     if (Ring part = near_part(hole, box); part.size() > 2) near.holes.push_back(std::move(part));
   }
@@ -90,6 +109,20 @@ tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_f
   // wind at all.
   return overlap({.polygon = std::move(near)}, world_from_a, {.polygon = b}, world_from_b)
       .map(&Overlap::area);
+}
+
+bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Point from = a[i];
+    const Vector edge = a[(i + 1) % a.size()] - from;
+    const double size = length(edge);
+    if (size == 0) continue;
+    const auto side = [&](Point p) { return cross(edge, p - from); };
+    if (std::ranges::all_of(b, [&](Point p) { return side(p) <= most_of_b * size; }) &&
+        std::ranges::all_of(a, [&](Point p) { return side(p) >= -most_of_a * size; }))
+      return true;
+  }
+  return false;
 }
 
 Ring near_part(const Ring& ring, const Box& box) {

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "geometry/cut/cut.hpp"
+#include "geometry/cut/overlap.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -13,20 +14,6 @@ namespace {
 bool overlap_deeply(const Box& a, const Box& b) {
   return std::min(a.high.x, b.high.x) - std::max(a.low.x, b.low.x) > kTouchingDepth &&
          std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y) > kTouchingDepth;
-}
-
-/// Has `a` an edge with all of `a` on its left and all of `b` on its right (or touching it)?
-bool has_separating_edge(const Ring& a, const Ring& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Point from = a[i];
-    const Vector edge = a[(i + 1) % a.size()] - from;
-    const double tolerance = kTouchingDepth * length(edge);
-    const auto side = [&](Point p) { return cross(edge, p - from); };
-    if (std::ranges::all_of(b, [&](Point p) { return side(p) <= tolerance; }) &&
-        std::ranges::all_of(a, [&](Point p) { return side(p) >= -tolerance; }))
-      return true;
-  }
-  return false;
 }
 
 /// Shared area of two valid polygons [m²], found exactly.
@@ -96,7 +83,9 @@ std::vector<OverlappingPair> find_overlapping_pairs(const std::vector<Polygon>& 
         if (grid.cell_at({std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}) != cell) continue;
         const Polygon& p = polygons[here[i]];
         const Polygon& q = polygons[here[j]];
-        if (has_separating_edge(p.outer, q.outer) || has_separating_edge(q.outer, p.outer)) continue;
+        if (has_separating_edge(p.outer, q.outer, kTouchingDepth, kTouchingDepth) ||
+            has_separating_edge(q.outer, p.outer, kTouchingDepth, kTouchingDepth))
+          continue;
         const double area = area_in_common(p, q);
         if (!(area <= kTouchingArea)) found.push_back({here[i], here[j], area});
       }

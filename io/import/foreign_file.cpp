@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <system_error>
 #include <vector>
 
 #include <fcntl.h>
@@ -146,6 +147,8 @@ std::string_view name_of(ForeignFormat format) {
 
 std::optional<ForeignFormat> foreign_format(const std::filesystem::path& file) {
   std::array<char, 16> bytes{};
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};  // opening a pipe would wait for its writer
   std::FILE* const stream = std::fopen(file.c_str(), "rb");
   if (!stream) return {};
   const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), stream);

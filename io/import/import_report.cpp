@@ -9,6 +9,7 @@
 #include "geometry/exact/measures.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
+#include "io/text/problem.hpp"
 #include "io/text/lenient_json.hpp"
 
 namespace polynya::io {
@@ -182,7 +183,7 @@ std::string to_json_text(const ImportOutcome& imported, const std::string& file,
 }
 
 std::string counts_in_words(const ImportTotals& totals) {
-  std::string words = fmt::format("{} floe{} read", totals.read, totals.read == 1 ? "" : "s");
+  std::string words = counted(totals.read, "floe") + " read";
   for (const auto& [count, what] : {std::pair{totals.repaired, "repaired"},
                                     {totals.simplified, "simplified"},
                                     {totals.trimmed, "trimmed"},

@@ -6,6 +6,7 @@
 
 #include "io/text/csv_row.hpp"
 #include "io/text/json_parser.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::io {
 
@@ -57,7 +58,7 @@ simulation::EventKind event_kind(std::string_view name) {
         simulation::EventKind::kResurface, simulation::EventKind::kStayUnder}) {
     if (name_of(kind) == name) return kind;
   }
-  throw ReadError(fmt::format("an unknown kind of event, \"{}\"", name));
+  throw ReadError(fmt::format("an unknown kind of event, \"{}\"", shortened(name, 60)));
 }
 
 fracture::FailureCriteria criteria_of(const JsonValue& criterion) {

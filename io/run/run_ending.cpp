@@ -22,7 +22,7 @@ void write_floes(const simulation::Simulation& simulation, const WritePart& writ
 
 }  // namespace
 
-Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulation& simulation) {
+Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulation* simulation) {
   Result<> written = sync_files();
   if (is_displaced_) return written;  // whatever is there now is not this run's
   const auto write = [&](std::string_view name, const std::string& text) {
@@ -30,8 +30,9 @@ Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulati
     if (written) written = std::move(done);
   };
   const auto write_ice = [&] {
+    if (!simulation) return;
     auto done = write_whole_file_in_parts(
-        folder() / run_file::kFinalGeojson, [&](const WritePart& part) { write_floes(simulation, part); },
+        folder() / run_file::kFinalGeojson, [&](const WritePart& part) { write_floes(*simulation, part); },
         Durability::kSynced);
     if (written) written = std::move(done);
   };

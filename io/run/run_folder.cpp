@@ -120,6 +120,20 @@ Result<> remove_run(const fs::path& folder) {
 
 }  // namespace
 
+FolderSize estimate_folder_size(const simulation::Scene& scene) {
+  // A vertex is two numbers of 16 to 18 digits; a floe's other members are those of append_birth,
+  // append_floe.
+  constexpr double kVertex = 40, kBirth = 160, kState = 470;  // [bytes]
+  double vertices = 0;
+  for (const simulation::FloeSpec& floe : scene.floes) {
+    vertices += static_cast<double>(floe.polygon_in_world.outer.size());
+    for (const geometry::Ring& hole : floe.polygon_in_world.holes)
+      vertices += static_cast<double>(hole.size());
+  }
+  const auto floes = static_cast<double>(scene.floes.size());
+  return {kBirth * floes + kVertex * vertices, kState * floes + kVertex * (vertices + floes)};
+}
+
 bool is_marked_run_folder(const fs::path& folder) {
   std::error_code error;
   return fs::is_regular_file(fs::symlink_status(folder / run_file::kLock, error));

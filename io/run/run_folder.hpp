@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/run/run_lock.hpp"
+#include "simulation/scene.hpp"
 
 namespace polynya::io {
 
@@ -47,6 +48,17 @@ inline constexpr std::array kAll{kScene,    kSummary,  kForces,   kEvents,  kFlo
 
 /// What reads runs takes no longer file; a run that writes one warns [bytes].
 inline constexpr std::uint64_t kLongestRunFile = std::uint64_t{4} << 30;
+
+/// A run of more floes at the start writes no final.geojson unless it is asked for: the other files have what
+/// `polynya export --geojson` makes it of.
+inline constexpr std::size_t kMostFloesInFinal = 100'000;
+
+/// About how long the files with all floes become, of the floes at the start [bytes].
+struct FolderSize {
+  double floes = 0;          ///< floes.ndjson
+  double final_geojson = 0;  ///< where it is written
+};
+FolderSize estimate_folder_size(const simulation::Scene& scene);
 
 /// Takes a folder for a new run, making it where there is none, and locks it: of several processes that take
 /// one folder, one gets it. A folder with anything in it is refused, but for what a run leaves that was

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "io/run/failure_dump.hpp"
 #include "simulation/world.hpp"
 
@@ -128,9 +130,16 @@ Result<> RunLoop::checkpoint() {
 RunResult RunLoop::finish(const Stop& stop) {
   RunResult result{stop.end, stop.reason, summarise(simulation(), writer(), stop.reason, wall_time())};
   // Before the run is finished: that takes away the checkpoints from which the failure is sought.
+  const std::size_t floes = run_.scene.scene.floes.size();
+  const bool has_floes = control_.final_geojson || floes <= kMostFloesInFinal;
+  if (!has_floes)
+    result.summary.warnings.push_back(
+        fmt::format("no {} was written, of {} floes at the start: --final-geojson writes it, polynya export "
+                    "--geojson makes it of the last frame",
+                    run_file::kFinalGeojson, floes));
   const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
   if (is_failure && !writer().is_displaced()) result.dump = dump_failure(run_);
-  if (const auto written = writer().finish(result.summary, simulation()); !written) {
+  if (const auto written = writer().finish(result.summary, has_floes ? &simulation() : nullptr); !written) {
     result.end = RunEnd::kFolderFailure;
     result.reason = written.error();
   }

@@ -9,6 +9,7 @@
 #include "io/run/record_reader.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/text/json_fault.hpp"
 #include "io/text/source_text.hpp"
 
 namespace polynya::io {
@@ -20,6 +21,17 @@ std::string text_of(const std::filesystem::path& folder, std::string_view name) 
   auto text = read_text_file(folder / name, kLongestRunFile);
   if (!text) throw ReadError(fmt::format("{}: {}", (folder / name).string(), text.error()));
   return std::move(*text);
+}
+
+/// The JSON of a whole file.
+JsonValue document_of(const std::filesystem::path& folder, std::string_view name) {
+  const std::string text = text_of(folder, name);
+  JsonDocument document = parse_json(text);
+  if (document.faults.empty()) return std::move(document.root);
+  const JsonFault& fault = document.faults.front();
+  const LineAndColumn place = line_and_column(text, fault.offset);
+  throw ReadError(
+      fmt::format("{}:{}:{}: {}", (folder / name).string(), place.line, place.column, message_of(fault)));
 }
 
 /// Uses each whole line of a file.
@@ -157,7 +169,7 @@ Result<Run> read_run(const std::filesystem::path& folder) {
     if (!scene) return fail(to_string(scene.error().front()));
     run.scene = std::move(*scene);
     run.label = run.scene.scene.name;
-    run.summary = json_of(text_of(folder, run_file::kSummary));
+    run.summary = document_of(folder, run_file::kSummary);
     check_version(run);
     read_floes(run);
     read_events(run);

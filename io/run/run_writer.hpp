@@ -65,9 +65,9 @@ class RunWriter {
   /// Peaks of the samples so far.
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
-  /// Ends the run: everything buffered, final.geojson, and last summary.json. All of it is on the disk before
-  /// a summary with "finished": true is, and that one before the checkpoints are removed.
-  Result<> finish(const RunSummary& summary, const simulation::Simulation& simulation);
+  /// Ends the run: everything buffered, final.geojson of a simulation, and last summary.json. All of it is on
+  /// the disk before a summary with "finished": true is, and that one before the checkpoints are removed.
+  Result<> finish(const RunSummary& summary, const simulation::Simulation* simulation);
 
   const std::filesystem::path& folder() const { return lock_.folder(); }
   /// Whether the folder and its files were removed, moved or replaced by another program.

@@ -11,6 +11,7 @@
 #include "io/scene/floe_ice.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
+#include "io/text/problem.hpp"
 #include "io/text/source_text.hpp"
 #include "io/text/version.hpp"
 #include "simulation/world.hpp"
@@ -158,12 +159,19 @@ void add_mooring_warnings(const Simulation& simulation, std::vector<std::string>
 std::vector<std::string> warnings_of(const Simulation& simulation, const simulation::Counts& counts) {
   std::vector<std::string> warnings = ship_contact_warnings(simulation);
   add_mooring_warnings(simulation, warnings);
-  const auto warn = [&](std::int64_t count, const char* words) {
-    if (count > 0) warnings.push_back(fmt::format("{} {}", count, words));
+  const auto warn = [&](std::int64_t count, std::string_view noun, std::string_view words) {
+    if (count > 0) warnings.push_back(fmt::format("{} {}", counted(count, noun), words));
   };
-  warn(counts.rejected_cuts, "cuts were rejected; events.ndjson has each with its reason");
-  warn(counts.unconverged_steps, "steps used all sweeps of the contact solver (contact.iterations)");
-  warn(counts.database_out_of_range, "bending loads lay outside the database's range");
+  warn(counts.rejected_cuts, "rejected cut", "in events.ndjson, each with its reason");
+  warn(counts.unconverged_steps, "step", "used all sweeps of the contact solver (contact.iterations)");
+  warn(counts.database_out_of_range, "bending load",
+       simulation.scene().fracture.bending == simulation::BendingModelKind::kFsiDatabase
+           ? "outside the database's range: the force at which the ice broke and the cusp's radius are those "
+             "at "
+             "the range's nearest edge, of an error that is not known (docs/database.md, \"Outside of the "
+             "table\"); polynya database query gives the ranges"
+           : "outside the range of fracture.bending.model: the force at which the ice broke and the cusp's "
+             "radius are the formula's, beyond where it is known to hold (docs/theory-bending.md)");
   if (const simulation::Audit audit = simulation.audit(); !audit.is_closed()) {
     warnings.push_back(fmt::format(
         "THE AUDIT IS BROKEN: energy is off by {:.2e} J of {:.2e} J, momentum by {:.2e} N s of {:.2e} N s; "

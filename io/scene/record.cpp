@@ -294,7 +294,7 @@ std::string show(const JsonValue& value) {
       append_number(text, value.number());
       return text;
     case JsonKind::kText:
-      append_text(text, value.text().substr(0, 60));
+      append_text(text, shortened(value.text(), 60));
       return text;
     case JsonKind::kBoolean:
       return value.boolean() ? "true" : "false";

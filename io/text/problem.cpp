@@ -33,6 +33,8 @@ std::string_view without_unit(std::string_view key) {
   return key.substr(0, key.rfind('_'));
 }
 
+constexpr std::size_t kLongestPath = 160, kLongestFound = 1000;  ///< in messages [bytes]
+
 }  // namespace
 
 std::string_view name_of(Severity severity) {
@@ -42,7 +44,7 @@ std::string_view name_of(Severity severity) {
 
 std::string message_of(const Problem& problem) {
   if (!problem.sentence.empty()) return problem.sentence;
-  std::string text = "found " + problem.found;
+  std::string text = "found " + shortened(problem.found, kLongestFound);
   if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
   if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);
   return text;
@@ -52,7 +54,7 @@ std::string to_string(const Problem& problem) {
   std::string text = problem.line > 0 ? fmt::format("{}:{}:{}: ", problem.file, problem.line, problem.column)
                                       : fmt::format("{}: ", problem.file);
   if (problem.severity != Severity::kError) text += fmt::format("{}: ", name_of(problem.severity));
-  if (!problem.path.empty()) text += problem.path + ": ";
+  if (!problem.path.empty()) text += shortened(problem.path, kLongestPath) + ": ";
   return text + message_of(problem);
 }
 
@@ -65,7 +67,10 @@ std::string to_json_text(const std::vector<Problem>& problems) {
     json.open('{').key("file").value(problem.file);
     for (const auto& [key, value] : {std::pair{"line", problem.line}, {"column", problem.column}})
       json.key(key).value(problem.line > 0 ? std::optional(value) : std::nullopt);
-    json.key("path").value(problem.path).key("severity").value(name_of(problem.severity));
+    json.key("path")
+        .value(shortened(problem.path, kLongestPath))
+        .key("severity")
+        .value(name_of(problem.severity));
     json.key("message").value(message_of(problem)).close('}');
   }
   json.close(']');
@@ -77,6 +82,13 @@ std::string places_in_words(std::span<const geometry::Point> places, std::size_t
   for (std::size_t i = 0; i < std::min(places.size(), most); ++i)
     text += fmt::format("{}({}, {})", i == 0 ? " at " : ", ", places[i].x, places[i].y);
   return text;
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return fmt::format("{}…", text.substr(0, end));
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <concepts>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "geometry/shape/point.hpp"
 
@@ -44,6 +47,16 @@ std::string to_json_text(const std::vector<Problem>& problems);
 
 /// " at (5, 5), (0, 0)": the first few of what is wrong, for messages; empty where there are none.
 std::string places_in_words(std::span<const geometry::Point> places, std::size_t most);
+
+/// "1 floe", "2 floes"; "1 box", "2 boxes" where the plural is given.
+template <std::integral Count>
+std::string counted(Count count, std::string_view noun, std::string_view plural = {}) {
+  return fmt::format("{} {}{}", count, count == 1 || plural.empty() ? noun : plural,
+                     count == 1 || !plural.empty() ? "" : "s");
+}
+
+/// A text of at most `most` bytes, cut between two characters and then ended by "…".
+std::string shortened(std::string_view text, std::size_t most);
 
 /// The candidate fewest edits away from a word, or "" where none is near enough to be meant.
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates);

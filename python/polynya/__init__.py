@@ -17,13 +17,14 @@ if TYPE_CHECKING:
     from polynya._core import FloeMemory, Floes, PilotView, Scene, SeenShip, Ship, Simulation
     from polynya.cutting import Cut, cut
     from polynya.errors import (
-        FolderError, NotARunError, NotAStudyError, Problem, SceneError, SimulationError, UnfinishedError, VersionError)
+        FolderError, NotARunError, NotAStudyError, Problem, SceneError, SimulationError, UnfinishedError, VersionError,
+        require)
     from polynya.results.run import Run
     from polynya.results.study import Study
     __version__: str
 
 __all__ = ["Cut", "FloeMemory", "Floes", "PilotView", "Problem", "Run", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
-__all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError"]
+__all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError", "require"]
 
 # The compiled module lies beside the folder that this package is in: that may be a link into the source tree, so its own
 # path is not resolved.
@@ -33,15 +34,41 @@ _COMPILED = {"FloeMemory", "Floes", "PilotView", "Scene", "SeenShip", "Ship", "S
 _ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneError", "SimulationError", "UnfinishedError", "VersionError"}
 
 
+def _module(name):
+    """A module of the package; where a package that it needs is missing, an ImportError with what to do."""
+    import importlib
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        from polynya.errors import missing_package
+        if not missing_package(error):
+            raise
+        raise ImportError(f"polynya: {missing_package(error)}", name=error.name) from None
+
+
 def _compiled():
+    import glob
+    import sys
     try:
         from polynya import _core
+        _module("numpy")  # which the compiled module asks for where it makes the first array
+        return _core
     except ImportError as error:
+        if error.name == "numpy":
+            raise
+        reason = error
+    built = [match for folder in __path__ for match in glob.glob(_os.path.join(folder, "_core.cpython-*.so"))]
+    digits = built[0].rpartition("_core.cpython-")[2].partition("-")[0] if built else ""
+    running = "%d.%d" % sys.version_info[:2]
+    version = f"{digits[:1]}.{digits[1:]}"
+    if digits and version != running:
         raise ImportError(
-            f"polynya's compiled module cannot be imported ({error}): install what it needs with ./setup.sh python, build Polynya "
-            "again (cmake --preset dev && cmake --build --preset dev), and have build/dev/python in PYTHONPATH, not the source's "
-            "python folder") from error
-    return _core
+            f"polynya's compiled module is built for Python {version}, and this is {running} ({sys.executable}): use "
+            f"/usr/bin/python3, or build Polynya again with -DPython_EXECUTABLE={sys.executable}") from None
+    raise ImportError(
+        f"polynya's compiled module cannot be imported ({reason}): install what it needs with ./setup.sh python, build "
+        "Polynya again (cmake --preset dev && cmake --build --preset dev), and have build/dev/python in PYTHONPATH, not "
+        "the source's python folder") from reason
 
 
 def _version():
@@ -61,14 +88,14 @@ def __getattr__(name):
         return getattr(_compiled(), name)
     if name in ("Cut", "cut"):
         _compiled()
-        from polynya import cutting
-        return getattr(cutting, name)
+        return getattr(_module("polynya.cutting"), name)
     if name == "Run":
-        from polynya.results import run
-        return run.Run
+        return _module("polynya.results.run").Run
     if name == "Study":
-        from polynya.results import study as of_studies
-        return of_studies.Study
+        return _module("polynya.results.study").Study
+    if name == "require":
+        from polynya.errors import require
+        return require
     if name in _ERRORS:
         from polynya import errors
         return getattr(errors, name)

@@ -1,6 +1,11 @@
 """What goes wrong: problems of scenes with their places, and runs that cannot continue."""
 import dataclasses
+import importlib.util
+import os
+import sys
 import typing
+
+DEBIANS = "/usr/bin/python3"  # has the modules of Debian's packages
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,6 +37,39 @@ class SceneError(ValueError):
 
     def __str__(self):
         return "\n".join(str(problem) for problem in self.problems)
+
+
+class InputError(Exception):
+    """What a command was given is wrong: `problems`, a line each, and the `code` to exit with (app/exit_code.hpp)."""
+
+    def __init__(self, problems, code=3):
+        self.problems = list(problems) if isinstance(problems, (list, tuple)) else [problems]
+        self.code = code
+        super().__init__(self.problems)
+
+    def __str__(self):
+        return "\n".join(str(problem) for problem in self.problems)
+
+
+def missing_package(error):
+    """Which Python has not what an ImportError asks for, and what to do; empty where it is a part of polynya itself."""
+    name = (error.name or "").partition(".")[0]
+    if name == "polynya":
+        return ""
+    version = sys.version.split()[0]
+    found = f"{sys.executable} (Python {version}) has no {name}" if name else f"{sys.executable}: {error}"
+    debians = "./setup.sh python, or apt-get install python3-numpy python3-scipy python3-matplotlib"
+    if os.path.realpath(sys.executable) == os.path.realpath(DEBIANS):
+        return f"{found}: {debians}"
+    other = f"{sys.executable} -m pip install {name}" if name else "repair it there"
+    return f"{found}: use {DEBIANS} (its packages: ./setup.sh python), or {other}"
+
+
+def require(*packages):
+    """Ends a script with one line for people where this Python has not one of these packages."""
+    for name in packages:
+        if importlib.util.find_spec(name) is None:
+            sys.exit(missing_package(ModuleNotFoundError(name=name)))
 
 
 class SimulationError(RuntimeError):

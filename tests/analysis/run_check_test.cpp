@@ -11,6 +11,7 @@
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
+#include "geometry/shape/convex_hull.hpp"
 
 namespace polynya::analysis {
 namespace {
@@ -129,6 +130,29 @@ io::Run small_run(const Ring& drifting = square(5, 1, 2),
     run.frames.push_back(std::move(frame));
   }
   return run;
+}
+
+TEST(NearPart, ASeparatingEdgeLeavesTheExactAreaAsItIs) {
+  std::mt19937 dice(11);
+  std::uniform_real_distribution<double> place(-9, 9);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Polygon a{geometry::convex_hull(star(dice, 7, 5)), {}}, b{star(dice, 6, 5), {}};
+    const geometry::Pose world_from_a{{place(dice), place(dice)}, geometry::Rotation::by(place(dice))};
+    const auto exact = geometry::overlap({.polygon = a}, world_from_a, {.polygon = b}, {});
+    const auto shared = shared_area(a, world_from_a, b, {});
+    ASSERT_TRUE(exact.has_value() && shared.has_value());
+    EXPECT_EQ(*shared, exact->area) << trial;
+  }
+  const Polygon left{square(0, 0, 1), {}}, right{square(1, 0, 1), {}};
+  EXPECT_EQ(shared_area(left, {}, right, {}), 0);
+}
+
+TEST(RunCheck, ReportsHowMuchIsDone) {
+  std::vector<double> parts;
+  check_run(small_run(), {}, [&](double part) { parts.push_back(part); });
+  EXPECT_TRUE(std::ranges::is_sorted(parts));
+  ASSERT_FALSE(parts.empty());
+  EXPECT_NEAR(parts.back(), 1, 1e-12);
 }
 
 TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {

@@ -66,6 +66,21 @@ TEST_F(DamagedRun, ARingOfTooFewPointsIsNamedWithItsLineByEveryCommand) {
   }
 }
 
+TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
+  write_file(file(), *floes);
+  const auto summary = folder->path() / "damaged/summary.json";
+  const std::string whole = read_file(summary);
+  std::string text = whole;
+  text.insert(text.find("\"steps\": ") + 9, "j");
+  write_file(summary, text);
+  for (const auto& words : kReading) {
+    const Outcome outcome = polynya(words, {folder->path()});
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_NE(outcome.err.find("damaged/summary.json:8:12: "), std::string::npos) << outcome.err;
+  }
+  write_file(summary, whole);
+}
+
 /// Rings that can be read but bound no valid area: the check finds them, and everything else says what it
 /// leaves out.
 TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {

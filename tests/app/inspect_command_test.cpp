@@ -6,6 +6,7 @@
 #include "io/run/run_reader.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -65,7 +66,10 @@ TEST_F(InspectCommand, AFloesShapeReadsBackToTheSameDoubles) {
   const io::JsonDocument feature = io::parse_json(inspect({"--floe", "3", "--format", "geojson"}).out);
   EXPECT_EQ(feature.root.find("properties")->find("parent_id")->number(), static_cast<double>(birth.parent));
   EXPECT_EQ(feature.root.find("properties")->find("frame")->text(), "body");
+  EXPECT_NE(inspect({"--floe", "3"}).err.find("body frame"), std::string::npos);
+  EXPECT_EQ(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).err, "");
   const std::string svg = inspect({"--floe", "3", "--format", "svg"}).out;
+  EXPECT_NE(svg.find("in its body frame"), std::string::npos);
   EXPECT_EQ(svg.find("<svg "), 0U);
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
@@ -190,7 +194,7 @@ TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {
 TEST_F(InspectCommand, TheSizeDistributionCountsEveryFloe) {
   const auto all = lines(inspect({"--fsd"}).out);
   ASSERT_GT(all.size(), 3U);
-  EXPECT_EQ(all[0].find(std::to_string(living_at(run->end_time())) + " floes, "), 0U);
+  EXPECT_EQ(all[0].find(io::counted(living_at(run->end_time()), "floe") + ", "), 0U);
   std::size_t floes = 0;
   double percent = 0;
   for (std::size_t i = 3; i < all.size(); ++i) {

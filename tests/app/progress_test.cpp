@@ -56,6 +56,19 @@ TEST(ProgressBar, FitsAnyTerminal) {
   }
 }
 
+/// A scene that comes late, as a field that takes long to make.
+TEST(ProgressBar, IsThereWhileASceneIsReadAndGoesAway) {
+  const TemporaryFolder folder;
+  write_file(folder / "tiny.json", kTinyScene);
+  Start start{folder.path()};
+  start.under = {"/bin/sh", "-c", "{ /bin/sleep 4; /bin/cat tiny.json; } | \"$@\"", "sh"};
+  const Outcome outcome = polynya({"validate", "-", "--progress", "json"}, start);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find(R"({"work":"reading the scene","part":null,"wall_time_s":)"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(polynya({"validate", "tiny.json", "--progress", "json"}, {folder.path()}).err, "");
+}
+
 TEST(ProgressBar, IsLinesWhereThereIsNoTerminal) {
   const TemporaryFolder folder;
   write_file(folder / "tiny.json", kTinyScene);

@@ -113,6 +113,23 @@ TEST_F(Streams, AClosedStdinIsAnErrorWhereItIsRead) {
   EXPECT_NE(outcome.err.find("stdin: "), std::string::npos) << outcome.err;
 }
 
+/// A named pipe without a writer would be waited for.
+TEST_F(Streams, ANamedPipeIsNoFileToRead) {
+  ASSERT_EQ(mkfifo((folder->path() / "in").c_str(), 0600), 0);
+  write_file(folder->path() / "of-pipe.json", R"({"floes": [{"file": "in"}]})");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"validate", "in"},
+                                             {"validate", "of-pipe.json"},
+                                             {"import", "in", "--out", "o.geojson"},
+                                             {"cut", "in", "--crack", "5,5,30"},
+                                             {"database", "show", "in"},
+                                             {"inspect", "in"}}) {
+    const Outcome outcome = in_folder(words);
+    EXPECT_GT(outcome.code, 0) << words.front();
+    EXPECT_NE(outcome.err.find("in"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(Streams, APageGoesIntoAPipeADeviceOrALinksTarget) {
   ASSERT_EQ(in_folder({"view", "good", "--out", "page.html"}).code, 0);
   const std::string page = read_file(folder->path() / "page.html");

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "plate_run.hpp"
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/run/motion_index.hpp"
@@ -65,6 +66,15 @@ struct Page {
     return values;
   }
 };
+
+/// The value that a message advises for an option; empty where it does not.
+std::string advised(const std::string& message, const std::string& option) {
+  const std::size_t at = message.rfind(option + ' ');
+  if (at == std::string::npos) return "";
+  const std::size_t start = at + option.size() + 1;
+  const std::string value = message.substr(start, message.find_first_of(" \n", start) - start);
+  return value.ends_with(',') ? value.substr(0, value.size() - 1) : value;
+}
 
 class ViewCommand : public PlateRun {
  protected:
@@ -276,12 +286,46 @@ TEST_F(ViewCommand, WithoutOutItStandsInTheRunFolder) {
   EXPECT_EQ(outcome.out.find("run/view.html"), 0U);
 }
 
-TEST_F(ViewCommand, TooLargeAPageIsRefusedWithAdvice) {
-  const Outcome outcome = view({"--limit", "0.05", "--out", "large.html"});
+TEST_F(ViewCommand, AdviceForTooLargeAPageIsAcceptedWhenFollowed) {
+  const Outcome whole = view({"--out", "whole.html"});
+  const double megabytes =
+      static_cast<double>(std::filesystem::file_size(folder->path() / "whole.html")) / 1e6;
+  const std::string limit = fmt::format("{:.3f}", megabytes - 0.002);
+  const Outcome outcome = view({"--limit", limit, "--out", "large.html"});
   EXPECT_EQ(outcome.code, 2);
-  for (const char* way : {"--every", "--from", "--limit"})
-    EXPECT_NE(outcome.err.find(way), std::string::npos) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder->path() / "large.html"));
+  const Outcome allowed = view({"--limit", advised(outcome.err, "--limit"), "--out", "large.html"});
+  EXPECT_EQ(allowed.code, 0) << outcome.err;
+}
+
+/// Of a wide field at rest neither fewer frames nor less time makes the page smaller: its floes are what is
+/// large.
+TEST(WideField, TheAdviceIsAnAreaWhereFloesAreWhatIsLarge) {
+  const TemporaryFolder folder;
+  write_file(folder / "wide.json", R"({"name": "wide", "time": {"step_s": 0.1, "until_s": 4},
+    "record": {"frames_interval_s": 1}, "ships": [{"name": "a", "hull": {"length_m": 60, "beam_m": 14,
+    "entrance_angle_deg": 30}, "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8, "position_m": [-40, 600],
+    "propulsion": {"constant_speed_m_per_s": 2}}],
+    "floes": [{"lattice": {"origin_m": [0, 0], "columns": 60, "rows": 60, "pitch_m": 20, "size_m": 15}}]})");
+  ASSERT_EQ(polynya({"run", "wide.json", "--out", "run", "--no-map"}, {folder.path()}).code, 0);
+  const Outcome refused = polynya({"view", "run", "--limit", "1"}, {folder.path()});
+  ASSERT_EQ(refused.code, 2) << refused.out;
+  EXPECT_EQ(advised(refused.err, "--every"), "") << refused.err;
+  const std::string area = advised(refused.err, "--area");
+  ASSERT_NE(area, "") << refused.err;
+  const Outcome followed = polynya({"view", "run", "--limit", "1", "--area", area}, {folder.path()});
+  ASSERT_EQ(followed.code, 0) << followed.err;
+
+  const auto run = io::read_run(folder / "run");
+  ASSERT_EQ(polynya({"view", "run", "--area", "103,203,197,297", "--out", "part.html"}, {folder.path()}).code,
+            0);
+  const Page held(folder / "part.html");
+  const auto ids = held.column<std::int32_t>("floe_id");
+  EXPECT_EQ(ids.size(), 25U);  // five columns and rows of squares, which stay where they are
+  const auto size = held.column<double>("area_m2");
+  for (std::size_t k = 0; k < ids.size(); ++k) EXPECT_EQ(size[k], run->floe(ids[k])->birth.area);
+  EXPECT_EQ(polynya({"view", "run", "--area", "9,9,5,5"}, {folder.path()}).code, 2);
+  EXPECT_EQ(polynya({"view", "run", "--area", "-900,-900,-800,-800"}, {folder.path()}).code, 2);
 }
 
 TEST_F(ViewCommand, WrongUsageIsTwoAndNoRunOrPlaceIsFive) {

@@ -99,5 +99,30 @@ TEST(RunLoop, ANumericalFailureAndALostFolderAreResults) {
   EXPECT_NE(displaced.reason.find("removed, moved or replaced"), std::string::npos) << displaced.reason;
 }
 
+/// Of many floes final.geojson is written on request; how long the files become is known before.
+TEST(RunLoop, ALargeFinalGeojsonIsWrittenOnRequestAlone) {
+  const TemporaryFolder folder;
+  const auto scene = read_scene(R"({
+    "name": "many", "time": {"step_s": 0.01, "until_s": 0.01},
+    "floes": [{"lattice": {"origin_m": [0.1, 0.2], "columns": 320, "rows": 320, "pitch_m": [3.3, 3.3],
+                           "size_m": [3.1, 3.1]}}]})",
+                                "many.json", ".");
+  ASSERT_TRUE(scene.has_value()) << to_string(scene.error().front());
+  const FolderSize estimated = estimate_folder_size(scene->scene);
+  for (const bool is_asked : {false, true}) {
+    auto run = start_run(folder / "run", *scene, true);
+    ASSERT_TRUE(run.has_value()) << run.error();
+    const RunResult result = run_to_end(*run, {.final_geojson = is_asked});
+    ASSERT_EQ(result.end, RunEnd::kFinished) << result.reason;
+    EXPECT_EQ(std::filesystem::exists(folder / "run/final.geojson"), is_asked);
+    EXPECT_EQ(result.summary.warnings.size(), is_asked ? 0U : 1U);
+  }
+  const auto size = [&](std::string_view name) {
+    return static_cast<double>(std::filesystem::file_size(folder / "run" / name));
+  };
+  EXPECT_NEAR(size(run_file::kFloes) / estimated.floes, 1, 0.3);
+  EXPECT_NEAR(size(run_file::kFinalGeojson) / estimated.final_geojson, 1, 0.3);
+}
+
 }  // namespace
 }  // namespace polynya::io

@@ -86,7 +86,7 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
   summary.counts = simulation.counts();
   summary.peaks = writer->peaks();
   summary.warnings = {"a \"warning\""};
-  EXPECT_TRUE(writer->finish(summary, simulation).has_value());
+  EXPECT_TRUE(writer->finish(summary, &simulation).has_value());
   return recorded;
 }
 
@@ -389,7 +389,7 @@ TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
     writer->record(simulation.journal());
     simulation.step();
   }
-  ASSERT_TRUE(writer->finish({}, simulation).has_value());
+  ASSERT_TRUE(writer->finish({}, &simulation).has_value());
   const auto run = read_run(folder / "run");
   ASSERT_TRUE(run.has_value()) << run.error();
   std::istringstream lines(read_file(folder.path() / "run" / run_file::kFloes));

@@ -60,6 +60,11 @@ TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
     std::vector<std::string> words;
   };
   const Expected trials[] = {
+      {{{"\"thrust_N\": 1e4}", "\"thrust_N\": 1e4}, \"mooring\": {}"}},
+       Severity::kWarning,
+       4,
+       "ships[1].mooring",
+       {"holds nothing", "surge_stiffness_N_per_m"}},
       {{{"\"mass_kg\": 1e7", "\"mass_kg\": 1e4"}},
        Severity::kWarning,
        3,

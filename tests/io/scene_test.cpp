@@ -376,5 +376,43 @@ TEST(Scene, FieldsAndStructuresHaveTheirOwnMistakes) {
   }
 }
 
+TEST(Scene, AMissingHullNamesTheKeysItNeedsAndThePresets) {
+  const std::string text = all_of(problems_of(R"({"ships": [{"propulsion": {"thrust_N": 1}}]})"));
+  for (const char* words :
+       {"length_m and beam_m and entrance_angle_deg, or waterline_m", "a preset", "reference"})
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+}
+
+TEST(Scene, ALongKeyIsShortenedBetweenTwoCharacters) {
+  std::string key;
+  for (int i = 0; i < 50'000; ++i) key += "é";
+  const auto problems = problems_of("{\"" + key + "\": 1}");
+  ASSERT_FALSE(problems.empty());
+  EXPECT_LT(to_string(problems[0]).size(), 1000U);
+  EXPECT_LT(to_json_text({problems[0]}).size(), 1000U);
+  EXPECT_NE(to_string(problems[0]).find("éé…: found an unknown key"), std::string::npos);
+}
+
+/// A field of ice takes long to make: what is wrong without it is reported before, and what is wrong with the
+/// ice after that.
+TEST(Scene, WhatNeedsNoIceIsCheckedBeforeAFieldIsMade) {
+  const std::string field =
+      R"({"floes": [{"field": {"corner_m": [-100, -100], "extent_m": [200, 200],
+      "concentration": 0.7, "floe_size_m": 20}},
+      {"rectangle": {"corner_m": [0, 50], "size_m": 30}}], "ships": [)" +
+      std::string(kShip);
+  const std::string ice = all_of(problems_of(field + "]}"));
+  EXPECT_NE(ice.find("an overlap with floes[0]"), std::string::npos) << ice;
+  const std::string both = all_of(problems_of(field + R"(], "time": {"until_s": 0.001}})"));
+  EXPECT_NE(both.find("less than one step"), std::string::npos) << both;
+  EXPECT_EQ(both.find("an overlap"), std::string::npos) << both;
+}
+
+TEST(Words, ANumberAgreesWithWhatItCounts) {
+  EXPECT_EQ(counted(1, "split"), "1 split");
+  EXPECT_EQ(counted(0U, "split"), "0 splits");
+  EXPECT_EQ(counted(2, "push", "pushes"), "2 pushes");
+}
+
 }  // namespace
 }  // namespace polynya::io

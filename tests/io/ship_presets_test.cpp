@@ -50,6 +50,14 @@ TEST(ShipPresets, AnotherKindOfPropulsionOrHullStandsInsteadOfThePresets) {
   EXPECT_TRUE(std::holds_alternative<simulation::ConstantSpeed>(free->scene.ships[0].propulsion));
 }
 
+TEST(ShipPresets, SteeringGivesWayWithTheEngine) {
+  for (const char* drive : {R"("constant_speed_m_per_s": 2)", R"("thrust_N": 1e5)"}) {
+    const auto ship = read(fmt::format(R"("ship": "reference", "propulsion": {{{}}})", drive));
+    ASSERT_TRUE(ship.has_value()) << to_string(ship.error().front());
+    EXPECT_TRUE(std::holds_alternative<simulation::NoSteering>(ship->scene.ships[0].steering));
+  }
+}
+
 TEST(ShipPresets, AnUnknownOneIsRefusedWithTheNearest) {
   const auto wrong = read(R"("ship": "polarys")");
   ASSERT_FALSE(wrong.has_value());

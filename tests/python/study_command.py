@@ -5,8 +5,7 @@ import sys
 
 def study(*words, code=0):
     """What it prints, where it ends with that code."""
-    ran = subprocess.run(
-        [sys.executable, "-m", "polynya.study", *map(str, words)], capture_output=True, text=True, check=False
-    )
+    command = [sys.executable, "-m", "polynya.command", "study", *map(str, words)]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
     assert ran.returncode == code, ran.stdout + ran.stderr
     return ran.stdout + ran.stderr

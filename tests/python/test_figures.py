@@ -12,7 +12,7 @@ import numpy
 import pytest
 
 import polynya
-from polynya.figures import __main__ as command
+from polynya import scenery
 from polynya.figures import database, energy, loads, maps, motion, page, sizes
 from polynya.figures.subjects import labelled
 
@@ -200,10 +200,10 @@ def test_energy_keeps_sources_and_sinks_apart_and_loses_none(home):
     assert energy.draw([run]) is None
 
 
-def areas_of(axes, colour):
-    """Paths of that colour."""
+def rings_of(axes, colour):
+    """Closed rings in areas of that colour; no floe here has a hole."""
     wanted = matplotlib.colors.to_rgb(colour)
-    return [path for of in axes.collections if len(of.get_facecolors()) and tuple(of.get_facecolors()[0][:3]) == wanted for path in of.get_paths()]
+    return sum(int((patch.get_path().codes == patch.get_path().MOVETO).sum()) for patch in axes.patches if patch.get_facecolor()[:3] == wanted)
 
 
 def test_a_map_shows_the_floes_of_its_time_and_what_went_under(runs):
@@ -212,9 +212,8 @@ def test_a_map_shows_the_floes_of_its_time_and_what_went_under(runs):
     before, after = figure.axes
     frame = run.frame(8)
     floating = [rings for rings, under in zip(frame.rings, frame.is_under) if not under]
-    drawn = areas_of(after, maps.legend.ICE) + areas_of(after, maps.legend.BROKEN) + areas_of(after, maps.legend.CAME_UP)
-    assert len(drawn) == len(floating) and len(areas_of(before, maps.legend.ICE)) == 2
-    assert len(areas_of(after, maps.legend.UNDER)) == numpy.count_nonzero(frame.is_under) > 0
+    assert sum(rings_of(after, colour) for colour in scenery.COLOURS[:3]) == len(floating) and rings_of(before, scenery.ICE) == 2
+    assert rings_of(after, scenery.ICE_UNDER) == numpy.count_nonzero(frame.is_under) > 0
     cusps = numpy.count_nonzero((run.events["kind"] == "bend") & (run.events["t_s"] <= 8))
     went = numpy.count_nonzero((run.events["kind"] == "submerge") & (run.events["t_s"] <= 8))
     assert re.search(rf"{cusps} cusps, 1 split, {len(floating)} floes; {went} pieces? went under the hull", panel_titles(figure)[1]) or cusps == 1
@@ -227,7 +226,7 @@ def test_a_window_shows_its_part_of_the_world(runs):
     whole = maps.draw([runs["alone"]], at=[0])
     part = maps.draw([runs["alone"]], at=[0], window=(41, -3, 61, 7))
     assert (part.axes[0].get_xlim(), part.axes[0].get_ylim()) == ((41, 61), (-3, 7))
-    assert len(areas_of(whole.axes[0], maps.legend.ICE)) == 2 and len(areas_of(part.axes[0], maps.legend.ICE)) == 1
+    assert rings_of(whole.axes[0], scenery.ICE) == 2 and rings_of(part.axes[0], scenery.ICE) == 1
     box = part.axes[0].get_window_extent()
     assert box.width / box.height == pytest.approx(2, rel=1e-3), "one scale for both axes"
 
@@ -315,7 +314,7 @@ def test_an_unfinished_and_a_damaged_run(home, tmp_path):
     floes = (folder / "floes.ndjson").read_text()
     for ring in ("[]", "[[0,0]]", "[[0,0],[1,0],[1,1e999]]", '"x"'):
         (folder / "floes.ndjson").write_text(re.sub(r'"ring_m":.*?\]\]', f'"ring_m":{ring}', floes, count=1))
-        assert command.main([str(folder), "--only", "floes", "--format", "svg"]) == 5
+        assert figures(tmp_path, folder, "--only", "floes", "--format", "svg").returncode == 5
 
 
 def test_what_is_missing_is_named_with_what_to_install(home, tmp_path):

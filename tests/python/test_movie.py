@@ -10,7 +10,8 @@ import numpy
 import pytest
 
 import polynya
-from polynya.movie import film, history, picture, scenery
+from polynya import scenery
+from polynya.movie import film, history, picture
 from polynya.movie.__main__ import size
 
 PROGRAM = os.environ["POLYNYA_PROGRAM"]
@@ -181,7 +182,7 @@ def test_wrong_words_are_answered(folder, tmp_path):
     for words, code, message in (
         ((folder, "--out", tmp_path / "film.avi"), 2, ".mp4, .gif, .png"),
         ((folder, "--out", tmp_path / "a.png", "--from", 13), 2, "the run goes from 0 to 12 s"),
-        ((folder, "--out", tmp_path / "a.png", "--speed", 0), 2, "allowed: > 0"),
+        ((folder, "--out", tmp_path / "a.png", "--speed", 0), 2, "allowed: a number > 0"),
         ((folder, "--out", tmp_path / "a.png", "--follow", "sailor"), 2, "the run has breaker"),
         ((tmp_path, "--out", tmp_path / "a.png"), 5, "not a run folder"),
         ((folder, "--out", tmp_path / "none" / "a.png"), 5, "its folder does not exist"),
@@ -224,3 +225,36 @@ def test_a_run_that_is_not_finished_is_shown_as_far_as_it_got(folder, tmp_path):
     (tmp_path / "run" / "summary.json").write_text(json.dumps({**summary, "finished": False, "stopped_by": "SIGTERM"}))
     done = movie(tmp_path / "run", "--out", tmp_path / "a.png", "--from", 12)
     assert done.returncode == 0 and "the run at 12 s" in done.stdout, done.stderr
+
+
+def test_only_what_is_in_the_picture_is_drawn_and_small_floes_are_squares_of_their_area(run):
+    drawn, frame = scenery.Scenery(run), run.frame(9.0)
+    near = run.frame(9.0).rings[int(numpy.flatnonzero(frame.ids == 1)[0])][0]  # of the floe that nothing broke
+    window = (*(near.min(axis=0) + 1), *(near.max(axis=0) - 1))
+    assert sum(len(path.vertices) for path in drawn.floes(frame, window)) == len(near) + 1
+    squares = drawn.floes(frame, least=1e6)
+    assert sum(len(path.vertices) for path in squares) == 5 * len(frame.ids)
+    assert sum(area_of(path) for path in squares) == pytest.approx(run.births["area_m2"][frame.ids].sum(), rel=1e-9)
+
+
+def test_a_film_that_keeps_the_floes_at_rest_shows_what_a_picture_by_itself_shows(run):
+    films, alone = (picture.Picture(run, picture.Look(size=(640, 360), speed=2, start=0, end=12, is_film=is_film)) for is_film in (True, False))
+    map_rows = slice(int(360 * picture.HEAD) + 1, int(360 * (1 - picture.CHART)))
+    rested = 0
+    for time in numpy.linspace(0, 12, 49):
+        kept, whole = films.draw(float(time))[map_rows].astype(int).copy(), alone.draw(float(time))[map_rows].astype(int)
+        different = (numpy.abs(kept - whole).max(axis=2) > 60).sum()
+        rested += int(films._resting.sum())
+        assert different <= 40, f"{different} pixels at {time} s"
+    assert rested > 40
+
+
+def test_how_far_a_long_film_is_is_printed_where_there_is_no_terminal(capsys, monkeypatch):
+    from polynya.movie import __main__ as command
+
+    now = iter((0.0, 4.0, 11.0, 12.0))
+    monkeypatch.setattr(command.time, "monotonic", lambda: next(now))
+    progress = command.Progress()
+    for done in (1, 2, 3):
+        progress(done, 8)
+    assert capsys.readouterr().err == "picture 2 of 8, 33 s left\n"

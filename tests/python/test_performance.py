@@ -11,8 +11,9 @@ import pytest
 
 from polynya import formulas
 from polynya.performance import level_ice
-from polynya.performance.__main__ import command_line, hull_of, print_table, ship_of
+from polynya.performance.__main__ import hull_of, print_table, ship_of
 from polynya.performance.curve import VALIDATED_THICKNESS, Curve
+from polynya.performance.options import command_line
 
 PROGRAM = os.environ["POLYNYA_PROGRAM"]
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))

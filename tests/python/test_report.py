@@ -74,6 +74,17 @@ def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp
         assert float(row["mean_low"]) < 1e6 * thickness + 0.5772 * 5e4 < float(row["mean_high"])
 
 
+def test_numbers_have_one_format_and_their_unit(tmp_path):
+    assert [pictures.in_words(v) for v in (906693.0, 1.57945e6, 12345678, 0.35, 0.4000001)] == [
+        "906693", "1579450", "12345678", "0.35", "0.4"
+    ]  # fmt: skip
+    assert [pictures.in_words(v, 4) for v in (1.57945e6, 0.906693, float("inf"))] == ["1579000", "0.9067", "∞"]
+    study = synthetic(tmp_path / "s")
+    study_command("report", study.folder)
+    page = (study.folder / "study.html").read_text()
+    assert "resistance peak [MN]" in page[page.index("<h2>Cases") :] and not re.search(r">[\d.]+e\+\d", page)
+
+
 def test_the_same_study_gives_the_same_page(tmp_path):
     study = synthetic(tmp_path / "s")
 

@@ -4,6 +4,8 @@ import csv
 import json
 import os
 import pathlib
+import random
+import re
 import resource
 import shutil
 import signal
@@ -13,11 +15,13 @@ import time
 
 import pytest
 
+from polynya.command import run as run_command
 from polynya.study import draws
+from polynya.study.__main__ import main as study_main
 from polynya.study.definition import read_definition
 from polynya.study.expand import count_cases, expand
 from polynya.study.folder import list_of_numbers, numbers_of_list, open_study
-from polynya.study.located_json import StudyError
+from polynya.study.located_json import LocatedJson, StudyError
 from study_command import study
 
 SCENES = pathlib.Path(os.environ["POLYNYA_SCENES"]).resolve()
@@ -157,7 +161,7 @@ def test_everything_wrong_with_a_study_is_reported_with_its_place(folder):
     )
     found = problems_of(path)
     for words in (
-        'wrong.json:2:13: scenes: found an unknown key',
+        'wrong.json:2:3: scenes: found an unknown key',
         'did you mean "scene"?',
         'wrong.json:3:17: grid.a: found an empty list',
         "wrong.json:3:26: grid.b: found count and step together or neither",
@@ -166,14 +170,116 @@ def test_everything_wrong_with_a_study_is_reported_with_its_place(folder):
         "draw.of.e.normal: found -1 for sd, allowed: a number > 0",
         'draw.of.a: found what "grid" varies too',
         "collect.quantiles",
-        "collect.time_to.port: allowed: x_m",
-        "report.map: allowed: a list of two paths",
+        "wrong.json:6:109: collect.time_to.port: found keys z_m, allowed: x_m",
+        "report.map: found a list of 1, allowed: a list of two paths",
         "report.channels: found -1",
         "report.means: found 3, allowed: a list",
     ):
         assert any(words in problem for problem in found), (words, found)
     path.write_text('{"scene": "plate.json",\n "grid": {"a": [1, }}')
-    assert problems_of(path)[0].startswith(f"{path}:2:20: ")
+    assert problems_of(path)[0].startswith(f"{path}:2:18: a comma too many")
+
+
+def test_json_is_read_by_the_program_with_the_place_of_every_key_and_value(tmp_path):
+    path = tmp_path / "-a.json"
+    text = '/* ü */ {"ä/~": [1, 2.0,\n  1e5, 0.1, 1e300], // "b": 2\n "b": {"c": "\\u00e9\\n"}}'
+    path.write_text(text, encoding="utf-8")
+    read = LocatedJson(path)
+    assert read.value == {"ä/~": [1, 2, 100000, 0.1, 1e300], "b": {"c": "é\n"}}
+    assert [type(number) for number in read.value["ä/~"]] == [int] * 3 + [float] * 2
+    for steps, of_key, place in (
+        ([], False, (1, 9)),
+        (["ä/~"], True, (1, 10)),
+        (["ä/~"], False, (1, 17)),
+        (["ä/~", 1], False, (1, 21)),
+        (["ä/~", 2], True, (2, 3)),
+        (["b", "c"], False, (3, 13)),
+        (["b", "d", "e"], True, (3, 7)),  # the nearest one that there is
+    ):
+        problem = read.problem(steps, "wrong", of_key)
+        assert (problem.line, problem.column) == place, steps
+
+
+WHOLE_STUDY = {
+    "name": "mutated",
+    "scene": "plate.json",
+    "set": {"time.until_s": 6},
+    "grid": {"ice.thickness_m": [0.4, 0.6], "ice.friction": {"from": 0.1, "to": 0.2, "step": 0.05}},
+    "paired": {"name": ["a", "b"], "ice.density_kg_per_m3": [900, 910]},
+    "draw": {"count": 2, "of": {"ice.flexural_strength_Pa": {"log_normal": {"mean": 5e5, "sd": 1e5, "most": 1e6}}}},
+    "repetitions": 2,
+    "collect": {"from_s": 1, "quantiles": [0.5], "time_to": {"lead": {"point_m": [1, 2], "within_m": 3}}},
+    "keep": "summary",
+    "report": {"against": "ice.friction", "map": ["ice.thickness_m", "ice.friction"], "channels": 2},
+}
+WRONG = ["null", "true", '"x"', '""', '"\\u0000"', "[]", "{}", "[null]", '{"a": [{}]}', "-1", "0", "1.5", "-1e308"]
+WRONG += ["1e308", "1e-320", "1e999", "NaN", "-Infinity", "1" * 400, '"' + "y" * 5000 + '"', "[" * 90 + "]" * 90]
+
+
+def mutated(dice, study):
+    """The text of a study with one thing changed: a value, a key, or the text itself."""
+    study = json.loads(json.dumps(study))
+    kind = dice.choice(["value", "value", "value", "drop", "rename", "cut", "comma", "twice"])
+    parents, parent = [study], study
+    while isinstance(parent, (dict, list)) and parent:
+        parents.append(parent)
+        parent = parent[dice.choice(list(parent) if isinstance(parent, dict) else range(len(parent)))]
+    parent = dice.choice(parents)
+    key = dice.choice(list(parent) if isinstance(parent, dict) else range(len(parent)))
+    if kind == "drop":
+        del parent[key]
+    elif kind == "rename" and isinstance(parent, dict):
+        parent[key[:-1] + dice.choice("xyz_ü/~")] = parent.pop(key)
+    elif kind == "value":
+        parent[key] = "@"
+    text = json.dumps(study, indent=dice.choice([None, 1])).replace('"@"', dice.choice(WRONG))
+    if kind == "cut":
+        return text[: dice.randrange(len(text))]
+    if kind in ("comma", "twice"):
+        at = dice.choice([match.end() for match in re.finditer("[{]" if kind == "twice" else "[][{},]", text)])
+        return text[:at] + (", " if kind == "comma" else '"count": 1, "count": 2, ') + text[at:]
+    return text
+
+
+@pytest.mark.parametrize("part", range(3))
+def test_a_mutated_study_is_planned_or_refused_with_places(folder, capsys, part):
+    dice, codes = random.Random(part), []
+    path = folder / "s.json"
+    signal.signal(signal.SIGALRM, lambda *_: pytest.fail("hangs"))
+    for _ in range(100):
+        path.write_text(mutated(dice, WHOLE_STUDY))
+        shutil.rmtree("studies", ignore_errors=True)
+        signal.alarm(60)
+        codes.append(run_command("study", lambda: study_main(["plan", str(path), "--trial-seconds", "0"])))
+        signal.alarm(0)
+        *problems, last = capsys.readouterr().err.splitlines()
+        assert codes[-1] in (0, 3), (path.read_text(), problems, last)
+        if codes[-1] == 3:
+            assert re.fullmatch(r"polynya study: \d+ problems?; nothing was planned", last) and problems
+            place = re.compile(re.escape(str(path)) + r":\d+:\d+: ")
+            assert all(place.match(line) and len(line) < 1000 for line in problems), (path.read_text(), problems)
+    assert codes.count(3) > 60
+
+
+def test_numbers_beyond_what_can_be_computed_are_refused(folder):
+    wide = {"log_normal": {"mean": 5e5, "sd": 1e308}}
+    for keys, message in (
+        ({"draw": {"count": 2, "of": {"a": wide}}}, "sd 1e+308, allowed: a distribution whose draws"),
+        ({"collect": {"time_to": {"lead": {"x_m": []}}}}, "time_to.lead.x_m: found a list, allowed: a number [m]"),
+        ({"grid": {"a": {"from": 1e-308, "to": 1e308, "count": 3, "spacing": "log"}}}, "grid.a: found ends that are too"),
+        ({"grid": {"a": {"from": 0, "to": 1, "count": 10**8}}}, "grid.a.count: found 100000000, allowed: a whole"),
+    ):
+        assert message in problems_of(write_study(folder, **keys))[0]
+
+
+def test_a_damaged_plan_is_named(folder):
+    study("plan", write_study(folder), "--trial-seconds", 0)
+    for name, text in (("plan.json", "[]"), ("plan.json", '{"format": 1}'), ("cases.ndjson", '{"scene": 3}\n')):
+        plan = folder / "studies/s" / name
+        kept = plan.read_text()
+        plan.write_text(text)
+        assert f"{name}: damaged" in study("run", "studies/s", "--case", 0, code=5)
+        plan.write_text(kept)
 
 
 def test_repetitions_of_a_fixed_seed_are_refused(folder):
@@ -209,7 +315,9 @@ def test_a_case_that_the_scene_does_not_allow_is_refused_before_anything_runs(fo
     path.write_text('{"scene": "plate.json", "set": {"floes[0].rectangle.corner_m": [-20, 0]}}')
     assert "plate.json:4:12" in study("plan", path, code=3)
     path.write_text('{"scene": "gone.json"}')
-    assert "gone.json: No such file or directory" in study("plan", path, code=3)
+    assert f"{path}:1:11: scene: {folder}/gone.json: no such file\n" in study("plan", path, code=3)
+    path.write_text('{"scene": "s.json",}')
+    assert study("plan", path, code=3).startswith(f"{path}:1:19: a comma too many")
 
 
 def test_planning_again_changes_nothing_and_a_study_may_grow(folder):
@@ -586,6 +694,29 @@ def test_slurms_script_has_the_chunks_that_are_left(folder):
     assert "every case has ended" in study("slurm", "studies/s")
 
 
+def test_slurm_gets_the_memory_asked_for_twice_and_each_job_is_named_as_it_is_taken(folder, monkeypatch):
+    (folder / "bin").mkdir()
+    sbatch = folder / "bin" / "sbatch"
+    sbatch.write_text(
+        """#!/bin/sh
+for script; do :; done  # the last word
+grep -q mem-per-cpu=$LEAST "$script" || { echo "Memory specification can not be satisfied" >&2; exit 1; }
+case $script in */array.sbatch) echo 71 ;; *) echo "$2" >"$0.words"; echo "72;cluster" ;; esac
+"""
+    )
+    sbatch.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{sbatch.parent}:{os.environ['PATH']}")
+    study("plan", write_study(folder), "--trial-seconds", 0)
+    monkeypatch.setenv("LEAST", "0$")
+    words = study("slurm", "studies/s", "--submit", "--memory", 0)
+    assert "job 71\n" in words and "job 72, to gather" in words
+    assert sbatch.with_suffix(".words").read_text() == "--dependency=afterany:71\n"
+    monkeypatch.setenv("LEAST", "500M$")  # by default the gathering job asks for more
+    words = study("slurm", "studies/s", "--submit", code=5)
+    assert "job 71\n" in words and "can not be satisfied" in words
+    assert "job 71 runs the cases; what gathers after it is still to submit: sbatch --dependency=afterany:71 " in words
+
+
 @pytest.mark.skipif(not shutil.which("parallel"), reason="GNU parallel is not installed")
 def test_the_line_for_gnu_parallel_runs_all_chunks(folder):
     study("plan", write_study(folder, repetitions=4), "--chunk", 2, "--trial-seconds", 0)
@@ -609,7 +740,7 @@ def test_a_report_without_numpy_names_what_to_install(folder, monkeypatch):
     (folder / "numpy.py").write_text("raise ModuleNotFoundError(name='numpy')")
     monkeypatch.setenv("PYTHONPATH", f"{folder}:{os.environ['PYTHONPATH']}")
     words = study("report", "studies/s", code=5)
-    assert "report needs numpy, which is not installed: ./setup.sh python" in words
+    assert words.startswith("polynya study: ") and "has no numpy: " in words and "./setup.sh python" in words
     study("gather", "studies/s", code=75)  # does without
 
 

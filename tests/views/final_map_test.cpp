@@ -132,7 +132,7 @@ TEST(FinalMap, IceUnderAHullIsNeitherFloatingIceNorAFracture) {
   EXPECT_EQ(picture.fractures.size(), 1U);
   EXPECT_EQ(picture_at(run, io::MotionIndex(run), 0).floes.size(), 5U);
   EXPECT_EQ(picture.caption,
-            "1 cusps broken by bending, 0 splits, 4 floes, 1 at the start; 2 pieces went under the hull, 1 "
+            "1 cusp broken by bending, 0 splits, 4 floes, 1 at the start; 2 pieces went under the hull, 1 "
             "came up");
   const std::string with = to_svg(picture), without = to_svg(final_picture(run_with_floes("plain")));
   for (const char* words :

@@ -7,6 +7,7 @@
 #include "io/run/placed_floes.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/text/output_file.hpp"
+#include "io/text/problem.hpp"
 #include "views/map/svg_convert.hpp"
 
 namespace polynya::views {
@@ -55,7 +56,7 @@ std::string words_of_ice_under_hulls(const io::Run& run, double time) {
   };
   const auto went = count(simulation::EventKind::kSubmerge);
   if (went == 0) return {};
-  return fmt::format("; {} {} went under the hull, {} came up", went, went == 1 ? "piece" : "pieces",
+  return fmt::format("; {} went under the hull, {} came up", io::counted(went, "piece"),
                      count(simulation::EventKind::kResurface));
 }
 
@@ -64,9 +65,10 @@ std::string words_of_ice_under_hulls(const io::Run& run, double time) {
 Picture final_picture(const io::Run& run) {
   Picture picture = picture_at(run, io::MotionIndex(run), run.end_time());
   picture.title = fmt::format("{} at {:.6g} s", run.label, run.end_time());
-  picture.caption = fmt::format("{} cusps broken by bending, {} splits, {} floes, {} at the start{}",
-                                count_of(picture, simulation::EventKind::kBend),
-                                count_of(picture, simulation::EventKind::kSplit), picture.floes.size(),
+  picture.caption = fmt::format("{} broken by bending, {}, {}, {} at the start{}",
+                                io::counted(count_of(picture, simulation::EventKind::kBend), "cusp"),
+                                io::counted(count_of(picture, simulation::EventKind::kSplit), "split"),
+                                io::counted(static_cast<std::int64_t>(picture.floes.size()), "floe"),
                                 picture.ice_at_start.size(), words_of_ice_under_hulls(run, run.end_time()));
   return picture;
 }

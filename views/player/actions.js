@@ -160,6 +160,7 @@ function floeActions(player, actions) {
     },
     /** Chooses a floe, and moves to its time if it is not there now. */
     visit(id) {
+      if (run.floes.born[id] === Infinity) return showToast(`floe ${id} is not in this page: it is out of the area`);
       if (!places.isThere(id, state.time)) {
         actions.play(false);
         actions.goTo(Math.max(range[0], run.floes.born[id]));

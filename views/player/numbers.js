@@ -12,6 +12,9 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** "1 floe", "2 floes". */
+const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+
 const minus = (text) => text.replace(/^-/, "\u2212");
 
 /** A force [N] or moment [N m] in the unit that suits `largest`. */

@@ -1,3 +1,19 @@
+// A link to an instant of two runs: that of the first run, with `floe2`, the floe chosen in the second.
+
+function momentOfPair([first, second], clock) {
+  const words = { ...momentOf(first), t: Number(clock.time.toFixed(4)) };
+  if (second.state.selected >= 0) words.floe2 = second.state.selected;
+  return words;
+}
+
+/** Goes where a link leads; gives what of it was not understood. */
+function goToMomentOfPair([first, second], link) {
+  const words = new URLSearchParams(link.replace(/^#/, ""));
+  const ofSecond = words.get("floe2");
+  words.delete("floe2");
+  return [...goToMoment(first, words.toString()), ...(ofSecond === null ? [] : goToMoment(second, `floe=${ofSecond}`))];
+}
+
 // Two runs side by side: each is a player of its own in a frame; here are their clock and what they have in common.
 
 /** The page of one of the runs, from its data in this page. */
@@ -176,8 +192,7 @@ function watchBar(players, clock, shared, address) {
   byId("rate").replaceChildren(...rates.map((rate) => make("option", { value: String(rate) }, `${rate}\u00d7`)));
   byId("rate").addEventListener("change", (event) => clock.setRate(Number(event.target.value)));
   document.addEventListener("keydown", (event) => { // as if it were pressed in the first player
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select")) return;
-    if (event.target.closest("button, input") && (event.key === " " || event.key === "Enter")) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || isForControl(event)) return;
     const { contentWindow, contentDocument } = players[0].frame;
     const passed = new contentWindow.KeyboardEvent("keydown", { key: event.key, shiftKey: event.shiftKey, bubbles: true, cancelable: true });
     if (!contentDocument.body.dispatchEvent(passed)) event.preventDefault();
@@ -185,6 +200,7 @@ function watchBar(players, clock, shared, address) {
 }
 
 async function startPair() {
+  returnFocus();
   const players = await openPlayers();
   const clock = makeClock(players);
   const words = () => momentOfPair(players, clock);

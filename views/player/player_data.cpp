@@ -1,7 +1,9 @@
 #include "views/player/player_data.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <limits>
 
 #include "io/run/force_causes.hpp"
 #include "io/run/force_columns.hpp"
@@ -10,7 +12,17 @@
 #include "io/text/version.hpp"
 
 namespace polynya::views {
+
+using geometry::Box;
+
 namespace {
+
+/// How far a box has to grow on all sides to meet another [m]; 0 where they meet.
+double gap(const Box& box, const Box& other) {
+  const double across = std::max(other.low.x - box.high.x, box.low.x - other.high.x);
+  const double up = std::max(other.low.y - box.high.y, box.low.y - other.high.y);
+  return std::max({0.0, across, up});
+}
 
 void add_frames(ColumnWriter& columns, const std::vector<io::Frame>& frames) {
   std::string bytes = io::FrameEncoder::header();
@@ -18,11 +30,14 @@ void add_frames(ColumnWriter& columns, const std::vector<io::Frame>& frames) {
   columns.add("frames", bytes);
 }
 
-void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
+void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames,
+                  const HeldFloes& held) {
   std::vector<io::RunContact> contacts;
   for (const io::Frame& frame : frames) {
-    const auto at_frame = run.contacts_at(frame.time);
-    contacts.insert(contacts.end(), at_frame.begin(), at_frame.end());
+    std::ranges::copy_if(run.contacts_at(frame.time), std::back_inserter(contacts),
+                         [&](const io::RunContact& contact) {
+                           return held.has(contact.state.on.floe) && held.has(contact.state.by.floe);
+                         });
   }
   const auto add = [&](const char* name, auto read) {
     columns.add(name, contacts, [read](const io::RunContact& contact) { return read(contact.state); });
@@ -115,10 +130,11 @@ void write_mooring_break(io::JsonWriter& json, const simulation::MooringBreak& b
 }
 
 /// Of ice and of moorings, as time goes.
-void write_events(io::JsonWriter& json, const io::Run& run) {
+void write_events(io::JsonWriter& json, const io::Run& run, const HeldFloes& held) {
   json.key("events").open('[');
   auto broken = run.mooring_breaks.begin();
   for (const simulation::Event& event : run.events) {
+    if (!held.has(event.floe)) continue;
     for (; broken != run.mooring_breaks.end() && broken->time < event.time; ++broken)
       write_mooring_break(json, *broken);
     write_event(json, event);
@@ -150,7 +166,8 @@ void write_summary(io::JsonWriter& json, const io::Run& run) {
     json.key("stopped_by").value(by->text());
 }
 
-std::string info_of(const io::Run& run, const PlayerData& data) {
+std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSelection& selection,
+                    const HeldFloes& held) {
   std::string text;
   io::JsonWriter json(text);
   const simulation::Scene& scene = run.scene.scene;
@@ -158,12 +175,15 @@ std::string info_of(const io::Run& run, const PlayerData& data) {
   json.key("description").value(run.scene.description).key("scene_hash").value(run.scene.hash);
   json.key("seed").value(scene.seed).key("until_s").value(scene.time.until);
   json.key("frames").value(data.frames).key("frames_of_run").value(run.frames.size());
+  json.key("floes").value(data.floes).key("floes_of_run").value(run.floes.size());
+  if (const auto& area = selection.area)
+    json.key("area_m").list(std::array{area->low.x, area->low.y, area->high.x, area->high.y});
   json.key("circle_radius_m").value(scene.contact.circle_radius);
   json.key("forces_interval_s").value(recording_interval(scene));
   json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene));
   write_summary(json, run);
   write_ships(json, scene);
-  write_events(json, run);
+  write_events(json, run, held);
   write_water(json, scene.water);
   write_force_columns(json, scene);
   write_force_causes(json, scene);
@@ -178,16 +198,60 @@ std::string info_of(const io::Run& run, const PlayerData& data) {
 
 }  // namespace
 
-PlayerData player_data(const io::Run& run, const io::FrameSelection& selection) {
+std::vector<double> family_distances(const io::Run& run, const Box& box,
+                                     const std::vector<io::Frame>& frames) {
+  std::vector<std::size_t> oldest(run.floes.size());
+  std::vector<double> reach(run.floes.size());
+  for (std::size_t i = 0; i < run.floes.size(); ++i) {
+    const simulation::BirthRecord& birth = run.floes[i].birth;
+    oldest[i] = birth.parent >= 0 ? oldest[static_cast<std::size_t>(birth.parent)] : i;
+    for (const geometry::Point p : run.shape(birth.floe)->outer)
+      reach[i] = std::max(reach[i], distance(p, birth.centroid_in_body));
+  }
+  std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());  // by oldest floe
+  std::vector<std::optional<io::RecordedMotion>> last(run.floes.size());
+  /// From its last record on at its velocity up to a time.
+  const auto follow = [&](std::size_t floe, double time) {
+    const geometry::Point from = last[floe]->motion.position;
+    const geometry::Point to = carried_on(last[floe]->motion, time - last[floe]->time).position;
+    double& distance = least[oldest[floe]];
+    distance = std::min(distance, gap(box, geometry::grown(geometry::box_around(from, to), reach[floe])));
+  };
+  double before = 0;  // of the frame before [s]
+  for (const io::Frame& frame : frames) {
+    for (const auto& [id, motion] : frame.floes) {
+      const auto floe = static_cast<std::size_t>(id);
+      if (last[floe]) follow(floe, before);
+      last[floe] = io::RecordedMotion{frame.time, motion};
+      follow(floe, frame.time);
+    }
+    before = frame.time;
+  }
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    if (last[i]) follow(i, std::min(before, run.floes[i].died));
+  }
+  std::vector<double> distances(run.floes.size());
+  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = least[oldest[i]];
+  return distances;
+}
+
+PlayerData player_data(const io::Run& run, const PlayerSelection& selection) {
   PlayerData data;
-  add_floes(data.columns, run);
-  const std::vector<io::Frame> frames = thinned_frames(run, selection);
+  std::vector<io::Frame> frames = thinned_frames(run, selection.frames);
+  const HeldFloes held = selection.area ? HeldFloes(family_distances(run, *selection.area, frames))
+                                        : HeldFloes(run.floes.size());
+  data.floes = held.ids().size();
+  add_floes(data.columns, run, held);
+  data.floe_bytes = data.columns.bytes().size();
   data.frames = frames.size();
   if (!frames.empty()) data.start = frames.front().time, data.end = frames.back().time;
+  for (io::Frame& frame : frames)
+    std::erase_if(frame.floes, [&](const io::FloeMotion& record) { return !held.has(record.floe); });
   add_frames(data.columns, frames);
-  add_forces(data.columns, run, selection);
-  add_contacts(data.columns, run, frames);
-  data.info = info_of(run, data);
+  data.frame_bytes = data.columns.bytes().size() - data.floe_bytes;
+  add_forces(data.columns, run, selection.frames);
+  add_contacts(data.columns, run, frames, held);
+  data.info = info_of(run, data, selection, held);
   return data;
 }
 

@@ -24,7 +24,7 @@ void ColumnWriter::add(const std::string& name, std::string_view bytes) {
 
 namespace {
 
-/// The shapes of floes while they are gathered (views/player/floe_shapes.js reads them).
+/// The shapes of floes while they are gathered (views/player/run_data.js reads them).
 class ShapeColumns {
  public:
   explicit ShapeColumns(const io::Run& run) : run_(run) {}
@@ -78,17 +78,22 @@ class ShapeColumns {
 
 }  // namespace
 
-void add_floes(ColumnWriter& columns, const io::Run& run) {
+void add_floes(ColumnWriter& columns, const io::Run& run, const HeldFloes& held) {
+  const auto add_of_floe = [&](const char* name, auto read) {
+    columns.add(name, held.ids(),
+                [&run, read](simulation::FloeId id) { return std::invoke(read, *run.floe(id)); });
+  };
   const auto add = [&](const char* name, auto read) {
-    columns.add(name, run.floes, [read](const io::RunFloe& floe) { return std::invoke(read, floe.birth); });
+    add_of_floe(name, [read](const io::RunFloe& floe) { return std::invoke(read, floe.birth); });
   };
   using simulation::BirthRecord;
+  if (!held.are_all()) add("floe_id", &BirthRecord::floe);
   add("parent", &BirthRecord::parent);
   add("generation", &BirthRecord::generation);
   add("born_s", &BirthRecord::time);
-  columns.add("died_s", run.floes, &io::RunFloe::died);
-  columns.add("went_under_s", run.floes, &io::RunFloe::went_under);
-  columns.add("came_up", run.floes, &io::RunFloe::came_up);
+  add_of_floe("died_s", &io::RunFloe::died);
+  add_of_floe("went_under_s", &io::RunFloe::went_under);
+  add_of_floe("came_up", &io::RunFloe::came_up);
   add("area_m2", &BirthRecord::area);
   add("mass_kg", &BirthRecord::mass);
   const simulation::Scene& scene = run.scene.scene;
@@ -98,7 +103,7 @@ void add_floes(ColumnWriter& columns, const io::Run& run) {
   add("centroid_x_m", [](const BirthRecord& birth) { return birth.centroid_in_body.x; });
   add("centroid_y_m", [](const BirthRecord& birth) { return birth.centroid_in_body.y; });
   ShapeColumns shapes(run);
-  for (const io::RunFloe& floe : run.floes) shapes.add(floe.birth);
+  for (const simulation::FloeId id : held.ids()) shapes.add(run.floe(id)->birth);
   shapes.add_to(columns);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -44,10 +45,34 @@ class ColumnWriter {
   std::string bytes_;
 };
 
-/// Every floe of the run: parent, generation, born_s, died_s, went_under_s, came_up, area_m2, mass_kg,
-/// thickness_m, flexural_strength_Pa, centroid, reach_m (of its farthest vertex from its centroid), and its
-/// shape: the ends of its rings, counted from its first vertex, and its vertices, or of one that is parts of
-/// its parent's the parts and its new vertices.
-void add_floes(ColumnWriter& columns, const io::Run& run);
+/// The floes of a run that a page holds.
+class HeldFloes {
+ public:
+  /// All of so many.
+  explicit HeldFloes(std::size_t count) : ids_(count) { std::iota(ids_.begin(), ids_.end(), 0); }
+  /// Those whose distance is 0.
+  explicit HeldFloes(const std::vector<double>& distances) : is_held_(distances.size()) {
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      is_held_[i] = distances[i] <= 0;
+      if (is_held_[i]) ids_.push_back(static_cast<simulation::FloeId>(i));
+    }
+  }
+  bool are_all() const { return is_held_.empty(); }
+  /// Also of what is no floe.
+  bool has(simulation::FloeId id) const {
+    return id < 0 || are_all() || is_held_[static_cast<std::size_t>(id)];
+  }
+  const std::vector<simulation::FloeId>& ids() const { return ids_; }
+
+ private:
+  std::vector<simulation::FloeId> ids_;
+  std::vector<bool> is_held_;  ///< by floe; empty where all are
+};
+
+/// Of every floe held its floe_id where not all are; parent, generation, born_s, died_s, went_under_s,
+/// came_up, area_m2, mass_kg, thickness_m, flexural_strength_Pa, centroid, reach_m (of its farthest vertex
+/// from its centroid), and its shape: the ends of its rings, counted from its first vertex, and its vertices,
+/// or of one that is parts of its parent's the parts and its new vertices.
+void add_floes(ColumnWriter& columns, const io::Run& run, const HeldFloes& held);
 
 }  // namespace polynya::views

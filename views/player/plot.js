@@ -1,3 +1,287 @@
+// The plot: its chart, what it reads out, what lies off its scale, its pointers and its panel.
+
+// What the plot shows in numbers: the values under the pointer, and the names and values of its curves at the present time.
+
+/** A line and a box that show the values of all curves at the time under the pointer. */
+function makePlotReading(run, plot) {
+  const words = make("div", { class: "reading-words" });
+  const element = make("div", { class: "reading", id: "reading", hidden: "" }, words);
+  const { ships } = run.info;
+
+  function rowOf(curve, time) {
+    const values = plot.ships().map((k) => {
+      const at = plot.valueAt(k, curve, time);
+      return `${plot.ships().length > 1 ? `${ships[k].name} ` : ""}${at ? valueWords(at.value, curve.base) : "\u2013"}`;
+    });
+    const { label, isStack } = plot.shownQuantity();
+    return make("div", {}, make("span", {}, ...(isStack ? [lineOf(curve)] : []), curve.label || label), make("b", {}, values.join(", ")));
+  }
+
+  return {
+    element,
+    show(time, px) {
+      const at = plot.valueAt(plot.ships()[0], plot.curves()[0], time);
+      const { isStack = false, sums = [] } = plot.shownQuantity();
+      words.replaceChildren(make("div", {}, make("span", {}, "row that ends at"), make("b", {}, at ? `${Number(at.time.toFixed(6))} s` : "\u2013")),
+        ...[...plot.shownCurves(), ...sums].map((curve) => rowOf(curve, time)));
+      words.classList.toggle("many", isStack);
+      element.hidden = false;
+      element.style.left = `${px}px`;
+      element.classList.toggle("to-left", px > plot.chart.over.clientWidth / 2);
+    },
+    hide() {
+      element.hidden = true;
+    },
+  };
+}
+
+/** How a curve looks: a line, or the colour of an area. */
+function lineOf({ kind, isArea = false }) {
+  return make("i", isArea ? { class: "line area", style: `background: var(--cause-${kind})` } : { class: `line ${kind}` });
+}
+
+/** The plot's key: a box to tick, a line and the present value for each curve. Gives what shows the values. */
+function fillPlotKey(run, plot, host, onChange) {
+  const { ships } = run.info;
+  const outputs = [];
+  const curves = plot.curves();
+  const rows = curves.map((curve) => {
+    const isOfMany = plot.ships().length > 1;
+    const values = plot.ships().map((k) => {
+      const output = make("output", { "data-column": curve.column, "data-ship": ships[k].name });
+      outputs.push({ curve, ship: k, output });
+      return make("span", { class: "value", style: isOfMany ? `color: var(--ship-${k % 5})` : "" }, isOfMany ? `${ships[k].name} ` : "", output);
+    });
+    if (curves.length === 1) return make("div", { class: "curve" }, ...values);
+    const box = make("input", { type: "checkbox", id: `curve-${curve.kind}` });
+    box.checked = plot.isShown(curve);
+    box.addEventListener("change", () => {
+      plot.hidden[box.checked ? "delete" : "add"](curve.kind);
+      onChange();
+    });
+    return make("label", { class: "curve" }, box, lineOf(curve), make("span", {}, curve.label), ...values);
+  });
+  host.replaceChildren(...rows);
+  return (time) => {
+    for (const { curve, ship, output } of outputs) {
+      const at = plot.valueAt(ship, curve, time);
+      output.textContent = at ? valueWords(at.value, curve.base) : "\u2013";
+      output.dataset.value = at ? String(at.value) : "";
+      output.dataset.time = at ? String(at.time) : "";
+    }
+  };
+}
+
+// Rows that lie off the plot's scale: counted in words, and marked at its edge.
+
+/** Counts the rows in view that lie off the scale, and names the largest of each curve. */
+function countOffScale(plot) {
+  const ranges = plot.axisRanges();
+  const all = { count: 0, words: [] };
+  for (const { curve, times, values } of plot.inView()) {
+    if (!isLoad(curve)) continue;
+    const off = rowsOffScale(times, values, ranges[curve.scale]);
+    if (off.count === 0) continue;
+    all.count += off.count;
+    all.words.push(`${curve.label} to ${valueWords(off.largest, curve.base)} at ${Number(off.time.toFixed(3))} s`);
+  }
+  return all.count > 0 ? all : null;
+}
+
+/** Of stacked areas over how long each column is the mean, where that is more than a row. */
+function meanWords(plot) {
+  const size = plot.shownQuantity().isStack ? rowsInColumn(plot) : 1;
+  return size > 1 ? `drawn as means over ${shortNumber(size * plot.run.info.forces_interval_s)} s` : "";
+}
+
+function showOffScale(plot) {
+  plot.off = countOffScale(plot);
+  const means = meanWords(plot);
+  plot.offScale.hidden = plot.off === null && means === "";
+  const words = (off) => [means, off].filter(Boolean).join("; ");
+  plot.offScale.replaceChildren(
+    make("span", { class: "long" }, words(plot.off && `\u25b2 off the scale: ${plot.off.words.join("; ")}`)),
+    make("span", { class: "short" }, words(plot.off && `\u25b2 ${plot.off.count} values off the scale`)));
+}
+
+/** A mark at the edge for rows off the scale, one for each few pixels. */
+function drawOffScale(plot, chart) {
+  if (!plot.off) return;
+  for (const { curve, ship, times, values } of plot.inView()) {
+    if (!isLoad(curve)) continue;
+    chart.ctx.fillStyle = curveStyle(curve, ship, plot.run.forces.length, plot.colours).stroke.slice(0, 7);
+    drawEdgeMarks(chart, times, values, chart.scales[curve.scale]);
+  }
+}
+
+function drawEdgeMarks(chart, times, values, { min, max }) {
+  const { ctx, bbox } = chart;
+  const size = 4 * devicePixelRatio;
+  const marked = new Set();
+  values.forEach((value, row) => {
+    if (value >= min && value <= max) return;
+    const side = value > max ? 1 : -1;
+    const x = chart.valToPos(times[row], "x", true);
+    const key = side * (1 + Math.floor(x / size));
+    if (marked.has(key) || x < bbox.left) return;
+    marked.add(key);
+    const y = side > 0 ? bbox.top : bbox.top + bbox.height;
+    ctx.beginPath();
+    ctx.moveTo(x, y);
+    ctx.lineTo(x - size, y + 1.5 * side * size);
+    ctx.lineTo(x + size, y + 1.5 * side * size);
+    ctx.fill();
+  });
+}
+
+// The plot's chart, as uPlot takes it: its axes, its curves and their rows.
+
+function chartAxis({ colours }, scale, label, extra) {
+  const font = "11px system-ui, sans-serif";
+  return { scale, stroke: colours.muted, grid: { stroke: colours.line, width: 1 }, ticks: { stroke: colours.line, width: 1, size: 4 },
+    font, labelFont: font, label, labelSize: 16, gap: 3, ...extra };
+}
+
+function valueAxis(plot, scale, side) {
+  const base = plot.shownCurves().find((curve) => curve.scale === scale)?.base ?? "";
+  const unit = (chart) => (base.startsWith("N") ? loadUnit(Math.max(-chart.scales[scale].min, chart.scales[scale].max), base)
+    : { factor: 1, name: base });
+  const name = scale === "paper" ? "j/\u03c4c " : "";
+  return chartAxis(plot, scale, (chart) => (unit(chart).name ? `${name}[${unit(chart).name}]` : ""), {
+    side, size: 46, grid: { show: side === 3, stroke: plot.colours.line, width: 1 },
+    values: (chart, splits) => splits.map((v) => minus(String(Number((v * unit(chart).factor).toPrecision(6))))),
+  });
+}
+
+/** The curves in the order of drawing: the first is drawn last, over the others. */
+const drawnCurves = (plot) => plot.shownCurves().reverse();
+
+/** The series of uPlot. Stacked areas are drawn by drawStack. */
+function chartSeries(plot, curves) {
+  const paths = plot.shownQuantity().isStack ? { paths: () => null } : {};
+  return plot.ships().flatMap((ship) => curves.map((curve) =>
+    ({ scale: curve.scale, points: { show: false }, ...paths, ...curveStyle(curve, ship, plot.run.forces.length, plot.colours) })));
+}
+
+function chartOptions(plot) {
+  const curves = drawnCurves(plot);
+  const ofLoads = plot.isOfLoads();
+  const rangeOf = (scale) => () => plot.axisRanges()[scale] ?? [0, 1]; // a chart that was replaced asks once more
+  const isPaper = plot.scales().includes("paper");
+  const isPlain = plot.scales().includes("y");
+  const placed = (chart) => plot.onPlaced(chart.over.offsetLeft, chart.over.offsetWidth);
+  return {
+    width: plot.host.clientWidth, height: plot.host.clientHeight, padding: [ofLoads ? 18 : 6, isPaper ? 0 : 24, 0, isPlain ? 0 : 24],
+    legend: { show: false }, cursor: { show: false },
+    hooks: { ready: [placed], setSize: [placed], draw: [(chart) => drawOffScale(plot, chart)],
+      drawAxes: plot.shownQuantity().isStack ? [(chart) => drawStack(plot, chart)] : [] },
+    scales: { x: { time: false, range: () => plot.span }, ...Object.fromEntries(plot.scales().map((name) => [name, { range: rangeOf(name) }])) },
+    axes: [chartAxis(plot, "x", undefined, { size: 22, values: (_, splits) => splits.map((t) => `${Number(t.toFixed(6))} s`) }),
+      ...(isPlain ? [valueAxis(plot, "y", 3)] : []), ...(isPaper ? [valueAxis(plot, "paper", 1)] : [])],
+    series: [{}, ...chartSeries(plot, curves)],
+  };
+}
+
+/** The curves of the ships that are shown over one axis of times. */
+function chartRows(plot) {
+  const curves = drawnCurves(plot);
+  const tables = plot.ships().map((ship) => plot.run.forces[ship]).map((rows) => [rows.force_t_s, ...curves.map((curve) => rows[curve.column])]);
+  if (tables.every(([times]) => times.length === 0)) return [[], ...tables.flatMap(() => curves.map(() => []))];
+  return tables.length === 1 ? tables[0] : uPlot.join(tables.map((columns) => columns.map((column) => Array.from(column))));
+}
+
+// Pointers on the plot: a drag goes to a time, the wheel and two fingers zoom, Shift and a drag choose a part of the run,
+// a double click shows all of it again.
+
+/** Pixels of the plot from its left, and the times there. */
+function plotAxis(plot) {
+  const { over } = plot.chart;
+  return {
+    pixel: (event) => Math.min(over.clientWidth, Math.max(0, pointIn(over, event)[0])),
+    timeAt: (px) => plot.span[0] + (px / over.clientWidth) * (plot.span[1] - plot.span[0]),
+  };
+}
+
+/** Moves and zooms the plot so that the times under two fingers stay under them. */
+function pinchPlot(plot, { timeAt }, before, after) {
+  const times = before.map(timeAt);
+  const perPixel = Math.abs(times[1] - times[0]) / Math.max(8, Math.abs(after[1] - after[0]));
+  const middle = (times[0] + times[1]) / 2 - ((after[0] + after[1]) / 2) * perPixel;
+  plot.show(middle, middle + plot.chart.over.clientWidth * perPixel);
+}
+
+/** Moves the plot by the wheel where it is turned sideways or with Shift, else zooms it at the pointer. */
+function turnPlot(plot, { pixel, timeAt }, range, event) {
+  const length = plot.span[1] - plot.span[0];
+  if (Math.abs(event.deltaX) > Math.abs(event.deltaY) || event.shiftKey) {
+    const turned = (event.deltaX || event.deltaY) * (event.deltaMode === 1 ? 33 : 1);
+    const way = (turned * length) / plot.chart.over.clientWidth;
+    const move = Math.min(range[1] - plot.span[1], Math.max(range[0] - plot.span[0], way));
+    if (plot.isZoomed()) event.preventDefault();
+    plot.show(plot.span[0] + move, plot.span[1] + move);
+    return;
+  }
+  if (event.deltaY > 0 && !plot.isZoomed()) return; // the page scrolls on
+  event.preventDefault();
+  const at = timeAt(pixel(event));
+  const factor = Math.exp(wheelTurn(event));
+  plot.show(at - factor * (at - plot.span[0]), at + factor * (plot.span[1] - at));
+}
+
+/** The part of the plot that is being chosen, from where on [px]; null where none is. */
+function makeChosenSpan(over) {
+  const element = make("div", { class: "chosen-span", hidden: "" });
+  over.append(element);
+  return {
+    from: null,
+    show(px) {
+      element.hidden = this.from === null;
+      if (element.hidden) return;
+      element.style.left = `${Math.min(px, this.from)}px`;
+      element.style.width = `${Math.abs(px - this.from)}px`;
+    },
+  };
+}
+
+function watchPlot(plot, range, onTime, reading) {
+  const { over } = plot.chart;
+  const axis = plotAxis(plot);
+  const { pixel, timeAt } = axis;
+  const pointers = new Map(); // pointer id → pixel from the left
+  const chosen = makeChosenSpan(over);
+
+  over.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    over.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, pixel(event));
+    if (event.shiftKey) chosen.from = pixel(event);
+    else if (pointers.size === 1) onTime(timeAt(pixel(event)));
+  });
+  over.addEventListener("pointermove", (event) => {
+    const px = pixel(event);
+    reading.show(timeAt(px), px);
+    if (!pointers.has(event.pointerId)) return;
+    const before = [...pointers.values()];
+    pointers.set(event.pointerId, px);
+    if (chosen.from !== null) chosen.show(px);
+    else if (pointers.size === 1) onTime(timeAt(px));
+    else if (pointers.size === 2) pinchPlot(plot, axis, before, [...pointers.values()]);
+  });
+  const lift = (event) => {
+    if (!pointers.delete(event.pointerId)) return;
+    if (event.pointerType === "touch") reading.hide();
+    if (chosen.from === null) return;
+    const ends = [chosen.from, pixel(event)].sort((a, b) => a - b);
+    chosen.from = null;
+    chosen.show();
+    if (event.type === "pointerup" && ends[1] - ends[0] > 4) plot.show(timeAt(ends[0]), timeAt(ends[1]));
+  };
+  for (const name of ["pointerup", "pointercancel"]) over.addEventListener(name, lift);
+  over.addEventListener("pointerleave", reading.hide);
+  over.addEventListener("dblclick", () => plot.show(...range));
+  over.addEventListener("wheel", (event) => turnPlot(plot, axis, range, event), { passive: false });
+}
+
 // The plot of loads against time, in step with the picture. Drawn by uPlot; the present time is a line laid over it.
 
 const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
@@ -147,4 +431,45 @@ class Plot {
     if (hasMoved && (time < from || time > until)) this.show(time - 0.1 * length, time + 0.9 * length);
     this.placeNow();
   }
+}
+
+// The plot with its controls and its key, and the timeline that follows its width.
+
+function makePlotPanel(player) {
+  const { run, axis, state } = player;
+  const hasShips = run.info.ships.length > 0;
+  const panel = { showLoads: () => {} };
+  const plot = new Plot(run, byId("plot"), axis, {
+    onTime: (time) => player.actions.goTo(time),
+    onPlaced: (left, width) => player.timeline.place(left, width, player.colours),
+    onSpan: (span) => {
+      player.timeline.setPart(span);
+      panel.showTools();
+    },
+  });
+  const placeTimeline = () => player.timeline.place(8, byId("track-row").clientWidth - 16, player.colours);
+
+  panel.plot = plot;
+  panel.showTools = () => {
+    byId("full-scale").setAttribute("aria-pressed", String(plot.isFull));
+    byId("full-scale").disabled = !plot.isFull && plot.off === null;
+    byId("whole-run").disabled = !plot.isZoomed();
+  };
+  panel.rebuild = () => {
+    plot.build(player.colours);
+    panel.showLoads = fillPlotKey(run, plot, byId("load-now"), () => {
+      plot.build();
+      panel.showTools();
+    });
+    panel.showLoads(state.time);
+    panel.showTools();
+  };
+  /** Takes the theme's colours. */
+  panel.refresh = () => (hasShips ? panel.rebuild() : placeTimeline());
+  panel.resize = () => (hasShips ? plot.resize() : placeTimeline());
+  panel.setTime = (time) => {
+    plot.setTime(time);
+    panel.showLoads(time);
+  };
+  return panel;
 }

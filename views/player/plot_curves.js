@@ -1,3 +1,120 @@
+// What the plot shows: columns of forces.csv as curves, causes as stacked areas, and how far their axes reach.
+
+// How far the axes of loads reach. Crushing ice gives spikes: drawn whole, one of them flattens all else.
+
+const common = 0.99; // the share of rows with a load that the scale holds at least
+const beyondCommon = 1.25; // the scale reaches this many times as far
+const spike = 2; // a spike is larger than this many times that reach; without one the scale shows everything
+
+/** Of the sizes of a column's rows that are not 0 the one that `common` of them stay below, and the largest. */
+function sizesOf(values) {
+  const stride = Math.ceil(values.length / 5000);
+  const sizes = [];
+  let largest = 0;
+  for (let k = 0; k < values.length; ++k) {
+    const size = Math.abs(values[k]);
+    if (size > largest) largest = size;
+    if (size > 0 && k % stride === 0) sizes.push(size);
+  }
+  sizes.sort((a, b) => a - b);
+  return { usual: sizes[Math.floor(common * (sizes.length - 1))] ?? 0, largest };
+}
+
+/** The part of the axis that columns of loads need, [at most 0, at least 0]: all of it, or without spikes. */
+function loadRange(columns, isFull) {
+  const sizes = columns.map(sizesOf);
+  const largest = Math.max(0, ...sizes.map((size) => size.largest));
+  const reach = beyondCommon * Math.max(0, ...sizes.map((size) => size.usual));
+  const limit = isFull || largest <= spike * reach ? largest : reach;
+  let [low, high] = [0, 0];
+  for (const values of columns) {
+    for (const value of values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  return [Math.max(low, -limit), Math.min(high, limit)];
+}
+
+/** From the least to the largest of columns that are no loads. */
+function wholeRange(columns) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const values of columns) {
+    for (const value of values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  return low <= high ? [low, high] : [0, 1];
+}
+
+/** The ranges with some room, grown so that 0 is at one height in all of them. */
+function alignedRanges(ranges) {
+  const size = ([low, high]) => Math.max(high, -low) || 1;
+  const below = Math.max(...ranges.map((range) => -range[0] / size(range)));
+  const above = Math.max(...ranges.map((range) => range[1] / size(range)), below > 0 ? 0.1 : 1);
+  return ranges.map((range) => [-1.06 * Math.max(below, 0.04) * size(range), 1.06 * above * size(range)]);
+}
+
+/** Rows of a column that lie off its scale: how many, and the largest with its time. */
+function rowsOffScale(times, values, [low, high]) {
+  const off = { count: 0, largest: 0, time: 0 };
+  values.forEach((value, row) => {
+    if (value >= low && value <= high) return;
+    ++off.count;
+    if (Math.abs(value) > Math.abs(off.largest)) Object.assign(off, { largest: value, time: times[row] });
+  });
+  return off;
+}
+
+// Forces by what causes them: columns of forces.csv, one for each cause, that add up to the force on a ship (io/run/force_causes.cpp).
+
+/** Of each direction its parts: a column without its shares has the words of what is left. */
+function partsByDirection({ force_causes: causes }) {
+  const directions = new Map();
+  for (const cause of causes) {
+    const shares = causes.filter(({ share_of: of }) => of === cause.column).map(({ column }) => column);
+    const part = { cause: cause.cause, words: shares.length > 0 ? cause.without_shares : cause.words, column: cause.column, unit: cause.unit, shares };
+    directions.set(cause.direction, [...(directions.get(cause.direction) ?? []), part]);
+  }
+  return directions;
+}
+
+/** Adds a column for each part and for the sums to a ship's rows: all of them, and those above and below 0. Gives the parts that are not 0 throughout. */
+function addCauses(rows, direction, parts) {
+  const sums = { sum: new Float64Array(rows.force_t_s.length), up: new Float64Array(rows.force_t_s.length), down: new Float64Array(rows.force_t_s.length) };
+  for (const part of parts) {
+    const values = rows[part.column].map((value, row) => part.shares.reduce((left, share) => left - rows[share][row], value));
+    rows[`${direction}: ${part.cause}`] = values;
+    values.forEach((value, row) => {
+      sums.sum[row] += value;
+      sums[value > 0 ? "up" : "down"][row] += value;
+    });
+  }
+  for (const [name, values] of Object.entries(sums)) rows[`${direction}: ${name}`] = values;
+  return parts.filter((part) => rows[`${direction}: ${part.cause}`].some((value) => value !== 0));
+}
+
+/** The plots that stack the causes, one for each ship and direction, where any force acts. */
+function stackedQuantities({ info, forces }) {
+  const quantities = {};
+  for (const [direction, parts] of partsByDirection(info)) {
+    info.ships.forEach((ship, k) => {
+      const acting = addCauses(forces[k], direction, parts);
+      if (acting.length === 0) return;
+      const { unit } = acting[0];
+      const curve = (kind, label) => ({ kind, label, column: `${direction}: ${kind}`, base: unit, scale: "y" });
+      const name = `${direction.split(" ")[0].toLowerCase()}_by_cause`;
+      quantities[info.ships.length > 1 ? `${name}@${ship.name}` : name] = {
+        label: info.ships.length > 1 ? `${direction}: ${ship.name}` : direction, ship: k, isStack: true,
+        curves: [...acting.map(({ cause, words }) => ({ ...curve(cause, words), isArea: true })), curve("sum", "sum")],
+        sums: [curve("up", "all above 0"), curve("down", "all below 0")],
+      };
+    });
+  }
+  return quantities;
+}
+
 // What the plot shows: quantities, each with its curves, which are columns of forces.csv. True loads lead; the paper's
 // j/τ_c, which is larger by far, has its own name and its own axis.
 
@@ -35,4 +152,97 @@ function curveStyle(curve, ship, ships, colours) {
   if (curve.kind === "max") return { stroke: `${colour}80`, width: 1 };
   if (curve.kind === "paper") return { stroke: colour, width: 1, dash: [4, 3] };
   return { stroke: colour, width: 1.25 };
+}
+
+// Stacked areas: forces by cause, from 0 up those above it, from 0 down those below, and the line of their sum.
+
+const columnWidth = 2; // [px]; rows that stand closer are drawn as their mean
+
+/** How many rows of forces.csv go into one column of the picture. */
+function rowsInColumn(plot) {
+  const [first, end] = plot.rowsInView(plot.shownQuantity().ship);
+  return Math.max(1, Math.ceil((columnWidth * (end - first)) / Math.max(1, plot.host.clientWidth)));
+}
+
+/** Means of a column's rows, `size` of them each; groups begin at multiples of it, so that they stay when the plot moves. */
+function meansOf(values, first, end, size) {
+  const means = new Float64Array(Math.ceil(end / size) - Math.floor(first / size));
+  for (let k = 0; k < means.length; ++k) {
+    const from = (Math.floor(first / size) + k) * size;
+    const to = Math.min(values.length, from + size);
+    for (let row = from; row < to; ++row) means[k] += values[row] / (to - from);
+  }
+  return means;
+}
+
+/**
+ * What is in view, as columns: of each shown cause its mean, how high and how low they stand together, their sum, and the times between
+ * which each column stands [s].
+ */
+function stackOf(plot) {
+  const { ship } = plot.shownQuantity();
+  const rows = plot.run.forces[ship];
+  const [first, end] = plot.rowsInView(ship);
+  const size = rowsInColumn(plot);
+  const shown = plot.shownCurves();
+  const areas = shown.filter(({ kind }) => kind !== "sum").map((curve) => ({ curve, means: meansOf(rows[curve.column], first, end, size) }));
+  const line = shown.find(({ kind }) => kind === "sum");
+  const count = Math.max(0, Math.ceil(end / size) - Math.floor(first / size));
+  const [high, low] = [new Float64Array(count), new Float64Array(count)];
+  for (const { means } of areas) means.forEach((mean, k) => { (mean > 0 ? high : low)[k] += mean; });
+  const times = rows.force_t_s;
+  const startOf = (row) => (row > 0 ? times[row - 1] : 2 * times[0] - (times[1] ?? 2 * times[0]));
+  const starts = Float64Array.from(high, (_, k) => startOf((Math.floor(first / size) + k) * size));
+  const ends = Float64Array.from(high, (_, k) => times[Math.min(times.length, (Math.floor(first / size) + k + 1) * size) - 1]);
+  return { areas, line: line ? meansOf(rows[line.column], first, end, size) : null, high, low, starts, ends, size };
+}
+
+/** Steps from left to right along values, into the path. */
+function traceSteps({ starts, ends }, values, xOf, yOf, context) {
+  values.forEach((value, k) => {
+    context.lineTo(xOf(starts[k]), yOf(value));
+    context.lineTo(xOf(ends[k]), yOf(value));
+  });
+}
+
+/** The same back from right to left. */
+function traceStepsBack({ starts, ends }, values, xOf, yOf, context) {
+  for (let k = values.length - 1; k >= 0; --k) {
+    context.lineTo(xOf(ends[k]), yOf(values[k]));
+    context.lineTo(xOf(starts[k]), yOf(values[k]));
+  }
+}
+
+/** Draws the areas and the line of the sum into a chart. */
+function drawStack(plot, chart) {
+  const stack = stackOf(plot);
+  const { ctx, bbox } = chart;
+  const xOf = (time) => chart.valToPos(time, "x", true);
+  const yOf = (value) => chart.valToPos(value, "y", true);
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  const tops = { up: new Float64Array(stack.high.length), down: new Float64Array(stack.high.length) };
+  for (const { curve, means } of stack.areas) {
+    ctx.fillStyle = plot.colours[`cause-${curve.kind}`];
+    for (const [side, sign] of [["up", 1], ["down", -1]]) {
+      const next = tops[side].map((top, k) => (means[k] * sign > 0 ? top + means[k] : top));
+      ctx.beginPath();
+      traceSteps(stack, next, xOf, yOf, ctx);
+      traceStepsBack(stack, tops[side], xOf, yOf, ctx);
+      ctx.fill();
+      tops[side] = next;
+    }
+  }
+  if (stack.line) {
+    ctx.beginPath();
+    traceSteps(stack, stack.line, xOf, yOf, ctx);
+    for (const [width, colour] of [[3.5, plot.colours.panel], [1.5, plot.colours.ink]]) {
+      ctx.lineWidth = width * devicePixelRatio;
+      ctx.strokeStyle = colour;
+      ctx.stroke();
+    }
+  }
+  ctx.restore();
 }

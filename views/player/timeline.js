@@ -1,6 +1,7 @@
-// The timeline: a slider with a mark for every fracture, rejected cut and broken mooring. A click on a mark goes there.
+// The timeline: a slider with a mark for every fracture, rejected cut and broken mooring. A click on a mark goes there, a drag scrubs.
 
 const nearMark = 5; // [px]
+const markedHeight = 23; // of the timeline from its top, where marks are [px]
 const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18, mooring_break: 7 }; // of each kind of mark, from the top [px]
 
 /** Whether an event has a mark. What goes under hulls and comes up has none: there is one for each cusp. */
@@ -83,22 +84,23 @@ function eventAt(events, { pixelOf }, px, py) {
   return best;
 }
 
-/** Pointers on the timeline: a click or a drag goes to a time, a click on a mark to its event, whose words stand in the tip. */
+/** Pointers on the timeline: a drag goes to a time, wherever it begins; so does a click, or to the event whose mark it hits. The words of the
+ * mark under the pointer stand in the tip. */
 function watchTimeline(track, timeline, run, actions) {
   const { events } = run.info;
   const tip = byId("timeline-tip");
-  let isDown = false;
+  let press = null; // {px, mark}: from where on [px], and the event whose mark is there until the pointer moves away from it
   track.addEventListener("pointerdown", (pointer) => {
+    if (pointer.button !== 0) return;
     const [px, py] = pointIn(track, pointer);
     track.setPointerCapture(pointer.pointerId);
-    const found = py < 23 ? eventAt(events, timeline, px, py) : null;
-    isDown = found === null;
-    if (isDown) actions.goTo(timeline.timeOf(px));
-    else actions.goToEvent(found);
+    press = { px, mark: py < markedHeight ? eventAt(events, timeline, px, py) : null };
+    if (press.mark === null) actions.goTo(timeline.timeOf(px));
   });
   track.addEventListener("pointermove", (pointer) => {
     const [px, py] = pointIn(track, pointer);
-    if (isDown) actions.goTo(timeline.timeOf(px));
+    if (press && Math.abs(px - press.px) > clickSlop) press.mark = null;
+    if (press && press.mark === null) actions.goTo(timeline.timeOf(px));
     const found = eventAt(events, timeline, px, py);
     tip.hidden = found === null || pointer.pointerType === "touch";
     if (tip.hidden) return;
@@ -106,7 +108,11 @@ function watchTimeline(track, timeline, run, actions) {
     tip.style.left = `${Math.min(timeline.left + px, Math.max(0, track.parentElement.clientWidth - tip.offsetWidth - 8))}px`;
   });
   track.addEventListener("pointerleave", () => { tip.hidden = true; });
-  for (const name of ["pointerup", "pointercancel"]) track.addEventListener(name, () => { isDown = false; });
+  track.addEventListener("pointerup", () => {
+    if (press && press.mark !== null) actions.goToEvent(press.mark);
+    press = null;
+  });
+  track.addEventListener("pointercancel", () => { press = null; });
 }
 
 const kindWords = { bend: "bend", split: "split", grind: "grinding", rejected_cut: "rejected cut", submerge: "going under", resurface: "coming up",

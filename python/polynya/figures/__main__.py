@@ -1,9 +1,11 @@
-"""`polynya figures` (app/figures.cpp starts it)."""
+"""`polynya figures` (polynya.command starts it)."""
 import os
-import signal
 import sys
 
-DONE, USAGE, INPUT_OUTPUT, STOPPED = 0, 2, 5, 130
+from ..command import fail, run
+
+COMMAND = "polynya figures"
+DONE, USAGE = 0, 2
 
 
 def note(words):
@@ -65,59 +67,28 @@ def draw(options):
         problem = problem_of(options, runs)
         labels = options.label or [None] * len(runs)
         if problem:
-            return fail(USAGE, problem)
+            return fail(COMMAND, problem, USAGE)
         shown = [labelled(run, label, options.start, options.end) for run, label in zip(runs, labels)]
-    except FolderError as error:
-        return fail(INPUT_OUTPUT, error)
+    except FolderError:
+        raise
     except ValueError as error:
-        return fail(USAGE, error)
-    try:
-        folder = options.out or options.runs[0]
-        os.makedirs(folder, exist_ok=True)
-        for name, figure, why in pages(options, shown):
-            if figure is None:
-                note(f"{why}; figure-{name} is left out")
-                continue
-            for path in save(figure, os.path.join(folder, f"figure-{name}"), options.format, STYLES[options.style].dots):
-                print(path, flush=True)
-    except FolderError as error:
-        return fail(INPUT_OUTPUT, error)
-    except OSError as error:
-        is_stdout = error.filename is None
-        sys.stdout = None if is_stdout else sys.stdout  # nothing more goes there, at the end of Python neither
-        print(f"polynya: stdout: {error.strerror}" if is_stdout else f"polynya figures: {error.filename}: {error.strerror}", file=sys.stderr)
-        return INPUT_OUTPUT
+        return fail(COMMAND, error, USAGE)
+    folder = options.out or options.runs[0]
+    os.makedirs(folder, exist_ok=True)
+    for name, figure, why in pages(options, shown):
+        if figure is None:
+            note(f"{why}; figure-{name} is left out")
+            continue
+        for path in save(figure, os.path.join(folder, f"figure-{name}"), options.format, STYLES[options.style].dots):
+            print(path, flush=True)
     return DONE
 
 
-def fail(code, message):
-    print(f"polynya figures: {message}", file=sys.stderr)
-    return code
-
-
-def has_matplotlib(command):
-    """Whether it can be imported; prints what to install where it cannot."""
-    try:
-        import matplotlib  # noqa: F401  (before anything that needs it)
-        import numpy  # noqa: F401
-    except ImportError as error:
-        print(f"{command}: {error}: figures need Python's numpy and matplotlib: ./setup.sh python, or apt-get install python3-numpy "
-              "python3-matplotlib; final.svg in the run folder and polynya view need neither", file=sys.stderr)
-        return False
-    return True
-
-
 def main(words=None):
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as `polynya figures RUN | head -1` ends
-    if not has_matplotlib("polynya figures"):
-        return INPUT_OUTPUT
     from .options import command_line
 
-    try:
-        return draw(command_line().parse_args(words))
-    except KeyboardInterrupt:
-        return STOPPED
+    return draw(command_line().parse_args(words))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run("figures", main))

@@ -1,4 +1,4 @@
-"""Slices of an icebreaking database: `polynya database show --svg DIR` (app/database_show.cpp starts it)."""
+"""Slices of an icebreaking database: `polynya database show --svg DIR` (polynya.command starts it)."""
 import json
 import os
 import sys
@@ -45,26 +45,15 @@ def draw(figure, title, caption):
         return sheet.finish(height, handles)
 
 
-def main(slices):
-    """Draws the figures beside the file of slices."""
-    from .__main__ import INPUT_OUTPUT, DONE, has_matplotlib
-
-    if not has_matplotlib("polynya database"):
-        return INPUT_OUTPUT
+def main():
+    """Draws the figures beside the file of slices that app/database_show.cpp wrote and names."""
     from .page import save
 
+    slices = sys.argv[1]
     folder = os.path.dirname(slices)
-    try:
-        with open(slices, encoding="utf-8") as file:
-            given = json.load(file)
-        for figure in given["figures"]:
-            for path in save(draw(figure, given["title"], given["caption"]), os.path.join(folder, figure["name"]), ["svg"]):
-                print(f"picture         {path}", flush=True)
-    except OSError as error:
-        print(f"polynya database: {error.filename or 'stdout'}: {error.strerror}", file=sys.stderr)
-        return INPUT_OUTPUT
-    return DONE
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    with open(slices, encoding="utf-8") as file:
+        given = json.load(file)
+    for figure in given["figures"]:
+        for path in save(draw(figure, given["title"], given["caption"]), os.path.join(folder, figure["name"]), ["svg"]):
+            print(f"picture         {path}", flush=True)
+    return 0

@@ -13,7 +13,6 @@ from .subjects import all_labelled, mark_fractures, once, subjects_of
 COMPONENTS = (("surge", "N"), ("sway", "N"), ("yaw", "Nm"))
 FRONT, BEHIND = "#000000", "#56b4e9"  # apart in greyscale
 STRETCH = 0.1  # of paper, of which the largest and the least value are drawn [mm]
-CHOICES = ("true", "mean", "max", "ships", "j-over-tau-c")
 
 
 @dataclasses.dataclass(frozen=True)

@@ -5,42 +5,30 @@ import dataclasses
 import math
 
 import numpy
-from matplotlib.collections import PathCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, PathPatch
 
+from polynya import scenery as colours
 from polynya.errors import FolderError
+from polynya.scenery import BROKEN, CAME_UP, FRACTURES, LEAST_PIXELS, UNDER, WHOLE, Scenery, counted, extent_of, path_of
 
-from . import map_legend as legend
-from .map_extent import extent_of
-from .map_paths import path_of
 from .page import Page, Sheet
 from .subjects import all_labelled
 
 CROWD = 400  # cusps, from which on their marks are smaller
-MOST_VERTICES = 300_000  # drawn as vectors; more become dots
+MOST_VERTICES = 300_000  # drawn as vectors; more become dots, and floes of a few dots squares
 
 
 @dataclasses.dataclass
-class Scenery:
-    """A run at a time: polygons as lists of rings, and what stands above its map."""
+class Map:
+    """A run at a time, and what stands above its map."""
 
     title: str
     caption: str
-    time: float
-    at_start: list
-    as_in_scene: list
-    broken: list
-    came_up: list
-    under: list
-    hulls: list
-    walls: list
-    tracks: list
-    channel: list
+    scenery: Scenery
+    frame: object  #: of the run
+    channel: list  #: polygons, each a list of rings
     marks: dict  #: points of fractures by kind
-
-    def pieces(self):
-        """Points of all that sets the extent of a map."""
-        rings = [rings[0] for of in (self.at_start, self.as_in_scene, self.broken, self.came_up) for rings in of]
-        return [*rings, *self.hulls, *self.walls, *self.tracks]
 
 
 def chosen_times(runs, wanted, count):
@@ -68,80 +56,77 @@ def channels_at(run, time):
     return polygons
 
 
-def counted(count, noun):
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
-
-
-def scenery_of(labelled, time, has_label):
+def map_of(labelled, scenery, time, has_label):
     run = labelled.run
-    time = min(max(time, run.start_time), run.end_time)
-    frame = run.frame(time)
-    rings, births = frame.rings, run.births
-    ids = numpy.flatnonzero((births["born_s"] <= time) & (time < births["died_s"]))
-    generation, came_up, under = births["generation"][ids], births["came_up"][ids], frame.is_under
-    of = lambda mask: [rings[i] for i in numpy.flatnonzero(mask)]
-    events = run.event_columns
-    is_past = events["t_s"] <= time
-    points = numpy.column_stack((events["x_m"], events["y_m"]))
-    marks = {kind: points[is_past & (events["kind"] == kind)] for kind in ("bend", "split", "grind")}
-    past = [*run.times[run.times < time], time]
-    tracks = numpy.array([run.motions.ships_at(t)[:, :2] for t in past]) if len(run.times) else numpy.empty((0, 0, 2))
-    walls = run.wall_names
-    floats = int(numpy.count_nonzero(~under))
+    frame = run.frame(min(max(time, run.start_time), run.end_time))
+    marks = {kind: scenery.fractures(kind, -math.inf, frame.time)[0] for kind in FRACTURES}
+    floats = int(numpy.count_nonzero(~frame.is_under))
     caption = f"{counted(len(marks['bend']), 'cusp')}, {counted(len(marks['split']), 'split')}, {counted(floats, 'floe')}"
-    went, up = (int(numpy.count_nonzero(is_past & (events["kind"] == kind))) for kind in ("submerge", "resurface"))
+    events = run.event_columns
+    went, up = (int(numpy.count_nonzero((events["t_s"] <= frame.time) & (events["kind"] == kind))) for kind in ("submerge", "resurface"))
     if went:
         caption += f"; {counted(went, 'piece')} went under the hull, {up} came up"
-    return Scenery(
-        title=f"{labelled.label}, {time:.4g} s" if has_label else f"{time:.4g} s",
-        caption=caption,
-        time=time,
-        at_start=run.frame(run.start_time).rings if len(run.times) else [],
-        as_in_scene=of(~under & (generation == 0)),
-        broken=of(~under & (generation > 0) & ~came_up),
-        came_up=of(~under & (generation > 0) & came_up),
-        under=of(under),
-        hulls=[hull for name, hull in frame.hulls.items() if name not in walls],
-        walls=[hull for name, hull in frame.hulls.items() if name in walls],
-        tracks=[
-            track for name, track in zip(run.ship_names, numpy.swapaxes(tracks, 0, 1)) if name not in walls and numpy.ptp(track, axis=0).max() > 0
-        ],
-        channel=channels_at(run, time),
-        marks=marks,
-    )
+    title = f"{labelled.label}, {frame.time:.4g} s" if has_label else f"{frame.time:.4g} s"
+    return Map(title, caption, scenery, frame, channels_at(run, frame.time), marks)
 
 
-def add_polygons(axes, polygons, window, **style):
-    """Those that reach into the window."""
-    low, high = numpy.array(window[:2]), numpy.array(window[2:])
-    seen = [rings for rings in polygons if (rings[0].max(axis=0) > low).all() and (rings[0].min(axis=0) < high).all()]
-    if seen:
-        is_huge = sum(len(ring) for rings in seen for ring in rings) > MOST_VERTICES
-        axes.add_collection(PathCollection([path_of(rings) for rings in seen], rasterized=is_huge, **style), autolim=False)
+def add_path(axes, path, **style):
+    """Neither in the limits nor in the layout, which would go over each of its points."""
+    if len(path.vertices):
+        axes.add_artist(PathPatch(path, joinstyle="round", **style)).set_in_layout(False)
 
 
-def draw_map(axes, scenery, window, page, points_per_metre):
+def draw_map(axes, shown, window, page, points_per_metre):
     """Water, then ice, ships, and marks on top."""
-    scale = page.style.scale
+    scale, scenery, frame = page.style.scale, shown.scenery, shown.frame
+    seen = frame.ids[scenery.seen(frame, window)]
+    is_huge = scenery.outlines.count(seen) > MOST_VERTICES
+    least = LEAST_PIXELS * 72 / (points_per_metre * page.style.dots) if is_huge else 0.0
     edge = min(0.45, max(0.12, 0.2 * points_per_metre)) * scale
-    ice = {"edgecolors": legend.EDGE, "linewidths": edge, "joinstyle": "round"}
-    axes.set_facecolor(legend.WATER)
-    add_polygons(axes, scenery.at_start, window, facecolors=legend.AT_START, edgecolors="none", zorder=1)
-    add_polygons(axes, scenery.channel, window, facecolors=legend.CHANNEL, edgecolors="none", zorder=2)
-    add_polygons(axes, scenery.as_in_scene, window, facecolors=legend.ICE, zorder=3, **ice)
-    add_polygons(axes, scenery.broken, window, facecolors=legend.BROKEN, zorder=3, **ice)
-    size = (1.0 if len(scenery.marks["bend"]) > CROWD else 1.5) * scale
+    ice = {"edgecolor": colours.EDGE, "linewidth": edge, "rasterized": is_huge}
+    axes.set_facecolor(colours.WATER)
+    add_path(axes, scenery.ice_at_start(window, least), facecolor=colours.AT_START, edgecolor="none", zorder=1, rasterized=is_huge)
+    add_path(axes, path_of([ring for rings in shown.channel for ring in rings]), facecolor=colours.CHANNEL, edgecolor="none", zorder=2)
+    paths = scenery.floes(frame, window, least)
+    for kind, order in ((WHOLE, 3), (BROKEN, 3), (CAME_UP, 5)):
+        add_path(axes, paths[kind], facecolor=colours.COLOURS[kind], zorder=order, **ice)
+    size = (1.0 if len(shown.marks["bend"]) > CROWD else 1.5) * scale
     for kind in ("bend", "grind"):
-        axes.plot(*scenery.marks[kind].T, linestyle="none", marker="o", markersize=size, markeredgewidth=0, color=legend.MARKS[kind], zorder=4)
-    add_polygons(axes, scenery.came_up, window, facecolors=legend.CAME_UP, zorder=5, **ice)
-    for track in scenery.tracks:
-        axes.plot(*track.T, color=legend.TRACK, linewidth=0.8 * scale, dashes=(5, 2.5), zorder=6)
-    for hulls, colour in ((scenery.walls, legend.WALL), (scenery.hulls, legend.SHIP)):
-        add_polygons(axes, [[hull] for hull in hulls], window, facecolors=colour, alpha=0.88, edgecolors="white", linewidths=0.5 * scale, zorder=7)
-    under = {"facecolors": legend.UNDER + "40", "edgecolors": legend.UNDER, "linewidths": edge, "linestyles": (0, (3, 2))}
-    add_polygons(axes, scenery.under, window, zorder=8, **under)
+        axes.plot(*shown.marks[kind].T, linestyle="none", marker="o", markersize=size, markeredgewidth=0, color=colours.MARKS[kind], zorder=4)
+    for track in scenery.tracks(frame.time):
+        axes.plot(*track.T, color=colours.TRACK, linewidth=0.8 * scale, dashes=(5, 2.5), zorder=6)
+    for hulls, colour in zip(scenery.hulls(frame), (colours.SHIP, colours.WALL)):
+        add_path(axes, hulls, facecolor=colour, alpha=0.88, edgecolor="white", linewidth=0.5 * scale, zorder=7)
+    under = {"facecolor": colours.ICE_UNDER + "40", "edgecolor": colours.ICE_UNDER, "linewidth": edge, "linestyle": (0, (3, 2))}
+    add_path(axes, paths[UNDER], zorder=8, **under)
     triangle = {"marker": "^", "markersize": 3.6 * scale, "markeredgewidth": 0.4 * scale, "markeredgecolor": "white"}
-    axes.plot(*scenery.marks["split"].T, linestyle="none", color=legend.MARKS["split"], zorder=9, **triangle)
+    axes.plot(*shown.marks["split"].T, linestyle="none", color=colours.MARKS["split"], zorder=9, **triangle)
+
+
+def legend_of(maps, scale):
+    """The keys of what some maps show."""
+    kinds = {int(kind) for shown in maps for kind in shown.scenery.kinds(shown.frame)}
+    has = lambda of: any(len(of(shown)) for shown in maps)
+    area = lambda colour, words, edge=colours.EDGE: Patch(facecolor=colour, edgecolor=edge, linewidth=0.4 * scale, label=words)
+    dot = lambda kind, words: Line2D([], [], color=colours.MARKS[kind], linestyle="none", marker="o", markersize=2.5 * scale, markeredgewidth=0, label=words)
+    under = {"facecolor": colours.ICE_UNDER + "40", "edgecolor": colours.ICE_UNDER, "linewidth": 0.8 * scale, "linestyle": (0, (3, 2))}
+    split = {"marker": "^", "markersize": 4 * scale, "markeredgewidth": 0}
+    keys = [
+        (WHOLE in kinds, area(colours.ICE, "floe as in the scene")),
+        (BROKEN in kinds, area(colours.BROKEN_ICE, "piece of a broken floe")),
+        (CAME_UP in kinds, area(colours.RESURFACED_ICE, "piece that came up from under the hull")),
+        (True, area(colours.WATER, "water", colours.WATER)),
+        (has(lambda s: s.scenery.ice_at_start().vertices), area(colours.AT_START, "ice at the start, open now", colours.AT_START)),
+        (has(lambda s: s.channel), area(colours.CHANNEL, "channel behind the ship", colours.CHANNEL)),
+        (has(lambda s: s.scenery.hulls(s.frame)[0].vertices), area(colours.SHIP, "ship or structure", colours.SHIP)),
+        (has(lambda s: s.scenery.hulls(s.frame)[1].vertices), area(colours.WALL, "wall", colours.WALL)),
+        (UNDER in kinds, Patch(label="ice under the hull or waiting behind it", **under)),
+        (has(lambda s: s.scenery.tracks(s.frame.time)), Line2D([], [], color=colours.TRACK, linewidth=0.8 * scale, dashes=(5, 2.5), label="track")),
+        (has(lambda s: s.marks["bend"]), dot("bend", "cusp broken by bending")),
+        (has(lambda s: s.marks["grind"]), dot("grind", "overlap ground to brash")),
+        (has(lambda s: s.marks["split"]), Line2D([], [], color=colours.MARKS["split"], linestyle="none", label="floe split", **split)),
+    ]
+    return [handle for is_there, handle in keys if is_there]
 
 
 def draw(runs, page=Page(), at=(), window=None):
@@ -149,35 +134,38 @@ def draw(runs, page=Page(), at=(), window=None):
     runs = all_labelled(runs)
     times = chosen_times(runs, at, page.style.maps)
     is_alone = len(runs) == 1
-    sceneries = [scenery_of(run, min(time, run.end), not is_alone) for run in runs for time in times]
-    x0, y0, x1, y1 = window or extent_of([piece for scenery in sceneries for piece in scenery.pieces()])
+    sceneries = [Scenery(run.run) for run in runs]
+    maps = [map_of(run, scenery, min(time, run.end), not is_alone) for run, scenery in zip(runs, sceneries) for time in times]
+    start = [scenery.run.frame(scenery.run.start_time) for scenery in sceneries]
+    x0, y0, x1, y1 = window or extent_of([points for scenery, frame in [*zip(sceneries, start), *((shown.scenery, shown.frame) for shown in maps)]
+                                          for points in scenery.points(frame)])
     title = runs[0].label if is_alone else "Floes and channels"
-    if len(sceneries) == 1:
-        title, sceneries[0].title = f"{runs[0].label}, {sceneries[0].title.split(', ')[-1]}", ""
+    if len(maps) == 1:
+        title, maps[0].title = f"{runs[0].label}, {maps[0].title.split(', ')[-1]}", ""
     scale = page.style.scale
     with Sheet(page, title, "Fractures are marked where they happened; the ice has moved since.") as sheet:
-        columns, width, height = layout(page, len(sceneries), (x1 - x0), (y1 - y0))
-        rows = -(-len(sceneries) // columns)
+        columns, width, height = layout(page, len(maps), (x1 - x0), (y1 - y0))
+        rows = -(-len(maps) // columns)
         sheet.figure.set_layout_engine("compressed")
         grid = sheet.panels(rows, columns, sharex=True, sharey=True)
-        for axes in grid.flat[len(sceneries) :]:
+        for axes in grid.flat[len(maps) :]:
             axes.remove()
         most_lines = 1
-        for i, (axes, scenery) in enumerate(zip(grid.flat, sceneries)):
-            draw_map(axes, scenery, (x0, y0, x1, y1), page, width / (x1 - x0) * 72 / 25.4)
+        for i, (axes, shown) in enumerate(zip(grid.flat, maps)):
+            draw_map(axes, shown, (x0, y0, x1, y1), page, width / (x1 - x0) * 72 / 25.4)
             axes.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
             axes.spines[:].set_visible(True)
             axes.locator_params(nbins=max(2, int(width / (16 * scale))), axis="x")
             axes.locator_params(nbins=max(2, int(height / (7 * scale))), axis="y")
-            sheet.title_panel(axes, i, len(sceneries), f"{scenery.title}\n{scenery.caption}".strip(), width)
+            sheet.title_panel(axes, i, len(maps), f"{shown.title}\n{shown.caption}".strip(), width)
             most_lines = max(most_lines, axes.get_title(loc="left").count("\n") + 1)
-            is_lowest = i + columns >= len(sceneries)
+            is_lowest = i + columns >= len(maps)
             axes.tick_params(labelleft=i % columns == 0, labelbottom=is_lowest)
             axes.set_xlabel("x, m" if is_lowest else "")
             axes.set_ylabel("y, m" if i % columns == 0 else "")
         above = (1.35 * page.style.text * most_lines + 4 * scale) * 25.4 / 72
         room = rows * (height + above + 2 * scale) + 9 * scale
-        return sheet.finish(room, legend.entries(sceneries, scale), is_snug=True)
+        return sheet.finish(room, legend_of(maps, scale), is_snug=True)
 
 
 def layout(page, count, across, along):

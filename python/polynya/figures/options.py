@@ -1,31 +1,46 @@
-"""The words of `polynya figures`, which app/figures.cpp has with their help."""
-from __future__ import annotations
-
-import argparse
-
-from .loads import CHOICES
-from .page import FORMATS, STYLES
+"""The command line of `polynya figures`. Needs neither numpy nor matplotlib."""
+from ..arguments import Parser, choice, choices, number, numbers
 
 FIGURES = ("floes", "loads", "motion", "sizes", "energy")
-
-
-def numbers(text):
-    return [float(part) for part in text.split(",")]
+LOADS = ("true", "mean", "max", "ships", "j-over-tau-c")
+STYLES = ("one-column", "two-columns", "slides")
+FORMATS = ("svg", "png", "pdf")
+EXAMPLES = (
+    "figures runs/sawamura2017-fig4b                       figure-floes.svg, -loads, -motion, ...",
+    "figures runs/sawamura2017-fig4b --at 0,185,285,550 --style one-column --format pdf",
+    "figures runs/6a runs/6b --out figures                 side by side, in one scale",
+    'figures runs/6a runs/6b --label "10 m","20 m" --width-mm 85 --title ""',
+    "figures runs/6a --only loads --from 200 --until 300   a part of the time",
+)
+REST = """Needs Python 3 with numpy and matplotlib (./setup.sh python); a run's final.svg and the player need neither.
+Exit codes: 0 done, 2 usage, 5 input/output, or numpy or matplotlib is missing.
+"""
 
 
 def command_line():
-    parser = argparse.ArgumentParser(prog="polynya figures", description="Draw a run, or several side by side, for print (docs/figures.md).")
-    parser.add_argument("runs", nargs="+", metavar="RUN", help="run folders")
-    parser.add_argument("--only", type=lambda text: text.split(","), default=list(FIGURES), metavar="LIST", help="of " + ",".join(FIGURES))
-    parser.add_argument("--at", type=numbers, default=[], metavar="S,S,...", help="instants of the maps [s]")
-    parser.add_argument("--from", dest="start", type=float, metavar="S", help="draw from this time on [s]")
-    parser.add_argument("--until", dest="end", type=float, metavar="S", help="draw up to this time [s]")
-    parser.add_argument("--window", type=numbers, metavar="X0,Y0,X1,Y1", help="the part of the world that the maps show [m]")
-    parser.add_argument("--load", choices=CHOICES, default="true", help="which load; the true force of the ice if not given")
-    parser.add_argument("--label", action="append", default=[], metavar="NAME", help="names of the runs, once for each")
-    parser.add_argument("--title", metavar="TEXT", help='title of the figures instead of their own; "" for none')
-    parser.add_argument("--style", choices=STYLES, default="two-columns", help="what for; two-columns if not given")
-    parser.add_argument("--width-mm", type=float, metavar="MM", help="width on paper; the style's if not given")
-    parser.add_argument("--format", type=lambda text: text.split(","), default=list(FORMATS), metavar="LIST", help="of " + ",".join(FORMATS))
-    parser.add_argument("--out", default="", metavar="DIR", help="folder of the figures; the first run's if not given")
+    parser = Parser("polynya figures", "Draw a run, or several side by side, for print", EXAMPLES, REST)
+    parser.add("runs", "The run folders", nargs="+", metavar="RUN")
+    meaning = "Which figures, separated by commas; all if not given"
+    parser.add("--only", meaning, type=choices(FIGURES), default=list(FIGURES), metavar="|".join(FIGURES))
+    meaning = (
+        "True force of the ice (mean of each recorded interval and largest step, or one of the two), "
+        "force of other ships and structures, or the paper's j/tau_c; true if not given"
+    )
+    parser.add("--load", meaning, type=choice(LOADS), default="true", metavar="|".join(LOADS))
+    meaning = "What for: a column of a page, its whole width (if not given), or slides"
+    parser.add("--style", meaning, type=choice(STYLES), default="two-columns", metavar="|".join(STYLES))
+    meaning = "Which files, separated by commas; all if not given"
+    parser.add("--format", meaning, type=choices(FORMATS), default=list(FORMATS), metavar="|".join(FORMATS))
+    parser.add("--at", "Instants of the maps [s]; chosen if not given", type=numbers(), default=[], metavar="S,S,...")
+    meaning = "Draw from this time on [s]; from the start if not given"
+    parser.add("--from", meaning, dest="start", type=number(), metavar="S")
+    parser.add("--until", "Draw up to this time [s]; to the end if not given", dest="end", type=number(), metavar="S")
+    meaning = "The part of the world that the maps show [m]; all if not given"
+    parser.add("--window", meaning, type=numbers(count=4), metavar="X0,Y0,X1,Y1")
+    meaning = "Names of the runs, separated by commas; their scenes' if not given"
+    parser.add("--label", meaning, type=lambda text: text.split(","), action="extend", default=[], metavar="NAME,...")
+    parser.add("--title", 'Title of the figures instead of their own; "" for none', metavar="TEXT")
+    meaning = "Width on paper instead of the style's, 85, 170 or 300; text keeps its size"
+    parser.add("--width-mm", meaning, type=number(60, 400, "mm"), metavar="MM")
+    parser.add("--out", "Folder for the figures; the first run's if not given", default="", metavar="DIR")
     return parser

@@ -10,11 +10,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from . import options
+
 MM = 1 / 25.4  # [inch]
 POINT = 25.4 / 72  # [mm]
 MARGIN = 1.5  # at the edge of a paper [mm]
 LINE = 1.3  # heights of a letter from line to line
-FORMATS = ("svg", "png", "pdf")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Style:
 ONE_COLUMN = Style(85, 235, 7, 8, 9, 300, 4)
 TWO_COLUMNS = Style(170, 235, 7, 8, 9, 300, 4)
 SLIDES = Style(300, 165, 14, 16, 18, 200, 2)
-STYLES = {"one-column": ONE_COLUMN, "two-columns": TWO_COLUMNS, "slides": SLIDES}
+STYLES = dict(zip(options.STYLES, (ONE_COLUMN, TWO_COLUMNS, SLIDES)))
 
 
 @dataclasses.dataclass(frozen=True)

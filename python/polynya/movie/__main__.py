@@ -1,18 +1,25 @@
-"""`polynya movie` (app/movie.cpp starts it)."""
+"""`polynya movie` (polynya.command starts it)."""
 import argparse
-import math
 import os
 import signal
 import sys
+import time
 
-DONE, USAGE, INPUT_OUTPUT = 0, 2, 5
-EXAMPLES = """Examples:
-  polynya movie runs/sawamura2017-fig4b --out voyage.mp4
-  polynya movie runs/sawamura2017-fig4b --out voyage.gif --size 800x450 --from 100 --to 300 --speed 20
-  polynya movie runs/sawamura2017-fig4b --out voyage.mp4 --follow icebreaker
-  polynya movie runs/sawamura2017-fig4b --out frame.png --from 330          one picture, without ffmpeg
+from ..arguments import Parser, number
+from ..command import INPUT_OUTPUT, run
+from ..command import fail as fail_command
+
+DONE, USAGE = 0, 2
+EXAMPLES = (
+    "movie runs/sawamura2017-fig4b --out voyage.mp4",
+    "movie runs/sawamura2017-fig4b --out voyage.gif --size 800x450 --from 100 --to 300 --speed 20",
+    "movie runs/sawamura2017-fig4b --out voyage.mp4 --follow icebreaker",
+    "movie runs/sawamura2017-fig4b --out frame.png --from 330          one picture, without ffmpeg",
+)
+REST = """Needs Python 3 with numpy and matplotlib, and ffmpeg (./setup.sh python). A film that is stopped
+leaves no file.
+Exit codes: 0 done, 2 usage, 5 input/output, or numpy, matplotlib or ffmpeg is missing.
 """
-MEANING = """Makes a film of a run: the ice, the ships and where it breaks, and below it the force on a ship."""
 
 
 class Stopped(Exception):
@@ -21,19 +28,6 @@ class Stopped(Exception):
     def __init__(self, number):
         super().__init__(signal.Signals(number).name)
         self.number = number
-
-
-def number(least, is_above, unit):
-    def parsed(text):
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value) or value < least or (is_above and value == least):
-            raise argparse.ArgumentTypeError(f"found {text}, allowed: {'>' if is_above else '≥'} {least:g} {unit}")
-        return value
-
-    return parsed
 
 
 def size(text):
@@ -54,28 +48,45 @@ def film_name(text):
 
 
 def command_line():
-    parser = argparse.ArgumentParser(prog="polynya movie", formatter_class=argparse.RawDescriptionHelpFormatter,
-                                     description=EXAMPLES + "\n" + MEANING)
-    parser.add_argument("run", metavar="RUN", help="the run folder; a run that is not finished is shown as far as it got")
-    parser.add_argument("--out", type=film_name, default="voyage.mp4", metavar="FILE",
-                        help="the film: .mp4, .gif, or .png, the picture at --from (voyage.mp4 if not given)")
-    parser.add_argument("--from", dest="start", type=number(0, False, "s"), metavar="S", help="in simulated time; the run's start if not given")
-    parser.add_argument("--to", dest="end", type=number(0, False, "s"), metavar="S", help="likewise; the run's end if not given")
-    parser.add_argument("--speed", type=number(0, True, "s a second"), metavar="X",
-                        help="simulated seconds a second of the film; one for about half a minute if not given")
-    parser.add_argument("--size", type=size, default=(1280, 720), metavar="WxH", help="in pixels (1280x720 if not given)")
-    parser.add_argument("--follow", metavar="SHIP", help="the ship that the map goes with, by its name; all of the run if not given")
+    seconds = number(0, unit="s")
+    parser = Parser("polynya movie", "Make a film of a run: the ice, and the force on the ship", EXAMPLES, REST)
+    meaning = "The run folder; a run that is not finished is shown as far as it got"
+    parser.add("run", meaning, metavar="RUN")
+    meaning = "The film: .mp4, .gif, or .png, the picture at --from; voyage.mp4 if not given"
+    parser.add("--out", meaning, type=film_name, default="voyage.mp4", metavar="FILE")
+    meaning = "Simulated time at which it begins; the run's start if not given"
+    parser.add("--from", meaning, dest="start", type=seconds, metavar="S")
+    meaning = "Simulated time at which it ends; the run's end if not given"
+    parser.add("--to", meaning, dest="end", type=seconds, metavar="S")
+    meaning = "Simulated seconds a second of the film; one for about half a minute if not given"
+    parser.add("--speed", meaning, type=number(0, is_open=True), metavar="X")
+    parser.add("--size", "In pixels; 1280x720 if not given", type=size, default=(1280, 720), metavar="WxH")
+    meaning = "The ship that the map goes with, by its name; all of the run if not given"
+    parser.add("--follow", meaning, metavar="SHIP")
     return parser
 
 
 def fail(code, message):
-    print(f"polynya movie: {message}", file=sys.stderr)
-    return code
+    return fail_command("polynya movie", message, code)
 
 
-def show_progress(done, count):
-    end = "\n" if done == count else ""
-    print(f"\rpicture {done} of {count}", end=end, file=sys.stderr, flush=True)
+class Progress:
+    """How far a film is, on stderr: one line on a terminal, which is written over, else a line every ten seconds."""
+
+    def __init__(self):
+        self._start = self._shown = time.monotonic()
+        self._least = 0.1 if sys.stderr.isatty() else 10.0  # between two reports [s]
+
+    def __call__(self, done, count):
+        now = time.monotonic()
+        is_last = done == count and sys.stderr.isatty()
+        if now - self._shown < self._least and not is_last:
+            return
+        self._shown = now
+        left = (now - self._start) / done * (count - done)
+        words = f"picture {done} of {count}, {left:.0f} s left"
+        print(f"\r{words:<48}" + ("\n" if is_last else "") if sys.stderr.isatty() else words, end="" if sys.stderr.isatty() else "\n",
+              file=sys.stderr, flush=True)
 
 
 def make(options):
@@ -89,12 +100,9 @@ def make(options):
         encoder.ffmpeg()  # before the run is read
     if not os.path.isdir(os.path.dirname(os.path.abspath(options.out))):
         return fail(INPUT_OUTPUT, f"{options.out}: its folder does not exist")
-    try:
-        run = Run(options.run, unfinished=True, pandas=False, shapely=False)
-        if len(run.times) == 0:
-            return fail(INPUT_OUTPUT, f"{options.run}: the run has no frames")
-    except FolderError as error:
-        return fail(INPUT_OUTPUT, error)
+    run = Run(options.run, unfinished=True, pandas=False, shapely=False)
+    if len(run.times) == 0:
+        return fail(INPUT_OUTPUT, f"{options.run}: the run has no frames")
     try:
         start = run.start_time if options.start is None else options.start
         end = run.end_time if options.end is None else options.end
@@ -107,9 +115,9 @@ def make(options):
         look = picture.Look(size=options.size, follow=options.follow, speed=speed, is_film=suffix != ".png",
                             start=run.start_time if suffix == ".png" else None,
                             end=run.end_time if suffix == ".png" else None)
-        film.write(run, options.out, times, look, show_progress if sys.stderr.isatty() else None)
-    except FolderError as error:
-        return fail(INPUT_OUTPUT, error)
+        film.write(run, options.out, times, look, Progress())
+    except FolderError:
+        raise
     except ValueError as error:
         return fail(USAGE, error)
     print(summary(options.out, times, rate, speed))
@@ -133,21 +141,16 @@ def main():
         signal.signal(number_of_signal, stop)
     try:
         from . import encoder
-        return make_and_report(options, encoder.FilmError)
-    except ImportError as error:
-        return fail(INPUT_OUTPUT, f"{error}; films need numpy and matplotlib: ./setup.sh python")
+
+        try:
+            return make(options)
+        except encoder.FilmError as error:
+            return fail(INPUT_OUTPUT, error)
     except Stopped as stopped:  # by default's action, so that a shell sees what ended it
         fail(DONE, f"stopped by {stopped}; no film was written")
         signal.signal(stopped.number, signal.SIG_DFL)
         os.kill(os.getpid(), stopped.number)
 
 
-def make_and_report(options, film_error):
-    try:
-        return make(options)
-    except (film_error, OSError) as error:
-        return fail(INPUT_OUTPUT, error)
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run("movie", main))

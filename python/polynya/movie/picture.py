@@ -12,16 +12,17 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 
-from polynya.figures import map_legend as colours
-from polynya.figures.map_paths import NOTHING
+from polynya import scenery as colours
+from polynya.scenery import LEAST_PIXELS, NOTHING, Scenery
 
 from .history import History
-from .scenery import Scenery
 
-FLOES = (("ice", colours.ICE), ("broken off", colours.BROKEN), ("come up from under a hull", colours.CAME_UP), ("under a hull", colours.UNDER))
+FLOES = tuple(zip(("ice", "broken off", "come up from under a hull", "under a hull"), colours.COLOURS))
 FRACTURES = (("bend", "cusp bends off", "o"), ("split", "floe splits", "^"), ("grind", "ice grinds", "s"))
 HEAD, KEY, CHART = 0.07, 0.055, 0.25  # of a picture's height
 FOLLOWED = 2.0  # lengths of the ship that a map which follows it shows at least
+RESTING = 1.0  # how long a picture of the floes at rest serves [s of the film]
+AT_REST = 0.1  # the farthest that a floe moves while it counts as at rest [px]
 SHOWN = 0.8  # how long a fracture's mark stays in a film [s of the film]
 POINTS_PER_HEIGHT = 0.0195 * 72  # size of text, of the picture's height in inches
 
@@ -80,6 +81,7 @@ class Picture:
         self.canvas.draw()
         self._still = numpy.asarray(self.canvas.buffer_rgba()).copy()
         self._background = self.canvas.copy_from_bbox(self.figure.bbox)
+        self._resting = None
         if self.history:
             self.history.prepare(self.canvas)
 
@@ -107,6 +109,7 @@ class Picture:
 
     def _move_to(self, middle):
         (x0, y0), (x1, y1) = middle - self._half, middle + self._half
+        self._window = (x0, y0, x1, y1)
         self._map.set_xlim(x0, x1)
         self._map.set_ylim(y0, y1)
 
@@ -124,8 +127,8 @@ class Picture:
         self._under = self._patch(facecolor=FLOES[3][1], edgecolor="#ffffff", linewidth=edge, linestyle="--", alpha=0.45)
         self._tracks = LineCollection([], colors=colours.TRACK, linewidths=1.4 * self.look.size[1] / 720, linestyles="--", animated=True)
         self._map.add_collection(self._tracks)
-        self._at_start.set_path(self.scenery.ice_at_start)
-        return [self._at_start, *self._floes, self._tracks, self._walls, self._hulls, self._under]
+        self._least = LEAST_PIXELS / self._metre
+        return [*self._floes, self._tracks, self._walls, self._hulls, self._under]
 
     def _make_marks(self):
         size = 0.9 * self._font**2
@@ -172,24 +175,58 @@ class Picture:
         if self.look.follow is not None:
             names = self.run.ship_names
             self._move_to(frame.ship_motions[names.index(self.look.follow), :2])
-        paths = self.scenery.floes(frame)
-        for patch, path in zip((*self._floes, self._under), paths):
-            patch.set_path(path)
+        self._lay_ice(frame)
         for patch, path in zip((self._hulls, self._walls), self.scenery.hulls(frame)):
             patch.set_path(path)
         self._tracks.set_segments(self.scenery.tracks(time))
         for kind, marks in self._marks.items():
             self._show_fractures(marks, kind, time)
         self._clock.set_text((f"{self.look.speed:g} × real time     " if self.look.is_film else "") + f"{time:.1f} s")
-        self.canvas.restore_region(self._background)
-        for artist in self._artists:
-            if not (isinstance(artist, PathPatch) and len(artist.get_path().vertices) == 0):
-                self._map.draw_artist(artist)
+        self._draw_artists(self._artists)
         self.figure.draw_artist(self._clock)
         pixels = numpy.asarray(self.canvas.buffer_rgba())
         if self.history:
             self.history.draw(pixels, time)
         return pixels
+
+    def _draw_artists(self, artists):
+        for artist in artists:
+            if not (isinstance(artist, PathPatch) and len(artist.get_path().vertices) == 0):
+                self._map.draw_artist(artist)
+
+    def _set_floes(self, frame, among):
+        for patch, path in zip((*self._floes, self._under), self.scenery.floes(frame, self._window, self._least, among)):
+            patch.set_path(path)
+
+    def _lay_ice(self, frame):
+        """Restores the picture of what stays: of a map that stays also the floes at rest. The other floes are left to be drawn."""
+        if self.look.follow is not None or not self.look.is_film:
+            self._at_start.set_path(self.scenery.ice_at_start(self._window, self._least))
+            self.canvas.restore_region(self._background)
+            self._draw_artists([self._at_start])
+            return self._set_floes(frame, None)
+        if self._resting is None or not self._rest_from <= frame.time <= self._rest_until:
+            self._draw_resting(frame)
+        self.canvas.restore_region(self._resting_picture)
+        return self._set_floes(frame, ~self._resting[frame.ids])
+
+    def _draw_resting(self, frame):
+        """Makes the picture of the floes that rest from a frame's time on for a while, and keeps which they are."""
+        self._rest_from = frame.time
+        self._rest_until = min(frame.time + RESTING * self.look.speed, self.run.end_time)
+        births, ids = self.run.births, frame.ids
+        later = self.run.motions.floes_at(ids, self._rest_until)[:, :3] - self.run.motions.floes_at(ids, frame.time)[:, :3]
+        moved = numpy.hypot(later[:, 0], later[:, 1]) + numpy.abs(later[:, 2]) * self.scenery.outlines.reach(ids)
+        rests = self.run.motions.are_steady(ids, frame.time, self._rest_until) & (moved * self._metre < AT_REST)
+        rests &= (births["died_s"][ids] > self._rest_until) & (births["went_under_s"][ids] > self._rest_until)
+        self._resting = numpy.zeros(len(births["died_s"]), dtype=bool)
+        self._resting[ids[rests]] = True
+        if len(self._at_start.get_path().vertices) == 0:
+            self._at_start.set_path(self.scenery.ice_at_start(self._window, self._least))
+        self._set_floes(frame, rests)
+        self.canvas.restore_region(self._background)
+        self._draw_artists([self._at_start, *self._floes])
+        self._resting_picture = self.canvas.copy_from_bbox(self.figure.bbox)
 
     def _show_fractures(self, marks, kind, time):
         """Those just made; their marks fade."""

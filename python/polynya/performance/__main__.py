@@ -1,5 +1,4 @@
-"""`polynya performance SHIP` (app/performance.cpp starts it)."""
-import argparse
+"""`polynya performance SHIP` (polynya.command starts it)."""
 import concurrent.futures
 import csv
 import json
@@ -13,50 +12,9 @@ from ..formulas import KNOT
 from ..program import program
 from ..study.case import DONE, FAILED, STOPPED
 from .curve import OUTSIDE, Curve, RunFailed
+from .options import command_line
 
 INPUT_OUTPUT = 5  # app/exit_code.hpp
-
-
-def number(kind, low, high, unit="", excludes_ends=False):
-    """Reads a number of a range; where a scene's key has one, the same (io/scene/scene_fields_settings.cpp)."""
-    what, least, most = "a whole number" if kind is int else "a number", "≥", "≤"
-    if excludes_ends:
-        least, most = ">", "<"
-    allowed = f"{what} {least} {low:g}, {most} {high:g}" + (f" [{unit}]" if unit else "")
-
-    def read(text):
-        try:
-            value = kind(text)
-        except ValueError:
-            value = math.nan
-        if not (low < value < high if excludes_ends else low <= value <= high):
-            raise argparse.ArgumentTypeError(f"found {text[:60]}, allowed: {allowed}")
-        return value
-
-    return read
-
-
-def thicknesses(text):
-    one = number(float, 1e-3, 20, "m")
-    try:
-        return sorted({one(part) for part in text.split(",")})
-    except argparse.ArgumentTypeError as error:
-        raise argparse.ArgumentTypeError(f"{error}, or several, as 0.4,0.8,1.2") from None
-
-
-def command_line():
-    """What app/performance.cpp passes on; it has the help."""
-    parser = argparse.ArgumentParser(prog="polynya performance")
-    parser.add_argument("ship")
-    parser.add_argument("--thickness", type=thicknesses)
-    parser.add_argument("--flexural-strength", type=number(float, 1, 1e9, "Pa"), default=500e3)
-    parser.add_argument("--friction", type=number(float, 0, 2), default=0.1)
-    parser.add_argument("--error", type=number(float, 0, 1, excludes_ends=True), default=0.03)
-    parser.add_argument("--step", type=number(float, 1e-5, 1, "s"), default=0.01)
-    parser.add_argument("--out")
-    parser.add_argument("--jobs", type=number(int, 1, 1024), default=os.cpu_count() or 1)
-    parser.add_argument("--list", action="store_true")
-    return parser
 
 
 def fail(code, message):
@@ -192,4 +150,6 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    from ..command import run
+
+    sys.exit(run("performance", main))

@@ -77,6 +77,14 @@ class Motions:
         found[is_recorded] = moved
         return found
 
+    def are_steady(self, floes, start, end):
+        """Of floes of these ids whether no frame changes their motion between two times [s], so that they go on at the velocity they have: a mask."""
+        if len(self._motion) == 0:
+            return numpy.zeros(len(floes), dtype=bool)
+        here, after = (int(numpy.searchsorted(self.times, time, side="right")) - 1 for time in (start, end))
+        last = self._last_record(floes, here)
+        return (last >= 0) & (last == self._last_record(floes, min(after + 1, len(self.times) - 1)))
+
     def ships_at(self, time):
         """The same of every ship and structure; none where there is no frame."""
         if len(self.times) == 0:

@@ -1,10 +1,11 @@
-"""`polynya study …` (app/study.cpp starts it).
+"""`polynya study …` (polynya.command starts it).
 
 What an action alone needs is imported there: a case starts in half the time and memory.
 """
 import pathlib
 import sys
 
+from .. import command
 from ..program import program
 from .case import DONE, INPUT_OUTPUT, run_case
 from .folder import PLAN, counted, numbers_of_list, open_study, planned_folder
@@ -97,8 +98,7 @@ def send(options):
         return DONE
     print(f"scripts     {array}, {gathering}: {counted(tasks, 'task')}")
     if options.submit:
-        job, gather_job = slurm.submit(array, gathering)
-        print(f"submitted   job {job}, and {gather_job} to gather after it")
+        slurm.submit(array, gathering)
     else:
         print(f"submit      polynya study slurm {study.folder} --submit")
     return DONE
@@ -123,14 +123,8 @@ def gather(options):
 
 
 def report(options):
-    try:
-        from . import report as made
-    except ImportError as error:
-        raise StudyError(
-            f"report needs {error.name}, which is not installed: ./setup.sh python, or "
-            "apt-get install python3-numpy python3-scipy python3-matplotlib",
-            INPUT_OUTPUT,
-        ) from None
+    from . import report as made
+
     return made.report(open_study(options.study), options.players)
 
 
@@ -147,21 +141,14 @@ def main(words=None):
     try:
         return actions[options.action](options)
     except StudyError as error:
-        for problem in error.problems:
-            print(problem, file=sys.stderr)
         if error.code == 3:
-            print(f"polynya study: {counted(len(error.problems), 'problem')}; nothing was planned", file=sys.stderr)
-        return error.code
+            error.problems.append(f"polynya study: {counted(len(error.problems), 'problem')}; nothing was planned")
+        raise
     except FileNotFoundError as error:
-        if error.filename == program():
-            print(f"polynya study: {program()} is not there; start studies by `polynya study`", file=sys.stderr)
-            return INPUT_OUTPUT
-        print(f"polynya study: {error.filename}: {error.strerror}", file=sys.stderr)
-        return INPUT_OUTPUT
-    except OSError as error:
-        print(f"polynya study: {error.filename or ''}: {error.strerror}", file=sys.stderr)
-        return INPUT_OUTPUT
+        if error.filename != program():
+            raise
+        return command.fail("polynya study", f"{program()} is not there; start studies by `polynya study`")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command.run("study", main))

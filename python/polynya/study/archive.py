@@ -6,6 +6,7 @@ import shutil
 import tarfile
 
 from .case import state_of
+from .located_json import StudyError
 
 ROWS = "results.ndjson"  # first in an archive: the results of its cases, a line each
 
@@ -90,11 +91,16 @@ def remove_folders(study, chunk):
 
 def results_of(study, chunk):
     """The results of a packed chunk's cases, in order."""
-    with tarfile.open(study.archive(chunk), "r") as tar:
-        first = tar.next()
-        if first is None or first.name != ROWS:
-            raise ValueError(f"{study.archive(chunk)}: no archive of a study's chunk")
-        return [json.loads(line) for line in tar.extractfile(first).read().decode().splitlines()]
+    try:
+        with tarfile.open(study.archive(chunk), "r") as tar:
+            first = tar.next()  # extractfile(ROWS) would go through all of it
+            text = tar.extractfile(first).read().decode() if first is not None and first.name == ROWS else ""
+            results = [json.loads(line) for line in text.splitlines()]
+            if len(results) == len(study.cases_of(chunk)) and all("state" in result for result in results):
+                return results
+    except (tarfile.TarError, ValueError, TypeError):
+        pass
+    raise StudyError(f"{study.archive(chunk)}: damaged, or no study's; remove it to run its cases again", 5)
 
 
 def all_states(study):

@@ -7,9 +7,11 @@ import re
 
 from . import draws
 from .expand import repeats_by_seed
-from .located_json import LocatedJson, StudyError
+from .located_json import LocatedJson, StudyError, shortened, shown
 
 LARGEST_SEED = 2**53 - 1
+LONGEST_RANGE = 10**6  # values
+LONGEST_NAME = 1000  # of a file [characters]
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
 KEYS = (
     "name",
@@ -27,7 +29,7 @@ KEYS = (
     "report",
 )
 COLLECT_KEYS = ("ship", "from_s", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to")
-TIME_TO_KEYS = ("x_m", "y_m", "distance_m", "point_m", "within_m")
+TARGETS = ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"})  # of collect.time_to
 REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
 
 
@@ -58,12 +60,7 @@ class Definition:
 def read_definition(file):
     """The study of a JSON file; StudyError with everything that is wrong with it."""
     file = pathlib.Path(file)
-    try:
-        text = file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-        raise StudyError(f"{file}: {reason}", 5) from None
-    return Reader(LocatedJson(file, text)).read(file)
+    return Reader(LocatedJson(file)).read(file)
 
 
 class Reader:
@@ -75,8 +72,9 @@ class Reader:
     def read(self, file):
         study = self.source.value
         if not isinstance(study, dict):
-            raise StudyError(self.source.problem([], "found no object, allowed: a study (docs/studies.md)"))
+            raise StudyError(self.source.problem([], f"found {shown(study)}, allowed: a study (docs/studies.md)"))
         self.unknown_keys(study, KEYS, [])
+        self.member(study, "description", str, "")
         draw = self.member(study, "draw", dict, {})
         grid = {path: self.values(spec, ["grid", path]) for path, spec in self.member(study, "grid", dict, {}).items()}
         paired = {
@@ -84,8 +82,10 @@ class Reader:
         }
         scene = study.get("scene")
         scenes = scene if isinstance(scene, list) else [scene]
-        if not scenes or not all(isinstance(name, str) and name for name in scenes):
-            self.report(["scene"], "found no scene, allowed: a scene's file or a list of them")
+        for i, name in enumerate(scenes or [None]):
+            if not isinstance(name, str) or not name or "\0" in name or len(name) > LONGEST_NAME:
+                found = "nothing" if name is None else shown(name)
+                self.report(["scene", i], f"found {found}, allowed: a scene's file or a list of them")
         definition = Definition(
             file=str(file),
             name=self.name(study, file),
@@ -118,12 +118,10 @@ class Reader:
     def unknown_keys(self, given, known, path):
         for key in given:
             if key not in known:
-                near = difflib.get_close_matches(key, known, 1)
-                self.report(
-                    path + [key],
-                    f"found an unknown key, allowed: {', '.join(known)}"
-                    + (f'; did you mean "{near[0]}"?' if near else ""),
-                )
+                near = difflib.get_close_matches(key[:100], known, 1)
+                message = f"found an unknown key, allowed: {', '.join(known)}"
+                meant = f'; did you mean "{near[0]}"?' if near else ""
+                self.problems.append(self.source.problem([*path, key], message + meant, of_key=True))
 
     def member(self, given, key, kind, default, path=()):
         value = given.get(key, default)
@@ -155,6 +153,7 @@ class Reader:
         value = given.get(key, choices[0])
         if value not in choices:
             self.report([*path, key], f"found {shown(value)}, allowed: one of {', '.join(choices)}")
+            return choices[0]
         return value
 
     def values(self, spec, path):
@@ -169,25 +168,33 @@ class Reader:
         self.unknown_keys(spec, ("from", "to", "count", "step", "spacing"), path)
         low, high = spec.get("from"), spec.get("to")
         if not draws.is_number(low) or not draws.is_number(high):
-            self.report(path, "found a range without numbers from and to, allowed: from, to and count or step")
+            ends = " and ".join(f"{key} {shown(spec.get(key))}" for key in ("from", "to"))
+            self.report(path, f"found {ends}, allowed: numbers from and to, and count or step")
             return [None]
         if ("count" in spec) == ("step" in spec):
             self.report(path, "found count and step together or neither, allowed: one of them")
             return [None]
         if "step" in spec:
             return self.stepped(low, high, spec, path)
-        count = self.whole(spec, "count", 2, 10**8, 2, path)
+        count = self.whole(spec, "count", 2, LONGEST_RANGE, 2, path)
         if self.choice(spec, "spacing", ("linear", "log"), path) == "log":
             if low <= 0 or high <= 0:
                 self.report(path, "found a range with log spacing that is not positive, allowed: from > 0 and to > 0")
                 return [None]
-            return [low * (high / low) ** (i / (count - 1)) for i in range(count)]
-        return [low + (high - low) * i / (count - 1) for i in range(count)]
+            return self.finite([low * (high / low) ** (i / (count - 1)) for i in range(count)], path)
+        return self.finite([low + (high - low) * i / (count - 1) for i in range(count)], path)
+
+    def finite(self, values, path):
+        if all(map(math.isfinite, values)):
+            return values
+        self.report(path, "found ends that are too far apart, allowed: a range of finite values")
+        return [None]
 
     def stepped(self, low, high, spec, path):
         step = spec["step"]
-        if not draws.is_number(step) or step == 0 or (high - low) * step < 0 or (high - low) / step > 1e8:
-            self.report([*path, "step"], f"found {shown(step)}, allowed: a number that leads from {low} to {high}")
+        if not draws.is_number(step) or step == 0 or not 0 <= (high - low) / step < LONGEST_RANGE:
+            allowed = f"a number that leads from {low:g} to {high:g} in less than {LONGEST_RANGE} steps"
+            self.report([*path, "step"], f"found {shown(step)}, allowed: {allowed}")
             return [None]
         values = [low + i * step for i in range(math.floor((high - low) / step * (1 + 1e-12) + 1e-9) + 1)]
         return [round(value, 12) for value in values]
@@ -220,21 +227,34 @@ class Reader:
                 self.report(["collect", key], f"found {shown(collect[key])}, allowed: a number ≥ 0")
         loads = self.member(collect, "loads", list, [], ["collect"])
         if not all(isinstance(name, str) and "_" in name for name in loads):
-            self.report(
-                ["collect", "loads"], "allowed: columns of forces.csv with their units, as surge_from_mooring_N"
-            )
+            allowed = "columns of forces.csv with their units, as surge_from_mooring_N"
+            self.report(["collect", "loads"], f"found what is no column, allowed: {allowed}")
         quantiles = self.member(collect, "quantiles", list, [], ["collect"])
         if not all(draws.is_number(q) and 0 < q < 1 for q in quantiles):
             self.report(["collect", "quantiles"], "found what is no probability, allowed: numbers between 0 and 1")
         self.member(collect, "channel", bool, False, ["collect"])
         self.member(collect, "ship", str, "", ["collect"])
         for name, target in self.member(collect, "time_to", dict, {}, ["collect"]).items():
-            keys = set(target) if isinstance(target, dict) else set()
-            if keys not in ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"}) or not NAME.fullmatch(name):
-                self.report(
-                    ["collect", "time_to", name], "allowed: x_m, or y_m, or distance_m, or point_m and within_m"
-                )
+            self.time_to(name, target, ["collect", "time_to", name])
         return collect
+
+    def time_to(self, name, target, path):
+        """Of one target of that name: its line, distance or place."""
+        if not NAME.fullmatch(name):
+            found = shown(name)
+            allowed = "a name of letters, digits and . _ -, starting with a letter or digit"
+            self.problems.append(self.source.problem(path, f"found {found}, allowed: {allowed}", of_key=True))
+        if not isinstance(target, dict) or set(target) not in TARGETS:
+            found = f"keys {', '.join(map(shortened, target)) or 'none'}" if isinstance(target, dict) else shown(target)
+            self.report(path, f"found {found}, allowed: x_m, or y_m, or distance_m, or point_m and within_m")
+            return
+        for key, value in target.items():
+            if key == "point_m":
+                if not isinstance(value, list) or len(value) != 2 or not all(map(draws.is_number, value)):
+                    self.report([*path, key], f"found {shown(value)}, allowed: two numbers, x and y [m]")
+            elif not draws.is_number(value) or (value <= 0 and key in ("within_m", "distance_m")):
+                allowed = "a number [m]" if key in ("x_m", "y_m") else "a number > 0 [m]"
+                self.report([*path, key], f"found {shown(value)}, allowed: {allowed}")
 
     def report_keys(self, study):
         report = self.member(study, "report", dict, {})
@@ -245,7 +265,7 @@ class Reader:
             names = self.member(report, key, list, [], ["report"])
             if not all(isinstance(name, str) for name in names) or (key in report and least and len(names) != least):
                 allowed = "two paths" if key == "map" else "names of measures"
-                self.report(["report", key], f"allowed: a list of {allowed}")
+                self.report(["report", key], f"found a list of {len(names)}, allowed: a list of {allowed}")
         self.whole(report, "channels", 0, 100, 12, ["report"])
         return report
 
@@ -272,22 +292,16 @@ class Reader:
             "paired": definition.paired,
             "draw": definition.draw,
         }
-        where = {}
+        where, inside = {}, {}  # the block of each path, and a path below each that is part of one
         for block, paths in blocks.items():
             for path in paths:
                 place = [block, path] if block != "draw" else ["draw", "of", path]
                 if path == "scene":
                     self.report(place, 'found "scene", allowed: a list of scenes as "scene" of the study itself')
-                for other, first in where.items():
-                    if (
-                        path == other
-                        or path.startswith((other + ".", other + "["))
-                        or other.startswith((path + ".", path + "["))
-                    ):
-                        self.report(place, f'found what "{first}" varies too ({other}), allowed: each key once')
+                above = [path[: match.start()] for match in re.finditer(r"[.\[]", path)]
+                other = next((known for known in [path, *above] if known in where), inside.get(path))
+                if other is not None:
+                    found = f'what "{where[other]}" varies too ({shortened(other)})'
+                    self.report(place, f"found {found}, allowed: each key once")
                 where[path] = block
-
-
-def shown(value):
-    words = {dict: "an object", list: "a list"}.get(type(value))
-    return words or repr(value)
+                inside.update(dict.fromkeys(above, path))

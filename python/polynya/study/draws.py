@@ -4,6 +4,8 @@ import math
 import random
 import statistics
 
+from .located_json import shown
+
 STANDARD = statistics.NormalDist()
 KINDS = {  # what a distribution needs
     "uniform": ("low", "high"),
@@ -12,28 +14,39 @@ KINDS = {  # what a distribution needs
     "log_normal": ("mean", "sd"),  # of the parameter itself, not of its logarithm
 }
 BOUNDS = ("least", "most")
+LEAST_P = 1e-16  # of a draw, from either end
 
 
 def fault_of(kind, given):
     """What is wrong with the numbers of a distribution, or nothing."""
     for name in KINDS[kind]:
         if not is_number(given.get(name)):
-            return f"found {given.get(name)!r} for {name}, allowed: a number; {kind} needs {' and '.join(KINDS[kind])}"
+            found = shown(given[name]) if name in given else "nothing"
+            return f"found {found} for {name}, allowed: a number; {kind} needs {' and '.join(KINDS[kind])}"
     for name in given:
         if name not in KINDS[kind] + BOUNDS:
-            return f"found an unknown key {name}, allowed: {', '.join(KINDS[kind] + BOUNDS)}"
+            return f"found an unknown key {shown(name)}, allowed: {', '.join(KINDS[kind] + BOUNDS)}"
         if not is_number(given[name]):
-            return f"found {given[name]!r} for {name}, allowed: a number"
+            return f"found {shown(given[name])} for {name}, allowed: a number"
     positive = {"log_uniform": ("low", "high"), "normal": ("sd",), "log_normal": ("mean", "sd")}.get(kind, ())
     for name in positive:
         if given[name] <= 0:
-            return f"found {given[name]!r} for {name}, allowed: a number > 0"
+            return f"found {shown(given[name])} for {name}, allowed: a number > 0"
     if "low" in given and given["low"] >= given["high"]:
         return f"found low {given['low']} and high {given['high']}, allowed: low < high"
     least, most = given.get("least", -math.inf), given.get("most", math.inf)
     if least >= most:
         return f"found least {least} and most {most}, allowed: least < most"
-    if probability_below(kind, given, most) - probability_below(kind, given, least) < 1e-9:
+    try:
+        ends = [value_at(kind, given, p) for p in (LEAST_P, 1 - LEAST_P)]
+        share = probability_below(kind, given, most) - probability_below(kind, given, least)
+        probability_below(kind, given, ends[0])  # of a spread that is lost in rounding: a division by zero
+    except ArithmeticError:
+        ends, share = [math.nan], 1
+    if not all(map(math.isfinite, ends)):
+        numbers = ", ".join(f"{name} {shown(given[name])}" for name in KINDS[kind])
+        return f"found {numbers}, allowed: a distribution whose draws are finite numbers"
+    if share < 1e-9:
         return "found bounds that leave nothing of the distribution, allowed: bounds around a part of it"
     return None
 
@@ -54,7 +67,7 @@ def value_at(kind, given, p):
         return given["low"] + p * (given["high"] - given["low"])
     if kind == "log_uniform":
         return given["low"] * (given["high"] / given["low"]) ** p
-    p = min(max(p, 1e-16), 1 - 1e-16)
+    p = min(max(p, LEAST_P), 1 - LEAST_P)
     if kind == "normal":
         return given["mean"] + given["sd"] * STANDARD.inv_cdf(p)
     mean, sd = log_parameters(given)

@@ -17,6 +17,10 @@ from .located_json import StudyError
 
 PLAN, CASES, INDEX = "plan.json", "cases.ndjson", "cases.index"
 FORMAT = 1
+KEYS = {  # of plan.json
+    "format": int, "name": str, "cases": int, "chunk": int, "archive": bool, "keep": str, "set": dict, "scenes": list,
+    "varied": list, "collect": dict, "report": dict,
+}
 RESULT = "case.json"  # in a case's folder, once it is finished or has failed
 RUN = "run"  # the run folder in a case's folder
 
@@ -58,17 +62,22 @@ class Study:
         """The scene's file and all values of one case, by one read of 8 bytes and one of a line."""
         with open(self.folder / INDEX, "rb") as index, open(self.folder / CASES, "rb") as cases:
             index.seek(8 * number)
-            cases.seek(struct.unpack("<Q", index.read(8))[0])
-            return self._whole(json.loads(cases.readline()))
+            offset = index.read(8)
+            cases.seek(struct.unpack("<Q", offset)[0] if len(offset) == 8 else 0, 0 if len(offset) == 8 else 2)
+            return self._whole(cases.readline())
 
     def all_cases(self):
         """Scene and values of every case, in order."""
         with open(self.folder / CASES, "rb") as cases:
             for line in cases:
-                yield self._whole(json.loads(line))
+                yield self._whole(line)
 
     def _whole(self, line):
-        return self.folder / self.plan["scenes"][line["scene"]], {**self.plan["set"], **line["set"]}
+        try:
+            case = json.loads(line)
+            return self.folder / self.plan["scenes"][case["scene"]], {**self.plan["set"], **case["set"]}
+        except (ValueError, LookupError, TypeError):
+            raise StudyError(f"{self.folder / CASES}: damaged; remove the folder and plan the study again", 5) from None
 
 
 def open_study(given):
@@ -81,7 +90,11 @@ def open_study(given):
         raise StudyError(f"{folder}: no study is planned there; plan it: {hint}", 5) from None
     except (OSError, ValueError) as error:
         raise StudyError(f"{folder / PLAN}: {error}", 5) from None
-    if plan.get("format") != FORMAT:
+    damaged = [key for key, kind in KEYS.items() if not isinstance(plan, dict) or not isinstance(plan.get(key), kind)]
+    if damaged or plan["cases"] < 0 or plan["chunk"] < 1:
+        what = f'"{damaged[0]}" is missing or of another kind' if damaged else "its numbers are none of a study"
+        raise StudyError(f"{folder / PLAN}: damaged, {what}; remove the folder and plan the study again", 5)
+    if plan["format"] != FORMAT:
         raise StudyError(f"{folder / PLAN}: of format {plan.get('format')}; this polynya reads format {FORMAT}", 5)
     return Study(folder, plan)
 

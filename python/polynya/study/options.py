@@ -1,38 +1,30 @@
 """The command line of `polynya study`: its actions and their options."""
-import argparse
 import os
 
+from ..arguments import WHOLE, Parser, choice, number
+
 PROCESSORS = os.cpu_count() or 1
+EXAMPLES = (
+    "study plan scenes/studies/pack-ice-loads.json   expand, check and estimate",
+    "study run studies/pack-ice-loads --jobs 2       all cases on this machine; resumes what stopped",
+    "study slurm studies/pack-ice-loads --submit     all cases as one Slurm job array",
+    "study gather studies/pack-ice-loads             one table of all cases",
+    "study report studies/pack-ice-loads             statistics, pictures and a page",
+)
+REST = """polynya study plan --help, and so on, explains each one's options. Studies need Python 3, report also numpy,
+scipy and matplotlib (./setup.sh python).
 
-
-def positive(kind, words):
-    def read(text):
-        try:
-            value = kind(text)
-        except ValueError:
-            value = 0
-        if not value > 0 or value == float("inf"):
-            raise argparse.ArgumentTypeError(f"found {text}, allowed: {words}")
-        return value
-
-    return read
-
-
-WHOLE = positive(int, "a whole number > 0")
+Exit codes: 0 all cases finished, 2 usage, 3 study or scene invalid, 4 cases failed, 5 input/output, 75 cases are
+unfinished or were stopped.
+"""
 
 
 def add(parser, name, meaning, **more):
-    parser.add_argument(name, help=meaning, **more)
+    parser.add_argument(name, help=meaning[0].upper() + meaning[1:], **more)
 
 
 def add_action(actions, name, meaning, *examples):
-    lines = "\n".join(f"  polynya study {name} {example}" for example in examples)
-    parser = actions.add_parser(
-        name,
-        help=meaning,
-        description=f"Examples:\n{lines}\n\n{meaning}",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = actions.add_parser(name, meaning=meaning, examples=[f"study {name} {example}" for example in examples])
     add(parser, "study", "the study's JSON file, or the folder that plan made of it", metavar="STUDY")
     return parser
 
@@ -41,7 +33,7 @@ def add_plan(actions):
     plan = add_action(
         actions,
         "plan",
-        "Expand a study into numbered cases, check every one and estimate time and disk.",
+        "Expand a study into numbered cases, check every one and estimate time and disk",
         "scenes/studies/pack-ice-loads.json",
         "study.json --out /scratch/loads --chunk 100",
     )
@@ -53,7 +45,7 @@ def add_plan(actions):
     meaning = "refuse a study of more cases; ten million if not given"
     add(plan, "--most", meaning, type=WHOLE, metavar="N", default=10_000_000)
     meaning = "how long the trial of the first case may take; 20 if not given, 0: no trial"
-    add(plan, "--trial-seconds", meaning, type=float, metavar="S", default=20)
+    add(plan, "--trial-seconds", meaning, type=number(0, unit="s"), metavar="S", default=20)
     add(plan, "--check-seeds", "check also cases that differ in seeds alone, each in full", action="store_true")
     meaning = "for how many cases at a time the time is estimated; one a processor if not given"
     add(plan, "--jobs", meaning, type=WHOLE, default=PROCESSORS, metavar="N")
@@ -63,19 +55,20 @@ def add_run(actions):
     run = add_action(
         actions,
         "run",
-        "Run cases. Finished ones cost nothing; what was stopped or killed continues from its checkpoint.",
+        "Run cases. Finished ones cost nothing; what was stopped or killed continues from its checkpoint",
         "study.json --jobs 2          plans it first where it is not planned",
         "studies/loads --case 17      one case",
         "studies/loads --cases 3,7-9 --retry-failed",
     )
     which = run.add_mutually_exclusive_group()
-    add(which, "--case", "this one, in this process; exit codes as polynya run", type=int, metavar="N")
+    add(which, "--case", "this one, in this process; exit codes as polynya run", type=number(0, kind=int), metavar="N")
     add(which, "--cases", "these, as 3,7-9; all if not given", metavar="LIST")
     meaning = "those of this chunk, as a Slurm task does; packs them where the study says archive"
-    add(which, "--chunk", meaning, dest="chunk_to_run", type=int, metavar="K")
+    add(which, "--chunk", meaning, dest="chunk_to_run", type=number(0, kind=int), metavar="K")
     meaning = "how many at a time; one a processor if not given"
     add(run, "--jobs", meaning, type=WHOLE, default=PROCESSORS, metavar="N")
-    add(run, "--keep", "which records stay, instead of the study's own choice", choices=("all", "summary"))
+    meaning = "which records stay, instead of the study's own choice"
+    add(run, "--keep", meaning, type=choice(("all", "summary")), metavar="all|summary")
     add(run, "--retry-failed", "try those again that failed", action="store_true")
     add(run, "--quiet", "do not report how far the study is", action="store_true")
 
@@ -84,7 +77,7 @@ def add_slurm(actions):
     slurm = add_action(
         actions,
         "slurm",
-        "Write the sbatch scripts of a study: an array over its chunks, and a job that gathers; submit them.",
+        "Write the sbatch scripts of a study: an array over its chunks, and a job that gathers; submit them",
         "studies/loads --submit --throttle 50 --time 2:00:00",
         "studies/loads --submit --sbatch=--partition=long",
     )
@@ -94,7 +87,8 @@ def add_slurm(actions):
     add(slurm, "--time", meaning, default="1:00:00", metavar="H:MM:SS")
     meaning = "checkpoints are written this long before the limit (120 if not given)"
     add(slurm, "--grace", meaning, type=WHOLE, default=120, metavar="S")
-    add(slurm, "--memory", "of a processor (500M if not given)", default="500M", metavar="SIZE")
+    meaning = "of a processor, of the gathering job too; 0: all of a node (500M, and 2G to gather, if not given)"
+    add(slurm, "--memory", meaning, metavar="SIZE")
     add(slurm, "--cpus", "of a task; it runs as many cases at a time", type=WHOLE, default=1, metavar="N")
     add(slurm, "--retry-failed", "send chunks with failed cases too, and try those again", action="store_true")
     meaning = "further option of sbatch; may be repeated"
@@ -105,24 +99,24 @@ def add_others(actions):
     parallel = add_action(
         actions,
         "parallel",
-        "Print the GNU parallel line that runs a study on several machines with a shared folder.",
+        "Print the GNU parallel line that runs a study on several machines with a shared folder",
         "studies/loads --hosts n1,n2 | bash",
     )
     add(parallel, "--hosts", "names as ssh has them; this machine if not given", default="", metavar="LIST")
     meaning = "chunks at a time on each machine; one a processor if not given"
     add(parallel, "--jobs", meaning, default="100%", metavar="N")
-    meaning = "Make one table of all cases and list what is missing, failed or unfinished."
+    meaning = "Make one table of all cases and list what is missing, failed or unfinished"
     add_action(actions, "gather", meaning, "studies/loads")
     report = add_action(
-        actions, "report", "Gather, then make statistics, pictures and an HTML page.", "studies/loads --players none"
+        actions, "report", "Gather, then make statistics, pictures and an HTML page", "studies/loads --players none"
     )
     meaning = "make the cases' players; auto: of up to 250 cases"
-    add(report, "--players", meaning, choices=("auto", "all", "none"), default="auto")
+    add(report, "--players", meaning, type=choice(("auto", "all", "none")), default="auto", metavar="auto|all|none")
 
 
 def command_line():
-    parser = argparse.ArgumentParser(prog="polynya study")
-    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
+    parser = Parser("polynya study", "Plan, run and gather many runs of one scene", EXAMPLES, REST)
+    actions = parser.add_actions()
     for add_to in (add_plan, add_run, add_slurm, add_others):
         add_to(actions)
     return parser

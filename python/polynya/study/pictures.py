@@ -51,24 +51,34 @@ def save(figure, folder, name):
     return name + ".svg"
 
 
-def label_of(measure):
-    """("resistance peak [MN]", factor) of a measure's name with its unit; of a parameter's path its last part."""
+def label_of(measure, is_parameter=False):
+    """("resistance peak [MN]", factor) of a measure's name with its unit; of a parameter's path its last part, in the unit
+    in which the scene states it."""
     name, _, index = measure.rsplit(".", 1)[-1].partition("[")
     axis = {"0]": " x", "1]": " y"}.get(index, f" {index.rstrip(']')}" if index else "")
     for unit in sorted(("m_per_s", "deg", "Pa", *SCALES), key=len, reverse=True):
         if name.endswith("_" + unit):
-            scale, shown = SCALES.get(unit, (1, {"m_per_s": "m/s", "deg": "°", "Pa": "Pa"}.get(unit, unit)))
+            plain = (1, {"m_per_s": "m/s", "deg": "°", "Nm": "N m"}.get(unit, unit))
+            scale, shown = plain if is_parameter else SCALES.get(unit, plain)
             return f"{name.removesuffix('_' + unit).replace('_', ' ')}{axis} [{shown}]", 1 / scale
     return name.replace("_", " ") + axis, 1.0
 
 
-def in_words(value):
-    return f"{value:g}" if isinstance(value, (int, float)) else str(value)
+def in_words(value, digits=6):
+    """A number to so many significant digits, by default whole ones in full: with an exponent only below 1e-4 and from
+    1e12 on. Other values as they are."""
+    if not isinstance(value, (int, float)) or not math.isfinite(value):
+        return str(value).replace("inf", "∞")
+    if value and not 1e-4 <= abs(value) < 1e12:
+        return f"{value:.{digits}g}"
+    if digits == 6 and value == int(value):
+        return str(int(value))
+    return numpy.format_float_positional(value, precision=digits, fractional=False, trim="-")
 
 
 def group_label(name, value):
     """ "thickness 0.4 m", "scene fig4a" """
-    label, _ = label_of(name)
+    label, _ = label_of(name, is_parameter=True)
     words, _, unit = label.partition(" [")
     return f"{words} {in_words(value)} {unit.rstrip(']')}".rstrip()
 
@@ -129,7 +139,7 @@ def means(sample, measure, against, group_by, folder):
             axes.plot(xs, middle, "o-", ms=3, lw=1, color=colour, label=label_of_group)
             many = numpy.isfinite(half)  # a single case has no interval
             axes.errorbar(numpy.array(xs)[many], middle[many], half[many], fmt="none", lw=1, capsize=2, ecolor=colour)
-        axes.set(xlabel=label_of(against)[0], ylabel="mean of " + label)
+        axes.set(xlabel=label_of(against, is_parameter=True)[0], ylabel="mean of " + label)
         if group_by is not None:
             axes.legend(frameon=False, fontsize=7)
         return save(figure, folder, f"means-{measure}")
@@ -162,8 +172,8 @@ def outcome_map(sample, over, folder):
         axes.set(
             xlim=(-0.5, len(xs) - 0.5),
             ylim=(-0.5, len(ys) - 0.5),
-            xlabel=label_of(over[0])[0],
-            ylabel=label_of(over[1])[0],
+            xlabel=label_of(over[0], is_parameter=True)[0],
+            ylabel=label_of(over[1], is_parameter=True)[0],
         )
         marks = [pyplot.Rectangle((0, 0), 1, 1, color=colour) for word, colour in OUTCOMES.items() if word in outcomes]
         axes.legend(

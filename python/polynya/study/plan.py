@@ -33,7 +33,8 @@ def plan_study(file, options):
         definition.repetitions = options.repetitions
     folder = pathlib.Path(options.out or pathlib.Path("studies") / definition.name)
     if count_cases(definition) > options.most:
-        raise StudyError(f"{definition.file}: {count_cases(definition)} cases, more than --most {options.most}")
+        message = f"found {count_cases(definition)} cases, allowed: at most {options.most} (--most)"
+        raise StudyError(definition.source.problem([], message))
     began = time.perf_counter()
     lines = [json.dumps({"scene": scene, "set": case}) + "\n" for scene, case in expand(definition)]
     expanded = time.perf_counter() - began
@@ -145,9 +146,10 @@ def copy_scenes(definition, folder, lines):
         place = ["scene", i] if len(definition.scenes) > 1 else ["scene"]
         try:
             scene = read_json(source)
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or error
-            raise StudyError(definition.source.problem(place, f"{source}: {reason}")) from None
+        except StudyError as error:
+            if error.code == 3:
+                raise
+            raise StudyError([definition.source.problem(place, problem) for problem in error.problems]) from None
         target = folder / "scenes" / str(i) / source.name
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
@@ -160,7 +162,8 @@ def copy_scenes(definition, folder, lines):
 
 
 def floe_files(scene, definition, lines):
-    groups = scene.get("floes", []) if isinstance(scene, dict) else []
+    groups = scene.get("floes") if isinstance(scene, dict) else []
+    groups = groups if isinstance(groups, list) else []
     files = {group["file"] for group in groups if isinstance(group, dict) and isinstance(group.get("file"), str)}
     if any(path.endswith(".file") for path in [*definition.grid, *definition.paired, *definition.fixed]):
         for line in [json.dumps({"set": definition.fixed}), *lines]:

@@ -187,7 +187,7 @@ def page(study, sample, choices, made, rows):
 def statistics_table(rows, group_by):
     head = [
         "measure",
-        pictures.label_of(group_by)[0] if group_by else "",
+        pictures.label_of(group_by, is_parameter=True)[0] if group_by else "",
         "cases",
         "mean",
         "99 % quantile",
@@ -222,8 +222,8 @@ def with_interval(row, name, factor):
     """ "1.2 (1.1 – 1.4)"; empty where the row has none."""
     if name not in row:
         return ""
-    low, high = (f"{row[name + side] * factor:.4g}".replace("inf", "∞") for side in ("_low", "_high"))
-    return f"{row[name] * factor:.4g} ({low} – {high})"
+    value, low, high = (pictures.in_words(row[name + side] * factor, 4) for side in ("", "_low", "_high"))
+    return f"{value} ({low} – {high})"
 
 
 def case_table(study, sample):
@@ -235,6 +235,7 @@ def case_table(study, sample):
         *(["seed"] if "seed" in sample.columns else []),
         *[n for n in ("outcome", "resistance_mean_N", "resistance_peak_N", "bends", "splits") if n in sample.columns],
     ]
+    labels = {name: pictures.label_of(name, is_parameter="." in name) for name in names}
     body = []
     for row, number in enumerate(shown):
         run = study.case_folder(number) / RUN
@@ -245,14 +246,18 @@ def case_table(study, sample):
             link = f"<code>polynya view {html.escape(str(run))}</code>"
         else:
             link = f"<code>polynya study run {html.escape(str(study.folder))} --case {number} --keep all</code>"
-        body.append([number, *(pictures.in_words(sample.columns[name][row]) for name in names), Raw(link)])
+        body.append([number, *(in_unit(sample.columns[name][row], labels[name][1]) for name in names), Raw(link)])
     rest = f"<p>{len(numbers) - len(shown)} more cases are in {TABLE}.</p>" if len(numbers) > len(shown) else ""
     return (
         "<div class='wide'>"
-        + table(["case", *(pictures.label_of(name)[0] if "." in name else name for name in names), "player"], body)
+        + table(["case", *(label for label, _ in labels.values()), "player"], body)
         + "</div>"
         + rest
     )
+
+
+def in_unit(value, factor):
+    return pictures.in_words(value if factor == 1 else value * factor, 6 if factor == 1 else 4)
 
 
 class Raw(str):

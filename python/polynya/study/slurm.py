@@ -40,7 +40,7 @@ GATHER = """#!/bin/bash
 # Gathers the study once no task of its array is left. Made by `polynya study slurm`.
 #SBATCH --job-name={name}-gather
 #SBATCH --time=1:00:00
-#SBATCH --mem-per-cpu=2G
+#SBATCH --mem-per-cpu={gather_memory}
 #SBATCH --output={folder}/slurm/gather_%j.txt
 {more}
 exec {program} study gather {folder}
@@ -72,7 +72,8 @@ def write_scripts(study, options):
         "name": study.plan["name"],
         "array": array,
         "time": options.time,
-        "memory": options.memory,
+        "memory": options.memory or "500M",
+        "gather_memory": options.memory or "2G",
         "cpus": options.cpus,
         "folder": study.folder.absolute(),
         "grace": options.grace,
@@ -94,9 +95,16 @@ def program_path():
 
 
 def submit(array, gather):
-    """Submits both; the gathering job waits until no task is left, however the tasks ended. Returns their ids."""
+    """Submits both and prints their ids; the gathering job waits until no task is left, however the tasks ended."""
     job = sbatch([array])
-    return job, sbatch([f"--dependency=afterany:{job}", gather])
+    print(f"submitted   job {job}", flush=True)
+    words = [f"--dependency=afterany:{job}", str(gather)]
+    try:
+        print(f"            job {sbatch(words)}, to gather after it")
+    except StudyError as error:
+        left = f"sbatch {shlex.join(words)}"
+        error.problems.append(f"job {job} runs the cases; what gathers after it is still to submit: {left}")
+        raise
 
 
 def sbatch(words):

@@ -1,3 +1,31 @@
+// What the colours of the ice mean: what became of each floe, the palette, and the legend below the map.
+
+// What became of each floe, from its lineage and its area: whole, cut, split off, broken off by bending, or come up from under a hull.
+
+const breakages = { whole: 0, cut: 1, split: 2, bend: 3, cameUp: 4 };
+const cutShare = 0.2; // of the area of the scene's floe: a piece that holds as much is what is left of it
+
+/**
+ * For each floe one of `breakages`. Whole: no fracture since the scene. Cut: what is left of a floe of the scene: the
+ * largest piece of each bend, and every piece that holds a fifth of it. Off: all else, by the kind of fracture that freed it;
+ * the largest piece of a piece that broke off stays what that was. What came up from under a hull stays that, and its pieces too.
+ */
+function breakagesOf({ floes, info, breakOf }) {
+  const of = new Uint8Array(floes.count);
+  for (let i = 0; i < floes.count; ++i) {
+    const parent = floes.parent[i];
+    if (parent < 0) continue;
+    const isBend = info.events[breakOf.get(parent)]?.kind !== "split";
+    const isLargest = floes.children.get(parent).every((other) => floes.area[other] <= floes.area[i]);
+    const isLeft = of[parent] <= breakages.cut;
+    if (floes.cameUp[i]) of[i] = breakages.cameUp;
+    else if (isLeft && ((isBend && isLargest) || floes.area[i] >= cutShare * floes.area[floes.oldest[i]])) of[i] = breakages.cut;
+    else if (!isLeft && isLargest) of[i] = of[parent];
+    else of[i] = isBend ? breakages.bend : breakages.split;
+  }
+  return of;
+}
+
 // Colours. Each ramp goes from light to dark in even steps of lightness, none at that of the water, so that it
 // survives greyscale and colour blindness; marks are in the Okabe–Ito palette.
 
@@ -70,4 +98,50 @@ function themeColours() {
     "bend", "split", "grind", "rejected_cut", "under-hull", "paper-load", "mooring_break",
     ...["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring", "ships"].map((cause) => `cause-${cause}`), "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+}
+
+// The legend below the map: what the colours, marks and arrows mean that are shown now.
+
+function makeLegend(player) {
+  const { run, state, colourings } = player;
+  // As wide as its longest words from the start: the legend must not grow and shrink while the run plays.
+  const channelWidth = make("output", { id: "channel-width", style: `flex: 0 1 ${23 * run.info.ships.length}ch` });
+
+  function swatchRow(colour, ...words) {
+    const swatch = make("i");
+    swatch.style.background = colour;
+    return make("span", {}, swatch, ...words);
+  }
+  function arrowRow(pixels, words) {
+    const arrow = make("i", { class: "arrow" });
+    arrow.style.width = `${pixels}px`;
+    return make("span", {}, arrow, words);
+  }
+  function velocityRow() {
+    const speed = roundBelow(60 / player.arrowScale);
+    return arrowRow(speed * player.arrowScale, `${Number(speed.toPrecision(2))} m/s`);
+  }
+  function forceRows(colours) {
+    const force = roundBelow(60 / player.forceScale);
+    const unit = loadUnit(force, "N");
+    return [arrowRow(force * player.forceScale, `${shortNumber(force * unit.factor)} ${unit.name}`),
+      swatchRow(colours.split, "crushing"), swatchRow(colours.bend, "not crushing")];
+  }
+
+  return {
+    show() {
+      const { colours } = player;
+      const colouring = colourings[state.colourBy];
+      const rows = colouring.words.flatMap((words, k) => (colouring.isUsed?.(k) ?? true ? [swatchRow(colouring.colours[k], words)] : []));
+      if (state.colourBy === "size") rows.reverse();
+      if (state.sizes) rows.push(make("span", { class: "pale" }, `pale: not ${sizeRangeWords(state.sizes)}`));
+      if (run.under.went > 0) rows.push(make("span", {}, make("i", { class: "under-hull" }), "ice under the hull or waiting behind it"));
+      if (state.layers.startIce) rows.push(swatchRow(colours["start-ice"], "ice at the start"));
+      if (state.layers.channel) rows.push(swatchRow(colours.swept, "swept by the hull"), swatchRow(colours.channel, "open from ice to ice ", channelWidth));
+      if (state.layers.velocities) rows.push(velocityRow());
+      if (state.layers.forces) rows.push(...forceRows(colours));
+      byId("legend").replaceChildren(make("b", {}, colouring.title), ...rows);
+    },
+    showWidths: (words) => { channelWidth.textContent = words.join("; ") || "\u2013"; },
+  };
 }

@@ -1,0 +1,171 @@
+"""Command lines of the commands that are written in Python: argparse, with the help and the messages of those in C++
+(app/command_line.cpp)."""
+import argparse
+import difflib
+import math
+import re
+import sys
+import textwrap
+
+COLUMN, WIDTH = 30, 100  # where meanings begin, and where lines break
+
+
+def meant_by(word, names):
+    near = difflib.get_close_matches(word, names, 1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def number(least=-math.inf, most=math.inf, unit="", kind=float, is_open=False):
+    """Reads a finite number of a range, which is without its ends where it is open."""
+    signs = (">", "<") if is_open else ("≥", "≤")
+    ends = [f"{sign} {end:g}" for sign, end in zip(signs, (least, most)) if math.isfinite(end)]
+    what = "a whole number" if kind is int else "a number"
+    allowed = " ".join(filter(None, [what, ", ".join(ends), f"[{unit}]" if unit else ""]))
+
+    def read(text):
+        try:
+            value = kind(text)
+            holds = math.isfinite(value) and (least < value < most if is_open else least <= value <= most)
+        except (ValueError, OverflowError):
+            holds = False
+        if not holds:
+            raise argparse.ArgumentTypeError(f"found {text[:60]}, allowed: {allowed}")
+        return value
+
+    return read
+
+
+WHOLE = number(1, kind=int)
+
+
+def numbers(one=number(), count=None):
+    """Reads a list of numbers, separated by commas, of that length where one is given."""
+
+    def read(text):
+        values = [one(part) for part in text.split(",")]
+        if count is not None and len(values) != count:
+            raise argparse.ArgumentTypeError(f"found {text[:60]}, allowed: {count} numbers, separated by commas")
+        return values
+
+    return read
+
+
+def choice(names):
+    """Reads one of these names."""
+
+    def read(text):
+        if text not in names:
+            raise argparse.ArgumentTypeError(f'"{text}" is not one of: {", ".join(names)}{meant_by(text, names)}')
+        return text
+
+    return read
+
+
+def choices(names):
+    """Reads some of these names, separated by commas."""
+    return lambda text: [choice(names)(part) for part in text.split(",")]
+
+
+class Parser(argparse.ArgumentParser):
+    """The command line of `prog`: what it is for, lines of examples without "polynya", and what follows the options."""
+
+    def __init__(self, prog, meaning, examples, rest=""):
+        super().__init__(prog=prog, allow_abbrev=False, add_help=False)
+        self.meaning, self.examples, self.rest, self.actions_of = meaning, examples, rest, None
+        self.add_argument("-h", "--help", action="help", help="Print this help message and exit")
+
+    def add(self, name, meaning, **more):
+        """An option or a positional; a choice shows its names where it has no metavar."""
+        return self.add_argument(name, help=meaning, **more)
+
+    def add_actions(self):
+        """The commands of this command."""
+        self.actions_of = self.add_subparsers(dest="action", metavar="ACTION", required=True)
+        return self.actions_of
+
+    def commands(self):
+        """Name and parser of each."""
+        return self.actions_of.choices if self.actions_of else {}
+
+    def arguments(self):
+        """Positionals and options, in their order."""
+        return [argument for argument in self._actions if argument is not self.actions_of]
+
+    def format_help(self):
+        positionals = [argument for argument in self.arguments() if not argument.option_strings]
+        options = [argument for argument in self.arguments() if argument.option_strings]
+        names = [f"{argument.metavar}{'...' if argument.nargs == '+' else ''}" for argument in positionals]
+        names += ["ACTION"] if self.actions_of else []
+        parts = [self.meaning + ".\n" if self.meaning else "", self.shown_examples()]
+        parts.append(f"Usage: {self.prog} {' '.join(['[OPTIONS]', *names])}\n")
+        for title, found in (("Positionals", positionals), ("Options", options)):
+            if found:
+                parts.append(f"{title}:\n" + "".join(entry(spelled(argument), argument.help) for argument in found))
+        if self.actions_of:
+            parts.append("Subcommands:\n" + "".join(entry(name, of.meaning) for name, of in self.commands().items()))
+        return "\n".join([*filter(None, parts), self.rest]).rstrip("\n") + "\n"
+
+    def shown_examples(self):
+        return "Examples:\n" + "".join(f"  polynya {example}\n" for example in self.examples)
+
+    def described(self):
+        """For the manual page and the completion (app/python.cpp)."""
+        options = [
+            {"names": argument.option_strings, "type": argument.metavar or "", "meaning": argument.help}
+            for argument in self.arguments()
+        ]
+        commands = [{"name": name, "meaning": of.meaning, **of.described()} for name, of in self.commands().items()]
+        return {"examples": self.shown_examples(), "rest": self.rest, "options": options, "commands": commands}
+
+    def parse_known_args(self, args=None, namespace=None):
+        found, rest = super().parse_known_args(self.joined(sys.argv[1:] if args is None else args), namespace)
+        if rest:
+            names = [name for argument in self.arguments() for name in argument.option_strings]
+            option = next((word for word in rest if word.startswith("-")), None)
+            hint = meant_by(option.partition("=")[0], names) if option else ""
+            self.error(f"not expected: {' '.join(rest)}{hint}")
+        return found, rest
+
+    def joined(self, words):
+        """Each option and its value as one word: argparse takes a value that begins with a dash, -inf or -10,0, for an
+        option."""
+        valued = {name for a in self.arguments() if a.nargs is None for name in a.option_strings}
+        found, left = [], list(words)
+        while left:
+            word = left.pop(0)
+            if word == "--":
+                return [*found, word, *left]
+            is_split = word in valued and left and not left[0].startswith("--") and left[0] != "-h"
+            found.append(f"{word}={left.pop(0)}" if is_split else word)
+        return found
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {self.in_plain_words(message)}\n{self.prog} --help explains its options\n")
+
+    def in_plain_words(self, message):
+        """argparse's words in those of the other commands."""
+        commands = list(self.commands())
+        wrong = re.match(r"argument ACTION: invalid choice: '(.*?)' \(choose", message)
+        if wrong:
+            return f"no such command: {wrong[1]}{meant_by(wrong[1], commands)}\ncommands: {', '.join(commands)}"
+        if message.startswith("the following arguments are required: "):
+            if self.actions_of:
+                return f"a command is missing\ncommands: {', '.join(commands)}"
+            name = message.removeprefix("the following arguments are required: ").split(",")[0]
+            return next(f"{name} is missing: {a.help}" for a in self.arguments() if a.metavar == name)
+        message = message.removeprefix("argument ").replace("not allowed with argument", "not allowed with")
+        return re.sub(r": expected one argument$", " needs a value", message)
+
+
+def spelled(argument):
+    if not argument.option_strings:
+        return argument.metavar
+    return ",".join(argument.option_strings) + (f" {argument.metavar}" if argument.metavar else "")
+
+
+def entry(name, meaning):
+    """A line of a list, or some: a name, and its meaning in a column."""
+    lines = textwrap.wrap(meaning, WIDTH - COLUMN, break_long_words=False)
+    head = f"  {name}"
+    first = f"{head}\n{'':{COLUMN}}" if len(head) >= COLUMN else f"{head:{COLUMN}}"
+    return first + f"\n{'':{COLUMN}}".join(lines) + "\n"

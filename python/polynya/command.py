@@ -1,0 +1,132 @@
+"""Starts a command that is written in Python: `python3 -m polynya.command NAME WORDS` (app/python.cpp does).
+
+How a command may end is decided here, once for all of them: by the exit codes of app/exit_code.hpp, with messages in
+sentences. A traceback goes into a file.
+"""
+import importlib
+import io
+import json
+import os
+import signal
+import sys
+
+FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
+OPTIONS = {  # where the command line of each is made
+    "figures": "polynya.figures.options",
+    "movie": "polynya.movie.__main__",
+    "performance": "polynya.performance.options",
+    "study": "polynya.study.options",
+}
+
+
+class Stdout(io.FileIO):
+    """stdout whose errors name it: a full disk, or a reader that went away."""
+
+    def write(self, data):
+        try:
+            return super().write(data)
+        except OSError as error:
+            error.filename = "stdout"
+            raise
+
+
+def open_streams():
+    """Makes stdout one whose errors name it; both take any file's name, in any locale, as in the commands in C++."""
+    buffer = io.BufferedWriter(Stdout(1, "w", closefd=False))
+    sys.stdout = io.TextIOWrapper(buffer, "utf-8", "surrogateescape", line_buffering=os.isatty(1))
+    sys.stderr.reconfigure(encoding="utf-8", errors="surrogateescape")
+
+
+def run(name, main):
+    """Runs the main() of a command and writes what it printed. Returns an exit code, whatever main() raises."""
+    try:
+        code = main()
+    except BaseException as error:
+        code = end_of(name, error)
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        code = code or end_of(name, error)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left is lost, without another message
+    return code
+
+
+def fail(name, message, code=INPUT_OUTPUT):
+    report(f"{name}: {message}")
+    return code
+
+
+def report(message):
+    """Prints a message on stderr, where that is still read."""
+    try:
+        print(message, file=sys.stderr, flush=True)
+    except OSError:
+        pass
+
+
+def end_of(name, error):
+    """The exit code of a command that ended by an exception, after its message."""
+    from .errors import FolderError, InputError, missing_package
+
+    command = f"polynya {name}"
+    if isinstance(error, SystemExit):
+        return error.code if isinstance(error.code, int) else 0
+    if isinstance(error, KeyboardInterrupt):  # by default's action, so that a shell sees what ended it
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGINT)
+    if isinstance(error, InputError):
+        report(error)
+        return error.code
+    if isinstance(error, FolderError):
+        return fail(command, error)
+    if isinstance(error, ImportError) and missing_package(error):
+        return fail(command, missing_package(error))
+    if isinstance(error, MemoryError):
+        return fail(command, "out of memory", FAILED)
+    if isinstance(error, BrokenPipeError):  # the reader of stdout or stderr went away
+        return CLOSED_PIPE
+    if isinstance(error, OSError) and error.filename == "stdout":
+        return fail("polynya", f"stdout: {error.strerror}")
+    if isinstance(error, OSError):
+        place = f"{os.fsdecode(error.filename)}: " if isinstance(error.filename, (str, bytes)) else ""
+        return fail(command, f"{place}{error.strerror or error}")
+    return fail(command, defect(name, error), DEFECT)
+
+
+def defect(name, error):
+    """One line about a defect of the program, after writing its traceback into a file."""
+    import tempfile
+    import traceback
+
+    gist = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+    words = f"a defect of polynya itself ({gist})"
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", prefix=f"polynya-{name}-", suffix=".txt", delete=False, encoding="utf-8", errors="backslashreplace"
+        ) as file:
+            file.write(f"{sys.argv}\nPython {sys.version}, {sys.executable}\n\n")
+            file.write("".join(traceback.format_exception(error)))
+        return f"{words}; its traceback is in {file.name}"
+    except OSError as fault:
+        return f"{words}; its traceback could not be written: {fault.strerror}"
+
+
+def describe():
+    """Prints the options of every command, as app/python.cpp reads them."""
+    parsers = {name: importlib.import_module(module).command_line() for name, module in OPTIONS.items()}
+    print(json.dumps({name: parser.described() for name, parser in parsers.items()}))
+    return 0
+
+
+def main():
+    open_streams()
+    name, *words = sys.argv[1:]
+    if name == "--describe":
+        return run("--describe", describe)
+    sys.argv = [f"polynya {name}", *words]
+    module = "polynya.figures.database" if name == "database" else f"polynya.{name}.__main__"
+    return run(name, lambda: importlib.import_module(module).main())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

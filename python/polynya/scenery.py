@@ -1,0 +1,230 @@
+"""What a map shows of a run at a time, as few paths in the world [m]: the maps of figures and of films draw it.
+
+Floes out of the picture are left out, and those of a few pixels are squares of their area: a field of 100 000 floes costs what is seen of it."""
+from __future__ import annotations
+
+import functools
+
+import numpy
+from matplotlib.path import Path
+
+# Light ice on mid water, apart in greyscale; marks in the Okabe–Ito palette [Okabe2008]. As views/map/map_marks.hpp.
+WATER = "#8fb8d0"
+AT_START = "#a9cadd"
+CHANNEL = "#5e93b5"
+ICE = "#ffffff"
+BROKEN_ICE = "#fbeec2"
+RESURFACED_ICE = "#f0c987"
+ICE_UNDER = "#56b4e9"
+EDGE = "#3d5261"
+SHIP = "#2b2b2b"
+WALL = "#8a8a8a"
+TRACK = "#d55e00"
+MARKS = {"bend": "#0072b2", "split": "#d55e00", "grind": "#7a5c2e"}
+
+WHOLE, BROKEN, CAME_UP, UNDER = range(4)  # kinds of floes
+COLOURS = (ICE, BROKEN_ICE, RESURFACED_ICE, ICE_UNDER)
+FRACTURES = ("bend", "split", "grind")
+LEAST_PIXELS = 3.0  # √area of the smallest floe that is drawn in its shape
+
+NOTHING = Path(numpy.empty((0, 2)), numpy.empty(0, Path.code_type))
+SQUARE = numpy.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]])
+
+
+@functools.lru_cache(maxsize=None)
+def codes_of(count):
+    """Of a closed ring of so many points, the first of them repeated."""
+    codes = numpy.full(count, Path.LINETO, Path.code_type)
+    codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
+    return codes
+
+
+def path_of(rings):
+    """Rings, each n × 2, as one path that closes them: a polygon with its holes, or several."""
+    if not rings:
+        return NOTHING
+    closed = [numpy.concatenate([ring, ring[:1]]) for ring in rings]
+    return Path(numpy.concatenate(closed), numpy.concatenate([codes_of(len(ring)) for ring in closed]))
+
+
+def extent_of(pieces):
+    """x0, y0, x1, y1 of points, each n × 2, with a little room around [m]."""
+    points = numpy.concatenate([piece for piece in pieces if len(piece)] or [numpy.array([[0.0, 0.0], [100.0, 100.0]])])
+    low, high = points.min(axis=0), points.max(axis=0)
+    room = max(1.0, 0.02 * (high - low).max())
+    return (*(low - room), *(high + room))
+
+
+def counted(count, noun):
+    """As in: 1 split, 2 splits."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def turned(points, poses):
+    """Points, each in the body frame of its pose (x, y [m], angle [rad]), in the world."""
+    x, y, angle = poses.T
+    c, s = numpy.cos(angle), numpy.sin(angle)
+    return numpy.column_stack((x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]))
+
+
+class Outlines:
+    """The outlines of a run's floes in their body frames, packed: closed rings one after the other, and where each floe's begin."""
+
+    def __init__(self, run):
+        self._run = run
+        self._first = numpy.full(len(run.births["floe_id"]), -1)
+        self._count = numpy.zeros(len(self._first), dtype=int)
+        self._reach = numpy.zeros(len(self._first))  # farthest vertex from the centroid [m]
+        self._points, self._codes = numpy.empty((0, 2)), numpy.empty(0, Path.code_type)
+
+    def load(self, ids):
+        """Reads those that are not here yet."""
+        missing = ids[self._first[ids] < 0]
+        if len(missing) == 0:
+            return
+        points, codes, at = [self._points], [self._codes], len(self._points)
+        for floe, rings in self._run.shapes.of(missing).items():
+            self._first[floe] = at
+            for ring in rings:
+                points += (ring, ring[:1])
+                codes.append(codes_of(len(ring) + 1))
+                at += len(ring) + 1
+            self._count[floe] = at - self._first[floe]
+            self._reach[floe] = numpy.sqrt(numpy.square(rings[0] - self._run.centroids[floe]).sum(axis=1).max())
+        self._points, self._codes = numpy.concatenate(points), numpy.concatenate(codes)
+
+    def forget(self, floes):
+        """Drops those of a mask of all floes."""
+        kept = numpy.flatnonzero((self._first >= 0) & ~floes)
+        rows = self._rows(kept)
+        self._points, self._codes = self._points[rows], self._codes[rows]
+        self._first[:] = -1
+        self._first[kept] = numpy.cumsum(self._count[kept]) - self._count[kept]
+
+    def reach(self, ids):
+        """From the centroids to the farthest vertices [m]."""
+        self.load(ids)
+        return self._reach[ids]
+
+    def count(self, ids):
+        """How many points their paths have."""
+        self.load(ids)
+        return int(self._count[ids].sum())
+
+    def _rows(self, ids):
+        counts = self._count[ids]
+        return numpy.arange(counts.sum()) + numpy.repeat(self._first[ids] - (numpy.cumsum(counts) - counts), counts)
+
+    def boxes(self, ids, poses):
+        """Lower left and upper right corners in the world, each n × 2."""
+        points = self.path(ids, poses).vertices
+        first = numpy.cumsum(self._count[ids]) - self._count[ids]
+        return numpy.minimum.reduceat(points, first), numpy.maximum.reduceat(points, first)
+
+    def path(self, ids, poses):
+        """In the world, as one path."""
+        if len(ids) == 0:
+            return NOTHING
+        self.load(ids)
+        rows = self._rows(ids)
+        return Path(turned(self._points[rows], numpy.repeat(poses, self._count[ids], axis=0)), self._codes[rows])
+
+
+def joined(one, other):
+    """Two paths as one."""
+    if len(one.vertices) == 0 or len(other.vertices) == 0:
+        return one if len(other.vertices) == 0 else other
+    return Path(numpy.concatenate((one.vertices, other.vertices)), numpy.concatenate((one.codes, other.codes)))
+
+
+class Scenery:
+    """The floes, hulls, tracks and fractures of a run, ready to be drawn at any of its times."""
+
+    def __init__(self, run):
+        self.run = run
+        self.outlines = Outlines(run)
+        events = run.event_columns
+        order = numpy.flatnonzero(numpy.isin(events["kind"], FRACTURES))
+        self._fracture_times = events["t_s"][order]
+        self._fracture_kinds = events["kind"][order]
+        self._fracture_points = numpy.column_stack((events["x_m"][order], events["y_m"][order])).astype(float)
+
+    def kinds(self, frame):
+        """WHOLE as in the scene, BROKEN, CAME_UP or UNDER of each floe of a frame."""
+        births, ids = self.run.births, frame.ids
+        kinds = numpy.where(births["generation"][ids] == 0, WHOLE, numpy.where(births["came_up"][ids], CAME_UP, BROKEN))
+        kinds[frame.is_under] = UNDER
+        return kinds
+
+    def seen(self, frame, window):
+        """Which floes of a frame reach into x0, y0, x1, y1 [m]: a mask; all without a window."""
+        if window is None:
+            return numpy.ones(len(frame.ids), dtype=bool)
+        corners, ids, poses = numpy.reshape(window, (2, 2)), frame.ids, frame.poses
+        centres, reach = turned(self.run.centroids[ids], poses), self.outlines.reach(ids)[:, None]
+        shown = ((centres + reach > corners[0]) & (centres - reach < corners[1])).all(axis=1)
+        at_edge = numpy.flatnonzero(shown & ~((centres - reach > corners[0]) & (centres + reach < corners[1])).all(axis=1))
+        if len(at_edge):
+            low, high = self.outlines.boxes(ids[at_edge], poses[at_edge])
+            shown[at_edge] = ((high > corners[0]) & (low < corners[1])).all(axis=1)
+        return shown
+
+    def floes(self, frame, window=None, least=0.0, among=None):
+        """Floes as one path a kind: those of a mask `among` that reach into the window; of a √area below `least` [m] squares of their area."""
+        kinds = self.kinds(frame)
+        shown = self.seen(frame, window) if among is None else self.seen(frame, window) & among
+        return [self._path(frame.ids[shown & (kinds == kind)], frame.poses[shown & (kinds == kind)], least) for kind in range(4)]
+
+    def _path(self, ids, poses, least):
+        side = numpy.sqrt(self.run.births["area_m2"][ids])
+        is_small = side < least
+        return joined(self.outlines.path(ids[~is_small], poses[~is_small]), self._squares(ids[is_small], poses[is_small], side[is_small]))
+
+    def _squares(self, ids, poses, sides):
+        if len(ids) == 0:
+            return NOTHING
+        in_body = self.run.centroids[ids][:, None] + sides[:, None, None] * SQUARE
+        return Path(turned(in_body.reshape(-1, 2), numpy.repeat(poses, len(SQUARE), axis=0)), numpy.tile(codes_of(len(SQUARE)), len(ids)))
+
+    def forget(self, time):
+        """Drops the outlines of floes that broke before a time [s]."""
+        self.outlines.forget(self.run.births["died_s"] <= time)
+
+    def ice_at_start(self, window=None, least=0.0):
+        """As one path."""
+        frame = self.run.frame(self.run.start_time)
+        seen = self.seen(frame, window)
+        return self._path(frame.ids[seen], frame.poses[seen], least)
+
+    def hulls(self, frame):
+        """Ships and structures as one path, walls as another."""
+        walls = self.run.wall_names
+        return tuple(path_of([ring for name, ring in frame.hulls.items() if (name in walls) == is_wall]) for is_wall in (False, True))
+
+    @functools.cached_property
+    def _recorded_places(self):
+        """Of ships, structures and walls at each recorded frame, n × bodies × 2 [m]."""
+        return numpy.array([self.run.motions.ships_at(time)[:, :2] for time in self.run.times])
+
+    def tracks(self, time):
+        """Of ships, and of structures that gave way, up to a time [s], each n × 2."""
+        if len(self.run.times) == 0:
+            return []
+        here = self.run.motions.ships_at(time)[None, :, :2]
+        places = numpy.concatenate((self._recorded_places[self.run.times < time], here))
+        walls = self.run.wall_names
+        return [places[:, i] for i, name in enumerate(self.run.ship_names) if name not in walls and numpy.ptp(places[:, i], axis=0).max() > 0]
+
+    def fractures(self, kind, start, end):
+        """Where ice broke so after a time [s] and up to another, n × 2, and how long before the latter."""
+        among = (self._fracture_kinds == kind) & (self._fracture_times > start) & (self._fracture_times <= end)
+        return self._fracture_points[among], end - self._fracture_times[among]
+
+    def points(self, frame):
+        """Of all that sets the extent of a map at a time: ice, hulls, walls and tracks, each n × 2."""
+        return [*(path.vertices for path in (*self.floes(frame), *self.hulls(frame))), *self.tracks(frame.time)]
+
+    @functools.cached_property
+    def extent(self):
+        """Of ice and hulls at the start and end and of all tracks: x0, y0, x1, y1 [m]."""
+        return extent_of([points for time in (self.run.start_time, self.run.end_time) for points in self.points(self.run.frame(time))])

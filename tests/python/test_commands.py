@@ -1,0 +1,128 @@
+"""How commands that are written in Python end, and what a Python without the packages prints."""
+import errno
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from polynya import command
+from polynya.errors import FolderError, InputError
+
+PROGRAM = os.environ["POLYNYA_PROGRAM"]
+EXAMPLES = sorted((pathlib.Path(__file__).resolve().parents[2] / "examples").glob("*.py"))
+BARE = [sys.executable, "-S"]  # a Python without site-packages
+
+
+def ended(words, **more):
+    return subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False, **more)
+
+
+def raiser(error):
+    def main():
+        raise error
+
+    return main
+
+
+@pytest.mark.parametrize("error, code, message", [
+    (InputError(["a.json:1:2: x", "a.json:2:1: y"]), 3, "a.json:1:2: x\na.json:2:1: y\n"),
+    (FolderError("r: no run"), 5, "polynya study: r: no run\n"),
+    (FileNotFoundError(errno.ENOENT, "No such file", "f"), 5, "polynya study: f: No such file\n"),
+    (OSError(errno.ENOMEM, "Cannot allocate memory"), 5, "polynya study: Cannot allocate memory\n"),
+    (MemoryError(), 4, "polynya study: out of memory\n"),
+    (SystemExit(2), 2, ""),
+])
+def test_what_ends_a_command_has_its_code_and_message(capsys, error, code, message):
+    assert command.run("study", raiser(error)) == code
+    assert capsys.readouterr().err == message
+
+
+def test_a_defect_is_one_line_and_its_traceback_is_in_the_file_named(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    assert command.run("movie", raiser(KeyError("of\nlines"))) == command.DEFECT == 70
+    words = capsys.readouterr().err
+    beginning = r"polynya movie: a defect of polynya itself \(KeyError: .*\); its traceback is in "
+    found = re.fullmatch(beginning + r"(.*)\n", words)
+    assert found and "Traceback" in pathlib.Path(found[1]).read_text()
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "none"))
+    assert command.run("movie", raiser(KeyError())) == 70 and "could not be written" in capsys.readouterr().err
+
+
+def test_ctrl_c_ends_a_command_as_it_ends_others():
+    main = "lambda: (print('on', flush=True), time.sleep(60))"
+    words = [sys.executable, "-c", f"from polynya.command import run; import time; run('study', {main})"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        assert (process.wait(), process.stderr.read()) == (-signal.SIGINT, "")
+
+
+def test_a_reader_that_goes_away_is_no_failure():
+    for words in ("study --help", "figures --help", "movie --help"):
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = subprocess.run([PROGRAM, *words.split()], stdout=writer, stderr=subprocess.PIPE, check=False)
+        os.close(writer)
+        assert (done.returncode, done.stderr) == (141, b"")
+
+
+@pytest.mark.parametrize("words", ["figures x", "movie x --out a.png", "performance x", "database x", "study report x"])
+def test_a_missing_package_is_one_line_with_what_to_do(words, tmp_path):
+    done = ended([*BARE, "-m", "polynya.command", *words.split()], cwd=tmp_path)
+    assert done.returncode == 5 and done.stderr.count("\n") == 1, done.stderr
+    expected = rf"polynya {words.split()[0]}: .*python.* has no (numpy|matplotlib|scipy): .*/setup.sh python"
+    assert re.search(expected, done.stderr)
+
+
+@pytest.mark.parametrize("code", ["polynya.Run('x')", "polynya.Study('x')", "polynya.require('numpy')"])
+def test_a_python_without_numpy_names_itself_and_what_to_do(code):
+    done = ended([*BARE, "-c", f"import polynya; {code}"])
+    last = done.stderr.splitlines()[-1]
+    assert done.returncode == 1 and re.search(r"python\S* \(Python [0-9.]+\) has no numpy: ", last), done.stderr
+
+
+@pytest.mark.parametrize("script", EXAMPLES, ids=lambda path: path.name)
+def test_an_example_without_numpy_prints_one_line(script):
+    done = ended([*BARE, script])
+    assert done.returncode == 1 and done.stderr.count("\n") == 1 and "has no numpy: " in done.stderr, done.stderr
+
+
+def test_a_module_of_another_python_is_named(tmp_path):
+    (tmp_path / "_core.cpython-36-x86_64-linux-gnu.so").touch()
+    done = ended([sys.executable, "-c", f"import polynya; polynya.__path__[1:] = [{str(tmp_path)!r}]; polynya.Scene"])
+    running = "%d.%d" % sys.version_info[:2]
+    message = f"is built for Python 3.6, and this is {running} ({sys.executable})"
+    assert message in done.stderr.splitlines()[-1], done.stderr
+
+
+def test_wrong_words_are_answered_as_by_the_commands_in_c():
+    for words, message in (
+        ("figures x --load most", 'figures: --load: "most" is not one of: true, mean, max, ships, j-over-tau-c\n'),
+        ("figures x --style slide", "; did you mean slides?\n"),
+        ("figures x --widnow 0,0,1,1", "figures: not expected: --widnow 0,0,1,1; did you mean --window?\n"),
+        ("figures x --window -1,-2,3", "figures: --window: found -1,-2,3, allowed: 4 numbers"),
+        ("figures", "figures: RUN is missing: The run folders\n"),
+        ("movie x --from", "movie: --from needs a value\n"),
+        ("movie x --speed -inf", "movie: --speed: found -inf, allowed: a number > 0\n"),
+        ("study", "study: a command is missing\ncommands: plan, run, slurm, parallel, gather, report\n"),
+        ("study pln x", "study: no such command: pln; did you mean plan?\n"),
+        ("study run x --job 2", "; did you mean --jobs?\npolynya study run --help explains its options\n"),
+        ("performance araon --friction -1", "performance: --friction: found -1, allowed: a number ≥ 0, ≤ 2\n"),
+    ):
+        done = ended([PROGRAM, *words.split()])
+        assert (done.returncode, done.stdout, message in done.stderr) == (2, "", True), done.stderr
+
+
+def test_every_option_is_in_the_manual_page():
+    page = ended([PROGRAM, "man"]).stdout.replace("\\-", "-")
+    for name, described in json.loads(ended([sys.executable, "-m", "polynya.command", "--describe"]).stdout).items():
+        section = page[page.index(f".SS {name}\n"):]
+        for part in [described, *described["commands"]]:
+            assert all(f".B {', '.join(option['names'])}" in section for option in part["options"])
+    without = ended([PROGRAM, "man"], env={**os.environ, "POLYNYA_PYTHON": "/no/such"})
+    assert without.returncode == 0 and "polynya movie \\-\\-help explains its options" in without.stdout
