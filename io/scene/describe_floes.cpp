@@ -1,3 +1,4 @@
+#include "io/import/floe_properties.hpp"
 #include "io/scene/describe.hpp"
 #include "io/scene/scene_input.hpp"
 
@@ -151,13 +152,14 @@ const Description<LawInput> kLaw{
             &LawInput::least),
      member("most", "", {}, "no floe has more; likewise", &LawInput::most)}};
 
-/// A number, or the law that it is drawn by.
-FieldOf<IceInput> number_or_law(std::string_view key, std::string_view unit, Range range,
-                                std::string_view meaning, std::optional<NumberOrLaw> IceInput::*place) {
-  FieldOf<IceInput> field = object(key, kLaw, meaning, place);
+/// A property that floe files have too, by its number there: a number, or the law that it is drawn by.
+FieldOf<IceInput> property(std::size_t index, std::string_view meaning,
+                           std::optional<NumberOrLaw> IceInput::*place) {
+  const FloeProperty& in_file = floe_properties()[index];
+  FieldOf<IceInput> field = object(in_file.key, kLaw, meaning, place);
   field.kind = FieldKind::kNumberOrLaw;
-  field.unit = unit;
-  field.range = range;
+  field.unit = in_file.unit;
+  field.range = from(in_file.low, in_file.high);
   field.set = [place](void* record, const JsonValue& json) {
     static_cast<IceInput*>(record)->*place = json.number();
   };
@@ -169,18 +171,13 @@ FieldOf<IceInput> number_or_law(std::string_view key, std::string_view unit, Ran
 }
 
 const Description<IceInput> kOwnIce{
-    {number_or_law("thickness_m", "m", from(1e-3, 20), "thickness h", &IceInput::thickness),
-     number_or_law("density_kg_per_m3", "kg/m³", from(100, 1100), "density ρ_i, less than the water's",
-                   &IceInput::density),
-     number_or_law("flexural_strength_Pa", "Pa", from(1, 1e9), "flexural strength σ_f",
-                   &IceInput::flexural_strength),
-     number_or_law("compressive_strength_Pa", "Pa", from(1, 1e10),
-                   "compressive strength σ_c; of two floes the weaker ice crushes",
-                   &IceInput::compressive_strength),
-     number_or_law("tensile_strength_Pa", "Pa", from(1, 1e9), "tensile strength σ_t",
-                   &IceInput::tensile_strength),
-     number_or_law("fracture_toughness_Pa_sqrt_m", "Pa √m", from(1, 1e9), "fracture toughness K_IC",
-                   &IceInput::fracture_toughness),
+    {property(0, "thickness h", &IceInput::thickness),
+     property(1, "density ρ_i, less than the water's", &IceInput::density),
+     property(2, "flexural strength σ_f", &IceInput::flexural_strength),
+     property(3, "compressive strength σ_c; of two floes the weaker ice crushes",
+              &IceInput::compressive_strength),
+     property(4, "tensile strength σ_t", &IceInput::tensile_strength),
+     property(5, "fracture toughness K_IC", &IceInput::fracture_toughness),
      member("seed", "", from(0, kLargestSeed),
             "another one draws other floes' ice; the scene's seed is added", &IceInput::seed)}};
 

@@ -8,6 +8,7 @@
 #include "fracture/scatter.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/scene/scene_input.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem_collector.hpp"
 
@@ -17,13 +18,6 @@ inline constexpr std::size_t kFloeIceProperties = 6;  ///< of ice, that a floe m
 
 /// Properties that a feature of a floe file gives, by their numbers.
 using GivenIce = std::vector<std::pair<std::uint8_t, double>>;
-
-/// How a property of the floes of one entry came out that was drawn.
-struct IceReport {
-  std::size_t group = 0;     ///< index in the scene's "floes"
-  std::size_t property = 0;  ///< its number
-  fracture::ScatterMeasures measures;
-};
 
 /// A property of ice that a floe may have of its own: a key of the scene's "ice", of an entry of "floes" and
 /// of a feature's properties in a floe file, and of the floes that a run writes.

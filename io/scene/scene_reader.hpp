@@ -8,8 +8,8 @@
 
 #include <tl/expected.hpp>
 
+#include "fracture/scatter.hpp"
 #include "io/import/floe_import.hpp"
-#include "io/scene/floe_ice.hpp"
 #include "io/scene/scene_assign.hpp"
 #include "io/text/problem.hpp"
 #include "simulation/floe_field.hpp"
@@ -40,6 +40,13 @@ struct FileReport {
   std::size_t with_thickness = 0;      ///< of their own
   std::vector<NearMiss> near_misses;
   std::uint32_t offset = 0;  ///< of its name in the scene
+};
+
+/// How a property of the floes of one entry came out that was drawn.
+struct IceReport {
+  std::size_t group = 0;     ///< index in the scene's "floes"
+  std::size_t property = 0;  ///< its number (floe_ice.hpp)
+  fracture::ScatterMeasures measures;
 };
 
 struct LoadedScene {
