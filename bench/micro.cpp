@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "dynamics/water_drag.hpp"
+#include "dynamics/water/water_drag.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "geometry/cut/cut.hpp"
 #include "simulation/floe_field.hpp"

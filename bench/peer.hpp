@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/water_drag.hpp"
+#include "dynamics/water/water_drag.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::bench {

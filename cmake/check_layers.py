@@ -13,25 +13,30 @@ FLOORS = {
     "geometry/cut": 2,
     "geometry/contact": 3,  # first contact asks for exact overlaps
     "dynamics": 4,
-    "fracture": 4,
-    "simulation": 5,
-    "io/text": 6,
-    "io/import": 7,
-    "io/scene": 8,
-    "io/run": 9,
-    "analysis": 10,
-    "views/map": 11,
-    "views/player": 12,
-    "views/export": 12,
-    "app": 13,
-    "python/module": 14,
+    "dynamics/contact": 5,
+    "dynamics/water": 5,
+    "dynamics/ship": 5,
+    "fracture": 5,
+    "simulation": 6,
+    "io/text": 7,
+    "io/import": 8,
+    "io/scene": 9,
+    "io/run": 10,
+    "analysis": 11,
+    "views/map": 12,
+    "views/player": 13,
+    "views/export": 13,
+    "app": 14,
+    "python/module": 15,
 }
+# Rooms that are blind to each other, whatever their floors.
+APART = [{"dynamics", "fracture"}]
 # Header of a package -> the only folders, or files, that include it.
 PACKAGES = {
     r"CGAL/": ["geometry/"],
     r"gmp(xx)?\.h": ["geometry/exact/"],
     r"(tbb|oneapi)/": ["dynamics/"],
-    r"Eigen/": ["fracture/bending/", "dynamics/internal/jam_matrix"],
+    r"Eigen/": ["fracture/bending/", "dynamics/contact/internal/jam_matrix"],
     r"boost/container/": ["dynamics/"],
     r"boost/math/": ["fracture/bending/", "fracture/scatter"],
     r"boost/crc": ["io/run/"],
@@ -58,6 +63,8 @@ def problems_of_own(path, room, target):
         yield f"{target} lies in no room"
     elif other != room and FLOORS[other] >= FLOORS[room]:
         yield f"{room} (floor {FLOORS[room]}) includes {target} (floor {FLOORS[other]})"
+    elif {path.split("/")[0], target.split("/")[0]} in APART:
+        yield f"{room} includes {target}, to which it is blind"
     if "/internal/" in target and target.split("/")[0] != path.split("/")[0]:
         yield f"{target} is internal to {target.split('/')[0]}"
 

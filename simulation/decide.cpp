@@ -131,7 +131,7 @@ void decide_between_floes(const Setup& setup, const Clock& clock, const Populati
     set_crushing(c, deepest_crushing_force(ice, c, 0), dt,
                  is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b));
   else
-    c.impulse_limit = crushing_force(ice, c, 0) * dt;
+    c.crushing_force = crushing_force(ice, c, 0);
 }
 
 /// Of a ship with ice: also whether the ice breaks.
@@ -146,7 +146,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
     set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt,
                  is_just_born(population, clock, c.b));
   else
-    c.impulse_limit = horizontal * load.normal_force * dt;
+    c.crushing_force = horizontal * load.normal_force;
   c.friction = load.shares.tangential / horizontal;
   step.slopes.back() = {load.shares.vertical / horizontal, std::tan(load.hull_angle)};
   const PendingFracture pending = evaluate(setup, population, load, counts);
@@ -176,8 +176,7 @@ void decide(const Setup& setup, const Clock& clock, int threads, const Populatio
   for (Contact& c : step.contacts) {  // by (a, b): those of ships come first
     if (!population.is_ship(c.a)) break;
     step.slopes.emplace_back();
-    c.is_rigid = population.is_ship(c.b);  // steel against steel does not crush
-    if (!c.is_rigid) decide_at_ship(setup, clock, population, c, step, counts);
+    if (!population.is_ship(c.b)) decide_at_ship(setup, clock, population, c, step, counts);
   }
 }
 

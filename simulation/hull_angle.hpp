@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/contact.hpp"
+#include "dynamics/contact/contact.hpp"
 #include "simulation/scene.hpp"
 
 namespace polynya::simulation {

@@ -86,8 +86,8 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   const double own_mass_per_area = mass_per_area(ice_of_floe(setup, population, event.floe));
   const std::vector<geometry::Measures> all_measures = measures_of(cut);
   const std::size_t fast = still_fast(population, breakage, cut, all_measures);
-  const dynamics::Inheritance inheritance =
-      population.pairs.inheritance_of(population.bodies, population.body_of(event.floe));
+  const dynamics::ContactMemory memory =
+      population.pairs.contact_memory_of(population.bodies, population.body_of(event.floe));
   retire_floe(event.floe, population, journal);
   std::vector<Event> submersions;  // of pieces that go under the hull
   double& energy_sink = accounts.audit.energy.*breakage.energy_sink;
@@ -118,7 +118,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
       continue;
     }
     wake(population.body_of(id), population);
-    population.pairs.inherit(population.bodies, population.body_of(id), inheritance);
+    population.pairs.pass_contact_memory(population.bodies, population.body_of(id), memory);
     accounts.counts.floated_cusps += is_inside ? 1 : 0;
   }
   enter_areas(event, cut.ledger, own_mass_per_area, accounts);

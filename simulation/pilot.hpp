@@ -4,7 +4,7 @@
 #include <span>
 
 #include "dynamics/planar.hpp"
-#include "dynamics/propulsion.hpp"
+#include "dynamics/ship/propulsion.hpp"
 #include "simulation/pilot_settings.hpp"
 
 namespace polynya::simulation {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "dynamics/broad_phase.hpp"
-#include "dynamics/drag_shape.hpp"
+#include "dynamics/contact/broad_phase.hpp"
+#include "dynamics/water/drag_shape.hpp"
 #include "fracture/tilting.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"

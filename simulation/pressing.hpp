@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/contact.hpp"
+#include "dynamics/contact/contact.hpp"
 #include "fracture/opening.hpp"
 #include "simulation/population.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "dynamics/manoeuvring.hpp"
-#include "dynamics/propulsion.hpp"
-#include "dynamics/rudder.hpp"
+#include "dynamics/ship/manoeuvring.hpp"
+#include "dynamics/ship/propulsion.hpp"
+#include "dynamics/ship/rudder.hpp"
 #include "simulation/scene.hpp"
 
 namespace polynya::simulation {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <variant>
 
-#include "dynamics/propulsion.hpp"
+#include "dynamics/ship/propulsion.hpp"
 #include "geometry/shape/point.hpp"
 
 namespace polynya::simulation {

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "dynamics/drag_shape.hpp"
-#include "dynamics/wind.hpp"
+#include "dynamics/water/drag_shape.hpp"
+#include "dynamics/water/wind.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/materials.hpp"

@@ -44,16 +44,21 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
       bending(make_bending_model(scene.fracture)),
       current(current_of(scene.water.shear)),
       ice_limits(limits_of(scene)) {
-  solver.restitution = scene.contact.restitution;
   solver.max_iterations = scene.contact.iterations;
-  separation.time = scene.contact.separation_time;
   for (const ShipSpec& ship : scene.ships) {
     underwater.push_back(underwater_of(ship.hull));
     sailing.push_back(sailing_of(ship, scene.water.water.density));
   }
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
-  if (scene.contact.law == ContactLaw::kCrush)
+  const ContactSettings& contact = scene.contact;
+  if (contact.law == ContactLaw::kCrush) {
+    law = dynamics::CrushLaw{scene.time.step, contact.substeps, contact.is_warm_started};
+    solver.tolerance = contact.tolerance;
     steps_per_rest = std::max<std::int64_t>(1, std::llround(kRestInterval / scene.time.step));
+  } else {
+    law = dynamics::RestitutionLaw{contact.restitution, scene.time.step};
+    separation = {.time = contact.separation_time};  // crushed overlap is gone ice
+  }
 }
 
 Underwater underwater_of(const Hull& hull) {

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
-#include "dynamics/impulse_solver.hpp"
-#include "dynamics/separation.hpp"
-#include "dynamics/submerged_ice.hpp"
-#include "dynamics/water_drag.hpp"
+#include "dynamics/contact/contact_solver.hpp"
+#include "dynamics/water/submerged_ice.hpp"
+#include "dynamics/water/water_drag.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "simulation/sailing.hpp"
 #include "simulation/scene.hpp"
@@ -38,15 +38,21 @@ struct Setup {
   Scene scene;
   Shortcuts shortcuts;
   std::unique_ptr<const fracture::BendingModel> bending;
-  dynamics::ShearCurrent current;  ///< in the water frame
-  dynamics::SolverSettings solver;
-  dynamics::SeparationSettings separation;
-  std::vector<Underwater> underwater;  ///< per ship
-  std::vector<Sailing> sailing;        ///< per ship
-  std::vector<IceLimits> ice_limits;   ///< of the scene's ice, then of each own_ice
+  dynamics::ShearCurrent current;                          ///< in the water frame
+  dynamics::ResponseLaw law;                               ///< of contacts
+  dynamics::SolverSettings solver;                         ///< but for its threads
+  std::optional<dynamics::SeparationSettings> separation;  ///< of a law that leaves overlap to be separated
+  std::vector<Underwater> underwater;                      ///< per ship
+  std::vector<Sailing> sailing;                            ///< per ship
+  std::vector<IceLimits> ice_limits;                       ///< of the scene's ice, then of each own_ice
   std::int64_t steps_per_sample = 1;
   std::int64_t steps_per_rest = 1;  ///< between two steps that put floes to rest
 };
+
+/// Whether contacts answer by the law of crushing ice.
+inline bool is_crush_law(const Setup& setup) {
+  return std::holds_alternative<dynamics::CrushLaw>(setup.law);
+}
 
 /// A hull's underwater form by its waterline, stem angle and draught. Its entrance angle is the mean one of
 /// the bow: tan α = ½ B / (distance from the stem to where the waterline is widest).

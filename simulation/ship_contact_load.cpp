@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/collision.hpp"
+#include "dynamics/contact/restitution_law.hpp"
 #include "fracture/bending/edge_deflection.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "simulation/hull_angle.hpp"
@@ -55,10 +55,6 @@ void press(const Setup& setup, bool can_bend, ShipContactLoad& load) {
 }
 
 }  // namespace
-
-bool is_crush_law(const Setup& setup) {
-  return setup.scene.contact.law == ContactLaw::kCrush;
-}
 
 double crushing_force(const fracture::Ice& ice, const Contact& c, double hull_angle) {
   return fracture::crushing_force(

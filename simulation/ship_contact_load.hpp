@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/contact.hpp"
+#include "dynamics/contact/contact.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/contact/wedge.hpp"
@@ -23,8 +23,6 @@ struct ShipContactLoad {
   double stiffness = 0;           ///< dF_n/dξ [N/m]
   fracture::CrushingShares shares{};
 };
-
-bool is_crush_law(const Setup& setup);
 
 /// F_n at the contact's overlap, a hull's or a vertical wall's [N].
 double crushing_force(const fracture::Ice& ice, const dynamics::Contact& c, double hull_angle);

@@ -258,7 +258,7 @@ std::vector<ContactState> Simulation::contact_states() const {
                       .point_in_world = c.centre_of_pressure() + drift_then,
                       .force = -1 / dt * c.impulse_on_b(),
                       .depth = c.depth,
-                      .is_crushing = c.total_normal_impulse() > 0 && c.is_at_limit()});
+                      .is_crushing = c.total_normal_impulse() > 0 && c.is_at_limit});
   }
   return states;
 }

@@ -21,20 +21,18 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
 
 /// Marks what crushed: contacts that needed all that crushing ice can carry. Enters what all contacts did
 /// into the accounts.
-void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts, ContactLaw law,
+void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts,
                     Accounts& accounts) {
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
   for (dynamics::Contact& c : contacts) {
-    const bool is_at_limit = c.is_at_limit();
-    (is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
+    (c.is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
     energy.friction -= c.slip_work;
     given += c.normal_work + c.slip_work;
     remember_overlap(c);
     if (bodies.inverse_mass[c.a] == 0 || bodies.inverse_mass[c.b] == 0)
       enter_prescribed_work(bodies, c, accounts.audit);
-    if (!is_at_limit || c.approach_speed <= 0) continue;
-    if (law == ContactLaw::kCrush && c.total_normal_impulse() == 0) continue;
+    if (!c.is_at_limit || c.approach_speed <= 0) continue;
     c.record->crushed_depth = c.depth;
     if (!c.record->has_crushed) ++accounts.counts.crush_contacts;
     c.record->has_crushed = true;
@@ -86,16 +84,11 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
   if (step.contacts.empty()) return;
   dynamics::SolverSettings settings = setup.solver;
   settings.threads = threads;
-  const ContactSettings& contact = setup.scene.contact;
   const dynamics::SolverResult result =
-      contact.law == ContactLaw::kCrush
-          ? step.crush_solver.solve(population.bodies, step.contacts,
-                                    {setup.scene.time.step, contact.substeps, contact.iterations,
-                                     contact.tolerance, threads, contact.is_warm_started})
-          : step.solver.solve(population.bodies, step.contacts, settings);
+      step.solver.solve(population.bodies, step.contacts, setup.law, settings);
   if (!result.is_converged()) ++accounts.counts.unconverged_steps;
   accounts.counts.largest_residual = std::max(accounts.counts.largest_residual, result.residual);
-  enter_contacts(population.bodies, step.contacts, setup.scene.contact.law, accounts);
+  enter_contacts(population.bodies, step.contacts, accounts);
   for (const dynamics::Contact& c : step.contacts) {
     if (c.total_normal_impulse() == 0) continue;
     wake(c.a, population);
@@ -122,8 +115,7 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
                                             const std::vector<dynamics::Contact>& contacts,
                                             Population& population) {
   const double dt = setup.scene.time.step;
-  if (setup.scene.contact.law == ContactLaw::kImpulse)  // crushed overlap is gone ice
-    separate(population.bodies, contacts, setup.separation, dt);
+  if (setup.separation) separate(population.bodies, contacts, *setup.separation, dt);
   const double fastest = integrate(population.bodies, population.awake, dt, threads);
   if (fastest < kRunawaySpeed) return std::nullopt;
   const auto runaway = std::ranges::find_if(

@@ -62,17 +62,12 @@ double slide_speed(const Pressed& pressed) {
 }
 
 /// The vertical force with which a contact may press at the end of the step [N].
-double expected_vertical_force(const Contact& c, const HullSlope& slope, ContactLaw law, double dt) {
-  if (law == ContactLaw::kImpulse) return slope.vertical_share * c.impulse_limit / dt;
+double expected_vertical_force(const Contact& c, const HullSlope& slope, double dt) {
   const double grown = c.crushing_stiffness * std::max(0.0, c.approach_speed) * dt;
   return slope.vertical_share * (c.crushing_force + grown);
 }
 
-void scale(Contact& c, ContactLaw law, double share) {
-  if (law == ContactLaw::kImpulse) {
-    c.impulse_limit *= share;
-    return;
-  }
+void scale(Contact& c, double share) {
   c.crushing_force *= share;
   c.crushing_stiffness *= share;
   c.missed_impulse *= share;
@@ -109,13 +104,12 @@ void tilt(const Setup& setup, const Population& population, const Pressed& press
 }  // namespace
 
 void limit_by_tilt(const Setup& setup, const Population& population, StepData& step) {
-  const ContactLaw law = setup.scene.contact.law;
   const double dt = setup.scene.time.step;
   for_pressed(setup, population, step.contacts, step.slopes, [&](const Pressed& pressed) {
     double expected = 0;
     for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
       if (pressed.slopes[i].vertical_share > 0)
-        expected += expected_vertical_force(pressed.contacts[i], pressed.slopes[i], law, dt);
+        expected += expected_vertical_force(pressed.contacts[i], pressed.slopes[i], dt);
     }
     if (expected == 0) return;
     const double most =
@@ -123,7 +117,7 @@ void limit_by_tilt(const Setup& setup, const Population& population, StepData& s
                                       edge_of(population.tilted, pressed.key()), slide_speed(pressed), dt);
     if (expected <= most) return;
     for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
-      if (pressed.slopes[i].vertical_share > 0) scale(pressed.contacts[i], law, most / expected);
+      if (pressed.slopes[i].vertical_share > 0) scale(pressed.contacts[i], most / expected);
     }
   });
 }

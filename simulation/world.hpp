@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/crush_solver.hpp"
+#include "dynamics/contact/contact_solver.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/contact/crack_path.hpp"
 #include "simulation/energy.hpp"
@@ -99,8 +99,7 @@ struct StepData {
   std::vector<ShipLoads> loads;               ///< per ship
   std::vector<ShipMotion> start;              ///< per ship: its motion before the step's impulses
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
-  dynamics::ImpulseSolver solver;             ///< its reusable memory
-  dynamics::CrushSolver crush_solver;         ///< likewise
+  dynamics::ContactSolver solver;             ///< its reusable memory
 };
 
 /// What has happened so far, in sums.

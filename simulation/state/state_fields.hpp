@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/broad_phase.hpp"
+#include "dynamics/contact/broad_phase.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "simulation/state/archive.hpp"
 #include "simulation/world.hpp"
@@ -137,10 +137,10 @@ void fields(Archive& archive, Is<AuditSums> auto& a) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<dynamics::PersistentContact> auto& r) {
-  archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.owed_impulse,
-          r.given_impulse, r.restitution_limit, r.last_impulse[0], r.last_impulse[1], r.warm_start_impulse[0],
-          r.warm_start_impulse[1], r.loaded_depth, r.loaded_area, r.reach, r.has_crushed, r.is_pierced,
-          r.is_inherited, r.was_refused, r.is_continued);
+  archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth,
+          r.restitution.owed_impulse, r.restitution.given_impulse, r.restitution.limit, r.last_impulse[0],
+          r.last_impulse[1], r.restitution.start_impulse[0], r.restitution.start_impulse[1], r.loaded_depth,
+          r.loaded_area, r.reach, r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused, r.is_continued);
 }
 /// Not its separation_bound: that is a cache, which may differ where the same bodies do the same.
 template <class Archive>

@@ -1,12 +1,11 @@
 // The pair finder against a search over all pairs, while a pack of floes moves, collides, sleeps, breaks up
 // and grows.
-#include "dynamics/broad_phase.hpp"
+#include "dynamics/contact/broad_phase.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/separation.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {
@@ -115,7 +114,7 @@ struct Pack {
 
 void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
   Pack pack(rule, columns);
-  ImpulseSolver solver;
+  ContactSolver solver;
   std::vector<Contact> contacts;
   std::size_t seen = 0;
   for (int step = 0; step < steps; ++step) {
@@ -135,7 +134,7 @@ void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
     ASSERT_TRUE(found == expected) << "step " << step;
     seen += found.size();
 
-    solver.solve(pack.bodies, contacts, {});
+    solver.solve(pack.bodies, contacts, RestitutionLaw{}, {});
     for (const Contact& c : contacts) {
       if (c.total_normal_impulse() == 0) continue;
       pack.wake(c.a);

@@ -10,7 +10,7 @@
 #include <chipmunk/chipmunk.h>
 #include <gtest/gtest.h>
 
-#include "dynamics/broad_phase.hpp"
+#include "dynamics/contact/broad_phase.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {
@@ -91,11 +91,9 @@ OurOutcome with_ours(const Scene& scene) {
   finder.update(bodies, {0, 1});
   finder.find_contacts(bodies, 1e-14, outcome.contacts);
   for (Contact& c : outcome.contacts) c.friction = scene.friction;
-  SolverSettings settings;
-  settings.restitution = scene.restitution;
-  settings.tolerance = 1e-13;
-  settings.max_iterations = 20000;
-  ImpulseSolver().solve(bodies, outcome.contacts, settings);
+  const RestitutionLaw law{.restitution = scene.restitution};
+  const SolverSettings settings{20000, 1e-13};
+  ContactSolver().solve(bodies, outcome.contacts, law, settings);
   for (BodyIndex i = 0; i < 2; ++i) {
     outcome.velocity[i] = bodies.velocity[i];
     outcome.angular_velocity[i] = bodies.angular_velocity[i];

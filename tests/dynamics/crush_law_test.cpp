@@ -1,11 +1,10 @@
 // The law of crushing ice, at one contact and where many press on each other.
-#include "dynamics/crush_law.hpp"
+#include "dynamics/contact/crush_law.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/crush_solver.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {
@@ -51,9 +50,9 @@ TEST(CrushLaw, BothEndsObeyItTogether) {
     k.at[1] = k.at[0] * std::pow(10.0, random.between(-2, 2));
     k.between = std::sqrt(k.at[0] * k.at[1]) * random.between(-1, 1);
     const std::array<double, 2> free{random.between(-1, 3), random.between(-1, 3)};
-    const auto any_piece = [&] { return static_cast<CrushPiece>(random.below(4)); };
-    CrushPieces pieces{{any_piece(), any_piece()}};  // wherever it starts from
-    const auto p = crush_impulses(ends, k, free, pieces);
+    const auto any_branch = [&] { return static_cast<CrushBranch>(random.below(4)); };
+    ActiveBranches branches{{any_branch(), any_branch()}};  // wherever it starts from
+    const auto p = crush_impulses(ends, k, free, branches);
     const std::array<double, 2> u{free[0] - k.at[0] * p[0] - k.between * p[1],
                                   free[1] - k.between * p[0] - k.at[1] * p[1]};
     for (std::size_t end = 0; end < 2; ++end) {
@@ -101,7 +100,7 @@ Jam jam_of(Random& random, int floes) {
   return jam;
 }
 
-TEST(CrushSolver, FindsOneAnswerWhateverItStartsFrom) {
+TEST(ContactSolver, FindsOneAnswerWhateverItStartsFrom) {
   Random random(kSeed);
   for (int trial = 0; trial < 50; ++trial) {
     const Jam jam = jam_of(random, 2 + random.below(12));
@@ -117,9 +116,8 @@ TEST(CrushSolver, FindsOneAnswerWhateverItStartsFrom) {
           size_of_start += impulse =
               start == 0 ? 0 : random.between(0, 0.02) * now.contacts[i].crushing_force;
       }
-      const SolverResult result = CrushSolver().solve(
-          now.bodies, now.contacts,
-          {.step = 0.01, .substeps = 1, .max_iterations = 20000, .tolerance = 1e-10, .threads = 1});
+      const SolverResult result =
+          ContactSolver().solve(now.bodies, now.contacts, CrushLaw{.step = 0.01}, {20000, 1e-10});
       EXPECT_TRUE(result.is_converged()) << result.residual;
       ends.push_back(now.bodies);
     }
@@ -135,7 +133,14 @@ TEST(CrushSolver, FindsOneAnswerWhateverItStartsFrom) {
   }
 }
 
-TEST(CrushSolver, KeepsMomentumAndMakesNoEnergy) {
+class ByBothLaws : public ::testing::TestWithParam<ResponseLaw> {};
+
+INSTANTIATE_TEST_SUITE_P(ContactSolver, ByBothLaws,
+                         ::testing::Values(CrushLaw{.step = 0.01, .substeps = 4}, CrushLaw{.step = 0.01},
+                                           RestitutionLaw{.restitution = 0, .step = 0.01},
+                                           RestitutionLaw{.restitution = 0.5, .step = 0.01}));
+
+TEST_P(ByBothLaws, MomentumIsKeptAndNoEnergyMade) {
   Random random(kSeed);
   for (int trial = 0; trial < 200; ++trial) {
     Jam jam = jam_of(random, 2 + random.below(6));
@@ -149,13 +154,48 @@ TEST(CrushSolver, KeepsMomentumAndMakesNoEnergy) {
     const Vector p = momentum(jam.bodies);
     const double l = angular_momentum(jam.bodies);
     const double energy = kinetic_energy(jam.bodies);
-    CrushSolver().solve(
-        jam.bodies, jam.contacts,
-        {.step = 0.01, .substeps = 4, .max_iterations = 100, .tolerance = 1e-6, .threads = 1});
+    ContactSolver().solve(jam.bodies, jam.contacts, GetParam(), {100, 1e-6});
     EXPECT_LT(length(momentum(jam.bodies) - p), 1e-9 * (length(p) + 1e5));
     EXPECT_NEAR(angular_momentum(jam.bodies), l, 1e-9 * (std::abs(l) + 1e6));
     EXPECT_LE(kinetic_energy(jam.bodies), energy * (1 + 1e-12));
+    double work = 0;
+    for (const Contact& c : jam.contacts) work += c.normal_work + c.slip_work;
+    EXPECT_NEAR(kinetic_energy(jam.bodies) - energy, work, 1e-9 * energy) << "the work entered is all";
   }
+}
+
+TEST_P(ByBothLaws, BodiesThatPartAreLeftAlone) {
+  Bodies bodies;
+  add_body(bodies, floe_body(rectangle(2, 2), {0, 0}));
+  NewBody right = floe_body(rectangle(2, 2), {2, 0});
+  right.velocity = {0.5, 0.1};
+  add_body(bodies, right);
+  PersistentContact record;
+  std::vector<Contact> contacts{contact_at(0, 1, {1, 0}, {1, 0}, 2, 0.5)};
+  contacts[0].record = &record;
+  for (const double force : {1e5, std::numeric_limits<double>::infinity()}) {
+    contacts[0].crushing_force = force;
+    ContactSolver().solve(bodies, contacts, GetParam(), {});
+    EXPECT_EQ(bodies.velocity[0], Vector{});
+    EXPECT_EQ(bodies.velocity[1], (Vector{0.5, 0.1}));
+    EXPECT_EQ(contacts[0].total_normal_impulse(), 0);
+  }
+}
+
+/// What does not crush ends its approach, by either law.
+TEST_P(ByBothLaws, RigidBodiesStopEachOtherWhateverTheIceIs) {
+  Bodies bodies;
+  add_body(bodies, floe_body(rectangle(2, 2), {0, 0}));
+  NewBody right = floe_body(rectangle(2, 2), {2, 0});
+  right.velocity = {-1, 0};
+  add_body(bodies, right);
+  PersistentContact record;
+  std::vector<Contact> contacts{contact_at(0, 1, {1, 0}, {1, 0}, 2)};
+  contacts[0].record = &record;
+  const auto* law = std::get_if<RestitutionLaw>(&GetParam());
+  EXPECT_TRUE(ContactSolver().solve(bodies, contacts, GetParam(), {}).is_converged());
+  EXPECT_NEAR(parting_speed(bodies, contacts[0], {1, 0}), law != nullptr ? law->restitution : 0, 1e-12);
+  EXPECT_FALSE(contacts[0].is_at_limit);
 }
 
 }  // namespace

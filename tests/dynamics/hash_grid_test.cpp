@@ -1,4 +1,4 @@
-#include "dynamics/hash_grid.hpp"
+#include "dynamics/contact/hash_grid.hpp"
 
 #include <set>
 

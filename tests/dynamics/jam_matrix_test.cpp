@@ -1,5 +1,5 @@
 // The factorization of jams' matrices against a dense one.
-#include "dynamics/internal/jam_matrix.hpp"
+#include "dynamics/contact/internal/jam_matrix.hpp"
 
 #include <cmath>
 

@@ -1,11 +1,10 @@
 // Newton's method for jams: at the velocities found every contact obeys its law, in hard jams too.
-#include "dynamics/jam_solver.hpp"
+#include "dynamics/contact/jam_solver.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/crush_solver.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {
@@ -141,7 +140,7 @@ TEST(JamSolver, FrictionIsCoulombs) {
   }
 }
 
-/// Where friction's kink is as narrow as the solver of whole steps has it, from a start far away: pieces
+/// Where friction's kink is as narrow as the solver of whole steps has it, from a start far away: branches
 /// chosen by the speeds alone find few of these, bounds of friction that follow after each step 17.
 TEST(JamSolver, SolvesJamsWithFrictionOfANarrowKink) {
   Random random(kSeed);
@@ -153,8 +152,8 @@ TEST(JamSolver, SolvesJamsWithFrictionOfANarrowKink) {
 }
 
 /// Brash between floes, half of the bodies up to a hundred times lighter, from a start far away. Where all
-/// contacts leave their pieces at once, each end by itself, those of light bodies do so in turns for ever: 6
-/// of these 40 are solved.
+/// contacts leave their branches at once, each end by itself, those of light bodies do so in turns for ever:
+/// 6 of these 40 are solved.
 TEST(JamSolver, SolvesJamsOfFloesAndBrash) {
   Random random(kSeed);
   int solved = 0;
@@ -206,10 +205,7 @@ TEST(JamSolver, SolvesWhatSweepsDoNot) {
     Bodies bodies = pack.bodies;
     std::vector<Contact> contacts = pack.contacts;
     for (PersistentContact& record : records) record = {};
-    return CrushSolver()
-        .solve(bodies, contacts,
-               {.step = 0.01, .substeps = 1, .max_iterations = sweeps, .tolerance = 1e-6, .threads = 1})
-        .residual;
+    return ContactSolver().solve(bodies, contacts, CrushLaw{.step = 0.01}, {sweeps, 1e-6}).residual;
   };
   EXPECT_GT(residual(20), 1e-5) << "before the first pass of Newton's method";
   EXPECT_LE(residual(60), 1e-6);

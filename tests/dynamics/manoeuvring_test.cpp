@@ -1,13 +1,13 @@
 // The water around a hull, propellers and rudders.
-#include "dynamics/manoeuvring.hpp"
+#include "dynamics/ship/manoeuvring.hpp"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/propulsion.hpp"
-#include "dynamics/rudder.hpp"
+#include "dynamics/ship/propulsion.hpp"
+#include "dynamics/ship/rudder.hpp"
 
 namespace polynya::dynamics {
 namespace {

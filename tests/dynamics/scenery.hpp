@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dynamics/bodies.hpp"
-#include "dynamics/impulse_solver.hpp"
-#include "dynamics/water_drag.hpp"
+#include "dynamics/contact/contact_solver.hpp"
+#include "dynamics/water/water_drag.hpp"
 #include "geometry/exact/measures.hpp"
 
 namespace polynya::scenery {

@@ -1,5 +1,5 @@
 // What ice under a hull takes from its ship, against Lindqvist's resistance.
-#include "dynamics/submerged_ice.hpp"
+#include "dynamics/water/submerged_ice.hpp"
 
 #include <cmath>
 #include <numbers>

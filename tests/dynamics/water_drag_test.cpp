@@ -1,5 +1,5 @@
 // Eq. (6) of [Sawamura2017], relative to the water, against closed forms.
-#include "dynamics/water_drag.hpp"
+#include "dynamics/water/water_drag.hpp"
 
 #include <algorithm>
 

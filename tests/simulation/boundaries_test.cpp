@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/crush_law.hpp"
+#include "dynamics/contact/crush_law.hpp"
 #include "simulation/state/state.hpp"
 #include "tests/simulation/scenes.hpp"
 

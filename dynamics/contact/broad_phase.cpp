@@ -1,0 +1,410 @@
+#include "dynamics/contact/broad_phase.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "dynamics/chunks.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+using geometry::Box;
+using geometry::Point;
+using geometry::Pose;
+
+/// Boxes are grown by this much, and computed again after that much travel [m]. It decides only how often
+/// pairs are sought (smaller: more often) against how many are kept (greater: more).
+constexpr double kBoxMargin = 2.0;
+
+/// Fragments' vertices are rounded by far less than that [m]. Smaller than the rounding, fragments that touch
+/// may be taken for apart.
+constexpr double kPieceRounding = 1e-6;
+
+/// How far a body that breaks can move without touching the pair's other one, 0 where that is not known [m].
+double clearance_of(const Bodies& bodies, const Pair& pair) {
+  const Pose pose = centre_a_from_b(bodies, pair.a, pair.b);
+  return std::max(0.0, clearance_left(bodies, pair.b, pose, pair.apart) - kPieceRounding);
+}
+
+Box box_in_water(const Bodies& bodies, BodyIndex i) {
+  const Pose pose = water_from_body(bodies, i);
+  if (bodies.boundary[i]->edges.size() > 64)
+    return geometry::grown({bodies.position[i], bodies.position[i]}, bodies.bounding_radius[i]);
+  Box box = {transform(pose, bodies.boundary[i]->edges.vertices.front()), {}};
+  box.high = box.low;
+  for (const Point p : bodies.boundary[i]->edges.vertices) extend(box, transform(pose, p));
+  return box;
+}
+
+/// Not two bodies of prescribed motion, which no impulse moves, but for a hull in fast ice: that crushes. Nor
+/// two walls, which stand for ice far away and may cross at their ends.
+bool can_press(const Bodies& bodies, BodyIndex a, BodyIndex b, bool presses_prescribed) {
+  if (bodies.is_grounded[a] != 0 && bodies.is_grounded[b] != 0) return false;
+  if (bodies.inverse_mass[a] != 0 || bodies.inverse_mass[b] != 0) return true;
+  return presses_prescribed && (bodies.thickness[a] > 0) != (bodies.thickness[b] > 0);
+}
+
+}  // namespace
+
+BroadPhase::BroadPhase(const ContactRule& rule, double grid_cell) : rule_(rule), grid_(grid_cell) {}
+
+void BroadPhase::add(const Bodies& bodies, BodyIndex body) {
+  if (entries_.size() <= static_cast<std::size_t>(body)) {
+    entries_.resize(static_cast<std::size_t>(body) + 1);
+    travel_limits_.resize(static_cast<std::size_t>(body) + 1);
+  }
+  place(bodies, body);
+}
+
+void BroadPhase::place(const Bodies& bodies, BodyIndex body) {
+  Entry& entry = entries_[body];
+  if (entry.is_in) grid_.remove(body, entry.box);
+  entry.box = geometry::grown(box_in_water(bodies, body), kBoxMargin);
+  travel_limits_[body] = bodies.travel[body] + kBoxMargin;
+  grid_.insert(body, entry.box);
+  entry.is_in = true;
+}
+
+void BroadPhase::remove(BodyIndex body) {
+  Entry& entry = entries_[body];
+  leave_movers(body);
+  for (const std::uint32_t slot : entry.pairs) {
+    const Pair& pair = pairs_[slot];
+    std::erase(entries_[pair.a == body ? pair.b : pair.a].pairs, slot);
+    mark_dropped(slot);
+  }
+  entry.pairs.clear();
+  kept_pieces_ -= std::exchange(entry.kept_pieces, 0U);
+  if (entry.is_in) grid_.remove(body, entry.box);
+  entry.is_in = false;
+}
+
+bool BroadPhase::may_move(const Bodies& bodies, BodyIndex body) const {
+  return bodies.is_awake[body] != 0 && (!rule_.is_culling || !is_held(bodies, body));
+}
+
+void BroadPhase::enter_mover(const Bodies& bodies, BodyIndex body) {
+  Entry& entry = entries_[body];
+  if (entry.mover != kNoMover || !may_move(bodies, body)) return;
+  entry.mover = static_cast<std::int32_t>(movers_.size());
+  movers_.push_back(body);
+}
+
+void BroadPhase::leave_movers(BodyIndex body) {
+  const std::int32_t mover = std::exchange(entries_[body].mover, kNoMover);
+  if (mover == kNoMover) return;
+  const BodyIndex last = movers_.back();
+  movers_.pop_back();
+  if (last == body) return;
+  movers_[mover] = last;
+  entries_[last].mover = mover;
+}
+
+void BroadPhase::wake(const Bodies& bodies, BodyIndex body) {
+  enter_mover(bodies, body);
+  add_pairs_of(bodies, body);
+}
+
+void BroadPhase::sleep(const Bodies& bodies, BodyIndex body) {
+  leave_movers(body);
+  own_pairs_ = entries_[body].pairs;
+  for (const std::uint32_t pair : own_pairs_) {
+    const BodyIndex other = pairs_[pair].a == body ? pairs_[pair].b : pairs_[pair].a;
+    if (!may_move(bodies, other)) drop_pair(pair);
+  }
+}
+
+void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
+  const Box box = entries_[body].box;
+  const auto consider = [&](BodyIndex other) {
+    if (other == body) return;
+    if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
+    if (!can_press(bodies, body, other, rule_.presses_prescribed)) return;
+    const auto& smaller = entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs
+                                                                                     : entries_[other].pairs;
+    const BodyIndex a = std::min(body, other);
+    const BodyIndex b = std::max(body, other);
+    for (const std::uint32_t pair : smaller) {
+      if (pairs_[pair].a == a && pairs_[pair].b == b) return;
+    }
+    add_pair(bodies, a, b);
+  };
+  if (rule_.is_culling && is_held(bodies, body)) {
+    for (const BodyIndex other : movers_) consider(other);
+    return;
+  }
+  if (rule_.is_culling) return grid_.for_each_near(box, consider);
+  for (BodyIndex other = 0; other < bodies.size(); ++other) {
+    if (entries_[other].is_in) consider(other);
+  }
+}
+
+void BroadPhase::add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  if (need_covers(bodies, a, b, rule_)) {
+    keep_cover(bodies, a);
+    keep_cover(bodies, b);
+  }
+  std::uint32_t slot = 0;
+  if (free_pairs_.empty()) {
+    slot = static_cast<std::uint32_t>(pairs_.size());
+    pairs_.emplace_back();
+  } else {
+    slot = free_pairs_.back();
+    free_pairs_.pop_back();
+  }
+  Pair& pair = pairs_[slot];
+  pair.a = a;
+  pair.b = b;
+  pair.is_dropped = pair.is_outside = false;
+  pair.near.distance = pair.apart.distance = pair.near_bound = -1;
+  pair.parts.reset();
+  entries_[a].pairs.push_back(slot);
+  entries_[b].pairs.push_back(slot);
+  new_.push_back({a, b, -1, slot});
+}
+
+void BroadPhase::drop_pair(std::uint32_t slot) {
+  Pair& pair = pairs_[slot];
+  for (const BodyIndex body : {pair.a, pair.b}) {
+    auto& own = entries_[body].pairs;
+    own.erase(std::find(own.begin(), own.end(), slot));
+  }
+  mark_dropped(slot);
+}
+
+void BroadPhase::mark_dropped(std::uint32_t slot) {
+  pairs_[slot].is_dropped = true;
+  ++dropped_;
+}
+
+void BroadPhase::erase_dropped(std::vector<ActivePair>& list) {
+  std::erase_if(list, [&](const ActivePair& active) {
+    if (!pairs_[active.slot].is_dropped) return false;
+    free_pairs_.push_back(active.slot);
+    pairs_[active.slot].parts.reset();
+    return true;
+  });
+}
+
+/// Sorts new pairs into the lists. The long list is changed only when enough pairs have accumulated.
+void BroadPhase::merge_new() {
+  const auto merge = [](std::vector<ActivePair>& list, std::vector<ActivePair>& more) {
+    if (list.empty()) return list.swap(more);
+    const auto middle = static_cast<std::ptrdiff_t>(list.size());
+    list.insert(list.end(), more.begin(), more.end());
+    std::inplace_merge(list.begin(), list.begin() + middle, list.end());
+  };
+  std::sort(new_.begin(), new_.end());
+  merge(recent_, new_);
+  new_.clear();
+  const std::size_t many = 16 + active_.size() / 8;
+  if (dropped_ > many) {
+    erase_dropped(active_);
+    erase_dropped(recent_);
+    dropped_ = 0;
+  }
+  if (recent_.size() > many) {
+    merge(active_, recent_);
+    recent_.clear();
+  }
+}
+
+void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
+  for (const BodyIndex body : awake) {
+    if (!rule_.is_culling) break;  // every pair is there already
+    if (bodies.travel[body] <= travel_limits_[body]) continue;
+    place(bodies, body);
+    own_pairs_ = entries_[body].pairs;
+    for (const std::uint32_t pair : own_pairs_) {
+      if (!overlaps(entries_[pairs_[pair].a].box, entries_[pairs_[pair].b].box)) drop_pair(pair);
+    }
+    add_pairs_of(bodies, body);
+  }
+  if (!new_.empty() || dropped_ > 0) merge_new();
+}
+
+/// The pairs that may touch by now, by (a, b): of the active ones from begin to end, and of the recent ones
+/// that belong between these. Returns how many.
+std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
+                                     std::vector<ActivePair*>& pending) {
+  const auto recent_from = [&](std::size_t i) {
+    return i == 0 ? recent_.begin() : std::lower_bound(recent_.begin(), recent_.end(), active_[i]);
+  };
+  auto recent = recent_from(begin);
+  const auto last_recent = end < active_.size() ? recent_from(end) : recent_.end();
+  const std::size_t most = end - begin + static_cast<std::size_t>(last_recent - recent);
+  if (pending.size() < most) pending.resize(most);
+  const double* travel = bodies.travel.data();
+  ActivePair** next = pending.data();
+  const auto consider = [&](ActivePair& active) {
+    const bool is_apart = travel[active.a] + travel[active.b] <= active.separation_bound;
+    *next = &active;  // without a branch: which pairs may touch is unpredictable
+    next += is_apart & rule_.is_culling ? 0 : 1;
+  };
+  for (ActivePair* active = active_.data() + begin; active != active_.data() + end; ++active) {
+    while (recent != last_recent && *recent < *active) consider(*recent++);
+    consider(*active);
+  }
+  while (recent != last_recent) consider(*recent++);
+  return static_cast<std::size_t>(next - pending.data());
+}
+
+void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
+                         std::vector<Contact>& contacts) {
+  Pair& pair = pairs_[active.slot];
+  if (pair.is_dropped) return;
+  if (!rule_.is_culling) pair.near.distance = pair.apart.distance = pair.near_bound = -1;
+  const Pose pose = centre_a_from_b(bodies, active.a, active.b);
+  double clearance = clearance_left(bodies, active.b, pose, pair.apart);
+  if (clearance < kRounding) clearance = collide_pair(bodies, pair, pose, rule_, dt, scratch, contacts);
+  const double travelled = bodies.travel[active.a] + bodies.travel[active.b];
+  active.separation_bound = travelled + std::max(0.0, clearance - kRounding);
+}
+
+void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt,
+                               Share& share, std::vector<Contact>& contacts) {
+  constexpr std::size_t kAhead = 8;  // pairs whose memory is fetched ahead of their turn
+  const std::size_t count = find_pending(bodies, begin, end, share.pending);
+  share.scratch.keeps_distant_edges = static_cast<double>(active_.size()) <= rule_.most_pairs_with_edges;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + kAhead < count) __builtin_prefetch(&pairs_[share.pending[i + kAhead]->slot]);
+    if (i + kAhead / 2 < count) {
+      const Pair& pair = pairs_[share.pending[i + kAhead / 2]->slot];
+      __builtin_prefetch(&pair.near);
+      __builtin_prefetch(pair.parts.get());
+    }
+    collide(bodies, *share.pending[i], dt, share.scratch, contacts);
+  }
+  share.scratch.covers.clear();
+}
+
+void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
+  constexpr std::size_t kPairsPerShare = 2048;  // fewer are not worth another thread
+  contacts.clear();
+  if (!new_.empty() || dropped_ > 0) merge_new();
+  const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), kPairsPerShare));
+  if (shares_.size() < chunks) shares_.resize(chunks);
+  if (chunks == 1) return collide_share(bodies, 0, active_.size(), dt, shares_.front(), contacts);
+  for_chunks(active_.size(), kPairsPerShare, threads, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    shares_[k].contacts.clear();
+    collide_share(bodies, begin, end, dt, shares_[k], shares_[k].contacts);
+  });
+  for (std::size_t k = 0; k < chunks; ++k)
+    contacts.insert(contacts.end(), shares_[k].contacts.begin(), shares_[k].contacts.end());
+}
+
+void BroadPhase::take_blind_overlaps(std::vector<BlindOverlap>& overlaps) {
+  overlaps.clear();
+  for (Share& share : shares_) {
+    overlaps.insert(overlaps.end(), share.scratch.blind.begin(), share.scratch.blind.end());
+    share.scratch.blind.clear();
+  }
+}
+
+std::int64_t BroadPhase::take_unpaired_stretches() {
+  std::int64_t unpaired = 0;
+  for (Share& share : shares_) unpaired += std::exchange(share.scratch.unpaired, 0);
+  return unpaired;
+}
+
+/// Makes and keeps the cover of a body that another comes near, unless those kept are many.
+void BroadPhase::keep_cover(const Bodies& bodies, BodyIndex body) {
+  geometry::Boundary& boundary = *bodies.boundary[body];
+  if (boundary.is_ready()) return;
+  const double pieces = pieces_of(boundary.edges, rule_.circle_radius);
+  const bool is_cheap = pieces <= kManyPieces && !rule_.is_circle_centres;
+  if (is_cheap && kept_pieces_ + pieces > rule_.most_kept_pieces) return;
+  make_ready(boundary, {rule_.circle_radius, rule_.is_circle_centres});
+  entries_[body].kept_pieces = static_cast<std::uint32_t>(boundary.cover->pieces.size());
+  kept_pieces_ += entries_[body].kept_pieces;
+}
+
+// Contact memory of a body that breaks, and of what a saved run keeps of pairs.
+
+ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex parent) const {
+  ContactMemory memory;
+  for (const std::uint32_t slot : entries_[parent].pairs) {
+    const Pair& pair = pairs_[slot];
+    const BodyIndex other = pair.a == parent ? pair.b : pair.a;
+    if (pair.is_outside) memory.outside.push_back({other, clearance_of(bodies, pair)});
+    const Pose water_from_b = water_from_body(bodies, pair.b);
+    for (const PersistentContact& record : pair.records()) {
+      if (record.loaded_area == 0) continue;
+      memory.pressed.push_back(
+          {other, transform(water_from_b, record.last_point_in_b), record.reach, record.loaded_area});
+    }
+  }
+  std::sort(memory.outside.begin(), memory.outside.end(),
+            [](const Outside& p, const Outside& q) { return p.other < q.other; });
+  return memory;
+}
+
+void BroadPhase::note_pressed(BodyIndex body) {
+  constexpr double kEverywhere = 1e9;  // [m], and [m²] of the overlap that is found there
+  PersistentContact record;
+  record.reach = kEverywhere;
+  record.loaded_area = kEverywhere * kEverywhere;
+  record.is_inherited = true;
+  for (const std::uint32_t slot : entries_[body].pairs) pairs_[slot].own_parts().records = {record};
+}
+
+void BroadPhase::pass_contact_memory(const Bodies& bodies, BodyIndex fragment, const ContactMemory& memory) {
+  for (const std::uint32_t slot : entries_[fragment].pairs) {
+    Pair& pair = pairs_[slot];
+    const BodyIndex other = pair.a == fragment ? pair.b : pair.a;
+    const auto outside = std::lower_bound(memory.outside.begin(), memory.outside.end(), other,
+                                          [](const Outside& o, BodyIndex body) { return o.other < body; });
+    pair.is_outside = outside != memory.outside.end() && outside->other == other;
+    if (pair.is_outside && outside->clearance > 0)
+      pair.apart = {centre_a_from_b(bodies, pair.a, pair.b), outside->clearance};
+    for (const PressedOverlap& old : memory.pressed) {
+      if (old.other != other) continue;
+      PersistentContact record;
+      record.last_point_in_b = inverse_transform(water_from_body(bodies, pair.b), old.place);
+      record.reach = old.reach;
+      record.loaded_area = old.loaded_area;
+      record.is_inherited = true;
+      pair.own_parts().records.push_back(record);
+    }
+  }
+}
+
+template <class Wanted>
+std::vector<PairState> BroadPhase::states_where(Wanted is_wanted) const {
+  std::vector<PairState> states;
+  for (const std::vector<ActivePair>* list : {&active_, &recent_, &new_}) {
+    for (const ActivePair& active : *list) {
+      const Pair& pair = pairs_[active.slot];
+      if (pair.is_dropped || !is_wanted(pair)) continue;
+      const auto records = pair.records();
+      states.push_back({active.a, active.b, active.separation_bound, {records.begin(), records.end()}});
+    }
+  }
+  std::sort(states.begin(), states.end(),
+            [](const PairState& p, const PairState& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  return states;
+}
+
+std::vector<PairState> BroadPhase::pair_states() const {
+  return states_where([](const Pair&) { return true; });
+}
+
+std::vector<PairState> BroadPhase::touching_states() const {
+  return states_where([](const Pair& pair) { return !pair.records().empty(); });
+}
+
+void BroadPhase::restore(const Bodies& bodies, const std::vector<PairState>& pairs) {
+  for (const PairState& pair : pairs) {
+    add_pair(bodies, pair.a, pair.b);
+    new_.back().separation_bound = pair.separation_bound;
+    if (!pair.records.empty()) pairs_[new_.back().slot].own_parts().records = pair.records;
+  }
+  // The boxes are new, so some may meet that did not before.
+  for (BodyIndex body = 0; body < bodies.size(); ++body) {
+    if (bodies.is_awake[body] == 0) continue;
+    enter_mover(bodies, body);
+    add_pairs_of(bodies, body);
+  }
+}
+
+}  // namespace polynya::dynamics

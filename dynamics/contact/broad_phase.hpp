@@ -1,0 +1,166 @@
+#pragma once
+
+#include <vector>
+
+#include "dynamics/contact/hash_grid.hpp"
+#include "dynamics/contact/narrow_phase.hpp"
+
+namespace polynya::dynamics {
+
+/// What a saved run keeps of a pair of bodies. a < b.
+struct PairState {
+  BodyIndex a = 0;
+  BodyIndex b = 0;
+  double separation_bound = -1;  ///< the two cannot touch until they have travelled this far together [m]
+  std::vector<PersistentContact> records;
+};
+
+/// An overlap that has pressed, of a body that breaks.
+struct PressedOverlap {
+  BodyIndex other = 0;
+  geometry::Point place;   ///< in the water frame [m]
+  double reach = 0;        ///< [m]
+  double loaded_area = 0;  ///< [m²]
+};
+
+/// A body that one that breaks does not touch, neither inside the other.
+struct Outside {
+  BodyIndex other = 0;
+  double clearance = 0;  ///< how far the two can move without touching [m]
+};
+
+/// What a floe that breaks passes on to its fragments.
+struct ContactMemory {
+  std::vector<PressedOverlap> pressed;
+  std::vector<Outside> outside;  ///< by other
+};
+
+/// Finds which bodies overlap. A grid finds the pairs whose grown boxes meet; each pair keeps the edges that
+/// are near each other until the bodies have moved so far relative to each other that others might be. All
+/// bounds are conservative: what is culled cannot touch, so the contacts are those of a search over
+/// everything.
+class BroadPhase {
+ public:
+  BroadPhase(const ContactRule& rule, double grid_cell);
+
+  /// Makes room for so many bodies in all.
+  void reserve(std::size_t bodies) {
+    entries_.reserve(bodies);
+    travel_limits_.reserve(bodies);
+  }
+  /// Adds a body, asleep.
+  void add(const Bodies& bodies, BodyIndex body);
+  /// Removes a body and its pairs.
+  void remove(BodyIndex body);
+  /// What has pressed against a floe that breaks, in water, and what is outside it.
+  ContactMemory contact_memory_of(const Bodies& bodies, BodyIndex parent) const;
+  /// Passes it on to a fragment that was added and woken.
+  void pass_contact_memory(const Bodies& bodies, BodyIndex fragment, const ContactMemory& memory);
+  /// What a body shares with others where it is has all pressed before: it was crushed. Of a body that was
+  /// woken.
+  void note_pressed(BodyIndex body);
+  /// Pairs are kept only where one of the two is awake and may move: ice that is held where the water stands
+  /// meets only what comes to it, though a fast plate has a thousand pieces at rest in its box.
+  void wake(const Bodies& bodies, BodyIndex body);
+  void sleep(const Bodies& bodies, BodyIndex body);
+
+  /// Updates boxes and pairs of the awake bodies that have travelled out of their grown boxes.
+  void update(const Bodies& bodies, const std::vector<BodyIndex>& awake);
+
+  /// All contacts of the present positions, ordered by (a, b, place), the same on any number of threads.
+  /// Contact records are kept over the steps.
+  void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1);
+
+  /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
+  std::vector<PairState> pair_states() const;
+  /// Those of them that touch: the others are only near, and found again.
+  std::vector<PairState> touching_states() const;
+
+  /// Adds saved pairs, after all bodies have been added. Their caches are filled again as they are used.
+  void restore(const Bodies& bodies, const std::vector<PairState>& pairs);
+
+  /// Calls use(body) for each body whose box may meet the box, more than once where it is large.
+  template <class Use>
+  void for_bodies_near(const geometry::Box& box, Use use) const {
+    grid_.for_each_near(box, [&](BodyIndex body) {
+      if (overlaps(entries_[static_cast<std::size_t>(body)].box, box)) use(body);
+    });
+  }
+
+  /// Calls use(a, b, area) for each pair, in no order: the overlap of its bodies that has pressed [m²].
+  template <class Use>
+  void for_loaded_overlaps(Use use) const {
+    for (const Pair& pair : pairs_) {
+      double area = 0;
+      for (const PersistentContact& record : pair.records()) area += record.loaded_area;
+      if (area > 0 && !pair.is_dropped) use(pair.a, pair.b, area);
+    }
+  }
+
+  /// What find_contacts found blind since the last call, ordered by (a, b).
+  void take_blind_overlaps(std::vector<BlindOverlap>& overlaps);
+
+  /// Contact stretches whose crossings did not pair up (see geometry::find_manifolds), since the last call.
+  std::int64_t take_unpaired_stretches();
+
+ private:
+  struct Entry {        // one body
+    geometry::Box box;  // grown
+    std::vector<std::uint32_t> pairs;
+    std::uint32_t kept_pieces = 0;  // of its cover
+    bool is_in = false;
+    std::int32_t mover = kNoMover;  // place in movers_
+  };
+  static constexpr std::int32_t kNoMover = -1;
+  struct ActivePair {
+    BodyIndex a, b;
+    double separation_bound;  // the two cannot touch until they have travelled this far together [m]
+    std::uint32_t slot;
+    friend bool operator<(const ActivePair& p, const ActivePair& q) {
+      return p.a != q.a ? p.a < q.a : p.b < q.b;
+    }
+  };
+  void place(const Bodies& bodies, BodyIndex body);
+  bool may_move(const Bodies& bodies, BodyIndex body) const;
+  void enter_mover(const Bodies& bodies, BodyIndex body);
+  void leave_movers(BodyIndex body);
+  void add_pairs_of(const Bodies& bodies, BodyIndex body);
+  void add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b);
+  void keep_cover(const Bodies& bodies, BodyIndex body);
+  template <class Wanted>
+  std::vector<PairState> states_where(Wanted is_wanted) const;
+  void drop_pair(std::uint32_t pair);
+  void mark_dropped(std::uint32_t pair);
+  void merge_new();
+  void erase_dropped(std::vector<ActivePair>& list);
+  struct Share;
+  std::size_t find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
+                           std::vector<ActivePair*>& pending);
+  void collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt, Share& share,
+                     std::vector<Contact>& contacts);
+  void collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
+               std::vector<Contact>& contacts);
+
+  ContactRule rule_;
+  HashGrid grid_;
+  std::vector<Entry> entries_;
+  std::vector<BodyIndex> movers_;  // those awake that may move, in no order
+  std::vector<double>
+      travel_limits_;        // of bodies: the grown box contains one until it has travelled this far
+  std::vector<Pair> pairs_;  // slots
+  std::vector<std::uint32_t> free_pairs_;
+  std::vector<ActivePair> active_;     // pairs in use, by (a, b), dropped ones included
+  std::vector<ActivePair> recent_;     // the same; merged into active_ when there are many
+  std::vector<ActivePair> new_;        // not sorted yet
+  std::size_t dropped_ = 0;            // of all three
+  double kept_pieces_ = 0;             // of all bodies' covers
+  struct Share {                       // of the pairs in use, for one thread at a time
+    std::vector<ActivePair*> pending;  // those that may touch in this step, and room for more
+    PairScratch scratch;
+    std::vector<Contact> contacts;
+  };
+  std::vector<Share> shares_;
+  std::vector<std::uint32_t> own_pairs_;  // of a body, while some of them are dropped
+};
+
+}  // namespace polynya::dynamics

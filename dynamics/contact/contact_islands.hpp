@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dynamics/contact/contact.hpp"
+
+namespace polynya::dynamics {
+
+/// Contacts [first, first + count) of the order: those of bodies that touch, directly or through others.
+struct Island {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// The contacts of one step, island by island. A body of prescribed motion connects nothing.
+class ContactIslands {
+ public:
+  /// Islands come in the order of their first contact, and contacts keep their order within each.
+  void find(const Bodies& bodies, const std::vector<Contact>& contacts);
+
+  const std::vector<Island>& islands() const { return islands_; }
+  const std::vector<std::uint32_t>& order() const { return order_; }  ///< contacts, island by island
+  /// The bodies that touch, each once, and where contact i's two are among them.
+  const std::vector<BodyIndex>& bodies_touched() const { return touched_; }
+  std::int32_t place_of_a(std::size_t contact) const { return places_[2 * contact]; }
+  std::int32_t place_of_b(std::size_t contact) const { return places_[2 * contact + 1]; }
+
+ private:
+  std::int32_t place_of(BodyIndex body);
+  std::int32_t root_of(std::int32_t place);
+
+  std::vector<BodyIndex> touched_;
+  std::vector<std::int32_t> places_;         // two for each contact
+  std::vector<std::int32_t> place_of_body_;  // −1 between the calls
+  std::vector<std::int32_t> parent_;         // union-find over the touched
+  std::vector<std::int32_t> island_of_;      // by root
+  std::vector<std::int32_t> island_of_contact_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Island> islands_;
+};
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,226 @@
+#include "dynamics/contact/contact_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "dynamics/chunks.hpp"
+#include "dynamics/contact/jam_solver.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+/// Sweeps before the acceleration. Most islands need no more; with fewer, search directions are those of
+/// contacts that still open and close.
+constexpr int kPlainSweeps = 4;
+
+/// Of the tolerance: the slip speed within which friction grows to its bound in jams. At 1 and more, friction
+/// that sticks slips by more than the tolerance; far smaller, Newton's method finds fewer jams.
+constexpr double kSlipShare = 0.5;
+
+/// An island that needs more sweeps is jammed: Newton's method, now and again. Most small ones come to their
+/// solution by some more.
+constexpr int sweeps_to_jam(const Island& island) {
+  return island.count > 64 ? 24 : 48;
+}
+
+void solve_jam(std::span<ContactConstraint> constraints, std::span<const CrushLaw::State> states,
+               std::span<SolverBody> solver_bodies, double tolerance) {
+  std::vector<EndLaws> laws(constraints.size());
+  for (std::size_t k = 0; k < constraints.size(); ++k) {
+    const double(&inverse_mass)[2] = constraints[k].inverse_mass_at;
+    laws[k] =
+        states[k].is_rigid ? EndLaws{rigid_law(inverse_mass[0]), rigid_law(inverse_mass[1])} : states[k].ends;
+  }
+  solve_jam(constraints, laws, solver_bodies, kSlipShare * tolerance);
+}
+
+}  // namespace
+
+template <class Law>
+void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& contacts, const Law& law,
+                         int threads) {
+  auto& states = std::get<States<Law>>(states_);
+  take_bodies(bodies, islands_.bodies_touched(), solver_bodies_);
+  constraints_.resize(contacts.size());
+  states.resize(contacts.size());
+  sums_.resize(contacts.size());
+  directions_.resize(contacts.size());
+  for_chunks(contacts.size(), kContactsPerChunk, threads,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const std::uint32_t i = islands_.order()[k];
+                 // Made in their places: copying them costs as much as making them.
+                 new (&constraints_[k]) ContactConstraint(make_constraint(
+                     bodies, contacts[i], islands_.place_of_a(i), islands_.place_of_b(i), solver_bodies_));
+                 new (&states[k]) typename Law::State(state_of(law, contacts[i]));
+                 new (&sums_[k]) Sums{};
+               }
+             });
+}
+
+/// Starts a substep: bounds of the impulses, and those to start from.
+template <class Law>
+void ContactSolver::start(const Island& island, const Law& law, bool is_first) {
+  auto& states = std::get<States<Law>>(states_);
+  const std::uint32_t end_of_island = island.first + island.count;
+  for (std::uint32_t k = island.first; k < end_of_island; ++k) {
+    sums_[k].before = speeds_at(constraints_[k], solver_bodies_);
+    begin_substep(law, sums_[k].before, is_first, states[k], constraints_[k]);
+  }
+  for (std::uint32_t k = island.first; k < end_of_island; ++k) {
+    ContactConstraint& c = constraints_[k];
+    for (int end = 0; end < 2; ++end)
+      c.normal_impulse[end] = std::min(start_impulse(law, states[k], c, end, is_first), c.limit);
+    const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
+    c.slip_impulse = is_first ? 0 : std::clamp(c.slip_impulse, -most, most);
+    apply_impulses(c, c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse, solver_bodies_);
+  }
+}
+
+/// Sweeps over an island until it is solved or the sweeps are used up. Returns the residual [m/s].
+template <class Law>
+double ContactSolver::sweep(const Island& island, const Law& law, const SolverSettings& settings) {
+  auto& states = std::get<States<Law>>(states_);
+  const int to_jam = sweeps_to_jam(island);
+  Search search;
+  double residual = 0;
+  for (int round = 0; round < settings.max_iterations; ++round) {
+    const bool is_plain = round < kPlainSweeps;
+    residual = 0;
+    for (std::uint32_t k = island.first; k < island.first + island.count; ++k) {
+      ContactConstraint& c = constraints_[k];
+      if (!is_plain)
+        directions_[k].before[0] = c.normal_impulse[0], directions_[k].before[1] = c.normal_impulse[1],
+        directions_[k].before[2] = c.slip_impulse;
+      residual = std::max(residual, solve_block(law, states[k], c, solver_bodies_));
+    }
+    if (residual <= settings.tolerance || round + 1 >= settings.max_iterations) break;
+    if (Law::kHasJams && round % to_jam == to_jam - 1) {
+      if constexpr (Law::kHasJams)
+        solve_jam(std::span(constraints_).subspan(island.first, island.count),
+                  std::span(states).subspan(island.first, island.count), solver_bodies_, settings.tolerance);
+      search.sweeps = 0;
+    } else if (!is_plain) {
+      accelerate(island, search);
+    }
+  }
+  return residual;
+}
+
+/// Extrapolates all impulses of an island along their search direction, within their bounds. Jammed floes
+/// need it, whose impulses grow by little in each sweep.
+void ContactSolver::accelerate(const Island& island, Search& search) {
+  double change = 0;  // squared, as kinetic energy has it
+  for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
+    const ContactConstraint& c = constraints_[i];
+    const double(&before)[3] = directions_[i].before;
+    const double d[3] = {c.normal_impulse[0] - before[0], c.normal_impulse[1] - before[1],
+                         c.slip_impulse - before[2]};
+    change += d[0] * d[0] * c.inverse_mass_at[0] + d[1] * d[1] * c.inverse_mass_at[1] +
+              d[2] * d[2] * c.inverse_slip_mass;
+  }
+  const bool is_first = search.sweeps++ == 0;
+  const bool has_grown = change > search.last_change * (1 + 1e-6);
+  const double share = is_first || has_grown ? 0 : std::min(1.0, change / search.last_change);
+  search.last_change = change;
+  for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
+    ContactConstraint& c = constraints_[i];
+    Direction& direction = directions_[i];
+    const double p[3] = {c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse};
+    double extrapolated[3];
+    for (int k = 0; k < 3; ++k) {
+      const double along = is_first ? 0 : share * direction.along[k];
+      extrapolated[k] = p[k] + along;
+      direction.along[k] = along + (p[k] - direction.before[k]);
+    }
+    if (share == 0) continue;
+    for (int end = 0; end < 2; ++end)
+      c.normal_impulse[end] = std::clamp(extrapolated[end], c.least[end], c.limit);
+    const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
+    c.slip_impulse = std::clamp(extrapolated[2], -most, most);
+    apply_impulses(c, c.normal_impulse[0] - p[0], c.normal_impulse[1] - p[1], c.slip_impulse - p[2],
+                   solver_bodies_);
+  }
+}
+
+/// Ends a substep: its impulses and their work. Impulses together change the kinetic energy by each one times
+/// the mean of the speeds before and after.
+template <class Law>
+void ContactSolver::finish(const Island& island, const Law& law) {
+  auto& states = std::get<States<Law>>(states_);
+  for (std::uint32_t k = island.first; k < island.first + island.count; ++k) {
+    const ContactConstraint& constraint = constraints_[k];
+    Sums& sums = sums_[k];
+    const ConstraintSpeeds after = speeds_at(constraint, solver_bodies_);
+    for (int end = 0; end < 2; ++end) {
+      const double p = constraint.normal_impulse[end];
+      sums.impulse[end] += p;
+      sums.normal_work += 0.5 * p * (sums.before.apart[end] + after.apart[end]);
+    }
+    sums.slip_impulse += constraint.slip_impulse;
+    sums.slip_work += 0.5 * constraint.slip_impulse * (sums.before.slip + after.slip);
+    end_substep(law, after, constraint, states[k]);
+  }
+}
+
+template <class Law>
+double ContactSolver::solve_island(const Island& island, const Law& law, const SolverSettings& settings) {
+  double residual = 0;
+  for (int substep = 0; substep < substeps_of(law); ++substep) {
+    start(island, law, substep == 0);
+    residual = std::max(residual, sweep(island, law, settings));
+    if constexpr (Law::kRestores) {
+      const bool is_converged = residual <= settings.tolerance;
+      bool has_given = false;
+      for (std::uint32_t k = island.first; k < island.first + island.count; ++k)
+        has_given |=
+            restore(law, is_converged, std::get<States<Law>>(states_)[k], constraints_[k], solver_bodies_);
+      if (has_given) residual = std::max(residual, sweep(island, law, settings));
+    }
+    finish(island, law);
+  }
+  return residual;
+}
+
+template <class Law>
+void ContactSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts, const Law& law) {
+  const auto& states = std::get<States<Law>>(states_);
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    Contact& contact = contacts[islands_.order()[k]];
+    const Sums& sums = sums_[k];
+    for (int end = 0; end < 2; ++end) contact.normal_impulse[end] = sums.impulse[end];
+    contact.slip_impulse = sums.slip_impulse;
+    contact.normal_work = sums.normal_work;
+    contact.slip_work = sums.slip_work;
+    contact.prescribed_work = prescribed_work(constraints_[k], solver_bodies_, bodies, contact);
+    dynamics::write_back(law, states[k], constraints_[k], contact);
+  }
+  give_back_bodies(solver_bodies_, islands_.bodies_touched(), bodies);
+}
+
+SolverResult ContactSolver::solve(Bodies& bodies, std::vector<Contact>& contacts, const ResponseLaw& any_law,
+                                  const SolverSettings& settings) {
+  islands_.find(bodies, contacts);
+  const std::vector<Island>& islands = islands_.islands();
+  residuals_.assign(islands.size(), 0);
+  const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
+  const auto solve_by = [&](const auto& law) {
+    fill(bodies, contacts, law, settings.threads);
+    for_chunks(islands.size(), kIslandsPerChunk, threads,
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k)
+                   residuals_[k] = solve_island(islands[k], law, settings);
+               });
+    write_back(bodies, contacts, law);
+  };
+  std::visit(solve_by, any_law);
+  SolverResult result;
+  for (const double residual : residuals_) {
+    result.unconverged += residual > settings.tolerance;
+    result.residual = std::max(result.residual, residual);
+  }
+  return result;
+}
+
+}  // namespace polynya::dynamics

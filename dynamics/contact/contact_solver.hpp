@@ -1,0 +1,99 @@
+#pragma once
+
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "dynamics/contact/contact_islands.hpp"
+#include "dynamics/contact/crush_law.hpp"
+#include "dynamics/contact/restitution_law.hpp"
+
+namespace polynya::dynamics {
+
+/// How bodies push each other apart.
+using ResponseLaw = std::variant<CrushLaw, RestitutionLaw>;
+
+struct SolverSettings {
+  int max_iterations = 30;  ///< sweeps over an island, each substep
+  double tolerance = 1e-7;  ///< residual at which an island is solved [m/s]
+  int threads = 1;          ///< for islands side by side
+};
+
+struct SolverResult {
+  int unconverged = 0;  ///< islands that used all sweeps
+  double residual = 0;  ///< largest of all islands [m/s]
+  bool is_converged() const { return unconverged == 0; }
+};
+
+/// Finds the impulses of all contacts of one step by a response law, together with Coulomb friction, and
+/// applies them. A contact lies on a line with the ends e = 0, 1; its normal n points from body a into b.
+///
+///   v, M          velocities (x, y, rotation) and masses of its two bodies
+///   r_a,e, r_b,e  from the centres of mass to end e [m]
+///   J_e           = (−n, −r_a,e × n, n, r_b,e × n): the row that gives the separating speed, `apart` [m/s]
+///   u_e           = −J_e v, the closing speed at end e [m/s]
+///   λ_e           ≥ 0, the normal impulse on b at end e, `normal_impulse` [N s]
+///   K             = J M⁻¹ Jᵀ, the 2 × 2 mobility of the ends: impulses λ slow them by K λ [1/kg]
+///   û             = u + K λ, the trial closing speeds, without the contact's own impulses
+///   s, K_t        the slip along the line, and the speed that a slip impulse changes it by [m/s], [1/kg]
+///   λ_t           the slip impulse on b along perpendicular(n), |λ_t| ≤ μ (λ_0 + λ_1) [N s]
+///   τ             a substep [s]
+///
+/// The law gives λ = λ(û − K λ) of one contact, both ends together. Islands of bodies that touch are solved
+/// each on its own, in a sweep contact by contact: projected Gauss–Seidel [Catto2005]. Its residual is the
+/// largest change of a speed at a contact, max(|Δλ_e| K_ee, |Δλ_t| K_t); an island is solved where it is
+/// within the tolerance. After the first sweeps, each is extrapolated along the search direction of the
+/// nonsmooth nonlinear conjugate gradients of [Silcowitz2010]; jams of crushing ice are solved by Newton's
+/// method (jam_solver.hpp).
+///
+/// A response law L is a value with L::State for what it keeps of a contact within a step, and the functions
+/// that crush_law.hpp and restitution_law.hpp declare: substeps_of, state_of, begin_substep (bounds of λ),
+/// start_impulse, solve_block (one contact), end_substep, write_back (what it leaves in contact and record).
+/// One that kRestores gives impulses after the compression; of one that kHasJams, State has is_rigid and
+/// ends.
+class ContactSolver {
+ public:
+  SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const ResponseLaw& law,
+                     const SolverSettings& settings);
+
+ private:
+  struct Direction {   // of a constraint's impulses: two normal, one of slip
+    double before[3];  // at the start of the sweep
+    double along[3];   // the search direction
+  };
+  struct Search {
+    double last_change = 0;  // squared size of the last sweep's changes
+    int sweeps = 0;          // since the search started
+  };
+  struct Sums {  // of one contact over the substeps
+    ConstraintSpeeds before;
+    double impulse[2], slip_impulse;  // [N s]
+    double normal_work, slip_work;    // [J]
+  };
+  template <class Law>
+  using States = std::vector<typename Law::State>;
+
+  template <class Law>
+  void fill(const Bodies& bodies, const std::vector<Contact>& contacts, const Law& law, int threads);
+  template <class Law>
+  double solve_island(const Island& island, const Law& law, const SolverSettings& settings);
+  template <class Law>
+  void start(const Island& island, const Law& law, bool is_first);
+  template <class Law>
+  double sweep(const Island& island, const Law& law, const SolverSettings& settings);
+  void accelerate(const Island& island, Search& search);
+  template <class Law>
+  void finish(const Island& island, const Law& law);
+  template <class Law>
+  void write_back(Bodies& bodies, std::vector<Contact>& contacts, const Law& law);
+
+  ContactIslands islands_;
+  std::vector<SolverBody> solver_bodies_;       // by their places in the islands
+  std::vector<ContactConstraint> constraints_;  // in the islands' order, as all that follows
+  std::tuple<States<CrushLaw>, States<RestitutionLaw>> states_;
+  std::vector<Sums> sums_;
+  std::vector<Direction> directions_;
+  std::vector<double> residuals_;  // of the islands
+};
+
+}  // namespace polynya::dynamics

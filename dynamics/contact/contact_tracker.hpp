@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dynamics/contact/contact.hpp"
+#include "geometry/contact/boundary.hpp"
+
+namespace polynya::dynamics {
+
+/// Updates the records of a pair's contacts. A record passes to the nearest contact that may be the same; one
+/// without a contact is dropped. What has pressed is kept where overlaps join (the deepest) and where one
+/// becomes several (as far as each reaches).
+class ContactTracker {
+ public:
+  ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch,
+                 double circle_radius, double dt)
+      : records_(records), updated_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
+
+  /// `manifolds` are those of the contacts, one each.
+  void update(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
+              const Bodies& bodies);
+
+ private:
+  struct Patch {             ///< a contact's, in b's frame
+    geometry::Point middle;  ///< of the contact line, or of the overlap of a pierced body [m]
+    geometry::Vector normal;
+    double half_width, depth, reach;  ///< [m]
+    bool is_pierced;
+    bool holds(geometry::Point point_in_b) const;
+  };
+  static Patch patch_of(const Contact& contact, const geometry::ContactManifold& manifold,
+                        const Bodies& bodies);
+  double reach_of(const PersistentContact& record, const Patch& patch) const;
+  PersistentContact record_of(const Contact& contact, const Patch& patch, const Bodies& bodies);
+  void keep_what_pressed(const Contact& contact, const Patch& patch, PersistentContact& record) const;
+  void join_left_over(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
+                      const Bodies& bodies);
+  void advance(PersistentContact& record, const Contact& contact, const Patch& patch,
+               const Bodies& bodies) const;
+
+  std::vector<PersistentContact>& records_;
+  std::vector<PersistentContact>& updated_;
+  double tolerance_;  // of a contact's displacement in a step, beside half its width [m]
+  double dt_;
+};
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,182 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "dynamics/contact/contact_constraint.hpp"
+
+namespace polynya::dynamics {
+
+/// The law of a contact in which ice crushes (docs/theory.md, "Contact"): what crushing takes while the two
+/// close, nothing while they part or rest.
+///
+/// Over a time τ in which the bodies close by u⁺ (their closing speed once all impulses have acted), a
+/// contact first closes the gap g to the deepest overlap that was loaded before. What is left, x = u⁺ − g/τ,
+/// crushes new ice: the force there is F, growing by k x τ, so that the impulse is
+///
+///   λ(x) = 0                       x ≤ 0
+///          (τF/u_c + ½ k τ²) x     0 < x ≤ u_c
+///          τF + ½ k τ² x           u_c < x
+///
+/// but never more than the impulse at which the ice breaks. The creep branch up to u_c makes λ continuous; it
+/// never falls. So with K positive semidefinite the impulses of all contacts of a step, λ = λ(û − K λ), are
+/// unique (docs/theory.md): the solution of a strictly monotone problem, whatever the start.
+/// Own law; crushing force by Eq. (2) of [Sawamura2017].
+struct CrushResponse {
+  double impulse_of_force = 0;  ///< τF of this end of the contact line, ≥ 0 [N s]
+  double slope = 0;             ///< ½ k τ², ≥ 0 [N s per m/s]
+  double gap_speed = 0;         ///< g/τ, ≥ 0 [m/s]
+  double cap = 0;               ///< most impulse, ≥ 0 [N s]
+};
+
+/// u_c: below it ice creeps instead of crushing with its full strength. Regularises the law; results are
+/// alike from 1 to 20 mm/s. Far smaller, the creep branch is so steep that jams take more sweeps; greater,
+/// ice at rest is driven into other ice.
+inline constexpr double kCreepSpeed = 5e-3;  // [m/s]
+
+/// A straight branch of the law: λ = at_rest + slope · (u − g/τ).
+struct BranchLine {
+  double at_rest = 0;  ///< [N s]
+  double slope = 0;    ///< [N s per m/s]
+};
+enum class CrushBranch : std::uint8_t { kApart, kCreeping, kCrushing, kBroken };
+
+inline double creep_slope(const CrushResponse& r) {
+  return r.impulse_of_force / kCreepSpeed + r.slope;
+}
+
+/// `creep` is creep_slope(r), for those that ask often.
+inline CrushBranch branch_at(const CrushResponse& r, double creep, double closing_speed) {
+  const double x = closing_speed - r.gap_speed;
+  if (x <= 0) return CrushBranch::kApart;
+  const double crept = creep * x;
+  const double crushed = r.impulse_of_force + r.slope * x;
+  if (std::min(crept, crushed) >= r.cap) return CrushBranch::kBroken;
+  return crept < crushed ? CrushBranch::kCreeping : CrushBranch::kCrushing;
+}
+
+inline CrushBranch branch_at(const CrushResponse& r, double closing_speed) {
+  return branch_at(r, creep_slope(r), closing_speed);
+}
+
+/// The branch whose point (closing speed, impulse) is nearest one that need not obey the law, along
+/// (1, −1/inverse_mass), the line on which impulses change the speed of a mass. Far steadier than the branch
+/// at the speed alone, which jumps across the steep one that creeps. `inverse_mass`: > 0 [1/kg].
+inline CrushBranch branch_near(const CrushResponse& r, double closing_speed, double impulse,
+                               double inverse_mass) {
+  const double place = closing_speed - r.gap_speed + inverse_mass * impulse;
+  if (place <= 0) return CrushBranch::kApart;
+  const double creep = creep_slope(r);
+  const double crept = std::min(creep * kCreepSpeed, r.cap);  // the most that creeping gives
+  const double creeping_to = creep > 0 ? crept / creep : 0;
+  if (place <= creeping_to + inverse_mass * crept) return CrushBranch::kCreeping;
+  if (crept == r.cap) return CrushBranch::kBroken;
+  if (r.slope == 0) return CrushBranch::kCrushing;
+  const double crushing_to = (r.cap - r.impulse_of_force) / r.slope;
+  return place <= crushing_to + inverse_mass * r.cap ? CrushBranch::kCrushing : CrushBranch::kBroken;
+}
+
+inline BranchLine line_of(const CrushResponse& r, double creep, CrushBranch branch) {
+  switch (branch) {
+    case CrushBranch::kApart:
+      return {0, 0};
+    case CrushBranch::kCreeping:
+      return {0, creep};
+    case CrushBranch::kCrushing:
+      return {r.impulse_of_force, r.slope};
+    case CrushBranch::kBroken:
+      return {r.cap, 0};
+  }
+  return {};
+}
+
+inline BranchLine line_of(const CrushResponse& r, CrushBranch branch) {
+  return line_of(r, creep_slope(r), branch);
+}
+
+/// λ of one end [N s].
+inline double crush_impulse(const CrushResponse& r, double closing_speed) {
+  const double creep = creep_slope(r);
+  const BranchLine line = line_of(r, creep, branch_at(r, creep, closing_speed));
+  return line.at_rest + line.slope * (closing_speed - r.gap_speed);
+}
+
+/// The branches that the two ends of a contact line are on.
+struct ActiveBranches {
+  CrushBranch of[2] = {CrushBranch::kApart, CrushBranch::kApart};
+  friend bool operator==(const ActiveBranches&, const ActiveBranches&) = default;
+};
+
+/// How the impulses at the two ends of a contact line slow their closing: u = û − K λ, K symmetric, positive
+/// semidefinite [1/kg].
+struct EndsMobility {
+  double at[2];
+  double between;
+};
+inline EndsMobility mobility_of(const ContactConstraint& c) {
+  return {{c.inverse_mass_at[0], c.inverse_mass_at[1]}, c.inverse_mass_between};
+}
+/// û = u + K λ: the closing speeds without a contact's own impulses, by its separating speeds [m/s].
+inline std::array<double, 2> trial_speeds(const EndsMobility& k, const std::array<double, 2>& apart,
+                                          const double* impulse) {
+  return {-apart[0] + k.at[0] * impulse[0] + k.between * impulse[1],
+          -apart[1] + k.between * impulse[0] + k.at[1] * impulse[1]};
+}
+
+/// The impulses of both ends that obey the law together: λ_i = λ_i(û_i − (K λ)_i), û the closing speeds
+/// without them [m/s]. On each pair of branches this is a 2 × 2 system, (I + diag(β) K) λ = α + β (û − g/τ);
+/// the branches follow from its solution, as in Newton's method, and where that goes round in circles, all
+/// pairs are tried. Starts from `branches`, or from those of û where both are apart, and leaves there those
+/// of the solution: the next one is likely on the same.
+std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
+                                     const std::array<double, 2>& closing_speed, ActiveBranches& branches);
+
+/// Both ends' law of one contact.
+using EndLaws = std::array<CrushResponse, 2>;
+
+/// The response law of crushing ice, over the substeps of a step (contact_solver.hpp). Contacts that do not
+/// crush (Contact::is_rigid) end the approach of their bodies.
+struct CrushLaw {
+  double step = 0;   ///< Δt [s]
+  int substeps = 1;  ///< equal parts of the step, solved one after the other on the step's geometry
+  bool is_warm_started = true;  ///< from the impulses of the step before
+  static constexpr bool kHasJams = true, kRestores = false;
+
+  /// Of one contact, through the substeps.
+  struct State {
+    double force, stiffness;  ///< F and k at the depth reached, both ends together [N], [N/m]
+    double depth, loaded;     ///< overlap now, and the deepest that was loaded [m]
+    double missed;            ///< impulse before the contact was found [N s]
+    double breaking_force;    ///< [N]
+    EndLaws ends;             ///< of the substep
+    ActiveBranches branches;  ///< of the ends, at the last solution
+    double last_impulse[2];   ///< where the step starts [N s]
+    bool is_rigid, is_broken;
+  };
+};
+
+constexpr int substeps_of(const CrushLaw& law) {
+  return law.substeps;
+}
+CrushLaw::State state_of(const CrushLaw& law, const Contact& contact);
+void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_first, CrushLaw::State& state,
+                   ContactConstraint& constraint);
+/// λ of one end where the substep's sweeps start [N s].
+inline double start_impulse(const CrushLaw& law, const CrushLaw::State& state,
+                            const ContactConstraint& constraint, int end, bool is_first) {
+  if (!law.is_warm_started) return 0;
+  return is_first ? state.last_impulse[end] : constraint.normal_impulse[end];
+}
+/// The impulses of both ends by the law, then the slip impulse within the Coulomb cone. Returns the largest
+/// change of a speed at the contact [m/s].
+double solve_block(const CrushLaw& law, CrushLaw::State& state, ContactConstraint& constraint,
+                   std::span<SolverBody> solver_bodies);
+void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const ContactConstraint& constraint,
+                 CrushLaw::State& state);
+/// Writes what the step leaves into the contact, whose impulses are found, and its record. The constraint has
+/// those of the last substep.
+void write_back(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
+                Contact& contact);
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,254 @@
+#include "dynamics/contact/internal/jam_matrix.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+
+namespace polynya::dynamics {
+namespace {
+
+using Block = double[3][3];
+using Three = std::array<double, 3>;
+
+/// The first unknown of a body.
+Eigen::Index first_of(std::size_t body) {
+  return static_cast<Eigen::Index>(3 * body);
+}
+
+/// to += pᵀ S q, of one contact; w = S q.
+void add_product(Block& to, const Block& p, const Block& w) {
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) to[i][j] += p[0][i] * w[0][j] + p[1][i] * w[1][j] + p[2][i] * w[2][j];
+  }
+}
+
+void slopes_times(const JamLoad& load, const Block& q, Block& w) {
+  for (int j = 0; j < 3; ++j) {
+    w[0][j] = load.slope[0] * q[0][j];
+    w[1][j] = load.slope[1] * q[1][j];
+    w[2][j] = load.slip_by_apart[0] * q[0][j] + load.slip_by_apart[1] * q[1][j] + load.slope[2] * q[2][j];
+  }
+}
+
+/// to −= l u
+void subtract_product(Block& to, const Block& l, const Block& u) {
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) to[i][j] -= l[i][0] * u[0][j] + l[i][1] * u[1][j] + l[i][2] * u[2][j];
+  }
+}
+
+/// L U in the block's place, of its rows in the order found, the largest first, with the inverses of U's
+/// diagonal. Returns whether it is regular.
+bool factorize_own(Block& d, int (&row)[3]) {
+  for (int k = 0; k < 3; ++k) row[k] = k;
+  for (int k = 0; k < 3; ++k) {
+    int largest = k;
+    for (int i = k + 1; i < 3; ++i) {
+      if (std::abs(d[i][k]) > std::abs(d[largest][k])) largest = i;
+    }
+    if (largest != k) {
+      std::swap(d[k], d[largest]);
+      std::swap(row[k], row[largest]);
+    }
+    if (d[k][k] == 0 || !std::isfinite(d[k][k])) return false;
+    d[k][k] = 1 / d[k][k];
+    for (int i = k + 1; i < 3; ++i) {
+      d[i][k] *= d[k][k];
+      for (int j = k + 1; j < 3; ++j) d[i][j] -= d[i][k] * d[k][j];
+    }
+  }
+  return true;
+}
+
+/// u = L⁻¹ u, of the rows in their order; l = l U⁻¹
+void divide(Block& u, Block& l, const Block& d, const int (&row)[3]) {
+  for (int k = 0; k < 3; ++k) {
+    const double was[3] = {u[0][k], u[1][k], u[2][k]};
+    u[0][k] = was[row[0]];
+    u[1][k] = was[row[1]] - d[1][0] * u[0][k];
+    u[2][k] = was[row[2]] - d[2][0] * u[0][k] - d[2][1] * u[1][k];
+    l[k][0] *= d[0][0];
+    l[k][1] = (l[k][1] - l[k][0] * d[0][1]) * d[1][1];
+    l[k][2] = (l[k][2] - l[k][0] * d[0][2] - l[k][1] * d[1][2]) * d[2][2];
+  }
+}
+
+/// L⁻¹ x, of the rows in their order.
+void solve_lower(const Block& d, const int (&row)[3], Three& x) {
+  const Three was = x;
+  x[0] = was[row[0]];
+  x[1] = was[row[1]] - d[1][0] * x[0];
+  x[2] = was[row[2]] - d[2][0] * x[0] - d[2][1] * x[1];
+}
+
+/// U⁻¹ x
+void solve_upper(const Block& d, Three& x) {
+  x[2] *= d[2][2];
+  x[1] = (x[1] - d[1][2] * x[2]) * d[1][1];
+  x[0] = (x[0] - d[0][1] * x[1] - d[0][2] * x[2]) * d[0][0];
+}
+
+/// x −= m y
+void subtract(Three& x, const Block& m, const Three& y) {
+  for (int i = 0; i < 3; ++i) x[i] -= m[i][0] * y[0] + m[i][1] * y[1] + m[i][2] * y[2];
+}
+
+}  // namespace
+
+JamMatrix::JamMatrix(int bodies, std::span<const JamRows> rows)
+    : place_of_(static_cast<std::size_t>(bodies)), own_(static_cast<std::size_t>(bodies)) {
+  order_bodies(rows);
+  find_pairs(rows);
+  for (const JamRows& r : rows) {
+    const int a = r.a < 0 ? -1 : place_of_[r.a];
+    const int b = r.b < 0 ? -1 : place_of_[r.b];
+    places_.push_back({a, b, a < 0 || b < 0 ? -1 : pair_of(std::min(a, b), std::max(a, b))});
+  }
+}
+
+/// An order in which few blocks fill in.
+void JamMatrix::order_bodies(std::span<const JamRows> rows) {
+  const int bodies = static_cast<int>(place_of_.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(place_of_.size() + 2 * rows.size());
+  for (int i = 0; i < bodies; ++i) entries.emplace_back(i, i, 1);
+  for (const JamRows& r : rows) {
+    if (r.a < 0 || r.b < 0) continue;
+    entries.emplace_back(r.a, r.b, 1);
+    entries.emplace_back(r.b, r.a, 1);
+  }
+  Eigen::SparseMatrix<double> graph(bodies, bodies);
+  graph.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::AMDOrdering<int>()(graph, order);
+  for (int i = 0; i < bodies; ++i) place_of_[order.indices()[i]] = i;
+}
+
+/// A body's pairs are those of its contacts, and those of the bodies that it is the first later one of
+/// [Davis2006].
+void JamMatrix::find_pairs(std::span<const JamRows> rows) {
+  const std::size_t bodies = place_of_.size();
+  std::vector<std::vector<int>> later(bodies);
+  for (const JamRows& r : rows) {
+    if (r.a < 0 || r.b < 0) continue;
+    const auto [first, second] = std::minmax(place_of_[r.a], place_of_[r.b]);
+    later[first].push_back(second);
+  }
+  first_.push_back(0);
+  for (std::size_t i = 0; i < bodies; ++i) {
+    std::vector<int>& mine = later[i];
+    std::sort(mine.begin(), mine.end());
+    mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+    for (const int j : mine) pairs_.push_back({.later = j, .is_filled = false, .upper = {}, .lower = {}});
+    first_.push_back(static_cast<int>(pairs_.size()));
+    if (!mine.empty()) later[mine[0]].insert(later[mine[0]].end(), mine.begin() + 1, mine.end());
+  }
+  find_targets();
+}
+
+void JamMatrix::find_targets() {
+  for (std::size_t i = 0; i < place_of_.size(); ++i) {
+    for (int p = first_[i]; p < first_[i + 1]; ++p) {
+      int at = first_[pairs_[p].later];
+      for (int q = p + 1; q < first_[i + 1]; ++q) {
+        while (pairs_[at].later != pairs_[q].later) ++at;
+        targets_.push_back(at);
+      }
+    }
+  }
+}
+
+int JamMatrix::pair_of(int earlier, int later) const {
+  int at = first_[earlier];
+  while (pairs_[at].later != later) ++at;
+  return at;
+}
+
+void JamMatrix::add_up(const Eigen::VectorXd& mass, std::span<const JamRows> rows,
+                       std::span<const JamLoad> loads) {
+  for (std::size_t i = 0; i < place_of_.size(); ++i) {
+    Own& own = own_[place_of_[i]];
+    own = {};
+    for (int k = 0; k < 3; ++k) own.at[k][k] = mass[first_of(i) + k];
+  }
+  for (Pair& pair : pairs_) {
+    if (pair.is_filled) pair = {.later = pair.later, .is_filled = false, .upper = {}, .lower = {}};
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const JamLoad& load = loads[k];
+    if (load.slope[0] == 0 && load.slope[1] == 0 && load.slope[2] == 0) continue;
+    const Places& place = places_[k];
+    Block by_a, by_b;
+    slopes_times(load, rows[k].of_a, by_a.at);
+    slopes_times(load, rows[k].of_b, by_b.at);
+    if (place.a >= 0) add_product(own_[place.a].at, rows[k].of_a, by_a.at);
+    if (place.b >= 0) add_product(own_[place.b].at, rows[k].of_b, by_b.at);
+    if (place.pair < 0) continue;
+    Pair& pair = pairs_[place.pair];
+    pair.is_filled = true;
+    const bool is_a_first = place.a < place.b;
+    add_product(is_a_first ? pair.upper.at : pair.lower.at, rows[k].of_a, by_b.at);
+    add_product(is_a_first ? pair.lower.at : pair.upper.at, rows[k].of_b, by_a.at);
+  }
+}
+
+/// Takes what a body's blocks contribute from those of the later ones. Its own block is factorized. Most
+/// contacts of a jam carry nothing: their blocks are left out.
+void JamMatrix::eliminate(int body, const int* targets) {
+  const Own& own = own_[body];
+  Pair* const begin = pairs_.data() + first_[body];
+  Pair* const end = pairs_.data() + first_[body + 1];
+  for (Pair* p = begin; p != end; ++p) {
+    if (p->is_filled) divide(p->upper.at, p->lower.at, own.at, own.row);
+  }
+  for (Pair* p = begin; p != end; targets += end - ++p) {
+    if (!p->is_filled) continue;
+    subtract_product(own_[p->later].at, p->lower.at, p->upper.at);
+    for (Pair* q = p + 1; q != end; ++q) {
+      if (!q->is_filled) continue;
+      Pair& to = pairs_[targets[q - p - 1]];
+      to.is_filled = true;
+      subtract_product(to.upper.at, p->lower.at, q->upper.at);
+      subtract_product(to.lower.at, q->lower.at, p->upper.at);
+    }
+  }
+}
+
+bool JamMatrix::factorize(const Eigen::VectorXd& mass, std::span<const JamRows> rows,
+                          std::span<const JamLoad> loads) {
+  add_up(mass, rows, loads);
+  const int* target = targets_.data();
+  for (int i = 0; i < static_cast<int>(own_.size()); ++i) {
+    if (!factorize_own(own_[i].at, own_[i].row)) return false;
+    eliminate(i, target);
+    const int pairs = first_[i + 1] - first_[i];
+    target += pairs * (pairs - 1) / 2;
+  }
+  return true;
+}
+
+Eigen::VectorXd JamMatrix::solve(const Eigen::VectorXd& right) const {
+  const std::size_t bodies = own_.size();
+  std::vector<Three> x(bodies);
+  for (std::size_t i = 0; i < bodies; ++i) std::copy_n(&right[first_of(i)], 3, x[place_of_[i]].data());
+  for (std::size_t i = 0; i < bodies; ++i) {
+    solve_lower(own_[i].at, own_[i].row, x[i]);
+    for (int p = first_[i]; p < first_[i + 1]; ++p) {
+      if (pairs_[p].is_filled) subtract(x[pairs_[p].later], pairs_[p].lower.at, x[i]);
+    }
+  }
+  for (std::size_t i = bodies; i-- > 0;) {
+    for (int p = first_[i]; p < first_[i + 1]; ++p) {
+      if (pairs_[p].is_filled) subtract(x[i], pairs_[p].upper.at, x[pairs_[p].later]);
+    }
+    solve_upper(own_[i].at, x[i]);
+  }
+  Eigen::VectorXd solution(right.size());
+  for (std::size_t i = 0; i < bodies; ++i) std::copy_n(x[place_of_[i]].data(), 3, &solution[first_of(i)]);
+  return solution;
+}
+
+}  // namespace polynya::dynamics

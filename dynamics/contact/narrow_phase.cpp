@@ -1,0 +1,221 @@
+#include "dynamics/contact/narrow_phase.hpp"
+
+#include <algorithm>
+
+#include "dynamics/contact/contact_tracker.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+using geometry::Pose;
+using geometry::Rotation;
+using geometry::Vector;
+
+/// Bounding circles within this distance are kept with a pair [m]. It decides only how often they are sought
+/// again (smaller: more often) against how many are compared in each step (greater: more).
+constexpr double kNearMargin = 0.75;
+
+/// A body's neighbours in a field, and some of the next one's. Fewer: covers are made again more often.
+constexpr std::size_t kSecond = 32;
+
+geometry::CircleRule circle_rule(const ContactRule& rule) {
+  return {rule.circle_radius, rule.is_circle_centres};
+}
+
+/// Finds the circles and edges of a pair that are near each other. Returns a lower bound of the bodies'
+/// distance, 0 where some are near [m].
+double near_parts(const Bodies& bodies, const Pair& pair, const Pose& a_from_b, const ContactRule& rule,
+                  PairScratch& scratch) {
+  if (!need_covers(bodies, pair.a, pair.b, rule))
+    return near_edges(bodies.boundary[pair.a]->edges, bodies.boundary[pair.b]->edges, a_from_b, kNearMargin,
+                      scratch.near_edges);
+  const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
+  scratch.near_circles.clear();
+  const double distance = near_circles(a, b, a_from_b, kNearMargin, scratch.near_circles);
+  edges_of(a, b, scratch.near_circles, scratch.near_edges);
+  return distance;
+}
+
+void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
+               PairScratch& scratch) {
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
+  const double distance = near_parts(bodies, pair, a_from_b, rule, scratch);
+  const bool is_any_near = !scratch.near_edges.pairs.empty();
+  if (is_any_near) {
+    pair.own_parts().edges = scratch.near_edges;  // a copy is no larger than it has to be
+    if (rule.is_circle_centres) pair.parts->circles = scratch.near_circles;
+  } else if (pair.parts != nullptr) {
+    pair.parts->edges.pairs.clear();
+  }
+  pair.near = {pose, (is_any_near ? kNearMargin : distance) * (1 - 1e-9)};
+}
+
+void forget_near(Pair& pair) {
+  pair.parts.reset();
+  pair.near = {};
+  pair.near_bound = -1;
+}
+
+/// Notes the manifolds that are blind and removes those that have no direction to part the bodies in.
+void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch) {
+  BlindOverlap blind{pair.a, pair.b, false, 0, 0, 0, {}};
+  double largest = 0;
+  for (const geometry::ContactManifold& m : scratch.manifolds) {
+    if (!m.is_pierced || !geometry::is_blind(m.width, m.area, m.extent)) continue;
+    blind.area += m.area;
+    if (m.area <= largest) continue;
+    largest = m.area;
+    blind.width = m.width;
+    blind.least_width = geometry::kBlindShare * m.area / m.extent;
+    blind.middle = transform(water_from_a, m.centroid);
+  }
+  if (blind.area > 0) scratch.blind.push_back(blind);
+  std::erase_if(scratch.manifolds, [](const geometry::ContactManifold& m) {
+    return m.is_pierced && m.width <= geometry::kNoWidth;
+  });
+}
+
+/// Two bodies whose boundaries do not cross: notes where one is inside the other.
+void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
+                 PairScratch& scratch) {
+  if (pair.is_outside) return;
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
+  if (need_covers(bodies, pair.a, pair.b, rule)) {
+    const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
+    pair.is_outside = !is_one_inside(a, b, a_from_b);
+  } else {
+    pair.is_outside =
+        !is_one_inside(bodies.boundary[pair.a]->edges, bodies.boundary[pair.b]->edges, a_from_b);
+  }
+  if (pair.is_outside) return;
+  const BodyIndex inner = bodies.bounding_radius[pair.a] < bodies.bounding_radius[pair.b] ? pair.a : pair.b;
+  scratch.blind.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
+}
+
+/// Appends the contacts of a pair among its near edges. Returns whether the two are apart.
+bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
+             PairScratch& scratch, std::vector<Contact>& contacts) {
+  const geometry::Boundary& a = *bodies.boundary[pair.a];
+  const geometry::Boundary& b = *bodies.boundary[pair.b];
+  const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
+  scratch.manifolds.clear();
+  int unpaired = 0;
+  if (rule.is_circle_centres) {
+    find_circle_manifolds(a, b, a_from_b, pair.parts->circles, scratch.manifolds);
+  } else {
+    unpaired = find_manifolds(a, b, a_from_b, pair.parts->edges, scratch.crossings, scratch.manifolds);
+  }
+  scratch.unpaired += unpaired;
+  if (scratch.manifolds.empty()) {
+    const bool is_apart = unpaired == 0;
+    if (is_apart && !rule.is_circle_centres && scratch.crossings.crossings.empty())
+      take_inside(bodies, pair, pose, rule, scratch);
+    return is_apart;
+  }
+  const Pose water_from_a = water_from_body(bodies, pair.a);
+  if (std::ranges::any_of(scratch.manifolds, &geometry::ContactManifold::is_pierced))
+    take_blind(pair, water_from_a, scratch);
+  std::uint32_t number = 0;
+  for (const geometry::ContactManifold& manifold : scratch.manifolds) {
+    Contact& c = contacts.emplace_back();
+    c.a = pair.a;
+    c.b = pair.b;
+    for (int end = 0; end < 2; ++end) c.ends[end] = transform(water_from_a, manifold.ends[end]);
+    c.tip_of_b = transform(water_from_a, manifold.tip_of_b);
+    c.tip_of_a = transform(water_from_a, manifold.tip_of_a);
+    c.normal = rotate(water_from_a.rotation, manifold.normal);
+    c.width = manifold.width;
+    c.depth = manifold.depth;
+    c.area = manifold.area;
+    c.tip_edge_of_b = manifold.tip_edge_of_b;
+    c.place = number++;
+    const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -
+                            velocity_at(bodies, c.a, c.middle() - bodies.position[c.a]);
+    c.approach_speed = -dot(relative, c.normal);
+    c.slip_speed = dot(relative, perpendicular(c.normal));
+  }
+  return false;
+}
+
+}  // namespace
+
+std::pair<geometry::Covered, geometry::Covered> CoverCache::of(const Bodies& bodies, BodyIndex a, BodyIndex b,
+                                                               const geometry::CircleRule& rule) {
+  const geometry::Boundary& of_a = *bodies.boundary[a];
+  const geometry::Boundary& of_b = *bodies.boundary[b];
+  return {{of_a.edges, of_a.is_ready() ? *of_a.cover : first(of_a, a, rule)},
+          {of_b.edges, of_b.is_ready() ? *of_b.cover : second(of_b, b, rule)}};
+}
+
+void CoverCache::clear() {
+  first_ = {};
+  second_ = std::vector<Entry>();
+}
+
+const geometry::Cover& CoverCache::first(const geometry::Boundary& boundary, BodyIndex body,
+                                         const geometry::CircleRule& rule) {
+  if (first_.body == body) return first_.cover;
+  if (!second_.empty()) {  // pairs are ordered by their first body: most have been the second one before
+    Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
+    if (entry.body == body) {
+      std::swap(first_, entry);
+      return first_.cover;
+    }
+  }
+  first_.body = -1;
+  make_cover(boundary.edges, rule, first_.cover);
+  first_.body = body;
+  return first_.cover;
+}
+
+const geometry::Cover& CoverCache::second(const geometry::Boundary& boundary, BodyIndex body,
+                                          const geometry::CircleRule& rule) {
+  if (second_.empty()) second_.resize(kSecond);
+  Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
+  if (entry.body == body) return entry.cover;
+  entry.body = -1;
+  make_cover(boundary.edges, rule, entry.cover);
+  entry.body = body;
+  return entry.cover;
+}
+
+double clearance_left(const Bodies& bodies, BodyIndex b, const Pose& pose, const Clearance& clearance) {
+  if (clearance.distance < 0) return clearance.distance;
+  const Rotation before = clearance.a_from_b.rotation;
+  const Vector turn{pose.rotation.cosine - before.cosine, pose.rotation.sine - before.sine};  // as a chord
+  return clearance.distance - distance(pose.position, clearance.a_from_b.position) -
+         length(turn) * bodies.bounding_radius[b];
+}
+
+double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, double dt,
+                    PairScratch& scratch, std::vector<Contact>& contacts) {
+  const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
+  if (travelled > pair.near_bound) {
+    if (clearance_left(bodies, pair.b, pose, pair.near) < kRounding)
+      find_near(bodies, pair, pose, rule, scratch);
+    pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
+  }
+  if (!pair.has_near_edges()) {
+    take_inside(bodies, pair, pose, rule, scratch);
+    pair.parts.reset();
+    pair.apart = pair.near;
+    return clearance_left(bodies, pair.b, pose, pair.apart);
+  }
+  const std::size_t first = contacts.size();
+  const bool is_apart = collect(bodies, pair, pose, rule, scratch, contacts);
+  if (!is_apart) {
+    ContactTracker(pair.parts->records, scratch.records, rule.circle_radius, dt)
+        .update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
+    pair.apart.distance = -1;
+    pair.is_outside = false;
+    return -1;
+  }
+  // Circles lie inside the ice: no two can overlap while the boundaries are apart.
+  const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.parts->edges);
+  pair.parts->records.clear();
+  pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};
+  if (!scratch.keeps_distant_edges && gap > rule.kept_gap) forget_near(pair);
+  return pair.apart.distance;
+}
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "dynamics/contact/contact_constraint.hpp"
+
+namespace polynya::dynamics {
+
+/// Two bodies at a point of contact, as Eq. (5) sees them. Prescribed motion: inverse mass and moment are 0.
+struct Mobility {
+  double inverse_mass = 0;    ///< [1/kg]
+  double inverse_moment = 0;  ///< [1/(kg m²)]
+  geometry::Vector arm;       ///< from the centre of mass to the contact point [m]
+};
+
+/// 1 / [1/m_i + 1/m_k + (r_i × n)²/I_i + (r_k × n)²/I_k]: the effective mass against an impulse along n at
+/// the contact [kg]. Eq. (5) of [Sawamura2017]. Deviation: as printed r_i and r_k are crossed; that reading
+/// gains energy.
+inline double effective_mass(const Mobility& i, const Mobility& k, geometry::Vector direction) {
+  const double arm_cross_i = cross(i.arm, direction);
+  const double arm_cross_k = cross(k.arm, direction);
+  return 1 / (i.inverse_mass + k.inverse_mass + arm_cross_i * arm_cross_i * i.inverse_moment +
+              arm_cross_k * arm_cross_k * k.inverse_moment);
+}
+
+/// j = (1 + ε) v_n m_eff [N s] for an approach speed v_n > 0 [m/s], 0 otherwise. Eq. (5) of [Sawamura2017].
+inline double collision_impulse(double approach_speed, double restitution, double effective_mass) {
+  return approach_speed > 0 ? (1 + restitution) * approach_speed * effective_mass : 0;
+}
+
+/// The paper's response law (contact_solver.hpp), Eq. (5) corrected at each end of a contact line, normal
+/// impulses within [0, limit/2], limit = F Δt what crushing ice carries in the step:
+///   1. Compression: impulses that end every approach, started from what the last two steps predict (a steady
+///      push continues, a blow does not).
+///   2. Restitution, as Poisson's share of the compression: ε times the impulse that compressed the contact.
+///      One that is not limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says; one that crushes, over as
+///      many steps as the ice needs. Never more than twice ε times what would end the approach of its two
+///      bodies alone, so that a squeeze from elsewhere does not charge it.
+///   3. Compression again, of what restitution pushed together.
+struct RestitutionLaw {
+  double restitution = 0.1;  ///< ε of Eq. (5) [-]
+  double step = 1;           ///< Δt [s]
+  static constexpr bool kHasJams = false, kRestores = true;
+
+  struct State {
+    PersistentContact* record;  ///< null: nothing is kept from step to step
+    double crushing_impulse;    ///< F Δt, infinite where nothing crushes [N s]
+  };
+};
+
+/// Poisson's share is of a whole step's compression.
+constexpr int substeps_of(const RestitutionLaw& /*law*/) {
+  return 1;
+}
+inline RestitutionLaw::State state_of(const RestitutionLaw& law, const Contact& contact) {
+  return {contact.record, contact.crushing_force * law.step};
+}
+void begin_substep(const RestitutionLaw& law, const ConstraintSpeeds& before, bool is_first,
+                   RestitutionLaw::State& state, ContactConstraint& constraint);
+inline double start_impulse(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
+                            const ContactConstraint& /*constraint*/, int end, bool /*is_first*/) {
+  return state.record != nullptr ? state.record->restitution.start_impulse[end] : 0;
+}
+inline double solve_block(const RestitutionLaw& /*law*/, RestitutionLaw::State& /*state*/,
+                          ContactConstraint& constraint, std::span<SolverBody> solver_bodies) {
+  return solve_constraint(constraint, solver_bodies);
+}
+/// Gives back what a compression owes. Returns whether it gave any impulse, after which compression goes on.
+bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State& state,
+             ContactConstraint& constraint, std::span<SolverBody> solver_bodies);
+inline void end_substep(const RestitutionLaw& /*law*/, const ConstraintSpeeds& /*after*/,
+                        const ContactConstraint& /*constraint*/, RestitutionLaw::State& /*state*/) {}
+inline void write_back(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
+                       const ContactConstraint& /*constraint*/, Contact& contact) {
+  contact.is_at_limit = contact.total_normal_impulse() >= state.crushing_impulse * (1 - 1e-9);
+}
+
+struct SeparationSettings {
+  double time = 1.0;   ///< decay time of overlap that nothing presses together any more [s]
+  double slop = 1e-4;  ///< overlap that is allowed [m]
+};
+
+/// Moves overlapping bodies apart without giving them speed (split impulse): along the normals, in
+/// proportion to their inverse masses, the overlap beyond what crushing made decays over the settings' time.
+/// Returns how many contacts it moved.
+int separate(Bodies& bodies, const std::vector<Contact>& contacts, const SeparationSettings& settings,
+             double dt);
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,229 @@
+#include "dynamics/water/water_drag.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/container/small_vector.hpp>
+
+#include "dynamics/chunks.hpp"
+#include "geometry/shape/avx2_clone.hpp"
+
+namespace polynya::dynamics {
+
+using geometry::Vector;
+
+namespace {
+
+constexpr int kDirections = DragShape::kDirections;
+
+/// Where a direction (of any length > 0) is among those of half a turn, from [0, kDirections]. The inverse of
+/// drag_direction.
+inline double place_along(Vector d) {
+  const bool is_behind = d.y < 0;
+  const double x = is_behind ? -d.x : d.x;
+  const double y = is_behind ? -d.y : d.y;
+  const double from_axis = y / (std::abs(x) + y);
+  return (x >= 0 ? from_axis : 2 - from_axis) * (0.5 * kDirections);
+}
+
+}  // namespace
+
+double width_across(const DragShape& shape, Vector direction_in_body) {
+  if (shape.is_same) return shape.same_width;
+  const double at = place_along(direction_in_body);
+  const int k = std::min(static_cast<int>(at), kDirections - 1);
+  return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
+}
+
+namespace {
+
+/// Some bodies side by side, for loops that the compiler turns into vector instructions. Plain arrays: it
+/// does not of those that check their indices.
+struct Lanes {
+  static constexpr std::size_t kMost = 32;
+  BodyIndex body[kMost];
+  // The motion through the water, and what changes it.
+  double ux[kMost], uy[kMost], speed[kMost], cosine[kMost], sine[kMost], place[kMost], width[kMost];
+  double rate[kMost], skin[kMost], skin_turning[kMost], inverse_mass[kMost], mass[kMost];
+  double omega[kMost], rotational[kMost], inverse_moment[kMost], moment[kMost];
+  // The motion after the step is the water's and this.
+  double ux_after[kMost], uy_after[kMost], omega_after[kMost];
+  // What the water did.
+  double slowing[kMost], lost[kMost], lost_turning[kMost], turning_slowing[kMost];
+};
+
+POLYNYA_AVX2_CLONE void find_places(Lanes& l, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    l.speed[i] = std::sqrt(l.ux[i] * l.ux[i] + l.uy[i] * l.uy[i]);
+    const double x = l.cosine[i] * l.ux[i] + l.sine[i] * l.uy[i];
+    const double y = -l.sine[i] * l.ux[i] + l.cosine[i] * l.uy[i];
+    const double place = place_along({x, y});
+    l.place[i] = l.speed[i] > 0 ? place : 0;
+  }
+}
+
+POLYNYA_AVX2_CLONE void brake(Lanes& l, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double shrink = 1 / (1 + (l.rate[i] * l.width[i] + l.skin[i]) * l.inverse_mass[i] * l.speed[i]);
+    l.ux_after[i] = shrink * l.ux[i];
+    l.uy_after[i] = shrink * l.uy[i];
+    l.slowing[i] = l.mass[i] * (1 - shrink);
+    l.lost[i] = 0.5 * l.slowing[i] * (1 + shrink) * l.speed[i] * l.speed[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double rate = l.rate[i] * l.rotational[i] + l.skin_turning[i];
+    const double shrink = 1 / (1 + rate * l.inverse_moment[i] * std::abs(l.omega[i]));
+    l.omega_after[i] = shrink * l.omega[i];
+    l.turning_slowing[i] = l.moment[i] * (1 - shrink) * l.omega[i];
+    l.lost_turning[i] = 0.5 * l.turning_slowing[i] * (1 + shrink) * l.omega[i];
+  }
+}
+
+/// The columns of the bodies that drag reads and changes, without checks of each index.
+struct Columns {
+  explicit Columns(Bodies& bodies)
+      : position(bodies.position.data()),
+        rotation(bodies.rotation.data()),
+        velocity(bodies.velocity.data()),
+        angular_velocity(bodies.angular_velocity.data()),
+        mass(bodies.mass.data()),
+        inverse_mass(bodies.inverse_mass.data()),
+        moment(bodies.moment.data()),
+        inverse_moment(bodies.inverse_moment.data()),
+        thickness(bodies.thickness.data()),
+        area(bodies.area.data()),
+        span(bodies.drag_span.data()),
+        drag(bodies.drag.data()),
+        centroid(bodies.centroid.data()),
+        boundary(bodies.boundary.data()) {}
+
+  const geometry::Point* position;
+  const geometry::Rotation* rotation;
+  Vector* velocity;
+  double* angular_velocity;
+  const double *mass, *inverse_mass, *moment, *inverse_moment, *thickness, *area;
+  DragSpan* span;
+  const std::shared_ptr<const DragShape>* drag;
+  const geometry::Point* centroid;
+  const std::shared_ptr<geometry::Boundary>* boundary;
+};
+
+/// The widths across the k-th direction and the next.
+DragSpan span_at(const Columns& bodies, BodyIndex i, int k) {
+  const DragShape& shape = *bodies.drag[i];
+  if (shape.is_same) return {shape.same_width, shape.same_width, shape.rotational, k};
+  if (!shape.width.empty()) return {shape.width[k], shape.width[k + 1], shape.rotational, k};
+  const auto width = widths_of_outline(bodies.boundary[i]->edges.vertices, bodies.centroid[i], k);
+  return {width[0], width[1], shape.rotational, k};
+}
+
+/// The width across a place between two known directions.
+double width_at(const Columns& bodies, BodyIndex i, double place) {
+  DragSpan& span = bodies.span[i];
+  const int k = std::min(static_cast<int>(place), kDirections - 1);
+  if (span.place != k) span = span_at(bodies, i, k);
+  return span.width + (place - k) * (span.next_width - span.width);
+}
+
+Vector flow_at(const Columns& bodies, BodyIndex i, const ShearCurrent& current) {
+  return current.is_still() ? Vector{} : current.velocity_at(bodies.position[i]);
+}
+
+/// ½ C ρ_w Δt of a step.
+struct DragRates {
+  double form = 0, skin = 0;  ///< [kg/m³ · s]
+  bool is_plan = false;
+};
+
+/// Writes what changes the motion of the bodies into the lanes.
+void gather(const Columns& bodies, Lanes& l, std::size_t count, const DragRates& rates,
+            const ShearCurrent& current) {
+  const double turning = current.is_still() ? 0 : current.angular_velocity();
+  for (std::size_t k = 0; k < count; ++k) {
+    const BodyIndex i = l.body[k];
+    const Vector u = bodies.velocity[i] - flow_at(bodies, i, current);
+    l.ux[k] = u.x;
+    l.uy[k] = u.y;
+    l.cosine[k] = bodies.rotation[i].cosine;
+    l.sine[k] = bodies.rotation[i].sine;
+    l.rate[k] = rates.is_plan ? rates.form : rates.form * bodies.thickness[i];
+    l.skin[k] = rates.skin * bodies.area[i];
+    l.skin_turning[k] = rates.skin > 0 ? rates.skin * bodies.drag[i]->skin_rotational : 0;
+    l.inverse_mass[k] = bodies.inverse_mass[i];
+    l.mass[k] = bodies.mass[i];
+    l.omega[k] = bodies.angular_velocity[i] - turning;
+    l.inverse_moment[k] = bodies.inverse_moment[i];
+    l.moment[k] = bodies.moment[i];
+  }
+}
+
+/// Writes the lanes' motion back and adds what the water did, body by body.
+void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const ShearCurrent& current,
+             WaterWork& work) {
+  const bool is_still = current.is_still();
+  const double turning = is_still ? 0 : current.angular_velocity();
+  for (std::size_t k = 0; k < count; ++k) {
+    const BodyIndex i = l.body[k];
+    if (l.speed[k] > 0) {
+      const Vector flow = flow_at(bodies, i, current);
+      const Vector impulse = -l.slowing[k] * Vector{l.ux[k], l.uy[k]};
+      bodies.velocity[i] = flow + Vector{l.ux_after[k], l.uy_after[k]};
+      work.lost += l.lost[k];
+      work.impulse += impulse;
+      work.impulses += l.slowing[k] * l.speed[k];
+      if (!is_still) work.by_current += dot(impulse, flow);
+    }
+    if (l.omega[k] != 0) {
+      bodies.angular_velocity[i] = turning + l.omega_after[k];
+      work.lost += l.lost_turning[k];
+      work.by_current -= l.turning_slowing[k] * turning;
+    }
+  }
+}
+
+/// Brakes the lanes' bodies over the step.
+void brake(const Columns& bodies, Lanes& l, std::size_t count, const WaterDrag& water, double dt,
+           WaterWork& work) {
+  const DragRates rates{0.5 * water.drag_coefficient * water.density * dt,
+                        0.5 * water.skin_coefficient * water.density * dt, water.area == DragArea::kPlan};
+  gather(bodies, l, count, rates, water.current);
+  find_places(l, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    l.width[k] = width_at(bodies, l.body[k], l.place[k]);
+    l.rotational[k] = bodies.span[l.body[k]].rotational;
+  }
+  brake(l, count);
+  scatter(bodies, l, count, water.current, work);
+}
+
+}  // namespace
+
+WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
+                           double dt, int threads) {
+  const Columns columns(bodies);
+  boost::container::small_vector<WaterWork, 16> works(chunk_count(awake.size(), kBodiesPerChunk));
+  for_chunks(awake.size(), kBodiesPerChunk, threads,
+             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+               WaterWork work;
+               Lanes lanes;
+               std::size_t count = 0;
+               for (std::size_t k = begin; k < end; ++k) {
+                 if (columns.span[awake[k]].place >= 0 || columns.drag[awake[k]] != nullptr)
+                   lanes.body[count++] = awake[k];
+                 if (count < Lanes::kMost && k + 1 < end) continue;
+                 brake(columns, lanes, count, water, dt, work);
+                 count = 0;
+               }
+               works[chunk] = work;
+             });
+  WaterWork all;
+  for (const WaterWork& work : works) {
+    all.lost += work.lost;
+    all.by_current += work.by_current;
+    all.impulse += work.impulse;
+    all.impulses += work.impulses;
+  }
+  return all;
+}
+
+}  // namespace polynya::dynamics

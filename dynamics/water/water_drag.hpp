@@ -1,0 +1,57 @@
+#pragma once
+
+#include "dynamics/bodies.hpp"
+#include "dynamics/water/drag_shape.hpp"
+
+namespace polynya::dynamics {
+
+/// Width across a direction in the body frame (of any length > 0), interpolated between the known ones [m]:
+/// within 2e-4 for a square, and within aspect/64 of the width of a slender piece where its kink falls
+/// between two.
+double width_across(const DragShape& shape, geometry::Vector direction_in_body);
+
+/// A current that grows linearly across its direction, in the water frame (which drifts with the uniform
+/// part).
+struct ShearCurrent {
+  geometry::Vector along{1, 0};  ///< unit direction of the current
+  double rate = 0;               ///< per distance to port of `along` from the origin [1/s]
+  geometry::Point origin;        ///< [m]
+
+  bool is_still() const { return rate == 0; }
+  geometry::Vector velocity_at(geometry::Point p) const {
+    return rate * dot(perpendicular(along), p - origin) * along;
+  }
+  double angular_velocity() const { return -0.5 * rate; }  ///< of the water, half its vorticity [rad/s]
+};
+
+struct WaterDrag {
+  double drag_coefficient = 0.5;  ///< C_D [-]
+  double density = 1000;          ///< ρ_w [kg/m³]
+  ShearCurrent current;
+  DragArea area = DragArea::kEdge;  ///< A, as the bodies' drag shapes have it
+  double skin_coefficient = 0;      ///< C_w, of the floe's area in plan, on top [-]
+};
+
+/// What the water did to the bodies over a step.
+struct WaterWork {
+  double lost = 0;           ///< energy of the motion relative to the water around [J]
+  double by_current = 0;     ///< energy from a current [J]
+  geometry::Vector impulse;  ///< on them all together [N s]
+  double impulses = 0;       ///< sum of the impulses' sizes [N s]
+};
+
+/// Applies the drag of the water to every awake body over dt [s]. Eq. (6) of [Sawamura2017]:
+///   F = −½ C_D ρ_w A |u| u,   A = h × width across u (DragArea::kEdge) or the area in plan (kPlan),
+/// with u relative to the water at the centre of mass, and the same law for the rotation, ω relative to half
+/// the water's vorticity, each strip at distance s from the centre moving at ω s through the water:
+/// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions; in plan
+/// M = −½ C_D ρ_w ∫r³ dA |ω| ω. The effect of a current's strain on rotation is left out: a long floe would
+/// not turn evenly. Deviation: the paper prints the floe's own velocity for u; a drifting floe would be
+/// braked by its own current. Skin drag on the area in plan S adds −½ C_w ρ_w S |u| u and
+/// −½ C_w ρ_w ∫r³ dA |ω| ω, which is exact for a floe that only turns. Solved exactly over the step for
+/// constant A, v⁺ = v / (1 + c |v| dt): stable for any step. The bodies' kinetic energy changes by by_current
+/// − lost.
+WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
+                           double dt, int threads = 1);
+
+}  // namespace polynya::dynamics

@@ -1,0 +1,1 @@
+// No code: what the tests have precompiled needs a source.
