@@ -189,8 +189,8 @@ bool RecordReader::one_field(const Field& field, const JsonValue& parent, const 
   const bool has_default = field.presence == Presence::kDefault;
   if (has_default && field.kind == FieldKind::kName && field.default_value.text().ends_with('#')) {
     std::string name = field.default_value.text();
-    name.back() = ' ';
-    field.set(record, {name.substr(0, name.size() - 1) + std::to_string(number)});
+    name.pop_back();
+    field.set(record, {name + std::to_string(number)});
   }
   return has_default || (!given && field.presence == Presence::kLeftOut);
 }
