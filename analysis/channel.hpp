@@ -7,6 +7,7 @@
 #include <tl/expected.hpp>
 
 #include "geometry/shape/polygon.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
 
 namespace polynya::analysis {
@@ -27,6 +28,7 @@ struct ChannelStation {
   double passed = 0;         ///< when the ship's centre was there [s]
   geometry::Point middle;    ///< on the track, now [m]
   geometry::Vector forward;  ///< unit, along the track
+  double length = 0;         ///< of its part of the track, straight from end to end [m]
   double port = 0;  ///< from the track to the nearest ice in the cell that is not brash [m]; the reach where
                     ///< there is none
   double starboard = 0;  ///< [m]
@@ -91,5 +93,11 @@ BrashSizes brash_sizes(const Channel& channel);
 
 /// Fails with words where the ship or the time is not in the run, or geometry refuses.
 tl::expected<Channel, std::string> measure_channel(const io::Run& run, const ChannelOptions& options);
+
+/// The stations of that channel alone, without the shares that ice and brash cover in them: for many
+/// instants.
+tl::expected<std::vector<ChannelStation>, std::string> measure_stations(const io::Run& run,
+                                                                        const io::MotionIndex& motions,
+                                                                        const ChannelOptions& options);
 
 }  // namespace polynya::analysis

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "geometry/cut/overlap.hpp"
-#include "geometry/cut/overlapping_pairs.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/shape/box_pairs.hpp"
+#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/shape/box_tree.hpp"
 #include "io/run/placed_floes.hpp"
 
 namespace polynya::analysis {

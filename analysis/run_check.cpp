@@ -6,7 +6,7 @@
 
 #include "analysis/overlap_check.hpp"
 #include "geometry/cut/overlap.hpp"
-#include "geometry/exact/exact_area.hpp"
+#include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 
 namespace polynya::analysis {

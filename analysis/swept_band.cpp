@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/shape/convex_hull.hpp"
+#include "geometry/shape/outline.hpp"
 #include "io/run/placed_floes.hpp"
 
 namespace polynya::analysis {

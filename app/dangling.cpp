@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/exact/measures.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "bench/cut_cases.hpp"
 #include "geometry/cut/cut.hpp"
-#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/exact/validity.hpp"
 
 namespace polynya::bench::polynya_cuts {

@@ -7,7 +7,9 @@
 
 #include "dynamics/water/water_drag.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
-#include "geometry/cut/cut.hpp"
+#include "geometry/contact/contact_circles.hpp"
+#include "geometry/cut/overlap.hpp"
+#include "geometry/exact/validity.hpp"
 #include "simulation/floe_field.hpp"
 #include "simulation/step.hpp"
 
@@ -114,6 +116,36 @@ void QueryDatabase(benchmark::State& state) {
   }
 }
 BENCHMARK(QueryDatabase);
+
+/// A ragged coast of 100 000 edges.
+geometry::Polygon coast() {
+  geometry::Polygon polygon;
+  for (int i = 0; i < 100000; ++i) {
+    const geometry::Rotation r = geometry::Rotation::by(2e-5 * 3.14159265358979 * i);
+    const double radius = 5000 + 0.5 * std::sin(37.0 * i);
+    polygon.outer.push_back({radius * r.cosine, radius * r.sine});
+  }
+  return polygon;
+}
+
+void SearchDefect(benchmark::State& state) {
+  const geometry::Polygon polygon = coast();
+  for (auto _ : state) benchmark::DoNotOptimize(geometry::find_defect(polygon));
+}
+BENCHMARK(SearchDefect)->Unit(benchmark::kMillisecond);
+
+void SearchContactCircles(benchmark::State& state) {
+  const geometry::EdgeList edges = geometry::edge_list(coast());
+  const auto pieces = geometry::boundary_pieces(edges, 1);
+  for (auto _ : state) benchmark::DoNotOptimize(geometry::sample_contact_circles(edges, pieces, 1));
+}
+BENCHMARK(SearchContactCircles)->Unit(benchmark::kMillisecond);
+
+void SearchOverlappingPairs(benchmark::State& state) {
+  const auto floes = simulation::make_floe_field(field_of(20000, 0.53)).floes;
+  for (auto _ : state) benchmark::DoNotOptimize(geometry::find_overlapping_pairs(floes, 10));
+}
+BENCHMARK(SearchOverlappingPairs)->Unit(benchmark::kMillisecond);
 
 void MakeField(benchmark::State& state) {
   const auto field = field_of(static_cast<int>(state.range(0)), 0.53);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "fracture/characteristic_length.hpp"
-#include "geometry/contact/crack_width.hpp"
+#include "geometry/contact/crack_path.hpp"
 
 namespace polynya::simulation {
 namespace {

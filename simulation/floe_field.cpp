@@ -4,140 +4,130 @@
 #include <cmath>
 
 #include "geometry/exact/measures.hpp"
-#include "geometry/shape/power_diagram.hpp"
+#include "geometry/exact/point_in_ring.hpp"
+#include "simulation/field/cells.hpp"
 #include "simulation/field/convex.hpp"
-#include "simulation/field/filling.hpp"
-#include "simulation/field/obstacles.hpp"
-#include "simulation/field/packed_field.hpp"
-#include "simulation/random.hpp"
 
 namespace polynya::simulation {
 namespace {
 
 using geometry::Box;
-using geometry::Point;
+using geometry::Polygon;
 using geometry::Ring;
-using geometry::Site;
-using geometry::Vector;
 
-constexpr double kFarthestDeviation = 2.5;  ///< of the logarithm of a floe's size, in standard deviations
-constexpr int kRelaxations = 12;
-constexpr double kShortestEdge = 0.1;  ///< of a floe, in sizes of its cell
-
-/// e^x for moderate x, without a library's: (1 + x/2²⁰)^(2²⁰), to 1e-6.
-double exponential(double x) {
-  double power = 1 + x * 0x1p-20;
-  for (int i = 0; i < 20; ++i) power *= power;
-  return power;
-}
-/// ln(1 + x) for 0 ≤ x ≤ 1, likewise: 2 artanh(x / (2 + x)).
-double logarithm_of_one_plus(double x) {
-  const double y = x / (2 + x);
-  double sum = 0;
-  double power = y;
-  for (int k = 1; k < 40; k += 2) {
-    sum += power / k;
-    power *= y * y;
+/// Where floes may not be: nearer than the gap to what is kept clear, and across an outline.
+class Obstacles {
+ public:
+  Obstacles(const FloeField& field, double gap) : field_(field), gap_(gap) {
+    for (const Polygon& polygon : field.kept_clear) boxes_.push_back(grown(bounding_box(polygon.outer), gap));
   }
-  return 2 * sum;
-}
 
-/// Lognormal floe areas [m²].
-std::vector<double> draw_areas(const FloeField& field, std::size_t count, Random& random) {
-  const double variance = logarithm_of_one_plus(field.size_spread * field.size_spread);
-  const double sigma = std::sqrt(variance);
-  std::vector<double> areas(count);
-  for (double& area : areas) {
-    const double z = std::clamp(random.normal(), -kFarthestDeviation, kFarthestDeviation);
-    const double size = field.floe_size * exponential(sigma * z - 0.5 * variance);
-    area = size * size;
-  }
-  return areas;
-}
-
-/// As many points as there are areas, in rows of a shaken lattice.
-std::vector<Site> first_sites(const Box& box, const std::vector<double>& areas, Random& random) {
-  const Vector extent = box.high - box.low;
-  const auto count = static_cast<double>(areas.size());
-  const auto rows = static_cast<std::size_t>(
-      std::clamp(std::round(std::sqrt(count * extent.y / extent.x)), 1.0, std::max(1.0, count)));
-  std::vector<Site> sites;
-  sites.reserve(areas.size());
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::size_t in_row = (row + 1) * areas.size() / rows - row * areas.size() / rows;
-    for (std::size_t k = 0; k < in_row; ++k) {
-      const double x = (static_cast<double>(k) + random.uniform()) / static_cast<double>(in_row);
-      const double y = (static_cast<double>(row) + random.uniform()) / static_cast<double>(rows);
-      sites.push_back({box.low + Vector{x * extent.x, y * extent.y}, 0});
+  bool forbid(const Ring& floe) const {
+    if (!field_.is_rectangle &&
+        (is_near_ring(floe, field_.region, 0) || geometry::side_of_ring(field_.region, floe.front()) < 0))
+      return true;
+    const Box box = bounding_box(floe);
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      if (!overlaps(box, boxes_[i])) continue;
+      const Polygon& polygon = field_.kept_clear[i];
+      if (is_near_ring(floe, polygon.outer, gap_) || geometry::contains(polygon, floe.front()) ||
+          geometry::side_of_ring(floe, polygon.outer.front()) >= 0)
+        return true;
     }
+    return false;
   }
-  return sites;
-}
 
-/// Cells whose areas approach `targets` [m²]: sites move to their centroids while weights follow the areas'
-/// errors.
-std::vector<Ring> relaxed_cells(std::vector<Site> sites, const std::vector<double>& targets, const Box& box) {
-  std::vector<Ring> cells = power_diagram(sites, box);
-  for (int pass = 0; pass < kRelaxations; ++pass) {
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-      const CellMeasures cell = cells[i].empty() ? CellMeasures{} : measure_convex(cells[i]);
-      if (cell.area > 0) sites[i].point = cell.centroid;
-      // A hexagon's area grows by √3 per unit of weight while its neighbours stay. Weights wait until the
-      // sites have spread: too early, they would leave close sites without a cell.
-      if (pass > 0) sites[i].weight += 0.3 * (targets[i] - cell.area);
-    }
-    cells = power_diagram(sites, box);
-  }
-  return cells;
-}
-
-/// A floe in the making: its cell with reduced corners, the area it should have, and the most it can have.
-struct Cell {
-  Ring ring;
-  Point centroid;
-  double area = 0;
-  double wanted = 0;
-  double most = 0;
+ private:
+  const FloeField& field_;
+  double gap_;  ///< [m]
+  std::vector<Box> boxes_;
 };
 
-double least_distance_to_edges(const Ring& ring, Point inside) {
-  double least = INFINITY;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vector edge = ring[(i + 1) % ring.size()] - ring[i];
-    least = std::min(least, cross(edge, inside - ring[i]) / length(edge));
-  }
-  return least;
+/// How floes give way to what forbids them.
+struct GivingWay {
+  int tries = 1;        ///< sizes that a floe is tried in, each 3 % shorter, before it is left out
+  int rounds = 1;       ///< in which the others make up for what floes lost
+  double rounding = 0;  ///< by so much less than the gap may floes be apart [m]
+};
+
+/// Cells with straight cuts at the boundary are rounded there: floes shrink a little, and the others make up.
+/// The cells of a field without a law take no notice of boundaries, and what lies across one is left out.
+GivingWay giving_way_of(const FloeField& field) {
+  return field.law ? GivingWay{12, 4, 1e-9} : GivingWay{};
 }
 
-std::vector<Cell> make_cells(const FloeField& field, const Box& box) {
-  // Consecutive seeds must not give shifted copies of one sequence.
-  Random random(Random(field.seed).next());
-  const auto count = static_cast<std::size_t>(std::max(1.0, floe_count(field)));
-  std::vector<double> areas = draw_areas(field, count, random);
-  std::vector<Site> sites = first_sites(box, areas, random);
-  double sum = 0;
-  for (const double area : areas) sum += area;
-  const double box_area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
-  for (double& area : areas) area *= box_area / sum;
-  std::vector<Ring> rings = relaxed_cells(std::move(sites), areas, box);
-  std::vector<Cell> cells;
-  cells.reserve(rings.size());
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    if (rings[i].empty()) continue;
-    Cell cell;
-    cell.ring = std::move(rings[i]);
-    reduce_corners(cell.ring, field.most_corners, kShortestEdge * std::sqrt(areas[i]));
-    const CellMeasures measures = measure_convex(cell.ring);
-    if (!(measures.area > 0)) continue;
-    cell.centroid = measures.centroid;
-    cell.area = measures.area;
-    cell.wanted = field.concentration * areas[i];
-    // Shrunk by s about a point at distance d from an edge, the edge moves in by (1 − s) d.
-    const double s = 1 - 0.5 * field.gap / least_distance_to_edges(cell.ring, cell.centroid);
-    cell.most = s > 0 ? s * s * cell.area : 0;
-    cells.push_back(std::move(cell));
+/// λ with Σ min(λ wanted, room) = total, by bisection [-].
+double common_factor(const std::vector<Candidate>& candidates, double total) {
+  double low = 0;
+  double high = 64;
+  for (int i = 0; i < 60; ++i) {
+    const double factor = 0.5 * (low + high);
+    double sum = 0;
+    for (const Candidate& candidate : candidates) sum += std::min(factor * candidate.wanted, candidate.room);
+    (sum < total ? low : high) = factor;
   }
-  return cells;
+  return 0.5 * (low + high);
+}
+
+/// The candidate at a factor, or a little smaller where it would be forbidden. Nothing where that does not
+/// help.
+Ring permitted(const Obstacles& obstacles, const Candidate& candidate, double factor, int tries) {
+  for (; tries > 0; --tries) {
+    Ring floe = scaled(candidate.ring, candidate.centroid, factor);
+    if (!candidate.may_be_forbidden || !obstacles.forbid(floe)) return floe;
+    factor *= 0.97;
+  }
+  return {};
+}
+
+/// The floes at a common factor. A candidate that had to be smaller, or left out, has no more room than that
+/// from now on; true where there was one.
+bool shrink_candidates(const Obstacles& obstacles, double factor, int tries,
+                       std::vector<Candidate>& candidates, std::vector<Ring>& floes) {
+  bool was_any = false;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    Candidate& candidate = candidates[i];
+    floes[i].clear();
+    if (candidate.room <= 0) continue;
+    const double area = std::min(factor * candidate.wanted, candidate.room);
+    floes[i] = permitted(obstacles, candidate, std::sqrt(area / candidate.area), tries);
+    const double left = floes[i].empty() ? 0 : measure_convex(floes[i]).area;
+    if (left >= area * (1 - 1e-9)) continue;
+    candidate.room = left;
+    was_any = true;
+  }
+  return was_any;
+}
+
+/// Adds the floes that the cells' candidates become, with their number and the mean and spread of their
+/// sizes.
+void add_floes(const FloeField& field, FieldLayout& layout, FloeFieldOutcome& outcome) {
+  const GivingWay way = giving_way_of(field);
+  const Obstacles obstacles(field, std::max(0.0, field.gap - way.rounding));
+  std::vector<Ring> floes(layout.candidates.size());
+  for (int round = 0; round < way.rounds; ++round) {
+    const double factor = common_factor(layout.candidates, field.concentration * layout.tiled_area);
+    if (!shrink_candidates(obstacles, factor, way.tries, layout.candidates, floes)) break;
+  }
+  outcome.floes.reserve(floes.size());
+  double size_sum = 0;
+  for (Ring& floe : floes) {
+    if (floe.empty()) {
+      ++outcome.left_out;
+      continue;
+    }
+    const double area = measure_convex(floe).area;
+    outcome.floe_area += area;
+    size_sum += std::sqrt(area);
+    floe.shrink_to_fit();
+    outcome.floes.push_back({std::move(floe), {}});
+  }
+  outcome.count = static_cast<int>(outcome.floes.size());
+  if (outcome.count == 0) return;
+  const auto count = static_cast<double>(outcome.count);
+  outcome.mean_size = size_sum / count;
+  const double variance = outcome.floe_area / count - outcome.mean_size * outcome.mean_size;
+  outcome.size_spread = std::sqrt(std::max(0.0, variance)) / outcome.mean_size;
 }
 
 }  // namespace
@@ -152,30 +142,17 @@ double floe_count(const FloeField& field) {
 }
 
 FloeFieldOutcome make_floe_field(const FloeField& field) {
-  if (field.law) return make_packed_field(field);
-  const Box box = bounding_box(field.region);
-  const std::vector<Cell> cells = make_cells(field, box);
-  const double box_area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
-  const double factor = common_factor(cells, &Cell::most, field.concentration * box_area);
+  FieldLayout layout = field.law ? packed_cells(field) : lattice_cells(field);
   FloeFieldOutcome outcome;
-  outcome.region_area = geometry::signed_area(field.region);
-  outcome.reachable_concentration = 0;
-  for (const Cell& cell : cells) outcome.reachable_concentration += cell.most / box_area;
-  const Obstacles obstacles(field);
-  double size_sum = 0;
-  for (const Cell& cell : cells) {
-    const double area = std::min(factor * cell.wanted, cell.most);
-    if (area <= 0) continue;
-    Ring floe = scaled(cell.ring, cell.centroid, std::sqrt(area / cell.area));
-    if (obstacles.forbid(floe)) {
-      ++outcome.left_out;
-      continue;
-    }
-    outcome.floe_area += area;
-    size_sum += std::sqrt(area);
-    outcome.floes.push_back({std::move(floe), {}});
-  }
-  enter_sizes(size_sum, outcome);
+  outcome.region_area = layout.region_area;
+  outcome.left_out = layout.left_out;
+  if (!(layout.tiled_area > 0)) return outcome;
+  double room = 0;
+  for (const Candidate& candidate : layout.candidates) room += candidate.room;
+  outcome.reachable_concentration = room / layout.tiled_area;
+  outcome.reachable_without_gap = layout.cell_area / layout.tiled_area;
+  add_floes(field, layout, outcome);
+  if (field.law && outcome.count > 0) outcome.statistics = statistics_of(*field.law, outcome.floes);
   return outcome;
 }
 

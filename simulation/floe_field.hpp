@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "simulation/field/field_statistics.hpp"
+#include "simulation/field/size_law.hpp"
 
 namespace polynya::simulation {
 
@@ -48,13 +48,10 @@ struct FloeFieldOutcome {
 /// region's bounding box.
 double floe_count(const FloeField& field);
 
-/// Fills the region with floes. With a law by make_packed_field() (field/packed_field.hpp). Else: sizes are
-/// drawn from a lognormal distribution (cut off at 2.5 deviations of the logarithm); a power diagram of as
-/// many sites, relaxed so that each cell's area goes with its floe's [Balzer2009, deGoes2012], tiles the
-/// region; each cell, its corners reduced, is shrunk about its centroid to its floe's area, or to where the
-/// gap is reached, and the others then make up for it. Floes are at least the gap apart by construction, at
-/// any concentration up to what the gap leaves. Sites without a cell are lost: none in 1000 up to a spread of
-/// 0.3, 4 in 100 at 0.5, where the smallest floes are smaller than drawn. The same numbers on every machine.
+/// Fills the region with floes. Cells tile it, by the field's law or its mean and spread (field/cells.hpp);
+/// each is shrunk about its centroid to its floe's area, or to where the gap is reached, and the others then
+/// make up for it. Floes are at least the gap apart by construction, at any concentration up to what the gap
+/// leaves. The same numbers on every machine.
 FloeFieldOutcome make_floe_field(const FloeField& field);
 
 }  // namespace polynya::simulation

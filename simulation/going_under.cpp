@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/shape/band_area.hpp"
+#include "geometry/exact/measures.hpp"
 #include "simulation/step.hpp"
 
 namespace polynya::simulation {

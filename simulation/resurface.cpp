@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/contact/clearance.hpp"
+#include "geometry/contact/boundary.hpp"
 #include "geometry/exact/validity.hpp"
 #include "simulation/limits.hpp"
 #include "simulation/random.hpp"

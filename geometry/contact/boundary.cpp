@@ -5,13 +5,16 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/contact/boundary_edges.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::geometry {
 namespace {
 
+/// Bounding circles of a leaf. More are compared one by one, fewer make a larger tree.
 constexpr std::uint32_t kLeafCircles = 4;
-constexpr double kMostPieces = 128;  ///< of an edge: every metre of a ship's side, not of a plate's
+/// Pieces of an edge: every metre of a ship's side, not of a plate's. More take memory, 64 bytes each; fewer
+/// make more of a long edge near, and contacts slower.
+constexpr double kMostPieces = 128;
 
 /// Centres and radii of some bounding circles.
 struct Extent {
@@ -69,7 +72,7 @@ double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
 bool is_inside(const EdgeList& edges, Point p) {
   bool inside = false;
   for (std::uint32_t edge = 0; edge < edges.size(); ++edge) {
-    if (is_right_of(edges, edge, p)) inside = !inside;
+    if (crosses_ray(edges.from(edge), edges.to(edge), p)) inside = !inside;
   }
   return inside;
 }

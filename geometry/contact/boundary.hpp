@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -97,7 +98,8 @@ struct NearEdges {
 double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
                     std::vector<NearPair>& circle_pairs);
 
-/// Of two boundaries together, which near_edges() compares without a tree.
+/// Edges of two boundaries together, which near_edges() compares without a tree [-]. Its stack holds that
+/// many points: more costs their product, fewer makes covers for bodies that do not need them.
 inline constexpr std::size_t kFewEdges = 256;
 inline bool have_few_edges(const EdgeList& a, const EdgeList& b) {
   return a.size() + b.size() <= kFewEdges;
@@ -131,7 +133,8 @@ struct ContactManifold {
   double extent = 0;  ///< of the overlap along the normal or along the line, the greater [m]
 };
 
-/// Widths of a contact line below this are 0 but for rounding [m].
+/// Widths of a contact line below this are 0 but for rounding [m]. Smaller, normals are directions of
+/// rounding errors; larger than some 1e-6, contacts that just begin are lost for a step.
 inline constexpr double kNoWidth = 1e-12;
 
 /// A stretch of a's boundary inside b and the stretch of b's inside a that follows it around an overlap: the
@@ -189,7 +192,8 @@ struct ManifoldScratch {
 int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, const NearEdges& edges,
                    ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds);
 
-/// A width below this share of an overlap's mean width, area / extent, is blind.
+/// A width below this share of an overlap's mean width, area / extent, is blind [-]. Larger, healthy contacts
+/// of wedges (a half) are ground off; smaller, bodies lie in each other without a force that parts them.
 inline constexpr double kBlindShare = 0.25;
 
 /// Whether the gradient of an overlap's area does not show the overlap: whichever way the bodies move apart,
@@ -198,7 +202,35 @@ inline bool is_blind(double width, double area, double extent) {
   return width * extent < kBlindShare * area;
 }
 
-/// Whether a point is inside, by the parity of edges to the right of it: not in holes. In doubles.
+/// Calls use(edge), in order and once, for each edge that has a bounding circle of which matters(circle), and
+/// maybe for others; for all edges of a boundary that is not ready. `matters` holds for a circle where it
+/// holds for one within it.
+template <class Matters, class Use>
+void for_edges(const Boundary& boundary, Matters matters, Use use) {
+  if (!boundary.is_ready()) {
+    for (std::uint32_t edge = 0; edge < boundary.edges.size(); ++edge) use(edge);
+    return;
+  }
+  const Cover& cover = *boundary.cover;
+  std::uint32_t next = 0;  // a long edge has several pieces and is used once
+  const auto search = [&](const auto& self, std::uint32_t index) -> void {
+    const CircleNode& node = cover.tree[index];
+    if (!matters(BoundingCircle{node.centre, node.reach})) return;
+    if (node.right != 0) {
+      self(self, index + 1);
+      return self(self, node.right);
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (!matters(cover.bounding_circles[i])) continue;
+      const PieceEdges& piece = cover.pieces[i];
+      const std::uint32_t end = piece.first_edge + piece.edges;
+      for (next = std::max(next, piece.first_edge); next < end; ++next) use(next);
+    }
+  };
+  search(search, 0);
+}
+
+/// Whether a point is inside and not in a hole. Exact.
 bool is_inside(const EdgeList& edges, Point p);
 
 /// Whether boundaries that do not cross are one inside the other.
@@ -214,5 +246,10 @@ double least_distance(const Pose& a_from_b, const NearEdges& edges);
 void find_circle_manifolds(const Covered& a, const Covered& b, const Pose& a_from_b,
                            const std::vector<NearPair>& circle_pairs,
                            std::vector<ContactManifold>& manifolds);
+
+/// Whether two bodies share nothing, in plain doubles: no edges cross or touch, and neither is inside the
+/// other. A boundary's edges suffice, it need not be ready. Of a's edges only those in the box of b are
+/// compared with b's: b is best the smaller. Within rounding of a touch the answer may be either.
+bool is_clear(const Boundary& a, const Boundary& b, const Pose& a_from_b);
 
 }  // namespace polynya::geometry

@@ -1,23 +1,22 @@
-#include "geometry/contact/clearance.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/contact/boundary_edges.hpp"
+#include "geometry/contact/boundary.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::geometry {
 namespace {
 
-struct Edge {
+struct EdgeEnds {
   Point from, to;
 };
 
 /// Which side of an edge a point is on: > 0 left, < 0 right.
-double side_of(const Edge& edge, Point p) {
+double side_of(const EdgeEnds& edge, Point p) {
   return cross(edge.to - edge.from, p - edge.from);
 }
 
-bool do_meet(const Edge& p, const Edge& q) {
+bool do_meet(const EdgeEnds& p, const EdgeEnds& q) {
   if (!overlaps(box_around(p.from, p.to), box_around(q.from, q.to))) return false;
   const double p_from = side_of(q, p.from), p_to = side_of(q, p.to);
   if ((p_from > 0 && p_to > 0) || (p_from < 0 && p_to < 0)) return false;
@@ -25,43 +24,9 @@ bool do_meet(const Edge& p, const Edge& q) {
   return !((q_from > 0 && q_to > 0) || (q_from < 0 && q_to < 0));
 }
 
-constexpr double kSlack = 1e-6;  ///< far more than what circles miss of their edges by rounding [m]
-
-/// Finds edges by the bounding circles of their pieces.
-template <class Matters, class Use>
-class EdgeSearch {
- public:
-  EdgeSearch(const Cover& cover, Matters matters, Use use) : cover_(cover), matters_(matters), use_(use) {}
-
-  void search(std::uint32_t index) {
-    const CircleNode& node = cover_.tree[index];
-    if (!matters_(BoundingCircle{node.centre, node.reach})) return;
-    if (node.right != 0) {
-      search(index + 1);
-      return search(node.right);
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (!matters_(cover_.bounding_circles[i])) continue;
-      const PieceEdges& piece = cover_.pieces[i];
-      const std::uint32_t end = piece.first_edge + piece.edges;
-      for (next_ = std::max(next_, piece.first_edge); next_ < end; ++next_) use_(next_);
-    }
-  }
-
- private:
-  const Cover& cover_;
-  Matters matters_;
-  Use use_;
-  std::uint32_t next_ = 0;  ///< a long edge has several pieces and is used once
-};
-
-/// Calls use(edge), in order and once, for each edge that has a bounding circle of which matters(circle), and
-/// maybe for others; for all edges of a boundary that is not ready.
-template <class Matters, class Use>
-void for_edges(const Boundary& boundary, Matters matters, Use use) {
-  if (boundary.is_ready()) return EdgeSearch(*boundary.cover, matters, use).search(0);
-  for (std::uint32_t edge = 0; edge < boundary.edges.size(); ++edge) use(edge);
-}
+/// Far more than what circles miss of their edges by rounding [m]. Without it an edge may be overlooked, and
+/// bodies that overlap are clear; larger only costs time.
+constexpr double kSlack = 1e-6;
 
 /// As is_inside of all edges: no other edge is to the right of the point.
 bool is_inside_boundary(const Boundary& boundary, Point p) {
@@ -71,7 +36,7 @@ bool is_inside_boundary(const Boundary& boundary, Point p) {
   };
   bool inside = false;
   for_edges(boundary, is_to_the_right, [&](std::uint32_t edge) {
-    if (is_right_of(boundary.edges, edge, p)) inside = !inside;
+    if (crosses_ray(boundary.edges.from(edge), boundary.edges.to(edge), p)) inside = !inside;
   });
   return inside;
 }
@@ -85,7 +50,7 @@ bool do_edges_meet(const Boundary& a, const EdgeList& b, const Ring& b_in_a, con
     return !meets && distance(circle.centre, centre) <= circle.reach + radius;
   };
   for_edges(a, is_near, [&](std::uint32_t edge) {
-    const Edge p{a.edges.from(edge), a.edges.to(edge)};
+    const EdgeEnds p{a.edges.from(edge), a.edges.to(edge)};
     if (meets || !overlaps(box_of_b, box_around(p.from, p.to))) return;
     for (std::uint32_t j = 0; j < b.size() && !meets; ++j) meets = do_meet(p, {b_in_a[j], b_in_a[b.next[j]]});
   });

@@ -2,97 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
-#include "geometry/contact/boundary_edges.hpp"
+#include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
 namespace {
 
-/// Edges by the square cells their boxes touch, for finding those near a point. Built once per sampling.
-class EdgeGrid {
- public:
-  EdgeGrid(const EdgeList& edges, double cell) : cell_(cell) {
-    const Box box = bounding_box(edges.vertices);
-    double total = 0;
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      total += distance(edges.from(e), edges.to(e));
-    }
-    // No more cells than a few per edge and circle, however large the floe is beside its circles.
-    const double width = box.high.x - box.low.x;
-    const double height = box.high.y - box.low.y;
-    const double most = 4.0 * static_cast<double>(edges.size()) + 4.0 * total / cell + 16;
-    cell_ = std::max(cell_, std::sqrt(width * height / most));
-    low_ = box.low;
-    columns_ = static_cast<std::int64_t>(width / cell_) + 1;
-    rows_ = static_cast<std::int64_t>(height / cell_) + 1;
-    fill(edges);
-  }
-
-  template <typename Visit>
-  void near(Point p, double radius, Visit visit) const {
-    const auto [c0, c1] = span(p.x - radius - low_.x, p.x + radius - low_.x, columns_);
-    const auto [r0, r1] = span(p.y - radius - low_.y, p.y + radius - low_.y, rows_);
-    for (std::int64_t r = r0; r <= r1; ++r) {
-      for (std::int64_t c = c0; c <= c1; ++c) {
-        const auto cell = static_cast<std::size_t>(r * columns_ + c);
-        for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k) visit(edge_[k]);
-      }
-    }
-  }
-
- private:
-  std::pair<std::int64_t, std::int64_t> span(double low, double high, std::int64_t count) const {
-    const auto cell_of = [&](double x) {
-      return std::clamp(static_cast<std::int64_t>(std::floor(x / cell_)), std::int64_t{0}, count - 1);
-    };
-    return {cell_of(low), cell_of(high)};
-  }
-
-  /// Visits the cells an edge passes, column by column, so that a long slanted edge does not fill its whole
-  /// box.
-  template <typename Visit>
-  void for_cells_of(Point a, Point b, Visit visit) const {
-    if (a.x > b.x) std::swap(a, b);
-    const auto [c0, c1] = span(a.x - low_.x, b.x - low_.x, columns_);
-    for (std::int64_t c = c0; c <= c1; ++c) {
-      const double slope = b.x > a.x ? (b.y - a.y) / (b.x - a.x) : 0;
-      const double x0 = std::clamp(low_.x + static_cast<double>(c) * cell_, a.x, b.x);
-      const double x1 = std::clamp(low_.x + static_cast<double>(c + 1) * cell_, a.x, b.x);
-      double y0 = a.y + slope * (x0 - a.x);
-      double y1 = a.y + slope * (x1 - a.x);
-      if (b.x == a.x) y0 = a.y, y1 = b.y;
-      const double slack = 1e-9 * cell_;
-      const auto [r0, r1] = span(std::min(y0, y1) - slack - low_.y, std::max(y0, y1) + slack - low_.y, rows_);
-      for (std::int64_t r = r0; r <= r1; ++r) visit(static_cast<std::size_t>(r * columns_ + c));
-    }
-  }
-
-  void fill(const EdgeList& edges) {
-    begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      for_cells_of(edges.from(e), edges.to(e), [&](std::size_t cell) { ++begin_[cell + 1]; });
-    }
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    edge_.resize(begin_.back());
-    std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      for_cells_of(edges.from(e), edges.to(e), [&](std::size_t cell) { edge_[at[cell]++] = e; });
-    }
-  }
-
-  double cell_;
-  Point low_;
-  std::int64_t columns_ = 1;
-  std::int64_t rows_ = 1;
-  std::vector<std::uint32_t> begin_;
-  std::vector<std::uint32_t> edge_;
-};
-
 /// The largest circle up to `radius` that touches the boundary at `touch` from inside and holds no boundary
 /// point: shrink the circle onto the nearest boundary point inside it until there is none.
-double inscribed_radius(const EdgeList& edges, const EdgeGrid& grid, Point touch, Vector inward,
+double inscribed_radius(const EdgeList& edges, const BoxTree& tree, Point touch, Vector inward,
                         double radius) {
   constexpr int kMostShrinks = 64;  // a few are the rule; very sharp corners took up to twenty
   for (int shrink = 0; shrink < kMostShrinks; ++shrink) {
@@ -101,7 +19,8 @@ double inscribed_radius(const EdgeList& edges, const EdgeGrid& grid, Point touch
     double nearest = inside * inside;
     Point intruder;
     bool is_free = true;
-    grid.near(centre, radius, [&](std::uint32_t e) {
+    tree.for_each_near(grown({centre, centre}, radius), [&](std::size_t i) {
+      const auto e = static_cast<std::uint32_t>(i);
       const Point q = nearest_on_segment(edges.from(e), edges.to(e), centre);
       const double d = squared_length(q - centre);
       // A point level with the touching point lies on its own edge: no smaller circle avoids it.
@@ -110,6 +29,7 @@ double inscribed_radius(const EdgeList& edges, const EdgeGrid& grid, Point touch
         intruder = q;
         is_free = false;
       }
+      return true;
     });
     if (is_free) break;
     radius = squared_length(intruder - touch) / (2 * dot(intruder - touch, inward));
@@ -146,12 +66,12 @@ double reach_from(const EdgeList& edges, const BoundaryPiece& piece, Point centr
   return reach;
 }
 
-ContactCircle circle_for(const EdgeList& edges, const EdgeGrid& grid, const BoundaryPiece& piece,
+ContactCircle circle_for(const EdgeList& edges, const BoxTree& tree, const BoundaryPiece& piece,
                          double radius) {
   const Vector along = edges.to(piece.middle_edge) - edges.from(piece.middle_edge);
   const Vector inward = perpendicular(along) / length(along);
   ContactCircle circle;
-  circle.radius = inscribed_radius(edges, grid, piece.middle, inward, radius);
+  circle.radius = inscribed_radius(edges, tree, piece.middle, inward, radius);
   circle.centre = piece.middle + circle.radius * inward;
   circle.reach = reach_from(edges, piece, circle.centre) * (1 + 1e-12);  // the rounding of the distances
   return circle;
@@ -209,16 +129,15 @@ std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius,
   return pieces;
 }
 
-std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius) {
-  return boundary_pieces(edges, radius, std::numeric_limits<double>::infinity());
-}
-
 std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges,
                                                   const std::vector<BoundaryPiece>& pieces, double radius) {
   std::vector<ContactCircle> circles;
   circles.reserve(pieces.size());
-  const EdgeGrid grid(edges, 2 * radius);
-  for (const BoundaryPiece& piece : pieces) circles.push_back(circle_for(edges, grid, piece, radius));
+  std::vector<Box> boxes;
+  boxes.reserve(edges.size());
+  for (std::uint32_t e = 0; e < edges.size(); ++e) boxes.push_back(box_around(edges.from(e), edges.to(e)));
+  const BoxTree tree(std::move(boxes), BoxTree::Order::kAlongRing);
+  for (const BoundaryPiece& piece : pieces) circles.push_back(circle_for(edges, tree, piece, radius));
   return circles;
 }
 

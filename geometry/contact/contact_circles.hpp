@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
@@ -32,8 +33,10 @@ struct BoundaryPiece {
   std::uint32_t middle_edge = 0;  ///< the edge that the middle is on
 };
 
-/// All boundaries of a polygon in pieces, in ring order, one per `radius` of boundary or less.
-std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius);
+/// All boundaries of a polygon in pieces, in ring order, one per `radius` of boundary or less, but no more
+/// than `most` of them on one edge.
+std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius,
+                                           double most = std::numeric_limits<double>::infinity());
 
 /// A circle that touches the boundary from inside at the middle of its piece.
 struct ContactCircle {

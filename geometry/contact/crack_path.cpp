@@ -1,11 +1,29 @@
 #include "geometry/contact/crack_path.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
-#include "geometry/contact/line_crossings.hpp"
-
 namespace polynya::geometry {
+
+std::vector<LineCrossing> crossings_of_line(const Boundary& boundary, Point point, Vector direction) {
+  const EdgeList& edges = boundary.edges;
+  std::vector<LineCrossing> crossings;
+  constexpr double kRounding = 1e-9;  // of the distances, far more than it can be [m]
+  const auto is_near = [&](const auto& circle) {
+    return std::abs(cross(direction, circle.centre - point)) <= circle.reach + kRounding;
+  };
+  for_edges(boundary, is_near, [&](std::uint32_t e) {
+    const double from = cross(direction, edges.from(e) - point);
+    const double to = cross(direction, edges.to(e) - point);
+    if ((from > 0) == (to > 0)) return;
+    const double t = from / (from - to);
+    crossings.push_back({dot(direction, edges.from(e) + t * (edges.to(e) - edges.from(e)) - point), e});
+  });
+  std::ranges::stable_sort(crossings, {}, &LineCrossing::at);
+  return crossings;
+}
 
 CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin,
                      CrackReach reach) {
@@ -51,6 +69,15 @@ CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
     left += doubled(edges.from(e), edges.to(e));
   left += doubled(edges.from(path.first_edge), start);
   return {0.5 * left, 0.5 * (all - left)};
+}
+
+double crack_width(const Boundary& boundary, const CrackPath& path, double share_of_way) {
+  const Vector way = path.end - path.start;
+  const Vector across = perpendicular(way) / length(way);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const LineCrossing& crossing : crossings_of_line(boundary, path.start + share_of_way * way, across))
+    nearest = std::min(nearest, std::abs(crossing.at));
+  return std::isfinite(nearest) ? 2 * nearest : 0;
 }
 
 }  // namespace polynya::geometry

@@ -4,6 +4,16 @@
 
 namespace polynya::geometry {
 
+/// Where a line crosses a boundary.
+struct LineCrossing {
+  double at = 0;  ///< along the line [m]
+  std::uint32_t edge = 0;
+};
+
+/// The crossings of the line through a point with a boundary, in order: an even number, since every ring is
+/// closed. In doubles; tests only edges near the line where the boundary is ready.
+std::vector<LineCrossing> crossings_of_line(const Boundary& boundary, Point point, Vector direction);
+
 /// A straight path through a floe, from a point on or near its boundary to its far side.
 struct CrackPath {
   Point start;                   ///< just outside the ice behind the point [m]
@@ -34,5 +44,9 @@ struct CrackSides {
 /// What a crack would part, by the outer boundary between its ends. Both 0 where it parts nothing: where it
 /// starts or ends in a hole.
 CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path);
+
+/// Twice the ice on a crack's narrower side, measured across it from a share of its way to the nearest
+/// boundary on either side, holes included [m].
+double crack_width(const Boundary& boundary, const CrackPath& path, double share_of_way);
 
 }  // namespace polynya::geometry

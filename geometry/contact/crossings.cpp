@@ -1,9 +1,8 @@
-#include "geometry/contact/crossings.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include "geometry/contact/manifolds.hpp"
 #include "geometry/shape/avx2_clone.hpp"
 
 namespace polynya::geometry {
@@ -76,7 +75,9 @@ void alternate_ties(std::size_t count, At at, RingOf ring_of, IsSamePlace is_sam
   }
 }
 
-constexpr double kSamePlace = 1e-9;  ///< along an edge, as a share of it
+/// Along an edge, as a share of it [-]. Far smaller, crossings that rounding swapped are not put in turn, and
+/// their overlap is left out for a step; far larger, crossings of different corners are swapped.
+constexpr double kSamePlace = 1e-9;
 
 }  // namespace
 

@@ -8,9 +8,14 @@
 namespace polynya::geometry {
 namespace {
 
-constexpr double kSlack = 1e-9;        ///< of an edge's length: a vertex that meets the edge's end meets it
-constexpr double kFurtherOn = 1e-3;    ///< after so much of the way a touch has become an overlap [m]
-constexpr double kLeastShared = 1e-9;  ///< less is the rounding of outlines that slide along each other [m²]
+/// Of an edge's length: a vertex that meets the edge's end meets it. Without it two corners may pass each
+/// other.
+constexpr double kSlack = 1e-9;
+/// After so much of the way a touch has become an overlap [m]. Larger, thin tips pass through and their touch
+/// is found; smaller, the overlap is less than kLeastShared (their ratio is a contact 1 µm wide).
+constexpr double kFurtherOn = 1e-3;
+/// Less is the rounding of outlines that slide along each other [m²]: with 0 these touch at once.
+constexpr double kLeastShared = 1e-9;
 
 Vector outward_of(const Ring& ring, std::size_t edge) {
   const Vector along = ring[(edge + 1) % ring.size()] - ring[edge];

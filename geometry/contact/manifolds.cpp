@@ -1,9 +1,7 @@
+#include "geometry/contact/manifolds.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "geometry/contact/boundary.hpp"
-#include "geometry/contact/crossings.hpp"
-#include "geometry/contact/overlap_loops.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -69,8 +67,10 @@ double off_at(const std::vector<Point>& profile, double along) {
 /// greatest extents do not simply add: two faces shifted along each other reach farthest at opposite ends of
 /// the line.
 double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& b_side, double line) {
-  constexpr std::size_t kMostProduct =
-      4096;  // beyond, the sum is near enough for bodies that lie deep in each other
+  // Of the sides' corners. Beyond, the sum of both extents stands for the thickness, which is too large where
+  // faces are shifted along each other: bodies that lie deep in each other. More costs the product, in every
+  // step.
+  constexpr std::size_t kMostProduct = 4096;
   double most = 0;
   double sum = 0;
   for (const Point p : a_side) sum = std::max(sum, p.y);
@@ -178,6 +178,34 @@ int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, c
                : 0;
   }
   return find_several(a, b, a_from_b, scratch, manifolds);
+}
+
+void find_circle_manifolds(const Covered& a, const Covered& b, const Pose& a_from_b,
+                           const std::vector<NearPair>& circle_pairs,
+                           std::vector<ContactManifold>& manifolds) {
+  for (const NearPair pair : circle_pairs) {
+    const ContactCircle& ca = a.cover.circles[pair.a];
+    const ContactCircle& cb = b.cover.circles[pair.b];
+    const Vector line = transform(a_from_b, cb.centre) - ca.centre;
+    const double centres = length(line);
+    const double depth = ca.radius + cb.radius - centres;
+    if (depth <= 0 || centres == 0) continue;
+    ContactManifold manifold;
+    manifold.normal = line / centres;
+    manifold.depth = depth;
+    // Half the lens's chord: c² = r_a² − x², with x the chord's distance from a's centre.
+    const double x = (centres * centres + ca.radius * ca.radius - cb.radius * cb.radius) / (2 * centres);
+    const double half_chord = std::sqrt(std::max(0.0, ca.radius * ca.radius - x * x));
+    const Point middle = ca.centre + (ca.radius - 0.5 * depth) * manifold.normal;
+    manifold.width = 2 * half_chord;
+    manifold.area = 2.0 / 3.0 * depth * manifold.width;  // of a thin lens
+    manifold.ends[0] = middle - half_chord * perpendicular(manifold.normal);
+    manifold.ends[1] = middle + half_chord * perpendicular(manifold.normal);
+    manifold.tip_of_a = middle;
+    manifold.tip_of_b = ca.centre + (centres - cb.radius) * manifold.normal;
+    manifold.tip_edge_of_b = b.cover.pieces[pair.b].first_edge;
+    manifolds.push_back(manifold);
+  }
 }
 
 }  // namespace polynya::geometry

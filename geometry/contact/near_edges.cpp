@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "geometry/contact/boundary.hpp"
-#include "geometry/shape/box.hpp"
+#include "geometry/shape/point.hpp"
 
 namespace polynya::geometry {
 namespace {

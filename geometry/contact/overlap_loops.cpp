@@ -1,11 +1,10 @@
-#include "geometry/contact/overlap_loops.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 
-#include "geometry/contact/crossings.hpp"
+#include "geometry/contact/manifolds.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -77,10 +76,7 @@ void add_loop(Moments& moments, std::span<const OverlapPoint> points) {
 bool is_inside(std::span<const OverlapPoint> points, Point p) {
   bool inside = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point from = points[i].point;
-    const Point to = points[i + 1 < points.size() ? i + 1 : 0].point;
-    if ((from.y > p.y) == (to.y > p.y)) continue;
-    if ((cross(to - from, p - from) > 0) == (to.y > from.y)) inside = !inside;
+    if (crosses_ray(points[i].point, points[i + 1 < points.size() ? i + 1 : 0].point, p)) inside = !inside;
   }
   return inside;
 }

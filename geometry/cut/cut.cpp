@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/cut/internal/general_cut.hpp"
-#include "geometry/cut/internal/guarded.hpp"
-#include "geometry/cut/internal/local_cut.hpp"
-#include "geometry/exact/internal/edge_tree.hpp"
+#include "geometry/cut/internal/arrangement.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
+#include "geometry/cut/internal/snap_rounding.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 #include "geometry/exact/internal/predicates.hpp"
 #include "geometry/exact/validity.hpp"
+#include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -41,7 +41,7 @@ bool is_simple(const std::vector<Point>& polyline) {
   std::vector<Edge> edges;
   for (std::size_t i = 1; i < polyline.size(); ++i)
     edges.push_back({polyline[i - 1], polyline[i], 0, static_cast<int>(i)});
-  return EdgeTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
+  return BoxTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
     const SegmentMeeting meeting = meet(edges[i].a, edges[i].b, edges[j].a, edges[j].b);
     if (meeting.kind == Meeting::kNone) return true;
     return j == i + 1 && meeting.kind == Meeting::kTouch;
@@ -86,7 +86,55 @@ std::optional<DefectAt> find_shape_defect(const Shape& shape) {
   return find_defect(shape.polygon);
 }
 
+using exact::Winding;
+
+CutOutcome round_regions(const exact::Polygon& shape, std::vector<exact::Region> regions) {
+  std::vector<exact::ExactPiece> pieces;
+  pieces.reserve(regions.size());
+  for (exact::Region& region : regions) {
+    pieces.push_back({std::move(region.polygon), region.label == 1 ? Part::kInside : Part::kOutside});
+  }
+  return exact::rounded_pieces(exact::area(shape), pieces);
+}
+
 }  // namespace
+
+CutOutcome cut_by_polygons_generally(const exact::Polygon& shape, const std::vector<Polygon>& tools_in_body) {
+  return guarded([&]() -> CutOutcome {
+    std::vector<exact::SourceSegment> segments;
+    append_segments(segments, shape, 0);
+    for (const Polygon& tool : tools_in_body) append_segments(segments, exact::exactly(tool), 1);
+    const auto classify = [](Winding w) { return w.shape <= 0 ? -1 : (w.tool > 0 ? 1 : 0); };
+    exact::Overlay overlay = exact::overlay(segments, classify, exact::Seams::kDissolve);
+    if (std::ranges::none_of(overlay.regions, [](auto& r) { return r.label == 1; }))
+      return refuse(CutFailure::kMisses, "the polygon does not meet the shape's interior");
+    return round_regions(shape, std::move(overlay.regions));
+  });
+}
+
+CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<Point>& polyline_in_body) {
+  return guarded([&]() -> CutOutcome {
+    std::vector<exact::SourceSegment> segments;
+    append_segments(segments, shape, 0);
+    for (std::size_t i = 1; i < polyline_in_body.size(); ++i) {
+      const Point from = polyline_in_body[i - 1];
+      const Point to = polyline_in_body[i];
+      if (from != to) segments.push_back({exact::exactly(from), exact::exactly(to), 1});
+    }
+    const auto classify = [](Winding w) { return w.shape <= 0 ? -1 : 0; };
+    exact::Overlay overlay = exact::overlay(segments, classify, exact::Seams::kKeep);
+    if (!overlay.tool_meets_interior)
+      return refuse(CutFailure::kMisses, "the crack does not meet the shape's interior");
+    if (overlay.regions.size() < 2) {
+      return tl::unexpected(CutError{CutFailure::kDoesNotSeparate,
+                                     "the crack ends inside the ice or only bridges its holes",
+                                     overlay.dangling_length});
+    }
+    CutOutcome outcome = round_regions(shape, std::move(overlay.regions));
+    if (outcome) outcome->ledger.dangling_length = overlay.dangling_length;
+    return outcome;
+  });
+}
 
 std::string_view name_of(CutFailure reason) {
   constexpr std::string_view kNames[]{"invalid-shape", "invalid-tool", "misses", "does-not-separate",
@@ -128,8 +176,8 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
 
 Ring disc_polygon(Point centre, double radius, double sagitta) {
   // A chord subtending an angle 2π/n leaves the circle by r(1 − cos(π/n)).
-  constexpr int kFewest = 8;
-  constexpr int kMost = 4096;
+  constexpr int kFewest = 8;   // fewer, and a cusp's area is less by more than a tenth of the disc's
+  constexpr int kMost = 4096;  // more, and a mistyped sagitta makes rings that no step can carry
   const double half_angle = std::acos(std::clamp(1 - sagitta / radius, -1.0, 1.0));
   const double wanted = half_angle > 0 ? std::ceil(std::numbers::pi / half_angle) : kMost;
   const int n = static_cast<int>(std::clamp(wanted, double{kFewest}, double{kMost}));

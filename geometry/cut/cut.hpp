@@ -6,7 +6,7 @@
 
 #include <tl/expected.hpp>
 
-#include "geometry/shape/shape.hpp"
+#include "geometry/shape/polygon.hpp"
 
 namespace polynya::geometry {
 

@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "geometry/cut/internal/arrangement.hpp"
-#include "geometry/cut/internal/guarded.hpp"
-#include "geometry/cut/internal/rounded_pieces.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
+#include "geometry/cut/internal/snap_rounding.hpp"
 #include "geometry/exact/internal/predicates.hpp"
 
 namespace polynya::geometry {

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "geometry/shape/shape.hpp"
+#include <span>
+
+#include "geometry/shape/polygon.hpp"
 
 namespace polynya::geometry {
 
@@ -21,7 +23,16 @@ double signed_area(const Ring& ring);
 /// Length of all boundaries, holes included [m].
 double perimeter(const Polygon& polygon);
 
-/// Is the point inside or on the boundary of the polygon? (even-odd, exact predicate)
-bool contains(const Polygon& polygon, Point point);
+/// Area of a polygon within |y| ≤ half_width, in doubles [m²].
+double area_in_band(const Polygon& polygon, double half_width);
+
+/// The area of a polygon of these very doubles, computed in rationals and rounded once [m²]. The outer ring
+/// runs counter-clockwise, holes clockwise. NaN where a coordinate is not finite.
+double exact_area(const Polygon& polygon);
+
+/// Σ areas of `after` − Σ areas of `before` + Σ `terms`, computed in rationals and rounded once [m²]: what a
+/// ledger of areas leaves over. Zero means that not a bit is missing; NaN that something is not finite.
+double exact_balance(std::span<const Polygon* const> after, std::span<const Polygon* const> before,
+                     std::span<const double> terms);
 
 }  // namespace polynya::geometry

@@ -5,8 +5,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "geometry/exact/internal/edge_tree.hpp"
 #include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -52,7 +53,7 @@ bool are_neighbours(const Polygon& polygon, const Edge& e, const Edge& f) {
 // Every pair of edges near each other: a defect, or the points in which different rings touch.
 Found find_edge_defect(const Polygon& polygon, const std::vector<Edge>& edges, std::vector<Touch>& touches) {
   Found found;
-  EdgeTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
+  BoxTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
     const Edge& e = edges[i];
     const Edge& f = edges[j];
     const SegmentMeeting meeting = meet(e.a, e.b, f.a, f.b);

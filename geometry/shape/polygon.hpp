@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/shape/box.hpp"
 #include "geometry/shape/pose.hpp"
 
 namespace polynya::geometry {
@@ -17,6 +16,14 @@ struct Polygon {
   Ring outer;
   std::vector<Ring> holes;
   friend bool operator==(const Polygon&, const Polygon&) = default;
+};
+
+/// A floe's shape at rest in its body frame. Every double is a rational: these are its exact coordinates.
+struct Shape {
+  Polygon polygon;
+  /// Set by the cuts on their pieces, which are valid: the next cut does not validate them again. Clear it
+  /// after editing `polygon`.
+  bool known_valid = false;
 };
 
 inline Box bounding_box(const Ring& ring) {

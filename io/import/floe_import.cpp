@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "geometry/cut/disjoint.hpp"
-#include "geometry/exact/exact_area.hpp"
+#include "geometry/cut/overlap.hpp"
+#include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "geometry/shape/simplify.hpp"
+#include "geometry/shape/outline.hpp"
 #include "io/text/problem.hpp"
 #include "simulation/limits.hpp"
 

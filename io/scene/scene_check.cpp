@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/cut/overlapping_pairs.hpp"
+#include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"

@@ -57,13 +57,6 @@ CellMeasures measure_convex(const Ring& ring) {
   return {0.5 * twice_area, ring[0] + moment / (3 * twice_area)};
 }
 
-bool is_in_convex(const Ring& ring, Point p) {
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (cross(ring[(i + 1) % ring.size()] - ring[i], p - ring[i]) < 0) return false;
-  }
-  return true;
-}
-
 double aspect_of(const Ring& ring) {
   const CellMeasures cell = measure_convex(ring);
   double xx = 0;

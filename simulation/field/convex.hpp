@@ -16,9 +16,6 @@ struct CellMeasures {
 /// From its first corner: cheaper than geometry::measure, and precise far from the origin.
 CellMeasures measure_convex(const geometry::Ring& ring);
 
-/// Whether a point is inside or on the ring.
-bool is_in_convex(const geometry::Ring& ring, geometry::Point p);
-
 /// √ of the ratio of the principal second moments of area, ≥ 1: an ellipse's length over its width [-].
 double aspect_of(const geometry::Ring& ring);
 

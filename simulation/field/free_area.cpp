@@ -5,6 +5,7 @@
 
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 #include "simulation/field/convex.hpp"
 
 namespace polynya::simulation {
@@ -15,20 +16,6 @@ using geometry::Point;
 using geometry::Polygon;
 using geometry::Ring;
 using geometry::Vector;
-
-/// Whether a point is inside a ring that may be concave.
-bool is_inside(const Ring& ring, Point p) {
-  bool inside = false;
-  Point a = ring.back();
-  for (const Point b : ring) {
-    if ((a.y > p.y) != (b.y > p.y)) {
-      const double side = cross(b - a, p - a);
-      if ((b.y > a.y) == (side > 0)) inside = !inside;
-    }
-    a = b;
-  }
-  return inside;
-}
 
 bool is_convex(const Ring& ring) {
   const std::size_t n = ring.size();
@@ -74,7 +61,7 @@ FreeArea::FreeArea(const Ring& region, const std::vector<Polygon>& kept_clear, d
     clear_boxes_.push_back(bounding_box(ring));
     add_edges(polygon.outer, false, 0.5 * gap, plane);
   }
-  bin_edges();
+  tree_ = geometry::BoxTree(edges_);
 }
 
 /// Edges moved to their free side, and made longer at both ends, by the margin.
@@ -90,35 +77,10 @@ void FreeArea::add_edges(const Ring& in_world, bool is_free_inside, double margi
   }
 }
 
-void FreeArea::bin_edges() {
-  box_ = bounding_box(hull_);
-  bins_ = std::clamp(static_cast<int>(4 * std::sqrt(static_cast<double>(edges_.size()))), 1, 256);
-  near_edges_.resize(static_cast<std::size_t>(bins_) * static_cast<std::size_t>(bins_));
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    for_bins(geometry::box_around(edges_[i].from, edges_[i].to),
-             [&](std::size_t bin) { near_edges_[bin].push_back(static_cast<std::uint32_t>(i)); });
-  }
-}
-
-template <class Visit>
-void FreeArea::for_bins(const Box& box, Visit visit) const {
-  const auto place = [&](double x, double low, double high) {
-    return std::clamp(static_cast<int>(bins_ * ((x - low) / (high - low))), 0, bins_ - 1);
-  };
-  const int first = place(box.low.x, box_.low.x, box_.high.x);
-  const int last = place(box.high.x, box_.low.x, box_.high.x);
-  const int top = place(box.high.y, box_.low.y, box_.high.y);
-  for (int row = place(box.low.y, box_.low.y, box_.high.y); row <= top; ++row) {
-    for (int column = first; column <= last; ++column)
-      visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(bins_) +
-            static_cast<std::size_t>(column));
-  }
-}
-
 bool FreeArea::holds(Point p) const {
-  if (!region_.empty() && !is_inside(region_, p)) return false;
+  if (!region_.empty() && side_of_ring(region_, p) < 0) return false;
   for (std::size_t i = 0; i < clear_.size(); ++i) {
-    if (contains(clear_boxes_[i], {p, p}) && is_inside(clear_[i], p)) return false;
+    if (contains(clear_boxes_[i], {p, p}) && side_of_ring(clear_[i], p) > 0) return false;
   }
   return true;
 }
@@ -126,19 +88,19 @@ bool FreeArea::holds(Point p) const {
 bool FreeArea::clip(Ring& ring) const {
   if (edges_.empty() || ring.empty()) return false;
   const Box box = bounding_box(ring);
-  std::vector<std::uint32_t> near;
-  for_bins(box, [&](std::size_t bin) {
-    near.insert(near.end(), near_edges_[bin].begin(), near_edges_[bin].end());
+  std::vector<std::size_t> near;
+  tree_.for_each_near(box, [&](std::size_t i) {
+    near.push_back(i);
+    return true;
   });
-  std::ranges::sort(near);
-  near.erase(std::unique(near.begin(), near.end()), near.end());
   const double depth = 1e-7 * distance(box.low, box.high);
   bool was_met = false;
   while (!ring.empty()) {
     Ring best;
     double most = -1;
-    for (const std::uint32_t i : near) {
-      const auto& [from, to] = edges_[i];
+    for (const std::size_t i : near) {
+      const Point from = edges_[i].a;
+      const Point to = edges_[i].b;
       if (!runs_through(from, to, ring, depth)) continue;
       Ring left = ring;
       clip_to_left(left, from, to);

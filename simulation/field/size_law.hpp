@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <variant>
 #include <vector>
 
+#include "geometry/shape/polygon.hpp"
 #include "simulation/random.hpp"
 
 namespace polynya::simulation {
@@ -42,5 +44,26 @@ double mean_area(const SizeLaw& law);
 /// So many areas, ascending [m²]: one at random in each of as many equal parts of the law's probability, so
 /// that a small field too has the law's small and large floes in their proportion.
 std::vector<double> draw_areas(const SizeLaw& law, std::size_t count, Random& random);
+
+/// What came of a size law, over the floes of a field.
+struct FieldStatistics {
+  SizeLaw law;                    ///< asked for
+  double least_size = 0;          ///< [m]
+  double largest_size = 0;        ///< [m]
+  double distance_to_law = 0;     ///< Kolmogorov and Smirnov's; of equal sizes, the largest deviation / size
+  std::optional<SizeLaw> fitted;  ///< by maximum likelihood, of the power law's exponent between its bounds
+                                  ///< or the log-normal law's mean and spread; none of equal sizes
+  double mean_aspect = 0;         ///< √ of the ratio of the principal second moments [-]
+  double mean_corners = 0;
+};
+
+/// Of the largest difference between the law and the share of floes below a size [-]. `sizes` ascend.
+double kolmogorov_smirnov(const SizeLaw& law, const std::vector<double>& sizes);
+
+/// The exponent of a power law between bounds that makes the sizes likeliest: found by halving, since the
+/// mean of ln d falls steadily with it. Sizes beyond a bound count as at it.
+double likeliest_exponent(const PowerLawSizes& law, const std::vector<double>& sizes);
+
+FieldStatistics statistics_of(const SizeLaw& law, const std::vector<geometry::Polygon>& floes);
 
 }  // namespace polynya::simulation

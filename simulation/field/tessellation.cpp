@@ -6,8 +6,8 @@
 #include <numeric>
 #include <span>
 
-#include "geometry/shape/power_cells.hpp"
-#include "simulation/field/cell_couplings.hpp"
+#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/shape/power_diagram.hpp"
 #include "simulation/field/convex.hpp"
 
 namespace polynya::simulation {
@@ -20,11 +20,14 @@ using geometry::Ring;
 using geometry::Site;
 using geometry::Vector;
 
-constexpr double kPointsPerSite = 4;
-constexpr int kMoves = 11;       ///< passes in which sites move to their cells' centroids
-constexpr int kSettles = 5;      ///< passes after them in which sites stay and weights alone change
-constexpr int kMostExtras = 6;   ///< more of these while sites are without a cell
-constexpr int kIterations = 12;  ///< of a settling pass's system of equations
+// Every one of these changes all fields with a size law, to the bit: their goldens and pinned hashes go with
+// them.
+constexpr double kPointsPerSite = 4;  ///< fewer, and sites start where others' floes are to lie
+constexpr int kMoves = 11;  ///< passes in which sites move to their centroids; fewer leave slender cells
+constexpr int kSettles =
+    5;  ///< passes after them in which weights alone change; fewer miss areas by above 1 %
+constexpr int kMostExtras = 6;   ///< more of these while sites are without a cell; fewer lose floes
+constexpr int kIterations = 12;  ///< of a settling pass's system of equations; as kSettles
 
 /// Points in the free area, one at random in each of the cells of a grid.
 std::vector<Point> strew(const FreeArea& free, double count, Random& random) {
@@ -42,7 +45,7 @@ std::vector<Point> strew(const FreeArea& free, double count, Random& random) {
         const double x = (static_cast<double>(column) + random.uniform()) / static_cast<double>(columns);
         const double y = (static_cast<double>(row) + random.uniform()) / static_cast<double>(rows);
         const Point p = box.low + Vector{x * extent.x, y * extent.y};
-        if (is_in_convex(free.hull(), p) && free.holds(p)) points.push_back(p);
+        if (side_of_ring(free.hull(), p) >= 0 && free.holds(p)) points.push_back(p);
       }
     }
   }
@@ -93,6 +96,101 @@ class Dealer {
   std::vector<double> sum_before_;
   std::vector<Site> sites_;
 };
+
+/// How the areas of a power diagram's cells answer to the weights of its sites: a cell gains l / 2d from each
+/// neighbour per unit by which its own weight is raised above the neighbour's, l the length of their common
+/// edge and d the distance of their sites.
+class CellCouplings {
+ public:
+  void begin(std::size_t cells);
+  /// Cells come in their order, each with its neighbours, and then the end.
+  void begin_cell();
+  void add(std::uint32_t neighbour, double gain);
+  void end() { neighbours_.first.push_back(gains_.size()); }
+  const geometry::NeighbourGuess& neighbours() const { return neighbours_; }
+
+  /// Σ l / 2d of a cell.
+  double growth(std::size_t cell) const { return growth_[cell]; }
+
+  /// Changes of all weights that bring about these changes of the areas [m²], to first order: by so many
+  /// iterations of conjugate gradients, which do not go far from 0 where the changes do not add up to 0.
+  std::vector<double> solve(const std::vector<double>& changes, int iterations) const;
+
+ private:
+  void multiply(const std::vector<double>& weights, std::vector<double>& areas) const;
+  double diagonal(std::size_t cell) const;
+
+  geometry::NeighbourGuess neighbours_;
+  std::vector<double> gains_;  ///< one for each of the neighbours
+  std::vector<double> growth_;
+};
+
+double dot_product(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+void CellCouplings::begin(std::size_t cells) {
+  neighbours_.first.clear();
+  neighbours_.sites.clear();
+  gains_.clear();
+  growth_.clear();
+  neighbours_.first.reserve(cells + 1);
+  growth_.reserve(cells);
+}
+
+void CellCouplings::begin_cell() {
+  neighbours_.first.push_back(gains_.size());
+  growth_.push_back(0);
+}
+
+void CellCouplings::add(std::uint32_t neighbour, double gain) {
+  neighbours_.sites.push_back(neighbour);
+  gains_.push_back(gain);
+  growth_.back() += gain;
+}
+
+/// A cell without neighbours keeps its weight. The hundredth keeps the matrix from being singular.
+double CellCouplings::diagonal(std::size_t cell) const {
+  return 1.01 * std::max(growth_[cell], 0.1);
+}
+
+void CellCouplings::multiply(const std::vector<double>& weights, std::vector<double>& areas) const {
+  const auto& [first, sites] = neighbours_;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    double sum = diagonal(i) * weights[i];
+    for (std::size_t k = first[i]; k < first[i + 1]; ++k) sum -= gains_[k] * weights[sites[k]];
+    areas[i] = sum;
+  }
+}
+
+std::vector<double> CellCouplings::solve(const std::vector<double>& changes, int iterations) const {
+  const std::size_t count = changes.size();
+  std::vector<double> solution(count, 0);
+  std::vector<double> residual = changes;
+  std::vector<double> scaled(count);
+  std::vector<double> product(count);
+  for (std::size_t i = 0; i < count; ++i) scaled[i] = residual[i] / diagonal(i);
+  std::vector<double> direction = scaled;
+  double descent = dot_product(residual, scaled);
+  for (int iteration = 0; iteration < iterations && descent > 0; ++iteration) {
+    multiply(direction, product);
+    const double curvature = dot_product(direction, product);
+    if (!(curvature > 0)) break;
+    const double step = descent / curvature;
+    for (std::size_t i = 0; i < count; ++i) {
+      solution[i] += step * direction[i];
+      residual[i] -= step * product[i];
+      scaled[i] = residual[i] / diagonal(i);
+    }
+    const double next = dot_product(residual, scaled);
+    const double turn = next / descent;
+    descent = next;
+    for (std::size_t i = 0; i < count; ++i) direction[i] = scaled[i] + turn * direction[i];
+  }
+  return solution;
+}
 
 /// What a pass found of a cell.
 struct Found {
@@ -182,7 +280,7 @@ class Relaxation {
   /// Sites to their cells' centroids, and each weight by its own cell's error alone, which is safe far from
   /// the end.
   void move() {
-    constexpr double kDamping = 0.6;
+    constexpr double kDamping = 0.6;  // above 1, weights of neighbours overshoot in turn and cells vanish
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!(found_[i].area > 0)) continue;
       sites_[i].weight += kDamping * lack(i) / std::max(couplings_.growth(i), 0.5);

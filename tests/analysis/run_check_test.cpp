@@ -11,7 +11,7 @@
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "geometry/shape/convex_hull.hpp"
+#include "geometry/shape/outline.hpp"
 
 namespace polynya::analysis {
 namespace {

@@ -13,7 +13,6 @@
 
 #include "app/cut_floes.hpp"
 #include "geometry/cut/repair.hpp"
-#include "geometry/exact/exact_area.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 

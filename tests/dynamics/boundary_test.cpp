@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/exact/point_in_ring.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/contact/crack_width.hpp"
+#include "geometry/contact/crack_path.hpp"
 #include "geometry/cut/cut.hpp"
 #include "tests/dynamics/scenery.hpp"
 

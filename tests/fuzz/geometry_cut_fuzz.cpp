@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/validity.hpp"
 #include "tests/geometry/dice.hpp"

@@ -1,10 +1,8 @@
 // Whether there is room, and how much of a piece lies in a band: in doubles.
-#include "geometry/contact/clearance.hpp"
-
 #include <gtest/gtest.h>
 
+#include "geometry/contact/boundary.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/shape/band_area.hpp"
 
 namespace polynya::geometry {
 namespace {

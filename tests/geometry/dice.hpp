@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "geometry/shape/shape.hpp"
 
 namespace polynya::geometry::trials {
 

@@ -1,18 +1,14 @@
 // Polygons made disjoint, and simplified.
-#include "geometry/cut/disjoint.hpp"
-
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "geometry/cut/overlap.hpp"
-#include "geometry/cut/overlapping_pairs.hpp"
-#include "geometry/exact/exact_area.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "geometry/shape/box_pairs.hpp"
-#include "geometry/shape/simplify.hpp"
+#include "geometry/shape/box_tree.hpp"
+#include "geometry/shape/outline.hpp"
 
 namespace polynya::geometry {
 namespace {

@@ -1,7 +1,7 @@
 // Every failure that RapidCheck or the fuzzer found, shrunk, so that it stays found.
 #include <gtest/gtest.h>
 
-#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/exact/validity.hpp"
 #include "tests/geometry/trials.hpp"
 

@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "geometry/cut/internal/general_cut.hpp"
-#include "geometry/cut/internal/local_cut.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"

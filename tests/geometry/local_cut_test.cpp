@@ -1,12 +1,10 @@
 // The local path against the general one: wherever both answer they give the same bits.
-#include "geometry/cut/internal/local_cut.hpp"
-
 #include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/exact/measures.hpp"
 #include "tests/geometry/trials.hpp"
 

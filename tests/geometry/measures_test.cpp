@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "geometry/cut/cut.hpp"
-#include "geometry/exact/exact_area.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::geometry {
 namespace {

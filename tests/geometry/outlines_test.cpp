@@ -8,8 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 #include "geometry/exact/validity.hpp"
 #include "tests/geometry/trials.hpp"
 

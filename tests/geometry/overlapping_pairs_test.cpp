@@ -1,5 +1,3 @@
-#include "geometry/cut/overlapping_pairs.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

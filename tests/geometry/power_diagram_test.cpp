@@ -1,8 +1,10 @@
 // Cells against the definition: every point belongs to the site of least power distance.
+#include "geometry/shape/power_diagram.hpp"
+
 #include <gtest/gtest.h>
 
 #include "geometry/exact/measures.hpp"
-#include "geometry/shape/power_cells.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {

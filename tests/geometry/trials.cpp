@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "geometry/cut/internal/arrangement.hpp"
-#include "geometry/cut/internal/general_cut.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 

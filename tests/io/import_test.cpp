@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "geometry/cut/overlapping_pairs.hpp"
-#include "geometry/exact/exact_area.hpp"
+#include "geometry/cut/overlap.hpp"
+#include "geometry/exact/measures.hpp"
 #include "io/import/floe_import.hpp"
 #include "io/text/json_parser.hpp"
 

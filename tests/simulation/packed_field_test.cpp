@@ -1,7 +1,5 @@
 // Fields by a size law: cover, sizes, shapes, clearings and gaps as asked for, without overlap, on every
 // machine.
-#include "simulation/field/packed_field.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +10,7 @@
 #include "simulation/field/convex.hpp"
 #include "simulation/field/free_area.hpp"
 #include "simulation/field/portable_math.hpp"
+#include "simulation/floe_field.hpp"
 #include "tests/simulation/hash_of_floes.hpp"
 #include "tests/simulation/scenes.hpp"
 
@@ -112,7 +111,7 @@ TEST(PackedField, CoverAndLawsAreAsAskedFor) {
     FloeField field = field_of(law, concentration, 5000);
     field.gap = std::holds_alternative<PowerLawSizes>(law) && mean_area(law) < 4 ? 0.01 : 0.05;
     field.packing = 0.75;
-    const FloeFieldOutcome outcome = make_packed_field(field);
+    const FloeFieldOutcome outcome = make_floe_field(field);
     const double region = geometry::signed_area(field.region);
     EXPECT_NEAR(area_of(outcome.floes) / region, concentration, 1e-6);
     EXPECT_NEAR(outcome.concentration(), concentration, 1e-6);
@@ -132,7 +131,7 @@ TEST(PackedField, NoFloesShareAreaAndAllAreValid) {
     FloeField field = field_of(PowerLawSizes{1.87, 10, 100}, 0.97, 700);
     field.gap = 0.02;
     field.aspect = aspect;
-    const FloeFieldOutcome outcome = make_packed_field(field);
+    const FloeFieldOutcome outcome = make_floe_field(field);
     const geometry::Box region = bounding_box(field.region);
     for (const Polygon& floe : outcome.floes) {
       ASSERT_FALSE(geometry::find_defect(floe));
@@ -164,7 +163,7 @@ TEST(PackedField, ClearingsAndOutlinesAreKeptAndTheRestIsCovered) {
   field.kept_clear = {{{at(0.1, 0.3), at(0.5, 0.3), at(0.55, 0.35), at(0.5, 0.4), at(0.1, 0.4)}, {}},
                       {{at(0.7, 0.1), at(0.9, 0.2), at(0.72, 0.13), at(0.68, 0.5)}, {}}};
   field.gap = 0.2;
-  const FloeFieldOutcome outcome = make_packed_field(field);
+  const FloeFieldOutcome outcome = make_floe_field(field);
   double free = geometry::signed_area(field.region);
   for (const Polygon& clear : field.kept_clear) free -= geometry::measure(clear).area;
   EXPECT_NEAR(free_area(field.region, field.kept_clear), free, 1e-6);
@@ -200,12 +199,12 @@ TEST(PackedField, AspectAndOrientationAreAsAskedFor) {
   for (const double aspect : {1.6, 2.2, 3.4}) {
     FloeField field = field_of(LognormalSizes{15, 0.3}, 0.9, 1500);
     field.aspect = aspect;
-    const FloeFieldOutcome any = make_packed_field(field);
+    const FloeFieldOutcome any = make_floe_field(field);
     EXPECT_NEAR(any.statistics->mean_aspect, aspect, 0.07 * aspect);
     EXPECT_LT(length(mean_doubled_direction(any.floes)), 0.1) << "no direction is favoured";
     EXPECT_LT(any.statistics->distance_to_law, 0.01);
     field.orientation = 0.6;
-    const FloeFieldOutcome along = make_packed_field(field);
+    const FloeFieldOutcome along = make_floe_field(field);
     EXPECT_NEAR(along.statistics->mean_aspect, aspect, 0.07 * aspect);
     const Vector mean = mean_doubled_direction(along.floes);
     EXPECT_GT(length(mean), 0.7);
@@ -217,17 +216,17 @@ TEST(PackedField, AspectAndOrientationAreAsAskedFor) {
 TEST(PackedField, CornersAreWithinTheirBounds) {
   FloeField field = field_of(LognormalSizes{15, 0.3}, 0.7, 300);
   field.least_corners = field.most_corners = 9;
-  for (const Polygon& floe : make_packed_field(field).floes) ASSERT_EQ(floe.outer.size(), 9u);
+  for (const Polygon& floe : make_floe_field(field).floes) ASSERT_EQ(floe.outer.size(), 9u);
   field.least_corners = 3;
   field.most_corners = 4;
-  for (const Polygon& floe : make_packed_field(field).floes) ASSERT_LE(floe.outer.size(), 4u);
+  for (const Polygon& floe : make_floe_field(field).floes) ASSERT_LE(floe.outer.size(), 4u);
 }
 
 TEST(PackedField, HolesFavourNoSize) {
   FloeField field = field_of(PowerLawSizes{1.87, 10, 100}, 0.3, 3000);
-  const FloeFieldOutcome even = make_packed_field(field);
+  const FloeFieldOutcome even = make_floe_field(field);
   field.packing = 0.8;
-  const FloeFieldOutcome holed = make_packed_field(field);
+  const FloeFieldOutcome holed = make_floe_field(field);
   EXPECT_EQ(even.count, holed.count);
   EXPECT_LT(holed.statistics->distance_to_law, 0.005);
   EXPECT_NEAR(holed.concentration(), 0.3, 1e-6);
@@ -237,7 +236,7 @@ TEST(PackedField, HolesFavourNoSize) {
 TEST(PackedField, ReportsWhatTheGapAndTheCornersAllow) {
   FloeField field = field_of(EqualSizes{10}, 0.95, 500);
   field.gap = 1;
-  const FloeFieldOutcome outcome = make_packed_field(field);
+  const FloeFieldOutcome outcome = make_floe_field(field);
   EXPECT_LT(outcome.reachable_concentration, 0.85);
   EXPECT_GT(outcome.reachable_without_gap, 0.99);
   EXPECT_NEAR(outcome.concentration(), outcome.reachable_concentration, 1e-9);
@@ -248,9 +247,9 @@ TEST(PackedField, IsTheSameOnEveryMachineAndAnotherForAnotherSeed) {
   field.packing = 0.8;
   field.aspect = 1.5;
   constexpr std::uint64_t kPinned = 12706008380266857876U;
-  EXPECT_EQ(hash_of(make_packed_field(field).floes), kPinned) << "pinned: + − × ÷ √ alone made these bytes";
+  EXPECT_EQ(hash_of(make_floe_field(field).floes), kPinned) << "pinned: + − × ÷ √ alone made these bytes";
   field.seed = 8;
-  EXPECT_NE(hash_of(make_packed_field(field).floes), kPinned);
+  EXPECT_NE(hash_of(make_floe_field(field).floes), kPinned);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/exact/measures.hpp"
-#include "geometry/shape/triangulation.hpp"
+#include "geometry/shape/outline.hpp"
 #include "io/import/projection.hpp"
 #include "io/text/base64.hpp"
 #include "views/export/vtk_file.hpp"

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/shape/triangulation.hpp"
+#include "geometry/shape/outline.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/scene/floe_ice.hpp"
 #include "io/text/output_file.hpp"

@@ -177,7 +177,7 @@ function makePlayer(canvases) {
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
     /** Classes of colours up to other extremes, as another run has them. */
     colourUpTo: (most) => Object.assign(colourings, makeColourings(run, places, most)),
-    stations: (ship) => stationsOf(run, places, motions, ship, state.time),
+    stations: (ship) => stationsOf(run, ship, state.time),
     contacts: () => contactsOfFrame(run, motions.frame),
   };
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "analysis/channel.hpp"
 #include "io/run/force_causes.hpp"
 #include "io/run/force_columns.hpp"
 #include "io/run/records.hpp"
@@ -52,6 +53,49 @@ void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<i
   add("contact_fx_N", [](const ContactState& c) { return c.force.x; });
   add("contact_fy_N", [](const ContactState& c) { return c.force.y; });
   add("contact_is_crushing", [](const ContactState& c) { return c.is_crushing; });
+}
+
+/// The stations of each ship's channel with ice on both sides, at frames that are spread evenly over the run
+/// and end with the last. What geometry refuses to measure is not shown.
+void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
+  // More make pages larger and take longer: some 80 bytes a station and a millisecond an instant among 500
+  // floes.
+  constexpr std::size_t kMostInstants = 200;
+  struct Row {
+    int ship;
+    double time;
+    analysis::ChannelStation station;
+  };
+  std::vector<double> instants;
+  const std::size_t count = std::min(kMostInstants, frames.size());
+  for (std::size_t i = 0; i < count; ++i)
+    instants.push_back(frames[(i + 1) * frames.size() / count - 1].time);
+  std::vector<Row> rows;
+  const io::MotionIndex motions(run);
+  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
+    for (const double time : instants) {
+      const auto stations = analysis::measure_stations(run, motions, {.ship = ship, .time = time});
+      if (!stations) continue;
+      for (const analysis::ChannelStation& station : *stations) {
+        if (station.is_bounded()) rows.push_back({static_cast<int>(ship), time, station});
+      }
+    }
+  }
+  const auto add = [&](const char* name, auto read) {
+    columns.add(name, rows, [read](const Row& row) { return read(row.station); });
+  };
+  using Station = analysis::ChannelStation;
+  columns.add("channel_measured_s", instants);
+  columns.add("channel_ship", rows, &Row::ship);
+  columns.add("channel_t_s", rows, &Row::time);
+  add("channel_x_m", [](const Station& s) { return s.middle.x; });
+  add("channel_y_m", [](const Station& s) { return s.middle.y; });
+  add("channel_forward_x", [](const Station& s) { return s.forward.x; });
+  add("channel_forward_y", [](const Station& s) { return s.forward.y; });
+  add("channel_along_m", [](const Station& s) { return s.along; });
+  add("channel_length_m", [](const Station& s) { return s.length; });
+  add("channel_port_m", [](const Station& s) { return s.port; });
+  add("channel_starboard_m", [](const Station& s) { return s.starboard; });
 }
 
 void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelection& selection) {
@@ -251,6 +295,7 @@ PlayerData player_data(const io::Run& run, const PlayerSelection& selection) {
   data.frame_bytes = data.columns.bytes().size() - data.floe_bytes;
   add_forces(data.columns, run, selection.frames);
   add_contacts(data.columns, run, frames, held);
+  add_channels(data.columns, run, frames);
   data.info = info_of(run, data, selection, held);
   return data;
 }

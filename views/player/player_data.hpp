@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/shape/box.hpp"
+#include "geometry/shape/point.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/run/thinned_frames.hpp"
 #include "views/player/player_shapes.hpp"

@@ -13,7 +13,7 @@ function makeIcePicture(player, canvas) {
   function drawChannels() {
     drawSweptBand(ice, view, run, motions, state.time, player.colours);
     player.legend.showWidths(run.info.ships.map((ship, index) => {
-      const stations = stationsOf(run, places, motions, index, state.time);
+      const stations = stationsOf(run, index, state.time);
       drawStations(ice, view, stations, player.colours);
       return widthWords(stations);
     }).filter(Boolean));

@@ -38,7 +38,7 @@ void make_cgal_throw_quietly() {
 }
 
 static_assert(std::is_same_v<Kernel::FT::ET, Rational>,
-              "CGAL computes in the rationals of internal/rational.hpp");
+              "CGAL computes in the rationals of internal/exact_polygon.hpp");
 
 Kernel::Point_2 to_cgal(const Point& p) {
   return {Kernel::FT(p.x), Kernel::FT(p.y)};

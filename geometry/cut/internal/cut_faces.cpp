@@ -1,6 +1,6 @@
-#include "geometry/cut/internal/cut_faces.hpp"
-
 #include <algorithm>
+
+#include "geometry/cut/internal/local_cut.hpp"
 
 namespace polynya::geometry {
 namespace {

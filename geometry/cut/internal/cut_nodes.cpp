@@ -1,8 +1,8 @@
-#include "geometry/cut/internal/cut_nodes.hpp"
-
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+
+#include "geometry/cut/internal/local_cut.hpp"
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif

@@ -1,11 +1,11 @@
-#include "geometry/cut/internal/cut_pieces.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 
+#include "geometry/cut/internal/local_cut.hpp"
 #include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::geometry {
 namespace {

@@ -3,15 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/cut/internal/cut_pieces.hpp"
-#include "geometry/cut/internal/guarded.hpp"
-#include "geometry/cut/internal/rounded_pieces.hpp"
-#include "geometry/exact/internal/edge_tree.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
+#include "geometry/cut/internal/snap_rounding.hpp"
+#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
 namespace {
 
 using exact::Rational;
+
+// Do two different rings of a valid polygon meet in a point? Exact.
+bool has_touching_rings(const Polygon& polygon) {
+  if (polygon.holes.empty()) return false;
+  const std::vector<Edge> edges = edges_of(polygon);
+  return !BoxTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
+    const Edge& e = edges[i];
+    const Edge& f = edges[j];
+    return e.ring == f.ring || meet(e.a, e.b, f.a, f.b).kind == Meeting::kNone;
+  });
+}
 
 // Twice the area between the straight edge that starts at `a` and the chain of points it was split into, with
 // the edge's own end last: zero where all points lie on it.

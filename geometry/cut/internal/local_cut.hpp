@@ -1,17 +1,162 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "geometry/cut/cut.hpp"
-#include "geometry/cut/internal/cut_nodes.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
+#include "geometry/exact/internal/areas.hpp"
+#include "geometry/exact/internal/predicates.hpp"
 
 namespace polynya::geometry {
 
-/// The local path: finds where the tool meets the boundary by exact predicates, rebuilds only the chains
-/// between those nodes, rounds only the nodes, and validates only the edges that end in one. Equal to the
-/// general path wherever it answers; none where it does not cover the case (rings that touch each other where
-/// they are cut or in a floe of which several rings are cut). The shape is valid; the tool is a simple
-/// counter-clockwise ring or a simple open polyline.
-std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool);
+// The stages of a local cut: nodes, where the tool meets the shape; faces, the chains between them; pieces,
+// which rings bound what; and the check that rounding broke nothing.
+
+/// Where a point lies on a ring or polyline: at its vertex `edge`, or inside the edge that starts there.
+struct Place {
+  int ring = 0;
+  int edge = 0;
+  bool at_vertex = false;
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+/// A point in which the tool meets the shape's boundary.
+struct Node {
+  Point at;                 ///< the nearest doubles
+  bool is_rounded = false;  ///< `at` is not the point itself
+  exact::Point exactly_at;  ///< the point itself, where `is_rounded`
+  Place on_shape;
+  Place on_tool;
+  bool is_active = false;  ///< a chord ends here
+};
+
+/// The rings of a polygon as one list: 0 the outer ring, 1 + i hole i.
+struct Rings {
+  explicit Rings(const Polygon& polygon) : polygon_(polygon) {}
+  int count() const { return static_cast<int>(polygon_.holes.size()) + 1; }
+  const Ring& operator[](int i) const {
+    return i == 0 ? polygon_.outer : polygon_.holes[static_cast<std::size_t>(i) - 1];
+  }
+  Point point(int ring, int i) const {
+    const Ring& points = (*this)[ring];
+    const int n = static_cast<int>(points.size());
+    return points[static_cast<std::size_t>(i < 0 ? i + n : (i >= n ? i - n : i))];
+  }
+  exact::Point exact_point(int ring, int i) const { return exact::exactly(point(ring, i)); }
+  const Polygon& polygon() const { return polygon_; }
+
+ private:
+  const Polygon& polygon_;
+};
+
+/// An edge of the shape, by ring and first vertex.
+struct EdgeId {
+  int ring = 0;
+  int index = 0;
+};
+
+/// The shape's edges whose boxes overlap the box: a straight scan over all vertices.
+std::vector<EdgeId> edges_near(const Rings& rings, const Box& box);
+
+/// All points in which the tool meets the shape, each once, in order along the shape; none where some point
+/// is met twice by the shape or by the tool (rings that touch each other there): the local cut does not cover
+/// that.
+std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool,
+                                            const std::vector<EdgeId>& near);
+
+/// The nodes' indices in order along the tool.
+std::vector<int> order_along_tool(const std::vector<Node>& nodes, const Tool& tool);
+
+/// The exact point of a node.
+exact::Point exact_point(const Node& node);
+
+/// A run of consecutive vertices between two places of a ring or polyline, ends left out.
+struct Run {
+  int first = 0;  ///< its first vertex
+  int count = 0;  ///< how many; they wrap around the ring
+};
+
+/// A directed stretch of boundary between two active nodes, a face of the cut shape on its left.
+struct HalfEdge {
+  int from = 0;            ///< node
+  int to = 0;              ///< node
+  bool is_chord = false;   ///< along the tool through the ice, else along the shape
+  bool is_forward = true;  ///< chords are used once in each direction
+  int ring = 0;            ///< of the shape, where it is no chord
+  Run run;                 ///< vertices strictly between the nodes, in the ring's or tool's own order
+};
+
+/// A simple closed chain of half-edges.
+using Loop = std::vector<int>;
+
+/// One closed walk along a face's boundary, split at the nodes it visits twice.
+struct Walk {
+  std::vector<Loop> loops;
+  Part part = Part::kOutside;
+};
+
+/// The cut as a planar graph of chains: only nodes and chains, never single edges.
+struct CutGraph {
+  std::vector<HalfEdge> half_edges;  ///< all shape chains, then each chord forward and backward
+  std::vector<Walk> walks;
+  std::vector<HalfEdge> bridges;  ///< stretches of the tool from ring to ring that separate nothing
+  int rings_met = 0;              ///< how many rings of the shape chords and bridges end on
+  std::vector<char> ring_is_cut;  ///< per ring of the shape: has it active nodes?
+  bool is_consistent = true;      ///< false only if the shape or the tool is not valid
+  int first_node = -1;            ///< along the tool
+  int last_node = -1;
+  bool starts_inside = false;  ///< an open tool comes to its first node through the shape's interior
+  bool ends_inside = false;    ///< and leaves its last one into it
+};
+
+/// Which stretches of the tool are chords, and which faces they and the shape's chains bound. Marks active
+/// nodes.
+CutGraph trace_faces(const Rings& rings, const Tool& tool, std::vector<Node>& nodes);
+
+/// An edge of the cut shape, and which of its ends are rounded nodes.
+struct Segment {
+  Point from;
+  Point to;
+  bool from_is_rounded = false;
+  bool to_is_rounded = false;
+};
+
+/// One ring of a piece: a loop of the graph, a ring of the shape the cut left alone, or the whole tool.
+struct PieceRing {
+  enum class Source { kLoop, kShapeRing, kTool, kToolReversed };
+  Source source = Source::kLoop;
+  Loop loop;           ///< for kLoop
+  int shape_ring = 0;  ///< for kShapeRing
+  Ring points;         ///< written out, new vertices rounded
+  RingArea area;       ///< of `points`
+};
+
+struct PiecePlan {
+  std::vector<PieceRing> rings;  ///< the outer one first
+  Part part = Part::kOutside;
+};
+
+/// The state of a local cut.
+struct LocalCut {
+  const Rings& rings;
+  const Tool& tool;
+  std::vector<Node> nodes;
+  CutGraph graph;
+  std::vector<Segment> changed;  ///< edges that end in a rounded node
+  std::vector<Segment> placed;   ///< the other new edges: along the tool, and parts of the shape's edges
+};
+
+/// Writes out all rings and finds which bound which piece. None where that is in doubt.
+std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut);
+
+/// A piece before rounding.
+exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan);
+
+/// Could rounding the changed edges have carried one of them across a whole ring of the piece?
+bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan);
+
+/// After rounding, do the edges of the cut shape still meet in shared ends only? `near_tool` are the shape's
+/// edges that overlap `tool_box`. Exact.
+bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool);
 
 }  // namespace polynya::geometry

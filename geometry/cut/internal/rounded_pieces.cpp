@@ -1,10 +1,8 @@
-#include "geometry/cut/internal/rounded_pieces.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "geometry/cut/internal/guarded.hpp"
+#include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
 #include "geometry/exact/internal/areas.hpp"
 #include "geometry/exact/validity.hpp"

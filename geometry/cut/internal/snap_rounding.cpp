@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "geometry/cut/internal/arrangement.hpp"
-#include "geometry/exact/internal/edge_tree.hpp"
 #include "geometry/exact/validity.hpp"
+#include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry::exact {
 namespace {
@@ -131,7 +131,7 @@ class Snapping {
     for (const Edge& e : edges_) centres.push_back(e.a);
     std::sort(centres.begin(), centres.end(), geometry::precedes);
     centres.erase(std::unique(centres.begin(), centres.end()), centres.end());
-    const EdgeTree tree(edges_);
+    const BoxTree tree(edges_);
     for (const geometry::Point p : centres) {
       tree.for_each_near({p, p}, [&](std::size_t i) {
         if (p != edges_[i].a && p != edges_[i].b && !is_far(edges_[i], p, lattice_)) add_bend(i, p);

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "geometry/cut/internal/cut_pieces.hpp"
-#include "geometry/exact/internal/edge_tree.hpp"
+#include "geometry/cut/internal/local_cut.hpp"
+#include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
 namespace {
@@ -61,14 +61,14 @@ bool are_apart(const std::vector<Segment>& changed) {
   const auto has_no_length = [](const Segment& s) { return s.from == s.to; };
   if (std::any_of(changed.begin(), changed.end(), has_no_length)) return false;
   const std::vector<Edge> edges = edges_of(changed);
-  return EdgeTree(edges).for_each_pair(
+  return BoxTree(edges).for_each_pair(
       [&](std::size_t i, std::size_t j) { return are_apart(changed[i], changed[j]); });
 }
 
 // Do the changed edges meet these others in shared ends only?
 bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment>& others) {
   const std::vector<Edge> edges = edges_of(changed);
-  const EdgeTree tree(edges);
+  const BoxTree tree(edges);
   return std::all_of(others.begin(), others.end(), [&](const Segment& t) {
     return tree.for_each_near(box_of(Edge{t.from, t.to}),
                               [&](std::size_t i) { return are_apart(changed[i], t); });

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/exact/exact_area.hpp"
 #include "geometry/exact/internal/error_free.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 
@@ -105,6 +104,12 @@ void add(Moments& moments, const Ring& ring) {
   }
 }
 
+bool is_finite(const Polygon& polygon) {
+  const auto is_finite = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+  const auto all_finite = [&](const Ring& ring) { return std::ranges::all_of(ring, is_finite); };
+  return all_finite(polygon.outer) && std::ranges::all_of(polygon.holes, all_finite);
+}
+
 }  // namespace
 
 double nearest_area(const Ring& ring) {
@@ -159,7 +164,7 @@ double area_of(const Polygon& polygon, const std::vector<RingArea>& rings) {
     sum.area += ring.area;
     sum.doubt += ring.doubt;
   }
-  constexpr double kWorstDoubt = 1e-6;  // of the area
+  constexpr double kWorstDoubt = 1e-6;  // of the area; more, and thin pieces weigh too much or too little
   return sum.doubt > kWorstDoubt * std::abs(sum.area) ? nearest_area(polygon) : sum.area;
 }
 
@@ -179,6 +184,24 @@ Measures exact_measures(const Polygon& polygon) {
   const Rational second =
       moments.twelve_second / 12 - area * (centroid.x * centroid.x + centroid.y * centroid.y);
   return {exact::nearest_double(area), exact::rounded(centroid), exact::nearest_double(second)};
+}
+
+double exact_area(const Polygon& polygon) {
+  const Polygon* const only[]{&polygon};
+  return exact_balance(only, {}, {});
+}
+
+double exact_balance(std::span<const Polygon* const> after, std::span<const Polygon* const> before,
+                     std::span<const double> terms) {
+  const auto finite = [](const Polygon* polygon) { return is_finite(*polygon); };
+  if (!std::ranges::all_of(after, finite) || !std::ranges::all_of(before, finite) ||
+      !std::ranges::all_of(terms, [](double term) { return std::isfinite(term); }))
+    return std::numeric_limits<double>::quiet_NaN();
+  Rational sum = 0;
+  for (const Polygon* polygon : after) sum += exact::area(*polygon);
+  for (const Polygon* polygon : before) sum -= exact::area(*polygon);
+  for (const double term : terms) sum += Rational(term);
+  return exact::nearest_double(sum);
 }
 
 }  // namespace polynya::geometry

@@ -10,11 +10,15 @@ namespace polynya::geometry {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon() / 2;
-// [Shewchuk1997] orient2d's bound A, (3 + 16ε)ε, holds for differences of any two pairs of points.
+// [Shewchuk1997] orient2d's bound A, (3 + 16ε)ε, holds for differences of any two pairs of points. Smaller,
+// signs of nearly degenerate points would be those of rounding; larger only costs time.
 constexpr double kBound = (3 + 16 * kEps) * kEps;
-// Products below this may have lost bits to underflow; the bound does not cover them.
+// Products below this may have lost bits to underflow (2⁻¹⁰²² = 2e-308, less 53 bits): the bound does not
+// cover them, and without this term signs of points 1e-150 m apart would be wrong. [m²]
 constexpr double kUnderflow = 1e-280;
 
+// May a product of two such factors, and its error, be formed in doubles? Beyond 1e±150 one of them over- or
+// underflows, and two_product is not error-free.
 bool safe_factor(double v) {
   return v == 0 || (std::abs(v) > 1e-130 && std::abs(v) < 1e130);
 }
@@ -158,31 +162,6 @@ bool met_before(const Ray& from, const Ray& a, const Ray& b) {
   const int class_b = turn_class(from, b);
   if (class_a != class_b) return class_a < class_b;
   return (class_a == 1 || class_a == 3) && cross_sign(a, b) > 0;
-}
-
-int side_of_ring(const Ring& ring, Point p) {
-  bool inside = false;
-  Point a = ring.back();
-  for (const Point b : ring) {
-    if ((a.y > p.y) != (b.y > p.y)) {
-      if (p.x <= std::max(a.x, b.x)) {
-        const int side = p.x < std::min(a.x, b.x) ? (b.y > a.y ? 1 : -1) : orientation(a, b, p);
-        if (side == 0) return 0;
-        if ((side > 0) == (b.y > a.y)) inside = !inside;
-      }
-    } else if (a.y == p.y && b.y == p.y && in_span(a, b, p)) {
-      return 0;
-    }
-    if (b == p) return 0;
-    a = b;
-  }
-  return inside ? 1 : -1;
-}
-
-bool contains_strictly(const Polygon& polygon, Point p) {
-  if (side_of_ring(polygon.outer, p) <= 0) return false;
-  return std::all_of(polygon.holes.begin(), polygon.holes.end(),
-                     [p](const Ring& hole) { return side_of_ring(hole, p) < 0; });
 }
 
 }  // namespace polynya::geometry

@@ -1,14 +1,11 @@
-#include "simulation/field/packed_field.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "simulation/field/cells.hpp"
 #include "simulation/field/convex.hpp"
-#include "simulation/field/filling.hpp"
 #include "simulation/field/free_area.hpp"
-#include "simulation/field/obstacles.hpp"
 #include "simulation/field/portable_math.hpp"
 #include "simulation/field/tessellation.hpp"
 
@@ -19,8 +16,10 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
-constexpr double kShortestEdge = 0.03;  ///< of a floe, in sizes
-constexpr double kLeastShare = 0.25;    ///< of a floe's area that its cell must have room for
+constexpr double kShortestEdge = 0.03;  ///< of a floe, in sizes; smaller leaves slivers of edges
+/// Of a floe's area that its cell must have room for. Smaller, and floes far off the law stand at boundaries;
+/// larger, and boundaries are left bare.
+constexpr double kLeastShare = 0.25;
 
 /// Of floes one, two, three … of which share a round cell, cut across a random direction: measured.
 constexpr std::array kAspectOfStrips{1.27, 1.97, 2.9, 3.85, 4.83, 5.8};
@@ -29,24 +28,6 @@ constexpr std::array kAspectOfStrips{1.27, 1.97, 2.9, 3.85, 4.83, 5.8};
 struct Item {
   double area = 0;  ///< [m²]
   bool is_floe = true;
-};
-
-/// A floe in the making: its cell less half the gap, the area it should have and the most it can have.
-struct Candidate {
-  Ring ring;
-  Point centroid;
-  double wanted = 0;
-  double most = 0;  ///< of its ring [m²]
-  double room = 0;  ///< that it can have [m²]
-  bool is_at_boundary = false;
-};
-
-/// What the parts of a field add up to.
-struct Making {
-  std::vector<Candidate> candidates;
-  double free_area = 0;  ///< [m²]
-  double cell_area = 0;  ///< of the candidates, before the gap is taken off [m²]
-  int left_out = 0;
 };
 
 /// Along the longest edge, so that a slanting channel's box is not much larger than the channel.
@@ -125,29 +106,30 @@ std::vector<Run> shuffled_runs(const FloeField& field, std::size_t count, Random
   return runs;
 }
 
-void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_at_boundary, Making& making) {
-  const auto lose = [&making] { ++making.left_out; };
+void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_at_boundary,
+                   FieldLayout& layout) {
+  const auto lose = [&layout] { ++layout.left_out; };
   if (ring.empty()) return lose();
   const double shortest = kShortestEdge * std::sqrt(item.area);
   reduce_corners(ring, field.most_corners, shortest);
   const double cell_area = measure_convex(ring).area;
-  Candidate candidate{inset(ring, 0.5 * field.gap), {}, item.area, 0, 0, is_at_boundary};
+  Candidate candidate{inset(ring, 0.5 * field.gap), {}, 0, item.area, 0, is_at_boundary};
   if (candidate.ring.empty()) return lose();
   reduce_corners(candidate.ring, field.most_corners, shortest);  // edges that the gap made short
   const double whole = measure_convex(candidate.ring).area;
   add_corners(candidate.ring, field.least_corners);
   const CellMeasures measures = measure_convex(candidate.ring);
   if (!(measures.area >= kLeastShare * item.area)) return lose();
-  making.cell_area += cell_area * measures.area / whole;
+  layout.cell_area += cell_area * measures.area / whole;
   candidate.centroid = measures.centroid;
-  candidate.most = candidate.room = measures.area;
-  making.candidates.push_back(std::move(candidate));
+  candidate.area = candidate.room = measures.area;
+  layout.candidates.push_back(std::move(candidate));
 }
 
 /// Adds the floes of one part of the region.
-void fill(const FloeField& field, const Ring& region, Random& random, Making& making) {
+void fill(const FloeField& field, const Ring& region, Random& random, FieldLayout& layout) {
   const double area = free_area(region, field.kept_clear);
-  making.free_area += area;
+  layout.region_area += area;
   if (!(area > 0)) return;
   const std::vector<Item> items = draw_items(field, area, random);
   const std::vector<Run> runs = shuffled_runs(field, items.size(), random);
@@ -163,7 +145,7 @@ void fill(const FloeField& field, const Ring& region, Random& random, Making& ma
     Ring cell = plane.to_world(std::move(cells[i].ring));
     if (run.count == 1) {
       if (items[run.first].is_floe)
-        add_candidate(field, items[run.first], std::move(cell), cells[i].is_clipped, making);
+        add_candidate(field, items[run.first], std::move(cell), cells[i].is_clipped, layout);
       continue;
     }
     const auto [x, y] = portable_direction(random.uniform());
@@ -173,95 +155,20 @@ void fill(const FloeField& field, const Ring& region, Random& random, Making& ma
     if (!cell.empty()) strips = strips_of(cell, {x, y}, shares);
     for (std::size_t k = 0; k < run.count; ++k) {
       if (items[run.first + k].is_floe)
-        add_candidate(field, items[run.first + k], std::move(strips[k]), cells[i].is_clipped, making);
+        add_candidate(field, items[run.first + k], std::move(strips[k]), cells[i].is_clipped, layout);
     }
   }
-}
-
-/// The candidate at a factor, or a little smaller where it would come too near to what is kept clear: the
-/// corners of its cell were cut by straight lines. Nothing where that does not help.
-Ring clear_of(const Obstacles& obstacles, const Candidate& candidate, double factor) {
-  constexpr int kTries = 12;
-  for (int i = 0; i < kTries; ++i) {
-    Ring floe = scaled(candidate.ring, candidate.centroid, factor);
-    if (!obstacles.forbid(floe)) return floe;
-    factor *= 0.97;
-  }
-  return {};
-}
-
-/// The floes at a common factor. A candidate that had to be smaller, or left out, has no more room than that
-/// from now on; true where there was one.
-bool shrink_candidates(const Obstacles& obstacles, double factor, std::vector<Candidate>& candidates,
-                       std::vector<Ring>& floes) {
-  bool was_any = false;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    Candidate& candidate = candidates[i];
-    floes[i].clear();
-    if (candidate.room <= 0) continue;
-    const double area = std::min(factor * candidate.wanted, candidate.room);
-    const double shrunk = std::sqrt(area / candidate.most);
-    floes[i] = candidate.is_at_boundary ? clear_of(obstacles, candidate, shrunk)
-                                        : scaled(candidate.ring, candidate.centroid, shrunk);
-    const double left = floes[i].empty() ? 0 : measure_convex(floes[i]).area;
-    if (left >= area * (1 - 1e-9)) continue;
-    candidate.room = left;
-    was_any = true;
-  }
-  return was_any;
-}
-
-/// Adds the floes that the candidates become. Where what is kept clear takes some of their room, the others
-/// make up.
-void add_floes(const FloeField& field, Making& making, FloeFieldOutcome& outcome) {
-  constexpr int kRounds = 4;
-  FloeField with_rounding = field;  // floes that keep the gap but for rounding pass
-  with_rounding.gap = std::max(0.0, field.gap - 1e-9);
-  const Obstacles obstacles(with_rounding);
-  std::vector<Ring> floes(making.candidates.size());
-  for (int round = 0; round < kRounds; ++round) {
-    const double factor =
-        common_factor(making.candidates, &Candidate::room, field.concentration * making.free_area);
-    if (!shrink_candidates(obstacles, factor, making.candidates, floes)) break;
-  }
-  outcome.floes.reserve(floes.size());
-  double size_sum = 0;
-  for (Ring& floe : floes) {
-    if (floe.empty()) {
-      ++outcome.left_out;
-      continue;
-    }
-    const double area = measure_convex(floe).area;
-    outcome.floe_area += area;
-    size_sum += std::sqrt(area);
-    floe.shrink_to_fit();
-    outcome.floes.push_back({std::move(floe), {}});
-  }
-  enter_sizes(size_sum, outcome);
 }
 
 }  // namespace
 
-FloeFieldOutcome make_packed_field(const FloeField& field) {
+FieldLayout packed_cells(const FloeField& field) {
   Random random(Random(field.seed).next());
-  Making making;
-  if (field.parts.empty()) {
-    fill(field, field.region, random, making);
-  } else {
-    for (const Ring& part : field.parts) fill(field, part, random, making);
-  }
-  FloeFieldOutcome outcome;
-  outcome.region_area = making.free_area;
-  outcome.left_out = making.left_out;
-  if (!(making.free_area > 0)) return outcome;
-  double most = 0;
-  for (const Candidate& candidate : making.candidates) most += candidate.most;
-  outcome.reachable_concentration = most / making.free_area;
-  outcome.reachable_without_gap = making.cell_area / making.free_area;
-  add_floes(field, making, outcome);
-  if (outcome.count == 0) return outcome;
-  outcome.statistics = statistics_of(*field.law, outcome.floes);
-  return outcome;
+  FieldLayout layout;
+  for (const Ring& part : field.parts.empty() ? std::vector<Ring>{field.region} : field.parts)
+    fill(field, part, random, layout);
+  layout.tiled_area = layout.region_area;
+  return layout;
 }
 
 }  // namespace polynya::simulation

@@ -1,25 +1,53 @@
-#include "geometry/shape/triangulation.hpp"
+#include "geometry/shape/outline.hpp"
 
 #include <exception>
+#include <iterator>
 #include <new>
 #include <queue>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polyline_simplification_2/Squared_distance_cost.h>
+#include <CGAL/Polyline_simplification_2/Stop_above_cost_threshold.h>
+#include <CGAL/Polyline_simplification_2/simplify.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/convex_hull_2.h>
 
 namespace polynya::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-using PlainFaceBase = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;  // how many rings around it
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, PlainFaceBase>;
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Triangulation =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
-                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
+
+namespace PS = CGAL::Polyline_simplification_2;
+/// Constraints do not cross: rings are valid.
+template <class VertexBase, class FaceBase>
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel,
+    CGAL::Triangulation_data_structure_2<VertexBase,
+                                         CGAL::Constrained_triangulation_face_base_2<Kernel, FaceBase>>,
+    CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using Plus = CGAL::Constrained_triangulation_plus_2<
+    Delaunay<PS::Vertex_base_2<Kernel>, CGAL::Triangulation_face_base_2<Kernel>>>;
+/// A vertex has its number, a face how many rings lie around it.
+using Triangulation = Delaunay<CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>,
+                               CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+
+Plus::Constraint_id insert(Plus& plus, const Ring& ring) {
+  std::vector<Kernel::Point_2> points;
+  points.reserve(ring.size());
+  for (const Point p : ring) points.emplace_back(p.x, p.y);
+  return plus.insert_constraint(points.begin(), points.end(), true);
+}
+
+Ring ring_of(const Plus& plus, Plus::Constraint_id id) {
+  Ring ring;
+  for (auto p = plus.points_in_constraint_begin(id); p != plus.points_in_constraint_end(id); ++p)
+    ring.push_back({p->x(), p->y()});
+  if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  return ring;
+}
 
 void insert(Triangulation& triangulation, const Ring& ring, std::uint32_t first) {
   std::vector<Triangulation::Vertex_handle> vertices;
@@ -56,6 +84,32 @@ void count_rings(Triangulation& triangulation) {
 }
 
 }  // namespace
+
+Ring convex_hull(const std::vector<Point>& points) {
+  std::vector<Kernel::Point_2> corners;
+  corners.reserve(points.size());
+  for (const Point p : points) corners.emplace_back(p.x, p.y);
+  std::vector<Kernel::Point_2> hull;
+  CGAL::convex_hull_2(corners.begin(), corners.end(), std::back_inserter(hull));
+  Ring ring;
+  ring.reserve(hull.size());
+  for (const Kernel::Point_2& p : hull) ring.push_back({p.x(), p.y()});
+  return ring;
+}
+
+Polygon simplified(const Polygon& polygon, double tolerance) try {
+  Plus plus;
+  const Plus::Constraint_id outer = insert(plus, polygon.outer);
+  std::vector<Plus::Constraint_id> holes;
+  holes.reserve(polygon.holes.size());
+  for (const Ring& hole : polygon.holes) holes.push_back(insert(plus, hole));
+  PS::simplify(plus, PS::Squared_distance_cost(), PS::Stop_above_cost_threshold(tolerance * tolerance));
+  Polygon result{ring_of(plus, outer), {}};
+  for (const Plus::Constraint_id hole : holes) result.holes.push_back(ring_of(plus, hole));
+  return result;
+} catch (const CGAL::Failure_exception&) {
+  return polygon;
+}
 
 std::vector<Triangle> triangulate(const Polygon& polygon) {
   std::vector<Triangle> triangles;

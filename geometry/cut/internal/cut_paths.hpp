@@ -1,0 +1,59 @@
+#pragma once
+
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
+#include "geometry/exact/validity.hpp"
+
+namespace polynya::geometry {
+
+inline tl::unexpected<CutError> refuse(CutFailure reason, std::string detail) {
+  return tl::unexpected(CutError{reason, std::move(detail)});
+}
+inline tl::unexpected<CutError> refuse(CutFailure reason, Defect defect) {
+  return refuse(reason, std::string(name_of(defect)));
+}
+
+/// A geometric failure is a value: what CGAL throws in `work` becomes one (kInternal). Out of memory is
+/// thrown on.
+template <typename Work>
+auto guarded(Work work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    return refuse(CutFailure::kInternal, failure.what());
+  }
+}
+
+/// The general path: the whole shape and the tool overlaid exactly by CGAL. Covers every valid input; costs
+/// tens of milliseconds at thousands of vertices. Arguments are valid (checked by the caller); never throws.
+CutOutcome cut_by_polygons_generally(const exact::Polygon& shape, const std::vector<Polygon>& tools_in_body);
+CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<Point>& polyline_in_body);
+
+/// The cutting tool of a local cut: a simple counter-clockwise ring, or a simple open polyline.
+struct Tool {
+  const Ring& points;
+  bool is_closed = false;
+
+  int edge_count() const { return static_cast<int>(points.size()) - (is_closed ? 0 : 1); }
+  Point point(int i) const {
+    const int n = static_cast<int>(points.size());
+    return points[static_cast<std::size_t>(i < 0 ? i + n : (i >= n ? i - n : i))];
+  }
+};
+
+/// The local path: finds where the tool meets the boundary by exact predicates, rebuilds only the chains
+/// between those nodes, rounds only the nodes, and validates only the edges that end in one. Equal to the
+/// general path wherever it answers; none where it does not cover the case (rings that touch each other where
+/// they are cut or in a floe of which several rings are cut). The shape is valid; the tool is a simple
+/// counter-clockwise ring or a simple open polyline.
+std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool);
+
+}  // namespace polynya::geometry

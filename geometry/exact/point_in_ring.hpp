@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+
+#include "geometry/exact/internal/predicates.hpp"
+
+namespace polynya::geometry {
+
+// The one test of a point in a ring: the parity of the edges that cross the ray from the point towards +x.
+// Exact, also on the step's hot paths: two comparisons decide nearly all edges, and an exact orientation
+// costs what the cross product in doubles did (docs/decisions.md, "Two searches and one test of a point").
+
+/// Whether the edge from a to b crosses the ray from p towards +x. An end level with the point counts as
+/// below it, so that along a closed chain each crossing counts once; a point on the edge is on either side.
+inline bool crosses_ray(Point a, Point b, Point p) {
+  if ((a.y > p.y) == (b.y > p.y)) return false;
+  if (p.x < std::min(a.x, b.x)) return true;
+  if (p.x > std::max(a.x, b.x)) return false;
+  return (orientation(a, b, p) > 0) == (b.y > a.y);
+}
+
+/// −1 outside, 0 on the boundary, +1 inside the ring.
+int side_of_ring(const Ring& ring, Point p);
+
+/// Is the point inside or on the boundary of the polygon? (even-odd)
+bool contains(const Polygon& polygon, Point point);
+
+/// Is the point in the interior of the polygon?
+bool contains_strictly(const Polygon& polygon, Point p);
+
+}  // namespace polynya::geometry

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+
+namespace polynya::geometry {
+
+/// One edge of a polygon, with where it comes from.
+struct Edge {
+  Point a;
+  Point b;
+  int ring = 0;   ///< 0 the outer ring, 1 + i hole i
+  int index = 0;  ///< the edge starts at this vertex of its ring
+};
+
+std::vector<Edge> edges_of(const Polygon& polygon);
+
+inline Box box_of(const Edge& e) {
+  return box_around(e.a, e.b);
+}
+
+/// The search for edges and boxes in one frame: boxes over runs of them, halved down to a few. Boxes that
+/// touch meet. (Bodies and places are searched in grids: dynamics/hash_grid.hpp, power_diagram.cpp;
+/// boundaries in two turned frames by circles: contact/boundary.hpp.)
+class BoxTree {
+ public:
+  /// How the boxes are halved.
+  enum class Order {
+    kAlongRing,  ///< as they stand: edges that follow each other along a ring lie near each other
+    kInPlace,    ///< by their middles, across the longer side of what these span
+  };
+
+  BoxTree(std::vector<Box> boxes, Order order);
+  explicit BoxTree(const std::vector<Edge>& edges);
+
+  /// Calls visit(i, j), i < j, for every pair of boxes that meet, until it returns false.
+  template <typename Visit>
+  bool for_each_pair(Visit visit) const {
+    return nodes_.empty() || join_self(0, visit);
+  }
+
+  /// Calls visit(i) for every box that meets this one, until it returns false. kAlongRing: i ascends.
+  template <typename Visit>
+  bool for_each_near(const Box& box, Visit visit) const {
+    return nodes_.empty() || query(0, box, visit);
+  }
+
+ private:
+  struct Node {
+    Box box;
+    std::uint32_t first, last;
+    std::uint32_t left = 0, right = 0;  ///< children; 0 in a leaf
+  };
+  /// Boxes of a leaf. More make pairs cost their square, fewer make more nodes; 3 to 8 take the same time.
+  static constexpr std::uint32_t kLeaf = 4;
+
+  void sort_in_place(std::uint32_t first, std::uint32_t last);
+  std::uint32_t build(std::uint32_t first, std::uint32_t last);
+  std::size_t number(std::uint32_t place) const { return numbers_.empty() ? place : numbers_[place]; }
+
+  template <typename Visit>
+  bool visit_pair(std::uint32_t i, std::uint32_t j, Visit& visit) const {
+    if (!overlaps(boxes_[i], boxes_[j])) return true;
+    return numbers_.empty() || numbers_[i] < numbers_[j] ? visit(number(i), number(j))
+                                                         : visit(number(j), number(i));
+  }
+
+  template <typename Visit>
+  bool query(std::uint32_t n, const Box& box, Visit& visit) const {
+    const Node& node = nodes_[n];
+    if (!overlaps(node.box, box)) return true;
+    if (node.left != 0) return query(node.left, box, visit) && query(node.right, box, visit);
+    for (std::uint32_t i = node.first; i < node.last; ++i) {
+      if (overlaps(boxes_[i], box) && !visit(number(i))) return false;
+    }
+    return true;
+  }
+
+  template <typename Visit>
+  bool join_self(std::uint32_t n, Visit& visit) const {
+    const Node& node = nodes_[n];
+    if (node.left != 0)
+      return join_self(node.left, visit) && join_self(node.right, visit) &&
+             join(node.left, node.right, visit);
+    for (std::uint32_t i = node.first; i < node.last; ++i) {
+      for (std::uint32_t j = i + 1; j < node.last; ++j) {
+        if (!visit_pair(i, j, visit)) return false;
+      }
+    }
+    return true;
+  }
+
+  template <typename Visit>
+  bool join(std::uint32_t m, std::uint32_t n, Visit& visit) const {
+    const Node& low = nodes_[m];
+    const Node& high = nodes_[n];
+    if (!overlaps(low.box, high.box)) return true;
+    if (low.left == 0 && high.left == 0) {
+      for (std::uint32_t i = low.first; i < low.last; ++i) {
+        if (!overlaps(boxes_[i], high.box)) continue;
+        for (std::uint32_t j = high.first; j < high.last; ++j) {
+          if (!visit_pair(i, j, visit)) return false;
+        }
+      }
+      return true;
+    }
+    const bool split_low =
+        high.left == 0 || (low.left != 0 && low.last - low.first >= high.last - high.first);
+    if (split_low) return join(low.left, n, visit) && join(low.right, n, visit);
+    return join(m, high.left, visit) && join(m, high.right, visit);
+  }
+
+  std::vector<Box> boxes_;              ///< in the tree's order
+  std::vector<std::uint32_t> numbers_;  ///< of these boxes as given; empty where they stand as given
+  std::vector<Node> nodes_;
+};
+
+/// Which boxes meet, by their indices: the lower first, ascending.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_of_boxes(const std::vector<Box>& boxes);
+
+}  // namespace polynya::geometry
