@@ -6,7 +6,7 @@
 #include <tl/expected.hpp>
 
 #include "geometry/shape/polygon.hpp"
-#include "simulation/journal.hpp"
+#include "simulation/world/journal.hpp"
 
 namespace polynya::analysis {
 

@@ -4,7 +4,7 @@
 
 #include "app/console.hpp"
 #include "io/run/run_folder.hpp"
-#include "simulation/memory_estimate.hpp"
+#include "simulation/world/memory_estimate.hpp"
 
 namespace polynya::app {
 

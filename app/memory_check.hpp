@@ -3,7 +3,7 @@
 #include <string>
 
 #include "app/memory_available.hpp"
-#include "simulation/scene.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::app {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/run/summary.hpp"
-#include "simulation/scene.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::app {
 

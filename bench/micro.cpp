@@ -10,8 +10,8 @@
 #include "geometry/contact/contact_circles.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/validity.hpp"
-#include "simulation/floe_field.hpp"
-#include "simulation/step.hpp"
+#include "simulation/field/floe_field.hpp"
+#include "simulation/world/step.hpp"
 
 namespace polynya::bench {
 namespace {

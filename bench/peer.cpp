@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::bench {
 

@@ -1,4 +1,4 @@
-// Where a step's time goes: the stages of simulation/step.hpp, each under the clock, over whole runs.
+// Where a step's time goes: the stages of simulation/world/step.hpp, each under the clock, over whole runs.
 //   polynya_bench_profile [--quick]      prints a Markdown table of shares, on one thread
 //   polynya_bench_profile [--quick] --only voyage|field-10000|cylinder-shear [--until SECONDS]
 //                                        prints one case in microseconds a step, on one and on two threads
@@ -11,7 +11,7 @@
 
 #include "bench/voyage_run.hpp"
 #include "dynamics/thread_limit.hpp"
-#include "simulation/step.hpp"
+#include "simulation/world/step.hpp"
 
 namespace polynya::bench {
 namespace {

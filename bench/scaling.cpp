@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "bench/voyage_run.hpp"
-#include "simulation/floe_field.hpp"
+#include "simulation/field/floe_field.hpp"
 
 namespace polynya::bench {
 namespace {

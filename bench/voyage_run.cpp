@@ -9,7 +9,7 @@
 #include <malloc.h>
 
 #include "io/scene/scene_reader.hpp"
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::bench {
 namespace {

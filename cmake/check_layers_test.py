@@ -17,11 +17,11 @@ PLANTED = [
     ("fracture/crushing.cpp", '"dynamics/bodies.hpp"'),  # down, between rooms that are blind to each other
     ("dynamics/contact/contact.hpp", '"dynamics/water/wind.hpp"'),  # sideways, between sub-rooms
     ("dynamics/bodies.hpp", '"dynamics/contact/contact.hpp"'),  # up, into a sub-room
-    ("simulation/step.cpp", '"io/scene/scene_reader.hpp"'),  # up
+    ("simulation/world/step.cpp", '"io/scene/scene_reader.hpp"'),  # up
     ("io/run/run_writer.cpp", '"views/map/picture.hpp"'),  # up: the writer draws nothing
     ("io/scene/scene_check.cpp", '"geometry/cut/internal/local_cut.hpp"'),  # another room's internals
     ("io/scene/scene_reader.cpp", "<nlohmann/json.hpp>"),  # foreign, elsewhere
-    ("simulation/world.cpp", "<CGAL/Polygon_2.h>"),
+    ("simulation/world/world.cpp", "<CGAL/Polygon_2.h>"),
     ("geometry/cut/cut.hpp", "<CGAL/Polygon_2.h>"),  # in its room, but public
     ("app/run.cpp", "<CLI/CLI.hpp>"),
     ("geometry/shape/point.hpp", "<Eigen/Dense>"),

@@ -8,7 +8,7 @@
 #include "dynamics/thread_limit.hpp"
 #include "simulation/state/state.hpp"
 #include "simulation/state/validate_world.hpp"
-#include "simulation/step.hpp"
+#include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
 

@@ -9,10 +9,10 @@
 #include <tl/expected.hpp>
 
 #include "geometry/shape/pose.hpp"
-#include "simulation/energy.hpp"
-#include "simulation/journal.hpp"
-#include "simulation/pilot.hpp"
-#include "simulation/scene.hpp"
+#include "simulation/ship/pilot.hpp"
+#include "simulation/world/energy.hpp"
+#include "simulation/world/journal.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::dynamics {
 class ThreadLimit;

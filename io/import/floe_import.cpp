@@ -11,7 +11,7 @@
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/outline.hpp"
 #include "io/text/problem.hpp"
-#include "simulation/limits.hpp"
+#include "simulation/world/limits.hpp"
 
 namespace polynya::io {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "geometry/shape/point.hpp"
 #include "io/text/result.hpp"
-#include "simulation/scene.hpp"
+#include "simulation/world/scene.hpp"
 
 struct PJconsts;  // PROJ's PJ
 struct pj_ctx;    // and PJ_CONTEXT

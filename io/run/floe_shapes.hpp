@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/text/shape_parts.hpp"
-#include "simulation/journal.hpp"
+#include "simulation/world/journal.hpp"
 
 namespace polynya::io {
 

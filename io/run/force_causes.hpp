@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "simulation/scene.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::io {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/text/result.hpp"
-#include "simulation/journal.hpp"
-#include "simulation/scene.hpp"
+#include "simulation/world/journal.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::io {
 

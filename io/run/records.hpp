@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "simulation/journal.hpp"
 #include "simulation/simulation.hpp"
+#include "simulation/world/journal.hpp"
 
 namespace polynya::io {
 

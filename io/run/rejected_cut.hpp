@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "io/text/result.hpp"
-#include "simulation/journal.hpp"
+#include "simulation/world/journal.hpp"
 
 namespace polynya::io {
 

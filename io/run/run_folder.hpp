@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "io/run/run_lock.hpp"
-#include "simulation/scene.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::io {
 

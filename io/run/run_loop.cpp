@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/run/failure_dump.hpp"
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::io {
 namespace {

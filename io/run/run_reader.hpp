@@ -14,7 +14,7 @@
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_value.hpp"
 #include "io/text/result.hpp"
-#include "simulation/journal.hpp"
+#include "simulation/world/journal.hpp"
 
 namespace polynya::io {
 

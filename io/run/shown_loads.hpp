@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/run/force_columns.hpp"
-#include "simulation/scene.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::io {
 

@@ -14,7 +14,7 @@
 #include "io/text/problem.hpp"
 #include "io/text/source_text.hpp"
 #include "io/text/version.hpp"
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::io {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/scene/scene_reader.hpp"
-#include "simulation/energy.hpp"
-#include "simulation/journal.hpp"
+#include "simulation/world/energy.hpp"
+#include "simulation/world/journal.hpp"
 
 namespace polynya::simulation {
 class Simulation;

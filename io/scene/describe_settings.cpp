@@ -1,6 +1,6 @@
 #include "io/scene/describe.hpp"
 #include "io/scene/scene_input.hpp"
-#include "simulation/limits.hpp"
+#include "simulation/world/limits.hpp"
 
 namespace polynya::io {
 namespace {

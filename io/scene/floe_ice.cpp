@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "io/scene/record.hpp"
-#include "simulation/ice_scatter.hpp"
+#include "simulation/ice/ice_scatter.hpp"
 
 namespace polynya::io {
 namespace {

@@ -8,7 +8,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/scene/field_reader.hpp"
-#include "simulation/setup.hpp"
+#include "simulation/world/setup.hpp"
 
 namespace polynya::io {
 namespace {

@@ -11,8 +11,8 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
-#include "simulation/limits.hpp"
-#include "simulation/setup.hpp"
+#include "simulation/world/limits.hpp"
+#include "simulation/world/setup.hpp"
 
 namespace polynya::io {
 namespace {

@@ -12,8 +12,8 @@
 #include "geometry/shape/polygon.hpp"
 #include "io/import/floe_import.hpp"
 #include "io/scene/record.hpp"
-#include "simulation/floe_field.hpp"
-#include "simulation/scene.hpp"
+#include "simulation/field/floe_field.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::io {
 

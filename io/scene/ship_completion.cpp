@@ -10,7 +10,7 @@
 #include "geometry/shape/pose.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
-#include "simulation/sailing.hpp"
+#include "simulation/ship/sailing.hpp"
 
 namespace polynya::io {
 namespace {

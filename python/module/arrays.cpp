@@ -6,7 +6,7 @@
 #include "python/module/simulation.hpp"
 
 #include "io/run/force_columns.hpp"
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::python {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::python {
 

@@ -9,7 +9,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::python {
 

@@ -4,7 +4,7 @@
 
 #include "python/module/scene.hpp"
 
-#include "simulation/pilot.hpp"
+#include "simulation/ship/pilot.hpp"
 
 namespace polynya::python {
 

@@ -10,7 +10,7 @@
 #include "io/run/active_run.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/records.hpp"
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::python {
 namespace {

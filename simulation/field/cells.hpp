@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "simulation/floe_field.hpp"
+#include "simulation/field/floe_field.hpp"
 
 namespace polynya::simulation {
 

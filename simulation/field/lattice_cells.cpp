@@ -5,7 +5,7 @@
 #include "geometry/shape/power_diagram.hpp"
 #include "simulation/field/cells.hpp"
 #include "simulation/field/convex.hpp"
-#include "simulation/random.hpp"
+#include "simulation/field/random.hpp"
 
 namespace polynya::simulation {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "simulation/random.hpp"
+#include "simulation/field/random.hpp"
 
 namespace polynya::simulation {
 

@@ -4,7 +4,7 @@
 
 #include "geometry/shape/polygon.hpp"
 #include "simulation/field/free_area.hpp"
-#include "simulation/random.hpp"
+#include "simulation/field/random.hpp"
 
 namespace polynya::simulation {
 

@@ -8,9 +8,9 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "simulation/limits.hpp"
 #include "simulation/state/state_fields.hpp"
 #include "simulation/state/validate_world.hpp"
+#include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
 

@@ -3,7 +3,7 @@
 #include "dynamics/contact/broad_phase.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "simulation/state/archive.hpp"
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
 

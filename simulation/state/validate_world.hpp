@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
 

@@ -10,7 +10,7 @@
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_parser.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::tests {
 namespace {

@@ -5,7 +5,7 @@
 #include <sys/resource.h>
 
 #include "io/run/run_folder.hpp"
-#include "simulation/memory_estimate.hpp"
+#include "simulation/world/memory_estimate.hpp"
 
 namespace polynya::tests {
 namespace {

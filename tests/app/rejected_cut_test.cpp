@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "io/text/json_parser.hpp"
-#include "simulation/step.hpp"
+#include "simulation/world/step.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::tests {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "simulation/scene.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::tests {
 
-/// The scene of the checkpoints in checkpoint_fuzz_corpus: a ship, a plate it breaks, ice under it, a small floe,
-/// one under way.
+/// The scene of the checkpoints in checkpoint_fuzz_corpus: a ship, a plate it breaks, ice under it, a small
+/// floe, one under way.
 inline simulation::Scene checkpoint_scene() {
   simulation::Scene scene;
   scene.time.step = 0.02;

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "simulation/scene.hpp"
+#include "simulation/world/scene.hpp"
 
 namespace polynya::tests {
 

@@ -1,6 +1,6 @@
 // Energy and momentum are measured where they flow; the kinetic energy and the momentum at the end are those
 // of the accounts.
-#include "simulation/energy.hpp"
+#include "simulation/world/energy.hpp"
 
 #include <gtest/gtest.h>
 

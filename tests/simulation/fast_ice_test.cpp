@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/state/state.hpp"
-#include "simulation/step.hpp"
+#include "simulation/world/step.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {

@@ -1,5 +1,5 @@
 // Random fields: cover, gaps and sizes as asked for, the same on every machine.
-#include "simulation/floe_field.hpp"
+#include "simulation/field/floe_field.hpp"
 
 #include <gtest/gtest.h>
 

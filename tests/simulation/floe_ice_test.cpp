@@ -3,8 +3,8 @@
 
 #include "fracture/bending/kashtelyan.hpp"
 #include "fracture/crushing.hpp"
-#include "simulation/ice_scatter.hpp"
-#include "simulation/random.hpp"
+#include "simulation/field/random.hpp"
+#include "simulation/ice/ice_scatter.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation::scenes {

@@ -8,9 +8,9 @@
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/validity.hpp"
 #include "simulation/field/convex.hpp"
+#include "simulation/field/floe_field.hpp"
 #include "simulation/field/free_area.hpp"
 #include "simulation/field/portable_math.hpp"
-#include "simulation/floe_field.hpp"
 #include "tests/simulation/hash_of_floes.hpp"
 #include "tests/simulation/scenes.hpp"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "fracture/characteristic_length.hpp"
-#include "simulation/limits.hpp"
+#include "simulation/world/limits.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation::scenes {

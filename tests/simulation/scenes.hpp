@@ -5,7 +5,7 @@
 
 #include "geometry/exact/measures.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/world.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::simulation::scenes {
 

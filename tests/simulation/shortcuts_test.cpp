@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/floe_field.hpp"
-#include "simulation/world.hpp"
+#include "simulation/field/floe_field.hpp"
+#include "simulation/world/world.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/pressing.hpp"
-#include "simulation/world.hpp"
+#include "simulation/ship/pressing.hpp"
+#include "simulation/world/world.hpp"
 #include "tests/dynamics/scenery.hpp"
 #include "tests/simulation/scenes.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/step.hpp"
+#include "simulation/world/step.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/journal.hpp"
+#include "simulation/world/journal.hpp"
 #include "views/map/svg_layout.hpp"
 
 namespace polynya::views {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "simulation/journal.hpp"
+#include "simulation/world/journal.hpp"
 
 namespace polynya::views {
 

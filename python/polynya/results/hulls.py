@@ -5,7 +5,7 @@ import math
 
 import numpy
 
-SAGITTA = 0.01  # of a cylinder's polygon [m], as `cylinder_waterline` of simulation/scene.cpp
+SAGITTA = 0.01  # of a cylinder's polygon [m], as `cylinder_waterline` of simulation/world/scene.cpp
 
 
 def waterline(body):

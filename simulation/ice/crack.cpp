@@ -1,0 +1,50 @@
+#include "simulation/ice/crack.hpp"
+
+#include <algorithm>
+
+#include "fracture/characteristic_length.hpp"
+#include "geometry/contact/crack_path.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+/// A crack starts and ends this far outside the ice, so that it separates [m].
+constexpr double kCrackMargin = 1e-3;
+
+/// The force that a crack takes is largest here on its way: at 0.05–0.175 of it, 0.15 of a square's. Beyond,
+/// it runs whatever is there.
+constexpr double kPeak = 0.15;
+
+}  // namespace
+
+geometry::CrackPath crack_through(const dynamics::Bodies& bodies, BodyIndex floe, geometry::Point point,
+                                  geometry::Vector direction, geometry::CrackReach reach) {
+  const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, floe);
+  return geometry::crack_path(*bodies.boundary[floe], inverse_transform(water_from_floe, point),
+                              rotate_back(water_from_floe.rotation, direction), kCrackMargin, reach);
+}
+
+void measure_crack(const dynamics::Bodies& bodies, BodyIndex floe, const geometry::CrackPath& path,
+                   fracture::FailureCriteria& criteria) {
+  criteria.crack_length = path.length_in_ice;
+  criteria.crack_width = geometry::crack_width(*bodies.boundary[floe], path, kPeak);
+}
+
+void measure_sides(const Setup& setup, const Population& population, BodyIndex floe,
+                   const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
+  const geometry::CrackSides sides = sides_of_crack(*population.bodies.boundary[floe], path);
+  const double l =
+      fracture::characteristic_length(ice_of_body(setup, population, floe), setup.scene.water.water);
+  const double mean_width = 2 * std::min(sides.left, sides.right) / path.length_in_ice;
+  criteria.crack_width = std::max(criteria.crack_width, mean_width);
+  criteria.pares =
+      fracture::pares(setup.scene.fracture.least_piece, l, path.length_in_ice, sides.left, sides.right);
+}
+
+void measure_crack_and_sides(const Setup& setup, const Population& population, BodyIndex floe,
+                             const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
+  measure_crack(population.bodies, floe, path, criteria);
+  measure_sides(setup, population, floe, path, criteria);
+}
+
+}  // namespace polynya::simulation

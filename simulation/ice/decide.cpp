@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/chunks.hpp"
+#include "fracture/splitting.hpp"
+#include "simulation/ice/crack.hpp"
+#include "simulation/ship/ship_contact_load.hpp"
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+using geometry::Vector;
+
+struct CrushingForce {
+  double force = 0;      ///< [N]
+  double stiffness = 0;  ///< dF/dξ [N/m]
+};
+
+/// F_n at the deepest overlap that pressed, for the law of crushing ice.
+CrushingForce deepest_crushing_force(const fracture::Ice& ice, const Contact& c, double hull_angle) {
+  const fracture::CrushedArea crushed = fracture::crushed_overlap_at(
+      {c.width, c.depth, c.area}, std::max(c.depth, c.record->loaded_depth), ice.thickness, hull_angle);
+  return {fracture::crushing_force(ice, crushed.area), fracture::crushing_force(ice, crushed.slope)};
+}
+
+/// Enters what the law of crushing ice takes of a contact. One that is found for the first time has pressed
+/// while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given F ξ / ((1 + n) v). But
+/// for pieces of floes that broke just now, whose contacts were there before.
+void set_crushing(Contact& c, CrushingForce crushing, double dt, bool is_just_born) {
+  c.crushing_force = crushing.force;
+  c.crushing_stiffness = crushing.stiffness;
+  const bool is_new = c.record->loaded_depth == 0 && c.record->age < 1.5 * dt;
+  if (!is_new || is_just_born || crushing.force <= 0 || c.approach_speed <= 0) return;
+  const double exponent = crushing.stiffness * c.depth / crushing.force;
+  c.missed_impulse = std::min(dt, c.depth / c.approach_speed) * crushing.force / (1 + exponent);
+}
+
+/// The force at which a contact's ice breaks. One found deeper than that broke on the way, at the share
+/// (F_b/F)^(1/n) of its depth.
+void set_breaking(Contact& c, double force) {
+  c.breaking_force = force;
+  if (c.missed_impulse == 0 || c.crushing_force <= force) return;
+  const double exponent = c.crushing_stiffness * c.depth / c.crushing_force;
+  const double share_of_force = force / c.crushing_force;
+  c.missed_impulse *= share_of_force * (exponent > 0 ? std::pow(share_of_force, 1 / exponent) : 1);
+}
+
+/// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
+/// ahead, and the force that it takes.
+void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+                PendingFracture& pending) {
+  const Contact& c = load.contact;
+  pending.crack_in_body = crack_through(bodies, c.b, c.middle(), c.normal, geometry::CrackReach::kFarSide);
+  const double length = pending.crack_in_body.length_in_ice;
+  pending.criteria.crack_length = length;
+  pending.criteria.splitting_force =
+      fracture::michel_splitting_force(load.ice, length, setup.scene.fracture.splitting_shape_factor);
+}
+
+/// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
+bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFracture& pending) {
+  const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
+  pending.criteria.bending_capacity = capacity.vertical_force;
+  pending.criteria.flexural_strength = load.ice.flexural_strength;
+  pending.cusp_radius = capacity.cusp_radius;
+  if (is_crush_law(setup)) {  // the solver finds whether the load comes to V_b
+    pending.criteria.vertical_force = capacity.vertical_force;
+    return capacity.is_in_range;
+  }
+  // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
+  const double crushing_impulse = load.shares.horizontal * load.normal_force * setup.scene.time.step;
+  const double pressed = crushing_impulse > 0 ? std::min(1.0, load.impulse / crushing_impulse) : 0;
+  pending.criteria.vertical_force = pressed * load.shares.vertical * load.normal_force;
+  return capacity.is_in_range;
+}
+
+PendingFracture evaluate(const Setup& setup, const Population& population, const ShipContactLoad& load,
+                         Counts& counts) {
+  const Contact& c = load.contact;
+  PendingFracture pending;
+  if (c.approach_speed <= 0) return pending;
+  fracture::FailureCriteria& criteria = pending.criteria;
+  criteria.floe_size = floe_size(population, c.b);
+  criteria.breakable_size = limits_of_body(setup, population, c.b).breakable_size;
+  criteria.collision_force = load.impulse / setup.scene.contact.contact_time;
+  if (criteria.floe_size < criteria.breakable_size) return pending;
+
+  const bool is_michel = setup.scene.fracture.splitting == fracture::SplittingModel::kMichel;
+  if (is_michel) {  // by true forces it is decided after the solver
+    find_crack(setup, population.bodies, load, pending);
+    if (criteria.crack_length > 0 && criteria.collision_force > criteria.splitting_force)
+      measure_crack_and_sides(setup, population, c.b, pending.crack_in_body, criteria);
+  }
+  if (load.shares.vertical > 0) {
+    const bool is_in_range = measure_bending(setup, load, pending);
+    if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
+  }
+  pending.failure = fracture::decide(criteria);
+  pending.ship = c.a;
+  pending.floe = population.floe_of(c.b);
+  pending.point_in_water = c.middle();
+  pending.first_touch_in_body = c.record->first_touch_in_b;
+  pending.normal = c.normal;
+  pending.penetration = load.penetration;
+  pending.record = c.record;
+  return pending;
+}
+
+/// Adds j/τ_c of a ship's contact with ice.
+void add_peak(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+              ShipLoads& loads) {
+  const Contact& c = load.contact;
+  const Vector force = -(load.impulse / setup.scene.contact.contact_time) * c.normal;
+  loads.peak += rotate_back(bodies.rotation[c.a], force);
+  loads.peak_moment += cross(c.middle() - bodies.position[c.a], force);
+}
+
+/// Whether a floe was born by what broke at the end of the step before.
+bool is_just_born(const Population& population, const Clock& clock, BodyIndex body) {
+  return !population.is_ship(body) && population.floes[population.floe_of(body)].born == clock.time();
+}
+
+/// Of floe against floe: vertical walls.
+void decide_between_floes(const Setup& setup, const Clock& clock, const Population& population, Contact& c) {
+  const double dt = setup.scene.time.step;
+  const fracture::Ice ice =
+      fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
+  if (is_crush_law(setup))
+    set_crushing(c, deepest_crushing_force(ice, c, 0), dt,
+                 is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b));
+  else
+    c.crushing_force = crushing_force(ice, c, 0);
+}
+
+/// Of a ship with ice: also whether the ice breaks.
+void decide_at_ship(const Setup& setup, const Clock& clock, const Population& population, Contact& c,
+                    StepData& step, Counts& counts) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double dt = setup.scene.time.step;
+  const ShipContactLoad load = load_of(setup, population, c);
+  add_peak(setup, bodies, load, step.loads[c.a]);
+  const double horizontal = load.shares.horizontal;
+  if (is_crush_law(setup))
+    set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt,
+                 is_just_born(population, clock, c.b));
+  else
+    c.crushing_force = horizontal * load.normal_force;
+  c.friction = load.shares.tangential / horizontal;
+  step.slopes.back() = {load.shares.vertical / horizontal, std::tan(load.hull_angle)};
+  const PendingFracture pending = evaluate(setup, population, load, counts);
+  const bool breaks =
+      pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
+  if (!breaks || c.record->was_refused) return;
+  if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
+    set_breaking(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
+  step.fractures.push_back(pending);
+}
+
+}  // namespace
+
+void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
+            Counts& counts) {
+  step.fractures.clear();
+  step.slopes.clear();
+  step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
+  dynamics::for_chunks(step.contacts.size(), dynamics::kContactsPerChunk, threads,
+                       [&](std::size_t, std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           Contact& c = step.contacts[i];
+                           c.friction = setup.scene.ice.friction;
+                           if (!population.is_ship(c.a)) decide_between_floes(setup, clock, population, c);
+                         }
+                       });
+  for (Contact& c : step.contacts) {  // by (a, b): those of ships come first
+    if (!population.is_ship(c.a)) break;
+    step.slopes.emplace_back();
+    if (!population.is_ship(c.b)) decide_at_ship(setup, clock, population, c, step, counts);
+  }
+}
+
+void drop_unbroken(const Setup& setup, StepData& step) {
+  if (!is_crush_law(setup)) return;
+  std::erase_if(step.fractures, [&](const PendingFracture& pending) {
+    if (pending.failure != fracture::Failure::kBend) return false;
+    return std::ranges::none_of(step.contacts,
+                                [&](const Contact& c) { return c.record == pending.record && c.is_broken; });
+  });
+}
+
+}  // namespace polynya::simulation

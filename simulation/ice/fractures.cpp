@@ -1,0 +1,122 @@
+#include <algorithm>
+
+#include "geometry/cut/cut.hpp"
+#include "simulation/ice/pieces.hpp"
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+geometry::Ring cusp_of(const Setup& setup, const PendingFracture& pending) {
+  return geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius,
+                                setup.scene.fracture.cusp_sagitta);
+}
+
+geometry::CutOutcome cut(const Setup& setup, const geometry::Shape& shape, const PendingFracture& pending) {
+  if (pending.failure == fracture::Failure::kBend)
+    return geometry::cut_by_polygon(shape, {cusp_of(setup, pending), {}});
+  return geometry::cut_along(shape, {pending.crack_in_body.start, pending.crack_in_body.end});
+}
+
+/// Whether the ice where the hull first touched has broken off with other cusps since: a fast ship goes
+/// metres between two cusps of thin ice.
+bool misses_its_cusp(const geometry::CutOutcome& outcome, const PendingFracture& pending) {
+  return !outcome && outcome.error().reason == geometry::CutFailure::kMisses &&
+         pending.failure == fracture::Failure::kBend;
+}
+
+/// Of a contact's middle from its ice, in radii of its cusp: farther off, the contact is not with this ice.
+constexpr double kFarthestIce = 10;
+
+/// Centres a cusp at the ice nearest to the contact, on the floe's boundary, if that is within the
+/// penetration. The middle of a contact line may lie between two spikes.
+void recentre(const Population& population, PendingFracture& pending) {
+  const geometry::Pose pose = dynamics::water_from_body(population.bodies, population.body_of(pending.floe));
+  const geometry::Point contact = inverse_transform(pose, pending.point_in_water);
+  const geometry::Polygon& polygon = population.floes[pending.floe].shape.polygon;
+  geometry::Point nearest = polygon.outer.front();
+  const auto consider = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const geometry::Point p = nearest_on_segment(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], contact);
+      if (distance(p, contact) < distance(nearest, contact)) nearest = p;
+    }
+  };
+  consider(polygon.outer);
+  for (const geometry::Ring& hole : polygon.holes) consider(hole);
+  if (distance(nearest, contact) <= kFarthestIce * pending.cusp_radius) pending.first_touch_in_body = nearest;
+}
+
+Event event_of(const Clock& clock, const PendingFracture& pending, EventKind kind) {
+  Event event;
+  event.time = clock.time();
+  event.kind = kind;
+  event.ship = pending.ship;
+  event.by_floe = pending.by_floe;
+  event.floe = pending.floe;
+  event.point_in_world = pending.point_in_water + clock.drift();
+  event.normal_in_world = pending.normal;
+  event.criteria = pending.criteria;
+  event.cusp_radius = pending.failure == fracture::Failure::kBend ? pending.cusp_radius : 0;
+  event.penetration = pending.penetration;
+  return event;
+}
+
+void reject(const Setup& setup, const Clock& clock, const PendingFracture& pending,
+            const geometry::Shape& shape, const geometry::CutError& error, Counts& counts, Journal& journal) {
+  Event event = event_of(clock, pending, EventKind::kRejectedCut);
+  event.reason = std::string(name_of(error.reason)) + ": " + error.detail;
+  ++counts.rejected_cuts;
+  RejectedCut rejected{counts.rejected_cuts, clock.time(), pending.floe, event.reason, shape.polygon, {}, {}};
+  if (pending.failure == fracture::Failure::kBend) rejected.cusp_in_body = cusp_of(setup, pending);
+  rejected.crack_in_body[0] = pending.crack_in_body.start;
+  rejected.crack_in_body[1] = pending.crack_in_body.end;
+  journal.rejected_cuts.push_back(std::move(rejected));
+  journal.events.push_back(std::move(event));
+  pending.record->was_refused = true;
+}
+
+InsideFate fate_of_cusp(const Setup& setup, int ship) {
+  switch (setup.scene.fracture.cusp_fate) {
+    case CuspFate::kFloat:
+      return InsideFate::kFloats;
+    case CuspFate::kUnderHull:
+      return setup.underwater[ship].can_take_ice ? InsideFate::kUnderHull : InsideFate::kSubmerged;
+    case CuspFate::kSubmerge:
+      break;
+  }
+  return InsideFate::kSubmerged;
+}
+
+/// What becomes of the floe's pieces.
+Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFracture& pending) {
+  if (pending.failure != fracture::Failure::kBend)
+    return {event_of(clock, pending, EventKind::kSplit), InsideFate::kFloats, &EnergyFlows::splitting,
+            &Counts::splits};
+  return {event_of(clock, pending, EventKind::kBend), fate_of_cusp(setup, pending.ship),
+          &EnergyFlows::bending, &Counts::bends};
+}
+
+}  // namespace
+
+void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
+                     Population& population, Accounts& accounts, Journal& journal) {
+  std::ranges::stable_sort(fractures, {}, &PendingFracture::floe);
+  for (PendingFracture& pending : fractures) {
+    if (!population.is_floating(pending.floe))
+      continue;  // it broke in this step already; its pieces may break in the next
+    const geometry::Shape& shape = population.floes[pending.floe].shape;
+    geometry::CutOutcome outcome = cut(setup, shape, pending);
+    if (misses_its_cusp(outcome, pending)) {
+      recentre(population, pending);
+      outcome = cut(setup, shape, pending);
+    }
+    if (outcome) {
+      replace_by_pieces(setup, clock, breakage_of(setup, clock, pending), *outcome, population, accounts,
+                        journal);
+    } else {
+      reject(setup, clock, pending, shape, outcome.error(), accounts.counts, journal);
+    }
+  }
+}
+
+}  // namespace polynya::simulation

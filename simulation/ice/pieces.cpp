@@ -1,0 +1,130 @@
+#include "simulation/ice/pieces.hpp"
+
+#include <cmath>
+
+#include "geometry/exact/measures.hpp"
+#include "simulation/ice/going_under.hpp"
+#include "simulation/world/limits.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+/// What all pieces of a floe have in common: they move on as the parts of the body they were, v + ω × r, the
+/// same ω.
+NewFloe child_of(const Population& population, FloeId parent) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const BodyIndex body = population.body_of(parent);
+  NewFloe child;
+  child.own_ice = population.floes[parent].own_ice;
+  child.parent = parent;
+  child.generation = population.floes[parent].generation + 1;
+  child.water_from_body = dynamics::water_from_body(bodies, body);
+  child.angle = bodies.angle[body];
+  child.angular_velocity = bodies.angular_velocity[body];
+  child.velocity =
+      dynamics::velocity_at(bodies, body, child.water_from_body.position - bodies.position[body]);
+  return child;
+}
+
+/// Which piece of fast ice stays fast: the largest of those that float. The others are free. None: kNoPiece.
+constexpr std::size_t kNoPiece = SIZE_MAX;
+std::size_t still_fast(const Population& population, const Breakage& breakage, const geometry::CutResult& cut,
+                       const std::vector<geometry::Measures>& measures) {
+  if (!population.is_fast(breakage.event.floe)) return kNoPiece;
+  std::size_t largest = kNoPiece;
+  double most = 0;
+  for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
+    if (cut.pieces[i].part == geometry::Part::kInside && breakage.inside != InsideFate::kFloats) continue;
+    if (measures[i].area <= most) continue;
+    most = measures[i].area;
+    largest = i;
+  }
+  return largest;
+}
+
+std::vector<geometry::Measures> measures_of(const geometry::CutResult& cut) {
+  std::vector<geometry::Measures> measures;
+  measures.reserve(cut.pieces.size());
+  for (const geometry::Piece& piece : cut.pieces) measures.push_back(geometry::measure(piece.shape.polygon));
+  return measures;
+}
+
+/// Enters the motion of ice that leaves the floe list with its parent's motion.
+void enter_removed(const NewFloe& piece, const geometry::Measures& measures, double mass_per_area,
+                   double& energy_sink, AuditSums& audit) {
+  const geometry::Vector arm =
+      transform(piece.water_from_body, measures.centroid) - piece.water_from_body.position;
+  const geometry::Vector velocity = piece.velocity + cross(piece.angular_velocity, arm);
+  const geometry::Vector carried = mass_per_area * measures.area * velocity;
+  energy_sink += 0.5 * (dot(carried, velocity) + mass_per_area * measures.second_moment *
+                                                     piece.angular_velocity * piece.angular_velocity);
+  audit.momentum.removed += carried;
+  audit.impulses += length(carried);
+}
+
+/// Enters what the cut left out beside its pieces into the event, and the event's areas into the accounts.
+void enter_areas(Event& event, const geometry::CutLedger& cut, double mass_per_area, Accounts& accounts) {
+  event.brash_area += cut.area_slivers;
+  event.rounding_defect = cut.rounding_defect;
+  accounts.counts.snap_rounded += cut.snap_rounded;
+  accounts.ledger.submerged_area += event.submerged_area;
+  accounts.ledger.brash_area += event.brash_area;
+  accounts.ledger.rounding_defect += event.rounding_defect;
+  accounts.masses.submerged_mass += mass_per_area * event.submerged_area;
+  accounts.masses.brash_mass += mass_per_area * event.brash_area;
+  accounts.masses.rounding_mass += mass_per_area * event.rounding_defect;
+}
+
+}  // namespace
+
+void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage,
+                       const geometry::CutResult& cut, Population& population, Accounts& accounts,
+                       Journal& journal) {
+  Event& event = breakage.event;
+  NewFloe child = child_of(population, event.floe);
+  const bool was_fast = population.is_fast(event.floe);
+  const double own_mass_per_area = mass_per_area(ice_of_floe(setup, population, event.floe));
+  const std::vector<geometry::Measures> all_measures = measures_of(cut);
+  const std::size_t fast = still_fast(population, breakage, cut, all_measures);
+  const dynamics::ContactMemory memory =
+      population.pairs.contact_memory_of(population.bodies, population.body_of(event.floe));
+  retire_floe(event.floe, population, journal);
+  std::vector<Event> submersions;  // of pieces that go under the hull
+  double& energy_sink = accounts.audit.energy.*breakage.energy_sink;
+  for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
+    const geometry::Piece& piece = cut.pieces[i];
+    const geometry::Measures& measures = all_measures[i];
+    const bool is_inside = piece.part == geometry::Part::kInside;
+    const bool is_submerged = is_inside && breakage.inside == InsideFate::kSubmerged;
+    const bool is_brash = (is_inside && breakage.inside == InsideFate::kBrash) ||
+                          measures.area < setup.scene.fracture.smallest_floe_area || !can_be_floe(measures);
+    if (is_submerged || is_brash) {
+      (is_submerged ? event.submerged_area : event.brash_area) += measures.area;
+      accounts.counts.brash_pieces += is_submerged ? 0 : 1;
+      if (!was_fast) enter_removed(child, measures, own_mass_per_area, energy_sink, accounts.audit);
+      continue;
+    }
+    child.shape = piece.shape;
+    child.is_fast = i == fast;
+    const FloeId id = add_floe(setup, clock, child, measures, population, journal);
+    event.children.push_back(id);
+    if (was_fast && !child.is_fast)  // the fast ice gave it, as bodies of prescribed motion do
+      enter_motion(population.bodies, population.body_of(id), accounts.audit.energy.thrust,
+                   accounts.audit.momentum.held, accounts.audit);
+    if (is_inside && breakage.inside == InsideFate::kUnderHull) {
+      event.under_hull_area += measures.area;
+      submersions.push_back(submersion_event(clock, population, id, event.ship));
+      go_under(setup, clock, id, event.ship, population, accounts);
+      continue;
+    }
+    wake(population.body_of(id), population);
+    population.pairs.pass_contact_memory(population.bodies, population.body_of(id), memory);
+    accounts.counts.floated_cusps += is_inside ? 1 : 0;
+  }
+  enter_areas(event, cut.ledger, own_mass_per_area, accounts);
+  ++(accounts.counts.*breakage.count);
+  journal.events.push_back(std::move(event));
+  for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "simulation/world/world.hpp"
+
+namespace polynya::simulation {
+
+/// What becomes of the pieces inside the cutting polygon.
+enum class InsideFate { kFloats, kSubmerged, kUnderHull, kBrash };
+
+/// A floe that breaks: what is recorded of it, and where it is counted.
+struct Breakage {
+  Event event;  ///< without children and areas
+  InsideFate inside = InsideFate::kFloats;
+  double EnergyFlows::*energy_sink = nullptr;  ///< for the motion of ice that leaves the floe list
+  std::int64_t Counts::*count = nullptr;
+};
+
+/// Replaces the event's floe by the pieces of a cut: floes that move on as the parts of the body they were,
+/// submerged ice and brash. Records the event and enters areas, motion and counts.
+void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage,
+                       const geometry::CutResult& cut, Population& population, Accounts& accounts,
+                       Journal& journal);
+
+}  // namespace polynya::simulation

@@ -1,0 +1,178 @@
+#include "fracture/splitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include "simulation/ice/crack.hpp"
+#include "simulation/ship/pressing.hpp"
+#include "simulation/ship/ship_contact_load.hpp"
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+using geometry::Vector;
+
+/// Cracks are tried along a contact's normal and this many directions to either side of it, 15° apart.
+constexpr int kDirectionsASide = 5;
+constexpr double kBetweenDirections = std::numbers::pi / 12;  // [rad]
+
+/// A crack that a body may open in a floe.
+struct Candidate {
+  Mouth mouth;
+  geometry::CrackPath path_in_body;
+  fracture::FailureCriteria criteria;
+  double share() const { return criteria.opening_force / criteria.opening_capacity; }
+};
+
+/// The crack from a mouth along a direction, where it can run: it does not pare, and it is no less than a
+/// share of its way to F_max.
+std::optional<Candidate> candidate_of(const Setup& setup, const Population& population, BodyIndex floe,
+                                      const PressedFloe& pressed, const Mouth& mouth, Vector direction,
+                                      double least_share) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const fracture::Opening opening = fracture::opening_of(pressed.pushes, mouth.point, direction);
+  const fracture::Ice& ice = ice_of_body(setup, population, floe);
+  const double least_force = limits_of_body(setup, population, floe).least_splitting_force;
+  if (opening.force() <= 0 || opening.force() < least_share * least_force) return std::nullopt;
+  Candidate candidate;
+  candidate.mouth = mouth;
+  fracture::FailureCriteria& criteria = candidate.criteria;
+  candidate.path_in_body =
+      crack_through(bodies, floe, mouth.point, direction, geometry::CrackReach::kFirstEdge);
+  if (candidate.path_in_body.length_in_ice <= 0) return std::nullopt;
+  measure_crack(bodies, floe, candidate.path_in_body, criteria);
+  criteria.flank_forces[0] = opening.left;
+  criteria.flank_forces[1] = opening.right;
+  criteria.opening_force = opening.force();
+  criteria.opening_capacity =
+      fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+  criteria.fracture_toughness = ice.fracture_toughness;
+  if (!(candidate.share() >= least_share)) return std::nullopt;
+  measure_sides(setup, population, floe, candidate.path_in_body, criteria);
+  criteria.opening_capacity =
+      fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+  if (criteria.pares || !(candidate.share() >= least_share)) return std::nullopt;
+  return candidate;
+}
+
+/// The crack that is nearest to running.
+std::optional<Candidate> first_to_run(const Setup& setup, const Population& population, BodyIndex floe,
+                                      const PressedFloe& pressed, double least_share) {
+  std::optional<Candidate> best;
+  for (const Mouth& mouth : pressed.mouths) {
+    if (mouth.contact->record->was_refused) continue;
+    for (int k = 0; k <= 2 * kDirectionsASide; ++k) {  // 0, 15°, −15°, 30°, …
+      const int from_normal = (k + 1) / 2;
+      const double turn = from_normal * (k % 2 == 0 ? -kBetweenDirections : kBetweenDirections);
+      const Vector direction = rotate(geometry::Rotation::by(turn), mouth.direction);
+      const double share = best ? std::max(least_share, best->share()) : least_share;
+      auto candidate = candidate_of(setup, population, floe, pressed, mouth, direction, share);
+      if (candidate && (!best || candidate->share() > best->share())) best = candidate;
+    }
+  }
+  return best;
+}
+
+/// The split of a floe by one other body, where their contacts open a crack.
+std::optional<PendingFracture> split_of(const Setup& setup, const Population& population,
+                                        std::span<const Contact> contacts, BodyIndex floe,
+                                        PressedFloe& pressed) {
+  const IceLimits& limits = limits_of_body(setup, population, floe);
+  const double size = floe_size(population, floe);
+  if (size < limits.breakable_size) return std::nullopt;
+  press(setup, population.bodies, contacts, floe, pressed);
+  if (pressed.most < limits.least_splitting_force) return std::nullopt;
+  find_mouths(floe, pressed);
+  const auto crack = first_to_run(setup, population, floe, pressed, 1);
+  if (!crack) return std::nullopt;
+  const Contact& c = *crack->mouth.contact;
+  const BodyIndex by = other_of(c, floe);
+  PendingFracture split;
+  split.failure = fracture::Failure::kSplit;
+  split.criteria = crack->criteria;
+  split.record = c.record;
+  split.ship = population.is_ship(by) ? by : -1;
+  split.by_floe = population.is_ship(by) ? kNoFloe : population.floe_of(by);
+  split.floe = population.floe_of(floe);
+  split.point_in_water = crack->mouth.point;
+  split.normal = into_floe(c, floe);
+  split.penetration = c.depth;
+  split.crack_in_body = crack->path_in_body;
+  split.criteria.floe_size = size;
+  split.criteria.breakable_size = limits.breakable_size;
+  split.criteria.contact_force = length(force_on(c, floe, setup.scene.time.step));
+  return split;
+}
+
+/// The contacts of the same two bodies as c, which is among them.
+std::span<const Contact> contacts_beside(const std::vector<Contact>& contacts, const Contact& c) {
+  const auto is_other = [&](const Contact& d) { return d.a != c.a || d.b != c.b; };
+  const Contact* first = &c;
+  const Contact* last = &c + 1;
+  while (first != contacts.data() && !is_other(first[-1])) --first;
+  while (last != contacts.data() + contacts.size() && !is_other(*last)) ++last;
+  return {first, last};
+}
+
+/// Enters the forces that there were into a fracture that another rule decided.
+void enter_true_forces(const Setup& setup, const Population& population, const std::vector<Contact>& contacts,
+                       PendingFracture& pending) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const auto c = std::ranges::find(contacts, pending.record, &Contact::record);
+  if (c == contacts.end()) return;
+  const fracture::Ice& ice = ice_of_body(setup, population, c->b);
+  fracture::FailureCriteria& criteria = pending.criteria;
+  criteria.contact_force = length(force_on(*c, c->b, setup.scene.time.step));
+  PressedFloe pressed;
+  press(setup, bodies, contacts_beside(contacts, *c), c->b, pressed);
+  if (setup.scene.fracture.splitting == fracture::SplittingModel::kLefm) {
+    find_mouths(c->b, pressed);
+    const auto crack = first_to_run(setup, population, c->b, pressed, 0);
+    if (!crack) return;
+    criteria.crack_length = crack->criteria.crack_length;
+    criteria.crack_width = crack->criteria.crack_width;
+    std::ranges::copy(crack->criteria.flank_forces, criteria.flank_forces);
+    criteria.opening_force = crack->criteria.opening_force;
+    criteria.opening_capacity = crack->criteria.opening_capacity;
+  } else if (criteria.crack_length > 0) {
+    if (pending.failure ==
+        fracture::Failure::kBend)  // only now: most bends that are pending do not come about
+      measure_crack_and_sides(setup, population, c->b, pending.crack_in_body, criteria);
+    const fracture::Opening opening = fracture::opening_of(pressed.pushes, c->middle(), c->normal);
+    criteria.flank_forces[0] = opening.left;
+    criteria.flank_forces[1] = opening.right;
+    criteria.opening_force = opening.force();
+    criteria.opening_capacity =
+        fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+  }
+  criteria.fracture_toughness = ice.fracture_toughness;
+}
+
+}  // namespace
+
+void find_splits(const Setup& setup, const Population& population, StepData& step) {
+  for (PendingFracture& pending : step.fractures)
+    enter_true_forces(setup, population, step.contacts, pending);
+  if (setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) return;
+  std::vector<PendingFracture> splits;
+  PressedFloe pressed;  // its memory serves all pairs
+  for (std::size_t i = 0; i < step.contacts.size();) {
+    const std::span<const Contact> contacts = contacts_beside(step.contacts, step.contacts[i]);
+    i += contacts.size();
+    const double bound = opening_bound(setup, contacts);
+    for (const BodyIndex body : {contacts.front().a, contacts.front().b}) {
+      if (population.is_ship(body)) continue;
+      if (bound < limits_of_body(setup, population, body).least_splitting_force) continue;
+      if (auto split = split_of(setup, population, contacts, body, pressed)) splits.push_back(*split);
+    }
+  }
+  // Before the bends: a bend stops the force at V_b, so what splits at it has split before.
+  step.fractures.insert(step.fractures.begin(), splits.begin(), splits.end());
+}
+
+}  // namespace polynya::simulation

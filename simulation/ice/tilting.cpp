@@ -1,0 +1,146 @@
+#include <algorithm>
+
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+
+/// All contacts of one ship with one floe: they follow each other.
+struct Pressed {
+  int ship = 0;
+  FloeId floe = 0;
+  std::span<Contact> contacts;
+  std::span<const HullSlope> slopes;
+  std::pair<int, FloeId> key() const { return {ship, floe}; }
+};
+
+bool can_go_under(const Setup& setup, int ship) {
+  return setup.scene.fracture.going_under.is_enabled && setup.underwater[ship].can_take_ice;
+}
+
+/// Calls use(pressed) for each floe in contact with a hull that it can go under, by (ship, floe). Fast ice
+/// cannot.
+template <class Use>
+void for_pressed(const Setup& setup, const Population& population, std::vector<Contact>& contacts,
+                 const std::vector<HullSlope>& slopes, Use use) {
+  std::size_t first = 0;
+  while (first < slopes.size()) {
+    const Contact& c = contacts[first];
+    std::size_t end = first + 1;
+    while (end < slopes.size() && contacts[end].a == c.a && contacts[end].b == c.b) ++end;
+    const bool is_free = !population.is_ship(c.b) && !population.is_fast(population.floe_of(c.b));
+    if (is_free && can_go_under(setup, c.a)) {
+      use(Pressed{c.a, population.floe_of(c.b), std::span(contacts).subspan(first, end - first),
+                  std::span(slopes).subspan(first, end - first)});
+    }
+    first = end;
+  }
+}
+
+fracture::TiltResistance resistance_of(const Setup& setup, const Population& population, FloeId floe) {
+  return fracture::tilt_resistance(ice_of_floe(setup, population, floe), setup.scene.water.water,
+                                   population.floes[floe].area,
+                                   setup.scene.fracture.going_under.tilting.added_mass_factor);
+}
+
+fracture::EdgeMotion edge_of(const std::vector<TiltedFloe>& tilted, std::pair<int, FloeId> key) {
+  const auto key_of = [](const TiltedFloe& floe) { return std::pair(floe.ship, floe.floe); };
+  const auto at = std::ranges::lower_bound(tilted, key, {}, key_of);
+  return at != tilted.end() && key_of(*at) == key ? at->edge : fracture::EdgeMotion{};
+}
+
+/// The fastest that a contact slides the edge down the hull, v_n / tan θ_s [m/s].
+double slide_speed(const Pressed& pressed) {
+  double fastest = 0;
+  for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
+    if (pressed.slopes[i].vertical_share > 0)
+      fastest = std::max(fastest, pressed.contacts[i].approach_speed / pressed.slopes[i].tangent);
+  }
+  return fastest;
+}
+
+/// The vertical force with which a contact may press at the end of the step [N].
+double expected_vertical_force(const Contact& c, const HullSlope& slope, double dt) {
+  const double grown = c.crushing_stiffness * std::max(0.0, c.approach_speed) * dt;
+  return slope.vertical_share * (c.crushing_force + grown);
+}
+
+void scale(Contact& c, double share) {
+  c.crushing_force *= share;
+  c.crushing_stiffness *= share;
+  c.missed_impulse *= share;
+}
+
+/// Turns the floe's edge, and enters that it goes under where it is deep enough.
+void tilt(const Setup& setup, const Population& population, const Pressed& pressed,
+          std::vector<TiltedFloe>& tilted, std::vector<PendingSubmersion>& submersions) {
+  const fracture::TiltSettings& settings = setup.scene.fracture.going_under.tilting;
+  const double dt = setup.scene.time.step;
+  double vertical_force = 0;
+  const Contact* strongest = &pressed.contacts.front();
+  for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
+    const Contact& c = pressed.contacts[i];
+    vertical_force += std::max(0.0, pressed.slopes[i].vertical_share) * c.total_normal_impulse() / dt;
+    if (c.total_normal_impulse() > strongest->total_normal_impulse()) strongest = &c;
+  }
+  const fracture::EdgeMotion before = edge_of(population.tilted, pressed.key());
+  if (vertical_force == 0 && before.deflection == 0) return;
+  const fracture::TiltResistance resistance = resistance_of(setup, population, pressed.floe);
+  const fracture::EdgeMotion edge =
+      fracture::tilted(resistance, before, vertical_force, settings.damping, dt);
+  if (edge.deflection > 0) tilted.push_back({pressed.floe, pressed.ship, edge});
+  const double least = settings.edge_deflection * ice_of_floe(setup, population, pressed.floe).thickness;
+  if (edge.deflection < least) return;
+  submersions.push_back({.floe = pressed.floe,
+                         .ship = pressed.ship,
+                         .point_in_water = strongest->middle(),
+                         .normal = strongest->normal,
+                         .penetration = strongest->depth,
+                         .criterion = {edge.deflection, least, vertical_force, resistance.capacity}});
+}
+
+}  // namespace
+
+void limit_by_tilt(const Setup& setup, const Population& population, StepData& step) {
+  const double dt = setup.scene.time.step;
+  for_pressed(setup, population, step.contacts, step.slopes, [&](const Pressed& pressed) {
+    double expected = 0;
+    for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
+      if (pressed.slopes[i].vertical_share > 0)
+        expected += expected_vertical_force(pressed.contacts[i], pressed.slopes[i], dt);
+    }
+    if (expected == 0) return;
+    const double most =
+        fracture::most_vertical_force(resistance_of(setup, population, pressed.floe),
+                                      edge_of(population.tilted, pressed.key()), slide_speed(pressed), dt);
+    if (expected <= most) return;
+    for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
+      if (pressed.slopes[i].vertical_share > 0) scale(pressed.contacts[i], most / expected);
+    }
+  });
+}
+
+void tilt_floes(const Setup& setup, Population& population, StepData& step) {
+  step.submersions.clear();
+  std::vector<TiltedFloe> tilted;
+  const auto is_pressed = [&](const TiltedFloe& floe) {
+    return std::ranges::any_of(std::span(step.contacts).first(step.slopes.size()), [&](const Contact& c) {
+      return c.a == floe.ship && c.b == population.body_of(floe.floe);
+    });
+  };
+  for (const TiltedFloe& floe : population.tilted) {
+    if (!population.is_floating(floe.floe) || is_pressed(floe)) continue;
+    const fracture::EdgeMotion edge =
+        fracture::tilted(resistance_of(setup, population, floe.floe), floe.edge, 0,
+                         setup.scene.fracture.going_under.tilting.damping, setup.scene.time.step);
+    if (edge.deflection > 0) tilted.push_back({floe.floe, floe.ship, edge});
+  }
+  for_pressed(setup, population, step.contacts, step.slopes,
+              [&](const Pressed& pressed) { tilt(setup, population, pressed, tilted, step.submersions); });
+  std::ranges::sort(tilted, {}, [](const TiltedFloe& floe) { return std::pair(floe.ship, floe.floe); });
+  population.tilted = std::move(tilted);
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,113 @@
+#include <algorithm>
+
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Vector;
+
+std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies) {
+  std::vector<SeenShip> seen;
+  for (std::size_t i = 0; i < setup.scene.ships.size(); ++i) {
+    const geometry::Box box = bounding_box(setup.scene.ships[i].hull.waterline);
+    seen.push_back({.position_in_world = bodies.position[i] + clock.drift(),
+                    .heading = bodies.angle[i],
+                    .velocity = bodies.velocity[i] + clock.water_drift,
+                    .length = box.high.x - box.low.x,
+                    .stern = box.low.x,
+                    .stem = box.high.x});
+  }
+  return seen;
+}
+
+/// Yaw acceleration by rudder or thrusters amidships, per angle [1/s²].
+double steering_gain(const Sailing& sailing, const PilotView& view, double moment) {
+  constexpr double kAngle = 0.05;  // [rad]
+  const double thrust = dynamics::propeller_thrust(*sailing.engine, view.lever, view.through_water.surge);
+  const auto yaw_at = [&](double angle) {
+    return sailing.rudder ? dynamics::rudder_force(*sailing.rudder, angle, {view.through_water.surge, 0, 0},
+                                                   thrust, sailing.hull.density)
+                                .yaw
+                          : dynamics::turned_thrust(thrust, angle, sailing.stern).yaw;
+  };
+  if (!sailing.rudder && !sailing.has_azimuth) return 0;
+  const double inertia = moment + sailing.hull.added_mass.rows[2].yaw;
+  return (yaw_at(kAngle) - yaw_at(-kAngle)) / (2 * kAngle * inertia);
+}
+
+PilotView view_of(const Setup& setup, const Clock& clock, const Population& population,
+                  std::span<const SeenShip> ships, BodyIndex i) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const Sailing& sailing = setup.sailing[i];
+  const Helm& helm = population.helms[i];
+  const Vector through_water =
+      rotate_back(bodies.rotation[i], bodies.velocity[i] - setup.current.velocity_at(bodies.position[i]));
+  const Vector over_ground = rotate_back(bodies.rotation[i], ships[i].velocity);
+  PilotView view;
+  view.time = clock.time();
+  view.step = clock.step;
+  view.ship = i;
+  view.ships = ships;
+  view.through_water = {through_water.x, through_water.y, bodies.angular_velocity[i]};
+  view.speed_over_ground = over_ground.x;
+  view.lever = helm.lever;
+  view.steering_angle = helm.steering_angle;
+  view.steering_most = sailing.steering_most;
+  view.ice_force = helm.ice_force;
+  view.engine = *sailing.engine;
+  view.mass = bodies.mass[i] + sailing.hull.added_mass.rows[0].surge;
+  view.steering_gain = steering_gain(sailing, view, bodies.moment[i]);
+  return view;
+}
+
+Command limited(Command command, const Sailing& sailing) {
+  const auto within = [](double value, double most) {
+    return value == value ? std::clamp(value, -most, most) : 0;  // not a number: amidships, stop
+  };
+  return {within(command.lever, 1), within(command.steering_angle, sailing.steering_most)};
+}
+
+Command commanded(const Setup& setup, const PilotView& view, const std::vector<ExternalPilot>& external,
+                  Helm& helm) {
+  const auto i = static_cast<std::size_t>(view.ship);
+  const bool is_external = i < external.size() && external[i];
+  return limited(is_external ? external[i](view) : command_of(setup.scene.ships[i].pilot, view, helm.memory),
+                 setup.sailing[i]);
+}
+
+}  // namespace
+
+void take_helms(const Setup& setup, const Clock& clock, Population& population) {
+  population.helms.resize(setup.scene.ships.size());
+  const std::vector<SeenShip> ships = seen_ships(setup, clock, population.bodies);
+  for (BodyIndex i = 0; i < population.ship_count; ++i) {
+    if (!setup.sailing[i].engine) continue;
+    Helm& helm = population.helms[i];
+    helm.memory = memory_at_start(view_of(setup, clock, population, ships, i));
+    PilotMemory untouched = helm.memory;
+    const Command first = limited(
+        command_of(setup.scene.ships[i].pilot, view_of(setup, clock, population, ships, i), untouched),
+        setup.sailing[i]);
+    helm.lever = first.lever;
+    helm.steering_angle = first.steering_angle;
+  }
+}
+
+void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external,
+           Population& population) {
+  if (std::ranges::none_of(setup.sailing, [](const Sailing& s) { return s.engine.has_value(); })) return;
+  const std::vector<SeenShip> ships = seen_ships(setup, clock, population.bodies);
+  for (BodyIndex i = 0; i < population.ship_count; ++i) {
+    const Sailing& sailing = setup.sailing[i];
+    if (!sailing.engine) continue;
+    Helm& helm = population.helms[i];
+    const PilotView view = view_of(setup, clock, population, ships, i);
+    const Command command = commanded(setup, view, external, helm);
+    helm.lever = dynamics::approach(helm.lever, command.lever, sailing.engine->lever_rate, clock.step);
+    helm.steering_angle =
+        dynamics::approach(helm.steering_angle, command.steering_angle, sailing.steering_rate, clock.step);
+  }
+}
+
+}  // namespace polynya::simulation

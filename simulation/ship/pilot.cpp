@@ -1,0 +1,195 @@
+#include "simulation/ship/pilot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+
+constexpr double kSpeedTime = 20;        ///< of closing an error of speed [s]
+constexpr double kHeadingGain = 3;       ///< steering angle over error of heading [-]
+constexpr double kHeadingDamping = 0.7;  ///< of critical [-]
+constexpr double kLeastGain = 1e-6;      ///< of steering that can be used [1/s²]
+constexpr double kLeastWay = 0.3;        ///< slower, the course over ground means nothing [m/s]
+constexpr double kDriftTime = 60;        ///< of smoothing the drift angle [s]
+constexpr double kTurning = 0.1;         ///< length over radius of a turn [-]
+constexpr double kGapTime = 60;          ///< of closing an error of distance to a leader [s]
+
+double wrapped(double angle) {
+  return std::remainder(angle, 2 * std::numbers::pi);
+}
+Vector unit(double angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
+double angle_of(Vector v) {
+  return std::atan2(v.y, v.x);
+}
+
+/// The lever that gives a thrust.
+double lever_for(const dynamics::Engine& engine, double thrust) {
+  const double most = thrust < 0 ? engine.astern_share * engine.bollard_pull : engine.bollard_pull;
+  if (most <= 0) return 0;
+  return std::copysign(std::min(1.0, std::pow(std::abs(thrust) / most, 1.5)), thrust);
+}
+
+/// Holds a speed: the thrust of open water at that speed, and of what closes the error, with its integral
+/// while the lever is not at a stop.
+double lever_to_hold(double speed, const PilotView& view, PilotMemory& memory) {
+  const dynamics::Engine& engine = view.engine;
+  const double open_water = -dynamics::net_thrust(engine, 0, speed);
+  const double error = speed - view.through_water.surge;
+  const double thrust = open_water + view.mass * (error / kSpeedTime + memory.speed_integral);
+  const double lever = lever_for(engine, thrust);
+  const double growth = error / (4 * kSpeedTime * kSpeedTime) * view.step;
+  if (std::abs(lever) < 1 || lever * growth < 0) memory.speed_integral += growth;
+  return lever;
+}
+
+/// Holds a heading: proportional to the error, damped by what the steering can do at the moment.
+double steering_to_hold(double heading, const PilotView& view) {
+  if (view.steering_most == 0 || std::abs(view.steering_gain) < kLeastGain) return 0;
+  const double error = wrapped(heading - view.own().heading);
+  const double damping = 2 * kHeadingDamping * std::sqrt(kHeadingGain / std::abs(view.steering_gain));
+  const double angle = kHeadingGain * error - damping * view.through_water.yaw;
+  return std::copysign(1.0, view.steering_gain) * angle;
+}
+
+double chosen(double heading, const PilotMemory& memory) {
+  return std::isfinite(heading) ? heading : memory.heading;
+}
+
+Command steer(const ConstantPilot& pilot, const PilotView&, PilotMemory&) {
+  return {pilot.lever, pilot.steering_angle};
+}
+
+Command steer(const SpeedPilot& pilot, const PilotView& view, PilotMemory& memory) {
+  return {lever_to_hold(pilot.speed, view, memory), steering_to_hold(chosen(pilot.heading, memory), view)};
+}
+
+Command steer(const HeadingPilot& pilot, const PilotView& view, PilotMemory& memory) {
+  return {pilot.lever, steering_to_hold(chosen(pilot.heading, memory), view)};
+}
+
+/// Goes on to the next waypoint where the ship has reached or passed one.
+void go_on(const RoutePilot& pilot, const PilotView& view, PilotMemory& memory) {
+  const auto count = static_cast<std::int32_t>(pilot.waypoints.size());
+  while (memory.waypoint < count) {
+    const Point to = pilot.waypoints[static_cast<std::size_t>(memory.waypoint)].position_in_world;
+    const Vector left = to - view.own().position_in_world;
+    const bool is_passed = dot(left, to - memory.from) <= 0;
+    if (length(left) > pilot.arrival * view.own().length && !is_passed) return;
+    memory.from = to;
+    ++memory.waypoint;
+  }
+}
+
+/// The angle from the ship's heading to its course over ground, smoothed: to port positive. In a turn it is
+/// the turn's own, and is left out.
+double drift_angle(const PilotView& view, PilotMemory& memory) {
+  const SeenShip& own = view.own();
+  const bool is_turning = std::abs(view.through_water.yaw) * own.length > kTurning * view.speed_over_ground;
+  if (view.speed_over_ground > kLeastWay && !is_turning) {
+    const double angle = wrapped(angle_of(own.velocity) - own.heading);
+    memory.drift_angle += std::min(1.0, view.step / kDriftTime) * (angle - memory.drift_angle);
+  }
+  return memory.drift_angle;
+}
+
+/// Line of sight [Fossen2011]: over ground towards a point of the leg a look-ahead ahead.
+Command steer(const RoutePilot& pilot, const PilotView& view, PilotMemory& memory) {
+  const Point leg_from = memory.from;
+  go_on(pilot, view, memory);
+  if (memory.waypoint >= static_cast<std::int32_t>(pilot.waypoints.size())) {  // there: stops on its course
+    const double course = angle_of(memory.from - leg_from);
+    if (memory.from != leg_from) memory.heading = course;
+    return {lever_to_hold(0, view, memory), steering_to_hold(memory.heading, view)};
+  }
+  const Waypoint& to = pilot.waypoints[static_cast<std::size_t>(memory.waypoint)];
+  const double course = angle_of(to.position_in_world - memory.from);
+  const double ahead = pilot.look_ahead * view.own().length;
+  const double offset = cross(unit(course), view.own().position_in_world - memory.from);
+  memory.heading = course;
+  const double wanted = course - std::atan2(offset, ahead) - drift_angle(view, memory);
+  return {lever_to_hold(to.speed, view, memory), steering_to_hold(wanted, view)};
+}
+
+Command steer(const TablePilot& pilot, const PilotView& view, PilotMemory&) {
+  const auto after = std::ranges::upper_bound(pilot.rows, view.time, {}, &TableRow::time);
+  if (after == pilot.rows.begin()) return {after->lever, after->steering_angle};
+  const TableRow& from = *(after - 1);
+  if (after == pilot.rows.end()) return {from.lever, from.steering_angle};
+  const double share = (view.time - from.time) / (after->time - from.time);
+  return {from.lever + share * (after->lever - from.lever),
+          from.steering_angle + share * (after->steering_angle - from.steering_angle)};
+}
+
+/// Whether the ship has been slower than that for so long in the direction it is to go.
+bool is_stuck(const RammingPilot& pilot, double speed, const PilotView& view, PilotMemory& memory) {
+  if (speed > pilot.stuck_speed) memory.slow_since = view.time;
+  return view.time - memory.slow_since >= pilot.stuck_time;
+}
+
+Command steer(const RammingPilot& pilot, const PilotView& view, PilotMemory& memory) {
+  const Point here = view.own().position_in_world;
+  const double heading = chosen(pilot.heading, memory);
+  if (memory.is_backing) {
+    const double back = pilot.back_distance > 0 ? pilot.back_distance : view.own().length;
+    const bool is_far = dot(memory.stuck_at - here, unit(heading)) >= back;
+    if (is_far || is_stuck(pilot, -view.speed_over_ground, view, memory)) {
+      memory.is_backing = false;
+      memory.slow_since = view.time;
+      ++memory.rams;
+    }
+  } else if (is_stuck(pilot, view.speed_over_ground, view, memory) &&
+             view.lever >= 0.99 * pilot.lever_ahead) {
+    memory.is_backing = true;
+    memory.slow_since = view.time;
+    memory.stuck_at = here;
+    if (memory.rams == 0) memory.first_stuck_at = here;
+  }
+  if (memory.rams > 0)
+    memory.gained = std::max(memory.gained, dot(here - memory.first_stuck_at, unit(heading)));
+  if (memory.is_backing) return {pilot.lever_astern, 0};
+  return {pilot.lever_ahead, steering_to_hold(heading, view)};
+}
+
+const SeenShip& leader_of(const PilotView& view, int leader) {
+  return view.ships[static_cast<std::size_t>(leader)];
+}
+
+}  // namespace
+
+PilotMemory memory_at_start(const PilotView& view) {
+  PilotMemory memory;
+  memory.heading = view.own().heading;
+  memory.from = view.own().position_in_world;
+  memory.slow_since = view.time;
+  return memory;
+}
+
+namespace {
+
+/// To where the leader's stern is, as fast as the leader and by the error of the distance.
+Command steer(const FollowingPilot& pilot, const PilotView& view, PilotMemory& memory) {
+  const SeenShip& own = view.own();
+  const SeenShip& leader = leader_of(view, pilot.leader);
+  const Vector ahead = unit(own.heading);
+  const Point stern = leader.position_in_world + leader.stern * unit(leader.heading);
+  const Point stem = own.position_in_world + own.stem * ahead;
+  const Vector way = stern - stem;
+  const double gap = length(way);
+  const double wanted = dot(leader.velocity, ahead) + (gap - pilot.distance) / kGapTime;
+  return {lever_to_hold(std::max(0.0, wanted), view, memory), steering_to_hold(angle_of(way), view)};
+}
+
+}  // namespace
+
+Command command_of(const PilotSettings& pilot, const PilotView& view, PilotMemory& memory) {
+  return std::visit([&](const auto& settings) { return steer(settings, view, memory); }, pilot);
+}
+
+}  // namespace polynya::simulation

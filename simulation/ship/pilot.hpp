@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "dynamics/planar.hpp"
+#include "dynamics/ship/propulsion.hpp"
+#include "simulation/ship/pilot_settings.hpp"
+
+namespace polynya::simulation {
+
+/// A ship as pilots see it from others.
+struct SeenShip {
+  geometry::Point position_in_world;  ///< of its centre of gravity [m]
+  double heading = 0;                 ///< [rad]
+  geometry::Vector velocity;          ///< over ground [m/s]
+  double length = 0;                  ///< of its waterline [m]
+  double stern = 0;                   ///< x of its waterline's ends from the centre of gravity [m]
+  double stem = 0;
+};
+
+/// What a pilot knows of its ship in a step.
+struct PilotView {
+  double time = 0;  ///< [s]
+  double step = 0;  ///< Δt to the next command [s]
+  int ship = 0;     ///< its own, among `ships`
+  std::span<const SeenShip> ships;
+  dynamics::Planar through_water;  ///< [m/s, rad/s]
+  double speed_over_ground = 0;    ///< ahead [m/s]
+  double lever = 0;                ///< where it is
+  double steering_angle = 0;       ///< where rudder or thrusters are, to port [rad]
+  double steering_most = 0;        ///< to either side; 0: nothing to steer with [rad]
+  double steering_gain = 0;        ///< yaw acceleration by steering, now [rad/s² per rad]
+  dynamics::Planar ice_force;      ///< on the ship, of the step before [N, N m]
+  dynamics::Engine engine;
+  double mass = 0;  ///< with the water's inertia ahead [kg]
+
+  const SeenShip& own() const { return ships[static_cast<std::size_t>(ship)]; }
+};
+
+/// What the engine and the steering are to go to. What lies beyond their stops is limited to these.
+struct Command {
+  double lever = 0;
+  double steering_angle = 0;  ///< to port [rad]
+};
+
+/// What a pilot remembers from step to step. Kept in checkpoints.
+struct PilotMemory {
+  double heading = 0;         ///< at the start [rad]
+  double speed_integral = 0;  ///< [m/s²]
+  double drift_angle = 0;     ///< of the course over ground from the heading, smoothed [rad]
+  std::int32_t waypoint = 0;  ///< the next one
+  geometry::Point from;       ///< where the present leg begins [m]
+  bool is_backing = false;
+  double slow_since = 0;     ///< when the ship became slow [s]
+  geometry::Point stuck_at;  ///< where it was last stuck [m]
+  geometry::Point first_stuck_at;
+  std::int32_t rams = 0;  ///< charges after the first
+  double gained = 0;      ///< along the heading from where it was first stuck [m]
+};
+
+/// A pilot's memory at the start.
+PilotMemory memory_at_start(const PilotView& view);
+
+/// What a pilot of the scene does.
+Command command_of(const PilotSettings& pilot, const PilotView& view, PilotMemory& memory);
+
+/// A pilot from outside: takes the place of the scene's. Its own memory is its caller's.
+using ExternalPilot = std::function<Command(const PilotView&)>;
+
+}  // namespace polynya::simulation

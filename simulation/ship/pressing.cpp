@@ -1,0 +1,113 @@
+#include "simulation/ship/pressing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace polynya::simulation {
+
+using dynamics::Contact;
+using fracture::Push;
+using geometry::Point;
+using geometry::Vector;
+
+namespace {
+
+/// Faces shorter than this, and tips nearer to the contact line, are none [m].
+constexpr double kLeastFace = 1e-9;
+
+fracture::Face face_of(const dynamics::Bodies& bodies, const Contact& c, BodyIndex floe, Point end,
+                       Point tip) {
+  const BodyIndex by = other_of(c, floe);
+  const Point middle = midpoint(end, tip);
+  Vector normal = perpendicular(tip - end) / distance(end, tip);
+  if (dot(normal, into_floe(c, floe)) < 0) normal = -normal;
+  const Vector relative = velocity_at(bodies, by, middle - bodies.position[by]) -
+                          velocity_at(bodies, floe, middle - bodies.position[floe]);
+  return {middle, normal, dot(relative, perpendicular(normal))};
+}
+
+/// The pushes of a contact where the other body's corner is in the floe.
+std::optional<std::array<Push, 2>> corner_pushes(const dynamics::Bodies& bodies, const Contact& c,
+                                                 BodyIndex floe, Vector force, double friction) {
+  const Point tip = floe == c.b ? c.tip_of_a : c.tip_of_b;
+  if (dot(tip - c.ends[0], into_floe(c, floe)) < kLeastFace) return std::nullopt;
+  if (std::min(distance(tip, c.ends[0]), distance(tip, c.ends[1])) < kLeastFace) return std::nullopt;
+  return fracture::wedge_pushes(
+      force, {face_of(bodies, c, floe, c.ends[0], tip), face_of(bodies, c, floe, c.ends[1], tip)}, friction);
+}
+
+/// A crack between two contacts starts on the way between them, across it, to where they push.
+void add_mouth_between(const PressedContact& p, const PressedContact& q, std::vector<Mouth>& mouths) {
+  const Point at_p = p.contact->centre_of_pressure();
+  const Point at_q = q.contact->centre_of_pressure();
+  const Vector between = at_q - at_p;
+  if (length(between) < kLeastFace) return;
+  Vector direction = perpendicular(between) / length(between);
+  if (dot(direction, p.force + q.force) < 0) direction = -direction;
+  const Contact* harder = squared_length(p.force) < squared_length(q.force) ? q.contact : p.contact;
+  mouths.push_back({midpoint(at_p, at_q), direction, harder});
+}
+
+}  // namespace
+
+Vector force_on(const Contact& c, BodyIndex floe, double dt) {
+  Vector force = (c.steady_share / dt) * c.impulse_on_b();
+  if (c.is_broken) {
+    const double total = c.total_normal_impulse();
+    const double slip = total > 0 ? c.slip_impulse / total : 0;
+    force = c.breaking_force * (c.normal + slip * perpendicular(c.normal));
+  }
+  return floe == c.b ? force : -force;
+}
+
+double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
+  const double friction = setup.scene.ice.friction;
+  const double with_slip = std::sqrt(1 + friction * friction);
+  double sum = 0;
+  for (const Contact& c : contacts) {
+    const auto is_sharp = [&](Point tip) { return dot(c.ends[0] - tip, c.ends[1] - tip) > 0; };
+    if (is_sharp(c.tip_of_a) || is_sharp(c.tip_of_b)) return std::numeric_limits<double>::infinity();
+    const double slip = c.friction * c.friction;
+    const double normal =
+        c.is_broken ? c.breaking_force : c.steady_share / setup.scene.time.step * c.total_normal_impulse();
+    sum += normal * std::sqrt(1 + slip);
+  }
+  if (friction >= 1) return std::numeric_limits<double>::infinity();
+  return 0.5 * std::numbers::sqrt2 * with_slip / (1 - friction) * sum;
+}
+
+void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const Contact> contacts,
+           BodyIndex floe, PressedFloe& pressed) {
+  pressed.contacts.clear();
+  pressed.pushes.clear();
+  for (const Contact& c : contacts) {
+    if (c.total_normal_impulse() <= 0 && !c.is_broken) continue;
+    const Vector force = force_on(c, floe, setup.scene.time.step);
+    const auto pushes = corner_pushes(bodies, c, floe, force, setup.scene.ice.friction);
+    if (pushes)
+      pressed.pushes.insert(pressed.pushes.end(), pushes->begin(), pushes->end());
+    else
+      pressed.pushes.push_back({c.centre_of_pressure(), force});
+    pressed.contacts.push_back({&c, force, pushes.has_value()});
+  }
+  pressed.most = 0;
+  for (const Push& push : pressed.pushes) pressed.most += 0.5 * length(push.force);
+}
+
+void find_mouths(BodyIndex floe, PressedFloe& pressed) {
+  pressed.mouths.clear();
+  const PressedContact* before = nullptr;
+  for (const PressedContact& next : pressed.contacts) {
+    const Contact& c = *next.contact;
+    if (next.is_corner)
+      pressed.mouths.push_back({floe == c.b ? c.tip_of_a : c.tip_of_b, into_floe(c, floe), &c});
+    if (before) add_mouth_between(*before, next, pressed.mouths);
+    before = &next;
+  }
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,268 @@
+#include "simulation/ship/sailing.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Planar;
+using dynamics::PlanarMatrix;
+using geometry::Vector;
+
+Planar in_ship(geometry::Rotation rotation, Vector velocity, double angular_velocity) {
+  const Vector v = rotate_back(rotation, velocity);
+  return {v.x, v.y, angular_velocity};
+}
+
+/// A ship in a step, in the ship's axes, which stand still while impulses act.
+struct Ship {
+  double mass = 0;     ///< [kg]
+  double moment = 0;   ///< [kg m²]
+  Planar now;          ///< ν with the step's other impulses, in the water frame
+  Planar start;        ///< ν before them
+  Planar before_turn;  ///< ν in the ship's axes of the step before: it is there that the water had it
+  Planar of_current;   ///< of the water around it
+  Planar of_ground;    ///< of the ground
+};
+
+Ship ship_of(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies, const ShipMotion& start,
+             BodyIndex i) {
+  const geometry::Rotation rotation = bodies.rotation[i];
+  Ship ship;
+  ship.mass = bodies.mass[i];
+  ship.moment = bodies.moment[i];
+  ship.now = in_ship(rotation, bodies.velocity[i], bodies.angular_velocity[i]);
+  ship.start = in_ship(rotation, start.velocity, start.angular_velocity);
+  const geometry::Rotation turn = dynamics::turned({}, start.angular_velocity * clock.step);
+  const Vector turned = rotate(turn, {ship.start.surge, ship.start.sway});
+  ship.before_turn = {turned.x, turned.y, ship.start.yaw};
+  ship.of_current = in_ship(rotation, setup.current.velocity_at(bodies.position[i]), 0);
+  ship.of_ground = in_ship(rotation, -clock.water_drift, 0);
+  return ship;
+}
+
+/// A linear force k − D (ν − of what it moves against).
+struct LinearForce {
+  Planar constant;
+  PlanarMatrix damping;
+  Planar against;
+  Planar at(Planar velocity) const { return constant - damping * (velocity - against); }
+};
+
+/// The pull of a mooring at the end of the step, in the axes of the ship.
+LinearForce mooring_force(const MooringSettings& mooring, const Clock& clock, const dynamics::Bodies& bodies,
+                          const Ship& ship, BodyIndex i) {
+  const auto to_mooring = geometry::Rotation::by(mooring.heading);
+  const double turn = bodies.angle[i] - mooring.heading;
+  const Vector off = rotate_back(to_mooring, bodies.position[i] + clock.drift() - mooring.position_in_world);
+  const geometry::Rotation to_ship =
+      geometry::relative_pose({{}, to_mooring}, {{}, bodies.rotation[i]}).rotation;
+  const Vector pull =
+      rotate_back(to_ship, {-mooring.surge_stiffness * off.x, -mooring.sway_stiffness * off.y});
+  const double dt = clock.step;
+  const double along = dt * mooring.surge_stiffness + mooring.surge_damping;
+  const double across = dt * mooring.sway_stiffness + mooring.sway_damping;
+  const auto [c, s] = to_ship;
+  const double shared = (across - along) * s * c;
+  LinearForce force;
+  force.constant = {pull.x, pull.y, -mooring.yaw_stiffness * turn};
+  force.damping.rows = {{{along * c * c + across * s * s, shared, 0},
+                         {shared, along * s * s + across * c * c, 0},
+                         {0, 0, dt * mooring.yaw_stiffness + mooring.yaw_damping}}};
+  force.against = ship.of_ground;
+  return force;
+}
+
+/// The forces on a ship in a step.
+struct Forces {
+  Planar engine;
+  Planar rudder;
+  LinearForce water;
+  LinearForce mooring;
+};
+
+Forces forces_on(const Setup& setup, const Clock& clock, const Population& population, const Ship& ship,
+                 BodyIndex i) {
+  const Sailing& sailing = setup.sailing[i];
+  const Helm& helm = population.helms[i];
+  const Planar through_water = ship.start - ship.of_current;
+  Forces forces;
+  const double turned = sailing.has_azimuth ? helm.steering_angle : 0;
+  double thrust = 0;
+  if (sailing.engine) {
+    const Vector at_stern{through_water.surge, through_water.sway + sailing.stern * through_water.yaw};
+    const double speed = std::cos(turned) * at_stern.x - std::sin(turned) * at_stern.y;
+    thrust = dynamics::propeller_thrust(*sailing.engine, helm.lever, speed);
+  }
+  forces.engine = dynamics::turned_thrust(thrust, turned, sailing.stern);
+  if (sailing.rudder)
+    forces.rudder = dynamics::rudder_force(*sailing.rudder, helm.steering_angle, through_water, thrust,
+                                           sailing.hull.density);
+  forces.water = {{}, dynamics::water_damping(sailing.hull, through_water), ship.of_current};
+  const auto& mooring = setup.scene.ships[i].mooring;
+  if (mooring && !helm.is_adrift) forces.mooring = mooring_force(*mooring, clock, population.bodies, ship, i);
+  return forces;
+}
+
+/// ν at the end of the step: (M + A + Δt D) ν⁺ = M ν + A ν_b + Δt F, ν with the step's other impulses, ν_b in
+/// the ship's axes of the step before (docs/theory.md, "The ship in water").
+Planar solved_motion(const Ship& ship, const PlanarMatrix& added_mass, const Forces& forces, double dt) {
+  const PlanarMatrix inertia = PlanarMatrix{{{{ship.mass, 0, 0}, {0, ship.mass, 0}, {0, 0, ship.moment}}}};
+  const PlanarMatrix damping = forces.water.damping + forces.mooring.damping;
+  const Planar force = forces.engine + forces.rudder + forces.water.at({}) + forces.mooring.at({});
+  return solve(inertia + added_mass + dt * damping,
+               inertia * ship.now + added_mass * ship.before_turn + dt * force);
+}
+
+/// Enters an impulse that took a ship from one velocity to another, its part of the work at their mean.
+void enter(Planar impulse, Planar mean, geometry::Rotation rotation, double& energy, Vector& momentum,
+           AuditSums& audit) {
+  const Vector in_water = rotate(rotation, {impulse.surge, impulse.sway});
+  energy += dot(impulse, mean);
+  momentum += in_water;
+  audit.impulses += length(in_water);
+}
+
+void enter_all(const SailingLoads& impulses, Planar mean, geometry::Rotation rotation, AuditSums& audit) {
+  EnergyFlows& energy = audit.energy;
+  MomentumFlows& momentum = audit.momentum;
+  enter(impulses.engine, mean, rotation, energy.thrust, momentum.thrust, audit);
+  enter(impulses.mooring, mean, rotation, energy.thrust, momentum.held, audit);
+  double given = 0;
+  enter(impulses.water, mean, rotation, given, momentum.water, audit);
+  enter(impulses.rudder, mean, rotation, given, momentum.water, audit);
+  energy.drag -= given;
+}
+
+void add(const SailingLoads& of_step, SailingLoads& sum) {
+  sum.water += of_step.water;
+  sum.engine += of_step.engine;
+  sum.rudder += of_step.rudder;
+  sum.mooring += of_step.mooring;
+}
+
+/// The mooring breaks where it held the ship with more than it can. `velocity` is the ship's in the water at
+/// the end of the step: the pull is that of the place where the step takes the ship.
+void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar impulse, Vector velocity,
+                   BodyIndex i, Population& population, Journal& journal) {
+  const double force = std::hypot(impulse.surge, impulse.sway) / clock.step;
+  if (mooring.break_load <= 0 || force <= mooring.break_load) return;
+  Helm& helm = population.helms[i];
+  helm.is_adrift = true;
+  helm.adrift_since = clock.time() + clock.step;
+  const geometry::Point place =
+      population.bodies.position[i] + clock.drift() + clock.step * (velocity + clock.water_drift);
+  const Vector offset =
+      rotate_back(geometry::Rotation::by(mooring.heading), place - mooring.position_in_world);
+  journal.mooring_breaks.push_back({helm.adrift_since, i, place, offset, force, mooring.break_load});
+}
+
+void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, BodyIndex i,
+               Population& population, Accounts& accounts, Journal& journal) {
+  dynamics::Bodies& bodies = population.bodies;
+  const double dt = clock.step;
+  const bool is_free = bodies.inverse_mass[i] != 0;
+  const Ship ship = ship_of(setup, clock, bodies, start, i);
+  const PlanarMatrix& added_mass = setup.sailing[i].hull.added_mass;
+  const Forces forces = forces_on(setup, clock, population, ship, i);
+  const Planar end = is_free ? solved_motion(ship, added_mass, forces, dt) : ship.now;
+  SailingLoads impulses;
+  impulses.engine = dt * forces.engine;
+  impulses.rudder = dt * forces.rudder;
+  impulses.mooring = dt * forces.mooring.at(end);
+  impulses.water = dt * forces.water.at(end);
+  if (is_free) impulses.water += added_mass * (ship.before_turn - end);
+  add(impulses, accounts.sailing[i]);
+  const Vector velocity = rotate(bodies.rotation[i], {end.surge, end.sway});
+  if (const auto& mooring = setup.scene.ships[i].mooring)
+    break_mooring(*mooring, clock, impulses.mooring, velocity, i, population, journal);
+  if (!is_free) return;
+  enter_all(impulses, 0.5 * (ship.now + end), bodies.rotation[i], accounts.audit);
+  bodies.velocity[i] = velocity;
+  bodies.angular_velocity[i] = end.yaw;
+}
+
+}  // namespace
+
+dynamics::MainDimensions dimensions_of(const ShipSpec& ship, double water_density) {
+  const geometry::Box box = bounding_box(ship.hull.waterline);
+  dynamics::MainDimensions d;
+  d.length = box.high.x - box.low.x;
+  d.beam = box.high.y - box.low.y;
+  d.draught = ship.hull.draught;
+  d.block_coefficient = ship.water.block_coefficient > 0
+                            ? ship.water.block_coefficient
+                            : ship.mass / (water_density * d.length * d.beam * d.draught);
+  return d;
+}
+
+namespace {
+
+dynamics::HullInWater hull_in_water(const ShipSpec& ship, const dynamics::Engine* engine, double density) {
+  const geometry::Box box = bounding_box(ship.hull.waterline);
+  const dynamics::MainDimensions dimensions = dimensions_of(ship, density);
+  dynamics::HullInWater hull;
+  hull.density = density;
+  hull.length = dimensions.length;
+  hull.draught = dimensions.draught;
+  hull.aft = box.low.x;
+  hull.fore = box.high.x;
+  if (engine) hull.quadratic_resistance = quadratic_resistance(*engine);
+  if (!ship.water.acts) return hull;
+  hull.cross_flow_drag = ship.water.cross_flow_drag;
+  hull.derivatives = clarke_derivatives(dimensions);
+  hull.added_mass =
+      added_mass_of(hull.derivatives, hull.length, density, ship.water.surge_added_mass * ship.mass);
+  if (!engine)
+    hull.quadratic_resistance =
+        0.5 * density * ship.water.resistance_coefficient * wetted_surface(dimensions);
+  return hull;
+}
+
+}  // namespace
+
+Sailing sailing_of(const ShipSpec& ship, double water_density) {
+  const auto* engine = std::get_if<Engine>(&ship.propulsion);
+  Sailing sailing;
+  sailing.is_active = sails(ship);
+  if (!sailing.is_active) return sailing;
+  sailing.hull = hull_in_water(ship, engine, water_density);
+  sailing.stern = sailing.hull.aft;
+  if (engine) sailing.engine = *engine;
+  if (const auto* rudder = std::get_if<RudderSettings>(&ship.steering)) {
+    sailing.rudder = dynamics::Rudder{.area = rudder->area,
+                                      .aspect_ratio = rudder->aspect_ratio,
+                                      .position = sailing.stern,
+                                      .race_area = engine ? engine->propeller_area : 0};
+    sailing.steering_rate = rudder->rate;
+    sailing.steering_most = rudder->most;
+  }
+  if (const auto* azimuth = std::get_if<AzimuthSettings>(&ship.steering)) {
+    sailing.has_azimuth = true;
+    sailing.steering_rate = azimuth->rate;
+    sailing.steering_most = azimuth->most;
+  }
+  return sailing;
+}
+
+void keep_motion(const Population& population, StepData& step) {
+  step.start.resize(static_cast<std::size_t>(population.ship_count));
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship)
+    step.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};
+}
+
+void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+          Accounts& accounts, Journal& journal) {
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+    if (!setup.sailing[ship].is_active) continue;
+    const ContactLoads& ice = step.loads[ship].ice;
+    population.helms[ship].ice_force =
+        (1 / clock.step) * Planar{ice.impulse.x, ice.impulse.y, ice.angular_impulse};
+    sail_ship(setup, clock, step.start[ship], ship, population, accounts, journal);
+  }
+}
+
+}  // namespace polynya::simulation

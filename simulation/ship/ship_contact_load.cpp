@@ -1,0 +1,105 @@
+#include "simulation/ship/ship_contact_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/contact/restitution_law.hpp"
+#include "fracture/bending/edge_deflection.hpp"
+#include "fracture/characteristic_length.hpp"
+#include "simulation/ice/ice_scatter.hpp"
+#include "simulation/ship/hull_angle.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+using geometry::Point;
+
+/// The cusp is expected about this many characteristic lengths away; the wedge is measured over that length.
+constexpr double kWedgeLengthOverL = 0.3;
+
+/// Eq. (5) needs the masses of the bodies as they are, also of one of prescribed motion.
+dynamics::Mobility true_mobility(const dynamics::Bodies& bodies, BodyIndex i, Point at) {
+  return {1 / bodies.mass[i], 1 / bodies.moment[i], at - bodies.position[i]};
+}
+
+double eq5_impulse(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
+  const double mass = dynamics::effective_mass(true_mobility(bodies, c.a, c.middle()),
+                                               true_mobility(bodies, c.b, c.middle()), c.normal);
+  return dynamics::collision_impulse(c.approach_speed, setup.scene.contact.restitution, mass);
+}
+
+geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodies,
+                               const ShipContactLoad& load) {
+  const Contact& c = load.contact;
+  const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
+  const double l = fracture::characteristic_length(load.ice, setup.scene.water.water);
+  return geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b,
+                                inverse_transform(water_from_floe, c.tip_of_b),
+                                rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
+}
+
+/// By the law of crushing ice, at the deepest overlap that pressed.
+void press(const Setup& setup, bool can_bend, ShipContactLoad& load) {
+  const Contact& c = load.contact;
+  const double deepest = std::max(c.depth, c.record->loaded_depth);
+  const bool recedes = can_bend && setup.scene.fracture.follows_deflection && load.shares.vertical > 0;
+  const double recession = recedes ? fracture::recession_per_area(bending_load(setup, load), deepest) : 0;
+  const fracture::RecedingCrush pressed = fracture::crushed_receding(
+      {c.width, c.depth, c.area}, deepest, load.ice.thickness, load.hull_angle, recession);
+  load.normal_force = fracture::crushing_force(load.ice, pressed.crushed.area);
+  load.stiffness = fracture::crushing_force(load.ice, pressed.crushed.slope);
+  load.penetration = pressed.penetration;
+  load.vertical_force = load.shares.vertical * load.normal_force;
+  if (deepest > 0) load.mean_speed *= pressed.penetration / deepest;
+}
+
+}  // namespace
+
+double crushing_force(const fracture::Ice& ice, const Contact& c, double hull_angle) {
+  return fracture::crushing_force(
+      ice, fracture::crushed_overlap_area({c.width, c.depth, c.area}, ice.thickness, hull_angle));
+}
+
+double floe_size(const Population& population, BodyIndex body) {
+  return std::sqrt(population.floes[population.floe_of(body)].area);
+}
+
+fracture::BendingLoad bending_load(const Setup& setup, const ShipContactLoad& load) {
+  const geometry::WedgeAngles& wedge = load.wedge;
+  fracture::BendingLoad bending;
+  bending.ice = load.ice;
+  bending.water = setup.scene.water.water;
+  bending.front_half_angle =
+      std::clamp(wedge.front, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
+  bending.back_half_angle = std::clamp(wedge.back, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
+  if (is_crush_law(setup))
+    bending.opening_angle = std::max(wedge.front + wedge.back, 2 * fracture::kSmallestHalfAngle);
+  bending.hull_angle = load.hull_angle;
+  bending.mean_approach_speed = load.mean_speed;
+  bending.penetration = load.penetration;
+  bending.vertical_to_crushing = load.shares.vertical;
+  bending.vertical_force = load.vertical_force;
+  return bending;
+}
+
+ShipContactLoad load_of(const Setup& setup, const Population& population, const Contact& c) {
+  const dynamics::Bodies& bodies = population.bodies;
+  ShipContactLoad load{.contact = c, .ice = ice_of_body(setup, population, c.b)};
+  if (const double scatter = setup.scene.fracture.bending_scatter; scatter > 0)
+    load.ice.flexural_strength *= strength_factor(setup.scene.seed, c.record->first_touch_in_b, scatter);
+  load.impulse = eq5_impulse(setup, bodies, c);
+  load.hull_angle = hull_angle_at(setup.scene.ships[c.a].hull, bodies, c);
+  load.shares = fracture::crushing_shares(load.hull_angle, load.ice.friction, c.approach_speed, c.slip_speed);
+  load.penetration = c.depth;
+  load.mean_speed = c.record->age > 0 ? c.record->approach / c.record->age : c.approach_speed;
+  const bool can_bend = floe_size(population, c.b) >= limits_of_body(setup, population, c.b).breakable_size;
+  if (can_bend) load.wedge = wedge_at(setup, bodies, load);
+  if (is_crush_law(setup))
+    press(setup, can_bend, load);
+  else
+    load.normal_force = crushing_force(load.ice, c, load.hull_angle);
+  return load;
+}
+
+}  // namespace polynya::simulation

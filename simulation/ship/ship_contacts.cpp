@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/contact/first_contact.hpp"
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Vector;
+
+bool is_known(const std::vector<ShipContact>& contacts, BodyIndex ship, BodyIndex other) {
+  return std::ranges::any_of(contacts,
+                             [&](const ShipContact& c) { return c.ship == ship && c.other == other; });
+}
+
+geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
+  return transform(dynamics::water_from_body(bodies, ship),
+                   setup.scene.ships[static_cast<std::size_t>(ship)].hull.waterline);
+}
+
+/// The contact of two ships of prescribed motion whose outlines came to touch in the step. The contact search
+/// leaves such pairs out: no impulse moves them.
+std::optional<ShipContact> prescribed_contact(const Setup& setup, const Clock& clock,
+                                              const dynamics::Bodies& bodies, BodyIndex ship,
+                                              BodyIndex other) {
+  const Vector velocity = bodies.velocity[other] - bodies.velocity[ship];
+  const double speed = length(velocity);
+  // The touch may lie in the step before, where rounding hid it.
+  const double earliest = -2 * setup.scene.time.step;
+  const double reach = bodies.bounding_radius[ship] + bodies.bounding_radius[other] - earliest * speed;
+  if (speed == 0 || distance(bodies.position[ship], bodies.position[other]) > reach) return std::nullopt;
+  const auto touch = geometry::first_contact(waterline_in_water(setup, bodies, ship),
+                                             waterline_in_water(setup, bodies, other), velocity, earliest, 0);
+  if (!touch) return std::nullopt;
+  return ShipContact{.time = clock.time(),
+                     .ship = ship,
+                     .other = other,
+                     .point_in_world = touch->point + clock.drift(),
+                     .closing_speed = -dot(velocity, touch->normal),
+                     .relative_speed = speed,
+                     .is_prescribed = true};
+}
+
+}  // namespace
+
+void record_ship_contacts(const Setup& setup, const Clock& clock, const Population& population,
+                          const std::vector<dynamics::Contact>& contacts,
+                          std::vector<ShipContact>& known_contacts, Journal& journal) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const auto enter = [&](const ShipContact& contact) {
+    known_contacts.push_back(contact);
+    journal.ship_contacts.push_back(contact);
+  };
+  for (const dynamics::Contact& c : contacts) {
+    if (!population.is_ship(c.b) || is_known(known_contacts, c.a, c.b)) continue;
+    enter({.time = clock.time(),
+           .ship = c.a,
+           .other = c.b,
+           .point_in_world = c.middle() + clock.drift(),
+           .closing_speed = c.approach_speed,
+           .relative_speed = std::hypot(c.approach_speed, c.slip_speed)});
+  }
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+    for (BodyIndex other = ship + 1; other < population.ship_count; ++other) {
+      if (bodies.inverse_mass[ship] != 0 || bodies.inverse_mass[other] != 0) continue;
+      if (bodies.is_grounded[ship] != 0 && bodies.is_grounded[other] != 0) continue;  // they do not meet
+      if (is_known(known_contacts, ship, other)) continue;
+      if (const auto contact = prescribed_contact(setup, clock, bodies, ship, other)) enter(*contact);
+    }
+  }
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,59 @@
+#include <algorithm>
+
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Vector;
+
+/// A wall that presses, in a step.
+struct Pressing {
+  const Wall& wall;
+  BodyIndex body = 0;
+  Vector normal;  ///< into the ice
+};
+
+template <class Use>
+void for_pressing(const Setup& setup, const Population& population, Use use) {
+  for (BodyIndex i = 0; i < population.ship_count; ++i) {
+    const auto* wall = std::get_if<Wall>(&setup.scene.ships[i].propulsion);
+    const geometry::Rotation rotation = population.bodies.rotation[i];
+    if (wall && wall->presses()) use(Pressing{*wall, i, {rotation.cosine, rotation.sine}});
+  }
+}
+
+/// Changes a wall's velocity, and enters the impulse that this takes.
+void change_velocity(Vector to, BodyIndex wall, dynamics::Bodies& bodies, AuditSums& audit) {
+  const Vector before = bodies.velocity[wall];
+  const Vector impulse = bodies.mass[wall] * (to - before);
+  audit.boundaries.walls += 0.5 * dot(impulse, before + to);
+  audit.boundaries.wall_impulse += impulse;
+  audit.impulses += length(impulse);
+  bodies.velocity[wall] = to;
+}
+
+}  // namespace
+
+void press_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit) {
+  for_pressing(setup, population, [&](const Pressing& p) {
+    dynamics::Bodies& bodies = population.bodies;
+    // M dv/dt = q L (1 − v/v_c), v over ground along the normal. Damped by the speed that the ice left it,
+    // not by what the load adds: where the ice bears all of the load, it is q L.
+    const double most = clock.step * p.wall.load() / bodies.mass[p.body];
+    const double speed = dot(bodies.velocity[p.body] + clock.water_drift, p.normal);
+    const double gain = std::min(most, p.wall.closing_speed) * (1 - speed / p.wall.closing_speed);
+    change_velocity(bodies.velocity[p.body] + gain * p.normal, p.body, bodies, audit);
+  });
+}
+
+void hold_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit) {
+  for_pressing(setup, population, [&](const Pressing& p) {
+    const Vector over_ground = population.bodies.velocity[p.body] + clock.water_drift;
+    const Vector held = dot(over_ground, p.normal) * p.normal - clock.water_drift;
+    change_velocity(held, p.body, population.bodies, audit);
+    population.bodies.angular_velocity[p.body] = 0;  // rounding
+  });
+}
+
+}  // namespace polynya::simulation

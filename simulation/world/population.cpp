@@ -1,0 +1,209 @@
+#include "simulation/world/population.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+
+/// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them
+/// [m].
+double grid_cell(const Scene& scene) {
+  std::vector<double> sizes;
+  for (const FloeSpec& floe : scene.floes) {
+    const geometry::Box box = bounding_box(floe.polygon_in_world.outer);
+    sizes.push_back(std::max(box.high.x - box.low.x, box.high.y - box.low.y));
+  }
+  if (sizes.empty()) return 20;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return std::max(5.0, 1.5 * *middle);
+}
+
+dynamics::ContactRule contact_rule(const Setup& setup) {
+  const ContactSettings& contact = setup.scene.contact;
+  return {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, setup.shortcuts.culls,
+          is_crush_law(setup)};
+}
+
+/// A floe of the scene, at the start; takes its polygon.
+NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
+  NewFloe floe;
+  floe.shape.polygon = std::move(spec.polygon_in_world);
+  floe.own_ice = spec.own_ice;
+  floe.angular_velocity = spec.angular_velocity;
+  floe.velocity = spec.velocity;
+  floe.is_fast = spec.is_fast;
+  if (spec.is_fast) {
+    floe.velocity -= setup.scene.water.drift;
+    return floe;
+  }
+  if (!setup.current.is_still()) {  // at rest in a sheared current is to go and turn with it
+    floe.velocity += setup.current.velocity_at(centroid);
+    floe.angular_velocity += setup.current.angular_velocity();
+  }
+  floe.velocity -= cross(floe.angular_velocity, centroid - Point{});
+  return floe;
+}
+
+}  // namespace
+
+Population::Population(const Setup& setup)
+    : ship_count(static_cast<int>(setup.scene.ships.size())),
+      drag_area(setup.scene.water.drag_area),
+      has_skin_drag(setup.scene.water.skin_drag_coefficient > 0),
+      pairs(contact_rule(setup), grid_cell(setup.scene)) {}
+
+void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
+               Journal& journal) {
+  const Scene& scene = setup.scene;
+  for (const ShipSpec& ship : scene.ships) {
+    const BodyIndex index = add_body(population.bodies, new_body_of(ship, scene.water.drift));
+    population.pairs.add(population.bodies, index);
+  }
+  reserve(population.bodies, population.bodies.position.size() + floes.size());
+  population.pairs.reserve(population.bodies.position.size() + floes.size());
+  population.floes.reserve(floes.size());
+  journal.births.reserve(floes.size());
+  for (FloeSpec& spec : floes) {
+    const geometry::Measures measures = geometry::measure(spec.polygon_in_world);
+    add_floe(setup, clock, new_floe_of(spec, measures.centroid, setup), measures, population, journal);
+  }
+  // Only now: a body that wakes looks up its neighbours once, so they all have to be there.
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) wake(ship, population);
+  for (std::size_t i = 0; i < floes.size(); ++i) {
+    const FloeSpec& spec = floes[i];
+    const BodyIndex body = population.body_of(static_cast<FloeId>(i));
+    const bool is_moving = spec.is_fast ? population.bodies.velocity[body] != Vector{}
+                                        : spec.velocity != Vector{} || spec.angular_velocity != 0;
+    if (is_moving || spec.has_crushed_overlaps || !stays_at_rest(body, setup, population.bodies) ||
+        !setup.shortcuts.sleeps)
+      wake(body, population);
+  }
+  for (std::size_t i = 0; i < floes.size(); ++i) {
+    if (floes[i].has_crushed_overlaps)
+      population.pairs.note_pressed(population.body_of(static_cast<FloeId>(i)));
+  }
+}
+
+FloeId add_floe(const Setup& setup, const Clock& clock, NewFloe floe, const geometry::Measures& measures,
+                Population& population, Journal& journal) {
+  const FloeId id = population.floe_count();
+  dynamics::NewBody body =
+      new_body_of(floe.shape.polygon, measures, ice_of(setup.scene, floe.own_ice), floe.is_fast);
+  body.position = transform(floe.water_from_body, body.centroid);
+  body.angle = floe.angle;
+  // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
+  body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
+  body.angular_velocity = floe.angular_velocity;
+  journal.births.push_back({{id, floe.parent, clock.time(), floe.generation, measures.area, body.mass,
+                             body.centroid, floe.own_ice},
+                            floe.shape.polygon});
+  population.floes.push_back({.parent = floe.parent,
+                              .born = clock.time(),
+                              .generation = floe.generation,
+                              .own_ice = floe.own_ice,
+                              .area = measures.area,
+                              .shape = std::move(floe.shape)});
+  const BodyIndex index = add_body(population.bodies, body);
+  assert(population.floe_of(index) == id);
+  population.pairs.add(population.bodies, index);
+  return id;
+}
+
+void leave_contacts(FloeId floe, Population& population) {
+  const BodyIndex body = population.body_of(floe);
+  population.pairs.remove(body);
+  std::erase_if(population.tilted, [&](const TiltedFloe& tilted) { return tilted.floe == floe; });
+  if (!population.bodies.is_awake[body]) return;
+  population.bodies.is_awake[body] = 0;
+  population.awake.erase(std::find(population.awake.begin(), population.awake.end(), body));
+}
+
+void retire_floe(FloeId floe, Population& population, Journal& journal) {
+  dynamics::Bodies& bodies = population.bodies;
+  const BodyIndex body = population.body_of(floe);
+  leave_contacts(floe, population);
+  bodies.is_alive[body] = 0;
+  bodies.boundary[body].reset();
+  bodies.drag[body].reset();
+  population.floes[floe].is_under = false;
+  journal.deaths.push_back({floe, std::move(population.floes[floe].shape.polygon)});
+  population.floes[floe].shape = {};
+}
+
+void wake(BodyIndex body, Population& population) {
+  if (population.bodies.is_awake[body]) return;
+  population.bodies.is_awake[body] = 1;
+  add_drag(body, population);
+  population.awake.insert(std::lower_bound(population.awake.begin(), population.awake.end(), body), body);
+  population.pairs.wake(population.bodies, body);
+}
+
+void add_drag(BodyIndex body, Population& population) {
+  if (population.is_ship(body) || population.bodies.drag[body] != nullptr) return;
+  if (population.bodies.inverse_mass[body] == 0) {  // water does not move fast ice
+    static const auto none =
+        std::make_shared<const dynamics::DragShape>(dynamics::DragShape{.width = {}, .is_same = true});
+    population.bodies.drag[body] = none;
+    return;
+  }
+  population.bodies.drag[body] = std::make_shared<dynamics::DragShape>(dynamics::make_small_drag_shape(
+      population.floes[population.floe_of(body)].shape.polygon, population.bodies.centroid[body],
+      population.drag_area, population.has_skin_drag));
+}
+
+bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies) {
+  if (setup.scene.wind.blows() && bodies.inverse_mass[body] != 0) return false;
+  const dynamics::ShearCurrent& current = setup.current;
+  if (current.is_still()) return true;
+  const double rim = std::abs(current.angular_velocity()) * bodies.bounding_radius[body];
+  return length(current.velocity_at(bodies.position[body])) + rim < kRestSpeed;
+}
+
+dynamics::NewBody new_body_of(const ShipSpec& ship, Vector water_drift) {
+  dynamics::NewBody body;
+  body.position = ship.position_in_world;
+  body.angle = ship.heading;
+  const Vector ahead{std::cos(ship.heading), std::sin(ship.heading)};
+  double speed = ship.speed;
+  if (const auto* prescribed = std::get_if<ConstantSpeed>(&ship.propulsion)) {
+    speed = prescribed->speed;
+    body.is_prescribed = true;
+  }
+  if (std::holds_alternative<FixedInPlace>(ship.propulsion)) {
+    speed = 0;
+    body.is_prescribed = true;
+  }
+  body.velocity = speed * ahead - water_drift;
+  if (ship.sway_speed != 0) body.velocity += ship.sway_speed * perpendicular(ahead);
+  body.angular_velocity = ship.yaw_rate;
+  body.is_grounded = is_grounded(ship);
+  if (const auto* wall = std::get_if<Wall>(&ship.propulsion)) {
+    body.velocity += wall->velocity;
+    body.is_prescribed = !wall->presses();
+  }
+  body.mass = ship.mass;
+  body.moment = ship.moment_of_inertia;
+  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline({ship.hull.waterline, {}}));
+  return body;
+}
+
+dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
+                              const fracture::Ice& ice, bool is_fast) {
+  dynamics::NewBody body;
+  body.is_prescribed = is_fast;
+  body.mass = ice.density * ice.thickness * measures.area;
+  body.moment = ice.density * ice.thickness * measures.second_moment;
+  body.centroid = measures.centroid;
+  body.thickness = ice.thickness;
+  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline(polygon_in_body));
+  return body;
+}
+
+}  // namespace polynya::simulation

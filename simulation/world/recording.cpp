@@ -1,0 +1,144 @@
+#include <cmath>
+
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Vector;
+
+double larger(double a, double b) {
+  return std::abs(b) > std::abs(a) ? b : a;
+}
+Vector larger(Vector a, Vector b) {
+  return {larger(a.x, b.x), larger(a.y, b.y)};
+}
+
+/// Adds what a contact's impulses did to one of its two bodies, a ship.
+void add_contact(const Population& population, const dynamics::Contact& c, BodyIndex ship, double sign,
+                 ShipLoads& ship_loads) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const bool is_with_ship = population.is_ship(ship == c.a ? c.b : c.a);
+  ContactLoads& loads = is_with_ship ? ship_loads.ships : ship_loads.ice;
+  const auto add = [&](geometry::Point at, Vector impulse, bool is_slip) {
+    const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
+    const double moment = cross(at - bodies.position[ship], impulse);
+    loads.impulse += in_ship;
+    loads.angular_impulse += moment;
+    loads.steady_impulse += c.steady_share * in_ship;
+    loads.steady_angular_impulse += c.steady_share * moment;
+    if (is_slip) loads.friction += {in_ship.x, in_ship.y, moment};
+  };
+  for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal, false);
+  add(c.middle(), sign * c.slip_impulse * perpendicular(c.normal), true);
+  ++loads.contacts;
+}
+
+void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
+  sum.impulse += step.impulse;
+  sum.angular_impulse += step.angular_impulse;
+  sum.largest = larger(sum.largest, step.steady_impulse / dt);
+  sum.largest_moment = larger(sum.largest_moment, step.steady_angular_impulse / dt);
+  sum.contacts = step.contacts;
+}
+
+void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
+  add_step(sum.ice, step.ice, dt);
+  add_step(sum.ships, step.ships, dt);
+  sum.submerged.impulse += step.submerged.impulse;
+  sum.submerged.angular_impulse += step.submerged.angular_impulse;
+  sum.submerged.area = step.submerged.area;
+  sum.peak = larger(sum.peak, step.peak);
+  sum.peak_moment = larger(sum.peak_moment, step.peak_moment);
+}
+
+/// What the helm is at, and what moved the ship beside ice and other ships.
+void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval,
+                 ShipSample& sample) {
+  ShipSample& s = sample;
+  const auto mean = [&](dynamics::Planar impulse) { return (1 / interval) * impulse; };
+  s.friction_of_ice = mean(loads.ice_friction);
+  s.from_water = mean(loads.water);
+  s.from_engine = mean(loads.engine);
+  s.from_rudder = mean(loads.rudder);
+  s.from_mooring = mean(loads.mooring);
+  s.lever = helm.lever;
+  s.steering_angle = helm.steering_angle;
+  s.rams = helm.memory.rams;
+  s.gained = helm.memory.gained;
+  const auto& engine = setup.sailing[s.ship].engine;
+  s.delivered_power = engine ? std::abs(helm.lever) * engine->power : 0;
+}
+
+double thrust_of(const Setup& setup, const ShipSample& s) {
+  const Propulsion& propulsion = setup.scene.ships[s.ship].propulsion;
+  if (const auto* constant = std::get_if<ConstantThrust>(&propulsion)) return constant->thrust;
+  if (std::holds_alternative<Engine>(propulsion)) return s.from_engine.surge;
+  if (const auto* wall = std::get_if<Wall>(&propulsion); wall && wall->presses()) return wall->load();
+  return -(s.surge_force + s.surge_from_ships + s.surge_from_submerged + s.from_water.surge);
+}
+
+ShipSample sample_of(const Setup& setup, const Clock& clock, const Population& population, BodyIndex ship,
+                     const ShipLoads& loads, const SailingLoads& sailing) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
+  ShipSample sample;
+  sample.time = clock.time();
+  sample.ship = ship;
+  sample.surge_force = loads.ice.impulse.x / interval;
+  sample.sway_force = loads.ice.impulse.y / interval;
+  sample.yaw_moment = loads.ice.angular_impulse / interval;
+  sample.surge_peak = loads.peak.x;
+  sample.sway_peak = loads.peak.y;
+  sample.yaw_peak = loads.peak_moment;
+  sample.surge_max = loads.ice.largest.x;
+  sample.sway_max = loads.ice.largest.y;
+  sample.yaw_max = loads.ice.largest_moment;
+  sample.surge_from_ships = loads.ships.impulse.x / interval;
+  sample.sway_from_ships = loads.ships.impulse.y / interval;
+  sample.yaw_from_ships = loads.ships.angular_impulse / interval;
+  sample.surge_from_ships_max = loads.ships.largest.x;
+  sample.sway_from_ships_max = loads.ships.largest.y;
+  sample.yaw_from_ships_max = loads.ships.largest_moment;
+  sample.position_in_world = bodies.position[ship] + clock.drift();
+  sample.heading = bodies.angle[ship];
+  sample.velocity_in_world = bodies.velocity[ship] + clock.water_drift;
+  sample.yaw_rate = bodies.angular_velocity[ship];
+  sample.surge_from_submerged = -loads.submerged.impulse / interval;
+  sample.yaw_from_submerged = loads.submerged.angular_impulse / interval;
+  sample.submerged_area = loads.submerged.area;
+  add_sailing(setup, population.helms[ship], sailing, interval, sample);
+  sample.thrust = thrust_of(setup, sample);
+  sample.contacts = loads.ice.contacts;
+  sample.contacts_with_ships = loads.ships.contacts;
+  return sample;
+}
+
+}  // namespace
+
+void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
+                 std::vector<ShipLoads>& loads) {
+  for (const dynamics::Contact& c : contacts) {
+    if (population.is_ship(c.a)) add_contact(population, c, c.a, -1, loads[c.a]);
+    if (population.is_ship(c.b)) add_contact(population, c, c.b, +1, loads[c.b]);
+  }
+}
+
+void record(const Setup& setup, const Clock& clock, const Population& population,
+            const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal) {
+  for (std::size_t ship = 0; ship < step_loads.size(); ++ship) {
+    add_step(accounts.loads[ship], step_loads[ship], setup.scene.time.step);
+    if (setup.sailing[ship].is_active) accounts.sailing[ship].ice_friction += step_loads[ship].ice.friction;
+  }
+  Counts& counts = accounts.counts;
+  counts.peak_awake = std::max(counts.peak_awake, static_cast<std::int64_t>(population.awake.size()));
+  if (clock.steps % setup.steps_per_sample != 0) return;
+  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+    journal.samples.push_back(
+        sample_of(setup, clock, population, ship, accounts.loads[ship], accounts.sailing[ship]));
+    accounts.loads[ship] = {};
+    accounts.sailing[ship] = {};
+  }
+}
+
+}  // namespace polynya::simulation

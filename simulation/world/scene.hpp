@@ -1,0 +1,276 @@
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dynamics/water/drag_shape.hpp"
+#include "dynamics/water/wind.hpp"
+#include "fracture/bending/bending_model.hpp"
+#include "fracture/characteristic_length.hpp"
+#include "fracture/materials.hpp"
+#include "fracture/splitting.hpp"
+#include "fracture/tilting.hpp"
+#include "geometry/shape/polygon.hpp"
+#include "simulation/ship/pilot_settings.hpp"
+#include "simulation/ship/sailing_settings.hpp"
+
+namespace polynya::simulation {
+
+/// A scene as the simulation needs it: all defaults and all floes explicit. SI units, angles in radians. The
+/// JSON form and its field table are io's (docs/scene.md).
+
+struct StepSettings {
+  double step = 0.005;  ///< Δt [s]
+  double until = 550;   ///< simulated time to run to [s]
+  friend bool operator==(const StepSettings&, const StepSettings&) = default;
+};
+
+/// A current that grows linearly across its direction, on top of the uniform drift and carried by it: at x it
+/// runs along `direction` at rate · (distance of x from the line through `origin`, to port of the direction).
+struct ShearSettings {
+  double rate = 0;         ///< [1/s]
+  double direction = 0;    ///< of the current, from the x axis, counter-clockwise [rad]
+  geometry::Point origin;  ///< a point that moves with the drift alone, where it is at the start [m]
+  friend bool operator==(const ShearSettings&, const ShearSettings&) = default;
+};
+
+struct WaterSettings {
+  fracture::Water water;
+  double drag_coefficient = 0.5;                             ///< C_D of Eq. (6) [-]
+  dynamics::DragArea drag_area = dynamics::DragArea::kEdge;  ///< A of Eq. (6)
+  double skin_drag_coefficient = 0;  ///< C_w, of a floe's area in plan, beside Eq. (6) [-]
+  geometry::Vector drift;            ///< velocity of the water, and of all ice with it [m/s]
+  ShearSettings shear;
+  friend bool operator==(const WaterSettings&, const WaterSettings&) = default;
+};
+
+/// How the normal of a contact is found.
+enum class ContactNormal {
+  kBoundary,       ///< from the boundary pieces the touching circles stand for
+  kCircleCentres,  ///< along the line between the circles' centres, the paper's own rule
+};
+
+/// How bodies push each other apart (docs/theory.md, "Contact").
+enum class ContactLaw {
+  kCrush,    ///< what crushing ice carries while bodies close, nothing at rest or parting
+  kImpulse,  ///< the paper's rigid impulses, Eq. (5), up to what crushing ice carries
+};
+
+struct ContactSettings {
+  ContactLaw law = ContactLaw::kCrush;
+  int substeps = 1;             ///< of kCrush: parts of a step, solved one after the other
+  double tolerance = 1e-4;      ///< of kCrush: largest violation of the law that is left [m/s]
+  bool is_warm_started = true;  ///< of kCrush: from the impulses of the step before
+  double circle_radius = 1.0;   ///< [m]
+  ContactNormal normal = ContactNormal::kBoundary;
+  double restitution = 0.1;      ///< ε of Eq. (5) [-]; friction is the ice's μ
+  double contact_time = 0.5;     ///< τ_c, only for the paper's peak force j/τ_c [s]
+  double separation_time = 1.0;  ///< decay time of overlap that nothing presses together any more [s]
+  int iterations = 100;          ///< most sweeps of the contact solver over an island
+  friend bool operator==(const ContactSettings&, const ContactSettings&) = default;
+};
+
+enum class BendingModelKind { kNevel, kKashtelyan, kFsiDatabase };
+enum class CuspFate {
+  kSubmerge,   ///< gone, the paper's
+  kFloat,      ///< a floe
+  kUnderHull,  ///< under the hull until it comes up behind; gone at a hull without a draught
+};
+
+/// How floes go under inclined hulls with a draught.
+struct GoingUnderSettings {
+  bool is_enabled = false;
+  fracture::TiltSettings tilting;
+  friend bool operator==(const GoingUnderSettings&, const GoingUnderSettings&) = default;
+};
+
+/// How ice comes up that went under a hull.
+struct ResurfaceSettings {
+  bool is_enabled = false;
+  double retry = 1;        ///< time between two tries where there was no room [s]
+  double give_up = 120;    ///< time without room after which it stays under the ice [s]
+  double rim_loss = 0.05;  ///< share of a piece's area that becomes brash, evenly off its rim [-]
+  double scatter = 0.2;    ///< deviation of its place, of √area, and of its turn, of a half turn [-]
+  friend bool operator==(const ResurfaceSettings&, const ResurfaceSettings&) = default;
+};
+
+struct FractureSettings {
+  fracture::CharacteristicLength characteristic_length = fracture::CharacteristicLength::kFourthRoot;
+  double breakable_size_factor = 1.0;  ///< κ: floes with √area < κ l are pushed, never broken [-]
+  BendingModelKind bending = BendingModelKind::kFsiDatabase;
+  fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;  ///< of kFsiDatabase
+  bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
+  double bending_scatter = 0;  ///< deviation / mean of each bending event's flexural strength, log-normal [-]
+  fracture::SplittingModel splitting = fracture::SplittingModel::kLefm;
+  double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
+  fracture::LeastPiece least_piece;      ///< that a crack leaves on either side
+  CuspFate cusp_fate = CuspFate::kSubmerge;
+  GoingUnderSettings going_under;
+  ResurfaceSettings resurface;
+  double cusp_sagitta = 0.02;       ///< a cusp's polygon stays this close to its circle [m]
+  double smallest_floe_area = 0.1;  ///< smaller pieces leave the floe list as brash [m²]
+  friend bool operator==(const FractureSettings&, const FractureSettings&) = default;
+};
+
+/// A waterline in the ship's frame (origin at the centre of gravity, x forward, y to port) [m].
+struct Hull {
+  geometry::Ring waterline;                         ///< counter-clockwise
+  double stem_angle = 30 * std::numbers::pi / 180;  ///< φ, of the stem from the horizontal [rad]
+  double draught = 0;                               ///< T; 0: no ice goes under this hull [m]
+  bool has_speed_factor = true;              ///< Lindqvist's factor of speed on the load of ice under it
+  std::vector<double> angles_from_vertical;  ///< θ_s per waterline vertex [rad]; empty: from the stem angle
+  friend bool operator==(const Hull&, const Hull&) = default;
+};
+
+/// Thrust along the ship's heading [N].
+struct ConstantThrust {
+  double thrust = 0;
+  friend bool operator==(const ConstantThrust&, const ConstantThrust&) = default;
+};
+/// Velocity over ground and heading are prescribed; the forces reported are what that takes.
+struct ConstantSpeed {
+  double speed = 0;  ///< [m/s]
+  friend bool operator==(const ConstantSpeed&, const ConstantSpeed&) = default;
+};
+/// A structure that stands on the ground. Its mass is infinite.
+struct FixedInPlace {
+  friend bool operator==(const FixedInPlace&, const FixedInPlace&) = default;
+};
+/// A straight boundary that ice cannot pass: it stands, moves at a prescribed velocity, or presses on the
+/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory.md, "Wind and
+/// walls").
+struct Wall {
+  geometry::Vector velocity;       ///< over ground, of one that does not press [m/s]
+  double length = 0;               ///< [m]
+  double line_load = 0;            ///< q, along its normal, over ground; 0: its motion is prescribed [N/m]
+  double closing_speed = 0.1;      ///< at which q alone moves it [m/s]
+  double mass_per_length = 4.5e5;  ///< of one that presses [kg/m]
+
+  bool presses() const { return line_load > 0; }
+  double load() const { return line_load * length; }  ///< [N]
+  friend bool operator==(const Wall&, const Wall&) = default;
+};
+using dynamics::Engine;
+using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace, Engine, Wall>;
+
+/// A ship, a structure, which is a ship that does not move, or a wall.
+struct ShipSpec {
+  std::string name;
+  Hull hull;
+  double mass = 0;                    ///< [kg]
+  double moment_of_inertia = 0;       ///< about the vertical through the centre of gravity [kg m²]
+  geometry::Point position_in_world;  ///< of the centre of gravity at the start [m]
+  double heading = 0;                 ///< from the x axis, counter-clockwise [rad]
+  double speed = 0;                   ///< along the heading over ground at the start [m/s]
+  double sway_speed = 0;              ///< to port, likewise [m/s]
+  double yaw_rate = 0;                ///< counter-clockwise at the start [rad/s]
+  Propulsion propulsion;
+  HullWaterSettings water;
+  Steering steering;
+  PilotSettings pilot;  ///< of a ship with an engine
+  std::optional<MooringSettings> mooring;
+  friend bool operator==(const ShipSpec&, const ShipSpec&) = default;
+};
+
+inline constexpr std::int32_t kSceneIce = -1;  ///< instead of an index in Scene::own_ice
+
+struct FloeSpec {
+  geometry::Polygon polygon_in_world;  ///< valid, at the start [m]
+  geometry::Vector velocity;    ///< of the centre of mass relative to the water there, at the start [m/s]
+  double angular_velocity = 0;  ///< relative to the water's own turning there, at the start [rad/s]
+  bool is_fast =
+      false;  ///< held at its velocity, which is then over ground, whatever pushes it; it does not turn
+  std::int32_t own_ice = kSceneIce;   ///< index in Scene::own_ice
+  bool has_crushed_overlaps = false;  ///< what it shares with other bodies at the start has pressed already
+  std::int64_t source_floe = -1;      ///< its id in the file that it is from; < 0: none
+  friend bool operator==(const FloeSpec&, const FloeSpec&) = default;
+};
+
+/// Which contacts are recorded at each frame.
+enum class RecordedContacts {
+  kNone,
+  kShips,  ///< those with a ship or a structure
+  kAll,    ///< those between floes too
+};
+
+struct RecordSettings {
+  double forces_interval = 0.1;  ///< between rows of forces.csv [s]
+  double frames_interval = 2.0;  ///< between frames [s]
+  RecordedContacts contacts = RecordedContacts::kShips;
+  friend bool operator==(const RecordSettings&, const RecordSettings&) = default;
+};
+
+/// Where the scene's plane lies on the Earth. Nothing in the simulation depends on it.
+struct GeographicOrigin {
+  double latitude = 0;                           ///< of the scene's origin, WGS 84 [rad]
+  double longitude = 0;                          ///< [rad]
+  double heading = 90 * std::numbers::pi / 180;  ///< of the scene's x axis, from true north, clockwise [rad]
+  friend bool operator==(const GeographicOrigin&, const GeographicOrigin&) = default;
+};
+
+struct Scene {
+  std::string name;
+  std::optional<GeographicOrigin> origin;
+  std::uint64_t seed = 1;
+  StepSettings time;
+  WaterSettings water;
+  dynamics::Wind wind;
+  fracture::Ice ice;
+  ContactSettings contact;
+  FractureSettings fracture;
+  RecordSettings record;
+  std::vector<ShipSpec> ships;  ///< and then the structures and the walls
+  std::vector<FloeSpec> floes;
+  /// Of floes whose thickness, density, strengths or toughness are not the scene's; the rest of it is.
+  std::vector<fracture::Ice> own_ice;
+  friend bool operator==(const Scene&, const Scene&) = default;
+};
+
+/// The ice of a floe by its index in the scene's own_ice.
+inline const fracture::Ice& ice_of(const Scene& scene, std::int32_t own_ice) {
+  return own_ice == kSceneIce ? scene.ice : scene.own_ice[static_cast<std::size_t>(own_ice)];
+}
+
+/// What a row of forces.csv covers: a whole number of steps [s].
+double recording_interval(const Scene& scene);
+
+/// Does the paper's collision force j/τ_c decide splits? Views show it beside the true force only then.
+bool splits_by_j_over_tau_c(const Scene& scene);
+
+/// Work that a run skips because it would change nothing. Not part of a scene: tests switch it off and
+/// compare.
+struct Shortcuts {
+  bool culls = true;   ///< pairs of bodies are not collided while they cannot touch
+  bool sleeps = true;  ///< floes at rest that touch nothing are not stepped
+};
+
+/// Whether anything beside ice, other ships and a prescribed thrust or speed moves the ship: water around the
+/// hull, an engine, a mooring.
+bool sails(const ShipSpec& ship);
+
+/// Whether it is a structure or a wall.
+bool is_grounded(const ShipSpec& ship);
+
+/// Whether a wind blows or a wall presses: both do work, which states keep.
+bool has_wind_or_walls(const Scene& scene);
+
+/// A wall whose face runs from one point to another, with the ice to its left, and its body of a depth [m]
+/// to its right. Its frame: the face's middle, x along the normal into the ice.
+ShipSpec wall_between(geometry::Point from, geometry::Point to, double depth, Wall wall);
+
+/// Whether ice can go under a ship's hull.
+bool has_draught(const Scene& scene);
+
+/// A wedge-bowed waterline of the given length and beam [m]: straight flanks from the stem at the entrance
+/// angle from the centreline [rad], a parallel midbody, a square stern. Origin amidships.
+geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle);
+
+/// The waterline of a vertical or conical cylinder about the origin [m], as a polygon of at least 24 corners
+/// that stays within 1 cm of the circle, corners on it.
+geometry::Ring cylinder_waterline(double radius);
+
+}  // namespace polynya::simulation

@@ -1,0 +1,87 @@
+#include "simulation/world/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fracture/bending/fsi_database_model.hpp"
+#include "fracture/bending/kashtelyan.hpp"
+#include "fracture/bending/nevel.hpp"
+#include "fracture/characteristic_length.hpp"
+#include "fracture/splitting.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureSettings& settings) {
+  switch (settings.bending) {
+    case BendingModelKind::kNevel:
+      return std::make_unique<fracture::NevelModel>();
+    case BendingModelKind::kKashtelyan:
+      return std::make_unique<fracture::KashtelyanModel>();
+    case BendingModelKind::kFsiDatabase:
+      return std::make_unique<fracture::FsiDatabaseModel>(settings.radial_cracks);
+  }
+  return nullptr;  // no other kind
+}
+
+/// Of all ices of a scene, the scene's own first. κ l by Eq. (7) of [Sawamura2017].
+std::vector<IceLimits> limits_of(const Scene& scene) {
+  const auto limits = [&](const fracture::Ice& ice) -> IceLimits {
+    return {scene.fracture.breakable_size_factor *
+                fracture::breakable_length(ice, scene.water.water, scene.fracture.characteristic_length),
+            fracture::lefm_splitting_force(ice, ice.thickness, ice.thickness)};
+  };
+  std::vector<IceLimits> all{limits(scene.ice)};
+  for (const fracture::Ice& ice : scene.own_ice) all.push_back(limits(ice));
+  return all;
+}
+
+}  // namespace
+
+Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
+    : scene(std::move(scene_of_run)),
+      shortcuts(shortcuts_of_run),
+      bending(make_bending_model(scene.fracture)),
+      current(current_of(scene.water.shear)),
+      ice_limits(limits_of(scene)) {
+  solver.max_iterations = scene.contact.iterations;
+  for (const ShipSpec& ship : scene.ships) {
+    underwater.push_back(underwater_of(ship.hull));
+    sailing.push_back(sailing_of(ship, scene.water.water.density));
+  }
+  steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
+  const ContactSettings& contact = scene.contact;
+  if (contact.law == ContactLaw::kCrush) {
+    law = dynamics::CrushLaw{scene.time.step, contact.substeps, contact.is_warm_started};
+    solver.tolerance = contact.tolerance;
+    steps_per_rest = std::max<std::int64_t>(1, std::llround(kRestInterval / scene.time.step));
+  } else {
+    law = dynamics::RestitutionLaw{contact.restitution, scene.time.step};
+    separation = {.time = contact.separation_time};  // crushed overlap is gone ice
+  }
+}
+
+Underwater underwater_of(const Hull& hull) {
+  const geometry::Box box = bounding_box(hull.waterline);
+  const double half_beam = 0.5 * (box.high.y - box.low.y);
+  const double middle = 0.5 * (box.high.y + box.low.y);
+  double widest = box.low.x;  // the foremost place with the full beam
+  for (const geometry::Point p : hull.waterline) {
+    if (std::abs(p.y - middle) > (1 - 1e-6) * half_beam) widest = std::max(widest, p.x);
+  }
+  Underwater underwater;
+  underwater.form = {.length = box.high.x - box.low.x,
+                     .beam = 2 * half_beam,
+                     .draught = hull.draught,
+                     .stem_angle = hull.stem_angle,
+                     .entrance_angle = std::atan2(half_beam, box.high.x - widest)};
+  underwater.can_take_ice = hull.draught > 0;
+  if (underwater.can_take_ice) underwater.path = dynamics::submersion_path(underwater.form);
+  return underwater;
+}
+
+dynamics::ShearCurrent current_of(const ShearSettings& shear) {
+  return {{std::cos(shear.direction), std::sin(shear.direction)}, shear.rate, shear.origin};
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "dynamics/contact/contact_solver.hpp"
+#include "dynamics/water/submerged_ice.hpp"
+#include "dynamics/water/water_drag.hpp"
+#include "fracture/bending/bending_model.hpp"
+#include "simulation/ship/sailing.hpp"
+#include "simulation/world/scene.hpp"
+
+namespace polynya::simulation {
+
+/// What ice under a ship's hull meets.
+struct Underwater {
+  dynamics::HullForm form;
+  dynamics::SubmersionPath path;
+  bool can_take_ice = false;  ///< it has a draught
+};
+
+/// Floes are put to rest once in this time [s]. A plate that a ship breaks is still and untouched between
+/// most of its contacts: at rest in each of them, it would lose its pairs with all the brash around, and find
+/// them again. Rigid impulses put to rest in every step, as the replicas of the paper have it.
+inline constexpr double kRestInterval = 1;
+
+/// What ice breaks under, where that depends on its material alone.
+struct IceLimits {
+  double breakable_size = 0;         ///< κ l: no smaller floe breaks [m]
+  double least_splitting_force = 0;  ///< of the shortest crack, as long and wide as the ice is thick [N]
+};
+
+/// What a run is computed with, the same from its first step to its last.
+struct Setup {
+  explicit Setup(Scene scene, Shortcuts shortcuts = {});
+
+  Scene scene;
+  Shortcuts shortcuts;
+  std::unique_ptr<const fracture::BendingModel> bending;
+  dynamics::ShearCurrent current;                          ///< in the water frame
+  dynamics::ResponseLaw law;                               ///< of contacts
+  dynamics::SolverSettings solver;                         ///< but for its threads
+  std::optional<dynamics::SeparationSettings> separation;  ///< of a law that leaves overlap to be separated
+  std::vector<Underwater> underwater;                      ///< per ship
+  std::vector<Sailing> sailing;                            ///< per ship
+  std::vector<IceLimits> ice_limits;                       ///< of the scene's ice, then of each own_ice
+  std::int64_t steps_per_sample = 1;
+  std::int64_t steps_per_rest = 1;  ///< between two steps that put floes to rest
+};
+
+/// Whether contacts answer by the law of crushing ice.
+inline bool is_crush_law(const Setup& setup) {
+  return std::holds_alternative<dynamics::CrushLaw>(setup.law);
+}
+
+/// A hull's underwater form by its waterline, stem angle and draught. Its entrance angle is the mean one of
+/// the bow: tan α = ½ B / (distance from the stem to where the waterline is widest).
+Underwater underwater_of(const Hull& hull);
+
+/// The scene's sheared current, as the water drag takes it.
+dynamics::ShearCurrent current_of(const ShearSettings& shear);
+
+/// How far a run has come.
+struct Clock {
+  std::int64_t steps = 0;
+  double step = 0;               ///< Δt [s]
+  geometry::Vector water_drift;  ///< velocity of the water frame over ground [m/s]
+
+  double time() const { return static_cast<double>(steps) * step; }  ///< [s]
+  geometry::Vector drift() const { return time() * water_drift; }    ///< of the water frame over ground [m]
+};
+
+}  // namespace polynya::simulation

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "simulation/world/world.hpp"
+
+namespace polynya::simulation {
+
+// The stages of one time step. A stage reads what it takes as const and changes only what it takes as a
+// plain reference.
+
+/// Puts levers and steering where the pilots' first commands want them.
+void take_helms(const Setup& setup, const Clock& clock, Population& population);
+
+/// Asks the pilots, and moves levers and steering towards their commands.
+void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external,
+           Population& population);
+
+/// Moves the walls that press by their loads. Before the contacts, so that the ice answers within the step.
+void press_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit);
+
+/// Takes from walls that press what impulses gave them beside their normals.
+void hold_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit);
+
+/// Keeps the ships' motion before the step's impulses.
+void keep_motion(const Population& population, StepData& step);
+
+void find_pairs(Population& population);
+
+void find_contacts(const Setup& setup, int threads, Population& population,
+                   std::vector<dynamics::Contact>& contacts, Counts& counts);
+
+/// What each contact can carry, and whether ice breaks there: impulse, crush, bend or split.
+void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
+            Counts& counts);
+
+/// Limits what contacts carry by what the floes that they press down resist.
+void limit_by_tilt(const Setup& setup, const Population& population, StepData& step);
+
+void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
+                    Accounts& accounts);
+
+/// By the law of crushing ice: drops the bends whose contacts were not loaded up to V_b.
+void drop_unbroken(const Setup& setup, StepData& step);
+
+/// By true forces: the floes that their contacts split. Enters the true forces into what breaks otherwise.
+void find_splits(const Setup& setup, const Population& population, StepData& step);
+
+/// Tilts the floes that hulls press down, by the impulses found; those pressed down far enough are to go
+/// under.
+void tilt_floes(const Setup& setup, Population& population, StepData& step);
+
+/// Adds what the impulses did to the ships.
+void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
+                 std::vector<ShipLoads>& loads);
+
+void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit);
+
+/// Brakes ships by the ice under their hulls, and moves that ice along its path.
+void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads,
+                           AuditSums& audit);
+
+/// Moves ships by water, engine, steering and mooring (sailing.hpp). After all other impulses of the step,
+/// since the water shares those too.
+void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+          Accounts& accounts, Journal& journal);
+
+/// Returns why the numbers cannot be trusted any more, where a body has no finite speed below kRunawaySpeed.
+std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
+                                            const std::vector<dynamics::Contact>& contacts,
+                                            Population& population);
+
+/// Records the first contact of each two ships. After the motion, so that a contact has the step's time.
+void record_ship_contacts(const Setup& setup, const Clock& clock, const Population& population,
+                          const std::vector<dynamics::Contact>& contacts,
+                          std::vector<ShipContact>& known_contacts, Journal& journal);
+
+/// With the next three all that changes which floes there are: serially, in floe-id order.
+void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
+                     Population& population, Accounts& accounts, Journal& journal);
+
+/// Cuts overlaps that no contact can part from the floe and makes them brash, in the order of the pairs.
+void grind_blind_overlaps(const Setup& setup, const Clock& clock,
+                          const std::vector<dynamics::BlindOverlap>& overlaps, Population& population,
+                          Accounts& accounts, Journal& journal);
+
+/// Puts floes that tilted far enough under the hulls.
+void apply_submersions(const Setup& setup, const Clock& clock, const std::vector<PendingSubmersion>& pending,
+                       Population& population, Accounts& accounts, Journal& journal);
+
+/// Lets ice come up that ships have passed, in the order in which it went under.
+void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
+             Journal& journal);
+
+void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
+                 AuditSums& audit);
+
+void record(const Setup& setup, const Clock& clock, const Population& population,
+            const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal);
+
+/// A stage with the parts of the world that it takes.
+struct Stage {
+  std::string_view name;
+  void (*run)(World& world);
+};
+
+/// All of them, in their order.
+extern const std::array<Stage, 25> kStages;
+
+/// One time step: all stages.
+void step(World& world);
+
+}  // namespace polynya::simulation

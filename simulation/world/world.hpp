@@ -1,0 +1,138 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/contact/contact_solver.hpp"
+#include "fracture/decision.hpp"
+#include "geometry/contact/crack_path.hpp"
+#include "simulation/world/energy.hpp"
+#include "simulation/world/journal.hpp"
+#include "simulation/world/population.hpp"
+#include "simulation/world/setup.hpp"
+
+namespace polynya::simulation {
+
+/// What one kind of contact does to a ship over a recording interval, in the ship's frame.
+struct ContactLoads {
+  geometry::Vector impulse;           ///< on the ship [N s]
+  double angular_impulse = 0;         ///< [N m s]
+  geometry::Vector steady_impulse;    ///< of the present step: what the largest force is found from [N s]
+  double steady_angular_impulse = 0;  ///< likewise [N m s]
+  geometry::Vector largest;           ///< single-step true force, component by component [N]
+  double largest_moment = 0;          ///< [N m]
+  dynamics::Planar friction;          ///< of the present step: what slip gave of the impulse [N s, N m s]
+  int contacts = 0;                   ///< at the last step
+};
+
+/// What the ice under its hull does to a ship.
+struct SubmergedLoads {
+  double impulse = 0;          ///< aft [N s]
+  double angular_impulse = 0;  ///< counter-clockwise [N m s]
+  double area = 0;             ///< of the ice under the hull, at the last step [m²]
+};
+
+/// Sums over a step or a recording interval, in the ship's frame.
+struct ShipLoads {
+  ContactLoads ice;
+  ContactLoads ships;  ///< other ships and structures
+  SubmergedLoads submerged;
+  geometry::Vector peak;   ///< the paper's j/τ_c of contacts with ice, component by component [N]
+  double peak_moment = 0;  ///< [N m]
+};
+
+/// What moves a ship that sails, beside ice and other ships. Over a recording interval, in the ship's frame.
+struct SailingLoads {
+  dynamics::Planar water;         ///< on the hull, the inertia of the water with it [N s, N m s]
+  dynamics::Planar engine;        ///< [N s, N m s]
+  dynamics::Planar rudder;        ///< [N s, N m s]
+  dynamics::Planar mooring;       ///< [N s, N m s]
+  dynamics::Planar ice_friction;  ///< of the contacts with ice, their slip [N s, N m s]
+};
+
+/// A fracture decided in this step, to be applied at its end.
+struct PendingFracture {
+  fracture::Failure failure = fracture::Failure::kNone;
+  int ship = 0;              ///< that breaks it; -1 where a floe does
+  FloeId by_floe = kNoFloe;  ///< that breaks it
+  FloeId floe = 0;
+  geometry::Point point_in_water;       ///< contact point [m]
+  geometry::Point first_touch_in_body;  ///< of the floe: the cusp's centre [m]
+  geometry::Vector normal;              ///< from the hull into the ice, water frame
+  double penetration = 0;               ///< [m]
+  double cusp_radius = 0;               ///< [m]
+  geometry::CrackPath crack_in_body;    ///< of a split
+  fracture::FailureCriteria criteria;
+  dynamics::PersistentContact* record = nullptr;  ///< of the contact that broke it, valid during the step
+};
+
+/// The hull at one of its contacts.
+struct HullSlope {
+  double vertical_share = 0;  ///< V/H, down on the ice; ≤ 0 where it is too steep to press ice down
+  double tangent = 0;         ///< tan θ_s
+};
+
+/// A floe whose edge was pressed down so far that it goes under.
+struct PendingSubmersion {
+  FloeId floe = 0;
+  int ship = 0;
+  geometry::Point point_in_water;  ///< contact point [m]
+  geometry::Vector normal;         ///< from the hull into the ice, water frame
+  double penetration = 0;          ///< [m]
+  TiltCriterion criterion;
+};
+
+/// A ship's velocity in the water frame [m/s, rad/s].
+struct ShipMotion {
+  geometry::Vector velocity;
+  double angular_velocity = 0;
+};
+
+/// What one step works out; of the step before, between two steps.
+struct StepData {
+  std::vector<dynamics::Contact> contacts;
+  std::vector<dynamics::BlindOverlap> blind_overlaps;
+  std::vector<HullSlope> slopes;  ///< of the contacts of ships, which come first
+  std::vector<PendingFracture> fractures;
+  std::vector<PendingSubmersion> submersions;
+  std::vector<ShipLoads> loads;               ///< per ship
+  std::vector<ShipMotion> start;              ///< per ship: its motion before the step's impulses
+  std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
+  dynamics::ContactSolver solver;             ///< its reusable memory
+};
+
+/// What has happened so far, in sums.
+struct Accounts {
+  AreaLedger ledger;  ///< initial, submerged, brash, rounding; the rest is derived
+  MassLedger masses;  ///< likewise
+  AuditSums audit;
+  Counts counts;
+  std::vector<ShipLoads> loads;                                       ///< per ship, since the last sample
+  std::vector<SailingLoads> sailing;                                  ///< per ship, since the last sample
+  std::vector<ShipContact> ship_contacts;                             ///< the first one of each pair of ships
+  std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut
+};
+
+/// What a new world has in it.
+enum class Start {
+  kScene,  ///< the scene's ships and floes
+  kEmpty,  ///< nothing: a saved state is to be loaded (state.hpp)
+};
+
+/// Everything a run is made of. Each stage of step.hpp takes of it what it reads and what it changes.
+struct World {
+  explicit World(Scene scene, Shortcuts shortcuts = {}, Start start = Start::kScene);
+
+  Setup setup;
+  int threads = 1;  ///< to step with; results do not depend on it
+  Clock clock;
+  Population population;
+  StepData step;
+  Accounts accounts;
+  Journal journal;
+  std::vector<ExternalPilot> pilots;   ///< per ship, those that take the place of the scene's; or fewer
+  std::optional<std::string> failure;  ///< why the run cannot continue
+};
+
+}  // namespace polynya::simulation
