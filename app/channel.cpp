@@ -4,11 +4,10 @@
 #include <memory>
 
 #include "analysis/channel_text.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/options.hpp"
-#include "app/read_input.hpp"
-#include "app/write_output.hpp"
+#include "app/files.hpp"
 #include "io/run/run_folder.hpp"
 
 namespace polynya::app {

@@ -11,6 +11,9 @@
 
 #include <fmt/format.h>
 
+#include "app/progress.hpp"
+#include "io/scene/scene_assign.hpp"
+
 // CLI11 takes seconds to compile wherever it is included: command_line.cpp alone does.
 namespace CLI {
 class App;
@@ -139,6 +142,16 @@ class CommandLine {
 
   CLI::App* app_;
 };
+
+// Options that several commands have.
+
+/// The positionals SCENE and RUN.
+void add_scene(CommandLine& command, std::string& scene);
+void add_run_folder(CommandLine& command, std::string& folder);
+/// --set, which every command that reads a scene to run or check it has.
+void add_set(CommandLine& command, std::vector<io::Assignment>& assignments);
+/// --progress, as every long command has it.
+void add_progress(CommandLine& command, ProgressKind& kind);
 
 /// A command, and what it does; it returns an ExitCode. Data goes to stdout, messages to stderr.
 struct Command {

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <initializer_list>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -34,6 +35,13 @@ void open_if_closed(int descriptor, int flags) {
   if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) return;
   // The lowest free descriptor is this one, since those below it are open by now.
   if (::open("/dev/null", flags) < 0) static_cast<void>(::open("/", O_RDONLY | O_DIRECTORY));
+}
+
+volatile std::sig_atomic_t asked = 0;
+
+extern "C" void on_signal(int signal) {
+  asked = signal;
+  std::signal(signal, SIG_DFL);  // the second one is not ours any more
 }
 
 }  // namespace
@@ -78,6 +86,22 @@ int close_streams(int code) {
   if (code != kDone || (out_error == 0 && err_error == 0)) return code;
   const auto is_pipe_or_fine = [](int error) { return error == 0 || error == EPIPE; };
   return is_pipe_or_fine(out_error) && is_pipe_or_fine(err_error) ? kClosedPipe : kInputOutput;
+}
+
+void watch_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction previous {};
+    // What our parent chose to ignore (nohup) stays ignored.
+    if (sigaction(signal, nullptr, &previous) == 0 && previous.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+int stop_signal() {
+  return asked;
 }
 
 }  // namespace polynya::app

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <string>
+#include <utility>
+
+#include <tl/expected.hpp>
+
 namespace polynya::app {
 
 /// What `polynya` returns to the shell.
@@ -15,5 +20,17 @@ enum ExitCode {
   kStopped = 75,          ///< stopped on a signal; the folder has a checkpoint to resume from
   kClosedPipe = 141,      ///< the reader of stdout or stderr went away, as a shell reports SIGPIPE
 };
+
+/// Why a command ends: its exit code, and the message, which is still to be printed.
+struct Failure {
+  ExitCode code;
+  std::string words;
+};
+template <class Value>
+using Outcome = tl::expected<Value, Failure>;
+
+inline tl::unexpected<Failure> failure(ExitCode code, std::string words) {
+  return tl::unexpected(Failure{code, std::move(words)});
+}
 
 }  // namespace polynya::app

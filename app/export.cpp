@@ -1,11 +1,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/options.hpp"
-#include "app/read_input.hpp"
-#include "app/write_output.hpp"
+#include "app/files.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/geojson_export.hpp"
 #include "views/export/scene_export.hpp"

@@ -7,8 +7,8 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/files.hpp"
 #include "app/python.hpp"
-#include "app/write_output.hpp"
 #include "io/text/version.hpp"
 
 namespace polynya::app {

@@ -3,12 +3,11 @@
 #include <memory>
 #include <numbers>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/failure.hpp"
-#include "app/options.hpp"
-#include "app/read_input.hpp"
-#include "app/write_output.hpp"
+#include "app/exit_code.hpp"
+#include "app/files.hpp"
 #include "io/import/foreign_file.hpp"
 #include "io/import/import_report.hpp"
 #include "io/text/cut_ops.hpp"

@@ -1,10 +1,10 @@
 #include <memory>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/files.hpp"
 #include "app/inspect_views.hpp"
-#include "app/options.hpp"
-#include "app/read_input.hpp"
 #include "io/run/motion_index.hpp"
 
 namespace polynya::app {

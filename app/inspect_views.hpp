@@ -38,9 +38,6 @@ struct FloeRow {
 std::vector<FloeRow> floe_rows(const io::Run& run, double time);
 std::string floe_table(const std::vector<FloeRow>& rows);
 
-/// What happened, where and what decided it, in a line.
-std::string described(const io::Run& run, const simulation::Event& event);
-
 /// Every event of the run in a line, as time goes: of ice, of ships that meet, of moorings that break.
 std::string event_list(const io::Run& run);
 

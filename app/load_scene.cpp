@@ -4,9 +4,41 @@
 #include <utility>
 
 #include "app/console.hpp"
-#include "app/read_input.hpp"
+#include "app/files.hpp"
 
 namespace polynya::app {
+namespace {
+
+using simulation::EqualSizes;
+using simulation::FieldStatistics;
+using simulation::LognormalSizes;
+using simulation::PowerLawSizes;
+
+std::string against(const EqualSizes& law, const FieldStatistics& field) {
+  return fmt::format("equal sizes of {:g} m asked for, none further off than {:.2g} %", law.size,
+                     100 * field.distance_to_law);
+}
+
+std::string against(const LognormalSizes& law, const FieldStatistics& field) {
+  const auto* fitted = field.fitted ? std::get_if<LognormalSizes>(&*field.fitted) : nullptr;
+  if (!fitted) return against(EqualSizes{law.mean}, field);
+  return fmt::format(
+      "log-normal sizes of {:g} m ± {:.3g} % asked for, {:.4g} m ± {:.3g} % likeliest; Kolmogorov-Smirnov "
+      "distance "
+      "{:.4f}",
+      law.mean, 100 * law.spread, fitted->mean, 100 * fitted->spread, field.distance_to_law);
+}
+
+std::string against(const PowerLawSizes& law, const FieldStatistics& field) {
+  const auto* fitted = field.fitted ? std::get_if<PowerLawSizes>(&*field.fitted) : nullptr;
+  return fmt::format(
+      "power law of exponent {:g} from {:g} to {:g} m asked for, exponent {:.4g} likeliest; "
+      "Kolmogorov-Smirnov "
+      "distance {:.4f}",
+      law.exponent, law.least, law.largest, fitted ? fitted->exponent : 0, field.distance_to_law);
+}
+
+}  // namespace
 
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems) {
   for (const io::Problem& problem : problems) print_err("{}\n", to_string(problem));
@@ -37,6 +69,26 @@ tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
 
 void print_hints(const io::LoadedScene& scene) {
   for (const io::Problem& hint : scene.hints) print_err("{}\n", to_string(hint));
+}
+
+void print_fields(const io::LoadedScene& scene) {
+  for (const io::FieldReport& field : scene.fields) {
+    const simulation::FloeFieldOutcome& outcome = field.outcome;
+    print_out("floes[{}]: {}, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
+              field.group, counted(outcome.count, "floe"), outcome.mean_size, 100 * outcome.size_spread,
+              100 * outcome.concentration(), outcome.region_area, outcome.left_out);
+    if (!outcome.statistics) continue;
+    const FieldStatistics& statistics = *outcome.statistics;
+    const std::string law =
+        std::visit([&](const auto& asked) { return against(asked, statistics); }, statistics.law);
+    print_out("floes[{}]: {}\n", field.group, law);
+    print_out(
+        "floes[{}]: sizes {:.4g} to {:.4g} m, length / width {:.3g} and {:.3g} corners on average, overlap "
+        "0, gaps "
+        "of {:g} m and more\n",
+        field.group, statistics.least_size, statistics.largest_size, statistics.mean_aspect,
+        statistics.mean_corners, field.gap);
+  }
 }
 
 }  // namespace polynya::app

@@ -28,4 +28,8 @@ void print_problems(const std::string& name, const std::vector<io::Problem>& pro
 /// The scene's warnings and hints on stderr, a line each.
 void print_hints(const io::LoadedScene& scene);
 
+/// How the scene's random fields came out, on stdout: sizes, cover, and of a size law how near the floes are
+/// to it.
+void print_fields(const io::LoadedScene& scene);
+
 }  // namespace polynya::app

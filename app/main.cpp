@@ -6,7 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/memory_check.hpp"
+#include "app/memory.hpp"
 #include "io/text/version.hpp"
 
 namespace polynya::app {

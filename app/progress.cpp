@@ -137,20 +137,4 @@ std::string clock_time(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-ProgressReport Progress::report(double sim_time, long long fractures) const {
-  const double wall = std::max(wall_time(), 1e-9);
-  const double rate = sim_time / wall;
-  const double part = until_ > 0 ? sim_time / until_ : 1;
-  const double left = rate > 0 ? std::max(0.0, until_ - sim_time) / rate : 0;
-  return {
-      part,
-      fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {}", 100 * part, sim_time, until_,
-                  rate, clock_time(left), counted(fractures, "fracture")),
-      fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {}", 100 * part,
-                  sim_time, until_, rate, clock_time(left), counted(fractures, "fracture")),
-      fmt::format(
-          R"({{"sim_time_s":{:.6g},"until_s":{:.6g},"wall_time_s":{:.3f},"real_time_factor":{:.4g},"time_left_s":{:.1f},"fractures":{}}})",
-          sim_time, until_, wall, rate, left, fractures)};
-}
-
 }  // namespace polynya::app

@@ -89,24 +89,4 @@ auto with_progress(ProgressKind kind, std::string name, Work work) {
 /// "1:05", "2:03:04".
 std::string clock_time(double seconds);
 
-/// Prints on stderr how far a run is.
-class Progress {
- public:
-  Progress(ProgressKind kind, double until) : output_(kind), until_(until) {}
-
-  /// Cheap to call often.
-  void show(double sim_time, long long fractures) {
-    if (output_.is_due()) output_.show(report(sim_time, fractures));
-  }
-  /// Clears or completes what is shown.
-  void finish(double sim_time, long long fractures) { output_.finish(report(sim_time, fractures)); }
-
-  double wall_time() const { return output_.wall_time(); }  ///< since construction [s]
-
- private:
-  ProgressReport report(double sim_time, long long fractures) const;
-  ProgressOutput output_;
-  double until_;  ///< [s]
-};
-
 }  // namespace polynya::app

@@ -1,9 +1,8 @@
-#include <cmath>
 #include <memory>
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/read_input.hpp"
+#include "app/files.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem_collector.hpp"
@@ -29,87 +28,45 @@ class PlaceReader {
   io::LineAndColumn place_;
 };
 
-/// Writes a document's value, and the place of every value in it by its JSON pointer (RFC 6901): line and
-/// column, and behind them those of its key.
-class LocatedWriter {
+/// The place of every value of a document by its JSON pointer (RFC 6901): line and column, and behind them
+/// those of its key.
+class PlaceWriter {
  public:
-  explicit LocatedWriter(std::string_view text) : reader_(text) { json_places_.open('{'); }
+  explicit PlaceWriter(std::string_view text) : reader_(text) { json_.open('{'); }
 
-  std::string text_of(const io::JsonValue& root) {
-    write(root, {});
-    json_places_.close('}');
-    return fmt::format("{{\"value\": {}, \"places\": {}}}\n", value_, places_);
+  std::string places_of(const io::JsonValue& root) {
+    add(root, {});
+    json_.close('}');
+    return places_;
   }
 
  private:
-  void write(const io::JsonValue& value, std::optional<std::uint32_t> key_offset) {
+  void add(const io::JsonValue& value, std::optional<std::uint32_t> key_offset) {
     std::optional<io::LineAndColumn> key;
     if (key_offset) key = reader_.at(*key_offset);
     const io::LineAndColumn place = reader_.at(value.offset);
-    json_places_.key(pointer_).open('[').value(place.line).value(place.column);
-    if (key) json_places_.value(key->line).value(key->column);
-    json_places_.close(']');
-    switch (value.kind()) {
-      case io::JsonValue::Kind::kNull:
-        json_value_.null();
-        break;
-      case io::JsonValue::Kind::kBoolean:
-        json_value_.value(value.boolean());
-        break;
-      case io::JsonValue::Kind::kNumber:
-        write_number(value.number());
-        break;
-      case io::JsonValue::Kind::kText:
-        json_value_.value(value.text());
-        break;
-      case io::JsonValue::Kind::kArray:
-        write_items(value.items());
-        break;
-      case io::JsonValue::Kind::kObject:
-        write_members(value.members());
-        break;
+    json_.key(pointer_).open('[').value(place.line).value(place.column);
+    if (key) json_.value(key->line).value(key->column);
+    json_.close(']');
+    if (value.is(io::JsonValue::Kind::kArray)) {
+      std::size_t index = 0;
+      for (const io::JsonValue& item : value.items()) add_below(std::to_string(index++), item, {});
+    } else if (value.is(io::JsonValue::Kind::kObject)) {
+      for (const io::JsonMember& member : value.members())
+        add_below(member.key, member.value, member.key_offset);
     }
   }
-  /// A whole number without point and exponent, by which Python knows one.
-  void write_number(double number) {
-    constexpr double kLargestWhole = 9007199254740992.0;  // 2^53, from where doubles are more than 1 apart
-    if (std::trunc(number) == number && std::abs(number) <= kLargestWhole)
-      json_value_.json(fmt::format("{}", static_cast<std::int64_t>(number)));
-    else
-      json_value_.value(number);
-  }
-  void write_items(const io::JsonValue::Array& items) {
-    json_value_.open('[');
-    for (std::size_t i = 0; i < items.size(); ++i) write_below(std::to_string(i), items[i], {});
-    json_value_.close(']');
-  }
-  void write_members(const io::JsonValue::Object& members) {
-    json_value_.open('{');
-    for (const io::JsonMember& member : members) {
-      json_value_.key(member.key);
-      write_below(member.key, member.value, member.key_offset);
-    }
-    json_value_.close('}');
-  }
-  void write_below(std::string_view step, const io::JsonValue& value,
-                   std::optional<std::uint32_t> key_offset) {
+  void add_below(std::string_view step, const io::JsonValue& value, std::optional<std::uint32_t> key_offset) {
     const std::size_t length = pointer_.size();
     pointer_ += '/';
-    for (const char c : step) {
-      if (c == '~')
-        pointer_ += "~0";
-      else if (c == '/')
-        pointer_ += "~1";
-      else
-        pointer_ += c;
-    }
-    write(value, key_offset);
+    for (const char c : step) pointer_ += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    add(value, key_offset);
     pointer_.resize(length);
   }
 
   PlaceReader reader_;
-  std::string value_, places_, pointer_;
-  io::JsonWriter json_value_{value_}, json_places_{places_};
+  std::string places_, pointer_;
+  io::JsonWriter json_{places_};
 };
 
 int read_json(const std::string& file) {
@@ -120,7 +77,8 @@ int read_json(const std::string& file) {
   }
   const io::JsonDocument document = io::parse_json(*text);
   if (document.faults.empty()) {
-    write_out(LocatedWriter(*text).text_of(document.root));
+    print_out("{{\"value\": {}, \"places\": {}}}\n", io::to_json_text(document.root),
+              PlaceWriter(*text).places_of(document.root));
     return kDone;
   }
   io::ProblemCollector problems({.name = file, .text = *text});

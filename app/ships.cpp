@@ -7,8 +7,8 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/files.hpp"
 #include "app/load_scene.hpp"
-#include "app/read_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/scene_resolve.hpp"
 #include "io/scene/ship_presets.hpp"

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/options.hpp"
-#include "app/write_output.hpp"
+#include "app/files.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/text/output_file.hpp"
 #include "views/player/player_page.hpp"

@@ -1,5 +1,5 @@
 // What is known of memory before a run: how much there is, and whether a scene may fit.
-#include "app/memory_check.hpp"
+#include "app/memory.hpp"
 
 #include <cmath>
 
@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "app/memory_available.hpp"
 
 namespace polynya::app {
 namespace {
