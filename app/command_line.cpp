@@ -11,7 +11,6 @@
 #include <fmt/ranges.h>
 
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "io/text/problem.hpp"
 
 namespace polynya::app {

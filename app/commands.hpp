@@ -4,8 +4,8 @@
 
 namespace polynya::app {
 
-/// Each adds one command to the command line: its help, its options and what it does, all in the file of its
-/// name (docs/architecture.md, "To add").
+/// Each adds one command to the command line: its help, its options and what it does, all in one file
+/// (docs/architecture.md, "To add").
 Command add_channel(CommandLine& app);
 Command add_completion(CommandLine& app);
 Command add_cut(CommandLine& app);

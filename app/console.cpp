@@ -72,6 +72,10 @@ ExitCode fail(ExitCode code, std::string_view message) {
   return code;
 }
 
+ExitCode code_of(const Outcome<ExitCode>& outcome) {
+  return outcome ? *outcome : fail(outcome.error().code, outcome.error().words);
+}
+
 void show_progress(std::string_view text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
   std::fflush(stderr);

@@ -42,6 +42,9 @@ using io::counted;
 /// "polynya: " and the message on stderr; returns the code.
 ExitCode fail(ExitCode code, std::string_view message);
 
+/// The code that a command ends with; a failure's message goes to stderr.
+ExitCode code_of(const Outcome<ExitCode>& outcome);
+
 /// Shows how far some work is, on stderr. It may be lost.
 void show_progress(std::string_view text);
 

@@ -3,11 +3,9 @@
 #include <memory>
 #include <utility>
 
-#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/cut_floes.hpp"
-#include "app/exit_code.hpp"
 #include "app/files.hpp"
 #include "io/text/cut_ops.hpp"
 #include "io/text/cut_report.hpp"
@@ -201,7 +199,7 @@ io::CoordinateEvidence evidence_of(const io::FloeText& floes) {
 }
 
 /// A file whose crs is in degrees has no areas in m².
-Outcome<bool> check_units(const std::string& name, const io::FloeText& floes) {
+Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   const std::string crs = floes.crs.empty() ? "" : io::geographic_crs(io::parse_json(floes.crs).root);
   if (!crs.empty()) {
     return failure(kRefused, fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}",
@@ -211,10 +209,10 @@ Outcome<bool> check_units(const std::string& name, const io::FloeText& floes) {
     print_err("note: {}: these look like longitude and latitude; areas and lengths are then in degrees: {}\n",
               name, io::how_to_project(evidence_of(floes).box, name));
   }
-  return true;
+  return {};
 }
 
-Outcome<bool> cut_all(const Options& options) {
+Outcome<ExitCode> cut_all(const Options& options) {
   if (!options.out.empty() && options.out == options.ledger)
     return failure(kUsage, "--out and --ledger are one and the same");
   if (options.floes == "-" && (options.polygon == "-" || options.ops == "-"))
@@ -228,7 +226,7 @@ Outcome<bool> cut_all(const Options& options) {
   if (!text) return failure(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));
   if (!floes) return failure(kInputOutput, fmt::format("{}:{}", name, floes.error()));
-  if (auto units = check_units(name, *floes); !units) return units;
+  if (const auto units = check_units(name, *floes); !units) return tl::unexpected(units.error());
   const io::FloeFormat format = wanted_format->value_or(floes->format);
   report_losses(name, *floes, format);
   io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
@@ -237,13 +235,7 @@ Outcome<bool> cut_all(const Options& options) {
   if (const auto written = write_results(options, report, format); !written)
     return failure(kInputOutput, written.error());
   report_totals(report);
-  return io::totals_of(report).rejected == 0;
-}
-
-int cut(const Options& options) {
-  const auto all_cut = cut_all(options);
-  if (!all_cut) return fail(all_cut.error().code, all_cut.error().words);
-  return *all_cut ? kDone : kRefused;
+  return io::totals_of(report).rejected == 0 ? kDone : kRefused;
 }
 
 }  // namespace
@@ -278,7 +270,7 @@ Command add_cut(CommandLine& app) {
               "they are refused")
       .one_of<geometry::FillRule>(
           {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
-  return {command, [options] { return cut(*options); }};
+  return {command, [options] { return code_of(cut_all(*options)); }};
 }
 
 }  // namespace polynya::app

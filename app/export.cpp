@@ -1,7 +1,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/files.hpp"
@@ -53,6 +52,17 @@ int write_vtk(const io::Run& run, const Options& options) {
   return kDone;
 }
 
+/// Into a folder that is made where it is missing; prints their paths.
+int write_files(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& files) {
+  if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
+  for (const auto& [name, text] : files) {
+    if (const auto written = io::write_named_file(folder / name, text); !written)
+      return fail(kInputOutput, written.error());
+    write_out((folder / name).string() + "\n");
+  }
+  return kDone;
+}
+
 int write_geojson(const io::Run& run, double time, const Options& options) {
   io::Project project;
   if (const auto& origin = run.scene.scene.origin; origin && !options.is_in_metres) {
@@ -62,16 +72,9 @@ int write_geojson(const io::Run& run, double time, const Options& options) {
   } else if (!options.is_in_metres) {
     print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
   }
-  if (const auto made = make_folder(options.geojson); !made) return fail(kInputOutput, made.error());
-  const auto layers = with_progress(options.progress, "making the layers",
-                                    [&] { return views::geojson_layers(run, time, project); });
-  for (const auto& [name, text] : layers) {
-    const fs::path file = fs::path(options.geojson) / name;
-    if (const auto written = io::write_named_file(file, text); !written)
-      return fail(kInputOutput, written.error());
-    write_out(file.string() + "\n");
-  }
-  return kDone;
+  return write_files(options.geojson, with_progress(options.progress, "making the layers", [&] {
+                       return views::geojson_layers(run, time, project);
+                     }));
 }
 
 /// A scene of its own that starts where the run was then.
@@ -81,12 +84,7 @@ int write_scene(const io::Run& run, double time, const Options& options) {
   if (!scene) return fail(kInputOutput, scene.error());
   const fs::path folder = options.out.empty() ? fs::path(options.run) / fmt::format("from-{:g}s", scene->time)
                                               : fs::path(options.out);
-  if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
-  for (const auto& [name, text] : scene->files) {
-    if (const auto written = io::write_named_file(folder / name, text); !written)
-      return fail(kInputOutput, written.error());
-    write_out((folder / name).string() + "\n");
-  }
+  if (const int code = write_files(folder, scene->files); code != kDone) return code;
   if (scene->time != time) print_err("note: as of the frame at {:g} s\n", scene->time);
   for (const std::string& words : scene->left_out) print_err("note: not in the scene: {}\n", words);
   return kDone;

@@ -3,10 +3,8 @@
 #include <memory>
 #include <numbers>
 
-#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "app/files.hpp"
 #include "io/import/foreign_file.hpp"
 #include "io/import/import_report.hpp"
@@ -142,7 +140,7 @@ io::Result<> write_results(const Options& options, const std::optional<std::stri
   return options.out == "-" ? io::Result<>{} : write_output("-", report);
 }
 
-Outcome<bool> import_all(const Options& options) {
+Outcome<ExitCode> import_all(const Options& options) {
   if (options.out == options.report) return failure(kUsage, "--out and --report are one and the same");
   io::ImportSettings settings = options.settings;
   auto origin = read_origin(options.origin);
@@ -189,13 +187,7 @@ Outcome<bool> import_all(const Options& options) {
   report_totals(name, *imported, near_misses.found());
   if (are_all_refused)
     return failure(kRefused, name + ": every floe was refused; only the report was written");
-  return totals.refused == 0;
-}
-
-int import_command(const Options& options) {
-  const auto done = import_all(options);
-  if (!done) return fail(done.error().code, done.error().words);
-  return *done ? kDone : kRefused;
+  return totals.refused == 0 ? kDone : kRefused;
 }
 
 void add_plane_options(CommandLine& command, Options& options) {
@@ -261,7 +253,7 @@ Command add_import(CommandLine& app) {
   add_plane_options(command, *options);
   add_floe_options(command, *options);
   add_progress(command, options->progress);
-  return {command, [options] { return import_command(*options); }};
+  return {command, [options] { return code_of(import_all(*options)); }};
 }
 
 }  // namespace polynya::app

@@ -1,6 +1,5 @@
 #include <memory>
 
-#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/files.hpp"

@@ -17,7 +17,6 @@
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
-#include "app/exit_code.hpp"
 #include "io/text/json_parser.hpp"
 
 namespace polynya::app {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/load_scene.hpp"

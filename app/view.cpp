@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
 #include "app/files.hpp"
