@@ -194,15 +194,6 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
   return exit_code_of(result.end);
 }
 
-/// Of a run whose memory ran out: it is as if it had been killed.
-ExitCode report_out_of_memory(const fs::path& folder) {
-  print_err("polynya: {}\n", out_of_memory());
-  print_err("polynya: {} is that of a run that was killed; {}\n", folder.string(), kToNeedLessMemory);
-  print_err("polynya: with more memory, continue from its newest checkpoint with: polynya resume {}\n",
-            folder.string());
-  return kOutOfMemory;
-}
-
 void add_run_options(CommandLine& command, DriverOptions& options) {
   io::RunControl& control = options.control;
   command.option("--threads", control.threads, "N", "Threads to step on; results do not depend on it",
@@ -245,14 +236,24 @@ ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
     if (output.is_due()) output.show(progress_of(at, until, output.wall_time()));
   };
   control.stop = reason_to_stop;
-  const fs::path folder = run.writer.folder();
+  const io::RunResult result = run_to_end(run, control);
+  const io::RunStatus at{result.summary.sim_time, io::fractures_of(result.summary.counts)};
+  output.finish(progress_of(at, until, output.wall_time()));
+  return report(run, result, options.no_map);
+}
+
+/// Does what makes or continues the run of a folder; where memory runs out, it reports that and what to do:
+/// it is as if the run had been killed.
+template <class Work>
+int within_memory(const fs::path& folder, Work make_or_continue) {
   try {
-    const io::RunResult result = run_to_end(run, control);
-    const io::RunStatus at{result.summary.sim_time, io::fractures_of(result.summary.counts)};
-    output.finish(progress_of(at, until, output.wall_time()));
-    return report(run, result, options.no_map);
+    return make_or_continue();
   } catch (const std::bad_alloc&) {
-    return report_out_of_memory(folder);
+    print_err("polynya: {}\n", out_of_memory());
+    print_err("polynya: {} is that of a run that was killed; {}\n", folder.string(), kToNeedLessMemory);
+    print_err("polynya: with more memory, continue from its newest checkpoint with: polynya resume {}\n",
+              folder.string());
+    return kOutOfMemory;
   }
 }
 
@@ -300,9 +301,11 @@ int run(const RunOptions& options) {
   const fs::path folder =
       options.out.empty() ? fs::path("runs") / start->scene->scene.name : fs::path(options.out);
   watch_signals();
-  auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
-  if (!writer) return fail(kInputOutput, writer.error());
-  return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
+  return within_memory(folder, [&]() -> int {
+    auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
+    if (!writer) return fail(kInputOutput, writer.error());
+    return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
+  });
 }
 
 // ---- polynya resume
@@ -403,7 +406,8 @@ int resume(const ResumeOptions& options) {
     return report_finished(folder, options.driver.no_map);  // by another polynya meanwhile
   watch_signals();
   const auto scene = load_scene(scene_file.string(), {}, ProblemFormat::kText, options.driver.progress);
-  return scene ? resume_from_checkpoint(*scene, std::move(*lock), options) : scene.error();
+  if (!scene) return scene.error();
+  return within_memory(folder, [&] { return resume_from_checkpoint(*scene, std::move(*lock), options); });
 }
 
 }  // namespace

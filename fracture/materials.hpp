@@ -15,10 +15,12 @@ struct Ice {
   double tensile_strength = 0.8e6;      ///< σ_t [Pa]
   double fracture_toughness = 150e3;    ///< K_IC [Pa √m]
   double friction = 0.2;                ///< μ, hull on ice and ice on ice [-]
+  friend bool operator==(const Ice&, const Ice&) = default;
 };
 
 struct Water {
   double density = 1000;  ///< ρ_w [kg/m³]
+  friend bool operator==(const Water&, const Water&) = default;
 };
 
 inline constexpr double kGravity = 9.81;  ///< g [m/s²]

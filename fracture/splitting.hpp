@@ -35,6 +35,7 @@ inline double lefm_splitting_force(const Ice& ice, double length, double width) 
 struct LeastPiece {
   double width_over_l = 0.5;  ///< mean width, area over the crack's length [-]
   double area_over_l2 = 0.5;  ///< [-]
+  friend bool operator==(const LeastPiece&, const LeastPiece&) = default;
 };
 
 /// Whether a crack of that length [m] leaves a sliver, with the areas beside it [m²].

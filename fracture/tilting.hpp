@@ -11,6 +11,7 @@ struct TiltSettings {
   double added_mass_factor = 1;  ///< c_a, of a disc's added mass in heave [-]
   double damping = 0.3;          ///< ζ, of the edge's motion, as a share of its frequency [-]
   double edge_deflection = 0.9;  ///< c_g: the edge goes under at this times the thickness [-]
+  friend bool operator==(const TiltSettings&, const TiltSettings&) = default;
 };
 
 /// What resists the pressing down of a floe's near edge, of area A and thickness h.

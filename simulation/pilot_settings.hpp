@@ -18,35 +18,42 @@ inline constexpr double kAsAtStart = std::numeric_limits<double>::infinity();  /
 struct ConstantPilot {
   double lever = 1;
   double steering_angle = 0;
+  friend bool operator==(const ConstantPilot&, const ConstantPilot&) = default;
 };
 /// A speed, on a heading where the ship can be steered.
 struct SpeedPilot {
   double speed = 0;  ///< [m/s]
   double heading = kAsAtStart;
+  friend bool operator==(const SpeedPilot&, const SpeedPilot&) = default;
 };
 /// A heading, at a lever.
 struct HeadingPilot {
   double heading = kAsAtStart;
   double lever = 1;
+  friend bool operator==(const HeadingPilot&, const HeadingPilot&) = default;
 };
 struct Waypoint {
   geometry::Point position_in_world;  ///< [m]
   double speed = 0;                   ///< on the leg to it [m/s]
+  friend bool operator==(const Waypoint&, const Waypoint&) = default;
 };
 /// From where the ship is at the start from waypoint to waypoint along straight legs; stops after the last.
 struct RoutePilot {
   std::vector<Waypoint> waypoints;
   double look_ahead = 2.5;  ///< of the line of sight, of the ship's length [-]
   double arrival = 1;       ///< a waypoint counts as reached this near to it, of the ship's length [-]
+  friend bool operator==(const RoutePilot&, const RoutePilot&) = default;
 };
 struct TableRow {
   double time = 0;  ///< [s]
   double lever = 0;
   double steering_angle = 0;
+  friend bool operator==(const TableRow&, const TableRow&) = default;
 };
 /// By the clock: linear between rows, the first and last before and after them.
 struct TablePilot {
   std::vector<TableRow> rows;  ///< ascending in time
+  friend bool operator==(const TablePilot&, const TablePilot&) = default;
 };
 /// On a heading ahead until the ship is stuck, back, and ahead again.
 struct RammingPilot {
@@ -56,12 +63,14 @@ struct RammingPilot {
   double stuck_speed = 0.1;  ///< ahead over ground; slower is stuck [m/s]
   double stuck_time = 10;    ///< for so long [s]
   double back_distance = 0;  ///< 0: the ship's length [m]
+  friend bool operator==(const RammingPilot&, const RammingPilot&) = default;
 };
 /// Behind another ship, at a distance from its stern to the stem.
 struct FollowingPilot {
   std::string ship;     ///< its name
   int leader = 0;       ///< its index in the scene
   double distance = 0;  ///< [m]
+  friend bool operator==(const FollowingPilot&, const FollowingPilot&) = default;
 };
 using PilotSettings = std::variant<ConstantPilot, SpeedPilot, HeadingPilot, RoutePilot, TablePilot,
                                    RammingPilot, FollowingPilot>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <variant>
 
@@ -15,21 +16,26 @@ struct HullWaterSettings {
   double cross_flow_drag = 0.8;           ///< C_d of the flow across the hull (recall) [-]
   double surge_added_mass = 0.05;         ///< of the ship's mass [-]
   double resistance_coefficient = 0.004;  ///< C_T of a ship without an engine (recall) [-]
+  friend bool operator==(const HullWaterSettings&, const HullWaterSettings&) = default;
 };
 
 /// No rudder, and no thrusters that turn.
-struct NoSteering {};
+struct NoSteering {
+  friend bool operator==(const NoSteering&, const NoSteering&) = default;
+};
 /// A rudder at the stern, in the race of the propellers.
 struct RudderSettings {
-  double area = 0;                   ///< A_R [m²]
-  double aspect_ratio = 1.5;         ///< Λ [-]
-  double rate = 0.0523598775598299;  ///< 3 °/s [rad/s]
-  double most = 0.6108652381980153;  ///< 35° to either side [rad]
+  double area = 0;                            ///< A_R [m²]
+  double aspect_ratio = 1.5;                  ///< Λ [-]
+  double rate = 3 * std::numbers::pi / 180;   ///< [rad/s]
+  double most = 35 * std::numbers::pi / 180;  ///< to either side [rad]
+  friend bool operator==(const RudderSettings&, const RudderSettings&) = default;
 };
 /// Thrusters at the stern that turn about the vertical.
 struct AzimuthSettings {
-  double rate = 0.13962634015954636;  ///< 8 °/s [rad/s]
-  double most = 3.141592653589793;    ///< to either side [rad]
+  double rate = 8 * std::numbers::pi / 180;  ///< [rad/s]
+  double most = std::numbers::pi;            ///< to either side [rad]
+  friend bool operator==(const AzimuthSettings&, const AzimuthSettings&) = default;
 };
 using Steering = std::variant<NoSteering, RudderSettings, AzimuthSettings>;
 
@@ -44,6 +50,7 @@ struct MooringSettings {
   double sway_damping = 0;            ///< [N s/m]
   double yaw_damping = 0;             ///< [N m s/rad]
   double break_load = 0;              ///< horizontal force at which it breaks; 0: never [N]
+  friend bool operator==(const MooringSettings&, const MooringSettings&) = default;
 };
 
 }  // namespace polynya::simulation

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -25,6 +26,7 @@ namespace polynya::simulation {
 struct StepSettings {
   double step = 0.005;  ///< Δt [s]
   double until = 550;   ///< simulated time to run to [s]
+  friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
 /// A current that grows linearly across its direction, on top of the uniform drift and carried by it: at x it
@@ -33,6 +35,7 @@ struct ShearSettings {
   double rate = 0;         ///< [1/s]
   double direction = 0;    ///< of the current, from the x axis, counter-clockwise [rad]
   geometry::Point origin;  ///< a point that moves with the drift alone, where it is at the start [m]
+  friend bool operator==(const ShearSettings&, const ShearSettings&) = default;
 };
 
 struct WaterSettings {
@@ -42,6 +45,7 @@ struct WaterSettings {
   double skin_drag_coefficient = 0;  ///< C_w, of a floe's area in plan, beside Eq. (6) [-]
   geometry::Vector drift;            ///< velocity of the water, and of all ice with it [m/s]
   ShearSettings shear;
+  friend bool operator==(const WaterSettings&, const WaterSettings&) = default;
 };
 
 /// How the normal of a contact is found.
@@ -67,6 +71,7 @@ struct ContactSettings {
   double contact_time = 0.5;     ///< τ_c, only for the paper's peak force j/τ_c [s]
   double separation_time = 1.0;  ///< decay time of overlap that nothing presses together any more [s]
   int iterations = 100;          ///< most sweeps of the contact solver over an island
+  friend bool operator==(const ContactSettings&, const ContactSettings&) = default;
 };
 
 enum class BendingModelKind { kNevel, kKashtelyan, kFsiDatabase };
@@ -80,6 +85,7 @@ enum class CuspFate {
 struct GoingUnderSettings {
   bool is_enabled = false;
   fracture::TiltSettings tilting;
+  friend bool operator==(const GoingUnderSettings&, const GoingUnderSettings&) = default;
 };
 
 /// How ice comes up that went under a hull.
@@ -89,6 +95,7 @@ struct ResurfaceSettings {
   double give_up = 120;    ///< time without room after which it stays under the ice [s]
   double rim_loss = 0.05;  ///< share of a piece's area that becomes brash, evenly off its rim [-]
   double scatter = 0.2;    ///< deviation of its place, of √area, and of its turn, of a half turn [-]
+  friend bool operator==(const ResurfaceSettings&, const ResurfaceSettings&) = default;
 };
 
 struct FractureSettings {
@@ -106,27 +113,33 @@ struct FractureSettings {
   ResurfaceSettings resurface;
   double cusp_sagitta = 0.02;       ///< a cusp's polygon stays this close to its circle [m]
   double smallest_floe_area = 0.1;  ///< smaller pieces leave the floe list as brash [m²]
+  friend bool operator==(const FractureSettings&, const FractureSettings&) = default;
 };
 
 /// A waterline in the ship's frame (origin at the centre of gravity, x forward, y to port) [m].
 struct Hull {
-  geometry::Ring waterline;                  ///< counter-clockwise
-  double stem_angle = 0.5236;                ///< φ, of the stem from the horizontal [rad]
-  double draught = 0;                        ///< T; 0: no ice goes under this hull [m]
+  geometry::Ring waterline;                         ///< counter-clockwise
+  double stem_angle = 30 * std::numbers::pi / 180;  ///< φ, of the stem from the horizontal [rad]
+  double draught = 0;                               ///< T; 0: no ice goes under this hull [m]
   bool has_speed_factor = true;              ///< Lindqvist's factor of speed on the load of ice under it
   std::vector<double> angles_from_vertical;  ///< θ_s per waterline vertex [rad]; empty: from the stem angle
+  friend bool operator==(const Hull&, const Hull&) = default;
 };
 
 /// Thrust along the ship's heading [N].
 struct ConstantThrust {
   double thrust = 0;
+  friend bool operator==(const ConstantThrust&, const ConstantThrust&) = default;
 };
 /// Velocity over ground and heading are prescribed; the forces reported are what that takes.
 struct ConstantSpeed {
   double speed = 0;  ///< [m/s]
+  friend bool operator==(const ConstantSpeed&, const ConstantSpeed&) = default;
 };
 /// A structure that stands on the ground. Its mass is infinite.
-struct FixedInPlace {};
+struct FixedInPlace {
+  friend bool operator==(const FixedInPlace&, const FixedInPlace&) = default;
+};
 /// A straight boundary that ice cannot pass: it stands, moves at a prescribed velocity, or presses on the
 /// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory.md, "Wind and
 /// walls").
@@ -139,6 +152,7 @@ struct Wall {
 
   bool presses() const { return line_load > 0; }
   double load() const { return line_load * length; }  ///< [N]
+  friend bool operator==(const Wall&, const Wall&) = default;
 };
 using dynamics::Engine;
 using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace, Engine, Wall>;
@@ -159,6 +173,7 @@ struct ShipSpec {
   Steering steering;
   PilotSettings pilot;  ///< of a ship with an engine
   std::optional<MooringSettings> mooring;
+  friend bool operator==(const ShipSpec&, const ShipSpec&) = default;
 };
 
 inline constexpr std::int32_t kSceneIce = -1;  ///< instead of an index in Scene::own_ice
@@ -172,6 +187,7 @@ struct FloeSpec {
   std::int32_t own_ice = kSceneIce;   ///< index in Scene::own_ice
   bool has_crushed_overlaps = false;  ///< what it shares with other bodies at the start has pressed already
   std::int64_t source_floe = -1;      ///< its id in the file that it is from; < 0: none
+  friend bool operator==(const FloeSpec&, const FloeSpec&) = default;
 };
 
 /// Which contacts are recorded at each frame.
@@ -185,13 +201,15 @@ struct RecordSettings {
   double forces_interval = 0.1;  ///< between rows of forces.csv [s]
   double frames_interval = 2.0;  ///< between frames [s]
   RecordedContacts contacts = RecordedContacts::kShips;
+  friend bool operator==(const RecordSettings&, const RecordSettings&) = default;
 };
 
 /// Where the scene's plane lies on the Earth. Nothing in the simulation depends on it.
 struct GeographicOrigin {
-  double latitude = 0;   ///< of the scene's origin, WGS 84 [rad]
-  double longitude = 0;  ///< [rad]
-  double heading = 0;    ///< of the scene's x axis, from true north, clockwise [rad]
+  double latitude = 0;                           ///< of the scene's origin, WGS 84 [rad]
+  double longitude = 0;                          ///< [rad]
+  double heading = 90 * std::numbers::pi / 180;  ///< of the scene's x axis, from true north, clockwise [rad]
+  friend bool operator==(const GeographicOrigin&, const GeographicOrigin&) = default;
 };
 
 struct Scene {
@@ -209,6 +227,7 @@ struct Scene {
   std::vector<FloeSpec> floes;
   /// Of floes whose thickness, density, strengths or toughness are not the scene's; the rest of it is.
   std::vector<fracture::Ice> own_ice;
+  friend bool operator==(const Scene&, const Scene&) = default;
 };
 
 /// The ice of a floe by its index in the scene's own_ice.

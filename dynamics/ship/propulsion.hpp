@@ -7,12 +7,13 @@ namespace polynya::dynamics {
 /// A ship's propellers and what drives them. The thrust lever is a share of the power, from −1 (full astern)
 /// to 1 (full ahead).
 struct Engine {
-  double bollard_pull = 0;       ///< T_B, of all propellers at rest, full ahead [N]
-  double open_water_speed = 0;   ///< v_ow, full ahead in open water [m/s]
-  double astern_share = 0.65;    ///< of the bollard pull, full astern [-]
-  double lever_rate = 1 / 30.0;  ///< of the lever [1/s]
-  double power = 0;              ///< installed, of all propellers; 0: not known [W]
-  double propeller_area = 0;     ///< of all propellers' discs [m²]
+  double bollard_pull = 0;      ///< T_B, of all propellers at rest, full ahead [N]
+  double open_water_speed = 0;  ///< v_ow, full ahead in open water [m/s]
+  double astern_share = 0.65;   ///< of the bollard pull, full astern [-]
+  double lever_rate = 0.033;    ///< of the lever [1/s]
+  double power = 0;             ///< installed, of all propellers; 0: not known [W]
+  double propeller_area = 0;    ///< of all propellers' discs [m²]
+  friend bool operator==(const Engine&, const Engine&) = default;
 };
 
 /// K_e (P D)^⅔ with P in kW, D in m: K_e .78, .98, 1.12 kN for 1, 2, 3 propellers (the bollard form of the

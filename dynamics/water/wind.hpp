@@ -16,6 +16,7 @@ struct Wind {
   /// ½ ρ_a C_a |U_10| U_10, the force on a floe per area in plan [Pa]. The ice's own speed, 2 to 3 % of the
   /// wind's, is left out. Coefficients of pack ice are 1.2e-3 to 3e-3 [recall].
   geometry::Vector stress() const { return 0.5 * density * drag_coefficient * length(velocity) * velocity; }
+  friend bool operator==(const Wind&, const Wind&) = default;
 };
 
 /// What the wind did to the bodies over a step.

@@ -195,7 +195,7 @@ void NearMisses::add(const JsonValue& properties, const FloeProperties& read, st
     const auto is_it = [&](const FloeProperty& property) { return property.key == member.key; };
     const auto is_named = [&](const auto& named) { return named.second.name == member.key; };
     if (!member.value.is(JsonKind::kNumber) && !member.value.is(JsonKind::kText)) continue;
-    if (std::ranges::any_of(kProperties, is_it) || std::ranges::any_of(*names_, is_named)) continue;
+    if (std::ranges::any_of(kProperties, is_it) || std::ranges::any_of(names_, is_named)) continue;
     auto known = index_.find(member.key);
     if (known == index_.end()) {
       known = index_.emplace(member.key, std::nullopt).first;

@@ -73,14 +73,14 @@ struct NearMiss {
 /// Finds near misses among the properties of many floes.
 class NearMisses {
  public:
-  explicit NearMisses(const PropertyNames& names) : names_(&names) {}
+  explicit NearMisses(PropertyNames names) : names_(std::move(names)) {}
   /// Adds the properties of floes, and what was read of them.
   void add(const JsonValue& properties, const FloeProperties& read, std::size_t floes = 1);
   /// By their first occurrence.
   const std::vector<NearMiss>& found() const { return found_; }
 
  private:
-  const PropertyNames* names_;
+  PropertyNames names_;
   std::map<std::string, std::optional<std::size_t>, std::less<>> index_;  ///< in found_, by the file's key
   std::vector<NearMiss> found_;
 };

@@ -1,17 +1,15 @@
 #include "io/scene/field_reader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "geometry/exact/validity.hpp"
-#include "io/scene/channel_region.hpp"
-#include "io/scene/floe_group.hpp"
+#include "io/scene/floe_list_reader.hpp"
+#include "io/scene/record.hpp"
 #include "io/scene/scene_check.hpp"
-#include "io/scene/scene_resolve.hpp"
 
 namespace polynya::io {
 namespace {
@@ -22,19 +20,72 @@ using simulation::PowerLawSizes;
 constexpr double kDefaultPacking = 0.75;
 constexpr int kCornersWithLaw = 16;
 
+/// A strip along a line.
+struct ChannelRegion {
+  geometry::Ring outline;             ///< counter-clockwise [m]
+  std::vector<geometry::Ring> parts;  ///< one for each leg, mitred at the bends, counter-clockwise [m]
+  int too_sharp = -1;                 ///< point of the line at which a bend leaves a leg no room; −1: none
+};
+
+using geometry::Point;
+using geometry::Ring;
+using geometry::Vector;
+
+/// From the line to its port side at a point: half the width away from both legs.
+Vector mitre(Vector before, Vector after, double half) {
+  const Vector a = perpendicular(before) / length(before);
+  const Vector b = perpendicular(after) / length(after);
+  const double share = 1 + dot(a, b);
+  return share > 0.02 ? half / share * (a + b) : Vector{};  // else the line turns back on itself
+}
+
+bool is_convex(const Ring& ring) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(cross(ring[(i + 1) % n] - ring[i], ring[(i + 2) % n] - ring[(i + 1) % n]) > 0)) return false;
+  }
+  return true;
+}
+
+/// `width` across [m]. The line has two points or more, none of them twice in a row.
+ChannelRegion channel_region(const std::vector<Point>& line, double width) {
+  ChannelRegion region;
+  const std::size_t last = line.size() - 1;
+  std::vector<Vector> to_port;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Vector before = line[i == 0 ? 1 : i] - line[i == 0 ? 0 : i - 1];
+    const Vector after = line[i == last ? last : i + 1] - line[i == last ? last - 1 : i];
+    to_port.push_back(mitre(before, after, 0.5 * width));
+  }
+  for (std::size_t i = 0; i < last; ++i) {
+    Ring part{line[i] - to_port[i], line[i + 1] - to_port[i + 1], line[i + 1] + to_port[i + 1],
+              line[i] + to_port[i]};
+    if (!is_convex(part) && region.too_sharp < 0)
+      region.too_sharp = static_cast<int>(
+          i == 0 || (i < last - 1 && squared_length(to_port[i + 1]) > squared_length(to_port[i])) ? i + 1
+                                                                                                  : i);
+    region.parts.push_back(std::move(part));
+  }
+  for (std::size_t i = 0; i <= last; ++i) region.outline.push_back(line[i] - to_port[i]);
+  for (std::size_t i = last + 1; i-- > 0;) region.outline.push_back(line[i] + to_port[i]);
+  return region;
+}
+
 class FieldReader {
  public:
-  FieldReader(JsonValue& item, const std::string& path, const SceneDraft& draft, ProblemCollector& problems)
-      : json_(*item.find("field")), path_(path), group_(draft.group), draft_(draft), problems_(problems) {}
+  FieldReader(FieldInput& input, const JsonValue& item, const std::string& path,
+              const simulation::Scene& scene, ProblemCollector& problems)
+      : input_(input), json_(*item.find("field")), path_(path), scene_(scene), problems_(problems) {}
 
   std::optional<FloeField> read() {
-    field_ = group_.field;
+    field_ = input_.field;
     const std::size_t problems_before = problems_.count();
     choose_sizes();
     set_region();
-    field_.seed += draft_.scene.seed;
-    for (geometry::Polygon& clear : field_.kept_clear) clear = in_house_notation(std::move(clear));
-    for (const auto& ship : draft_.scene.ships) {
+    field_.seed += scene_.seed;
+    for (const geometry::Ring& clear : input_.keep_clear)
+      field_.kept_clear.push_back(in_house_notation({clear, {}}));
+    for (const auto& ship : scene_.ships) {
       if (ship.hull.waterline.size() >= 3) field_.kept_clear.push_back(waterline_in_world(ship));
     }
     if (problems_.count() > problems_before) return std::nullopt;
@@ -60,39 +111,50 @@ class FieldReader {
                      std::move(allowed));
   }
 
-  /// Puts a default where the table has it, behind another key.
-  void fill_in(std::string_view key, double value, std::string_view behind) {
-    if (json_.find(key)) return;
-    auto& members = json_.members();
-    auto place = std::ranges::find(members, behind, &JsonMember::key);
-    if (place != members.end()) ++place;
-    members.insert(place, {std::string(key), json_.offset, {value, json_.offset}});
-  }
-
   /// Sizes are a law's or floe_size_m's, and go with their own keys.
   void choose_sizes() {
-    const bool has_size = json_.find("floe_size_m") != nullptr;
+    const bool has_size = input_.floe_size.has_value();
     if (has_size == field_.law.has_value())
       report(has_size ? "sizes" : "", has_size ? "sizes beside floe_size_m" : "neither sizes nor floe_size_m",
              "one of sizes and floe_size_m");
-    if (field_.law && json_.find("size_spread"))
+    if (field_.law && input_.size_spread)
       report("size_spread", "size_spread beside sizes", "sizes with mean_m and spread");
-    for (const std::string_view key : {"aspect", "orientation_deg", "least_corners", "packing"}) {
-      if (has_size && json_.find(key)) report(key, fmt::format("{} with floe_size_m", key), "sizes instead");
-    }
-    if (field_.orientation && !json_.find("aspect"))
+    const auto check_without_law = [&](std::string_view key, bool is_given) {
+      if (has_size && is_given) report(key, fmt::format("{} with floe_size_m", key), "sizes instead");
+    };
+    check_without_law("aspect", input_.aspect.has_value());
+    check_without_law("orientation_deg", input_.orientation.has_value());
+    check_without_law("least_corners", input_.least_corners.has_value());
+    check_without_law("packing", input_.packing.has_value());
+    if (input_.orientation && !input_.aspect)
       report("orientation_deg", "orientation_deg without aspect", "both, or neither");
-    if (!field_.law) {
-      fill_in("size_spread", field_.size_spread, "floe_size_m");
-      fill_in("most_corners", field_.most_corners, "gap_m");
-      return;
-    }
-    if (!json_.find("most_corners")) field_.most_corners = kCornersWithLaw;
-    if (!json_.find("packing"))
-      field_.packing = std::max(field_.concentration, std::min(kDefaultPacking, 2 * field_.concentration));
-    fill_in("most_corners", field_.most_corners, "gap_m");
-    fill_in("least_corners", field_.least_corners, "most_corners");
-    fill_in("packing", field_.packing, "least_corners");
+    field_.orientation = input_.orientation;
+    if (field_.law)
+      complete_law();
+    else
+      complete_sizes();
+  }
+
+  /// The value, put where it was not given.
+  template <class Value>
+  static Value filled_in(std::optional<Value>& given, Value otherwise) {
+    if (!given) given = otherwise;
+    return *given;
+  }
+
+  void complete_sizes() {
+    field_.floe_size = input_.floe_size.value_or(field_.floe_size);
+    field_.size_spread = filled_in(input_.size_spread, field_.size_spread);
+    field_.most_corners = filled_in(input_.most_corners, field_.most_corners);
+  }
+
+  void complete_law() {
+    const double packing =
+        std::max(field_.concentration, std::min(kDefaultPacking, 2 * field_.concentration));
+    field_.aspect = input_.aspect.value_or(field_.aspect);
+    field_.most_corners = filled_in(input_.most_corners, kCornersWithLaw);
+    field_.least_corners = filled_in(input_.least_corners, field_.least_corners);
+    field_.packing = filled_in(input_.packing, packing);
     if (field_.least_corners > field_.most_corners)
       report("least_corners", fmt::format("{}, more than most_corners", field_.least_corners),
              fmt::format("at most {}", field_.most_corners));
@@ -103,25 +165,31 @@ class FieldReader {
   }
 
   void set_region() {
-    field_.is_rectangle = group_.extent != geometry::Vector{};
-    if (group_.centreline.empty()) {
-      field_.region = field_.is_rectangle ? rectangle(group_.origin, group_.extent).outer
-                                          : in_house_notation({field_.region, {}}).outer;
-      return;
+    const auto* rectangle_of = std::get_if<FieldRectangle>(&input_.region);
+    field_.is_rectangle = rectangle_of != nullptr;
+    if (rectangle_of) {
+      field_.region = rectangle(rectangle_of->corner, rectangle_of->extent).outer;
+    } else if (const auto* outline = std::get_if<FieldOutline>(&input_.region)) {
+      field_.region = in_house_notation({outline->ring, {}}).outer;
+    } else {
+      set_channel(std::get<FieldChannel>(input_.region));
     }
-    const auto& line = group_.centreline;
+  }
+
+  void set_channel(const FieldChannel& channel) {
+    const auto& line = channel.centreline;
     for (std::size_t i = 1; i < line.size(); ++i) {
       if (line[i] == line[i - 1])
         return report("centreline_m", fmt::format("point {} a second time", i), "points that differ");
     }
-    ChannelRegion channel = channel_region(line, group_.width);
-    if (channel.too_sharp >= 0)
+    ChannelRegion region = channel_region(line, channel.width);
+    if (region.too_sharp >= 0)
       return report("centreline_m",
                     fmt::format("a bend at point {} that is too sharp for {:g} m of width",
-                                channel.too_sharp + 1, group_.width),
+                                region.too_sharp + 1, channel.width),
                     "longer legs, wider angles or less width");
-    field_.region = std::move(channel.outline);
-    field_.parts = std::move(channel.parts);
+    field_.region = std::move(region.outline);
+    field_.parts = std::move(region.parts);
   }
 
   void check_ring(const geometry::Ring& ring, const std::string& key) {
@@ -130,15 +198,15 @@ class FieldReader {
   }
   void check_rings() {
     if (!field_.is_rectangle)
-      check_ring(field_.region, group_.centreline.empty() ? "outline_m" : "centreline_m");
-    const std::size_t given = json_.find("keep_clear_m")->items().size();
-    for (std::size_t i = 0; i < given; ++i)
+      check_ring(field_.region,
+                 std::holds_alternative<FieldOutline>(input_.region) ? "outline_m" : "centreline_m");
+    for (std::size_t i = 0; i < input_.keep_clear.size(); ++i)
       check_ring(field_.kept_clear[i].outer, fmt::format("keep_clear_m[{}]", i));
   }
 
   /// The widest floe that the region can hold, roughly: as wide as the region [m].
   double width_of_region() const {
-    if (!group_.centreline.empty()) return group_.width;
+    if (const auto* channel = std::get_if<FieldChannel>(&input_.region)) return channel->width;
     const geometry::Box box = bounding_box(field_.region);
     return std::min(box.high.x - box.low.x, box.high.y - box.low.y);
   }
@@ -161,10 +229,10 @@ class FieldReader {
     }
   }
 
-  JsonValue& json_;
+  FieldInput& input_;
+  const JsonValue& json_;
   const std::string& path_;
-  const FloeGroup& group_;
-  const SceneDraft& draft_;
+  const simulation::Scene& scene_;
   ProblemCollector& problems_;
   FloeField field_;
 };
@@ -184,9 +252,9 @@ std::string remedy(const FloeField& field, const simulation::FloeFieldOutcome& o
 
 }  // namespace
 
-std::optional<FloeField> complete_field(JsonValue& item, const std::string& path, const SceneDraft& draft,
-                                        ProblemCollector& problems) {
-  return FieldReader(item, path, draft, problems).read();
+std::optional<FloeField> complete_field(FieldInput& input, const JsonValue& item, const std::string& path,
+                                        const simulation::Scene& scene, ProblemCollector& problems) {
+  return FieldReader(input, item, path, scene, problems).read();
 }
 
 bool check_cover(const FloeField& field, const simulation::FloeFieldOutcome& outcome, const JsonValue& item,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/import/floe_import.hpp"
-#include "io/scene/scene_draft.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/text/problem_collector.hpp"
 
 namespace polynya::io {
@@ -31,7 +31,8 @@ struct FloeFile {
 /// Reads a floe file of a scene: GeoJSON, or what GDAL converts (io/import/foreign_file.hpp), brought to the
 /// plane about the scene's origin. None where anything is wrong with it: then there are problems, of the file
 /// or of the entry's `file` at `offset` in the scene.
-std::optional<FloeFile> read_floe_file(const std::filesystem::path& file, const FloeFileSettings& settings,
+std::optional<FloeFile> read_floe_file(const std::filesystem::path& file,
+                                       const std::optional<FileImport>& import,
                                        const std::optional<simulation::GeographicOrigin>& origin,
                                        const std::string& path, std::uint32_t offset,
                                        ProblemCollector& problems);

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "io/scene/scene_resolve.hpp"
+#include "io/scene/record.hpp"
 #include "simulation/ice_scatter.hpp"
 
 namespace polynya::io {
@@ -13,62 +13,52 @@ namespace {
 using fracture::Ice;
 using fracture::ScatterKind;
 using fracture::ScatterLaw;
-using JsonKind = JsonValue::Kind;
 
 constexpr double kDeviations = 3;     ///< off the mean where a normal law without bounds is cut off
 constexpr double kLeastShare = 0.01;  ///< of a law between its bounds: less is taken for a slip
 
-ScatterKind kind_of(const std::string& word) {
-  return word == "constant"  ? ScatterKind::kConstant
-         : word == "uniform" ? ScatterKind::kUniform
-         : word == "normal"  ? ScatterKind::kNormal
-                             : ScatterKind::kLogNormal;
+/// As the scene has it.
+std::string word_of(const LawInput& law) {
+  return write(law_description(), law).find("law")->text();
 }
 
-/// Reads one property of one entry, a number or a law.
+/// Completes the law of one property of one entry; `value` is its JSON.
 class LawReader {
  public:
   LawReader(const FloeIceProperty& property, const JsonValue& value, std::string path,
             ProblemCollector& problems)
       : property_(property), value_(value), path_(std::move(path)), problems_(problems) {}
 
-  std::optional<ScatterLaw> read(double scene_value) {
-    ScatterLaw law;
-    law.kind = ScatterKind::kConstant;
-    law.mean = value_.is(JsonKind::kNumber) ? value_.number() : scene_value;
-    if (value_.is(JsonKind::kNumber)) return law;
-    const std::string& word = value_.find("law")->text();
-    law.kind = kind_of(word);
-    const bool is_uniform = law.kind == ScatterKind::kUniform;
-    const bool is_constant = law.kind == ScatterKind::kConstant;
-    check("mean", word, false, is_uniform);
-    check("spread", word, !is_uniform && !is_constant, is_uniform || is_constant);
-    check("least", word, is_uniform, is_constant);
-    check("most", word, is_uniform, is_constant);
+  std::optional<ScatterLaw> read(const NumberOrLaw& given, double scene_value) {
+    if (const double* number = std::get_if<double>(&given))
+      return ScatterLaw{.kind = ScatterKind::kConstant, .mean = *number};
+    input_ = std::get<LawInput>(given);
+    const std::string word = word_of(input_);
+    const bool is_uniform = input_.kind == ScatterKind::kUniform;
+    const bool is_constant = input_.kind == ScatterKind::kConstant;
+    check("mean", input_.mean, word, false, is_uniform);
+    check("spread", input_.spread, word, !is_uniform && !is_constant, is_uniform || is_constant);
+    check("least", input_.least, word, is_uniform, is_constant);
+    check("most", input_.most, word, is_uniform, is_constant);
     if (!is_good_) return std::nullopt;
-    law.mean = number("mean", scene_value);
-    law.spread = number("spread", 0);
+    ScatterLaw law{
+        .kind = input_.kind, .mean = input_.mean.value_or(scene_value), .spread = input_.spread.value_or(0)};
     set_bounds(law);
     check_bounds(law);
     return is_good_ ? std::optional(law) : std::nullopt;
   }
 
  private:
-  double number(std::string_view key, double otherwise) const {
-    const JsonValue* found = value_.find(key);
-    return found ? found->number() : otherwise;
-  }
-
-  void report(const JsonValue& at, std::string_view key, std::string found, std::string allowed) {
-    problems_.report(0, at.offset, key.empty() ? path_ : fmt::format("{}.{}", path_, key), std::move(found),
-                     std::move(allowed));
+  void report(std::string_view key, std::string found, std::string allowed) {
+    problems_.report(0, nearest_offset(value_, key), key.empty() ? path_ : fmt::format("{}.{}", path_, key),
+                     std::move(found), std::move(allowed));
     is_good_ = false;
   }
 
-  void check(std::string_view key, const std::string& word, bool is_needed, bool is_refused) {
-    const JsonValue* found = value_.find(key);
-    if (!found && is_needed) report(value_, key, "nothing", fmt::format("a number: law {} needs it", word));
-    if (found && is_refused) report(*found, key, show(*found), fmt::format("nothing: law {} has none", word));
+  void check(std::string_view key, std::optional<double> given, const std::string& word, bool is_needed,
+             bool is_refused) {
+    if (!given && is_needed) report(key, "nothing", fmt::format("a number: law {} needs it", word));
+    if (given && is_refused) report(key, show({*given}), fmt::format("nothing: law {} has none", word));
   }
 
   void set_bounds(ScatterLaw& law) const {
@@ -78,18 +68,16 @@ class LawReader {
       law.least = std::max(law.least, law.mean * (1 - kDeviations * law.spread));
       law.most = std::min(law.most, law.mean * (1 + kDeviations * law.spread));
     }
-    law.least = number("least", law.least);
-    law.most = number("most", law.most);
+    law.least = input_.least.value_or(law.least);
+    law.most = input_.most.value_or(law.most);
   }
 
   void check_bounds(const ScatterLaw& law) {
     if (law.least > law.most) {
-      const JsonValue* at = value_.find("least");
-      report(at ? *at : value_, "least", fmt::format("{:g}", law.least),
+      report("least", fmt::format("{:g}", law.least),
              fmt::format("at most `most`, {:g} [{}]", law.most, property_.unit));
     } else if (const double share = share_within_bounds(law); share < kLeastShare) {
-      report(value_, "",
-             fmt::format("a law of which {:.2g} lies between {:g} and {:g}", share, law.least, law.most),
+      report("", fmt::format("a law of which {:.2g} lies between {:g} and {:g}", share, law.least, law.most),
              fmt::format("bounds around the mean, {:g} [{}], that hold {:g} of it or more", law.mean,
                          property_.unit, kLeastShare));
     }
@@ -99,6 +87,7 @@ class LawReader {
   const JsonValue& value_;
   std::string path_;
   ProblemCollector& problems_;
+  LawInput input_;
   bool is_good_ = true;
 };
 
@@ -114,10 +103,15 @@ const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties() {
     constexpr std::array<double Ice::*, kFloeIceProperties> kValues{
         &Ice::thickness,        &Ice::density,           &Ice::flexural_strength, &Ice::compressive_strength,
         &Ice::tensile_strength, &Ice::fracture_toughness};
+    constexpr std::array<std::optional<NumberOrLaw> IceInput::*, kFloeIceProperties> kInputs{
+        &IceInput::thickness,         &IceInput::density,
+        &IceInput::flexural_strength, &IceInput::compressive_strength,
+        &IceInput::tensile_strength,  &IceInput::fracture_toughness};
     std::array<FloeIceProperty, kFloeIceProperties> properties;
     for (std::size_t i = 0; i < properties.size(); ++i) {
       const FloeProperty& in_file = floe_properties()[i];
-      properties[i] = {in_file.key, in_file.unit, {.low = in_file.low, .high = in_file.high}, kValues[i]};
+      properties[i] = {
+          in_file.key, in_file.unit, {.low = in_file.low, .high = in_file.high}, kValues[i], kInputs[i]};
     }
     return properties;
   }();
@@ -138,17 +132,20 @@ void append_ice(JsonWriter& json, const Ice& ice) {
     json.key(property.key).value(ice.*property.value);
 }
 
-std::optional<GroupIce> GroupIce::of(const SceneDraft& draft, const std::string& path,
+std::optional<GroupIce> GroupIce::of(const simulation::Scene& scene, const FloeGroup& group,
+                                     const JsonValue& item, const std::string& path,
                                      ProblemCollector& problems) {
   GroupIce ice;
-  ice.seed_ = draft.scene.seed + draft.group.ice.seed;
+  if (!group.ice) return ice;
+  ice.seed_ = scene.seed + group.ice->seed;
   bool is_good = true;
   for (std::size_t i = 0; i < kFloeIceProperties; ++i) {
-    const auto& value = draft.group.ice.properties[i];
-    if (!value) continue;
     const FloeIceProperty& property = floe_ice_properties()[i];
-    LawReader reader(property, *value, fmt::format("{}.ice.{}", path, property.key), problems);
-    if (auto law = reader.read(draft.scene.ice.*property.value))
+    const std::optional<NumberOrLaw>& given = (*group.ice).*property.input;
+    if (!given) continue;
+    LawReader reader(property, *item.find("ice")->find(property.key),
+                     fmt::format("{}.ice.{}", path, property.key), problems);
+    if (auto law = reader.read(*given, scene.ice.*property.value))
       ice.laws_.push_back({i, *law, {}});
     else
       is_good = false;
@@ -182,18 +179,17 @@ std::vector<IceReport> GroupIce::reports(std::size_t group) const {
   return reports;
 }
 
-JsonValue GroupIce::spelled_out(const simulation::Scene& scene, const GivenIce& given) const {
+std::optional<IceInput> GroupIce::spelled_out(const simulation::Scene& scene, const GivenIce& given) const {
+  if (laws_.empty() && given.empty()) return std::nullopt;
   const Ice& ice = ice_of(scene, scene.floes.back().own_ice);
-  JsonValue value{JsonValue::Object{}};
-  for (std::size_t i = 0; i < kFloeIceProperties; ++i) {
-    const bool is_own = std::ranges::any_of(laws_, [&](const Law& law) { return law.property == i; }) ||
-                        std::ranges::any_of(given, [&](const auto& of) { return of.first == i; });
-    const FloeIceProperty& property = floe_ice_properties()[i];
-    if (is_own) value.members().push_back({std::string(property.key), 0, {ice.*property.value}});
-  }
-  if (value.members().empty()) return {nullptr};
-  value.members().push_back({"seed", 0, {0.0}});
-  return value;
+  IceInput own;
+  const auto set = [&](std::size_t property) {
+    const FloeIceProperty& of = floe_ice_properties()[property];
+    own.*of.input = ice.*of.value;
+  };
+  for (const Law& law : laws_) set(law.property);
+  for (const auto& [property, value] : given) set(property);
+  return own;
 }
 
 }  // namespace polynya::io

@@ -7,12 +7,17 @@
 
 #include "fracture/scatter.hpp"
 #include "io/import/floe_properties.hpp"
-#include "io/scene/scene_draft.hpp"
-#include "io/scene/scene_fields.hpp"
+#include "io/scene/scene_input.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem_collector.hpp"
 
 namespace polynya::io {
+
+inline constexpr std::size_t kFloeIceProperties = 6;  ///< of ice, that a floe may have of its own
+
+/// Properties that a feature of a floe file gives, by their numbers.
+using GivenIce = std::vector<std::pair<std::uint8_t, double>>;
 
 /// A property of ice that a floe may have of its own: a key of the scene's "ice", of an entry of "floes" and
 /// of a feature's properties in a floe file, and of the floes that a run writes.
@@ -21,6 +26,7 @@ struct FloeIceProperty {
   std::string_view unit;
   Range range;
   double fracture::Ice::*value = nullptr;
+  std::optional<NumberOrLaw> IceInput::*input = nullptr;
 };
 const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties();
 
@@ -35,8 +41,9 @@ void append_ice(JsonWriter& json, const fracture::Ice& ice);
 class GroupIce {
  public:
   /// The scene's ice is complete. Nothing where the entry's is wrong, which is reported; `path` is the
-  /// entry's.
-  static std::optional<GroupIce> of(const SceneDraft& draft, const std::string& path,
+  /// entry's, `item` its JSON.
+  static std::optional<GroupIce> of(const simulation::Scene& scene, const FloeGroup& group,
+                                    const JsonValue& item, const std::string& path,
                                     ProblemCollector& problems);
 
   /// The index in the scene's own_ice of the floe that is added next.
@@ -45,8 +52,8 @@ class GroupIce {
   /// What was drawn of each law, in the order of the properties.
   std::vector<IceReport> reports(std::size_t group) const;
 
-  /// The entry's and the feature's properties of the floe that was added last; null where it has none.
-  JsonValue spelled_out(const simulation::Scene& scene, const GivenIce& given) const;
+  /// The entry's and the feature's properties of the floe that was added last; none where it has none.
+  std::optional<IceInput> spelled_out(const simulation::Scene& scene, const GivenIce& given) const;
 
  private:
   struct Law {

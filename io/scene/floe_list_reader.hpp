@@ -6,55 +6,61 @@
 
 #include "io/scene/floe_file.hpp"
 #include "io/scene/floe_ice.hpp"
-#include "io/scene/scene_draft.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/scene/scene_reader.hpp"
-#include "io/text/json_value.hpp"
-#include "io/text/problem_collector.hpp"
 #include "io/text/result.hpp"
 
 namespace polynya::io {
 
-/// Makes the floes of the scene's list: lattices, fields, files and single floes. Files are spelled out in
-/// the resolved list.
+/// Makes the floes of the scene's list: lattices, fields, files and single floes.
 class FloeListReader {
  public:
   /// All of these outlive it. `folder` is the scene's.
-  FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, ProblemCollector& problems,
-                 JsonValue& resolved, std::vector<FieldReport>& fields, std::vector<IceReport>& ice,
-                 std::vector<FileReport>& files)
-      : folder_(folder),
-        draft_(draft),
-        problems_(problems),
-        resolved_(resolved),
-        fields_(fields),
-        ice_reports_(ice),
-        files_(files) {}
+  FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, ProblemCollector& problems)
+      : folder_(folder), draft_(draft), problems_(problems) {}
 
-  /// Adds the floes of one item of the list, which the draft's group holds.
-  void add(std::size_t index, const JsonValue& item);
+  /// Adds the floes of one entry, whose JSON is `item`.
+  void add(std::size_t index, FloeGroup group, const JsonValue& item);
+
+  JsonValue written{JsonValue::Array{}};  ///< the entries, complete, files spelled out
+  std::vector<FieldReport> fields;
+  std::vector<IceReport> ice;
+  std::vector<FileReport> files;
 
  private:
-  void add_field(std::size_t index, const JsonValue& item);
-  void add_file(std::size_t index, const JsonValue& item);
-  void add_floes(std::size_t index, const JsonValue& item);
-  JsonValue spelled_out(const FileFloe& floe, const JsonValue& item, bool is_of_run) const;
-  static void fill_in(simulation::FloeSpec& spec, const JsonValue& entry);
-  void add_floe(geometry::Polygon polygon, Origin origin);
-  bool check_lattice(const JsonValue& item, const std::string& path);
-  bool has_room_for(std::size_t count, const JsonValue& item, const std::string& path);
+  void add_floes(const LatticeInput& lattice);
+  void add_floes(const RectangleInput& rectangle);
+  void add_floes(const geometry::Polygon& polygon);
+  void add_floes(FieldInput& field);
+  void add_floes(const FileInput& file);
+  FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
+  void add_floe(const FloeGroup& group, geometry::Polygon polygon, const GivenIce& given, Origin origin);
+  void check_fast_ice(bool is_fast);
+  bool has_room_for(std::size_t count, const std::string& path);
   Result<std::filesystem::path> locate(const std::string& name) const;
   void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {
     problems_.report(0, offset, std::move(path), std::move(found), std::move(allowed));
   }
+  /// Where a member of the entry at hand is.
+  std::uint32_t offset_of(std::string_view key) const { return nearest_offset(*item_, key); }
+  void write_group() { written.items().push_back(write(floes_description(), group_)); }
 
   const std::filesystem::path& folder_;
   SceneDraft& draft_;
   ProblemCollector& problems_;
-  JsonValue& resolved_;
-  std::vector<FieldReport>& fields_;
-  std::vector<IceReport>& ice_reports_;
-  GroupIce ice_;  ///< of the item at hand
-  std::vector<FileReport>& files_;
+  std::size_t index_ = 0;            ///< of the entry at hand
+  const JsonValue* item_ = nullptr;  ///< its JSON
+  std::string path_;                 ///< "floes[2]"
+  FloeGroup group_;
+  GroupIce ice_;
 };
+
+/// A rectangle along the axes, counter-clockwise from its corner with the least x and y.
+geometry::Polygon rectangle(geometry::Point corner, geometry::Vector size);
+
+/// The same region with rings that are not closed by a repeated first point, outer counter-clockwise, holes
+/// clockwise. Which way rings run and whether they are closed are matters of notation; nothing else is
+/// changed.
+geometry::Polygon in_house_notation(geometry::Polygon polygon);
 
 }  // namespace polynya::io

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/scene/scene_resolve.hpp"
+#include "io/scene/record.hpp"
 #include "io/text/json_fault.hpp"
 #include "io/text/json_parser.hpp"
 

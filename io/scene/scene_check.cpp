@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "geometry/cut/overlap.hpp"
+#include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
-#include "io/scene/speed_check.hpp"
-#include "io/scene/wall_check.hpp"
 #include "simulation/limits.hpp"
+#include "simulation/setup.hpp"
 
 namespace polynya::io {
 namespace {
@@ -22,10 +22,10 @@ using geometry::Polygon;
 constexpr double kMostSteps = 1e9;
 constexpr std::size_t kMostOverlaps = 200;
 
-void check_water_and_time(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+void check_water_and_time(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   const auto& scene = draft.scene;
   const auto report = [&](const std::string& path, std::string found, std::string allowed) {
-    problems.report(0, nearest_offset(resolved, path), path, std::move(found), std::move(allowed));
+    problems.report(0, nearest_offset(given, path), path, std::move(found), std::move(allowed));
   };
   if (scene.ice.density >= scene.water.water.density)
     report("ice.density_kg_per_m3", fmt::format("{}: this ice sinks", scene.ice.density),
@@ -55,23 +55,147 @@ void check_own_density(const SceneDraft& draft, ProblemCollector& problems) {
   }
 }
 
-/// Fast ice does not turn, and what rigid impulses do between two prescribed motions is not defined.
-void check_fast_ice(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
-  const bool is_rigid = draft.scene.contact.law == simulation::ContactLaw::kImpulse;
-  const auto* floes = resolved.find("floes", JsonValue::Kind::kArray);
-  if (!floes) return;
-  for (std::size_t i = 0; i < floes->items().size(); ++i) {
-    const JsonValue& group = floes->items()[i];
-    const JsonValue* is_fast = group.find("fast_ice", JsonValue::Kind::kBoolean);
-    if (!is_fast || !is_fast->boolean()) continue;
-    const JsonValue* turn = group.find("angular_velocity_deg_per_s", JsonValue::Kind::kNumber);
-    if (turn && turn->number() != 0)
-      problems.report(0, turn->offset, fmt::format("floes[{}].angular_velocity_deg_per_s", i),
-                      fmt::format("{:g}, of fast ice", turn->number()), "0: fast ice does not turn");
-    if (is_rigid)
-      problems.report(0, is_fast->offset, fmt::format("floes[{}].fast_ice", i),
-                      "true with contact.law impulse", "contact.law crush, or false");
+/// At the start [m/s].
+double speed_of(const simulation::Scene& scene, const simulation::ShipSpec& ship) {
+  const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
+  const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
+  const double thrust = constant ? std::abs(constant->thrust) : engine ? engine->bollard_pull : 0;
+  const double gained = thrust / ship.mass * scene.time.step;
+  return std::abs(ship.speed) + gained;
+}
+
+/// Of its rim at the start [m/s]; 0 of what can be no floe, which is refused for that.
+double rim_speed_of(const dynamics::ShearCurrent& current, const simulation::FloeSpec& floe) {
+  const geometry::Measures measures = geometry::measure(floe.polygon_in_world);
+  if (!simulation::can_be_floe(measures)) return 0;
+  double radius = 0;
+  for (const geometry::Point p : floe.polygon_in_world.outer)
+    radius = std::max(radius, distance(p, measures.centroid));
+  return length(floe.velocity + current.velocity_at(measures.centroid)) +
+         std::abs(floe.angular_velocity + current.angular_velocity()) * radius;
+}
+
+/// The fastest body so far.
+struct Fastest {
+  double speed = 0;  ///< [m/s]
+  std::string path;
+};
+
+void report_runaway(const Fastest& body, const Origin& origin, ProblemCollector& problems) {
+  if (body.speed < simulation::kRunawaySpeed) return;
+  problems.add(
+      origin.source, origin.offset,
+      {.path = body.path,
+       .found = fmt::format("a rim that moves at {:.4g} m/s at the start", body.speed),
+       .allowed = fmt::format("less than {:g} m/s, the water's shear included", simulation::kRunawaySpeed)});
+}
+
+/// Of the water and the ships.
+Fastest fastest_ship(const SceneDraft& draft) {
+  Fastest fastest{length(draft.scene.water.drift), "the drift"};
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
+    if (const double speed = speed_of(draft.scene, draft.scene.ships[i]); speed > fastest.speed)
+      fastest = {speed, ship_path(draft, i)};
+  return fastest;
+}
+
+bool is_too_fast_for_step(const Fastest& fastest, const simulation::Scene& scene) {
+  return fastest.speed < simulation::kRunawaySpeed &&  // else no step helps
+         fastest.speed * scene.time.step >= scene.contact.circle_radius;
+}
+
+void report_step(const Fastest& fastest, const simulation::Scene& scene, const JsonValue& given,
+                 ProblemCollector& problems) {
+  problems.add(0, nearest_offset(given, "time.step_s"),
+               {.path = "time.step_s",
+                .found = fmt::format("{}: {} moves {:.3g} m in one step at {:.3g} m/s", scene.time.step,
+                                     fastest.path, fastest.speed * scene.time.step, fastest.speed),
+                .allowed = fmt::format("a step in which nothing moves as far as a circle's radius, {} m",
+                                       scene.contact.circle_radius)});
+}
+
+void check_speeds_of_ships(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
+    report_runaway({speed_of(draft.scene, draft.scene.ships[i]), ship_path(draft, i)}, draft.ship_origins[i],
+                   problems);
+  const Fastest fastest = fastest_ship(draft);
+  if (is_too_fast_for_step(fastest, draft.scene)) report_step(fastest, draft.scene, given, problems);
+}
+
+void check_speeds_of_floes(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
+  const simulation::Scene& scene = draft.scene;
+  const dynamics::ShearCurrent current = simulation::current_of(scene.water.shear);
+  Fastest fastest = fastest_ship(draft);
+  if (is_too_fast_for_step(fastest, scene)) return;  // reported with the ships
+  for (std::size_t i = 0; i < scene.floes.size(); ++i) {
+    const double speed = rim_speed_of(current, scene.floes[i]);
+    if (speed <= fastest.speed && speed < simulation::kRunawaySpeed) continue;
+    const Fastest floe{speed, floe_path(draft, i)};
+    report_runaway(floe, draft.floe_origins[i], problems);
+    if (speed > fastest.speed) fastest = floe;
   }
+  if (is_too_fast_for_step(fastest, scene)) report_step(fastest, scene, given, problems);
+}
+
+/// The largest σ_c h of the floes; of the scene's ice where there are none [N/m].
+double most_that_ice_bears(const simulation::Scene& scene) {
+  const auto borne = [](const fracture::Ice& ice) { return ice.compressive_strength * ice.thickness; };
+  if (scene.floes.empty()) return borne(scene.ice);
+  double most = 0;
+  for (const simulation::FloeSpec& floe : scene.floes)
+    most = std::max(most, borne(simulation::ice_of(scene, floe.own_ice)));
+  return most;
+}
+
+/// A load that no ice bears, and a mass that it takes beyond the closing speed in one step.
+void check_load(const simulation::Scene& scene, const simulation::Wall& wall, const JsonValue& given,
+                const std::string& path, ProblemCollector& problems) {
+  const auto report = [&](const std::string& key, std::string found, std::string allowed) {
+    problems.report(0, nearest_offset(given, "pressure." + key), path + "pressure." + key, std::move(found),
+                    std::move(allowed));
+  };
+  if (const double most = most_that_ice_bears(scene); wall.line_load >= most)
+    report("line_load_N_per_m",
+           fmt::format("{:g} N/m, which crushes the strongest ice of the scene without end", wall.line_load),
+           fmt::format("less than its σ_c h, {:.4g} [N/m]", most));
+  const double gain = scene.time.step * wall.line_load / wall.mass_per_length;
+  if (gain > wall.closing_speed)
+    report("mass_kg_per_m",
+           fmt::format("{:g} kg/m, which the load takes to {:.3g} m/s in one step, beyond the closing speed",
+                       wall.mass_per_length, gain),
+           fmt::format("at least {:.4g} [kg/m], or a shorter time.step_s",
+                       scene.time.step * wall.line_load / wall.closing_speed));
+}
+
+/// Calls with each wall that presses, its JSON and its path.
+template <class Call>
+void each_pressing_wall(const SceneDraft& draft, const JsonValue& given, Call call) {
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
+    const auto* wall = std::get_if<simulation::Wall>(&draft.scene.ships[i].propulsion);
+    const std::size_t index = draft.ship_origins[i].group;
+    if (wall && wall->presses())
+      call(*wall, given.find("walls")->items()[index], fmt::format("walls[{}].", index));
+  }
+}
+
+void check_walls(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
+  each_pressing_wall(
+      draft, given, [&](const simulation::Wall&, const JsonValue& item, const std::string& path) {
+        if (const JsonValue* velocity = item.find("velocity_m_per_s"))
+          problems.report(0, velocity->offset, path + "velocity_m_per_s",
+                          "a velocity of a wall with pressure", "either of them: the load moves the wall");
+        if (draft.scene.contact.law == simulation::ContactLaw::kImpulse)
+          problems.report(0, nearest_offset(item, "pressure"), path + "pressure",
+                          "a load with contact.law impulse",
+                          "contact.law crush, or velocity_m_per_s: rigid impulses bear no definite load");
+      });
+}
+
+void check_loads_of_walls(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
+  each_pressing_wall(draft, given,
+                     [&](const simulation::Wall& wall, const JsonValue& item, const std::string& path) {
+                       check_load(draft.scene, wall, item, path, problems);
+                     });
 }
 
 /// A body that takes part in the search for overlaps.
@@ -219,24 +343,24 @@ Polygon waterline_in_world(const simulation::ShipSpec& ship) {
   return {transform(world_from_ship, ship.hull.waterline), {}};
 }
 
-void check_without_ice(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
-  check_water_and_time(draft, resolved, problems);
-  check_fast_ice(draft, resolved, problems);
-  check_walls(draft, resolved, problems);
+void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
+  check_water_and_time(draft, given, problems);
+  check_walls(draft, given, problems);
   check_ships(draft, problems);
-  check_speeds_of_ships(draft, resolved, problems);
+  check_speeds_of_ships(draft, given, problems);
 }
 
-void check_ice(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& problems) {
+void check_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   if (draft.scene.ships.empty() && draft.scene.floes.empty() && problems.count() == 0)
-    problems.add(0, resolved.offset,
+    problems.add(0, given.offset,
                  {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
   if (problems.count() == 0) check_own_density(draft, problems);
+  check_loads_of_walls(draft, given, problems);
   std::vector<Named> named;
   std::vector<Polygon> outlines;
   add_valid_hulls(draft, named, outlines);
   check_floes(draft, problems, named, outlines);
-  check_speeds_of_floes(draft, resolved, problems);
+  check_speeds_of_floes(draft, given, problems);
   check_overlaps(draft, named, outlines, problems);
 }
 

@@ -1,5 +1,3 @@
-#include "io/scene/scene_hints.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -77,8 +75,8 @@ bool is_slowed(const ShipSpec& ship) {
 
 class Hinter {
  public:
-  Hinter(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& hints)
-      : scene_(draft.scene), draft_(draft), resolved_(resolved), hints_(hints) {}
+  Hinter(const SceneDraft& draft, const JsonValue& given, ProblemCollector& hints)
+      : scene_(draft.scene), draft_(draft), given_(given), hints_(hints) {}
 
   void add_all() {
     hint_at_ice();
@@ -105,16 +103,16 @@ class Hinter {
   }
   void add(Severity severity, std::size_t ship, std::string_view key, std::string sentence) {
     const Origin& origin = draft_.ship_origins[ship];
-    const JsonValue& item = resolved_.find(origin.list)->items()[origin.group];
+    const JsonValue& item = given_.find(origin.list)->items()[origin.group];
     const JsonValue* member = item.find(key);
     add(severity, member ? *member : item, fmt::format("{}[{}].{}", origin.list, origin.group, key),
         std::move(sentence));
   }
   /// A member of an object of the scene, or what is there of it.
   const JsonValue& value_at(std::string_view object, std::string_view key) const {
-    const JsonValue* found = resolved_.find(object);
+    const JsonValue* found = given_.find(object);
     const JsonValue* member = found ? found->find(key) : nullptr;
-    return member ? *member : found ? *found : resolved_;
+    return member ? *member : found ? *found : given_;
   }
 
   void hint_at_ice() {
@@ -242,7 +240,7 @@ class Hinter {
       const std::size_t group = draft_.floe_origins[i].group;
       if (speed <= kFastestIce || last == group) continue;
       last = group;
-      hints_.add(0, draft_.floe_origins[i].source == 0 ? draft_.floe_origins[i].offset : resolved_.offset,
+      hints_.add(0, draft_.floe_origins[i].source == 0 ? draft_.floe_origins[i].offset : given_.offset,
                  {.path = fmt::format("floes[{}]", group),
                   .sentence = fmt::format("{:.3g} m/s: ice moves at {:g} m/s at most", speed, kFastestIce),
                   .severity = Severity::kHint});
@@ -292,14 +290,14 @@ class Hinter {
 
   const simulation::Scene& scene_;
   const SceneDraft& draft_;
-  const JsonValue& resolved_;
+  const JsonValue& given_;
   ProblemCollector& hints_;
 };
 
 }  // namespace
 
-void add_scene_hints(const SceneDraft& draft, const JsonValue& resolved, ProblemCollector& hints) {
-  Hinter(draft, resolved, hints).add_all();
+void add_scene_hints(const SceneDraft& draft, const JsonValue& given, ProblemCollector& hints) {
+  Hinter(draft, given, hints).add_all();
 }
 
 }  // namespace polynya::io

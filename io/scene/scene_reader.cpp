@@ -1,21 +1,15 @@
 #include "io/scene/scene_reader.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <utility>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "io/import/import_report.hpp"
-#include "io/scene/floe_group.hpp"
 #include "io/scene/floe_list_reader.hpp"
-#include "io/scene/pilot_check.hpp"
 #include "io/scene/scene_check.hpp"
-#include "io/scene/scene_hints.hpp"
-#include "io/scene/scene_presets.hpp"
-#include "io/scene/scene_resolve.hpp"
 #include "io/scene/ship_completion.hpp"
-#include "io/scene/wall_check.hpp"
+#include "io/scene/ship_presets.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 
@@ -59,13 +53,12 @@ class SceneReader {
     if (!document.root.find("name")) put(document.root, "name", default_name);
     override_scene(document.root, overrides);
     if (!complete(document.root)) return tl::unexpected(problems_.take());
-    add_scene_hints(draft_, resolved_, problems_);
-    for (const FileReport& file : files_) add_file_hints(file);
+    add_scene_hints(draft_, document.root, problems_);
+    for (const FileReport& file : floes_.files) add_file_hints(file);
     std::vector<Problem> hints = problems_.take();
-    LoadedScene loaded{std::move(draft_.scene), std::move(draft_.description),
-                       to_json_text(resolved_), "",
-                       std::move(fields_),      std::move(files_),
-                       std::move(ice_),         std::move(hints)};
+    LoadedScene loaded{
+        std::move(draft_.scene),  std::move(input_.description), to_json_text(resolved_), "",
+        std::move(floes_.fields), std::move(floes_.files),       std::move(floes_.ice),   std::move(hints)};
     if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
       report(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
              fmt::format("at most {} bytes: fewer floes, or coordinates of fewer digits", longest));
@@ -94,7 +87,8 @@ class SceneReader {
     if (use == ShipUse::kLevelIce) check_for_level_ice(scene.find("ships")->items().front());
     if (!is_valid || problems_.count() > 0) return tl::unexpected(problems_of_ship());
     ship.resolved = std::move(resolved_.find("ships")->items().front());
-    if (auto* engine = std::get_if<simulation::Engine>(&draft_.ship().propulsion)) ship.engine = *engine;
+    if (auto* engine = std::get_if<simulation::Engine>(&draft_.scene.ships.back().propulsion))
+      ship.engine = *engine;
     return ship;
   }
 
@@ -103,21 +97,6 @@ class SceneReader {
     document = parse_json(problems_.source(0).text);
     problems_.add_faults(0, document.faults);
     return std::ranges::none_of(document.faults, [](const JsonFault& fault) { return fault.path.empty(); });
-  }
-
-  /// Makes the draft and the resolved scene; false where anything is wrong, which has been reported.
-  bool complete(JsonValue& root) {
-    fill_in_presets(root);
-    resolved_ = resolve_scene(root, problems_);
-    if (resolved_.members().empty()) return false;
-    hold_constant_speeds(root);
-    choose_fate_of_ice(root);
-    choose_hull_water(root, resolved_);
-    choose_skin_drag(root, resolved_);
-    build();
-    fill_in_masses(draft_, resolved_);
-    check_ice(draft_, resolved_, problems_);
-    return problems_.count() == 0;
   }
 
   std::vector<Problem> problems_of_ship() {
@@ -157,110 +136,132 @@ class SceneReader {
     problems_.report(0, offset, std::move(path), std::move(found), std::move(allowed));
   }
 
-  /// A ship at constant speed starts at that speed.
-  void hold_constant_speeds(const JsonValue& root) {
-    JsonValue* ships = resolved_.find("ships");
-    for (std::size_t i = 0; i < ships->items().size(); ++i) {
-      JsonValue& ship = ships->items()[i];
-      const JsonValue* propulsion = ship.find("propulsion");
-      const JsonValue* held = propulsion ? propulsion->find("constant_speed_m_per_s") : nullptr;
-      if (!held) continue;
-      JsonValue& speed = *ship.find("speed_m_per_s");
-      const bool is_given = root.find("ships")->items()[i].find("speed_m_per_s") != nullptr;
-      if (is_given && speed.number() != held->number()) {
-        report(speed.offset, fmt::format("ships[{}].speed_m_per_s", i), show(speed),
-               fmt::format("the constant speed, {} [m/s], or nothing", show(*held)));
-      }
-      speed.data = held->number();
+  /// Makes the draft and the resolved scene; false where anything is wrong, which has been reported.
+  bool complete(JsonValue& given) {
+    fill_in_presets(given);
+    RecordReader reader(problems_);
+    const bool is_whole = reader.read(scene_description(), given, "", input_);
+    if (!given.is(JsonKind::kObject)) return false;
+    auto ships = items(given, "ships", ship_description(), reader);
+    auto structures = items(given, "structures", structure_description(), reader);
+    auto walls = items(given, "walls", wall_description(), reader);
+    complete_fate_of_ice(given, ships);
+    complete_skin_drag(given);
+    resolved_ = write(scene_description(), input_);
+    draft_.scene = std::move(input_.scene);
+    draft_.scene.name = input_.name;
+    add_ships(given, ships);
+    add_structures(given, structures);
+    add_walls(given, walls);
+    if (is_whole) {
+      complete_pilots(given, draft_, problems_);
+      check_without_ice(draft_, given, problems_);
     }
+    add_floes(given, is_whole, reader);
+    if (!is_whole) return false;
+    check_ice(draft_, given, problems_);
+    return problems_.count() == 0;
+  }
+
+  /// Of a list of the scene; empty where that is none.
+  static std::span<const JsonValue> items_of(const JsonValue& given, std::string_view list) {
+    const JsonValue* found = given.find(list, JsonKind::kArray);
+    return found ? std::span(found->items()) : std::span<const JsonValue>{};
+  }
+
+  /// The items of a list, nothing where they are wrong.
+  template <class Item>
+  std::vector<std::optional<Item>> items(const JsonValue& given, const std::string& list,
+                                         const Description<Item>& description, RecordReader& reader) {
+    std::vector<std::optional<Item>> read;
+    for (const JsonValue& item : items_of(given, list)) {
+      Item input;
+      const std::size_t index = read.size();
+      const bool is_good =
+          reader.read(description, item, fmt::format("{}[{}]", list, index), input, index + 1);
+      read.push_back(is_good ? std::optional(std::move(input)) : std::nullopt);
+    }
+    return read;
   }
 
   /// Ice goes under hulls with a draught and comes up behind them, unless the scene states otherwise.
-  void choose_fate_of_ice(const JsonValue& root) {
+  void complete_fate_of_ice(const JsonValue& given, const std::vector<std::optional<ShipInput>>& ships) {
+    const JsonValue* root = given.find("fracture");
     const auto is_given = [&](std::string_view object, std::string_view key) {
-      const JsonValue* fracture = root.find("fracture");
-      const JsonValue* in = fracture && !object.empty() ? fracture->find(object) : fracture;
+      const JsonValue* in = root && !object.empty() ? root->find(object) : root;
       return in && in->find(key) != nullptr;
     };
-    bool has_draught = false;
-    for (const JsonValue& ship : resolved_.find("ships")->items()) {
-      const JsonValue* hull = ship.find("hull");
-      has_draught = has_draught || (hull && hull->find("draught_m"));
-    }
-    JsonValue* fracture = resolved_.find("fracture");
-    JsonValue* fate = fracture ? fracture->find("cusp_fate") : nullptr;
-    JsonValue* tilting = fracture ? fracture->find("going_under")->find("enabled") : nullptr;
-    JsonValue* coming_up = fracture ? fracture->find("resurface")->find("enabled") : nullptr;
-    if (!fate || !tilting || !coming_up) return;
-    if (has_draught && !is_given("", "cusp_fate")) fate->data = std::string("under_hull");
-    if (!is_given("going_under", "enabled")) tilting->data = has_draught;
-    const bool goes_under = has_draught && (fate->text() == "under_hull" || tilting->boolean());
-    if (!is_given("resurface", "enabled")) coming_up->data = goes_under;
-    const std::string draught = "a hull with a draught (hull.draught_m)";
-    if (!has_draught && fate->text() == "under_hull")
-      report(fate->offset, "fracture.cusp_fate", "under_hull without " + draught, "submerge or float");
-    if (!has_draught && tilting->boolean())
-      report(tilting->offset, "fracture.going_under.enabled", "true without " + draught, "false");
-    if (!goes_under && coming_up->boolean())
-      report(coming_up->offset, "fracture.resurface.enabled", "true where no ice goes under a hull",
-             "false, or cusp_fate under_hull, or going_under.enabled");
-  }
-
-  /// The floes come last, since fields take long: what needs no ice is checked before (FloeListReader).
-  void build() {
-    JsonValue floes{JsonValue::Array{}, resolved_.find("floes")->offset};
-    FloeListReader reader{folder_, draft_, problems_, floes, fields_, ice_, files_};
-    bool is_checked = false;
-    const auto check_the_rest = [&] {
-      if (std::exchange(is_checked, true)) return;
-      complete_pilots(resolved_, draft_, problems_);
-      check_without_ice(draft_, resolved_, problems_);
+    const auto report_at = [&](const std::string& key, std::string found, std::string allowed) {
+      report(nearest_offset(given, key), key, std::move(found), std::move(allowed));
     };
-    bind_scene(resolved_, draft_, [&](std::string_view list, std::size_t index, const JsonValue& item) {
-      if (list == "floes") check_the_rest();
-      if (list == "ships")
-        add_ship(index, item);
-      else if (list == "structures")
-        add_structure(index, item);
-      else if (list == "walls")
-        add_wall(index, item, draft_, problems_);
-      else if (list == "floes")
-        reader.add(index, item);
-    });
-    check_the_rest();
-    *resolved_.find("floes") = std::move(floes);
+    const bool has_draught =
+        std::ranges::any_of(ships, [](const auto& ship) { return ship && ship->spec.hull.draught > 0; });
+    simulation::FractureSettings& fracture = input_.scene.fracture;
+    simulation::CuspFate& fate = fracture.cusp_fate;
+    bool& going_under = fracture.going_under.is_enabled;
+    bool& coming_up = fracture.resurface.is_enabled;
+    if (has_draught && !is_given("", "cusp_fate")) fate = simulation::CuspFate::kUnderHull;
+    if (!is_given("going_under", "enabled")) going_under = has_draught;
+    const bool is_under_hull = fate == simulation::CuspFate::kUnderHull;
+    const bool goes_under = has_draught && (is_under_hull || going_under);
+    if (!is_given("resurface", "enabled")) coming_up = goes_under;
+    const std::string draught = "a hull with a draught (hull.draught_m)";
+    if (!has_draught && is_under_hull)
+      report_at("fracture.cusp_fate", "under_hull without " + draught, "submerge or float");
+    if (!has_draught && going_under)
+      report_at("fracture.going_under.enabled", "true without " + draught, "false");
+    if (!goes_under && coming_up)
+      report_at("fracture.resurface.enabled", "true where no ice goes under a hull",
+                "false, or cusp_fate under_hull, or going_under.enabled");
   }
 
-  void add_ship(std::size_t index, const JsonValue& item) {
-    simulation::ShipSpec& ship = draft_.ship();
-    simulation::Hull& hull = ship.hull;
-    if (draft_.hull_length > 0) {
-      hull.waterline =
-          simulation::wedge_bow_waterline(draft_.hull_length, draft_.hull_beam, draft_.hull_entrance_angle);
-    } else if (geometry::Polygon outline{hull.waterline, {}};
-               in_house_notation(outline).outer != hull.waterline) {
-      const std::size_t given = hull.waterline.size();
-      hull.waterline = in_house_notation(outline).outer;
-      auto& angles = hull.angles_from_vertical;
-      if (angles.size() == given) angles.resize(hull.waterline.size());
-      if (hull.waterline.front() != outline.outer.front()) std::ranges::reverse(angles);
+  /// The water rubs on floes where a wind blows, unless the scene states otherwise.
+  void complete_skin_drag(const JsonValue& given) {
+    constexpr double kSkinDragInWind = 0.004;  // [-]
+    const JsonValue* water = given.find("water");
+    if (input_.scene.wind.velocity != geometry::Vector{} && !(water && water->find("skin_drag_coefficient")))
+      input_.scene.water.skin_drag_coefficient = kSkinDragInWind;
+  }
+
+  void add_ships(const JsonValue& given, std::vector<std::optional<ShipInput>>& ships) {
+    for (std::size_t i = 0; i < ships.size(); ++i) {
+      if (!ships[i]) continue;
+      const JsonValue& item = items_of(given, "ships")[i];
+      draft_.scene.ships.push_back(complete_ship(*ships[i], item, fmt::format("ships[{}]", i),
+                                                 draft_.scene.water.water.density, problems_));
+      draft_.ship_origins.push_back({.offset = item.offset, .group = i});
+      resolved_.find("ships")->items().push_back(write(ship_description(), *ships[i]));
     }
-    complete_ship(item, fmt::format("ships[{}]", index), draft_, problems_);
-    draft_.ship_origins.push_back({.offset = item.offset, .group = index});
   }
 
-  /// A structure is a ship that stands on the ground.
-  void add_structure(std::size_t index, const JsonValue& item) {
-    simulation::ShipSpec& structure = draft_.ship();
-    simulation::Hull& hull = structure.hull;
-    hull.waterline = draft_.structure_radius > 0
-                         ? simulation::cylinder_waterline(draft_.structure_radius)
-                         : in_house_notation(geometry::Polygon{hull.waterline, {}}).outer;
-    hull.angles_from_vertical.assign(hull.waterline.size(), draft_.structure_slope);
-    structure.mass = structure.moment_of_inertia = std::numeric_limits<double>::infinity();
-    structure.propulsion = simulation::FixedInPlace{};
-    draft_.ship_origins.push_back(
-        {.offset = item.offset, .group = index, .is_structure = true, .list = "structures"});
+  void add_structures(const JsonValue& given, const std::vector<std::optional<StructureInput>>& structures) {
+    for (std::size_t i = 0; i < structures.size(); ++i) {
+      if (!structures[i]) continue;
+      draft_.scene.ships.push_back(complete_structure(*structures[i]));
+      draft_.ship_origins.push_back({.offset = items_of(given, "structures")[i].offset,
+                                     .group = i,
+                                     .is_structure = true,
+                                     .list = "structures"});
+      resolved_.find("structures")->items().push_back(write(structure_description(), *structures[i]));
+    }
+  }
+
+  void add_walls(const JsonValue& given, const std::vector<std::optional<WallInput>>& walls) {
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      if (!walls[i]) continue;
+      add_wall(i, items_of(given, "walls")[i], *walls[i], draft_, problems_);
+      resolved_.find("walls")->items().push_back(write(wall_description(), *walls[i]));
+    }
+  }
+
+  void add_floes(const JsonValue& given, bool is_whole, RecordReader& reader) {
+    const auto list = items_of(given, "floes");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      FloeGroup group;
+      const bool is_good = reader.read(floes_description(), list[i], fmt::format("floes[{}]", i), group);
+      if (is_good && is_whole) floes_.add(i, std::move(group), list[i]);
+    }
+    *resolved_.find("floes") = std::move(floes_.written);
   }
 
   /// Properties of a floe file that are probably meant to be read, and floes without a thickness among
@@ -289,11 +290,10 @@ class SceneReader {
 
   std::filesystem::path folder_;
   ProblemCollector problems_;
+  SceneInput input_;
   JsonValue resolved_;
   SceneDraft draft_;
-  std::vector<FieldReport> fields_;
-  std::vector<FileReport> files_;
-  std::vector<IceReport> ice_;
+  FloeListReader floes_{folder_, draft_, problems_};
 };
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 #include <tl/expected.hpp>
 
+#include "fracture/scatter.hpp"
 #include "io/import/floe_import.hpp"
 #include "io/scene/scene_assign.hpp"
-#include "io/scene/scene_draft.hpp"
 #include "io/text/problem.hpp"
 #include "simulation/floe_field.hpp"
 #include "simulation/scene.hpp"
@@ -42,6 +42,13 @@ struct FileReport {
   std::uint32_t offset = 0;  ///< of its name in the scene
 };
 
+/// How a property of the floes of one entry came out that was drawn.
+struct IceReport {
+  std::size_t group = 0;     ///< index in the scene's "floes"
+  std::size_t property = 0;  ///< its number (floe_ice.hpp)
+  fracture::ScatterMeasures measures;
+};
+
 struct LoadedScene {
   simulation::Scene scene;
   std::string description;
@@ -51,7 +58,7 @@ struct LoadedScene {
   std::vector<FieldReport> fields;
   std::vector<FileReport> files;
   std::vector<IceReport> ice;  ///< what was drawn of it, by floe groups and properties
-  std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_hints.hpp)
+  std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_check.hpp)
 };
 
 /// A ship as scenes have it, of a file of its own.

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "io/scene/scene_fields.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::io {
@@ -45,6 +45,14 @@ void write_ring(JsonWriter& json, const Field& field) {
   write_list(json, 3, 0, [&] { write_vector(json, field); });
 }
 
+/// As JSON, in one line.
+std::string default_text(const Field& field) {
+  if (field.kind == Kind::kObject) return "{}";
+  std::string text = to_json_text(field.default_value);
+  text.pop_back();
+  return text;
+}
+
 void write_type(JsonWriter& json, const Field& field) {
   switch (field.kind) {
     case Kind::kText:
@@ -76,7 +84,7 @@ void write_type(JsonWriter& json, const Field& field) {
       json.key("oneOf").open('[').open('{');
       write_number(json, field, "number");
       json.close('}').open('{');
-      write_object(json, law_object());
+      write_object(json, *field.object);
       json.close('}').close(']');
       return;
     case Kind::kNumbers:
@@ -98,7 +106,7 @@ void write_type(JsonWriter& json, const Field& field) {
 void write_required(JsonWriter& json, const Object& object, std::string_view alternative) {
   json.key("required").open('[');
   for (const Field& field : object.fields) {
-    if (field.alternative == alternative && field.default_json.empty()) json.value(field.key);
+    if (field.alternative == alternative && field.presence == Presence::kRequired) json.value(field.key);
   }
   json.close(']');
 }
@@ -116,7 +124,7 @@ void write_object(JsonWriter& json, const Object& object) {
     json.close(']');
   }
   json.key("properties").open('{');
-  if (&object == &scene_object()) json.key("$schema").open('{').key("type").value("string").close('}');
+  if (&object == &scene_description()) json.key("$schema").open('{').key("type").value("string").close('}');
   for (const Field& field : object.fields) {
     json.key(field.key).open('{');
     if (!field.meaning.empty())
@@ -124,9 +132,8 @@ void write_object(JsonWriter& json, const Object& object) {
           .value(field.unit.empty() ? std::string(field.meaning)
                                     : fmt::format("{} [{}]", field.meaning, field.unit));
     // A default that is filled in from elsewhere ("ship-#", objects) is no default of the schema's.
-    if (!field.default_json.empty() && field.default_json != kLeftOut && field.kind != Kind::kObject &&
-        field.kind != Kind::kName)
-      json.key("default").json(field.default_json);
+    if (field.presence == Presence::kDefault && field.kind != Kind::kObject && field.kind != Kind::kName)
+      json.key("default").json(default_text(field));
     write_type(json, field);
     json.close('}');
   }
@@ -145,19 +152,20 @@ void append_table(std::string& text, const Object& object, const std::string& pa
                         fmt::join(object.alternatives, ", "));
   text += "| key | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const Field& field : object.fields) {
-    const std::string default_text = field.default_json == kLeftOut ? "left out"
-                                     : !field.default_json.empty()  ? fmt::format("`{}`", field.default_json)
-                                     : field.alternative.empty()    ? "must be given"
-                                                                    : "—";
+    const std::string if_not_given = field.presence == Presence::kLeftOut ? "left out"
+                                     : field.presence == Presence::kDefault
+                                         ? fmt::format("`{}`", default_text(field))
+                                     : field.alternative.empty() ? "must be given"
+                                                                 : "—";
     const std::string mark = field.alternative.empty() ? "" : fmt::format("*{}*: ", field.alternative);
-    text += fmt::format("| `{}` | {} | {} | {}{} |\n", field.key, describe_allowed(field), default_text, mark,
+    text += fmt::format("| `{}` | {} | {} | {}{} |\n", field.key, describe_allowed(field), if_not_given, mark,
                         field.meaning);
   }
   text += '\n';
-  const auto is_law = [](const Field& field) { return field.kind == Kind::kNumberOrLaw; };
-  if (std::ranges::any_of(object.fields, is_law)) append_table(text, law_object(), join(path, "*"));
+  const auto law = std::ranges::find(object.fields, Kind::kNumberOrLaw, &Field::kind);
+  if (law != object.fields.end()) append_table(text, *law->object, join(path, "*"));
   for (const Field& field : object.fields) {
-    if (field.object == nullptr) continue;
+    if (field.object == nullptr || field.kind == Kind::kNumberOrLaw) continue;
     append_table(text, *field.object, join(path, field.key) + (field.kind == Kind::kList ? "[]" : ""));
   }
 }
@@ -189,7 +197,7 @@ constexpr auto kExampleFloes = R"(  "floes": [
 void append_settings(std::string& text, const Object& object, int depth) {
   const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
   for (const Field& field : object.fields) {
-    if (field.kind == Kind::kList || field.default_json == kLeftOut) continue;
+    if (field.kind == Kind::kList || field.presence == Presence::kLeftOut) continue;
     const bool is_last = &field == &object.fields.back();
     if (field.kind == Kind::kObject) {
       text += fmt::format("{}\"{}\": {{\n", indent, field.key);
@@ -200,7 +208,7 @@ void append_settings(std::string& text, const Object& object, int depth) {
     std::string allowed =
         field.kind == Kind::kText || field.kind == Kind::kName ? "" : "; " + describe_allowed(field);
     text += fmt::format("{0}// {1}{2}\n{0}\"{3}\": {4}{5}\n", indent, field.meaning, allowed, field.key,
-                        field.default_json, is_last ? "" : ",");
+                        default_text(field), is_last ? "" : ",");
   }
 }
 
@@ -211,14 +219,14 @@ std::string scene_schema() {
   JsonWriter json(text, JsonWriter::Layout::kIndented);
   json.open('{').key("$schema").value("https://json-schema.org/draft/2020-12/schema");
   json.key("title").value("Polynya scene");
-  write_object(json, scene_object());
+  write_object(json, scene_description());
   json.close('}');
   return text + "\n";
 }
 
 std::string scene_tables() {
   std::string text;
-  append_table(text, scene_object(), "");
+  append_table(text, scene_description(), "");
   text.pop_back();
   return text;
 }
@@ -227,7 +235,7 @@ std::string commented_scene() {
   std::string text =
       "// A scene for polynya. What stands here are the defaults; delete what you do not change.\n"
       "// Everything a scene may hold: docs/scene.md, or `polynya schema`.\n{\n";
-  append_settings(text, scene_object(), 1);
+  append_settings(text, scene_description(), 1);
   text += kExampleShips;
   text += kExampleFloes;
   text += "}\n";

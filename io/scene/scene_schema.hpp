@@ -4,7 +4,7 @@
 
 namespace polynya::io {
 
-/// The field table (scene_fields.hpp) in other forms.
+/// The descriptions of a scene (scene_input.hpp) in other forms.
 
 std::string scene_schema();     ///< JSON Schema, draft 2020-12
 std::string scene_tables();     ///< Markdown tables, as they stand in docs/scene.md

@@ -7,11 +7,16 @@
 
 #include <fmt/format.h>
 
+#include "geometry/shape/pose.hpp"
+#include "io/scene/floe_list_reader.hpp"
+#include "io/scene/scene_check.hpp"
 #include "simulation/sailing.hpp"
 
 namespace polynya::io {
 namespace {
 
+using geometry::Point;
+using geometry::Vector;
 using simulation::ShipSpec;
 
 constexpr double kLargestRudder = 0.2;        ///< A_R of L T; rudders have a tenth of that [-]
@@ -19,30 +24,76 @@ constexpr double kRudderShare = 0.018;        ///< A_R of L T [-]
 constexpr double kPropellerOfDraught = 0.65;  ///< D of T (recall) [-]
 constexpr double kGyrationOfLength = 0.25;    ///< [-]
 constexpr double kLeastBlock = 0.2;           ///< [-]
+constexpr double kShortestWall = 0.1;         ///< [m]
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+/// The outline in house notation, with the angles of its vertices.
+void set_waterline(const HullOutline& outline, simulation::Hull& hull) {
+  hull.waterline = in_house_notation(geometry::Polygon{outline.waterline, {}}).outer;
+  hull.angles_from_vertical = outline.angles_from_vertical;
+  if (hull.waterline == outline.waterline) return;
+  auto& angles = hull.angles_from_vertical;
+  if (angles.size() == outline.waterline.size()) angles.resize(hull.waterline.size());
+  if (hull.waterline.front() != outline.waterline.front()) std::ranges::reverse(angles);
+}
 
 /// One ship while it is completed.
 class Completion {
  public:
-  Completion(const JsonValue& item, const std::string& path, SceneDraft& draft, ProblemCollector& problems)
-      : item_(item),
-        path_(path),
-        density_(draft.scene.water.water.density),
-        drive_(draft.drive),
-        ship_(draft.ship()),
-        problems_(problems) {}
+  Completion(ShipInput& input, const JsonValue& given, const std::string& path, double density,
+             ProblemCollector& problems)
+      : input_(input), item_(given), path_(path), density_(density), problems_(problems) {}
 
-  void run() {
+  ShipSpec run() {
+    choose_water_and_speed();
+    ship_ = input_.spec;
+    ship_.name = input_.name;
+    set_form();
+    ship_.sway_speed = input_.sway_speed.value_or(0);
+    ship_.yaw_rate = input_.yaw_rate.value_or(0);
+    if (input_.steering) ship_.steering = *input_.steering;
+    if (input_.pilot) ship_.pilot = *input_.pilot;
+    std::visit([&](const auto& propulsion) { set_propulsion(propulsion); }, input_.propulsion);
     add_mass();
-    if (auto* engine = std::get_if<simulation::Engine>(&ship_.propulsion)) add_engine(*engine);
+    if (const auto* engine = std::get_if<EngineInput>(&input_.propulsion)) add_engine(*engine);
     if (ship_.water.acts) check_hull();
     check_steering();
-    if (ship_.mooring) add_mooring(*ship_.mooring);
+    if (input_.mooring) add_mooring(*input_.mooring);
+    return std::move(ship_);
   }
 
  private:
   void report(std::string_view key, std::string found, std::string allowed) {
     problems_.report(0, nearest_offset(item_, key), fmt::format("{}.{}", path_, key), std::move(found),
                      std::move(allowed));
+  }
+
+  /// Water acts on the hulls of ships with an engine, and a ship at constant speed starts at that speed,
+  /// unless the scene states otherwise.
+  void choose_water_and_speed() {
+    const JsonValue* water = item_.find("water");
+    if (std::holds_alternative<EngineInput>(input_.propulsion) && !(water && water->find("model")))
+      input_.spec.water.acts = true;
+    const auto* held = std::get_if<simulation::ConstantSpeed>(&input_.propulsion);
+    if (!held) return;
+    double& speed = input_.spec.speed;
+    if (item_.find("speed_m_per_s") && speed != held->speed)
+      report("speed_m_per_s", show({speed}),
+             fmt::format("the constant speed, {} [m/s], or nothing", show({held->speed})));
+    speed = held->speed;
+  }
+
+  void set_form() {
+    if (const auto* bow = std::get_if<WedgeBow>(&input_.form))
+      ship_.hull.waterline = simulation::wedge_bow_waterline(bow->length, bow->beam, bow->entrance_angle);
+    else
+      set_waterline(std::get<HullOutline>(input_.form), ship_.hull);
+  }
+
+  void set_propulsion(const EngineInput& input) { ship_.propulsion = input.engine; }
+  template <class Propulsion>
+  void set_propulsion(const Propulsion& propulsion) {
+    ship_.propulsion = propulsion;
   }
 
   dynamics::MainDimensions dimensions() const { return dimensions_of(ship_, density_); }
@@ -58,19 +109,21 @@ class Completion {
     if (ship_.mass == 0) report("mass_kg", "nothing", "a number ≥ 1, ≤ 1e+12 [kg]" + from_form);
     if (ship_.moment_of_inertia == 0)
       report("moment_of_inertia_kg_m2", "nothing", "a number ≥ 0.001, ≤ 1e+16 [kg m²]" + from_form);
+    input_.spec.mass = ship_.mass;
+    input_.spec.moment_of_inertia = ship_.moment_of_inertia;
     for (double* missing : {&ship_.mass, &ship_.moment_of_inertia})
       if (*missing == 0) *missing = std::numeric_limits<double>::infinity();  // no further faults by it
   }
 
-  void add_engine(simulation::Engine& engine) {
+  void add_engine(const EngineInput& input) {
+    auto& engine = std::get<simulation::Engine>(ship_.propulsion);
     const std::string key = "propulsion.engine";
-    engine.power = drive_.power;
     const double diameter =
-        drive_.propeller_diameter > 0 ? drive_.propeller_diameter : kPropellerOfDraught * ship_.hull.draught;
-    engine.propeller_area = drive_.propellers * 0.25 * std::numbers::pi * diameter * diameter;
-    if (engine.bollard_pull == 0 && drive_.power > 0 && drive_.propeller_diameter > 0)
+        input.propeller_diameter > 0 ? input.propeller_diameter : kPropellerOfDraught * ship_.hull.draught;
+    engine.propeller_area = input.propellers * 0.25 * std::numbers::pi * diameter * diameter;
+    if (engine.bollard_pull == 0 && engine.power > 0 && input.propeller_diameter > 0)
       engine.bollard_pull =
-          dynamics::bollard_pull(drive_.power, diameter, drive_.propellers, drive_.has_nozzles);
+          dynamics::bollard_pull(engine.power, diameter, input.propellers, input.has_nozzles.value_or(false));
     if (engine.bollard_pull == 0)
       return report(key, "neither bollard_pull_kN nor power_MW with propeller_diameter_m",
                     "bollard_pull_kN, or power_MW and propeller_diameter_m");
@@ -132,12 +185,12 @@ class Completion {
     rudder->area = kRudderShare * d.length * d.draught;
   }
 
-  void add_mooring(simulation::MooringSettings& mooring) {
+  void add_mooring(const MooringInput& input) {
+    simulation::MooringSettings& mooring = ship_.mooring.emplace(input.settings);
+    mooring.position_in_world = input.position.value_or(ship_.position_in_world);
+    mooring.heading = input.heading.value_or(ship_.heading);
     if (std::holds_alternative<simulation::ConstantSpeed>(ship_.propulsion))
       return report("mooring", "a mooring of a ship whose speed is prescribed", "thrust_N or an engine");
-    const JsonValue* given = item_.find("mooring");
-    if (!given->find("position_m")) mooring.position_in_world = ship_.position_in_world;
-    if (!given->find("heading_deg")) mooring.heading = ship_.heading;
     const geometry::Vector off = rotate_back(geometry::Rotation::by(mooring.heading),
                                              ship_.position_in_world - mooring.position_in_world);
     const double load = std::hypot(mooring.surge_stiffness * off.x, mooring.sway_stiffness * off.y);
@@ -148,46 +201,190 @@ class Completion {
              "a greater load, or a ship nearer to mooring.position_m");
   }
 
+  ShipInput& input_;
   const JsonValue& item_;
   const std::string& path_;
   const double density_;
-  const DriveDraft& drive_;
+  ProblemCollector& problems_;
+  ShipSpec ship_;
+};
+
+double steering_most(const ShipSpec& ship) {
+  if (const auto* rudder = std::get_if<simulation::RudderSettings>(&ship.steering)) return rudder->most;
+  if (const auto* azimuth = std::get_if<simulation::AzimuthSettings>(&ship.steering)) return azimuth->most;
+  return 0;
+}
+
+/// Whether two segments come nearer than that.
+bool are_near(Point a, Point b, Point c, Point d, double nearer_than) {
+  const auto side = [](Point p, Point q, Point r) { return cross(q - p, r - p); };
+  if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
+                   distance_to_segment(d, a, b)}) < nearer_than;
+}
+
+/// The pilot of one ship while it is checked.
+class PilotCheck {
+ public:
+  PilotCheck(std::size_t ship, const JsonValue& item, SceneDraft& draft, ProblemCollector& problems)
+      : index_(ship), ship_(draft.scene.ships[ship]), item_(item), draft_(draft), problems_(problems) {}
+
+  void run() {
+    if (!item_.find("pilot")) return;
+    if (!std::holds_alternative<simulation::Engine>(ship_.propulsion))
+      return report("pilot", "a pilot of a ship without an engine", "propulsion.engine, or no pilot");
+    std::visit([&](auto& pilot) { check(pilot); }, ship_.pilot);
+  }
+
+ private:
+  void report(const std::string& key, std::string found, std::string allowed) {
+    problems_.report(0, nearest_offset(item_, key), fmt::format("{}.{}", ship_path(draft_, index_), key),
+                     std::move(found), std::move(allowed));
+  }
+
+  /// Whether the ship can be steered, which the pilot needs.
+  bool has_steering(const std::string& key) {
+    if (steering_most(ship_) > 0) return true;
+    report(key, "nothing to steer with", "steering.rudder or steering.azimuth");
+    return false;
+  }
+  void check_angle(const std::string& key, double angle) {
+    const double most = steering_most(ship_);
+    if (std::abs(angle) <= most * (1 + 1e-9)) return;
+    report(key, fmt::format("{:.4g}°", kDegrees * angle),
+           fmt::format("at most {:.4g}° to either side", kDegrees * most));
+  }
+
+  void check(const simulation::ConstantPilot& pilot) {
+    check_angle("pilot.constant.steering_deg", pilot.steering_angle);
+  }
+  void check(const simulation::SpeedPilot&) {}
+  void check(const simulation::HeadingPilot&) { has_steering("pilot.hold_heading"); }
+  void check(const simulation::RammingPilot&) {}
+
+  void check(const simulation::TablePilot& pilot) {
+    for (std::size_t i = 0; i < pilot.rows.size(); ++i) {
+      if (i > 0 && pilot.rows[i].time <= pilot.rows[i - 1].time)
+        report(fmt::format("pilot.table.rows[{}].t_s", i), fmt::format("{:g}", pilot.rows[i].time),
+               fmt::format("a time after that of the row before, {:g} [s]", pilot.rows[i - 1].time));
+      check_angle(fmt::format("pilot.table.rows[{}].steering_deg", i), pilot.rows[i].steering_angle);
+    }
+  }
+
+  void check(const simulation::RoutePilot& pilot) {
+    if (!has_steering("pilot.route") || pilot.waypoints.empty()) return;
+    const Vector ahead{std::cos(ship_.heading), std::sin(ship_.heading)};
+    const Vector way = pilot.waypoints.front().position_in_world - ship_.position_in_world;
+    if (dot(way, ahead) <= 0)
+      report(
+          "pilot.route.waypoints[0].position_m",
+          fmt::format("({:g}, {:g}), {:.4g} m behind the ship", pilot.waypoints.front().position_in_world.x,
+                      pilot.waypoints.front().position_in_world.y, -dot(way, ahead)),
+          "a first waypoint ahead of the ship, or another heading_deg");
+    Point from = ship_.position_in_world;
+    for (std::size_t i = 0; i < pilot.waypoints.size(); ++i) {
+      const Point to = pilot.waypoints[i].position_in_world;
+      if (const ShipSpec* structure = structure_on(from, to))
+        report(fmt::format("pilot.route.waypoints[{}].position_m", i),
+               fmt::format("a leg to ({:g}, {:g}) that leads through {}", to.x, to.y, structure->name),
+               "legs that stay half a beam clear of structures");
+      from = to;
+    }
+  }
+
+  /// A structure nearer to a leg than half the beam.
+  const ShipSpec* structure_on(Point from, Point to) const {
+    const geometry::Box box = bounding_box(ship_.hull.waterline);
+    const double half_beam = 0.5 * (box.high.y - box.low.y);
+    for (std::size_t k = 0; k < draft_.scene.ships.size(); ++k) {
+      if (!draft_.ship_origins[k].is_structure) continue;
+      const geometry::Ring ring = waterline_in_world(draft_.scene.ships[k]).outer;
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        if (are_near(from, to, ring[i], ring[(i + 1) % ring.size()], half_beam))
+          return &draft_.scene.ships[k];
+    }
+    return nullptr;
+  }
+
+  void check(simulation::FollowingPilot& pilot) {
+    const auto& ships = draft_.scene.ships;
+    const auto leader = std::ranges::find(ships, pilot.ship, &ShipSpec::name);
+    pilot.leader = leader == ships.end() ? 0 : static_cast<int>(leader - ships.begin());
+    if (!has_steering("pilot.follow")) return;
+    const std::string key = "pilot.follow.ship";
+    const std::string found = fmt::format("\"{}\"", pilot.ship);
+    if (leader == ships.end() || is_grounded(*leader))
+      return report(key, found + (leader == ships.end() ? ", the name of no ship" : ", which is no ship"),
+                    "the name of another ship");
+    if (pilot.leader == static_cast<int>(index_))
+      return report(key, found + ": a ship cannot follow itself", "the name of another ship");
+    if (follows_back(pilot))
+      report(key, found + ", which follows this ship", "a ship that follows no ship of the same line");
+  }
+
+  /// Whether the leaders of leaders lead back to this ship.
+  bool follows_back(const simulation::FollowingPilot& pilot) const {
+    const auto& ships = draft_.scene.ships;
+    std::string_view name = pilot.ship;
+    for (std::size_t i = 0; i < ships.size(); ++i) {
+      const auto leader = std::ranges::find(ships, name, &ShipSpec::name);
+      if (leader == ships.end()) return false;
+      if (static_cast<std::size_t>(leader - ships.begin()) == index_) return true;
+      const auto* next = std::get_if<simulation::FollowingPilot>(&leader->pilot);
+      if (!next) return false;
+      name = next->ship;
+    }
+    return false;
+  }
+
+  const std::size_t index_;
   ShipSpec& ship_;
+  const JsonValue& item_;
+  SceneDraft& draft_;
   ProblemCollector& problems_;
 };
 
 }  // namespace
 
-void choose_hull_water(const JsonValue& root, JsonValue& resolved) {
-  std::vector<JsonValue>& ships = resolved.find("ships")->items();
-  for (std::size_t i = 0; i < ships.size(); ++i) {
-    const JsonValue* propulsion = ships[i].find("propulsion");
-    JsonValue* water = ships[i].find("water");
-    if (!propulsion || !propulsion->find("engine") || !water) continue;
-    const JsonValue* given = root.find("ships")->items()[i].find("water");
-    if (!given || !given->find("model")) water->find("model")->data = std::string("manoeuvring");
+simulation::ShipSpec complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
+                                   double density, ProblemCollector& problems) {
+  return Completion(input, given, path, density, problems).run();
+}
+
+simulation::ShipSpec complete_structure(const StructureInput& input) {
+  ShipSpec structure = input.spec;
+  structure.name = input.name;
+  if (const auto* cylinder = std::get_if<Cylinder>(&input.form))
+    structure.hull.waterline = simulation::cylinder_waterline(cylinder->radius);
+  else
+    set_waterline(std::get<HullOutline>(input.form), structure.hull);
+  structure.hull.angles_from_vertical.assign(structure.hull.waterline.size(), input.slope);
+  structure.mass = structure.moment_of_inertia = std::numeric_limits<double>::infinity();
+  structure.propulsion = simulation::FixedInPlace{};
+  return structure;
+}
+
+void add_wall(std::size_t index, const JsonValue& item, const WallInput& wall, SceneDraft& draft,
+              ProblemCollector& problems) {
+  const double length = distance(wall.from, wall.to);
+  if (length < kShortestWall) {
+    problems.report(0, nearest_offset(item, "to_m"), fmt::format("walls[{}].to_m", index),
+                    fmt::format("({:g}, {:g}), {:.3g} m from from_m", wall.to.x, wall.to.y, length),
+                    fmt::format("a face of at least {:g} m", kShortestWall));
+    return;
   }
+  simulation::Wall settings = wall.pressure.value_or(simulation::Wall{});
+  settings.velocity = wall.velocity.value_or(geometry::Vector{});
+  draft.scene.ships.push_back(simulation::wall_between(wall.from, wall.to, wall.depth, settings));
+  draft.scene.ships.back().name = wall.name;
+  draft.ship_origins.push_back(
+      {.offset = item.offset, .group = index, .is_structure = true, .list = "walls"});
 }
 
-void complete_ship(const JsonValue& item, const std::string& path, SceneDraft& draft,
-                   ProblemCollector& problems) {
-  Completion(item, path, draft, problems).run();
-}
-
-void fill_in_masses(const SceneDraft& draft, JsonValue& resolved) {
-  std::vector<JsonValue>& ships = resolved.find("ships")->items();
-  const auto insert_after = [](JsonValue& ship, std::string_view before, std::string_view key, double value) {
-    if (ship.find(key)) return;
-    auto& members = ship.members();
-    const auto place = std::ranges::find(members, before, &JsonMember::key);
-    members.insert(place + 1, {std::string(key), ship.offset, {value, ship.offset}});
-  };
+void complete_pilots(const JsonValue& given, SceneDraft& draft, ProblemCollector& problems) {
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
-    const Origin& origin = draft.ship_origins[i];
-    if (origin.is_structure) continue;
-    const ShipSpec& ship = draft.scene.ships[i];
-    insert_after(ships[origin.group], "hull", "mass_kg", ship.mass);
-    insert_after(ships[origin.group], "mass_kg", "moment_of_inertia_kg_m2", ship.moment_of_inertia);
+    if (!draft.ship_origins[i].is_structure)
+      PilotCheck(i, given.find("ships")->items()[draft.ship_origins[i].group], draft, problems).run();
   }
 }
 

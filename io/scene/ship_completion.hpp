@@ -2,21 +2,27 @@
 
 #include <string>
 
-#include "io/scene/scene_draft.hpp"
-#include "io/text/json_value.hpp"
-#include "io/text/problem_collector.hpp"
+#include "io/scene/scene_input.hpp"
 
 namespace polynya::io {
 
-/// Water acts on the hulls of ships with an engine, unless the scene as given states otherwise.
-void choose_hull_water(const JsonValue& root, JsonValue& resolved);
+/// A ship as the simulation has it. What is not given follows from its other particulars: mass, moment of
+/// inertia, bollard pull, rudder, mooring, whether water acts on the hull. What is written of it with the
+/// scene, masses, the speed of one at constant speed and the model of the water, is put into the input.
+/// Reports what does not go together, at the ship's path; `given` is its JSON, `density` the water's [kg/m³].
+simulation::ShipSpec complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
+                                   double density, ProblemCollector& problems);
 
-/// Fills in what follows from other particulars of the draft's last ship: mass, moment of inertia, bollard
-/// pull, rudder, mooring. Reports what does not go together, at the ship's path.
-void complete_ship(const JsonValue& item, const std::string& path, SceneDraft& draft,
-                   ProblemCollector& problems);
+/// A structure is a ship that stands on the ground.
+simulation::ShipSpec complete_structure(const StructureInput& input);
 
-/// Puts masses and moments of inertia that were left out into the resolved scene.
-void fill_in_masses(const SceneDraft& draft, JsonValue& resolved);
+/// Adds a wall to the draft's ships, or reports why it is none.
+void add_wall(std::size_t index, const JsonValue& item, const WallInput& wall, SceneDraft& draft,
+              ProblemCollector& problems);
+
+/// Finds whom ships follow. Reports pilots that cannot do what they are to do: without an engine or steering,
+/// beyond the rudder's stop, on a route that begins behind the ship or leads through a structure, behind a
+/// ship that is not there or that follows them. `given` is the scene's JSON.
+void complete_pilots(const JsonValue& given, SceneDraft& draft, ProblemCollector& problems);
 
 }  // namespace polynya::io

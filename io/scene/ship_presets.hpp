@@ -51,4 +51,10 @@ const ShipPreset* find_ship_preset(std::string_view name);
 /// Its particulars as a ship of a scene has them.
 JsonValue json_of(const ShipPreset& preset);
 
+/// Fills in the particulars of a scene's ships that ask for a preset, where the scene
+/// gives none itself. What a scene gives of another kind (a constant speed for an engine, a waterline for
+/// length and beam) stands instead. Values that are filled in are placed where the ship's preset is
+/// named, and stand for that name.
+void fill_in_presets(JsonValue& scene);
+
 }  // namespace polynya::io

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "io/run/records.hpp"
-#include "io/scene/scene_field_parts.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 
@@ -30,7 +30,8 @@ const fracture::Ice& ice_at(const LoadedScene& loaded, std::size_t floe) {
 
 TEST(FloeIce, KeysAndRangesAreThoseOfTheScenesIce) {
   for (const FloeIceProperty& property : floe_ice_properties()) {
-    for (const Object* object : {&ice_object(), &floe_ice_object()}) {
+    for (const Object* object :
+         std::initializer_list<const Object*>{&ice_description(), &floe_ice_description()}) {
       const auto field = std::ranges::find(object->fields, property.key, &Field::key);
       ASSERT_NE(field, object->fields.end()) << property.key;
       EXPECT_EQ(field->unit, property.unit);
@@ -38,7 +39,7 @@ TEST(FloeIce, KeysAndRangesAreThoseOfTheScenesIce) {
       EXPECT_EQ(field->range.high, property.range.high) << property.key;
     }
   }
-  EXPECT_EQ(floe_ice_object().fields.size(), kFloeIceProperties + 1) << "and the seed";
+  EXPECT_EQ(floe_ice_description().fields.size(), kFloeIceProperties + 1) << "and the seed";
 }
 
 TEST(FloeIce, GivenIsTheirsAndTheRestTheScenes) {

@@ -352,7 +352,8 @@ TEST(FloeProperties, NamesNearAKnownOneAreFound) {
            {"area_m2", ""},
            {"id", ""},
            {"x", ""}}) {
-    NearMisses misses({});
+    const PropertyNames none;
+    NearMisses misses(none);
     misses.add(parse_json(fmt::format(R"({{"{}": 5}})", key)).root, {}, 3);
     ASSERT_EQ(misses.found().size(), meant.empty() ? 0U : 1U) << key;
     if (meant.empty()) continue;

@@ -67,7 +67,7 @@ test("untouched floes, what is left of a plate, and cusps have the colours that 
 });
 
 test("what became of a floe follows from its lineage and its area", () => {
-  const { breakagesOf } = scripts("breakage.js");
+  const { breakagesOf } = scripts("colours.js");
   // Each row: parent, kind of the parent's fracture, area, what is expected. At the end a plate that loses 200 cusps.
   const rows = [[-1, "", 1000, 0],
     [0, "split", 600, 1], [0, "split", 300, 1], [0, "split", 100, 2],
@@ -95,7 +95,7 @@ test("what became of a floe follows from its lineage and its area", () => {
 });
 
 test("the scale of loads leaves out only few and far larger rows", () => {
-  const { loadRange, alignedRanges } = scripts("plot_scale.js");
+  const { loadRange, alignedRanges } = scripts("plot_curves.js");
   const wave = Float64Array.from({ length: 1000 }, (_, k) => 10 * Math.sin(k / 7));
   const spiked = wave.with(500, 400);
   const near = (range, wanted) => range.forEach((v, k) => assert.ok(Math.abs(v - wanted[k]) < 0.1, `${range}`));

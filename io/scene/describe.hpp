@@ -1,0 +1,300 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "geometry/shape/polygon.hpp"
+#include "io/scene/record.hpp"
+
+namespace polynya::io {
+
+// What descriptions (record.hpp) are written with. A field is a key, its kind, unit, range and meaning, and
+// the path of pointers to members that leads from the record to its place. On the way, an optional or a
+// variant is made to hold the next member's class when the field is read; where it does not hold that, the
+// field is not written. The kind follows from the place's type, and an optional place may be left out.
+
+inline constexpr double kLargestCoordinate = 1e6;  ///< [m]
+inline constexpr double kLargestCount = 1e6;
+inline constexpr double kLargestSeed = 9007199254740991;  ///< 2^53 − 1
+
+inline Range above(double low, double high) {
+  return {low, high, true, false};
+}
+inline Range from(double low, double high) {
+  return {low, high, false, false};
+}
+inline Range below(double low, double high) {
+  return {low, high, false, true};
+}
+inline Range coordinate() {
+  return from(-kLargestCoordinate, kLargestCoordinate);
+}
+
+namespace place {
+
+template <class T>
+struct Optional : std::false_type {
+  using Value = T;
+};
+template <class T>
+struct Optional<std::optional<T>> : std::true_type {
+  using Value = T;
+};
+
+/// What holds a T: itself, an optional or a variant. Null where it holds none.
+template <class T, class Held>
+const T* held(const Held& holder) {
+  if constexpr (std::is_same_v<T, Held>) {
+    return &holder;
+  } else if constexpr (Optional<Held>::value) {
+    return holder ? held<T>(*holder) : nullptr;
+  } else {
+    return std::get_if<T>(&holder);
+  }
+}
+/// The same, made to hold a T.
+template <class T, class Held>
+T& hold(Held& holder) {
+  if constexpr (std::is_same_v<T, Held>) {
+    return holder;
+  } else if constexpr (Optional<Held>::value) {
+    if (!holder) holder.emplace();
+    return hold<T>(*holder);
+  } else {
+    if (!std::holds_alternative<T>(holder)) holder.template emplace<T>();
+    return std::get<T>(holder);
+  }
+}
+
+template <class T, class Whole>
+const T* find(const Whole& whole) {
+  return held<T>(whole);
+}
+template <class T, class Whole, class Class, class Member, class... Rest>
+const T* find(const Whole& whole, Member Class::*first, Rest... rest) {
+  const Class* found = held<Class>(whole);
+  return found ? find<T>(found->*first, rest...) : nullptr;
+}
+template <class T, class Whole>
+T& make(Whole& whole) {
+  return hold<T>(whole);
+}
+template <class T, class Whole, class Class, class Member, class... Rest>
+T& make(Whole& whole, Member Class::*first, Rest... rest) {
+  return make<T>(hold<Class>(whole).*first, rest...);
+}
+
+template <class Pointer>
+struct Parts;
+template <class C, class M>
+struct Parts<M C::*> {
+  using Class = C;
+  using Member = M;
+};
+template <class... Path>
+using Last = Parts<std::remove_reference_t<decltype((std::declval<Path>(), ...))>>;
+/// The record that a path begins in: as given, else the class of its first pointer.
+template <class Given, class... Path>
+struct Begin {
+  using Record = Given;
+};
+template <class First, class... Rest>
+struct Begin<void, First, Rest...> {
+  using Record = typename Parts<First>::Class;
+};
+
+}  // namespace place
+
+// Values of JSON and of records, by their type.
+
+template <class T>
+constexpr FieldKind kind_of() {
+  if (std::is_same_v<T, bool>) return FieldKind::kBoolean;
+  if (std::is_integral_v<T>) return FieldKind::kInteger;
+  if (std::is_same_v<T, double>) return FieldKind::kNumber;
+  if (std::is_same_v<T, std::string>) return FieldKind::kText;
+  if (std::is_same_v<T, std::vector<double>>) return FieldKind::kNumbers;
+  if (std::is_same_v<T, geometry::Ring>) return FieldKind::kRing;
+  if (std::is_same_v<T, std::vector<geometry::Ring>>) return FieldKind::kRings;
+  return FieldKind::kVector;
+}
+
+template <class T>
+T value_of(std::string_view unit, const JsonValue& json) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return json.boolean();
+  } else if constexpr (std::is_same_v<T, double>) {
+    return to_si(unit, json.number());
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return static_cast<T>(json.number());
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return json.text();
+  } else if constexpr (kind_of<T>() == FieldKind::kVector) {
+    return {json.items()[0].number(), json.items()[1].number()};
+  } else {
+    T list;
+    for (const JsonValue& item : json.items()) list.push_back(value_of<typename T::value_type>(unit, item));
+    return list;
+  }
+}
+
+template <class T>
+JsonValue json_of(std::string_view unit, const T& value) {
+  if constexpr (std::is_same_v<T, double>) {
+    return {from_si(unit, value)};
+  } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
+    return {value};
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return {static_cast<double>(value)};
+  } else if constexpr (kind_of<T>() == FieldKind::kVector) {
+    return {JsonValue::Array{{value.x}, {value.y}}};
+  } else {
+    JsonValue list{JsonValue::Array{}};
+    list.items().reserve(value.size());
+    for (const auto& item : value) list.items().push_back(json_of(unit, item));
+    return list;
+  }
+}
+
+namespace place {
+
+/// A field whose value two functions bring from JSON and back.
+template <class Record, class T, class Read, class Write, class... Path>
+FieldOf<Record> leaf(Field field, Read read, Write write, Path... path) {
+  field.set = [read, path...](void* record, const JsonValue& json) {
+    make<T>(*static_cast<Record*>(record), path...) = read(json);
+  };
+  field.get = [write, path...](const void* record) -> std::optional<JsonValue> {
+    const T* found = find<T>(*static_cast<const Record*>(record), path...);
+    return found ? std::optional(write(*found)) : std::nullopt;
+  };
+  Record constructed{};
+  if (field.presence == Presence::kDefault) field.default_value = write(make<T>(constructed, path...));
+  return {std::move(field)};
+}
+
+}  // namespace place
+
+/// A number, vector, text, … Of records that are variants, the Record is given.
+template <class Given = void, class... Path>
+auto member(std::string_view key, std::string_view unit, Range range, std::string_view meaning,
+            Path... path) {
+  using Place = place::Optional<typename place::Last<Path...>::Member>;
+  using T = typename Place::Value;
+  Field field{.key = key, .kind = kind_of<T>(), .unit = unit, .range = range, .meaning = meaning};
+  if (Place::value) field.presence = Presence::kLeftOut;
+  return place::leaf<typename place::Begin<Given, Path...>::Record, T>(
+      std::move(field), [unit](const JsonValue& json) { return value_of<T>(unit, json); },
+      [unit](const T& value) { return json_of(unit, value); }, path...);
+}
+
+/// One of a few words, each of which stands for a value.
+template <class T, class... Path>
+auto choice(std::string_view key, std::string_view meaning,
+            std::initializer_list<std::pair<std::string_view, T>> words, Path... path) {
+  Field field{.key = key, .kind = FieldKind::kChoice, .meaning = meaning};
+  for (const auto& [word, value] : words) field.choices.push_back(word);
+  const std::vector<std::pair<std::string_view, T>> all(words);
+  return place::leaf<typename place::Begin<void, Path...>::Record, T>(
+      std::move(field),
+      [all](const JsonValue& json) {
+        return std::ranges::find_if(all, [&](const auto& one) { return one.first == json.text(); })->second;
+      },
+      [all](const T& value) -> JsonValue {
+        return {std::string(
+            std::ranges::find_if(all, [&](const auto& one) { return one.second == value; })->first)};
+      },
+      path...);
+}
+
+/// An object of its own record, or, without a path, one that has a part of this record's members.
+template <class Given = void, class Part, class... Path>
+auto object(std::string_view key, const Description<Part>& description, std::string_view meaning,
+            Path... path) {
+  using Start = std::conditional_t<std::is_void_v<Given> && sizeof...(Path) == 0, Part, Given>;
+  using Record = typename place::Begin<Start, Path...>::Record;
+  FieldOf<Record> field{{.key = key, .kind = FieldKind::kObject, .meaning = meaning, .object = &description}};
+  if constexpr (sizeof...(Path) > 0) {
+    if (place::Optional<typename place::Last<Path...>::Member>::value) field.presence = Presence::kLeftOut;
+  }
+  field.open = [path...](void* record) -> void* {
+    return &place::make<Part>(*static_cast<Record*>(record), path...);
+  };
+  field.find = [path...](const void* record, std::size_t) -> const void* {
+    return place::find<Part>(*static_cast<const Record*>(record), path...);
+  };
+  return field;
+}
+
+/// A list of objects.
+template <class Item, class... Path>
+auto list(std::string_view key, Range length, std::string_view meaning, const Description<Item>& items,
+          Path... path) {
+  using Record = typename place::Begin<void, Path...>::Record;
+  FieldOf<Record> field{{.key = key,
+                         .kind = FieldKind::kList,
+                         .range = length,
+                         .meaning = meaning,
+                         .object = &items,
+                         .default_value = {JsonValue::Array{}}}};
+  field.open = [path...](void* record) -> void* {
+    return &place::make<std::vector<Item>>(*static_cast<Record*>(record), path...).emplace_back();
+  };
+  field.find = [path...](const void* record, std::size_t item) -> const void* {
+    const auto* found = place::find<std::vector<Item>>(*static_cast<const Record*>(record), path...);
+    return found && item < found->size() ? &(*found)[item] : nullptr;
+  };
+  field.drop = [path...](void* record) {
+    place::make<std::vector<Item>>(*static_cast<Record*>(record), path...).pop_back();
+  };
+  return field;
+}
+
+/// A list whose items the record does not hold: they are read one by one.
+template <class Record, class Item>
+FieldOf<Record> list_of(std::string_view key, double longest, std::string_view meaning,
+                        const Description<Item>& items) {
+  return {{.key = key,
+           .kind = FieldKind::kList,
+           .range = from(0, longest),
+           .meaning = meaning,
+           .object = &items,
+           .default_value = {JsonValue::Array{}}}};
+}
+
+// What a field may be besides.
+
+template <class Record>
+FieldOf<Record> required(FieldOf<Record> field) {
+  field.presence = Presence::kRequired;
+  return field;
+}
+/// Belongs to one of its object's alternatives.
+template <class Record>
+FieldOf<Record> of(std::string_view alternative, FieldOf<Record> field) {
+  field.alternative = alternative;
+  return field;
+}
+/// Not the kind that its type has.
+template <class Record>
+FieldOf<Record> as(FieldKind kind, FieldOf<Record> field) {
+  field.kind = kind;
+  return field;
+}
+/// May be left out: a number whose default is none that may be given.
+template <class Record>
+FieldOf<Record> left_out(FieldOf<Record> field) {
+  field.presence = Presence::kLeftOut;
+  field.get = [get = field.get, otherwise = field.default_value.number()](const void* record) {
+    auto value = get(record);
+    return value && value->number() == otherwise ? std::nullopt : value;
+  };
+  return field;
+}
+
+}  // namespace polynya::io

@@ -1,0 +1,332 @@
+#include "io/scene/record.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/text/json_writer.hpp"
+
+namespace polynya::io {
+namespace {
+
+using JsonKind = JsonValue::Kind;
+
+std::string join(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
+bool is_in(const Range& range, double value) {
+  const bool low_ok = range.is_low_excluded ? value > range.low : value >= range.low;
+  const bool high_ok = range.is_high_excluded ? value < range.high : value <= range.high;
+  return low_ok && high_ok;
+}
+
+bool is_name(const std::string& text) {
+  const auto is_plain = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  };
+  if (text.empty() || text.size() > 100 || !is_plain(text.front())) return false;
+  return std::ranges::all_of(
+      text, [&](char c) { return is_plain(c) || c == ' ' || c == '.' || c == '_' || c == '-'; });
+}
+
+std::string describe_range(const Field& field) {
+  std::string text;
+  const auto number = [](double value) {
+    std::string digits;
+    append_number(digits, value);
+    return digits;
+  };
+  if (field.range.low > -std::numeric_limits<double>::infinity())
+    text += (field.range.is_low_excluded ? " > " : " ≥ ") + number(field.range.low);
+  if (field.range.high < std::numeric_limits<double>::infinity())
+    text += (text.empty() ? "" : ",") + std::string(field.range.is_high_excluded ? " < " : " ≤ ") +
+            number(field.range.high);
+  if (!field.unit.empty()) text += fmt::format(" [{}]", field.unit);
+  return text;
+}
+
+/// The innermost wrong part of a value that is not made of fields, or null.
+const JsonValue* first_wrong(const Field& field, const JsonValue& value) {
+  const auto number = [&](const JsonValue& v) {
+    const bool ok = v.is(JsonKind::kNumber) && std::isfinite(v.number()) && is_in(field.range, v.number());
+    return ok ? nullptr : &v;
+  };
+  const auto each = [](const JsonValue& v, std::size_t least, auto&& check) -> const JsonValue* {
+    if (!v.is(JsonKind::kArray) || v.items().size() < least) return &v;
+    for (const JsonValue& item : v.items()) {
+      if (const JsonValue* wrong = check(item)) return wrong;
+    }
+    return nullptr;
+  };
+  const auto vector = [&](const JsonValue& v) {
+    return v.is(JsonKind::kArray) && v.items().size() == 2 ? each(v, 2, number) : &v;
+  };
+  const auto ring = [&](const JsonValue& v) { return each(v, 3, vector); };
+  const auto only_if = [&](bool is_right) { return is_right ? nullptr : &value; };
+  switch (field.kind) {
+    case FieldKind::kText:
+      return only_if(value.is(JsonKind::kText));
+    case FieldKind::kName:
+      return only_if(value.is(JsonKind::kText) && is_name(value.text()));
+    case FieldKind::kInteger:
+      return only_if(!number(value) && value.number() == std::floor(value.number()));
+    case FieldKind::kNumber:
+    case FieldKind::kNumberOrLaw:
+      return number(value);
+    case FieldKind::kBoolean:
+      return only_if(value.is(JsonKind::kBoolean));
+    case FieldKind::kChoice:
+      return only_if(value.is(JsonKind::kText) &&
+                     std::ranges::find(field.choices, value.text()) != field.choices.end());
+    case FieldKind::kVector:
+    case FieldKind::kNumberOrVector:
+      return vector(value);
+    case FieldKind::kNumbers:
+      return each(value, 0, number);
+    case FieldKind::kLine:
+      return each(value, 2, vector);
+    case FieldKind::kRing:
+      return ring(value);
+    case FieldKind::kRings:
+      return each(value, 0, ring);
+    case FieldKind::kObject:
+    case FieldKind::kList:
+      break;
+  }
+  return nullptr;
+}
+
+/// The keys that an object cannot be without: "radius_m, or waterline_m" where there are alternatives.
+std::string keys_needed_by(const Object& table) {
+  const auto keys_of = [&](std::string_view alternative) {
+    std::vector<std::string_view> keys;
+    for (const Field& field : table.fields)
+      if (field.alternative == alternative && field.presence == Presence::kRequired)
+        keys.push_back(field.key);
+    return fmt::format("{}", fmt::join(keys, " and "));
+  };
+  std::string forms = table.alternatives.empty() ? keys_of("") : "";
+  for (const auto form : table.alternatives) forms += (forms.empty() ? "" : ", or ") + keys_of(form);
+  return forms;
+}
+
+/// What is allowed in place of a field that is missing.
+std::string describe_missing(const Field& field) {
+  if (field.kind != FieldKind::kObject) return describe_allowed(field);
+  return fmt::format("an object with {}{}", keys_needed_by(*field.object), field.instead);
+}
+
+std::optional<JsonValue> write_field(const Field& field, const void* record) {
+  const auto part = [&](std::size_t item) { return field.find ? field.find(record, item) : nullptr; };
+  if (field.kind == FieldKind::kList) {
+    JsonValue list{JsonValue::Array{}};
+    for (std::size_t i = 0; const void* item = part(i); ++i)
+      list.items().push_back(write_object(*field.object, item));
+    return list;
+  }
+  if (const void* found = part(0)) return write_object(*field.object, found);
+  return field.get ? field.get(record) : std::nullopt;
+}
+
+}  // namespace
+
+bool RecordReader::object(const Object& table, const JsonValue& value, const std::string& path, void* record,
+                          std::size_t number) {
+  if (!value.is(JsonKind::kObject)) {
+    report(value.offset, path, show(value), "an object");
+    return false;
+  }
+  report_unknown_keys(table, value, path);
+  std::string_view alternative;
+  bool is_whole = choose_alternative(table, value, path, alternative);
+  for (const Field& field : table.fields) {
+    if (!field.alternative.empty() && field.alternative != alternative) continue;
+    is_whole = one_field(field, value, path, record, number) && is_whole;
+  }
+  return is_whole;
+}
+
+void RecordReader::report_unknown_keys(const Object& table, const JsonValue& value, const std::string& path) {
+  std::vector<std::string_view> known;
+  for (const Field& field : table.fields) known.push_back(field.key);
+  for (const JsonMember& member : value.members()) {
+    if (std::ranges::find(known, member.key) != known.end()) continue;
+    if (path.empty() && member.key == "$schema") continue;
+    report(member.key_offset, join(path, member.key), "an unknown key",
+           fmt::format("{}", fmt::join(known, ", ")), nearest(member.key, known));
+  }
+}
+
+/// The alternative of which any field is given; false where it is not one.
+bool RecordReader::choose_alternative(const Object& table, const JsonValue& value, const std::string& path,
+                                      std::string_view& chosen) {
+  if (table.alternatives.empty()) return true;
+  std::vector<std::string_view> given;
+  for (const Field& field : table.fields) {
+    if (field.alternative.empty() || !value.find(field.key)) continue;
+    if (std::ranges::find(given, field.alternative) == given.end()) given.push_back(field.alternative);
+  }
+  if (!given.empty()) chosen = given.front();
+  if (given.size() == 1) return true;
+  report(value.offset, path,
+         given.empty() ? "none of them" : fmt::format("{} together", fmt::join(given, " and ")),
+         fmt::format("either {}", keys_needed_by(table)));
+  return false;
+}
+
+bool RecordReader::one_field(const Field& field, const JsonValue& parent, const std::string& parent_path,
+                             void* record, std::size_t number) {
+  const std::string path = join(parent_path, field.key);
+  const JsonValue* given = parent.find(field.key);
+  if (given && checked(field, *given, path, record)) return true;
+  if (!given && field.presence == Presence::kRequired)
+    report(parent.offset, path, "nothing", describe_missing(field));
+  const bool has_default = field.presence == Presence::kDefault;
+  if (has_default && field.kind == FieldKind::kName && field.default_value.text().ends_with('#')) {
+    std::string name = field.default_value.text();
+    name.pop_back();
+    field.set(record, {name + std::to_string(number)});
+  }
+  return has_default || (!given && field.presence == Presence::kLeftOut);
+}
+
+bool RecordReader::checked(const Field& field, const JsonValue& value, const std::string& path,
+                           void* record) {
+  if (field.kind == FieldKind::kObject) return object(*field.object, value, path, field.open(record), 1);
+  if (field.kind == FieldKind::kList) return list(field, value, path, record);
+  if (field.kind == FieldKind::kNumberOrLaw && value.is(JsonKind::kObject))
+    return law(field, value, path, record);
+  if (field.kind == FieldKind::kNumberOrVector && value.is(JsonKind::kNumber))
+    return leaf(field, {JsonValue::Array{value, value}, value.offset}, path, record);
+  return leaf(field, value, path, record);
+}
+
+bool RecordReader::leaf(const Field& field, const JsonValue& value, const std::string& path, void* record) {
+  if (const JsonValue* wrong = first_wrong(field, value)) {
+    report(wrong->offset, path, show(*wrong), describe_allowed(field),
+           wrong->is(JsonKind::kText) ? nearest(wrong->text(), field.choices) : "");
+    return false;
+  }
+  if (record && field.set) field.set(record, value);
+  return true;
+}
+
+bool RecordReader::list(const Field& field, const JsonValue& value, const std::string& path, void* record) {
+  if (!value.is(JsonKind::kArray) || !is_in(field.range, static_cast<double>(value.items().size()))) {
+    report(value.offset, path, show(value), describe_allowed(field));
+    return false;
+  }
+  for (std::size_t i = 0; field.open && i < value.items().size(); ++i) {
+    void* const item = field.open(record);
+    if (!object(*field.object, value.items()[i], fmt::format("{}[{}]", path, i), item, i + 1))
+      field.drop(record);
+  }
+  return true;
+}
+
+/// The numbers of a law are in the unit and range of its field.
+bool RecordReader::law(const Field& field, const JsonValue& value, const std::string& path, void* record) {
+  if (!object(*field.object, value, path, field.open(record), 1)) return false;
+  Field number = field;
+  number.kind = FieldKind::kNumber;
+  bool is_whole = true;
+  for (const std::string_view key : {"mean", "least", "most"}) {
+    const JsonValue* member = value.find(key);
+    if (member && !leaf(number, *member, join(path, key), nullptr)) is_whole = false;
+  }
+  return is_whole;
+}
+
+JsonValue write_object(const Object& object, const void* record) {
+  JsonValue value{JsonValue::Object{}};
+  for (const Field& field : object.fields) {
+    if (auto member = write_field(field, record))
+      value.members().push_back({std::string(field.key), 0, std::move(*member)});
+  }
+  return value;
+}
+
+std::string describe_allowed(const Field& field) {
+  switch (field.kind) {
+    case FieldKind::kText:
+      return "text";
+    case FieldKind::kName:
+      return "1 to 100 letters, digits, spaces and . _ -, starting with a letter or digit";
+    case FieldKind::kInteger:
+      return "an integer" + describe_range(field);
+    case FieldKind::kNumber:
+      return "a number" + describe_range(field);
+    case FieldKind::kBoolean:
+      return "true or false";
+    case FieldKind::kChoice:
+      return fmt::format("one of {}", fmt::join(field.choices, ", "));
+    case FieldKind::kNumberOrLaw:
+      return "a number" + describe_range(field) + ", or a law of such";
+    case FieldKind::kVector:
+      return "[x, y], each" + describe_range(field);
+    case FieldKind::kNumberOrVector:
+      return "a number or [x, y], each" + describe_range(field);
+    case FieldKind::kNumbers:
+      return "a list of numbers, each" + describe_range(field);
+    case FieldKind::kLine:
+      return "a list of two or more [x, y], each" + describe_range(field);
+    case FieldKind::kRing:
+      return "a list of three or more [x, y], each" + describe_range(field);
+    case FieldKind::kRings:
+      return "a list of rings, each three or more [x, y], each" + describe_range(field);
+    case FieldKind::kObject:
+      return "an object";
+    case FieldKind::kList:
+      return "a list of objects, its length" + describe_range(field);
+  }
+  return "";
+}
+
+std::string show(const JsonValue& value) {
+  std::string text;
+  switch (value.kind()) {
+    case JsonKind::kNumber:
+      append_number(text, value.number());
+      return text;
+    case JsonKind::kText:
+      append_text(text, shortened(value.text(), 60));
+      return text;
+    case JsonKind::kBoolean:
+      return value.boolean() ? "true" : "false";
+    case JsonKind::kArray:
+      return fmt::format("a list of {}", value.items().size());
+    default:
+      return std::string(name_of(value.kind()));
+  }
+}
+
+double to_si(std::string_view unit, double value) {
+  if (unit.starts_with("°")) return value * std::numbers::pi / 180;
+  if (unit == "kN") return 1e3 * value;
+  return unit == "MW" ? 1e6 * value : value;
+}
+
+double from_si(std::string_view unit, double value) {
+  if (!std::isfinite(value) || to_si(unit, value) == value) return value;
+  const double near = unit.starts_with("°") ? value / std::numbers::pi * 180 : value / to_si(unit, 1);
+  for (int digits = 0; digits < 17; ++digits) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, near, std::chars_format::scientific, digits).ptr;
+    double candidate = 0;
+    std::from_chars(text, end, candidate);
+    if (to_si(unit, candidate) == value) return candidate;
+  }
+  // Of seventeen digits, the one meant may be a neighbour.
+  double candidate = near;
+  for (int i = 0; i < 4; ++i) candidate = std::nextafter(candidate, -std::numeric_limits<double>::infinity());
+  for (int i = 0; i < 8 && to_si(unit, candidate) != value; ++i)
+    candidate = std::nextafter(candidate, std::numeric_limits<double>::infinity());
+  return to_si(unit, candidate) == value ? candidate : near;
+}
+
+}  // namespace polynya::io

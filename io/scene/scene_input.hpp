@@ -1,0 +1,180 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fracture/scatter.hpp"
+#include "geometry/shape/polygon.hpp"
+#include "io/import/floe_import.hpp"
+#include "io/scene/record.hpp"
+#include "simulation/floe_field.hpp"
+#include "simulation/scene.hpp"
+
+namespace polynya::io {
+
+// A scene as its JSON has it. What the simulation's own structs hold is read into them; the rest, main
+// dimensions of hulls, groups of floes, what follows from something else where it is not given, is in the
+// structs here. SI units, angles in radians. Their descriptions are the one table of all that a scene may
+// hold (record.hpp).
+
+/// All but its lists, whose items are read one by one: there may be a million floes.
+struct SceneInput {
+  std::string name = "scene";
+  simulation::Scene scene;
+  std::string description;
+};
+
+struct WedgeBow {
+  double length = 0;          ///< of the waterline [m]
+  double beam = 0;            ///< [m]
+  double entrance_angle = 0;  ///< of a flank from the centreline [rad]
+};
+struct HullOutline {
+  geometry::Ring waterline;                  ///< it may run either way and may be closed [m]
+  std::vector<double> angles_from_vertical;  ///< [rad]
+};
+
+struct EngineInput {
+  dynamics::Engine engine;        ///< bollard pull 0: by power, diameter and number
+  double propeller_diameter = 0;  ///< of one; 0: by the draught [m]
+  int propellers = 1;
+  std::optional<bool> has_nozzles;
+};
+
+struct MooringInput {
+  simulation::MooringSettings settings;
+  std::optional<geometry::Point> position;  ///< none: the ship's at the start [m]
+  std::optional<double> heading;            ///< likewise [rad]
+};
+
+struct ShipInput {
+  std::string name = "ship-#";
+  simulation::ShipSpec spec;  ///< mass and moment of inertia 0: by the hull's form
+  std::variant<WedgeBow, HullOutline> form;
+  std::optional<double> sway_speed;  ///< [m/s]
+  std::optional<double> yaw_rate;    ///< [rad/s]
+  std::variant<simulation::ConstantThrust, simulation::ConstantSpeed, EngineInput> propulsion;
+  std::optional<simulation::Steering> steering;
+  std::optional<simulation::PilotSettings> pilot;
+  std::optional<MooringInput> mooring;
+};
+
+struct Cylinder {
+  double radius = 0;  ///< at the waterline [m]
+};
+struct StructureInput {
+  std::string name = "structure-#";
+  simulation::ShipSpec spec;
+  std::variant<Cylinder, HullOutline> form;
+  double slope = 0;  ///< of its walls from the vertical [rad]
+};
+
+struct WallInput {
+  std::string name = "wall-#";
+  geometry::Point from, to;  ///< [m]
+  double depth = 10;         ///< [m]
+  std::optional<geometry::Vector> velocity;
+  std::optional<simulation::Wall> pressure;  ///< its load, closing speed and mass
+};
+
+/// How a property of floes' ice is drawn, in its unit; what is not given follows from the scene and the law.
+struct LawInput {
+  fracture::ScatterKind kind = fracture::ScatterKind::kLogNormal;
+  std::optional<double> mean, spread, least, most;
+};
+using NumberOrLaw = std::variant<double, LawInput>;
+
+/// Of the ice of an entry's floes, what is not the scene's.
+struct IceInput {
+  std::optional<NumberOrLaw> thickness, density, flexural_strength, compressive_strength, tensile_strength,
+      fracture_toughness;
+  std::uint64_t seed = 0;
+};
+
+struct LatticeInput {
+  geometry::Point origin;  ///< corner of its area [m]
+  int columns = 1;         ///< along x
+  int rows = 1;            ///< along y
+  geometry::Vector pitch;  ///< [m]
+  geometry::Vector size;   ///< of a floe [m]
+};
+struct RectangleInput {
+  geometry::Point corner;  ///< [m]
+  geometry::Vector size;   ///< [m]
+  double angle = 0;        ///< about the corner [rad]
+};
+struct FieldRectangle {
+  geometry::Point corner;   ///< [m]
+  geometry::Vector extent;  ///< [m]
+};
+struct FieldOutline {
+  geometry::Ring ring;  ///< [m]
+};
+struct FieldChannel {
+  std::vector<geometry::Point> centreline;  ///< [m]
+  double width = 0;                         ///< [m]
+};
+/// A random field; what has an optional here depends on whether the field has a law of sizes.
+struct FieldInput {
+  std::variant<FieldRectangle, FieldOutline, FieldChannel> region;
+  simulation::FloeField field;  ///< concentration, gap, law and seed
+  std::optional<double> floe_size, size_spread;
+  std::optional<int> most_corners, least_corners;
+  std::optional<double> aspect, orientation, packing;
+  std::vector<geometry::Ring> keep_clear;  ///< [m]
+};
+/// How the floes of a file come to the scene.
+struct FileImport {
+  ImportSettings settings;  ///< without the plane's origin and words
+  std::string layer;        ///< of a file with several; or empty
+  std::string properties;   ///< "thickness_m=CM*0.01, floe_id=FID"
+};
+struct FileInput {
+  std::string name;  ///< in the scene's folder
+  std::optional<FileImport> import;
+};
+
+/// One entry of the scene's "floes".
+struct FloeGroup {
+  std::variant<LatticeInput, RectangleInput, geometry::Polygon, FieldInput, FileInput> form = {};
+  bool is_fast = false;         ///< then the velocity is over ground
+  geometry::Vector velocity;    ///< relative to the water [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
+  std::optional<IceInput> ice = {};
+  std::optional<bool> has_crushed_overlaps;
+  std::optional<std::int64_t> source_floe;
+};
+
+const Description<SceneInput>& scene_description();
+const Description<ShipInput>& ship_description();
+const Description<StructureInput>& structure_description();
+const Description<WallInput>& wall_description();
+const Description<FloeGroup>& floes_description();
+const Description<fracture::Ice>& ice_description();
+const Description<IceInput>& floe_ice_description();
+const Description<LawInput>& law_description();
+
+/// Where a ship or a floe of the scene stands in the text, for messages.
+struct Origin {
+  std::size_t source = 0;       ///< index in the ProblemCollector's sources
+  std::uint32_t offset = 0;     ///< byte in that source
+  std::size_t group = 0;        ///< index in the scene's "floes", or in `list`
+  int member = -1;              ///< which floe of a lattice or file; −1: the only one
+  bool is_known_valid = false;  ///< by construction
+  bool is_structure = false;    ///< or a wall
+  std::string_view list = "ships";
+};
+
+/// A scene while it is put together: what is checked as a whole.
+struct SceneDraft {
+  simulation::Scene scene;
+  std::vector<Origin> ship_origins;
+  std::vector<Origin> floe_origins;
+};
+
+}  // namespace polynya::io
