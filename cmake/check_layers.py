@@ -26,8 +26,13 @@ FLOORS = {
     "views/map": 12,
     "views/player": 13,
     "views/export": 13,
-    "app": 14,
-    "python/module": 15,
+    "app/command_line": 14,
+    "app/run": 15,
+    "app/ice": 15,
+    "app/read": 15,
+    "app/database": 15,
+    "app": 16,
+    "python/module": 16,
 }
 # Rooms that are blind to each other, whatever their floors.
 APART = [{"dynamics", "fracture"}]
@@ -42,7 +47,7 @@ PACKAGES = {
     r"boost/crc": ["io/run/"],
     r"nlohmann/": ["io/text/"],
     r"(proj|dlfcn)\.h$": ["io/import/projection.cpp"],
-    r"CLI/": ["app/command_line.cpp"],
+    r"CLI/": ["app/command_line/command_line.cpp"],
     r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/", "python/module/"],
     r"pybind11/": ["python/module/"],
     r"tl/expected": [""],

@@ -1,5 +1,5 @@
 // What is known of memory before a run: how much there is, and whether a scene may fit.
-#include "app/memory.hpp"
+#include "app/run/memory.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "app/console.hpp"
+#include "app/command_line/console.hpp"
 
 #include <cerrno>
 #include <csignal>

@@ -1,4 +1,4 @@
-#include "app/memory.hpp"
+#include "app/run/memory.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -10,7 +10,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "app/console.hpp"
+#include "app/command_line/console.hpp"
 #include "io/run/run_folder.hpp"
 #include "simulation/memory_estimate.hpp"
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <utility>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/cut_floes.hpp"
-#include "app/files.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
+#include "app/ice/cut_floes.hpp"
 #include "io/text/cut_ops.hpp"
 #include "io/text/cut_report.hpp"
 #include "io/text/degrees.hpp"

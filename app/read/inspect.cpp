@@ -1,9 +1,9 @@
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
-#include "app/inspect_views.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
+#include "app/read/inspect_views.hpp"
 #include "io/run/motion_index.hpp"
 
 namespace polynya::app {

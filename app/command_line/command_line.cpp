@@ -1,4 +1,4 @@
-#include "app/command_line.hpp"
+#include "app/command_line/command_line.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
-#include "app/console.hpp"
+#include "app/command_line/console.hpp"
 #include "io/text/problem.hpp"
 
 namespace polynya::app {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <numbers>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
 #include "io/import/foreign_file.hpp"
 #include "io/import/import_report.hpp"
 #include "io/text/cut_ops.hpp"

@@ -1,9 +1,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/geojson_export.hpp"
 #include "views/export/scene_export.hpp"

@@ -5,10 +5,10 @@
 
 #include <fmt/ranges.h>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
-#include "app/load_scene.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
+#include "app/run/load_scene.hpp"
 #include "io/scene/record.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/ship_presets.hpp"

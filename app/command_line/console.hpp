@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "app/exit_code.hpp"
+#include "app/command_line/exit_code.hpp"
 #include "io/text/problem.hpp"
 
 namespace polynya::app {

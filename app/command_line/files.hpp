@@ -6,7 +6,7 @@
 
 #include <tl/expected.hpp>
 
-#include "app/progress.hpp"
+#include "app/command_line/progress.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/result.hpp"
 

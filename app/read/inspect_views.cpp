@@ -1,10 +1,10 @@
-#include "app/inspect_views.hpp"
+#include "app/read/inspect_views.hpp"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 
-#include "app/console.hpp"
+#include "app/command_line/console.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/run/motion_index.hpp"

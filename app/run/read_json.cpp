@@ -1,8 +1,8 @@
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem_collector.hpp"

@@ -1,4 +1,4 @@
-#include "app/cut_floes.hpp"
+#include "app/ice/cut_floes.hpp"
 
 #include <algorithm>
 #include <cmath>

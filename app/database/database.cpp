@@ -1,4 +1,4 @@
-#include "app/database.hpp"
+#include "app/database/database.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
 #include "fracture/crushing.hpp"

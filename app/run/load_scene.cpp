@@ -1,10 +1,10 @@
-#include "app/load_scene.hpp"
+#include "app/run/load_scene.hpp"
 
 #include <filesystem>
 #include <utility>
 
-#include "app/console.hpp"
-#include "app/files.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
 
 namespace polynya::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/python.hpp"
+#include "app/command_line/python.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
 #include "io/text/json_parser.hpp"
 
 namespace polynya::app {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/load_scene.hpp"
-#include "app/memory.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/run/load_scene.hpp"
+#include "app/run/memory.hpp"
 #include "io/run/active_run.hpp"
 #include "io/run/failure_dump.hpp"
 #include "io/run/run_folder.hpp"

@@ -1,4 +1,4 @@
-#include "app/progress.hpp"
+#include "app/command_line/progress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "app/console.hpp"
+#include "app/command_line/console.hpp"
 
 namespace polynya::app {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/text/output_file.hpp"
 #include "views/player/player_page.hpp"

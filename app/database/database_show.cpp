@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/database.hpp"
-#include "app/files.hpp"
-#include "app/python.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
+#include "app/command_line/python.hpp"
+#include "app/database/database.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/scaled_load.hpp"
 #include "fracture/bending/studies.hpp"

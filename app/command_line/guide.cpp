@@ -5,10 +5,10 @@
 
 #include <fmt/ranges.h>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
-#include "app/python.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
+#include "app/command_line/python.hpp"
 #include "io/text/version.hpp"
 
 namespace polynya::app {

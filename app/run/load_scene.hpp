@@ -5,8 +5,8 @@
 
 #include <tl/expected.hpp>
 
-#include "app/exit_code.hpp"
-#include "app/progress.hpp"
+#include "app/command_line/exit_code.hpp"
+#include "app/command_line/progress.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace polynya::app {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/command_line.hpp"
+#include "app/command_line/command_line.hpp"
 
 namespace polynya::app {
 

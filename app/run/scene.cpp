@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
-#include "app/load_scene.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
+#include "app/run/load_scene.hpp"
 #include "io/import/import_report.hpp"
 #include "io/scene/floe_ice.hpp"
 #include "io/scene/scene_schema.hpp"

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "app/progress.hpp"
+#include "app/command_line/progress.hpp"
 #include "io/scene/scene_assign.hpp"
 
 // CLI11 takes seconds to compile wherever it is included: command_line.cpp alone does.

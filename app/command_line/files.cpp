@@ -1,4 +1,4 @@
-#include "app/files.hpp"
+#include "app/command_line/files.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "app/console.hpp"
+#include "app/command_line/console.hpp"
 #include "io/text/output_file.hpp"
 #include "io/text/source_text.hpp"
 

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "analysis/channel_text.hpp"
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/files.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
 #include "io/run/run_folder.hpp"
 
 namespace polynya::app {
