@@ -4,9 +4,9 @@
 #include <system_error>
 #include <vector>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/memory_check.hpp"
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/run/memory.hpp"
 #include "io/text/version.hpp"
 
 namespace polynya::app {

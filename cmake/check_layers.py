@@ -31,8 +31,13 @@ FLOORS = {
     "views/map": 15,
     "views/player": 16,
     "views/export": 16,
-    "app": 17,
-    "python/module": 18,
+    "app/command_line": 17,
+    "app/run": 18,
+    "app/ice": 18,
+    "app/read": 18,
+    "app/database": 18,
+    "app": 19,
+    "python/module": 19,
 }
 # Rooms that are blind to each other, whatever their floors.
 APART = [{"dynamics", "fracture"}]
@@ -50,7 +55,7 @@ PACKAGES = {
     r"boost/crc": ["io/run/"],
     r"nlohmann/": ["io/text/"],
     r"(proj|dlfcn)\.h$": ["io/import/projection.cpp"],
-    r"CLI/": ["app/command_line.cpp"],
+    r"CLI/": ["app/command_line/command_line.cpp"],
     r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/", "python/module/"],
     r"pybind11/": ["python/module/"],
     r"tl/expected": [""],

@@ -2,7 +2,7 @@
 
 #include "python/module/simulation.hpp"
 
-#include "app/cut_floes.hpp"
+#include "app/ice/cut_floes.hpp"
 
 namespace polynya::python {
 namespace {

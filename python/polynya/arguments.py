@@ -1,5 +1,5 @@
 """Command lines of the commands that are written in Python: argparse, with the help and the messages of those in C++
-(app/command_line.cpp)."""
+(app/command_line/command_line.cpp)."""
 import argparse
 import difflib
 import math
@@ -109,7 +109,7 @@ class Parser(argparse.ArgumentParser):
         return "Examples:\n" + "".join(f"  polynya {example}\n" for example in self.examples)
 
     def described(self):
-        """For the manual page and the completion (app/python.cpp)."""
+        """For the manual page and the completion (app/command_line/python.cpp)."""
         options = [
             {"names": argument.option_strings, "type": argument.metavar or "", "meaning": argument.help}
             for argument in self.arguments()

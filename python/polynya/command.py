@@ -1,7 +1,8 @@
-"""Starts a command that is written in Python: `python3 -m polynya.command NAME WORDS` (app/python.cpp does).
+"""Starts a command that is written in Python: `python3 -m polynya.command NAME WORDS`
+(app/command_line/python.cpp does).
 
-How a command may end is decided here, once for all of them: by the exit codes of app/exit_code.hpp, with messages in
-sentences. A traceback goes into a file.
+How a command may end is decided here, once for all of them: by the exit codes of
+app/command_line/exit_code.hpp, with messages in sentences. A traceback goes into a file.
 """
 import importlib
 import io
@@ -112,7 +113,7 @@ def defect(name, error):
 
 
 def describe():
-    """Prints the options of every command, as app/python.cpp reads them."""
+    """Prints the options of every command, as app/command_line/python.cpp reads them."""
     parsers = {name: importlib.import_module(module).command_line() for name, module in OPTIONS.items()}
     print(json.dumps({name: parser.described() for name, parser in parsers.items()}))
     return 0

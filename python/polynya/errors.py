@@ -40,7 +40,8 @@ class SceneError(ValueError):
 
 
 class InputError(Exception):
-    """What a command was given is wrong: `problems`, a line each, and the `code` to exit with (app/exit_code.hpp)."""
+    """What a command was given is wrong: `problems`, a line each, and the `code` to exit with
+    (app/command_line/exit_code.hpp)."""
 
     def __init__(self, problems, code=3):
         self.problems = list(problems) if isinstance(problems, (list, tuple)) else [problems]

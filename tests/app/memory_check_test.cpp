@@ -1,13 +1,11 @@
 // What is known of memory before a run: how much there is, and whether a scene may fit.
-#include "app/memory_check.hpp"
+#include "app/run/memory.hpp"
 
 #include <cmath>
 
 #include "../io/temporary_folder.hpp"
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-
-#include "app/memory_available.hpp"
 
 namespace polynya::app {
 namespace {

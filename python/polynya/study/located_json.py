@@ -40,7 +40,7 @@ class LocatedJson:
             words = done.stderr.decode("utf-8", "surrogateescape").splitlines()
             code = 3 if done.returncode == 3 else 5
             raise StudyError(words or f"{self.file}: polynya read-json: {done.returncode}", code)
-        read = json.loads(done.stdout)
+        read = json.loads(done.stdout, parse_float=number)
         self.value, self._places = read["value"], read["places"]
 
     def problem(self, path, message, of_key=False):
@@ -51,6 +51,12 @@ class LocatedJson:
         place = self._places[pointer(path[:known])]
         line, column = place[2:] if of_key and known == len(path) and len(place) == 4 else place[:2]
         return Problem(self.file, path_in_words(path), message, line, column)
+
+
+def number(text):
+    """Whole where it is one, 1e3 too: in the file every number is a double."""
+    value = float(text)
+    return int(value) if value.is_integer() and abs(value) <= 2**53 else value
 
 
 def read_json(path):

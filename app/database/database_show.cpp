@@ -1,0 +1,479 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
+#include "app/command_line/python.hpp"
+#include "app/database/database.hpp"
+#include "fracture/bending/database_text.hpp"
+#include "fracture/bending/scaled_load.hpp"
+#include "fracture/bending/studies.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/output_file.hpp"
+
+namespace polynya::app {
+namespace {
+
+using fracture::BendingCapacity;
+using fracture::BendingDatabase;
+using fracture::BendingLoad;
+using fracture::FsiDatabaseModel;
+using fracture::SliceAxis;
+using fracture::SlicePoint;
+
+// ---- polynya database query
+
+constexpr auto kQueryExamples =
+    "Examples:\n"
+    "  polynya database query --thickness 0.5 --speed 0.89 --wedge-angle 90 --hull-angle 60\n"
+    "  polynya database query --thickness 1 --speed 2 --front-angle 30 --back-angle 70 --hull-angle 50 "
+    "--json\n";
+
+struct QueryOptions {
+  std::string file;  ///< empty: the shipped one
+  DatabaseLoadOptions load;
+  bool json = false;
+};
+
+/// Whether the hull presses the ice down at all; where it does not, the ice crushes and never bends.
+bool can_bend(const BendingLoad& load) {
+  return load.vertical_to_crushing > 0;
+}
+
+// as JSON
+
+/// A member; null where the ice cannot bend.
+void write_number(io::JsonWriter& json, std::string_view key, double value, bool is_known) {
+  json.key(key).value(is_known ? std::optional(value) : std::nullopt);
+}
+
+void write_published(io::JsonWriter& json, std::string_view name, const BendingCapacity& capacity,
+                     bool is_known) {
+  json.key(name).open('{');
+  write_number(json, "vertical_force_N", capacity.vertical_force, is_known);
+  write_number(json, "cusp_radius_m", capacity.cusp_radius, is_known);
+  json.key("in_range").value(is_known && capacity.is_in_range).close('}');
+}
+
+void write_outside(io::JsonWriter& json, const std::vector<fracture::OutsideRange>& ranges, bool is_known) {
+  json.key("outside").open('[');
+  if (!is_known) json.value("hull angle");
+  for (const fracture::OutsideRange& range : ranges)
+    if (is_known) json.value(range.name);
+  json.close(']');
+}
+
+void write_load(io::JsonWriter& json, const DatabaseLoadOptions& options, const BendingLoad& load) {
+  json.key("load").open('{');
+  const auto item = [&json](std::string_view key, double value) { json.key(key).value(value); };
+  item("thickness_m", load.ice.thickness);
+  item("density_kg_per_m3", load.ice.density);
+  item("youngs_modulus_Pa", load.ice.youngs_modulus);
+  item("poisson_ratio", load.ice.poisson_ratio);
+  item("flexural_strength_Pa", load.ice.flexural_strength);
+  item("compressive_strength_Pa", load.ice.compressive_strength);
+  item("friction", load.ice.friction);
+  item("water_density_kg_per_m3", load.water.density);
+  item("speed_m_per_s", load.mean_approach_speed);
+  const double half_angle_deg = 0.5 * options.wedge_angle_deg.value_or(0);
+  item("front_angle_deg", options.front_angle_deg.value_or(half_angle_deg));
+  item("back_angle_deg", options.back_angle_deg.value_or(half_angle_deg));
+  item("hull_angle_deg", options.hull_angle_deg);
+  item("slip_speed_m_per_s", options.slip_speed);
+  item("vertical_to_crushing", load.vertical_to_crushing);
+  json.close('}');
+}
+
+void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled,
+                  const fracture::BendingForecast& forecast) {
+  json.key("groups").open('{');
+  json.key("opening_angle_deg").value(scaled.groups.opening_angle * kDegree);
+  json.key("mass_ratio").value(scaled.groups.mass_ratio);
+  json.key("softness").value(scaled.groups.softness);
+  json.key("equivalent_softness").value(forecast.equivalent_softness);
+  json.key("froude").value(scaled.groups.froude);
+  json.key("characteristic_length_m").value(scaled.length_scale).close('}');
+}
+
+void print_json(const QueryOptions& options, const BendingDatabase& database, const BendingLoad& load,
+                const SlicePoint& answer) {
+  std::string text;
+  io::JsonWriter json(text, io::JsonWriter::Layout::kIndented);
+  const bool is_known = can_bend(load);
+  const fracture::BendingForecast& forecast = answer.database;
+  json.open('{');
+  const auto item = [&](std::string_view key, double value) { write_number(json, key, value, is_known); };
+  item("vertical_force_N", forecast.capacity.vertical_force);
+  item("normal_force_N", forecast.normal_force);
+  item("time_s", forecast.time);
+  item("cusp_radius_m", forecast.capacity.cusp_radius);
+  item("penetration_m", forecast.penetration);
+  json.key("radial_crack_first").value(is_known && forecast.capacity.radial_crack_first);
+  json.key("in_range").value(is_known && forecast.capacity.is_in_range);
+  write_outside(json, forecast.outside, is_known);
+  write_published(json, "nevel", answer.nevel, is_known);
+  write_published(json, "kashtelyan", answer.kashtelyan, is_known);
+  write_load(json, options.load, load);
+  write_groups(json, fracture::scaled(load), forecast);
+  json.key("database").open('{').key("file");
+  json.value(options.file.empty() ? std::nullopt : std::optional(options.file));
+  json.key("fluid").value(fracture::fluid_name(database.settings().fluid));
+  json.key("hash").value("fnv1a64 " + fracture::database_hash(database)).close('}');
+  json.close('}');
+  print_out("{}\n", text);
+}
+
+// for people
+
+std::string kilonewtons(const BendingCapacity& capacity) {
+  return fmt::format("{:.4g} kN", capacity.vertical_force / 1e3);
+}
+
+std::string metres(double length) {
+  return fmt::format("{:.4g} m", length);
+}
+
+void print_row(const char* what, const std::string& database, const std::string& nevel = "",
+               const std::string& kashtelyan = "") {
+  const std::string line = fmt::format("{:<22}{:<20}{:<20}{}", what, database, nevel, kashtelyan);
+  print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+}
+
+void print_table(const SlicePoint& answer) {
+  const auto& [abscissa, forecast, nevel, kashtelyan] = answer;
+  print_row("", "database", "Nevel", "Kashtelyan");
+  print_row("vertical force", kilonewtons(forecast.capacity), kilonewtons(nevel), kilonewtons(kashtelyan));
+  print_row("cusp radius", metres(forecast.capacity.cusp_radius), metres(nevel.cusp_radius),
+            metres(kashtelyan.cusp_radius));
+  print_row("normal force", fmt::format("{:.4g} kN", forecast.normal_force / 1e3));
+  print_row("penetration", metres(forecast.penetration));
+  print_row("time to the break",
+            std::isfinite(forecast.time) ? fmt::format("{:.4g} s", forecast.time) : "never: at rest");
+  print_row("radial crack first", forecast.capacity.radial_crack_first ? "yes" : "no");
+  const auto in_range = [](bool is_in_range) { return is_in_range ? "yes" : "no"; };
+  print_row("in range", in_range(forecast.capacity.is_in_range), in_range(nevel.is_in_range),
+            in_range(kashtelyan.is_in_range));
+}
+
+void print_for_people(const QueryOptions& options, const BendingDatabase& database, const BendingLoad& load,
+                      const SlicePoint& answer) {
+  const fracture::ScaledLoad scaled = fracture::scaled(load);
+  print_out("load      {}\n", describe(load));
+  print_out("groups    2a {:g} deg, m {:.4g}, softness {:.4g}, Fr {:.4g}; l {:.4g} m\n",
+            scaled.groups.opening_angle * kDegree, scaled.groups.mass_ratio, scaled.groups.softness,
+            scaled.groups.froude, scaled.length_scale);
+  if (answer.database.equivalent_softness != scaled.groups.softness)
+    print_out("          crushes through the thickness: equivalent softness {:.4g}\n",
+              answer.database.equivalent_softness);
+  print_out("database  {}: fluid {}, hash {}\n", database_title(options.file),
+            fracture::fluid_name(database.settings().fluid), fracture::database_hash(database));
+  print_out("\n");
+  if (can_bend(load))
+    print_table(answer);
+  else
+    print_out("The ice only crushes: friction outweighs what presses it down.\n");
+}
+
+/// "softness 0.2, the table's 3e-05 to 0.1; Poisson ratio 0.25, the table's 0.3"
+std::string with_ranges(const std::vector<fracture::OutsideRange>& ranges) {
+  std::vector<std::string> parts;
+  parts.reserve(ranges.size());
+  for (const auto& [name, value, least, most] : ranges)
+    parts.push_back(fmt::format("{} {:.4g}, the table's {:g}", name, value, least) +
+                    (most > least ? fmt::format(" to {:g}", most) : ""));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+int query(const QueryOptions& options) {
+  if (!options.load.wedge_angle_deg && !options.load.front_angle_deg && !options.load.back_angle_deg)
+    return fail(kUsage, "the wedge needs --wedge-angle, or --front-angle and --back-angle");
+  const auto load = bending_load(options.load);
+  if (!load) return load.error();
+  const auto database = load_database(options.file);
+  if (!database) return database.error();
+  const SlicePoint answer = fracture::compare_models(fracture::FsiDatabaseModel(*database), *load);
+  if (options.json)
+    print_json(options, **database, *load, answer);
+  else
+    print_for_people(options, **database, *load, answer);
+  if (!can_bend(*load))
+    print_err("note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
+              load->hull_angle * kDegree, load->ice.friction);
+  else if (!answer.database.outside.empty())
+    print_err("note: outside the database: {}; the answer is its nearest edge's\n",
+              with_ranges(answer.database.outside));
+  return kDone;
+}
+
+// ---- the figures of show --svg
+
+constexpr int kPoints = 161;
+constexpr double kWidestWedge = 170;  ///< towards 180 the crushed area grows without bound [deg]
+
+std::vector<double> evenly(double low, double high, bool is_log) {
+  std::vector<double> values;
+  for (int i = 0; i < kPoints; ++i) {
+    const double share = static_cast<double>(i) / (kPoints - 1);
+    values.push_back(is_log ? low * std::pow(high / low, share) : low + (high - low) * share);
+  }
+  return values;
+}
+
+/// What a curve of a family is for: the load with one thing changed.
+struct Member {
+  std::string name;
+  BendingLoad load;
+};
+
+Member with_angle(BendingLoad load, double angle_deg) {
+  load.front_half_angle = load.back_half_angle = 0.5 * angle_deg / kDegree;
+  return {fmt::format("{:g}° wedge", angle_deg), load};
+}
+
+Member with_speed(BendingLoad load, double speed) {
+  load.mean_approach_speed = speed;
+  return {fmt::format("{:g} m/s", speed), load};
+}
+
+/// The load itself first, then its neighbours.
+std::vector<Member> family(const BendingLoad& load, SliceAxis axis) {
+  std::vector<Member> members;
+  if (axis == SliceAxis::kOpeningAngle) {
+    members.push_back(with_speed(load, load.mean_approach_speed));
+    for (const double speed : {0.1, 1.0, 4.0})
+      if (speed != load.mean_approach_speed) members.push_back(with_speed(load, speed));
+    return members;
+  }
+  const double angle = (load.front_half_angle + load.back_half_angle) * kDegree;
+  members.push_back({fmt::format("{:g}° wedge", angle), load});
+  for (const double other : {45.0, 90.0, 135.0})
+    if (std::abs(other - angle) > 1e-9) members.push_back(with_angle(load, other));
+  return members;
+}
+
+/// A curve of a figure: a capacity of each point of a slice.
+template <class CapacityOf>
+void write_curve(io::JsonWriter& json, const std::string& name, const char* source,
+                 const std::vector<SlicePoint>& slice, CapacityOf capacity_of) {
+  std::vector<double> forces, radii;
+  std::vector<int> is_in_range;
+  for (const SlicePoint& point : slice) {
+    const fracture::BendingCapacity& capacity = capacity_of(point);
+    forces.push_back(capacity.vertical_force);
+    radii.push_back(capacity.cusp_radius);
+    is_in_range.push_back(capacity.is_in_range ? 1 : 0);
+  }
+  json.start_line();
+  json.open('{').key("name").value(name).key("source").value(source);
+  json.key("vertical_force_N").list(forces).key("cusp_radius_m").list(radii);
+  json.key("is_in_range").list(is_in_range).close('}');
+}
+
+struct FigureText {
+  const char* name;
+  const char* x_label;
+  bool is_x_log;
+  bool is_radius_log;
+};
+
+void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const BendingLoad& load,
+                  SliceAxis axis, const std::vector<double>& abscissae, const FigureText& text) {
+  const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
+  std::vector<double> shown;
+  shown.reserve(abscissae.size());
+  for (const double value : abscissae) shown.push_back(value * scale);
+  json.start_line();
+  json.open('{').key("name").value(text.name).key("x_label").value(text.x_label);
+  json.key("is_x_log").value(text.is_x_log).key("is_radius_log").value(text.is_radius_log);
+  json.key("x").list(shown).key("curves").open('[');
+  const std::vector<Member> members = family(load, axis);
+  for (const Member& member : members)
+    write_curve(
+        json, "database, " + member.name, "database", slice(model, member.load, axis, abscissae),
+        [](const SlicePoint& p) -> const auto& { return p.database.capacity; });
+  const std::vector<SlicePoint> own = slice(model, load, axis, abscissae);
+  write_curve(
+      json, "Nevel, " + members.front().name, "Nevel", own,
+      [](const SlicePoint& p) -> const auto& { return p.nevel; });
+  write_curve(
+      json, "Kashtelyan, " + members.front().name, "Kashtelyan", own,
+      [](const SlicePoint& p) -> const auto& { return p.kashtelyan; });
+  json.close(']').close('}');
+}
+
+/// Slices of a database through one load as JSON, which polynya.figures.database draws: force and radius
+/// against speed, opening angle and thickness, each for the load itself and its neighbours in another of the
+/// three, beside Nevel's and Kashtelyan's forms. Units in the keys.
+std::string database_slices(const FsiDatabaseModel& model, const std::string& title,
+                            const BendingLoad& load) {
+  const std::vector<double>& grid = model.database().grid().opening_angles_deg;
+  const double widest = std::min(grid.back(), kWidestWedge);
+  const double narrowest = std::min(grid.front(), 0.5 * widest);
+  std::string text;
+  io::JsonWriter json(text);
+  json.open('{').key("title").value("Icebreaking database: " + title);
+  json.key("caption").value("Around " + describe(load) +
+                            ". Faint: outside of the table or of the published form's range.");
+  json.key("figures").open('[');
+  write_figure(json, model, load, SliceAxis::kSpeed, evenly(0.02, 8, true),
+               {"speed", "normal approach speed, m/s", true, false});
+  write_figure(json, model, load, SliceAxis::kOpeningAngle,
+               evenly(narrowest / kDegree, widest / kDegree, false),
+               {"wedge-angle", "opening angle 2α of the wedge, °", false, false});
+  write_figure(json, model, load, SliceAxis::kThickness, evenly(0.1, 3, true),
+               {"thickness", "ice thickness, m", true, true});
+  json.close(']').close('}');
+  return text + '\n';
+}
+
+// ---- polynya database show
+
+struct ShowOptions {
+  std::string file;        ///< empty: the shipped one
+  std::string svg_folder;  ///< empty: no pictures
+  DatabaseLoadOptions load;
+};
+
+void print_parameters(const BendingDatabase& database, const std::string& file) {
+  const fracture::SolverSettings& settings = database.settings();
+  const std::string hash = fracture::database_hash(database);
+  const bool is_shipped = !file.empty() && hash == fracture::database_hash(fracture::default_database());
+  print_out("database        {}{}\n", database_title(file),
+            is_shipped ? ", the one that ships with Polynya" : "");
+  print_out("format          polynya-bending-database 1\n");
+  print_out("hash            fnv1a64 {}\n", hash);
+  print_out("fluid           {}\n", fracture::fluid_name(settings.fluid));
+  print_out("Poisson ratio   {:g}\n", settings.poisson_ratio);
+  if (settings.fluid == fracture::FluidModel::kLocalMass)
+    print_out("added mass      {:g} rho_w l\n", settings.local_mass);
+  print_out("plate           {} elements from {:g} l to {:g} l, {} angular terms\n", settings.radial_elements,
+            settings.inner_radius, settings.outer_radius, settings.angular_terms);
+  print_out("water           {} x {} panels on the half wedge", settings.panel_rings, settings.panel_columns);
+  if (settings.fluid == fracture::FluidModel::kFreeSurface)
+    print_out(", x {} on the open water", settings.free_surface_columns);
+  print_out("\nmarch           {} steps to failure\n", settings.steps_to_failure);
+}
+
+void print_axis(const char* name, const std::vector<double>& values) {
+  std::string line = fmt::format("{:<16}{:>2}:", name, values.size());
+  for (const double value : values) line += fmt::format(" {:g}", value);
+  print_out("{}\n", line);
+}
+
+void print_grids(const BendingDatabase& database) {
+  const fracture::DatabaseGrid& grid = database.grid();
+  print_axis("2a [deg]", grid.opening_angles_deg);
+  print_axis("m", grid.mass_ratios);
+  print_axis("softness", grid.softnesses);
+  print_axis("Fr", grid.froude_numbers);
+  print_out("entries         {}: V/(sigma_f h2), R/l, crack ratio\n", database.entries().size());
+}
+
+/// A star where the table had to be left.
+std::string_view star(bool is_in_range) {
+  return is_in_range ? "" : "*";
+}
+
+void print_slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis, const char* abscissa,
+                 std::span<const double> values) {
+  print_out("\n| {} | V kN | R m | t s | crack first | Nevel V kN | R m | Kashtelyan V kN | R m |\n",
+            abscissa);
+  print_out("|---|---|---|---|---|---|---|---|---|\n");
+  const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
+  for (const SlicePoint& point : slice(model, load, axis, values)) {
+    const auto& [x, forecast, nevel, kashtelyan] = point;
+    print_out("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n",
+              x * scale, forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
+              forecast.capacity.cusp_radius, forecast.time,
+              forecast.capacity.radial_crack_first ? "yes" : "no", nevel.vertical_force / 1e3,
+              star(nevel.is_in_range), nevel.cusp_radius, kashtelyan.vertical_force / 1e3,
+              star(kashtelyan.is_in_range), kashtelyan.cusp_radius);
+  }
+}
+
+void print_slices(const FsiDatabaseModel& model, const BendingLoad& load) {
+  print_out("\nSlices through {}; * outside of the table, or of the published form's range\n",
+            describe(load));
+  constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4, 8};
+  constexpr double kThicknesses[] = {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3};
+  std::vector<double> angles{20, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165};
+  for (double& angle : angles) angle /= kDegree;
+  print_slice(model, load, SliceAxis::kSpeed, "v_n m/s", kSpeeds);
+  print_slice(model, load, SliceAxis::kOpeningAngle, "2a deg", angles);
+  print_slice(model, load, SliceAxis::kThickness, "h m", kThicknesses);
+}
+
+/// The slices into slices.json of the folder, which is made where it is missing; Python draws them.
+int draw_slices(const std::string& slices, const std::filesystem::path& folder) {
+  if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
+  const std::filesystem::path file = folder / "slices.json";
+  if (const auto written = io::write_named_file(file, slices); !written)
+    return fail(kInputOutput, written.error());
+  print_out("\nnumbers         {}\n", file.string());
+  return become_python({"database", file.string()});
+}
+
+int show(const ShowOptions& options) {
+  const auto load = bending_load(options.load);
+  if (!load) return load.error();
+  if (load->vertical_to_crushing <= 0)
+    return fail(kUsage, fmt::format("a hull {:g} deg from the vertical only crushes ice of friction {:g}",
+                                    load->hull_angle * kDegree, load->ice.friction));
+  const auto database = load_database(options.file);
+  if (!database) return database.error();
+  const FsiDatabaseModel model(*database);
+  print_parameters(**database, options.file);
+  print_grids(**database);
+  print_slices(model, *load);
+  if (options.svg_folder.empty()) return kDone;
+  const std::string title = fmt::format("{}, fluid {}", options.file.empty() ? "shipped" : options.file,
+                                        fracture::fluid_name((*database)->settings().fluid));
+  return draw_slices(database_slices(model, title, *load), options.svg_folder);
+}
+
+}  // namespace
+
+Command add_database_query(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "query", "What a wedge of ice bears, by the database and by published forms", kQueryExamples);
+  auto options = std::make_shared<QueryOptions>();
+  add_point(command, options->load, true);
+  add_load(command, options->load);
+  command
+      .option("--slip-speed", options->load.slip_speed, "M_PER_S", "along the hull's waterline",
+              between(-100, 100))
+      .shows_default();
+  add_database_file(command, options->file);
+  command.flag("--json", options->json, "Answer as JSON, in SI units");
+  return {command, [options] { return query(*options); }};
+}
+
+Command add_database_show(CommandLine& app) {
+  CommandLine command =
+      app.add_command("show", "Print a database's parameters, grids and slices, and plot them",
+                      "Examples:\n"
+                      "  polynya database show                      the database that ships with Polynya\n"
+                      "  polynya database show winkler.txt --svg plots --thickness 1\n");
+  auto options = std::make_shared<ShowOptions>();
+  command.option("file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
+  command.option(
+      "--svg", options->svg_folder, "DIR",
+      "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
+      "(needs "
+      "Python and matplotlib: ./setup.sh python)",
+      not_empty());
+  add_point(command, options->load, false);
+  add_load(command, options->load);
+  return {command, [options] { return show(*options); }};
+}
+
+}  // namespace polynya::app

@@ -1,0 +1,489 @@
+#include "app/read/inspect_views.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "app/command_line/console.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
+#include "io/run/motion_index.hpp"
+#include "io/run/records.hpp"
+#include "io/scene/floe_ice.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/problem.hpp"
+#include "io/text/wkt.hpp"
+
+namespace polynya::app {
+namespace {
+
+using geometry::Ring;
+using io::id_or_none;
+using io::JsonWriter;
+using simulation::FloeId;
+
+std::string_view validity_of(const geometry::Polygon& polygon) {
+  const auto found = find_defect(polygon);
+  return found ? name_of(found->defect) : "yes";
+}
+
+std::string as_geojson(const ShapeView& view) {
+  const simulation::BirthRecord& birth = view.birth;
+  std::string text;
+  io::JsonWriter json(text);
+  json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(birth.floe);
+  json.key("parent_id").value(io::id_or_none(birth.parent));
+  json.key("born_s").value(birth.time).key("generation").value(birth.generation);
+  json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);
+  io::append_ice(json, view.ice);
+  json.key("frame").value(view.time_in_world ? "world" : "body");
+  if (view.time_in_world) json.key("t_s").value(*view.time_in_world);
+  json.close('}').key("geometry").polygon(view.polygon).close('}');
+  return text + "\n";
+}
+
+std::string as_svg(const ShapeView& view) {
+  const geometry::Box box = bounding_box(view.polygon.outer);
+  const geometry::Vector size = box.high - box.low;
+  const double margin = 0.02 * std::max(size.x, size.y);
+  std::string text = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='{} {} {} {}'>\n<title>floe {} {}, "
+      "metres</title>\n<path "
+      "d='",
+      box.low.x - margin, -box.high.y - margin, size.x + 2 * margin, size.y + 2 * margin, view.birth.floe,
+      view.time_in_world ? fmt::format("in the world at {:g} s", *view.time_in_world) : "in its body frame");
+  const auto write = [&text](const Ring& ring) {
+    char command = 'M';
+    for (const geometry::Point p : ring) {
+      fmt::format_to(std::back_inserter(text), "{}{} {}", command, p.x, 0.0 - p.y);
+      command = 'L';
+    }
+    text += 'Z';
+  };
+  write(view.polygon.outer);
+  std::ranges::for_each(view.polygon.holes, write);
+  text += fmt::format("' fill='#fbeec2' fill-rule='evenodd' stroke='#3d5261' stroke-width='{}'/>\n</svg>\n",
+                      margin / 8);
+  return text;
+}
+
+void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
+                           const std::vector<simulation::ShipSpec>& ships) {
+  const auto add = [&text](const std::string& line) { text += line + "\n"; };
+  if (check.worst_with_hull.area > 0)
+    add(fmt::format(
+        "hulls      {} with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
+        "vertex {:.4g} m deep",
+        counted(check.hull_pairs, "pair"), ships[static_cast<std::size_t>(check.worst_hull)].name,
+        check.worst_with_hull.second, check.worst_with_hull.time, check.worst_with_hull.area,
+        check.worst_with_hull.depth));
+  if (!check.has_crushed) {
+    add("crushed    not on record (no crushed.csv): overlaps are measured, not judged");
+  } else {
+    add(fmt::format(
+        "crushed    {} more than was crushed there and {:g} % of the smaller body",
+        check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
+        100 * analysis::kUncrushedShare));
+    const auto name = [&](const simulation::ContactState::Body& body) {
+      return body.ship >= 0 ? ships[static_cast<std::size_t>(body.ship)].name
+                            : fmt::format("floe {}", body.floe);
+    };
+    for (const analysis::UncrushedOverlap& pair : check.uncrushed)
+      add(fmt::format(
+          "           {} and {} at {:.6g} s about ({:.3f}, {:.3f}): {:.6g} m2 shared, {:.6g} m2 crushed, "
+          "{:.6g} m2 beyond it allowed",
+          name(pair.first), name(pair.second), pair.time, pair.place_in_world.x, pair.place_in_world.y,
+          pair.shared, pair.crushed, pair.allowed));
+  }
+}
+
+// ---- parts of the lines of events
+
+std::string how_it_went_under(const simulation::TiltCriterion& c) {
+  if (c.least_deflection == 0) return "a cusp broken off at the hull";
+  return fmt::format("edge {:.3g} m down >= {:.3g} m", c.deflection, c.least_deflection);
+}
+
+/// Both sides of what decided a bend or a split.
+std::string decided_by(const simulation::Event& event) {
+  const simulation::DecidingLoad deciding = simulation::deciding_load(event);
+  std::string text = fmt::format("{} {:.4g} N {} {} {:.4g} N", deciding.name, deciding.load,
+                                 deciding.comparison, deciding.capacity_name, deciding.capacity);
+  const auto& c = event.criteria;
+  if (event.kind != simulation::EventKind::kSplit || c.crack_width == 0) return text;
+  text += fmt::format("; crack L {:.4g} m, W {:.4g} m", c.crack_length, c.crack_width);
+  text += fmt::format("; contact force {:.4g} N, flanks {:.4g} and {:.4g} N", c.contact_force,
+                      c.flank_forces[0], c.flank_forces[1]);
+  if (deciding.load != c.opening_force)
+    text += fmt::format(", opening {:.4g} N of {:.4g} N", c.opening_force, c.opening_capacity);
+  return text + fmt::format(", K_IC {:.4g} Pa sqrt(m)", c.fracture_toughness);
+}
+
+/// What happened, where and what decided it, in a line.
+std::string described(const io::Run& run, const simulation::Event& event) {
+  const std::string_view name = io::ship_name(run.scene.scene, event.ship);
+  const bool is_by_floe = event.by_floe != simulation::kNoFloe;
+  const std::string by = is_by_floe     ? fmt::format(" by floe {}", event.by_floe)
+                         : name.empty() ? ""
+                                        : fmt::format(" by {}", name);
+  std::string text = fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): ", event.time, name_of(event.kind), by,
+                                 event.point_in_world.x, event.point_in_world.y);
+  if (event.kind == simulation::EventKind::kSubmerge)
+    text += how_it_went_under(event.tilting);
+  else if (event.resurfacing.longest_wait > 0 || event.resurfacing.path != 0)
+    text += fmt::format("{:.4g} m after the stem, {:.4g} s for room", event.resurfacing.path,
+                        event.resurfacing.waited);
+  else if (event.grinding.least_width > 0)
+    text += fmt::format("{:.4g} m2 overlapped, width {:.4g} m < {:.4g} m", event.grinding.overlap_area,
+                        event.grinding.width, event.grinding.least_width);
+  else
+    text += decided_by(event);
+  if (event.under_hull_area > 0) text += fmt::format("; {:.6g} m2 under the hull", event.under_hull_area);
+  if (event.under_ice_area > 0) text += fmt::format("; {:.6g} m2 under the ice", event.under_ice_area);
+  if (event.submerged_area > 0) text += fmt::format("; {:.6g} m2 submerged", event.submerged_area);
+  if (event.brash_area > 0) text += fmt::format("; {:.6g} m2 brash", event.brash_area);
+  return text;
+}
+
+std::string described(const io::Run& run, const simulation::ShipContact& contact) {
+  return fmt::format("{:.6g} s  {} of {} and {} at ({:.3f}, {:.3f}): closing at {:.3g} m/s", contact.time,
+                     io::kShipContactKind, io::ship_name(run.scene.scene, contact.ship),
+                     io::ship_name(run.scene.scene, contact.other), contact.point_in_world.x,
+                     contact.point_in_world.y, contact.closing_speed);
+}
+
+std::string described(const io::Run& run, const simulation::MooringBreak& broken) {
+  return fmt::format(
+      "{:.6g} s  {} of {} at ({:.3f}, {:.3f}): force {:.4g} N > {:.4g} N, {:.3g} m off its place",
+      broken.time, io::kMooringBreakKind, io::ship_name(run.scene.scene, broken.ship),
+      broken.point_in_world.x, broken.point_in_world.y, broken.force, broken.break_load,
+      length(broken.offset_in_moored_place));
+}
+
+/// A line of text for each event, with its time [s].
+using Lines = std::vector<std::pair<double, std::string>>;
+
+/// In order of time; those of one time as they come in events.ndjson.
+Lines in_order(Lines lines) {
+  std::ranges::stable_sort(lines, {}, &Lines::value_type::first);
+  return lines;
+}
+
+// ---- parts of the JSON
+
+void write_worst(JsonWriter& json, std::string_view key, const analysis::Worst& worst) {
+  json.key(key).open('{').key("largest_m2").value(worst.value);
+  json.key("floe_id").value(id_or_none(worst.floe)).key("wrong").value(worst.wrong).close('}');
+}
+
+void write_shared(JsonWriter& json, std::string_view key, const analysis::SharedIce& shared) {
+  json.key(key);
+  if (shared.first == simulation::kNoFloe) {
+    json.null();
+    return;
+  }
+  json.open('{').key("floe_ids").list(std::array{shared.first, shared.second});
+  json.key("t_s").value(shared.time).key("area_m2").value(shared.area).key("depth_m").value(shared.depth);
+  json.close('}');
+}
+
+void write_invalid(JsonWriter& json, const std::vector<analysis::InvalidFloe>& invalid) {
+  json.key("invalid").open('[');
+  for (const analysis::InvalidFloe& floe : invalid) {
+    json.open('{').key("floe_id").value(floe.floe).key("defect").value(floe.defect);
+    json.key("places_m").value(floe.places_in_body).close('}');
+  }
+  json.close(']');
+}
+
+void write_hulls(JsonWriter& json, const analysis::RunCheck& check,
+                 const std::vector<simulation::ShipSpec>& ships) {
+  const auto write_body = [&](std::string_view key, const simulation::ContactState::Body& body) {
+    json.key(key);
+    if (body.ship >= 0)
+      json.value(ships[static_cast<std::size_t>(body.ship)].name);
+    else
+      json.value(body.floe);
+  };
+  json.key("hull_pairs").value(check.hull_pairs).key("largest_overlap_with_hull");
+  if (check.worst_hull >= 0) {
+    json.open('{').key("ship").value(ships[static_cast<std::size_t>(check.worst_hull)].name);
+    json.key("floe_id").value(check.worst_with_hull.second).key("t_s").value(check.worst_with_hull.time);
+    json.key("area_m2").value(check.worst_with_hull.area).key("depth_m").value(check.worst_with_hull.depth);
+    json.close('}');
+  } else {
+    json.null();
+  }
+  json.key("has_crushed").value(check.has_crushed).key("uncrushed_pairs").value(check.uncrushed_pairs);
+  json.key("uncrushed").open('[');
+  for (const analysis::UncrushedOverlap& pair : check.uncrushed) {
+    json.start_line();
+    json.open('{');
+    write_body("first", pair.first);
+    write_body("second", pair.second);
+    json.key("t_s").value(pair.time).key("place_m").value(pair.place_in_world);
+    json.key("shared_m2").value(pair.shared).key("crushed_m2").value(pair.crushed);
+    json.key("allowed_beyond_m2").value(pair.allowed).close('}');
+  }
+  json.close(']');
+}
+
+}  // namespace
+
+std::string to_text(const ShapeView& view, ShapeFormat format) {
+  if (format == ShapeFormat::kGeojson) return as_geojson(view);
+  if (format == ShapeFormat::kSvg) return as_svg(view);
+  std::string text;
+  io::append_wkt(text, view.polygon);
+  return text + "\n";
+}
+
+std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
+  const io::MotionIndex motions(run);
+  std::vector<FloeRow> rows;
+  for (const io::RunFloe& floe : run.floes) {
+    const simulation::BirthRecord& birth = floe.birth;
+    if (!run.is_alive(birth.floe, time)) continue;
+    const auto polygon = run.shape(birth.floe);
+    FloeRow& row = rows.emplace_back(FloeRow{.birth = birth,
+                                             .ice = ice_of(run.scene.scene, birth.own_ice),
+                                             .perimeter = perimeter(*polygon),
+                                             .vertices = vertex_count(*polygon),
+                                             .holes = polygon->holes.size(),
+                                             .speed = {},
+                                             .validity = validity_of(*polygon)});
+    if (const auto motion = motions.floe_at(birth.floe, time)) row.speed = length(motion->velocity);
+  }
+  return rows;
+}
+
+std::string floe_table(const std::vector<FloeRow>& rows) {
+  std::string text = fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>11} {:>9} {}\n",
+                                 "floe", "parent", "born_s", "area_m2", "perimeter_m", "vertices", "holes",
+                                 "mass_kg", "thickness_m", "m_per_s", "valid");
+  for (const FloeRow& row : rows) {
+    const simulation::BirthRecord& birth = row.birth;
+    text +=
+        fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>11.6g} {:>9} {}\n",
+                    birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
+                    birth.time, birth.area, row.perimeter, row.vertices, row.holes, birth.mass,
+                    row.ice.thickness, row.speed ? fmt::format("{:.5f}", *row.speed) : "-", row.validity);
+  }
+  return text;
+}
+
+std::string lineage_tree(const io::Run& run, FloeId floe) {
+  std::string text;
+  const std::vector<FloeId> ids = run.lineage(floe);
+  for (const FloeId id : ids) {
+    const io::RunFloe& at = *run.floe(id);
+    text += fmt::format("floe {}  {:.6f} m2{}\n", id, at.birth.area,
+                        at.birth.parent == simulation::kNoFloe ? "  as in the scene" : "");
+    if (id == floe) {
+      text += at.death_event ? fmt::format("broke at {:.6g} s\n", at.died) : "lives to the end\n";
+      continue;
+    }
+    if (!at.death_event) continue;
+    const simulation::Event& event = run.events[*at.death_event];
+    text += fmt::format("|  {}\n", described(run, event));
+    for (const FloeId child : event.children) {
+      if (std::ranges::find(ids, child) == ids.end() && run.floe(child))
+        text += fmt::format("|--floe {}  {:.6f} m2\n", child, run.floe(child)->birth.area);
+    }
+  }
+  return text;
+}
+
+std::string size_text(const analysis::SizeDistribution& sizes) {
+  std::string text = fmt::format("{}, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
+                                 counted(sizes.count, "floe"), sizes.area, sizes.time);
+  if (sizes.without_size > 0)
+    text += fmt::format("left out: {} whose recorded area is not a positive number\n",
+                        counted(sizes.without_size, "floe"));
+  if (sizes.count == 0) return text;
+  text += fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", sizes.least, sizes.median,
+                      sizes.largest);
+  text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2",
+                      "area_%", "from_on");
+  for (const analysis::SizeClass& one : sizes.classes)
+    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", one.from, one.below, one.count,
+                        one.area, 100 * one.area / sizes.area, one.from_on);
+  return text;
+}
+
+std::string check_text(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships) {
+  std::string text;
+  const auto add = [&text](const std::string& line) { text += line + "\n"; };
+  const auto from = [](simulation::FloeId floe) {
+    return floe == simulation::kNoFloe ? std::string() : fmt::format(" (floe {})", floe);
+  };
+  add(fmt::format("validity   {}, {} invalid", counted(check.shapes, "shape"), check.invalid.size()));
+  for (const analysis::InvalidFloe& floe : check.invalid) {
+    add(fmt::format("           floe {}: {}{}", floe.floe, floe.defect,
+                    io::places_in_words(floe.places_in_body, 4)));
+  }
+  add(fmt::format("areas      recorded - ring at most {:.2e} m2{}, {} beyond {:g} of the area",
+                  check.recorded_area.value, from(check.recorded_area.floe), check.recorded_area.wrong,
+                  analysis::kAreaTolerance));
+  add(
+      fmt::format("fractures  {}: pieces + submerged + brash - rounding - parent at most {:.2e} m2{}, {} "
+                  "beyond {:g} of it",
+                  check.fractures, check.balance.value, from(check.balance.floe), check.balance.wrong,
+                  analysis::kAreaTolerance));
+  add(check.siblings.area > 0 ? fmt::format("           pieces of one fracture share at most {:.2e} m2 in "
+                                            "their body frame (floes {} and {})",
+                                            check.siblings.area, check.siblings.first, check.siblings.second)
+                              : "           pieces of one fracture share 0 m2 in their body frame, exactly");
+  add(fmt::format(
+      "overlap    {}, {} with boxes that meet, {} not decided; {} more than 1e-6 m2 at some instant",
+      counted(check.instants, "instant"), counted(check.pairs, "pair"), check.undecided,
+      check.overlapping_pairs == 1 ? "1 pair of floes shares"
+                                   : fmt::format("{} pairs of floes share", check.overlapping_pairs)));
+  add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice",
+                  check.most_shared, check.most_shared_time,
+                  check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));
+  const auto add_pair = [&](const char* words, const analysis::SharedIce& pair) {
+    if (pair.first == simulation::kNoFloe) return;
+    add(fmt::format("           {}: floes {} and {} at {:.6g} s, {:.6g} m2, a vertex {:.4g} m deep", words,
+                    pair.first, pair.second, pair.time, pair.area, pair.depth));
+  };
+  add_pair("largest", check.worst);
+  add_pair("deepest", check.deepest);
+  add_hulls_and_crushed(text, check, ships);
+  add("           Overlap is part of the contact model: ice in contact is let in by what it crushes, and "
+      "frames are right to");
+  add("           1 mm and 1e-5 rad. All areas are exact for the rings and poses on record.");
+  add(check.is_sound() ? "sound" : "NOT SOUND");
+  return text;
+}
+
+std::string event_list(const io::Run& run) {
+  Lines lines;
+  const auto add = [&](const auto& events) {
+    for (const auto& event : events) lines.emplace_back(event.time, described(run, event));
+  };
+  for (const simulation::Event& event : run.events) {
+    const std::string of_floe =
+        event.floe == simulation::kNoFloe ? "" : fmt::format("  (floe {})", event.floe);
+    lines.emplace_back(event.time, described(run, event) + of_floe);
+  }
+  add(run.ship_contacts);
+  add(run.mooring_breaks);
+  if (lines.empty()) return "no events\n";
+  std::string text;
+  for (const auto& [time, line] : in_order(std::move(lines))) text += line + "\n";
+  return text;
+}
+
+std::string events_json(const io::Run& run) {
+  const simulation::Scene& scene = run.scene.scene;
+  Lines lines;
+  const auto add = [&](const auto& events, auto append) {
+    for (const auto& event : events) {
+      append(lines.emplace_back(event.time, "").second, event);
+      lines.back().second.pop_back();  // its newline
+    }
+  };
+  add(run.events, [&](std::string& line, const simulation::Event& event) {
+    const io::RunFloe* floe = run.floe(event.floe);
+    io::append_event(line, event, io::ship_name(scene, event.ship),
+                     floe ? floe->birth.parent : simulation::kNoFloe);
+  });
+  add(run.ship_contacts, [&](std::string& line, const simulation::ShipContact& contact) {
+    io::append_ship_contact(line, contact, io::ship_name(scene, contact.ship),
+                            io::ship_name(scene, contact.other));
+  });
+  add(run.mooring_breaks, [&](std::string& line, const simulation::MooringBreak& broken) {
+    io::append_mooring_break(line, broken, io::ship_name(scene, broken.ship));
+  });
+  std::string text;
+  io::JsonWriter json(text);
+  json.open('{').key("events").open('[');
+  for (const auto& [time, line] : in_order(std::move(lines))) {
+    json.start_line();
+    json.json(line);
+  }
+  json.close(']').close('}');
+  return text + "\n";
+}
+
+std::string floes_json(const std::vector<FloeRow>& rows, double time) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{').key("t_s").value(time).key("floes").open('[');
+  for (const FloeRow& row : rows) {
+    json.start_line();
+    json.open('{').key("floe_id").value(row.birth.floe).key("parent_id").value(id_or_none(row.birth.parent));
+    json.key("born_s").value(row.birth.time).key("area_m2").value(row.birth.area);
+    json.key("perimeter_m").value(row.perimeter).key("vertices").value(row.vertices);
+    json.key("holes").value(row.holes).key("mass_kg").value(row.birth.mass);
+    io::append_ice(json, row.ice);
+    json.key("speed_m_per_s").value(row.speed).key("valid").value(row.validity).close('}');
+  }
+  json.close(']').close('}');
+  return text + "\n";
+}
+
+std::string size_json(const analysis::SizeDistribution& sizes) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{').key("t_s").value(sizes.time).key("floes").value(sizes.count);
+  json.key("left_out").value(sizes.without_size);
+  json.key("area_m2").value(sizes.area).key("least_m").value(sizes.least).key("median_m").value(sizes.median);
+  json.key("largest_m").value(sizes.largest).key("classes").open('[');
+  for (const analysis::SizeClass& one : sizes.classes) {
+    json.start_line();
+    json.open('{').key("from_m").value(one.from).key("below_m").value(one.below);
+    json.key("floes").value(one.count).key("area_m2").value(one.area);
+    json.key("from_on").value(one.from_on).close('}');
+  }
+  json.close(']').close('}');
+  return text + "\n";
+}
+
+std::string lineage_json(const io::Run& run, simulation::FloeId floe) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{').key("floe_id").value(floe).key("lineage").open('[');
+  for (const simulation::FloeId id : run.lineage(floe)) {
+    const io::RunFloe& at = *run.floe(id);
+    json.start_line();
+    json.open('{').key("floe_id").value(id).key("born_s").value(at.birth.time);
+    json.key("area_m2").value(at.birth.area).key("broken_by");
+    if (at.death_event) {
+      const simulation::Event& event = run.events[*at.death_event];
+      std::string line;
+      io::append_event(line, event, io::ship_name(run.scene.scene, event.ship), at.birth.parent);
+      line.pop_back();  // its newline
+      json.json(line);
+    } else {
+      json.null();
+    }
+    json.close('}');
+  }
+  json.close(']').close('}');
+  return text + "\n";
+}
+
+std::string check_json(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships) {
+  std::string text;
+  JsonWriter json(text, JsonWriter::Layout::kIndented);
+  json.open('{').key("is_sound").value(check.is_sound()).key("shapes").value(check.shapes);
+  write_invalid(json, check.invalid);
+  write_worst(json, "recorded_area", check.recorded_area);
+  json.key("fractures").value(check.fractures);
+  write_worst(json, "balance", check.balance);
+  json.key("overlapping_siblings").value(check.overlapping_siblings);
+  json.key("most_shared_by_siblings_m2").value(check.siblings.area);
+  json.key("moments").value(check.instants).key("pairs").value(check.pairs);
+  json.key("undecided").value(check.undecided).key("overlapping_pairs").value(check.overlapping_pairs);
+  json.key("most_shared_m2").value(check.most_shared).key("most_shared_s").value(check.most_shared_time);
+  json.key("ice_then_m2").value(check.ice_then);
+  write_shared(json, "largest_overlap", check.worst);
+  write_shared(json, "deepest_overlap", check.deepest);
+  write_hulls(json, check, ships);
+  json.close('}');
+  return text + "\n";
+}
+
+}  // namespace polynya::app

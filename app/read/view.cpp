@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/command_line/files.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/text/output_file.hpp"
+#include "views/player/player_page.hpp"
+
+namespace polynya::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kExamples =
+    "Examples:\n"
+    "  polynya view runs/sawamura2017-fig4b                    runs/sawamura2017-fig4b/view.html\n"
+    "  polynya view runs/sawamura2017-fig4b --out voyage.html\n"
+    "  polynya view runs/long --every 5 --from 100 --until 400\n"
+    "  polynya view runs/wide --area 0,-200,900,200            only floes that come within 900 x 400 m\n"
+    "  polynya view runs/6a runs/6b --out both.html            side by side, with one clock\n"
+    "\n"
+    "Exit codes: 0 done, 2 usage (also: larger than --limit), 5 input/output.\n";
+
+struct Options {
+  std::vector<std::string> runs;    ///< one, or two side by side
+  std::vector<std::string> labels;  ///< of two; chosen if empty
+  std::string out;                  ///< empty: view.html in the run folder
+  views::PlayerSelection part;
+  std::vector<double> area;     ///< x0, y0, x1, y1 [m]; of `part` once it is checked
+  double most_megabytes = 100;  ///< a larger page is refused [10⁶ bytes]
+};
+
+/// A run as it is read, with what the page holds of it.
+struct ViewedRun {
+  io::Run run;
+  views::PlayerData data;
+};
+
+/// The error has its exit code.
+tl::expected<ViewedRun, int> read_viewed(const std::string& folder, const views::PlayerSelection& part) {
+  auto run = io::read_run(folder);
+  if (!run) return tl::unexpected(fail(kInputOutput, run.error()));
+  views::PlayerData data = views::player_data(*run, part);
+  if (data.frames == 0 && !run->frames.empty())
+    return tl::unexpected(
+        fail(kUsage, fmt::format("no frame of {} is in that part; they go from {:g} to {:g} s", folder,
+                                 run->start_time(), run->end_time())));
+  if (data.floes == 0 && !run->floes.empty())
+    return tl::unexpected(fail(kUsage, fmt::format("no floe of {} comes within --area", folder)));
+  return ViewedRun{std::move(*run), std::move(data)};
+}
+
+/// What two runs are called: as their scenes, their folders, or their whole paths; the first of these that
+/// differ.
+std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const Options& options) {
+  if (!options.labels.empty()) return {options.labels[0], options.labels[1]};
+  const auto both = [&](auto name) { return std::array<std::string, 2>{name(0), name(1)}; };
+  auto scenes = both([&](std::size_t k) { return viewed[k].run.scene.scene.name; });
+  if (scenes[0] != scenes[1]) return scenes;
+  const auto folders = both([&](std::size_t k) {
+    const fs::path path = fs::path(options.runs[k]).lexically_normal();
+    return (path.has_filename() ? path.filename() : path.parent_path().filename()).string();
+  });
+  return folders[0] != folders[1] ? folders : both([&](std::size_t k) { return options.runs[k]; });
+}
+
+std::string page_of(const std::vector<ViewedRun>& viewed, const Options& options) {
+  if (viewed.size() == 1) return player_page(viewed[0].run, viewed[0].data);
+  const auto labels = labels_of(viewed, options);
+  return views::pair_page({{{viewed[0].data, labels[0]}, {viewed[1].data, labels[1]}}});
+}
+
+/// Makes a page too large smaller by one option alone: each advice is tried before it is given.
+class Advice {
+ public:
+  Advice(const std::vector<ViewedRun>& viewed, const Options& options, double megabytes)
+      : viewed_(viewed), options_(options), megabytes_(megabytes) {}
+
+  std::string text() const {
+    std::size_t floes = 0, frames = 0, floe_bytes = 0, frame_bytes = 0;
+    for (const auto& [run, data] : viewed_) {
+      floes += data.floes, frames += data.frames;
+      floe_bytes += data.floe_bytes, frame_bytes += data.frame_bytes;
+    }
+    std::vector<std::string> ways;
+    for (const auto& way : {area(), until(), every()})
+      if (way) ways.push_back(*way);
+    ways.push_back(fmt::format("--limit {:.0f}", std::ceil(megabytes_)));
+    return fmt::format(
+        "the page would have {:.0f} MB, the limit is {:g}: {:.3g} MB of it are the shapes of {}, {:.3g} MB "
+        "where they are "
+        "in {}; what is small enough: {}",
+        megabytes_, options_.most_megabytes, in_page(floe_bytes), counted(floes, "floe"),
+        in_page(frame_bytes), counted(frames, "frame"), fmt::join(ways, ", or "));
+  }
+
+ private:
+  static double in_page(std::size_t bytes) { return static_cast<double>(bytes) * 4 / 3 / 1e6; }  ///< base64
+
+  bool fits(const views::PlayerSelection& part) const {
+    std::vector<ViewedRun> smaller;
+    double bytes = 0;
+    for (const auto& [run, data] : viewed_) {
+      const views::PlayerData held = views::player_data(run, part);
+      if (held.frames == 0 || held.floes == 0) return false;
+      bytes += static_cast<double>(held.columns.bytes().size()) * 4 / 3 +
+               1.1 * static_cast<double>(held.info.size());
+    }
+    return bytes + kPageBytes < 1e6 * options_.most_megabytes;
+  }
+
+  /// Fewer frames.
+  std::optional<std::string> every() const {
+    auto part = options_.part;
+    const auto frames = static_cast<int>(viewed_[0].data.frames) * part.frames.every;
+    for (part.frames.every *= 2; part.frames.every < frames; part.frames.every *= 2)
+      if (fits(part)) return fmt::format("--every {}", part.frames.every);
+    return {};
+  }
+
+  /// A part of the time, from where the page begins.
+  std::optional<std::string> until() const {
+    auto part = options_.part;
+    const double start = viewed_[0].data.start, span = viewed_[0].data.end - start;
+    for (const double share : {0.75, 0.5, 0.25, 0.1, 0.05}) {
+      part.frames.until = std::floor(start + share * span);
+      if (part.frames.until > start && fits(part)) return fmt::format("--until {:.0f}", part.frames.until);
+    }
+    return {};
+  }
+
+  /// The part of the world around the first ship's way, as wide as fits.
+  std::optional<std::string> area() const {
+    const io::Run& run = viewed_[0].run;
+    auto part = options_.part;
+    const auto frames = thinned_frames(run, part.frames);
+    if (part.area || frames.empty() || frames[0].ships.empty()) return {};
+    geometry::Box way = geometry::box_around(frames[0].ships[0].position, frames[0].ships[0].position);
+    for (const io::Frame& frame : frames) extend(way, frame.ships[0].position);
+    std::vector<double> distances = views::family_distances(run, way, frames);
+    std::ranges::sort(distances);
+    for (double share = options_.most_megabytes / megabytes_; share > 0.01; share *= 0.7) {
+      const auto held = static_cast<std::size_t>(share * static_cast<double>(distances.size() - 1));
+      const geometry::Box box = geometry::grown(way, distances[held]);
+      part.area = {{std::ceil(box.low.x), std::ceil(box.low.y)},
+                   {std::floor(box.high.x), std::floor(box.high.y)}};
+      const auto& [low, high] = *part.area;
+      if (low.x < high.x && low.y < high.y && fits(part))
+        return fmt::format("--area {:.0f},{:.0f},{:.0f},{:.0f}", low.x, low.y, high.x, high.y);
+    }
+    return {};
+  }
+
+  static constexpr double kPageBytes = 4e5;  ///< of the page itself, at most
+  const std::vector<ViewedRun>& viewed_;
+  const Options& options_;
+  double megabytes_;
+};
+
+/// What is wrong with the options; empty where nothing is.
+std::string problem_of(const Options& options) {
+  if (options.runs.size() == 2 && options.out.empty())
+    return "two runs: --out FILE has to state where their page goes";
+  if (!options.labels.empty() && (options.runs.size() != 2 || options.labels.size() != 2))
+    return fmt::format("--label: {} for {}; two names for two runs", counted(options.labels.size(), "name"),
+                       counted(options.runs.size(), "run"));
+  if (const auto& a = options.area; !a.empty() && (a[0] >= a[2] || a[1] >= a[3]))
+    return "--area: X0,Y0,X1,Y1, X0 below X1 and Y0 below Y1";
+  return "";
+}
+
+/// "276 frames, 491 floes, 356 events", of several runs one after the other.
+std::string contents(const std::vector<ViewedRun>& viewed) {
+  std::vector<std::string> all;
+  all.reserve(viewed.size());
+  for (const ViewedRun& one : viewed)
+    all.push_back(fmt::format("{}, {}, {}", counted(one.data.frames, "frame"),
+                              counted(one.data.floes, "floe"), counted(one.run.events.size(), "event")));
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+int write_view(Options options) {
+  if (const std::string problem = problem_of(options); !problem.empty()) return fail(kUsage, problem);
+  if (const auto& a = options.area; !a.empty()) options.part.area = {{a[0], a[1]}, {a[2], a[3]}};
+  std::vector<ViewedRun> viewed;
+  for (const std::string& folder : options.runs) {
+    auto one = read_viewed(folder, options.part);
+    if (!one) return one.error();
+    viewed.push_back(std::move(*one));
+  }
+  const std::string held = contents(viewed);
+  const std::string page = page_of(viewed, options);
+  const double megabytes = static_cast<double>(page.size()) / 1e6;
+  if (megabytes > options.most_megabytes) return fail(kUsage, Advice(viewed, options, megabytes).text());
+  const fs::path in_run = fs::path(options.runs[0]) / io::run_file::kView;
+  const auto written =
+      options.out.empty() ? io::write_whole_file(in_run, page) : write_output(options.out, page);
+  if (!written) return fail(kInputOutput, written.error());
+  const bool is_on_stdout = !options.out.empty() && is_stdout(options.out);
+  (is_on_stdout ? write_err : write_out)(fmt::format("{}  {:.1f} MB, {}; open it in a browser\n",
+                                                     options.out.empty() ? in_run.string() : options.out,
+                                                     megabytes, held));
+  return kDone;
+}
+
+}  // namespace
+
+Command add_view(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "view", "Write a page that plays a run, or two side by side, in any browser, offline", kExamples);
+  auto options = std::make_shared<Options>();
+  command.option("run", options->runs, "RUN", "The run folder; two are shown side by side, with one clock")
+      .required()
+      .takes(1, 2);
+  command.option("--out", options->out, "FILE", "The page; view.html in the run folder if not given");
+  command.option("--label", options->labels, "NAME,NAME", "Names of two runs").separated_by(',');
+  command.option("--every", options->part.frames.every, "N", "Only each N-th frame, and the last",
+                 whole(1, 1000000));
+  command.option("--from", options->part.frames.from, "S", "Only from that time on [s]", finite());
+  command.option("--until", options->part.frames.until, "S", "Only up to that time [s]", finite());
+  command
+      .option(
+          "--area", options->area, "X0,Y0,X1,Y1",
+          "Only floes that come within that part of the world [m], and what broke from the same floes of the "
+          "scene",
+          finite())
+      .separated_by(',')
+      .takes(4);
+  command.option("--limit", options->most_megabytes, "MB", "The largest page to write [MB]; 100 if not given",
+                 between(0.001, 2000));
+  return {command, [options] { return write_view(*options); }};
+}
+
+}  // namespace polynya::app

@@ -1,0 +1,453 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "app/command_line/commands.hpp"
+#include "app/command_line/console.hpp"
+#include "app/run/load_scene.hpp"
+#include "app/run/memory.hpp"
+#include "io/run/active_run.hpp"
+#include "io/run/failure_dump.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/run/run_loop.hpp"
+#include "io/run/run_reader.hpp"
+#include "io/run/run_writer.hpp"
+#include "io/run/shown_loads.hpp"
+#include "io/run/summary.hpp"
+#include "simulation/simulation.hpp"
+#include "views/map/final_map.hpp"
+
+namespace polynya::app {
+namespace {
+
+namespace fs = std::filesystem;
+using io::RunEnd;
+using simulation::Simulation;
+
+// ---- the result
+
+/// "-1.89 MN"
+std::string with_unit(double newtons) {
+  const double size = std::abs(newtons);
+  return size >= 1e6   ? fmt::format("{:.4g} MN", newtons / 1e6)
+         : size >= 1e3 ? fmt::format("{:.4g} kN", newtons / 1e3)
+                       : fmt::format("{:.4g} N", newtons);
+}
+
+std::string with_time(const io::Peak& peak) {
+  if (peak.value == 0) return "0 N";
+  return fmt::format("{} at {:.6g} s", with_unit(peak.value), peak.time);
+}
+
+/// The largest loads on each ship and structure, the true force first (io/run/shown_loads.hpp).
+std::string force_lines(const io::RunSummary& summary, const simulation::Scene& scene) {
+  std::string text;
+  const std::vector<io::ShownLoad> loads = io::shown_loads(scene);
+  const std::vector<const io::ForceColumn*> columns = io::peak_columns(scene);
+  for (const io::ShipPeaks& peaks : summary.peaks) {
+    const auto peak_of = [&](const io::ForceColumn& column) -> const io::Peak& {
+      return peaks.of_column.at(
+          static_cast<std::size_t>(std::ranges::find(columns, &column) - columns.begin()));
+    };
+    bool is_free = true;
+    for (const io::ShownLoad& load : loads) {
+      const io::Peak& surge = peak_of(*load.columns[0]);
+      const io::Peak& sway = peak_of(*load.columns[1]);
+      if (surge.value == 0 && sway.value == 0) continue;
+      is_free = false;
+      text += fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n",
+                          load.is_by_ice ? "ice force" : "ship force", peaks.ship, with_time(surge),
+                          with_time(sway), load.measure);
+    }
+    if (is_free) text += fmt::format("ice force   {}: none\n", peaks.ship);
+  }
+  return text;
+}
+
+void print_under_hull(const simulation::Counts& counts, const simulation::AreaLedger& ledger) {
+  if (counts.went_under == 0) return;
+  print_out("under hull  {} went under, {} of them tilted floes; {} came up, {} stayed under the ice\n",
+            counted(counts.went_under, "piece"), counts.tilted_under, counts.came_up, counts.stayed_under);
+  print_out("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n",
+            ledger.under_hull_area, ledger.under_ice_area);
+}
+
+void print_result(const io::RunSummary& summary, const simulation::Scene& scene, const fs::path& folder,
+                  const std::string& picture) {
+  const auto& counts = summary.counts;
+  const auto& ledger = summary.ledger;
+  print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time\n", summary.sim_time, summary.wall_time,
+            summary.real_time_factor());
+  print_out("fractures   {} broken by bending, {}, {}\n", counted(counts.bends, "cusp"),
+            counted(counts.splits, "split"), counted(counts.rejected_cuts, "rejected cut"));
+  if (counts.ground > 0)
+    print_out("ground      {} that no contact could part, to brash\n", counted(counts.ground, "overlap"));
+  print_under_hull(counts, ledger);
+  print_out("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
+  const double submerged = ledger.submerged_area + ledger.under_hull_area + ledger.under_ice_area;
+  print_out(
+      "ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding "
+      "{:.1e} m2)\n",
+      ledger.initial_ice_area, ledger.floe_area, submerged, ledger.brash_area, ledger.imbalance,
+      ledger.rounding_defect);
+  const auto& masses = summary.masses;
+  print_out("            {:.6g} t = {:.6g} floes + {:.6g} submerged + {:.6g} brash (imbalance {:.1e} t)\n",
+            1e-3 * masses.initial_ice_mass, 1e-3 * masses.floe_mass,
+            1e-3 * (masses.submerged_mass + masses.under_hull_mass + masses.under_ice_mass),
+            1e-3 * masses.brash_mass, 1e-3 * masses.imbalance);
+  const simulation::EnergyFlows& energy = summary.audit.sums.energy;
+  const simulation::BoundaryFlows& boundaries = summary.audit.sums.boundaries;
+  print_out(
+      "energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
+      "motion (imbalance {:.1e} of it)\n",
+      (energy.thrust + energy.current + boundaries.wind + boundaries.walls +
+       summary.audit.sums.initial_energy) /
+          1e3,
+      energy.drag / 1e3, energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
+      summary.audit.kinetic_energy / 1e3,
+      summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
+  print_out("{}", force_lines(summary, scene));
+  print_out("run folder  {}\n", folder.string());
+  if (!picture.empty()) print_out("picture     {}\n", (folder / picture).string());
+}
+
+// ---- driving a run
+
+/// How a run is driven, whether it starts or is resumed.
+struct DriverOptions {
+  io::RunControl control;
+  ProgressKind progress = ProgressKind::kAuto;
+  bool no_map = false;  ///< leave out the picture of the end
+};
+
+/// Draws the map of the last frame into the run's folder; the picture's name. None, and a note, where the
+/// folder is too large to be read back.
+io::Result<std::string> draw_map(const fs::path& folder) {
+  const auto run = io::read_run(folder);
+  if (run) return views::draw_final_map(*run);
+  print_err("note: no map is drawn: {}\n", run.error());
+  return "";
+}
+
+std::optional<std::string> reason_to_stop() {
+  const int signal = stop_signal();
+  if (signal == 0) return {};
+  return signal == 2 ? "SIGINT" : signal == 15 ? "SIGTERM" : fmt::format("signal {}", signal);
+}
+
+/// What stopped the run, and how to continue it.
+void report_stop(const io::ActiveRun& run, const io::RunResult& result) {
+  const std::string folder = run.writer.folder().string();
+  print_err("polynya: stopped at {:.6g} s: {}\n", result.summary.sim_time, result.reason);
+  if (run.writer.is_displaced())
+    print_err(
+        "polynya: the run is lost unless its folder is elsewhere now, with all its files; resume it there\n");
+  else if (result.end == RunEnd::kNumericalFailure)
+    print_err("polynya: {} holds the run up to there\n", folder);
+  else if (result.end == RunEnd::kFolderFailure)
+    print_err("polynya: once that is fixed, continue with: polynya resume {}\n", folder);
+  else
+    print_err("polynya: continue with: polynya resume {}\n", folder);
+}
+
+void report_dump(const std::string& folder, const io::Result<>& dump) {
+  if (dump)
+    print_err(
+        "polynya: the state before the step that failed is in failure.bin: polynya resume {} "
+        "--from-failure\n",
+        folder);
+  else
+    print_err("polynya: the failure could not be dumped: {}\n", dump.error());
+}
+
+ExitCode exit_code_of(RunEnd end) {
+  switch (end) {
+    case RunEnd::kFinished:
+      return kDone;
+    case RunEnd::kStopped:
+      return kStopped;
+    case RunEnd::kNumericalFailure:
+      return kNumericalFailure;
+    case RunEnd::kFolderFailure:
+      return kInputOutput;
+  }
+  return kDone;
+}
+
+ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
+  { const simulation::Simulation freed = std::move(run.simulation); }  // makes room for the map
+  const fs::path& folder = run.writer.folder();
+  const io::Result<std::string> picture =
+      no_map || result.end == RunEnd::kFolderFailure ? "" : draw_map(folder);
+  if (!picture) {
+    result.end = RunEnd::kFolderFailure;
+    result.reason = picture.error();
+  }
+  if (result.end != RunEnd::kFinished) report_stop(run, result);
+  if (result.dump) report_dump(folder.string(), *result.dump);
+  for (const std::string& warning : result.summary.warnings) print_err("note: {}\n", warning);
+  if (result.end != RunEnd::kFolderFailure) print_result(result.summary, run.scene.scene, folder, *picture);
+  return exit_code_of(result.end);
+}
+
+void add_run_options(CommandLine& command, DriverOptions& options) {
+  io::RunControl& control = options.control;
+  command.option("--threads", control.threads, "N", "Threads to step on; results do not depend on it",
+                 whole(1, 1024));
+  command.option("--checkpoint-every", control.checkpoint_every, "S",
+                 "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
+  command.option("--checkpoint-every-wall", control.checkpoint_every_wall, "S",
+                 "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]",
+                 between(0, 1e7));
+  command.flag("--check", control.check,
+               "Recompute every cross-index and sum after every step; stop if one differs");
+  command.flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
+  command.flag("--final-geojson", control.final_geojson,
+               fmt::format("Write final.geojson also of more than {} floes", io::kMostFloesInFinal));
+  add_progress(command, options.progress);
+}
+
+ProgressReport progress_of(const io::RunStatus& at, double until, double wall_time) {
+  const double sim_time = at.time, wall = std::max(wall_time, 1e-9);
+  const double rate = sim_time / wall;
+  const double part = until > 0 ? sim_time / until : 1;
+  const double left = rate > 0 ? std::max(0.0, until - sim_time) / rate : 0;
+  return {
+      part,
+      fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {}", 100 * part, sim_time, until,
+                  rate, clock_time(left), counted(at.fractures, "fracture")),
+      fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {}", 100 * part,
+                  sim_time, until, rate, clock_time(left), counted(at.fractures, "fracture")),
+      fmt::format(
+          R"({{"sim_time_s":{:.6g},"until_s":{:.6g},"wall_time_s":{:.3f},"real_time_factor":{:.4g},"time_left_s":{:.1f},"fractures":{}}})",
+          sim_time, until, wall, rate, left, at.fractures)};
+}
+
+/// Takes a run to its end, or to what stops it (io/run/run_loop.hpp), and prints the result.
+ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
+  ProgressOutput output(options.progress);
+  const double until = run.scene.scene.time.until;
+  io::RunControl control = options.control;
+  control.progress = [&](const io::RunStatus& at) {
+    if (output.is_due()) output.show(progress_of(at, until, output.wall_time()));
+  };
+  control.stop = reason_to_stop;
+  const io::RunResult result = run_to_end(run, control);
+  const io::RunStatus at{result.summary.sim_time, io::fractures_of(result.summary.counts)};
+  output.finish(progress_of(at, until, output.wall_time()));
+  return report(run, result, options.no_map);
+}
+
+/// Does what makes or continues the run of a folder; where memory runs out, it reports that and what to do:
+/// it is as if the run had been killed.
+template <class Work>
+int within_memory(const fs::path& folder, Work make_or_continue) {
+  try {
+    return make_or_continue();
+  } catch (const std::bad_alloc&) {
+    print_err("polynya: {}\n", out_of_memory());
+    print_err("polynya: {} is that of a run that was killed; {}\n", folder.string(), kToNeedLessMemory);
+    print_err("polynya: with more memory, continue from its newest checkpoint with: polynya resume {}\n",
+              folder.string());
+    return kOutOfMemory;
+  }
+}
+
+// ---- polynya run
+
+struct RunOptions {
+  std::string scene;
+  std::string out;              ///< empty: runs/<scene name>
+  std::optional<double> until;  ///< [s]
+  std::optional<std::uint64_t> seed;
+  std::vector<io::Assignment> set;
+  bool overwrite = false;
+  DriverOptions driver;
+};
+
+/// A run before its first step. Whether it fits into memory is checked before anything is written.
+struct Start {
+  std::unique_ptr<io::LoadedScene> scene;
+  std::unique_ptr<simulation::Simulation> simulation;
+};
+
+tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
+  try {
+    auto loaded =
+        load_scene(options.scene, {.until = options.until, .seed = options.seed, .assignments = options.set},
+                   ProblemFormat::kText, options.driver.progress);
+    if (!loaded) return tl::unexpected(loaded.error());
+    print_hints(*loaded);
+    print_fields(*loaded);
+    if (!may_fit(loaded->scene, options.scene, memory_available())) return tl::unexpected(kOutOfMemory);
+    print_folder_size(loaded->scene, options.driver.control.final_geojson);
+    Start start;
+    start.simulation = std::make_unique<simulation::Simulation>(loaded->scene);
+    start.scene = std::make_unique<io::LoadedScene>(std::move(*loaded));
+    return start;
+  } catch (const std::bad_alloc&) {
+    return tl::unexpected(fail(kOutOfMemory, fmt::format("{}: {}; nothing was written; {}", options.scene,
+                                                         out_of_memory(), kToNeedLessMemory)));
+  }
+}
+
+int run(const RunOptions& options) {
+  const auto start = start_of(options);
+  if (!start) return start.error();
+  const fs::path folder =
+      options.out.empty() ? fs::path("runs") / start->scene->scene.name : fs::path(options.out);
+  watch_signals();
+  return within_memory(folder, [&]() -> int {
+    auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
+    if (!writer) return fail(kInputOutput, writer.error());
+    return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
+  });
+}
+
+// ---- polynya resume
+
+struct ResumeOptions {
+  std::string folder;
+  std::string checkpoint;     ///< empty: the newest
+  bool from_failure = false;  ///< only repeats the step that a failure was dumped for
+  DriverOptions driver;
+};
+
+/// Names the checkpoints that are left, where one was refused.
+void offer_others(const fs::path& folder, const fs::path& refused) {
+  for (const fs::path& other : io::checkpoints_in(folder)) {
+    if (other.filename() == refused.filename()) continue;
+    print_err("polynya: there is another: polynya resume {} --checkpoint {}\n", folder.string(),
+              other.string());
+  }
+  print_err("polynya: or from the start: polynya run {} --out {} --overwrite\n",
+            (folder / io::run_file::kScene).string(), folder.string());
+}
+
+/// The one step after a dump, and whether it fails as it did.
+int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
+  const fs::path path = folder / io::run_file::kFailure;
+  const auto dump = io::read_checkpoint_file(path, scene.hash);
+  if (!dump) return fail(kInputOutput, dump.error());
+  auto simulation = io::simulation_at(scene, *dump);
+  if (!simulation) return fail(kInputOutput, fmt::format("{}: {}", path.string(), simulation.error()));
+  print_out("state       step {}, t = {:.9g} s, hash {:016x}\n", simulation->steps(), simulation->time(),
+            simulation->state_hash());
+  print_out("then        {}\n", dump->failure);
+  simulation->step();
+  const std::string now = io::failure_after_step(*simulation).value_or("nothing went wrong");
+  print_out("now         {}\n", now);
+  print_out("{}\n", now == dump->failure ? "reproduced" : "not reproduced");
+  return now == dump->failure ? kNumericalFailure : kDone;
+}
+
+/// Why there is nothing in a folder to resume.
+std::string no_run_in(const fs::path& folder) {
+  const std::string name = folder.string();
+  if (io::is_marked_run_folder(folder))
+    return fmt::format(
+        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again: polynya "
+        "run "
+        "SCENE --out {0} --overwrite",
+        name, io::run_file::kScene);
+  return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
+}
+
+/// A kill between the end of a run and the end of the command leaves checkpoints, or a part of the pictures.
+int report_finished(const fs::path& folder, bool no_map) {
+  print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
+  const bool is_drawn =
+      fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
+  if (is_drawn && io::checkpoints_in(folder).empty()) return kDone;
+  const auto lock = io::RunLock::take(folder);
+  if (!lock) return kDone;                            // another polynya holds it and does what is left
+  static_cast<void>(io::remove_checkpoints(folder));  // a later command tries again
+  if (is_drawn || no_map) return kDone;
+  const auto map = draw_map(folder);
+  return map ? kDone : fail(kInputOutput, map.error());
+}
+
+int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const ResumeOptions& options) {
+  const fs::path folder = lock.folder();
+  const std::vector<fs::path> checkpoints = io::checkpoints_in(folder);
+  if (checkpoints.empty() && options.checkpoint.empty()) {
+    print_err("polynya: {}: no checkpoint was written yet; from the start\n", folder.string());
+    auto writer = io::RunWriter::begin(std::move(lock), scene);
+    if (!writer) return fail(kInputOutput, writer.error());
+    return drive_run({scene, Simulation(scene.scene), std::move(*writer)}, options.driver);
+  }
+  const fs::path chosen = options.checkpoint.empty() ? checkpoints.front() : fs::path(options.checkpoint);
+  auto run = io::resume_run(std::move(lock), scene, chosen);
+  if (!run) {
+    fail(kInputOutput, run.error());
+    offer_others(folder, chosen);
+    return kInputOutput;
+  }
+  print_err("polynya: from {} at {:.6g} s\n", chosen.filename().string(), run->simulation.time());
+  return drive_run(std::move(*run), options.driver);
+}
+
+int resume(const ResumeOptions& options) {
+  const fs::path folder = options.folder;
+  const fs::path scene_file = folder / io::run_file::kScene;
+  if (!fs::is_regular_file(scene_file)) return fail(kInputOutput, no_run_in(folder));
+  if (options.from_failure) {
+    const auto scene = load_scene(scene_file.string());
+    return scene ? repeat_failure(*scene, folder) : scene.error();
+  }
+  if (io::is_finished_run(folder)) return report_finished(folder, options.driver.no_map);
+  auto lock = io::RunLock::take(folder);
+  if (!lock) return fail(kInputOutput, lock.error());
+  if (io::is_finished_run(folder))
+    return report_finished(folder, options.driver.no_map);  // by another polynya meanwhile
+  watch_signals();
+  const auto scene = load_scene(scene_file.string(), {}, ProblemFormat::kText, options.driver.progress);
+  if (!scene) return scene.error();
+  return within_memory(folder, [&] { return resume_from_checkpoint(*scene, std::move(*lock), options); });
+}
+
+}  // namespace
+
+Command add_run(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "run", "Run a scene and write its run folder",
+      "Examples:\n"
+      "  polynya run scenes/sawamura2017-fig4b.json\n"
+      "  polynya run scenes/level-plate.json --until 60 --out /tmp/plate --overwrite\n"
+      "  polynya run scenes/level-plate.json --set ice.thickness_m=0.7 --set ships[0].position_m[1]=5\n");
+  auto options = std::make_shared<RunOptions>();
+  add_scene(command, options->scene);
+  command.option("--out", options->out, "DIR", "The run folder; runs/<scene name> if not given");
+  command.option("--until", options->until, "S", "Simulated time to run to, instead of the scene's [s]",
+                 between(1e-9, 1e7));
+  command.option("--seed", options->seed, "N", "Seed instead of the scene's", whole(0, 9007199254740991));
+  add_set(command, options->set);
+  add_run_options(command, options->driver);
+  command.flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
+  return {command, [options] { return run(*options); }};
+}
+
+Command add_resume(CommandLine& app) {
+  CommandLine command = app.add_command(
+      "resume", "Resume a run that was stopped, killed or ran out of disk",
+      "Examples:\n"
+      "  polynya resume runs/level-plate\n"
+      "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
+      "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
+  auto options = std::make_shared<ResumeOptions>();
+  command.option("folder", options->folder, "RUN", "The run folder").required();
+  auto checkpoint =
+      command.option("--checkpoint", options->checkpoint, "FILE", "This one, instead of the newest");
+  command
+      .flag("--from-failure", options->from_failure,
+            "Repeat the step for which failure.bin was dumped; nothing is written")
+      .excludes(checkpoint);
+  add_run_options(command, options->driver);
+  return {command, [options] { return resume(*options); }};
+}
+
+}  // namespace polynya::app
