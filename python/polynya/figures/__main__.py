@@ -1,6 +1,7 @@
 """`polynya figures` (polynya.command starts it)."""
 import os
 import sys
+import time
 
 from ..command import fail, run
 
@@ -45,8 +46,12 @@ def pages(options, runs):
         "sizes": (lambda: sizes.draw(runs, page), "no floe floats then"),
         "energy": (lambda: energy.draw(runs, page), "there is no energy in summary.json"),
     }
-    for name in options.only:
+    start = time.monotonic()
+    for number, name in enumerate(options.only, 1):
         draw, why = drawn[name]
+        # On a terminal at once, since one figure of a large run takes long; elsewhere only where it does.
+        if sys.stderr.isatty() or time.monotonic() - start > 2:
+            print(f"drawing figure {number} of {len(options.only)}: {name}", file=sys.stderr, flush=True)
         yield name, draw(), why
 
 

@@ -85,8 +85,10 @@ class Progress:
         self._shown = now
         left = (now - self._start) / done * (count - done)
         words = f"picture {done} of {count}, {left:.0f} s left"
-        print(f"\r{words:<48}" + ("\n" if is_last else "") if sys.stderr.isatty() else words, end="" if sys.stderr.isatty() else "\n",
-              file=sys.stderr, flush=True)
+        if sys.stderr.isatty():
+            print(f"\r{words:<48}", end="\n" if is_last else "", file=sys.stderr, flush=True)
+        else:
+            print(words, file=sys.stderr, flush=True)
 
 
 def make(options):
