@@ -49,8 +49,8 @@ def pages(options, runs):
     start = time.monotonic()
     for number, name in enumerate(options.only, 1):
         draw, why = drawn[name]
-        # On a terminal at once, since one figure of a large run takes long; elsewhere only where it does.
-        if sys.stderr.isatty() or time.monotonic() - start > 2:
+        # On a terminal at once, since one figure of a large run takes long; else after ten seconds, as other commands.
+        if sys.stderr.isatty() or time.monotonic() - start > 10:
             print(f"drawing figure {number} of {len(options.only)}: {name}", file=sys.stderr, flush=True)
         yield name, draw(), why
 
