@@ -29,6 +29,16 @@ struct Candidate {
   double share() const { return criteria.opening_force / criteria.opening_capacity; }
 };
 
+/// The opening of a crack, and F_max by the length and width measured so far.
+void enter_opening(const fracture::Opening& opening, const fracture::Ice& ice,
+                   fracture::FailureCriteria& criteria) {
+  criteria.flank_forces[0] = opening.left;
+  criteria.flank_forces[1] = opening.right;
+  criteria.opening_force = opening.force();
+  criteria.opening_capacity =
+      fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+}
+
 /// The crack from a mouth along a direction, where it can run: it does not pare, and it is no less than a
 /// share of its way to F_max.
 std::optional<Candidate> candidate_of(const Setup& setup, const Population& population, BodyIndex floe,
@@ -46,11 +56,7 @@ std::optional<Candidate> candidate_of(const Setup& setup, const Population& popu
       crack_through(bodies, floe, mouth.point, direction, geometry::CrackReach::kFirstEdge);
   if (candidate.path_in_body.length_in_ice <= 0) return std::nullopt;
   measure_crack(bodies, floe, candidate.path_in_body, criteria);
-  criteria.flank_forces[0] = opening.left;
-  criteria.flank_forces[1] = opening.right;
-  criteria.opening_force = opening.force();
-  criteria.opening_capacity =
-      fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+  enter_opening(opening, ice, criteria);
   criteria.fracture_toughness = ice.fracture_toughness;
   if (!(candidate.share() >= least_share)) return std::nullopt;
   measure_sides(setup, population, floe, candidate.path_in_body, criteria);
@@ -144,11 +150,7 @@ void enter_true_forces(const Setup& setup, const Population& population, const s
         fracture::Failure::kBend)  // only now: most bends that are pending do not come about
       measure_crack_and_sides(setup, population, c->b, pending.crack_in_body, criteria);
     const fracture::Opening opening = fracture::opening_of(pressed.pushes, c->middle(), c->normal);
-    criteria.flank_forces[0] = opening.left;
-    criteria.flank_forces[1] = opening.right;
-    criteria.opening_force = opening.force();
-    criteria.opening_capacity =
-        fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+    enter_opening(opening, ice, criteria);
   }
   criteria.fracture_toughness = ice.fracture_toughness;
 }
