@@ -1,7 +1,9 @@
-"""Fails on an include that goes up, between siblings, into another room's internals, or to a foreign package's header.
+"""Fails on an include that goes up, between siblings, into another room's internals, or to a foreign package's header,
+and on Python modules that import each other in a circle.
 
     python3 cmake/check_layers.py SOURCE
 """
+import ast
 import pathlib
 import re
 import sys
@@ -61,7 +63,8 @@ PACKAGES = {
     r"tl/expected": [""],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
-STANDARD = re.compile(r"[a-z_0-9]+$|(sys|bits|linux|sanitizer)/[a-z_]+\.h$|(unistd|fcntl|signal|poll|errno|spawn|emmintrin)\.h$")
+STANDARD = re.compile(
+    r"[a-z_0-9]+$|(sys|bits|linux|sanitizer)/[a-z_]+\.h$|(unistd|fcntl|signal|poll|errno|spawn|emmintrin)\.h$")
 
 
 def room_of(path):
@@ -112,8 +115,50 @@ def problems_of(path, text):
             yield f"{path}:{number}: {problem}"
 
 
+def python_imports(root):
+    """Module -> our own modules that it imports where it starts, for its types too. (Imports in functions are late:
+    what a module asks for when it is used.)"""
+    modules = {}
+    for path in sorted((root / "python").rglob("*.py")):
+        parts = path.relative_to(root / "python").with_suffix("").parts
+        modules[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    imports = {module: set() for module in modules}
+    for module, path in modules.items():
+        package = module.split(".") if path.name == "__init__.py" else module.split(".")[:-1]
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+        late = {id(node) for function in functions for node in ast.walk(function)}
+        for node in ast.walk(tree):
+            names = []
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                base = package[:len(package) - node.level + 1] if node.level else []
+                source = ".".join(base + ([node.module] if node.module else []))
+                names = [f"{source}.{alias.name}" for alias in node.names]
+                names = [name if name in modules else source for name in names]
+            imports[module] |= {name for name in names if name in modules and name != module and id(node) not in late}
+    return imports
+
+
+def circles(imports):
+    """Each circle of imports once, as its modules in order."""
+    done = set()
+
+    def walk(module, way):
+        if module in way:
+            yield " imports ".join([*way[way.index(module):], module])
+        elif module not in done:
+            for other in sorted(imports[module]):
+                yield from walk(other, [*way, module])
+            done.add(module)
+
+    for module in sorted(imports):
+        yield from walk(module, [])
+
+
 def main(root):
-    found, files = [], 0
+    found, files = list(circles(python_imports(root))), 0
     for top in sorted({room.split("/")[0] for room in FLOORS}):
         for path in sorted((root / top).rglob("*.[ch]pp")):
             files += 1

@@ -42,6 +42,15 @@ class CheckLayers(unittest.TestCase):
                 self.assertEqual(len(planted), 1, planted)
                 self.assertTrue(planted[0].startswith(f"{path}:1: "), planted)
 
+    def test_a_circle_of_python_modules_is_found(self):
+        imports = check_layers.python_imports(SOURCE)
+        self.assertEqual(list(check_layers.circles(imports)), [])
+        self.assertIn("polynya.results.tables", imports["polynya.results.run"])
+        imports["polynya.results.tables"].add("polynya.results.run")
+        modules = ["run", "channel", "tables", "run"]
+        circle = " imports ".join(f"polynya.results.{module}" for module in modules)
+        self.assertEqual(list(check_layers.circles(imports)), [circle])
+
 
 if __name__ == "__main__":
     unittest.main()

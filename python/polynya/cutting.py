@@ -5,7 +5,7 @@ import typing
 
 import numpy
 
-from polynya import _core
+from polynya._core import cut_geojson
 
 
 class Cut(typing.NamedTuple):
@@ -75,7 +75,7 @@ def cut(polygon, *, disc=None, crack=None, by=None, keep="both", repair=None):
     if shape["type"] != "Polygon":
         raise ValueError("one polygon is cut at a time, not a MultiPolygon")
     feature = {"type": "Feature", "properties": {}, "geometry": shape}
-    pieces, ledger = map(json.loads, _core.cut_geojson(json.dumps(feature), json.dumps([operation]), repair or ""))
+    pieces, ledger = map(json.loads, cut_geojson(json.dumps(feature), json.dumps([operation]), repair or ""))
     floe = ledger["floes"][0]
     if floe.get("rejected"):
         raise ValueError("the polygon cannot be cut: " + _fault(floe["rejected"]))
