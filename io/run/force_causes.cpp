@@ -8,9 +8,9 @@
 namespace polynya::io {
 namespace {
 
-constexpr std::string_view kSurge = "Surge force by cause";
-constexpr std::string_view kSway = "Sway force by cause";
-constexpr std::string_view kYaw = "Yaw moment by cause";
+constexpr std::string_view kSurgeByCause = "Surge force by cause";
+constexpr std::string_view kSwayByCause = "Sway force by cause";
+constexpr std::string_view kYawByCause = "Yaw moment by cause";
 
 /// The ice around the hull: what it presses with, and the friction where that is recorded.
 constexpr ForceCause ice(std::string_view direction, std::string_view column) {
@@ -21,29 +21,29 @@ constexpr ForceCause friction(std::string_view direction, std::string_view colum
 }
 
 constexpr ForceCause kCauses[] = {
-    ice(kSurge, "surge_N"),
-    friction(kSurge, "surge_from_ice_friction_N", "surge_N"),
-    {kSurge, "submerged", "ice under the hull", "surge_from_submerged_ice_N"},
-    {kSurge, "water", "water on the hull", "surge_from_water_N"},
-    {kSurge, "thrust", "thrust", "thrust_N"},
-    {kSurge, "rudder", "rudder", "surge_from_rudder_N"},
-    {kSurge, "mooring", "mooring", "surge_from_mooring_N"},
-    {kSurge, "ships", "other ships", "surge_from_ships_N"},
-    ice(kSway, "sway_N"),
-    friction(kSway, "sway_from_ice_friction_N", "sway_N"),
-    {kSway, "water", "water on the hull", "sway_from_water_N"},
-    {kSway, "thrust", "thrusters", "sway_from_thrusters_N"},
-    {kSway, "rudder", "rudder", "sway_from_rudder_N"},
-    {kSway, "mooring", "mooring", "sway_from_mooring_N"},
-    {kSway, "ships", "other ships", "sway_from_ships_N"},
-    ice(kYaw, "yaw_Nm"),
-    friction(kYaw, "yaw_from_ice_friction_Nm", "yaw_Nm"),
-    {kYaw, "submerged", "ice under the hull", "yaw_from_submerged_ice_Nm"},
-    {kYaw, "water", "water on the hull", "yaw_from_water_Nm"},
-    {kYaw, "thrust", "thrusters", "yaw_from_thrusters_Nm"},
-    {kYaw, "rudder", "rudder", "yaw_from_rudder_Nm"},
-    {kYaw, "mooring", "mooring", "yaw_from_mooring_Nm"},
-    {kYaw, "ships", "other ships", "yaw_from_ships_Nm"},
+    ice(kSurgeByCause, "surge_N"),
+    friction(kSurgeByCause, "surge_from_ice_friction_N", "surge_N"),
+    {kSurgeByCause, "submerged", "ice under the hull", "surge_from_submerged_ice_N"},
+    {kSurgeByCause, "water", "water on the hull", "surge_from_water_N"},
+    {kSurgeByCause, "thrust", "thrust", "thrust_N"},
+    {kSurgeByCause, "rudder", "rudder", "surge_from_rudder_N"},
+    {kSurgeByCause, "mooring", "mooring", "surge_from_mooring_N"},
+    {kSurgeByCause, "ships", "other ships", "surge_from_ships_N"},
+    ice(kSwayByCause, "sway_N"),
+    friction(kSwayByCause, "sway_from_ice_friction_N", "sway_N"),
+    {kSwayByCause, "water", "water on the hull", "sway_from_water_N"},
+    {kSwayByCause, "thrust", "thrusters", "sway_from_thrusters_N"},
+    {kSwayByCause, "rudder", "rudder", "sway_from_rudder_N"},
+    {kSwayByCause, "mooring", "mooring", "sway_from_mooring_N"},
+    {kSwayByCause, "ships", "other ships", "sway_from_ships_N"},
+    ice(kYawByCause, "yaw_Nm"),
+    friction(kYawByCause, "yaw_from_ice_friction_Nm", "yaw_Nm"),
+    {kYawByCause, "submerged", "ice under the hull", "yaw_from_submerged_ice_Nm"},
+    {kYawByCause, "water", "water on the hull", "yaw_from_water_Nm"},
+    {kYawByCause, "thrust", "thrusters", "yaw_from_thrusters_Nm"},
+    {kYawByCause, "rudder", "rudder", "yaw_from_rudder_Nm"},
+    {kYawByCause, "mooring", "mooring", "yaw_from_mooring_Nm"},
+    {kYawByCause, "ships", "other ships", "yaw_from_ships_Nm"},
 };
 
 }  // namespace

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/shape/angle.hpp"
 #include "io/text/csv_row.hpp"
 
 namespace polynya::io {
 namespace {
 
 using simulation::ShipSample;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kRadians = std::numbers::pi / 180;
 
 template <auto Member>
 constexpr ForceColumn column(std::string_view name, std::string_view unit, std::string_view meaning,
@@ -37,8 +34,8 @@ constexpr ForceColumn in_degrees(std::string_view name, std::string_view unit, s
   return {.name = name,
           .unit = unit,
           .meaning = meaning,
-          .read = [](const ShipSample& s) { return kDegrees * s.*Member; },
-          .store = [](ShipSample& s, double value) { s.*Member = kRadians * value; }};
+          .read = [](const ShipSample& s) { return geometry::kDegreesPerRadian * s.*Member; },
+          .store = [](ShipSample& s, double value) { s.*Member = geometry::kRadiansPerDegree * value; }};
 }
 
 template <auto Pair, auto Component>

@@ -1,9 +1,8 @@
 #include "io/run/records.hpp"
 
-#include <numbers>
-
 #include <fmt/format.h>
 
+#include "geometry/shape/angle.hpp"
 #include "io/run/force_columns.hpp"
 #include "io/scene/floe_ice.hpp"
 #include "io/text/csv_row.hpp"
@@ -13,8 +12,6 @@
 
 namespace polynya::io {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// What put a floe under a hull; a cusp goes under as it breaks off.
 void append_tilting(JsonWriter& json, const simulation::TiltCriterion& c) {
@@ -211,7 +208,7 @@ void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe) {
   append_ice(json, *floe.ice);
   json.key("speed_m_per_s").value(geometry::length(floe.velocity));
   json.key("vx_m_per_s").value(floe.velocity.x).key("vy_m_per_s").value(floe.velocity.y);
-  json.key("angular_velocity_deg_per_s").value(kDegrees * floe.angular_velocity);
+  json.key("angular_velocity_deg_per_s").value(geometry::kDegreesPerRadian * floe.angular_velocity);
   if (floe.is_fast) json.key("fast_ice").value(true);
   layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
 }

@@ -16,7 +16,7 @@ using geometry::Vector;
 using simulation::ShipSpec;
 
 // Block coefficients are those of fine-lined and of full ships; a draught is most often a third of the beam.
-constexpr double kLeastBlock = 0.4, kMostBlock = 0.9;                          // [-]
+constexpr double kSlenderBlock = 0.4, kFullBlock = 0.9;                        // [-]
 constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
 constexpr double kMassError = 0.05;    ///< of what the hull displaces [-]
 constexpr double kFastestShip = 12;    ///< icebreakers reach 11 m/s in open water [m/s]
@@ -155,13 +155,13 @@ class Hinter {
     if (displaced > 0) return;
     const double shallow = kLeastDraughtOfBeam * beam, deep = kMostDraughtOfBeam * beam;
     const double area = scene_.water.water.density * length * beam;
-    const double least = kLeastBlock * area * shallow, most = kMostBlock * area * deep;
+    const double least = kSlenderBlock * area * shallow, most = kFullBlock * area * deep;
     if (ship.mass >= least && ship.mass <= most) return;
     add(Severity::kWarning, i, "mass_kg",
         fmt::format(
             "{:.4g} kg for a hull of {:.4g} × {:.4g} m, which displaces {:.2g} to {:.2g} kg of water at a "
             "draught of {:.2g} to {:.2g} m and block coefficients of {:g} to {:g}",
-            ship.mass, length, beam, least, most, shallow, deep, kLeastBlock, kMostBlock));
+            ship.mass, length, beam, least, most, shallow, deep, kSlenderBlock, kFullBlock));
   }
 
   void hint_at_mooring(std::size_t i) {

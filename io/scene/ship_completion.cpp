@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/shape/angle.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
@@ -25,7 +26,6 @@ constexpr double kPropellerOfDraught = 0.65;  ///< D of T (recall) [-]
 constexpr double kGyrationOfLength = 0.25;    ///< [-]
 constexpr double kLeastBlock = 0.2;           ///< [-]
 constexpr double kShortestWall = 0.1;         ///< [m]
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// The outline in house notation, with the angles of its vertices.
 void set_waterline(const HullOutline& outline, simulation::Hull& hull) {
@@ -251,8 +251,8 @@ class PilotCheck {
   void check_angle(const std::string& key, double angle) {
     const double most = steering_most(ship_);
     if (std::abs(angle) <= most * (1 + 1e-9)) return;
-    report(key, fmt::format("{:.4g}°", kDegrees * angle),
-           fmt::format("at most {:.4g}° to either side", kDegrees * most));
+    report(key, fmt::format("{:.4g}°", geometry::kDegreesPerRadian * angle),
+           fmt::format("at most {:.4g}° to either side", geometry::kDegreesPerRadian * most));
   }
 
   void check(const simulation::ConstantPilot& pilot) {

@@ -1,8 +1,8 @@
 #include "views/export/geojson_export.hpp"
 
 #include <memory>
-#include <numbers>
 
+#include "geometry/shape/angle.hpp"
 #include "io/import/projection.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/run/records.hpp"
@@ -11,8 +11,6 @@
 
 namespace polynya::views {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 using io::GeojsonLayer;
 using io::Project;
@@ -103,7 +101,8 @@ io::Result<Project> degrees_about(const simulation::GeographicOrigin& origin) {
   if (!made) return io::fail(made.error());
   return Project([plane = std::make_shared<io::GeographicPlane>(std::move(*made))](geometry::Point p) {
     const io::Geographic at = plane->geographic_of(p);
-    return geometry::Point{kDegrees * at.longitude, kDegrees * at.latitude};
+    return geometry::Point{geometry::kDegreesPerRadian * at.longitude,
+                           geometry::kDegreesPerRadian * at.latitude};
   });
 }
 

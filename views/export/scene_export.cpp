@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/shape/angle.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
@@ -20,7 +20,6 @@ using io::JsonMember;
 using io::JsonValue;
 using JsonKind = JsonValue::Kind;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kLongestFinal = std::size_t{1} << 31;  ///< [bytes]
 
 void put(JsonValue& object, std::string_view key, JsonValue value) {
@@ -82,12 +81,12 @@ std::string floes_text(const io::Run& run, const io::MotionIndex& motions, doubl
 void place_ship(JsonValue& ship, const io::Motion& motion) {
   const geometry::Vector ahead{std::cos(motion.angle), std::sin(motion.angle)};
   put(ship, "position_m", pair_of(motion.position.x, motion.position.y));
-  put(ship, "heading_deg", {std::remainder(kDegrees * motion.angle, 360)});
+  put(ship, "heading_deg", {std::remainder(geometry::kDegreesPerRadian * motion.angle, 360)});
   const JsonValue* propulsion = ship.find("propulsion");
   if (propulsion && propulsion->find("constant_speed_m_per_s")) return;
   put(ship, "speed_m_per_s", {dot(motion.velocity, ahead)});
   put(ship, "sway_speed_m_per_s", {dot(motion.velocity, perpendicular(ahead))});
-  put(ship, "yaw_rate_deg_per_s", {kDegrees * motion.angular_velocity});
+  put(ship, "yaw_rate_deg_per_s", {geometry::kDegreesPerRadian * motion.angular_velocity});
 }
 
 /// The clock starts again: rows of a table pilot that lie behind are cut off where it is now.
@@ -159,7 +158,7 @@ void place_ships(JsonValue& scene, const io::Run& run, const io::MotionIndex& mo
   JsonValue* ships = scene.find("ships");
   for (std::size_t i = 0; ships && i < ships->items().size(); ++i) {
     JsonValue& ship = ships->items()[i];
-    keep_heading(ship, kDegrees * run.scene.scene.ships.at(i).heading);
+    keep_heading(ship, geometry::kDegreesPerRadian * run.scene.scene.ships.at(i).heading);
     if (const auto motion = motions.ship_at(i, time)) place_ship(ship, *motion);
     note_memory(ship, left_out);
     JsonValue* pilot = ship.find("pilot");
