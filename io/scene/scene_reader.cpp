@@ -17,6 +17,7 @@ namespace polynya::io {
 namespace {
 
 using JsonKind = JsonValue::Kind;
+using simulation::BodyKind;
 
 /// FNV-1a, 64 bits.
 std::string hash_of(std::string_view text) {
@@ -229,7 +230,7 @@ class SceneReader {
       const JsonValue& item = items_of(given, "ships")[i];
       draft_.scene.ships.push_back(complete_ship(*ships[i], item, fmt::format("ships[{}]", i),
                                                  draft_.scene.water.water.density, problems_));
-      draft_.ship_origins.push_back({.offset = item.offset, .group = i});
+      draft_.hull_origins.push_back({.offset = item.offset, .group = i, .kind = BodyKind::kShip});
       resolved_.find("ships")->items().push_back(write(ship_description(), *ships[i]));
     }
   }
@@ -237,11 +238,9 @@ class SceneReader {
   void add_structures(const JsonValue& given, const std::vector<std::optional<StructureInput>>& structures) {
     for (std::size_t i = 0; i < structures.size(); ++i) {
       if (!structures[i]) continue;
-      draft_.scene.ships.push_back(complete_structure(*structures[i]));
-      draft_.ship_origins.push_back({.offset = items_of(given, "structures")[i].offset,
-                                     .group = i,
-                                     .is_structure = true,
-                                     .list = "structures"});
+      draft_.scene.structures.push_back(complete_structure(*structures[i]));
+      draft_.hull_origins.push_back(
+          {.offset = items_of(given, "structures")[i].offset, .group = i, .kind = BodyKind::kStructure});
       resolved_.find("structures")->items().push_back(write(structure_description(), *structures[i]));
     }
   }

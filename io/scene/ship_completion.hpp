@@ -10,13 +10,12 @@ namespace polynya::io {
 /// inertia, bollard pull, rudder, mooring, whether water acts on the hull. What is written of it with the
 /// scene, masses, the speed of one at constant speed and the model of the water, is put into the input.
 /// Reports what does not go together, at the ship's path; `given` is its JSON, `density` the water's [kg/m³].
-simulation::ShipSpec complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
-                                   double density, ProblemCollector& problems);
+simulation::Ship complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
+                               double density, ProblemCollector& problems);
 
-/// A structure is a ship that stands on the ground.
-simulation::ShipSpec complete_structure(const StructureInput& input);
+simulation::Structure complete_structure(const StructureInput& input);
 
-/// Adds a wall to the draft's ships, or reports why it is none.
+/// Adds a wall to the draft, or reports why it is none.
 void add_wall(std::size_t index, const JsonValue& item, const WallInput& wall, SceneDraft& draft,
               ProblemCollector& problems);
 
