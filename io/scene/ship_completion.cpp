@@ -360,21 +360,19 @@ simulation::Structure complete_structure(const StructureInput& input) {
   return structure;
 }
 
-void add_wall(std::size_t index, const JsonValue& item, const WallInput& wall, SceneDraft& draft,
-              ProblemCollector& problems) {
-  const double length = distance(wall.from, wall.to);
-  if (length < kShortestWall) {
-    problems.report(0, nearest_offset(item, "to_m"), fmt::format("walls[{}].to_m", index),
-                    fmt::format("({:g}, {:g}), {:.3g} m from from_m", wall.to.x, wall.to.y, length),
+std::optional<simulation::Wall> complete_wall(const WallInput& input, const JsonValue& given,
+                                              const std::string& path, ProblemCollector& problems) {
+  simulation::Wall wall = simulation::wall_between(input.from, input.to, input.depth);
+  if (wall.length < kShortestWall) {
+    problems.report(0, nearest_offset(given, "to_m"), path + ".to_m",
+                    fmt::format("({:g}, {:g}), {:.3g} m from from_m", input.to.x, input.to.y, wall.length),
                     fmt::format("a face of at least {:g} m", kShortestWall));
-    return;
+    return std::nullopt;
   }
-  simulation::Wall& added =
-      draft.scene.walls.emplace_back(simulation::wall_between(wall.from, wall.to, wall.depth));
-  added.name = wall.name;
-  added.velocity = wall.velocity.value_or(geometry::Vector{});
-  added.pressure = wall.pressure;
-  draft.hull_origins.push_back({.offset = item.offset, .group = index, .kind = simulation::BodyKind::kWall});
+  wall.name = input.name;
+  wall.velocity = input.velocity.value_or(geometry::Vector{});
+  wall.pressure = input.pressure;
+  return wall;
 }
 
 void complete_pilots(const JsonValue& given, SceneDraft& draft, ProblemCollector& problems) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "io/scene/scene_input.hpp"
@@ -15,9 +16,9 @@ simulation::Ship complete_ship(ShipInput& input, const JsonValue& given, const s
 
 simulation::Structure complete_structure(const StructureInput& input);
 
-/// Adds a wall to the draft, or reports why it is none.
-void add_wall(std::size_t index, const JsonValue& item, const WallInput& wall, SceneDraft& draft,
-              ProblemCollector& problems);
+/// A wall, or reports why it is none.
+std::optional<simulation::Wall> complete_wall(const WallInput& input, const JsonValue& given,
+                                              const std::string& path, ProblemCollector& problems);
 
 /// Finds whom ships follow. Reports pilots that cannot do what they are to do: without an engine or steering,
 /// beyond the rudder's stop, on a route that begins behind the ship or leads through a structure, behind a
