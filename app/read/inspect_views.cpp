@@ -68,13 +68,13 @@ std::string as_svg(const ShapeView& view) {
 }
 
 void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
-                           const std::vector<simulation::ShipSpec>& ships) {
+                           const simulation::Scene& scene) {
   const auto add = [&text](const std::string& line) { text += line + "\n"; };
   if (check.worst_with_hull.area > 0)
     add(fmt::format(
         "hulls      {} with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
         "vertex {:.4g} m deep",
-        counted(check.hull_pairs, "pair"), ships[static_cast<std::size_t>(check.worst_hull)].name,
+        counted(check.hull_pairs, "pair"), io::ship_name(scene, check.worst_hull),
         check.worst_with_hull.second, check.worst_with_hull.time, check.worst_with_hull.area,
         check.worst_with_hull.depth));
   if (!check.has_crushed) {
@@ -85,7 +85,7 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
         check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
         100 * analysis::kUncrushedShare));
     const auto name = [&](const simulation::ContactState::Body& body) {
-      return body.ship >= 0 ? ships[static_cast<std::size_t>(body.ship)].name
+      return body.ship >= 0 ? std::string(io::ship_name(scene, body.ship))
                             : fmt::format("floe {}", body.floe);
     };
     for (const analysis::UncrushedOverlap& pair : check.uncrushed)
@@ -196,18 +196,17 @@ void write_invalid(JsonWriter& json, const std::vector<analysis::InvalidFloe>& i
   json.close(']');
 }
 
-void write_hulls(JsonWriter& json, const analysis::RunCheck& check,
-                 const std::vector<simulation::ShipSpec>& ships) {
+void write_hulls(JsonWriter& json, const analysis::RunCheck& check, const simulation::Scene& scene) {
   const auto write_body = [&](std::string_view key, const simulation::ContactState::Body& body) {
     json.key(key);
     if (body.ship >= 0)
-      json.value(ships[static_cast<std::size_t>(body.ship)].name);
+      json.value(io::ship_name(scene, body.ship));
     else
       json.value(body.floe);
   };
   json.key("hull_pairs").value(check.hull_pairs).key("largest_overlap_with_hull");
   if (check.worst_hull >= 0) {
-    json.open('{').key("ship").value(ships[static_cast<std::size_t>(check.worst_hull)].name);
+    json.open('{').key("ship").value(io::ship_name(scene, check.worst_hull));
     json.key("floe_id").value(check.worst_with_hull.second).key("t_s").value(check.worst_with_hull.time);
     json.key("area_m2").value(check.worst_with_hull.area).key("depth_m").value(check.worst_with_hull.depth);
     json.close('}');
@@ -311,7 +310,7 @@ std::string size_text(const analysis::SizeDistribution& sizes) {
   return text;
 }
 
-std::string check_text(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships) {
+std::string check_text(const analysis::RunCheck& check, const simulation::Scene& scene) {
   std::string text;
   const auto add = [&text](const std::string& line) { text += line + "\n"; };
   const auto from = [](simulation::FloeId floe) {
@@ -349,7 +348,7 @@ std::string check_text(const analysis::RunCheck& check, const std::vector<simula
   };
   add_pair("largest", check.worst);
   add_pair("deepest", check.deepest);
-  add_hulls_and_crushed(text, check, ships);
+  add_hulls_and_crushed(text, check, scene);
   add("           Overlap is part of the contact model: ice in contact is let in by what it crushes, and "
       "frames are right to");
   add("           1 mm and 1e-5 rad. All areas are exact for the rings and poses on record.");
@@ -465,7 +464,7 @@ std::string lineage_json(const io::Run& run, simulation::FloeId floe) {
   return text + "\n";
 }
 
-std::string check_json(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships) {
+std::string check_json(const analysis::RunCheck& check, const simulation::Scene& scene) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
   json.open('{').key("is_sound").value(check.is_sound()).key("shapes").value(check.shapes);
@@ -481,7 +480,7 @@ std::string check_json(const analysis::RunCheck& check, const std::vector<simula
   json.key("ice_then_m2").value(check.ice_then);
   write_shared(json, "largest_overlap", check.worst);
   write_shared(json, "deepest_overlap", check.deepest);
-  write_hulls(json, check, ships);
+  write_hulls(json, check, scene);
   json.close('}');
   return text + "\n";
 }

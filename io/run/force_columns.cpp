@@ -225,10 +225,10 @@ std::string_view name_of(CurveKind kind) {
 }
 
 bool is_shown(ShownWhere where, const simulation::Scene& scene) {
-  if (where == kAmongShips) return scene.ships.size() > 1;
+  if (where == kAmongShips) return hull_count(scene) > 1;
   if (where == kUnderHulls) return has_draught(scene);
   const auto any_ship = [&](auto condition) { return std::ranges::any_of(scene.ships, condition); };
-  using Ship = simulation::ShipSpec;
+  using simulation::Ship;
   if (where == kInWater) return any_ship(simulation::sails);
   if (where == kWithEngines)
     return any_ship([](const Ship& s) { return std::holds_alternative<simulation::Engine>(s.propulsion); });

@@ -47,8 +47,7 @@ geometry::Point point(const JsonValue& value, std::string_view key) {
 }
 
 int ship_index(const simulation::Scene& scene, std::string_view name) {
-  const auto found = std::ranges::find(scene.ships, name, &simulation::ShipSpec::name);
-  return found == scene.ships.end() ? -1 : static_cast<int>(found - scene.ships.begin());
+  return hull_named(scene, name);
 }
 
 simulation::EventKind event_kind(std::string_view name) {

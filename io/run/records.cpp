@@ -78,8 +78,8 @@ void append_body(std::string& text, std::string_view ship, simulation::FloeId fl
 }  // namespace
 
 std::string_view ship_name(const simulation::Scene& scene, int ship) {
-  if (ship < 0 || ship >= std::ssize(scene.ships)) return "";
-  return scene.ships[static_cast<std::size_t>(ship)].name;
+  const auto hull = static_cast<std::size_t>(ship);
+  return ship < 0 || hull >= hull_count(scene) ? std::string_view{} : hull_of(scene, hull).name;
 }
 
 std::string forces_header() {

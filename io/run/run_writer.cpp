@@ -98,7 +98,7 @@ Result<> check_progress(const RunProgress& progress, const std::filesystem::path
   const auto is_of_scene = [columns = peak_columns(scene).size()](const ShipPeaks& peaks) {
     return peaks.of_column.size() == columns;
   };
-  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != scene.ships.size() ||
+  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != hull_count(scene) ||
       !std::ranges::all_of(progress.peaks, is_of_scene))
     return fail(fmt::format("{}: the checkpoint is of another run", folder.string()));
   for (std::size_t i = 0; i < kGrowing.size(); ++i)
@@ -148,11 +148,11 @@ RunWriter::RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, Ru
     : scene_(&scene),
       files_(std::move(files)),
       peak_columns_(peak_columns(scene.scene)),
-      peaks_(scene.scene.ships.size()),
+      peaks_(hull_count(scene.scene)),
       lock_(std::move(lock)),
       last_flush_(std::chrono::steady_clock::now()) {
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
-    peaks_[i].ship = scene.scene.ships[i].name;
+    peaks_[i].ship = hull_of(scene.scene, i).name;
     peaks_[i].of_column.resize(peak_columns_.size());
   }
 }

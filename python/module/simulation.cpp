@@ -69,7 +69,7 @@ Simulation::Simulation(const std::shared_ptr<Scene>& scene, int threads)
 Simulation::Simulation(std::shared_ptr<Scene> scene, simulation::Simulation simulation, int threads)
     : scene_(std::move(scene)),
       simulation_(std::move(simulation)),
-      samples_(scene_->loaded().scene.ships.size()),
+      samples_(hull_count(scene_->loaded().scene)),
       pilots_(samples_.size(), py::none()) {
   simulation_.set_threads(checked_threads(threads));
   simulation_.journal().clear();
@@ -201,8 +201,7 @@ py::bytes Simulation::save() const {
 }
 
 std::size_t Simulation::index_of(const py::object& ship, const char* caller) const {
-  const auto& ships = simulation_.scene().ships;
-  const auto count = static_cast<std::int64_t>(ships.size());
+  const auto count = static_cast<std::int64_t>(hull_count(simulation_.scene()));
   if (py::isinstance<py::int_>(ship)) {
     const auto index = ship.cast<std::int64_t>();
     if (index < 0 || index >= count)
@@ -212,18 +211,19 @@ std::size_t Simulation::index_of(const py::object& ship, const char* caller) con
   if (!py::isinstance<py::str>(ship))
     throw py::type_error(fmt::format("{}: a ship is an index or a name", caller));
   const auto name = ship.cast<std::string>();
-  const auto found = std::ranges::find(ships, name, &simulation::ShipSpec::name);
-  if (found == ships.end()) throw py::value_error(fmt::format("the scene has no ship named \"{}\"", name));
-  return static_cast<std::size_t>(found - ships.begin());
+  const int found = hull_named(simulation_.scene(), name);
+  if (found < 0) throw py::value_error(fmt::format("the scene has no ship named \"{}\"", name));
+  return static_cast<std::size_t>(found);
 }
 
 void Simulation::set_pilot(const py::object& ship, const py::object& pilot) {
   refuse_while_stepping();
   const std::size_t index = index_of(ship, "set_pilot");
-  const simulation::ShipSpec& spec = simulation_.scene().ships[index];
-  if (!std::holds_alternative<simulation::Engine>(spec.propulsion))
-    throw py::value_error(fmt::format(
-        "ship \"{}\" has no engine to command: give it propulsion.engine (docs/scene.md)", spec.name));
+  const auto& ships = simulation_.scene().ships;
+  if (index >= ships.size() || !std::holds_alternative<simulation::Engine>(ships[index].propulsion))
+    throw py::value_error(
+        fmt::format("ship \"{}\" has no engine to command: give it propulsion.engine (docs/scene.md)",
+                    hull_of(simulation_.scene(), index).name));
   if (!pilot.is_none() && !PyCallable_Check(pilot.ptr()))
     throw py::type_error("set_pilot: a pilot is a callable that takes a PilotView, or None");
   pilots_[index] = pilot;

@@ -119,7 +119,7 @@ void add_peak(const Setup& setup, const dynamics::Bodies& bodies, const ShipCont
 
 /// Whether a floe was born by what broke at the end of the step before.
 bool is_just_born(const Population& population, const Clock& clock, BodyIndex body) {
-  return !population.is_ship(body) && population.floes[population.floe_of(body)].born == clock.time();
+  return !population.is_hull(body) && population.floes[population.floe_of(body)].born == clock.time();
 }
 
 /// Of floe against floe: vertical walls.
@@ -164,19 +164,19 @@ void decide(const Setup& setup, const Clock& clock, int threads, const Populatio
             Counts& counts) {
   step.fractures.clear();
   step.slopes.clear();
-  step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
+  step.loads.assign(static_cast<std::size_t>(population.hull_count), {});
   dynamics::for_chunks(step.contacts.size(), dynamics::kContactsPerChunk, threads,
                        [&](std::size_t, std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
                            Contact& c = step.contacts[i];
                            c.friction = setup.scene.ice.friction;
-                           if (!population.is_ship(c.a)) decide_between_floes(setup, clock, population, c);
+                           if (!population.is_hull(c.a)) decide_between_floes(setup, clock, population, c);
                          }
                        });
-  for (Contact& c : step.contacts) {  // by (a, b): those of ships come first
-    if (!population.is_ship(c.a)) break;
+  for (Contact& c : step.contacts) {  // by (a, b): those of hulls come first
+    if (!population.is_hull(c.a)) break;
     step.slopes.emplace_back();
-    if (!population.is_ship(c.b)) decide_at_ship(setup, clock, population, c, step, counts);
+    if (!population.is_hull(c.b)) decide_at_ship(setup, clock, population, c, step, counts);
   }
 }
 

@@ -17,9 +17,9 @@ double crushing_line_load(const fracture::Ice& ice) {
   return ice.compressive_strength * ice.thickness;
 }
 
-/// Which of two bodies is ground: the floe in a ship or structure; of two floes the weaker, or the smaller.
+/// Which of two bodies is ground: the floe in a hull; of two floes the weaker, or the smaller.
 BodyIndex ground_of(const Setup& setup, const Population& population, const BlindOverlap& overlap) {
-  if (population.is_ship(overlap.a)) return overlap.b;
+  if (population.is_hull(overlap.a)) return overlap.b;
   const double stronger = crushing_line_load(ice_of_body(setup, population, overlap.a)) -
                           crushing_line_load(ice_of_body(setup, population, overlap.b));
   if (stronger != 0) return stronger > 0 ? overlap.b : overlap.a;
@@ -27,7 +27,7 @@ BodyIndex ground_of(const Setup& setup, const Population& population, const Blin
 }
 
 geometry::Polygon outline_of(const Population& population, const Setup& setup, BodyIndex body) {
-  if (population.is_ship(body)) return {setup.scene.ships[body].hull.waterline, {}};
+  if (population.is_hull(body)) return {hull_of(setup.scene, body).hull.waterline, {}};
   return population.floes[population.floe_of(body)].shape.polygon;
 }
 
@@ -51,8 +51,8 @@ Event event_of(const Population& population, const Clock& clock, const BlindOver
   Event event;
   event.time = clock.time();
   event.kind = EventKind::kGrind;
-  event.ship = population.is_ship(by) ? by : -1;
-  event.by_floe = population.is_ship(by) ? kNoFloe : population.floe_of(by);
+  event.ship = population.is_hull(by) ? by : -1;
+  event.by_floe = population.is_hull(by) ? kNoFloe : population.floe_of(by);
   event.floe = population.floe_of(ground);
   event.point_in_world = overlap.middle + clock.drift();
   event.grinding = criterion;
@@ -76,7 +76,7 @@ void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vec
   for (const BlindOverlap& overlap : overlaps) {
     const dynamics::Bodies& bodies = population.bodies;
     if (!bodies.is_alive[overlap.a] || !bodies.is_alive[overlap.b]) continue;  // broken in this step
-    if (!population.is_ship(overlap.a) && !population.is_floating(population.floe_of(overlap.a))) continue;
+    if (!population.is_hull(overlap.a) && !population.is_floating(population.floe_of(overlap.a))) continue;
     if (!population.is_floating(population.floe_of(overlap.b))) continue;
     const std::pair<std::int64_t, std::int64_t> both{overlap.a, overlap.b};
     if (std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end()) continue;

@@ -52,10 +52,10 @@ bool is_clear_of(const Population& population, BodyIndex other, const geometry::
                   relative_pose(water_from_other, water_from_piece));
 }
 
-bool is_under_ship(const Population& population, const geometry::Boundary& piece,
+bool is_under_hull(const Population& population, const geometry::Boundary& piece,
                    const Pose& water_from_piece) {
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship)
-    if (!is_clear_of(population, ship, piece, water_from_piece)) return true;
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
+    if (!is_clear_of(population, hull, piece, water_from_piece)) return true;
   return false;
 }
 
@@ -137,7 +137,7 @@ class Resurfacing {
         shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
     const geometry::Boundary boundary = geometry::make_outline(polygon);
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
-    if (is_under_ship(population_, boundary, in_place)) return false;  // not behind it yet
+    if (is_under_hull(population_, boundary, in_place)) return false;  // not behind it yet
     Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(submerged.floe) << 32U) ^
                   static_cast<std::uint64_t>(clock_.steps));
     for (int i = 0; i < kPlaces; ++i) {

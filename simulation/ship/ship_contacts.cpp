@@ -16,7 +16,7 @@ bool is_known(const std::vector<ShipContact>& contacts, BodyIndex ship, BodyInde
 
 geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
   return transform(dynamics::water_from_body(bodies, ship),
-                   setup.scene.ships[static_cast<std::size_t>(ship)].hull.waterline);
+                   hull_of(setup.scene, static_cast<std::size_t>(ship)).hull.waterline);
 }
 
 /// The contact of two ships of prescribed motion whose outlines came to touch in the step. The contact search
@@ -53,7 +53,7 @@ void record_ship_contacts(const Setup& setup, const Clock& clock, const Populati
     journal.ship_contacts.push_back(contact);
   };
   for (const dynamics::Contact& c : contacts) {
-    if (!population.is_ship(c.b) || is_known(known_contacts, c.a, c.b)) continue;
+    if (!population.is_hull(c.b) || is_known(known_contacts, c.a, c.b)) continue;
     enter({.time = clock.time(),
            .ship = c.a,
            .other = c.b,
@@ -61,10 +61,10 @@ void record_ship_contacts(const Setup& setup, const Clock& clock, const Populati
            .closing_speed = c.approach_speed,
            .relative_speed = std::hypot(c.approach_speed, c.slip_speed)});
   }
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
-    for (BodyIndex other = ship + 1; other < population.ship_count; ++other) {
+  for (BodyIndex ship = 0; ship < population.hull_count; ++ship) {
+    for (BodyIndex other = ship + 1; other < population.hull_count; ++other) {
       if (bodies.inverse_mass[ship] != 0 || bodies.inverse_mass[other] != 0) continue;
-      if (bodies.is_grounded[ship] != 0 && bodies.is_grounded[other] != 0) continue;  // they do not meet
+      if (is_grounded(bodies.kind[ship]) && is_grounded(bodies.kind[other])) continue;  // they do not meet
       if (is_known(known_contacts, ship, other)) continue;
       if (const auto contact = prescribed_contact(setup, clock, bodies, ship, other)) enter(*contact);
     }

@@ -25,6 +25,11 @@ struct BodyMotion {
 /// What holds a floe, if anything.
 enum class Standing : std::uint8_t { kFree, kUnderHull, kFast };
 
+/// Whether a body is a ship that has a helm and loads of its own.
+inline bool is_sailing(const Setup& setup, std::int32_t body) {
+  return body < std::ssize(setup.sailing) && setup.sailing[body].is_active;
+}
+
 /// A floe without its shape.
 struct FloeHead {
   FloeId parent = kNoFloe;

@@ -93,10 +93,10 @@ struct ShipMotion {
 struct StepData {
   std::vector<dynamics::Contact> contacts;
   std::vector<dynamics::BlindOverlap> blind_overlaps;
-  std::vector<HullSlope> slopes;  ///< of the contacts of ships, which come first
+  std::vector<HullSlope> slopes;  ///< of the contacts of hulls, which come first
   std::vector<PendingFracture> fractures;
   std::vector<PendingSubmersion> submersions;
-  std::vector<ShipLoads> loads;               ///< per ship
+  std::vector<ShipLoads> loads;               ///< per hull
   std::vector<ShipMotion> start;              ///< per ship: its motion before the step's impulses
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
   dynamics::ContactSolver solver;             ///< its reusable memory
@@ -108,7 +108,7 @@ struct Accounts {
   MassLedger masses;  ///< likewise
   AuditSums audit;
   Counts counts;
-  std::vector<ShipLoads> loads;                                       ///< per ship, since the last sample
+  std::vector<ShipLoads> loads;                                       ///< per hull, since the last sample
   std::vector<SailingLoads> sailing;                                  ///< per ship, since the last sample
   std::vector<ShipContact> ship_contacts;                             ///< the first one of each pair of ships
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut
@@ -116,7 +116,7 @@ struct Accounts {
 
 /// What a new world has in it.
 enum class Start {
-  kScene,  ///< the scene's ships and floes
+  kScene,  ///< the scene's hulls and floes
   kEmpty,  ///< nothing: a saved state is to be loaded (state.hpp)
 };
 

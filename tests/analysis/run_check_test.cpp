@@ -176,11 +176,11 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
 /// At 3 s floe 1 shares 0.5 m² with each half, and a hull stands in it.
 TEST(RunCheck, OverlapsThatWereNotCrushedAreFoundHullsIncluded) {
   io::Run run = small_run();
-  simulation::ShipSpec pile;
+  simulation::Structure pile;
   pile.name = "pile";
   pile.hull.waterline = square(0, 0, 1);
   pile.position_in_world = {5, 2.5};
-  run.scene.scene.ships.push_back(pile);
+  run.scene.scene.structures.push_back(pile);
   for (io::Frame& frame : run.frames) {
     io::Motion motion;
     motion.position = pile.position_in_world;

@@ -18,10 +18,10 @@ SceneOutcome read(const std::string& ship) {
   return read_scene("{\"ships\": [{" + ship + "}]}", "ship.json", ".");
 }
 
-simulation::ShipSpec ship_of(const std::string& text) {
+simulation::Ship ship_of(const std::string& text) {
   const auto loaded = read(text);
   EXPECT_TRUE(loaded.has_value()) << (loaded ? "" : to_string(loaded.error().front()));
-  return loaded ? loaded->scene.ships.front() : simulation::ShipSpec{};
+  return loaded ? loaded->scene.ships.front() : simulation::Ship{};
 }
 
 TEST(SailingScene, MassAndInertiaFollowFromTheForm) {

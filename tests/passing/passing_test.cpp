@@ -36,17 +36,17 @@ struct Passed {
 };
 
 std::string name_of(const Simulation& run, simulation::ContactState::Body body) {
-  return body.ship >= 0 ? run.scene().ships[static_cast<std::size_t>(body.ship)].name
+  return body.ship >= 0 ? hull_of(run.scene(), static_cast<std::size_t>(body.ship)).name
                         : "floe " + std::to_string(body.floe);
 }
 
 Passed measure(const Simulation& run) {
   std::vector<Polygon> hulls;
-  hulls.reserve(run.scene().ships.size());
+  hulls.reserve(hull_count(run.scene()));
   std::vector<Placed> bodies;
   const auto ships = run.ship_states();
   for (std::size_t i = 0; i < ships.size(); ++i) {
-    hulls.push_back({run.scene().ships[i].hull.waterline, {}});
+    hulls.push_back({hull_of(run.scene(), i).hull.waterline, {}});
     bodies.push_back({{static_cast<int>(i), simulation::kNoFloe},
                       &hulls.back(),
                       ships[i].world_from_ship,

@@ -58,8 +58,9 @@ Polygon random_floe(Random& random) {
   }
 }
 
-simulation::ShipSpec random_ship(Random& random, int number) {
-  simulation::ShipSpec ship;
+/// A ship or, one time in three, a structure.
+std::variant<simulation::Ship, simulation::Structure> random_hull(Random& random, int number) {
+  simulation::Ship ship;
   ship.name = "ship-" + std::to_string(number);
   ship.mass = random.between(3e5, 8e6);
   ship.heading = random.angle();
@@ -75,11 +76,9 @@ simulation::ShipSpec random_ship(Random& random, int number) {
       ship.propulsion = simulation::ConstantThrust{random.between(5e4, 2e6)};
       break;
     case 1:
-      ship.propulsion = simulation::FixedInPlace{};
-      ship.speed = 0;
       ship.hull.waterline = simulation::cylinder_waterline(random.between(1, 8));
       ship.hull.stem_angle = 0.5 * std::numbers::pi;
-      break;
+      return simulation::Structure{ship};
     default:
       ship.propulsion = simulation::ConstantSpeed{ship.speed};
   }
@@ -112,14 +111,19 @@ Scene random_scene(std::uint64_t seed) {
   scene.ice.thickness = random.between(0.2, 1.2);
   scene.ice.friction = random.below(3) == 0 ? 0 : 0.1;
   std::vector<Polygon> placed;
-  const int ships = 1 + random.below(3);
-  for (int tries = 0; tries < 30 && static_cast<int>(scene.ships.size()) < ships; ++tries) {
-    simulation::ShipSpec ship = random_ship(random, tries);
-    const Polygon hull =
-        transform(Pose{ship.position_in_world, Rotation::by(ship.heading)}, Polygon{ship.hull.waterline, {}});
-    if (!is_free(placed, hull)) continue;
-    placed.push_back(hull);
-    scene.ships.push_back(ship);
+  const int hulls = 1 + random.below(3);
+  for (int tries = 0; tries < 30 && static_cast<int>(hull_count(scene)) < hulls; ++tries) {
+    const auto drawn = random_hull(random, tries);
+    const auto& hull = std::visit(
+        [](const simulation::PlacedHull& h) -> auto& { return h; }, drawn);
+    const Polygon outline =
+        transform(Pose{hull.position_in_world, Rotation::by(hull.heading)}, Polygon{hull.hull.waterline, {}});
+    if (!is_free(placed, outline)) continue;
+    placed.push_back(outline);
+    if (const auto* ship = std::get_if<simulation::Ship>(&drawn))
+      scene.ships.push_back(*ship);
+    else
+      scene.structures.push_back(std::get<simulation::Structure>(drawn));
   }
   const int tries = 30 + random.below(120);
   for (int i = 0; i < tries; ++i) {

@@ -116,11 +116,7 @@ TEST(SkinDrag, SlowsAndStopsASpinAsTheClosedFormSays) {
 Scene plate_on_cylinder() {
   Scene scene = unbreakable();
   scene.time.step = 0.02;
-  ShipSpec cylinder = barge({0, 0}, FixedInPlace{}, 0);
-  cylinder.hull.waterline = cylinder_waterline(10);
-  cylinder.hull.angles_from_vertical.assign(cylinder.hull.waterline.size(), 0.0);
-  cylinder.position_in_world = {};
-  scene.ships = {cylinder};
+  scene.structures = {pile({0, 0}, 10)};
   scene.floes = {floe(rectangle(10.01, -200, 610.01, 200), {-0.1, 0})};
   return scene;
 }
@@ -151,13 +147,13 @@ TEST(LimitMomentum, OfAFloeOnACylinderIsThatOfTheClosedForm) {
   scene.record.forces_interval = 1e-3;
   scene.water.drag_coefficient = 0;
   constexpr int kCorners = 2048;  // a facet's sagitta is 1e-5 m
-  geometry::Ring& circle = scene.ships[0].hull.waterline;
+  geometry::Ring& circle = scene.structures[0].hull.waterline;
   circle.clear();
   for (int i = 0; i < kCorners; ++i) {
     const geometry::Rotation r = geometry::Rotation::by(2 * std::numbers::pi * i / kCorners);
     circle.push_back(Point{} + 10 * Vector{r.cosine, r.sine});
   }
-  scene.ships[0].hull.angles_from_vertical.assign(kCorners, 0.0);
+  scene.structures[0].hull.angles_from_vertical.assign(kCorners, 0.0);
   scene.floes = {floe(rectangle(10.001, -20, 50.001, 20), {-0.5, 0})};
   Simulation simulation(scene);
   const Story story = run(simulation, 0.5);
@@ -171,9 +167,9 @@ TEST(LimitMomentum, OfAFloeOnACylinderIsThatOfTheClosedForm) {
 
 // Walls
 
-Wall pressing(double line_load) {
-  Wall wall;
-  wall.line_load = line_load;
+Wall pressing(Point from, Point to, double line_load) {
+  Wall wall = wall_between(from, to, 5);
+  wall.pressure = WallPressure{line_load};
   return wall;
 }
 
@@ -184,8 +180,7 @@ Scene squeezed(double angle) {
   scene.contact.tolerance = 1e-6;
   const geometry::Pose pose{{7, -3}, geometry::Rotation::by(angle)};
   const auto at = [&](double x, double y) { return transform(pose, Point{x, y}); };
-  scene.ships = {wall_between(at(-20, 0), at(20, 0), 5, {}),
-                 wall_between(at(20, 20.05), at(-20, 20.05), 5, pressing(5e4))};
+  scene.walls = {wall_between(at(-20, 0), at(20, 0), 5), pressing(at(20, 20.05), at(-20, 20.05), 5e4)};
   scene.floes = {floe({{at(-20, 0.01), at(20, 0.01), at(20, 20), at(-20, 20)}, {}})};
   return scene;
 }
@@ -227,10 +222,9 @@ TEST(Wall, ClosesAtItsSpeedWhereNothingBearsAndNeverSideways) {
 
 TEST(Wall, ThatMovesPushesIceAlongAndDoesNotMeetOtherWalls) {
   Scene scene = unbreakable();
-  Wall moving;
-  moving.velocity = {0.2, 0};
-  scene.ships = {wall_between({0, 10}, {0, -10}, 5, moving), wall_between({4, -20}, {4, 20}, 5, {}),
-                 wall_between({-30, -9}, {30, -9}, 5, {})};
+  scene.walls = {wall_between({0, 10}, {0, -10}, 5), wall_between({4, -20}, {4, 20}, 5),
+                 wall_between({-30, -9}, {30, -9}, 5)};
+  scene.walls[0].velocity = {0.2, 0};
   scene.floes = {floe(rectangle(0.01, -8, 2, 8))};
   Simulation simulation(scene);
   const Story story = run(simulation, 2);
@@ -261,7 +255,7 @@ TEST(LinePressure, OnAShipsBowAndSidesIsThatOfTheClosedForm) {
   constexpr double kWay = 10;  // from hull to wall
   Scene scene = unbreakable();
   scene.contact.tolerance = 1e-5;
-  ShipSpec ship = icebreaker({60, 0}, ConstantSpeed{0.005}, 0.005);
+  Ship ship = icebreaker({60, 0}, ConstantSpeed{0.005}, 0.005);
   ship.hull.angles_from_vertical.assign(ship.hull.waterline.size(), 0.0);
   scene.ships = {ship};
   const geometry::Ring hull = ship.hull.waterline;
@@ -272,8 +266,7 @@ TEST(LinePressure, OnAShipsBowAndSidesIsThatOfTheClosedForm) {
     scene.floes.push_back(
         floe({{beside(hull[i], 0.001), beside(hull[i], kWay), beside(hull[k], kWay), beside(hull[k], 0.001)},
               {}}));
-    scene.ships.push_back(
-        wall_between(beside(hull[i], kWay + 0.001), beside(hull[k], kWay + 0.001), 5, pressing(kLoad)));
+    scene.walls.push_back(pressing(beside(hull[i], kWay + 0.001), beside(hull[k], kWay + 0.001), kLoad));
   }
   Simulation simulation(scene);
   const Story story = run(simulation, 60);

@@ -151,11 +151,9 @@ TEST(CrushLaw, AJamIsSolvedAndItsContactsCreateNoEnergy) {
   scene.time.step = 0.01;
   scene.ships = {icebreaker({-1, 0}, ConstantSpeed{1})};
   const auto wall = [&](double x0, double y0, double x1, double y1) {
-    ShipSpec ship = barge({0, 0}, FixedInPlace{}, 0);
-    ship.name = "wall";
-    ship.hull.waterline = rectangle(x0, y0, x1, y1).outer;
-    ship.position_in_world = {};
-    scene.ships.push_back(ship);
+    Structure& wall = scene.structures.emplace_back(standing(barge({60, 0}, ConstantSpeed{0})));
+    wall.name = "wall";
+    wall.hull.waterline = rectangle(x0, y0, x1, y1).outer;
   };
   wall(100, -60, 110, 60);
   wall(-1, 60, 110, 70);

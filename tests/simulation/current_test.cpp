@@ -102,28 +102,21 @@ TEST(Shear, TheUniformPartIsOnlyAMovingFrame) {
   }
 }
 
-ShipSpec pile(Point at, double radius, double wall_angle) {
-  ShipSpec structure;
-  structure.name = "pile";
-  structure.hull.waterline = cylinder_waterline(radius);
-  structure.hull.angles_from_vertical.assign(structure.hull.waterline.size(), wall_angle);
-  structure.mass = structure.moment_of_inertia = std::numeric_limits<double>::infinity();
-  structure.position_in_world = at;
-  structure.propulsion = FixedInPlace{};
-  return structure;
-}
-
 TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
   for (const double wall_angle : {0.0, 50 * kDegree}) {
     Scene drifting;
     drifting.water.drift = {-0.7, 0};
-    drifting.ships = {pile({0, 3}, 6, wall_angle)};
+    drifting.structures = {pile({0, 3}, 6, wall_angle)};
     drifting.floes = {floe(rectangle(7, -40, 60, 40))};
     for (int row = 0; row < 4; ++row)
       drifting.floes.push_back(floe(rectangle(62, -30 + 15 * row, 75, -17 + 15 * row)));
     Scene still = drifting;
     still.water.drift = {};
-    still.ships[0].propulsion = ConstantSpeed{0.7};
+    still.structures.clear();
+    Ship& moving = still.ships.emplace_back();
+    static_cast<PlacedHull&>(moving) = drifting.structures[0];
+    moving.propulsion = ConstantSpeed{0.7};
+    moving.mass = moving.moment_of_inertia = std::numeric_limits<double>::infinity();
     Simulation a(drifting);
     Simulation b(still);
     const Story seen_drifting = run(a, 60);

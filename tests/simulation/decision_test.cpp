@@ -10,7 +10,7 @@ namespace {
 
 using namespace scenes;
 
-Scene ship_against(const ShipSpec& ship, const geometry::Polygon& ice) {
+Scene ship_against(const Ship& ship, const geometry::Polygon& ice) {
   Scene scene = paper_scene();
   scene.ships = {ship};
   scene.floes = {floe(ice)};

@@ -55,7 +55,9 @@ TEST(EnergyAudit, ClosesWithAPrescribedShipInADriftAndWithStructuresInAShearedCu
   EXPECT_GT(audit_prescribed.sums.energy.thrust, 0) << "what holds the speed works";
   EXPECT_GT(length(audit_prescribed.sums.momentum.held), 0);
 
-  Scene sheared = busy_scene(FixedInPlace{});
+  Scene sheared = busy_scene(ConstantSpeed{0});
+  sheared.structures = {standing(sheared.ships[0])};
+  sheared.ships.clear();
   sheared.water.drift = {-0.5, 0};
   sheared.water.shear.rate = 1e-3;
   const Audit audit_sheared = after(sheared, 30);

@@ -77,8 +77,9 @@ TEST(FastIce, LoadsAShipAtConstantSpeedAsAPlateTooHeavyToMoveDoes) {
 }
 
 TEST(FastIce, ThatMovesCrushesOnAStructure) {
-  Scene scene = in_ice(FixedInPlace{}, fast(rectangle(0.01, -40, 100, 40), {-0.2, 0}));
-  scene.ships = {barge({0, 0}, FixedInPlace{}, 0)};
+  Scene scene = in_ice(ConstantSpeed{0}, fast(rectangle(0.01, -40, 100, 40), {-0.2, 0}));
+  scene.ships.clear();
+  scene.structures = {standing(barge({0, 0}, ConstantSpeed{0}))};
   scene.fracture.breakable_size_factor = 1e9;
   Simulation simulation(scene);
   const Story story = run(simulation, 5);

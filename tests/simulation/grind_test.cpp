@@ -8,12 +8,11 @@ namespace {
 
 using namespace scenes;
 
-ShipSpec block(double x0, double y0, double x1, double y1) {
-  ShipSpec ship = barge({0, 0}, FixedInPlace{}, 0);
-  ship.name = "block";
-  ship.hull.waterline = rectangle(x0, y0, x1, y1).outer;
-  ship.position_in_world = {0, 0};
-  return ship;
+Structure block(double x0, double y0, double x1, double y1) {
+  Structure block = standing(barge({60, 0}, ConstantSpeed{0}));
+  block.name = "block";
+  block.hull.waterline = rectangle(x0, y0, x1, y1).outer;
+  return block;
 }
 
 struct Ground {
@@ -31,7 +30,7 @@ Ground after_one_step(const Scene& scene) {
 
 TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
   Scene scene;
-  scene.ships = {block(-30, -1, 30, 1)};
+  scene.structures = {block(-30, -1, 30, 1)};
   scene.floes = {floe(rectangle(-2, -10, 2, 8), {0, 0.3})};
   const Ground ground = after_one_step(scene);
   ASSERT_EQ(ground.story.events.size(), 1U);
@@ -54,7 +53,7 @@ TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
 
 TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   Scene scene;
-  scene.ships = {block(-30, -10, 30, 10)};
+  scene.structures = {block(-30, -10, 30, 10)};
   scene.floes = {floe(rectangle(3, -2, 6, 2))};
   const Ground inside = after_one_step(scene);
   ASSERT_EQ(inside.story.events.size(), 1U);
@@ -62,7 +61,7 @@ TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   EXPECT_EQ(inside.event().brash_area, 12);
   EXPECT_TRUE(inside.simulation.floe_states().empty());
 
-  scene.ships = {block(-1, -1, 1, 1)};
+  scene.structures = {block(-1, -1, 1, 1)};
   scene.floes = {floe(rectangle(-40, -40, 40, 40))};
   const Ground around = after_one_step(scene);
   ASSERT_EQ(around.story.events.size(), 1U);
@@ -85,9 +84,9 @@ TEST(Grind, OfTwoFloesTheSmallerIsGround) {
 
 TEST(Grind, AWedgeIsPartedByItsContactInstead) {
   Scene scene;
-  ShipSpec wedge = block(0, 0, 1, 1);
+  Structure wedge = block(0, 0, 1, 1);
   wedge.hull.waterline = {{5, 0}, {-25, 9}, {-25, -9}};
-  scene.ships = {wedge};
+  scene.structures = {wedge};
   scene.floes = {floe(rectangle(0, -10, 1.5, 10), {-0.3, 0})};
   Simulation simulation(scene);
   const Story story = run(simulation, 2);
@@ -109,7 +108,7 @@ TEST(Grind, WhatOnlyTouchesIsLeft) {
 
 TEST(Grind, IsPartOfTheStateAndDoesNotDependOnThreads) {
   Scene scene;
-  scene.ships = {block(-30, -1, 30, 1)};
+  scene.structures = {block(-30, -1, 30, 1)};
   scene.floes = {floe(rectangle(-2, -10, 2, 8), {0, 0.3}), floe(rectangle(4, -10, 6, 8), {0.2, 0.3})};
   Simulation whole(scene);
   run(whole, 1);

@@ -15,9 +15,8 @@ using geometry::Point;
 
 constexpr double kLength = 120;
 
-ShipSpec ship_with(const PilotSettings& pilot, double speed = 4,
-                   const Steering& steering = RudderSettings{13}) {
-  ShipSpec ship = icebreaker(
+Ship ship_with(const PilotSettings& pilot, double speed = 4, const Steering& steering = RudderSettings{13}) {
+  Ship ship = icebreaker(
       {60, 0}, Engine{.bollard_pull = 1e6, .open_water_speed = 8, .power = 12e6, .propeller_area = 25},
       speed);
   ship.hull.draught = 6;
@@ -150,7 +149,7 @@ TEST(Pilot, RamsThickIceAndCountsIt) {
 
 TEST(Pilot, FollowsAShipAtADistance) {
   Scene scene = alone(SpeedPilot{.speed = 3}, 3);
-  ShipSpec follower = ship_with(FollowingPilot{"icebreaker", 0, 100}, 3);
+  Ship follower = ship_with(FollowingPilot{"icebreaker", 0, 100}, 3);
   follower.name = "follower";
   follower.position_in_world = {-400, 30};
   scene.ships.push_back(follower);

@@ -18,7 +18,7 @@ constexpr double kLength = 120;
 Scene in_water(const Propulsion& propulsion, double speed, double step = 0.05) {
   Scene scene;
   scene.time.step = step;
-  ShipSpec ship = icebreaker({60, 0}, propulsion, speed);
+  Ship ship = icebreaker({60, 0}, propulsion, speed);
   ship.hull.draught = 6;
   ship.water.acts = true;
   ship.water.block_coefficient = 0.579;
@@ -183,7 +183,7 @@ TEST(Sailing, TheWaterSharesABlow) {
 
 TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
   Scene scene = in_water(engine(), 2, 0.01);
-  ShipSpec other = in_water(ConstantThrust{0}, 0).ships[0];
+  Ship other = in_water(ConstantThrust{0}, 0).ships[0];
   other.name = "other";
   other.position_in_world = {125, 3};
   scene.ships.push_back(other);

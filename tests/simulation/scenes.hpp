@@ -21,8 +21,8 @@ inline FloeSpec floe(const geometry::Polygon& polygon, geometry::Vector velocity
 }
 
 /// The paper's ship, its stem at `stem`, heading along x.
-inline ShipSpec icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1) {
-  ShipSpec ship;
+inline Ship icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1) {
+  Ship ship;
   ship.name = "icebreaker";
   ship.hull.waterline = wedge_bow_waterline(120, 24, 27 * kDegree);
   ship.hull.stem_angle = 30 * kDegree;
@@ -35,12 +35,27 @@ inline ShipSpec icebreaker(geometry::Point stem, const Propulsion& propulsion, d
 }
 
 /// A box-shaped ship with vertical walls: it can only crush.
-inline ShipSpec barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1) {
-  ShipSpec ship = icebreaker(middle_of_bow, propulsion, speed);
+inline Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1) {
+  Ship ship = icebreaker(middle_of_bow, propulsion, speed);
   ship.name = "barge";
   ship.hull.waterline = rectangle(-60, -12, 60, 12).outer;
   ship.hull.angles_from_vertical = {0, 0, 0, 0};
   return ship;
+}
+
+/// A structure of the same hull in the same place.
+inline Structure standing(const PlacedHull& hull) {
+  return {hull};
+}
+
+/// A cylinder, or a cone whose walls have an angle from the vertical [rad].
+inline Structure pile(geometry::Point at, double radius, double wall_angle = 0) {
+  Structure pile;
+  pile.name = "pile";
+  pile.hull.waterline = cylinder_waterline(radius);
+  pile.hull.angles_from_vertical.assign(pile.hull.waterline.size(), wall_angle);
+  pile.position_in_world = at;
+  return pile;
 }
 
 /// Everything a run recorded.

@@ -1,6 +1,4 @@
 // Contact of ships with one another and with structures: recorded apart from the ice, and never in silence.
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "tests/simulation/scenes.hpp"
@@ -9,21 +7,7 @@ namespace polynya::simulation {
 namespace {
 
 using namespace scenes;
-using geometry::Point;
 using geometry::Vector;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-ShipSpec pile(Point at, double radius) {
-  ShipSpec structure;
-  structure.name = "pile";
-  structure.hull.waterline = cylinder_waterline(radius);
-  structure.hull.angles_from_vertical.assign(structure.hull.waterline.size(), 0);
-  structure.mass = structure.moment_of_inertia = kInfinity;
-  structure.position_in_world = at;
-  structure.propulsion = FixedInPlace{};
-  return structure;
-}
 
 TEST(ShipContacts, AreNoIceLoad) {
   // Two barges bow to bow, no ice in the scene.
@@ -56,7 +40,8 @@ TEST(ShipContacts, AreNoIceLoad) {
 
 TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
   Scene scene = without_drag();
-  scene.ships = {barge({0, 0}, ConstantThrust{0}, 1), pile({25, 3}, 5)};
+  scene.ships = {barge({0, 0}, ConstantThrust{0}, 1)};
+  scene.structures = {pile({25, 3}, 5)};
   scene.floes = {floe(rectangle(1, -8, 9, -2))};
   Simulation simulation(scene);
   const Story story = run(simulation, 40);
@@ -83,7 +68,8 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
     for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
       Scene scene = paper_scene();
       scene.time.step = step;
-      scene.ships = {barge({0, 0}, ConstantSpeed{2}), pile({25, off}, 5), pile({-150, 0}, 5)};
+      scene.ships = {barge({0, 0}, ConstantSpeed{2})};
+      scene.structures = {pile({25, off}, 5), pile({-150, 0}, 5)};
       Simulation simulation(scene);
       const Story story = run(simulation, 30);
       if (std::abs(off) > 17) {
@@ -108,10 +94,8 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
 
 TEST(ShipContacts, AreRecordedOnceAlsoAfterAResume) {
   Scene scene = paper_scene();
-  scene.ships = {barge({0, 0}, ConstantThrust{1e5}), pile({1, 0}, 5), barge({0, 100}, ConstantSpeed{1}),
-                 pile({6, 100}, 5)};
-  scene.ships[1].position_in_world.x += 5;
-  scene.ships[3].position_in_world.x += 0.5;
+  scene.ships = {barge({0, 0}, ConstantThrust{1e5}), barge({0, 100}, ConstantSpeed{1})};
+  scene.structures = {pile({6, 0}, 5), pile({6.5, 100}, 5)};
   Simulation simulation(scene);
   EXPECT_EQ(run(simulation, 3).ship_contacts.size(), 2U);
   auto resumed = Simulation::resumed(scene, simulation.state());

@@ -89,9 +89,10 @@ void add_field(Scene& scene, double x0, double y0, double x1, double y1, double 
   field.floe_size = size;
   field.concentration = concentration;
   field.seed = 5;
-  for (const ShipSpec& ship : scene.ships) {
-    geometry::Polygon clear{ship.hull.waterline, {}};
-    for (Point& p : clear.outer) p += ship.position_in_world - Point{};
+  for (std::size_t i = 0; i < hull_count(scene); ++i) {
+    const PlacedHull& hull = hull_of(scene, i);
+    geometry::Polygon clear{hull.hull.waterline, {}};
+    for (Point& p : clear.outer) p += hull.position_in_world - Point{};
     field.kept_clear.push_back(clear);
   }
   for (const auto& polygon : make_floe_field(field).floes) scene.floes.push_back(floe(polygon));
@@ -115,14 +116,7 @@ Scene pile_in_shear() {
   scene.time.step = 0.02;
   scene.water.drift = {0.6, 0};
   scene.water.shear = {0.004, 0, {0, 0}};
-  ShipSpec pile;
-  pile.name = "pile";
-  pile.hull.waterline = cylinder_waterline(8);
-  pile.hull.angles_from_vertical.assign(pile.hull.waterline.size(), 0);
-  pile.mass = pile.moment_of_inertia = std::numeric_limits<double>::infinity();
-  pile.position_in_world = {40, 0};
-  pile.propulsion = FixedInPlace{};
-  scene.ships = {pile};
+  scene.structures = {pile({40, 0}, 8)};
   add_field(scene, -60, -40, 60, 40, 0.75, 12);
   return scene;
 }

@@ -27,8 +27,8 @@ Scene lefm_scene(const std::vector<FloeSpec>& floes) {
 }
 
 /// The reference ship with vertical walls: it crushes and splits ice, and does not bend it.
-ShipSpec wedge_ship(const Propulsion& propulsion, double speed = 1) {
-  ShipSpec ship = icebreaker({0, 0}, propulsion, speed);
+Ship wedge_ship(const Propulsion& propulsion, double speed = 1) {
+  Ship ship = icebreaker({0, 0}, propulsion, speed);
   ship.hull.angles_from_vertical.assign(ship.hull.waterline.size(), 0);
   return ship;
 }
@@ -149,7 +149,7 @@ TEST(Splitting, AFloeSplitsAnotherWithItsPointAndNotWithItsSide) {
 TEST(Splitting, AFloeThatDriftsOnAStructureSplitsAtItsNoseAndNotAtItsWall) {
   for (const bool has_nose : {true, false}) {
     Scene scene = lefm_scene({floe(rectangle(0.05, -10, 20.05, 10), {-1, 0})});
-    scene.ships = {has_nose ? wedge_ship(FixedInPlace{}, 0) : barge({0, 0}, FixedInPlace{}, 0)};
+    scene.structures = {standing(has_nose ? wedge_ship(ConstantSpeed{0}) : barge({0, 0}, ConstantSpeed{0}))};
     Simulation simulation(scene);
     const Event event = first_fracture(simulation, 3);
     EXPECT_EQ(event.time > 0, has_nose);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace scenes;
 
-ShipSpec with_draught(ShipSpec ship) {
+Ship with_draught(Ship ship) {
   ship.hull.draught = 6;
   return ship;
 }

@@ -113,7 +113,7 @@ TEST_F(SceneExport, AShipGoesOnAsItWent) {
   const io::Run whole = run("whole", load(crowd(6)));
   const auto at = io::MotionIndex(whole).ship_at(0, 6);
   const io::LoadedScene loaded = continued(whole, 6);
-  const simulation::ShipSpec& ship = loaded.scene.ships[0];
+  const simulation::Ship& ship = loaded.scene.ships[0];
   EXPECT_EQ(ship.position_in_world, at->position);
   const geometry::Vector ahead{std::cos(at->angle), std::sin(at->angle)};
   EXPECT_NEAR(length(ship.speed * ahead + ship.sway_speed * perpendicular(ahead) - at->velocity), 0, 1e-12);

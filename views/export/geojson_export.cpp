@@ -56,12 +56,12 @@ std::string fractures_layer(const io::Run& run, double time, const Project& proj
 std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, double time,
                          const Project& project) {
   GeojsonLayer layer(time, project);
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     geometry::Ring track;
     for (const double t : frame_times_until(run, time))
       track.push_back(ship_pose_at(run, motions, ship, t).position);
     if (track.size() < 2) continue;
-    layer.start().key("ship").value(run.scene.scene.ships[ship].name);
+    layer.start().key("ship").value(hull_of(run.scene.scene, ship).name);
     layer.end_with(track);
   }
   return layer.finish();
@@ -70,9 +70,9 @@ std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, dou
 std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, double time,
                         const Project& project) {
   GeojsonLayer layer(time, project);
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
-    layer.start().key("ship").value(run.scene.scene.ships[ship].name).key("t_s").value(time);
-    const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
+    layer.start().key("ship").value(hull_of(run.scene.scene, ship).name).key("t_s").value(time);
+    const auto& waterline = hull_of(run.scene.scene, ship).hull.waterline;
     layer.end_with(geometry::Polygon{transform(ship_pose_at(run, motions, ship, time), waterline), {}});
   }
   return layer.finish();
@@ -80,7 +80,7 @@ std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, doub
 
 std::string channel_layer(const io::Run& run, double time, const Project& project) {
   GeojsonLayer layer(time, project);
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     const auto channel =
         analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0});
     if (!channel) continue;

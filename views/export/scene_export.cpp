@@ -133,23 +133,21 @@ void note_memory(const JsonValue& ship, std::vector<std::string>& left_out) {
   if (ship.find("steering")) note("its rudder or thrusters start amidships");
 }
 
-/// Walls are behind ships and structures in the scene's list; those that moved are where they came to.
+/// Walls that moved are where they came to.
 void place_walls(JsonValue& scene, const io::Run& run, const io::MotionIndex& motions, double time,
                  std::vector<std::string>& left_out) {
-  JsonValue* walls = scene.find("walls");
-  const std::size_t count = walls ? walls->items().size() : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = run.scene.scene.ships.size() - count + i;
-    const simulation::ShipSpec& spec = run.scene.scene.ships.at(index);
-    const auto motion = motions.ship_at(index, time);
+  const std::vector<simulation::Wall>& walls = run.scene.scene.walls;
+  const std::size_t first = hull_count(run.scene.scene) - walls.size();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const auto motion = motions.ship_at(first + i, time);
     if (!motion) continue;
-    const geometry::Vector moved = motion->position - spec.position_in_world;
-    JsonValue& wall = walls->items()[i];
+    const geometry::Vector moved = motion->position - walls[i].position_in_world;
+    JsonValue& wall = scene.find("walls")->items().at(i);
     for (const char* key : {"from_m", "to_m"}) {
       const JsonValue::Array& end = wall.find(key)->items();
       put(wall, key, pair_of(end[0].number() + moved.x, end[1].number() + moved.y));
     }
-    if (wall.find("pressure")) left_out.push_back(spec.name + ": it starts to press from rest");
+    if (walls[i].pressure) left_out.push_back(walls[i].name + ": it starts to press from rest");
   }
 }
 

@@ -120,8 +120,8 @@ VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double 
   VtkPolyData data;
   data.time = time;
   data.cell_data = {{"ship", {}, 1, true}, {"velocity_m_per_s", {}, 3, false}, {"heading_deg", {}, 1, false}};
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
-    const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
+    const auto& waterline = hull_of(run.scene.scene, ship).hull.waterline;
     const geometry::Pose pose = ship_pose_at(run, motions, ship, time);
     const auto first = static_cast<std::int64_t>(data.points.size());
     const geometry::Ring ring = transform(pose, waterline);
@@ -159,7 +159,7 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
     add_row(data.cell_data, {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe),
                              t, force.x, force.y, 0.0, moment, peak.x, peak.y, 0.0});
   };
-  std::vector<const simulation::ShipSample*> last(run.scene.scene.ships.size(), nullptr);
+  std::vector<const simulation::ShipSample*> last(hull_count(run.scene.scene), nullptr);
   const auto until = std::ranges::upper_bound(run.samples, time + 1e-9, {}, &simulation::ShipSample::time);
   for (auto sample = until; sample != run.samples.begin();) {
     --sample;

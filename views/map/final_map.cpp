@@ -24,10 +24,11 @@ Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double ti
   });
   for (const io::PlacedFloe& floe : floes_under_hulls_at(run, motions, time))
     picture.ice_under_hulls.push_back(transform(floe.world_from_body, *floe.polygon_in_body));
-  for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
-    Picture::Ship drawn{transform(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline),
-                        {},
-                        std::holds_alternative<simulation::Wall>(scene.ships[ship].propulsion)};
+  for (std::size_t ship = 0; ship < hull_count(scene); ++ship) {
+    Picture::Ship drawn{
+        transform(ship_pose_at(run, motions, ship, time), hull_of(scene, ship).hull.waterline),
+        {},
+        kind_of_hull(scene, ship) == simulation::BodyKind::kWall};
     for (const double t : drawn.is_wall ? std::vector<double>{} : frame_times_until(run, time))
       drawn.track.push_back(ship_pose_at(run, motions, ship, t).position);
     picture.ships.push_back(std::move(drawn));

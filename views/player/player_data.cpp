@@ -72,7 +72,7 @@ void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<i
     instants.push_back(frames[(i + 1) * frames.size() / count - 1].time);
   std::vector<Row> rows;
   const io::MotionIndex motions(run);
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     for (const double time : instants) {
       const auto stations = analysis::measure_stations(run, motions, {.ship = ship, .time = time});
       if (!stations) continue;
@@ -189,10 +189,10 @@ void write_events(io::JsonWriter& json, const io::Run& run, const HeldFloes& hel
 
 void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
   json.key("ships").open('[');
-  for (const simulation::ShipSpec& ship : scene.ships) {
-    json.open('{').key("name").value(ship.name);
-    json.key("waterline_m").value(ship.hull.waterline);
-    json.key("is_fixed").value(is_grounded(ship)).close('}');
+  for (std::size_t i = 0; i < hull_count(scene); ++i) {
+    json.open('{').key("name").value(hull_of(scene, i).name);
+    json.key("waterline_m").value(hull_of(scene, i).hull.waterline);
+    json.key("is_fixed").value(is_grounded(kind_of_hull(scene, i))).close('}');
   }
   json.close(']');
 }
