@@ -127,7 +127,8 @@ std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
   std::vector<std::string> warnings;
   const auto& contacts = simulation.world().accounts.ship_contacts;
   const auto& ships = simulation.scene().ships;
-  for (const simulation::ShipContact& c : contacts) {
+  for (const simulation::Event& event : contacts) {
+    const auto& c = std::get<simulation::ShipContact>(event.what);
     if (warnings.size() == kMostShipContacts) {
       warnings.push_back(
           fmt::format("{} more pairs of ships and structures came into contact (events.ndjson)",
@@ -136,8 +137,8 @@ std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
     }
     warnings.push_back(fmt::format(
         "{} and {} came into contact at {:.6g} s, closing at {:.3g} m/s; {}",
-        ships[static_cast<std::size_t>(c.ship)].name, ships[static_cast<std::size_t>(c.other)].name, c.time,
-        c.closing_speed,
+        ships[static_cast<std::size_t>(event.ship)].name, ships[static_cast<std::size_t>(c.other)].name,
+        event.time, c.closing_speed,
         c.is_prescribed ? "the motion of both is prescribed, so they pass through each other and no force is "
                           "computed: give the ship thrust_N or an engine"
                         : "forces.csv has these loads apart from those of ice, in its *_from_ships columns"));

@@ -96,6 +96,7 @@ struct StepData {
   std::vector<HullSlope> slopes;  ///< of the contacts of ships, which come first
   std::vector<PendingFracture> fractures;
   std::vector<PendingSubmersion> submersions;
+  std::vector<Event> mooring_breaks;          ///< to be recorded after what happens to ice
   std::vector<ShipLoads> loads;               ///< per ship
   std::vector<ShipMotion> start;              ///< per ship: its motion before the step's impulses
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
@@ -110,7 +111,7 @@ struct Accounts {
   Counts counts;
   std::vector<ShipLoads> loads;                                       ///< per ship, since the last sample
   std::vector<SailingLoads> sailing;                                  ///< per ship, since the last sample
-  std::vector<ShipContact> ship_contacts;                             ///< the first one of each pair of ships
+  std::vector<Event> ship_contacts;                                   ///< the first one of each pair of ships
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut
 };
 

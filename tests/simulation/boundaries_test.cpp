@@ -236,7 +236,7 @@ TEST(Wall, ThatMovesPushesIceAlongAndDoesNotMeetOtherWalls) {
   const Story story = run(simulation, 2);
   EXPECT_NEAR(simulation.floe_states().front().velocity.x, 0.2, 1e-3);
   EXPECT_NEAR(simulation.ship_states()[0].world_from_ship.position.x, 0.4, 1e-9);
-  EXPECT_TRUE(story.ship_contacts.empty()) << "walls cross at their ends";
+  EXPECT_TRUE(of_kind<ShipContact>(story).empty()) << "walls cross at their ends";
   expect_closed(simulation);
 }
 

@@ -143,8 +143,7 @@ TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
     }
     EXPECT_GT(most, 1e4);
     ASSERT_EQ(seen_drifting.events.size(), seen_still.events.size());
-    const bool has_bent =
-        std::ranges::any_of(seen_still.events, [](const Event& e) { return e.kind == EventKind::kBend; });
+    const bool has_bent = std::ranges::any_of(seen_still.events, [](const Event& e) { return e.is<Bend>(); });
     EXPECT_EQ(has_bent, wall_angle > 0) << "only a sloping wall presses the ice down";
   }
 }

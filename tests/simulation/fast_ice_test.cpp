@@ -98,10 +98,10 @@ TEST(FastIce, ItsPiecesAreFreeAndMoveOnAsItDid) {
     simulation.step();
     listen(simulation, story);
   }
-  ASSERT_EQ(story.events[0].kind, EventKind::kBend);
-  ASSERT_GE(story.events[0].children.size(), 2u);
+  ASSERT_TRUE(story.events[0].is<Bend>());
+  ASSERT_GE(story.events[0].ice()->children.size(), 2u);
   const Population& population = simulation.world().population;
-  for (const FloeId child : story.events[0].children) {
+  for (const FloeId child : story.events[0].ice()->children) {
     EXPECT_EQ(population.is_fast(child), child == fast_floe(simulation));
     const geometry::Vector velocity = population.bodies.velocity[population.body_of(child)];
     EXPECT_NEAR(velocity.x, -0.35, 1e-12);

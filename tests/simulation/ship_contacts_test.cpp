@@ -43,14 +43,15 @@ TEST(ShipContacts, AreNoIceLoad) {
   }
   EXPECT_NEAR(surge, 1e7 * (simulation.ship_states()[0].velocity.x - 0.5), 1e-3);
   EXPECT_LT(surge, -5e6);
-  ASSERT_EQ(story.ship_contacts.size(), 1U);
-  const ShipContact& contact = story.ship_contacts[0];
-  EXPECT_NEAR(contact.time, 0.55, 2 * scene.time.step + 1e-9);
-  EXPECT_EQ(contact.ship, 0);
+  ASSERT_EQ(of_kind<ShipContact>(story).size(), 1U);
+  const Event event = of_kind<ShipContact>(story)[0];
+  const auto& contact = event.get<ShipContact>();
+  EXPECT_NEAR(event.time, 0.55, 2 * scene.time.step + 1e-9);
+  EXPECT_EQ(event.ship, 0);
   EXPECT_EQ(contact.other, 1);
   EXPECT_NEAR(contact.closing_speed, 1, 1e-6);
   EXPECT_NEAR(contact.relative_speed, 1, 1e-6);
-  EXPECT_NEAR(contact.point_in_world.x, 0.275, 0.01);
+  EXPECT_NEAR(event.point_in_world.x, 0.275, 0.01);
   EXPECT_FALSE(contact.is_prescribed);
 }
 
@@ -87,16 +88,17 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
       Simulation simulation(scene);
       const Story story = run(simulation, 30);
       if (std::abs(off) > 17) {
-        EXPECT_TRUE(story.ship_contacts.empty()) << off;
+        EXPECT_TRUE(of_kind<ShipContact>(story).empty()) << off;
         continue;
       }
-      ASSERT_EQ(story.ship_contacts.size(), 1U) << off << " in steps of " << step;
-      const ShipContact& contact = story.ship_contacts[0];
+      ASSERT_EQ(of_kind<ShipContact>(story).size(), 1U) << off << " in steps of " << step;
+      const Event event = of_kind<ShipContact>(story)[0];
+      const auto& contact = event.get<ShipContact>();
       // The side of the bow that meets the pile is 20 m from it at most, 25 m where it meets the very edge.
-      EXPECT_GE(contact.time, 10 - 1e-9);
-      EXPECT_LE(contact.time, 12.5 + 2 * step);
+      EXPECT_GE(event.time, 10 - 1e-9);
+      EXPECT_LE(event.time, 12.5 + 2 * step);
       if (std::abs(off) < 11) {
-        EXPECT_NEAR(contact.time, 10, 2 * step);
+        EXPECT_NEAR(event.time, 10, 2 * step);
       }
       EXPECT_EQ(contact.relative_speed, 2);
       EXPECT_GT(contact.closing_speed, 0);
@@ -113,11 +115,11 @@ TEST(ShipContacts, AreRecordedOnceAlsoAfterAResume) {
   scene.ships[1].position_in_world.x += 5;
   scene.ships[3].position_in_world.x += 0.5;
   Simulation simulation(scene);
-  EXPECT_EQ(run(simulation, 3).ship_contacts.size(), 2U);
+  EXPECT_EQ(of_kind<ShipContact>(run(simulation, 3)).size(), 2U);
   auto resumed = Simulation::resumed(scene, simulation.state());
   ASSERT_TRUE(resumed.has_value()) << resumed.error();
-  EXPECT_TRUE(run(*resumed, 6).ship_contacts.empty());
-  EXPECT_TRUE(run(simulation, 6).ship_contacts.empty());
+  EXPECT_TRUE(of_kind<ShipContact>(run(*resumed, 6)).empty());
+  EXPECT_TRUE(of_kind<ShipContact>(run(simulation, 6)).empty());
   EXPECT_EQ(resumed->state_hash(), simulation.state_hash());
 }
 

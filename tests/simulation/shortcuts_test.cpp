@@ -45,12 +45,13 @@ void add(Record& record, const Story& story) {
   }
   for (const Event& e : story.events) {
     for (const double value :
-         {e.time, static_cast<double>(e.kind), static_cast<double>(e.floe), e.cusp_radius, e.penetration,
-          e.submerged_area, e.brash_area, e.criteria.collision_force, e.criteria.vertical_force,
-          e.criteria.bending_capacity})
+         {e.time, static_cast<double>(e.what.index()), static_cast<double>(e.ice()->floe),
+          e.is<Bend>() ? e.get<Bend>().cusp_radius : 0, e.ice()->penetration, e.ice()->submerged_area,
+          e.ice()->brash_area, e.criteria().collision_force, e.criteria().vertical_force,
+          e.criteria().bending_capacity})
       record.add(value);
     record.add(e.point_in_world);
-    record.add(e.normal_in_world);
+    record.add(e.ice()->normal_in_world);
   }
   for (const Birth& b : story.births) {
     record.add(b.area);

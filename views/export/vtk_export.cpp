@@ -138,9 +138,9 @@ VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double 
 }
 
 /// The `kind` of a fracture in the loads; that of a ship is 0.
-int number_of(simulation::EventKind fracture) {
-  if (fracture == simulation::EventKind::kBend) return 1;
-  return fracture == simulation::EventKind::kSplit ? 2 : 3;
+int number_of(const simulation::Event& fracture) {
+  if (fracture.is<simulation::Bend>()) return 1;
+  return fracture.is<simulation::Split>() ? 2 : 3;
 }
 
 /// The ice loads of the interval that ends at the time, a vertex a ship at its centre; and the fractures
@@ -175,9 +175,9 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
         rotate(world_from_ship, {s->surge_peak, s->sway_peak}));
   }
   for (const simulation::Event& event : run.events) {
-    if (!(event.time > after && event.time <= time) || !is_fracture(event.kind)) continue;
-    add(event.point_in_world, number_of(event.kind), event.ship, event.floe, event.time, {kNan, kNan}, kNan,
-        event.criteria.collision_force * event.normal_in_world);
+    if (!(event.time > after && event.time <= time) || !event.is_fracture()) continue;
+    add(event.point_in_world, number_of(event), event.ship, event.ice()->floe, event.time, {kNan, kNan}, kNan,
+        event.criteria().collision_force * event.ice()->normal_in_world);
   }
   return data;
 }
