@@ -29,7 +29,6 @@ struct FailureCriteria {
   double opening_force = 0;         ///< F, the lesser of them [N]
   double opening_capacity = 0;      ///< F_max [N]
   double fracture_toughness = 0;    ///< K_IC [Pa √m]
-  friend bool operator==(const FailureCriteria&, const FailureCriteria&) = default;
 };
 
 /// Small floes are pushed away; else a hard enough hit splits; else ice pressed down enough breaks off a

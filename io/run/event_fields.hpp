@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "simulation/state/archive.hpp"
@@ -8,17 +9,9 @@
 
 namespace polynya::io {
 
-// The fields of events.ndjson, each once, in their order. What writes, reads and lists them (and compares
-// docs/run-folder.md with them) is a Line that takes each field with its place in the event. A Line has
-//
-//   line(key, place, about)               a value
-//   line.optional(is_there, key, …)       one that may be left out, in lines of older versions too
-//   line.derived(key, value, about)       one that follows from others: it is not read
-//   line.object(key, about, list)         an object with fields of its own
-//   line.ship(key, index, about)          a ship or structure by its name; line.ship_or_none: or ""
-//   line.parent(about)                    of the event's floe
-//   line.rule(words or loads)             of a criterion: its `kind`
-//   line.has(key)                         of what is read: whether it is there
+// The fields of events.ndjson, each once, in their order. What writes, reads, shows and lists them is a Line,
+// which takes each with its place in the event: line(key, place, about), and line.object(about, list) for the
+// criterion.
 
 using simulation::Is;
 
@@ -26,26 +19,53 @@ using simulation::Is;
 struct FieldMeaning {
   std::string_view unit;        ///< as people read it; empty of words, counts and ids
   std::string_view meaning;     ///< as docs/run-folder.md has it
-  std::string_view label = {};  ///< in the player, where it shows the field
+  std::string_view label = {};  ///< in the player and `polynya inspect`, where they show the field
   double least = -std::numeric_limits<double>::infinity();
+  std::optional<bool> is_there = {};  ///< of one that may be left out, in lines of older versions too
+  bool is_derived = false;            ///< from others: it is not read
 };
+constexpr FieldMeaning optional(bool is_there, FieldMeaning about) {
+  about.is_there = is_there;
+  return about;
+}
+constexpr FieldMeaning derived(FieldMeaning about) {
+  about.is_derived = true;
+  return about;
+}
+
+/// A ship or structure, recorded by its name.
+template <class Index>
+struct ShipName {
+  Index& index;
+  bool may_be_none = false;
+};
+/// The parent of the event's floe, which the event does not have.
+struct Parent {};
+
+inline constexpr FieldMeaning kRule = derived({"", "the rule, in words"});
 
 template <class Line>
-void criterion(Line& line, Is<simulation::TiltCriterion> auto& c) {
+void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
   const bool tilts = c.least_deflection != 0;
-  line.rule(tilts ? "edge deflection >= least deflection" : "a cusp broken off at the hull");
-  line.optional(tilts, "deflection_m", c.deflection, {"m", "of the floe's edge", "deflection"});
-  line.optional(tilts, "least_deflection_m", c.least_deflection,
-                {"m", "at which the floe goes under", "goes under from", 0});
-  line.optional(tilts, "vertical_force_N", c.vertical_force,
-                {"N", "on the edge in the step", "vertical force"});
-  line.optional(tilts, "tilting_capacity_N", c.capacity,
-                {"N", "the force that turns the floe over", "tilting capacity", 0});
+  line("kind",
+       std::string_view(tilts ? "edge deflection >= least deflection" : "a cusp broken off at the hull"),
+       kRule);
+  line("deflection_m", c.deflection, optional(tilts, {"m", "of the floe's edge", "deflection"}));
+  line("least_deflection_m", c.least_deflection,
+       optional(tilts, {"m", "at which the floe goes under", "goes under from", 0}));
+  line("vertical_force_N", c.vertical_force,
+       optional(tilts, {"N", "on the edge in the step", "vertical force"}));
+  line("tilting_capacity_N", c.capacity,
+       optional(tilts, {"N", "the force that turns the floe over", "tilting capacity", 0}));
 }
 
 template <class Line>
-void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool is_up) {
-  line.rule(!is_up ? "waited >= longest wait" : c.path < 0 ? "the ship backed off it" : "path >= least path");
+void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool comes_up) {
+  line("kind",
+       std::string_view(!comes_up    ? "waited >= longest wait"
+                        : c.path < 0 ? "the ship backed off it"
+                                     : "path >= least path"),
+       kRule);
   line("path_m", c.path, {"m", "how far the ship has come over it", "ship came over it"});
   line("least_path_m", c.least_path, {"m", "of the hull, from which a piece may come up", {}, 0});
   line("waited_s", c.waited, {"s", "for room", "waited for room", 0});
@@ -53,8 +73,8 @@ void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool is_u
 }
 
 template <class Line>
-void criterion(Line& line, Is<simulation::GrindCriterion> auto& c) {
-  line.rule("overlap width < least width");
+void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
+  line("kind", std::string_view("overlap width < least width"), kRule);
   line("width_m", c.width, {"m", "by which the overlap's area falls per metre of motion"});
   line("least_width_m", c.least_width, {"m", "from which a contact parts the overlap", {}, 0});
   line("overlap_area_m2", c.overlap_area, {"m²", "of the overlap, exactly", "overlap ground", 0});
@@ -65,102 +85,86 @@ void criterion(Line& line, Is<simulation::GrindCriterion> auto& c) {
 template <class Line>
 void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split) {
   const simulation::DecidingLoad by = simulation::deciding_load(c, is_split);
-  line.rule(by);
-  line.derived("load_N", by.load, {"N", "the load that decided", "load"});
-  line.derived("capacity_N", by.capacity, {"N", "what it reached", "capacity"});
+  line("kind", by, kRule);
+  line("load_N", by.load, derived({"N", "the load that decided", "load"}));
+  line("capacity_N", by.capacity, derived({"N", "what it reached", "capacity"}));
   const auto of_crack = [&](std::string_view label) { return is_split ? label : std::string_view(); };
   line("floe_size_m", c.floe_size, {"m", "√area of the floe", {}, 0});
   line("breakable_size_m", c.breakable_size, {"m", "κ l, from which floes break", {}, 0});
   line("collision_force_N", c.collision_force, {"N", "j/τ_c"});
   line("splitting_force_N", c.splitting_force, {"N", "F_s, which j/τ_c splits above; 0 by lefm", {}, 0});
   line("crack_length_m", c.crack_length, {"m", "L, of the crack in ice", of_crack("crack length"), 0});
-  line.optional(true, "crack_width_m", c.crack_width,
-                {"m", "W, twice the ice on its narrower side", of_crack("crack width"), 0});
-  line.optional(true, "contact_force_N", c.contact_force,
-                {"N", "true force of the contact in the step", of_crack("contact force")});
+  line("crack_width_m", c.crack_width,
+       optional(true, {"m", "W, twice the ice on its narrower side", of_crack("crack width"), 0}));
+  line("contact_force_N", c.contact_force,
+       optional(true, {"N", "true force of the contact in the step", of_crack("contact force")}));
   const bool opens = c.opening_capacity > 0;
-  line.optional(opens, "opening_force_N", c.opening_force,
+  line("opening_force_N", c.opening_force,
+       optional(opens,
                 {"N",
                  "F that opens the crack, by the true forces: the lesser of its two flanks; with the next "
                  "four, of a bend by lefm, of the crack nearest to running, and left out where none opens",
-                 of_crack("opening force")});
-  line.optional(opens, "opening_capacity_N", c.opening_capacity,
-                {"N", "F_max, at which the crack runs", of_crack("opening capacity"), 0});
-  line.optional(opens, "left_flank_force_N", c.flank_forces[0],
-                {"N", "that pushes the ice on its left apart", of_crack("left flank")});
-  line.optional(opens, "right_flank_force_N", c.flank_forces[1],
-                {"N", "likewise on its right", of_crack("right flank")});
-  line.optional(opens, "fracture_toughness_Pa_sqrt_m", c.fracture_toughness,
-                {"Pa √m", "K_IC of the floe", of_crack("K_IC"), 0});
+                 of_crack("opening force")}));
+  line("opening_capacity_N", c.opening_capacity,
+       optional(opens, {"N", "F_max, at which the crack runs", of_crack("opening capacity"), 0}));
+  line("left_flank_force_N", c.flank_forces[0],
+       optional(opens, {"N", "that pushes the ice on its left apart", of_crack("left flank")}));
+  line("right_flank_force_N", c.flank_forces[1],
+       optional(opens, {"N", "likewise on its right", of_crack("right flank")}));
+  line("fracture_toughness_Pa_sqrt_m", c.fracture_toughness,
+       optional(opens, {"Pa √m", "K_IC of the floe", of_crack("K_IC"), 0}));
   line("vertical_force_N", c.vertical_force, {"N", "V of the contact, down on the ice"});
   line("bending_capacity_N", c.bending_capacity, {"N", "V_b, at which a cusp breaks off", {}, 0});
-  line.optional(c.flexural_strength > 0, "flexural_strength_Pa", c.flexural_strength,
-                {"Pa", "σ_f that V_b is of", {}, 0});
+  line("flexural_strength_Pa", c.flexural_strength,
+       optional(c.flexural_strength > 0, {"Pa", "σ_f that V_b is of", {}, 0}));
 }
 
-template <class Line>
-void criterion_of(Line& line, Is<simulation::Bend> auto& e) {
-  criterion(line, e.criterion, false);
-}
-template <class Line>
-void criterion_of(Line& line, Is<simulation::Split> auto& e) {
-  criterion(line, e.criterion, true);
-}
-/// Of the refused cut, whose kind is not on record: it has the fields of what it was to be.
-template <class Line>
-void criterion_of(Line& line, Is<simulation::RejectedCut> auto& e) {
-  if constexpr (requires { e.criterion = simulation::GrindCriterion{}; })
-    if (line.has("least_width_m")) e.criterion = simulation::GrindCriterion{};
-  if (auto* grind = std::get_if<simulation::GrindCriterion>(&e.criterion)) return criterion(line, *grind);
-  criterion(line, std::get<fracture::FailureCriteria>(e.criterion), e.cusp_radius == 0);
-}
-template <class Line>
-void criterion_of(Line& line, Is<simulation::Resurface> auto& e) {
-  criterion(line, e.criterion, true);
-}
-template <class Line>
-void criterion_of(Line& line, Is<simulation::StayUnder> auto& e) {
-  criterion(line, e.criterion, false);
-}
-template <class Line>
-void criterion_of(Line& line, auto& e) {
-  criterion(line, e.criterion);
+template <class Line, class Kind>
+void criterion_of(Line& line, Kind& e) {
+  using namespace simulation;
+  if constexpr (Is<Kind, RejectedCut>) {  // it has the fields of what it was to be
+    if constexpr (requires { line.has("least_width_m"); })
+      if (line.has("least_width_m")) e.criterion = GrindCriterion{};
+    std::visit([&](auto& c) { criterion(line, c, e.cusp_radius == 0); }, e.criterion);
+  } else {
+    criterion(line, e.criterion, Is<Kind, Split> || Is<Kind, Resurface>);
+  }
 }
 
 /// What happens to ice. Of the kinds' own members each line has those that its kind has.
 template <class Line, class Kind>
-requires std::derived_from<std::remove_const_t<Kind>, simulation::IceEvent>
+requires std::derived_from<Kind, simulation::IceEvent>
 void kind_fields(Line& line, auto& event, Kind& e) {
-  line.ship_or_none("ship", event.ship, {"", "by which it happened; empty where a floe did it", "ship"});
-  line.optional(e.by_floe != simulation::kNoFloe, "by_floe", e.by_floe,
-                {"", "the floe that did it, where no ship did", "by floe"});
+  line("ship", ShipName{event.ship, true}, {"", "by which it happened; empty where a floe did it", "ship"});
+  line(
+      "by_floe", e.by_floe,
+      optional(e.by_floe != simulation::kNoFloe, {"", "the floe that did it, where no ship did", "by floe"}));
   line("floe", e.floe, {"", "that broke, was ground, went under or came up", "floe"});
-  line.parent({"", "of that floe; null for a floe of the scene"});
+  line("parent", Parent{}, derived({"", "of that floe; null for a floe of the scene"}));
   line("children", e.children, {"", "the floes it became", "pieces"});
   line("point_m", event.point_in_world, {"m", "where, in the world", "at"});
   line("normal", e.normal_in_world, {"", "unit, from the hull into the ice; [0, 0] where nothing pressed"});
-  line.object("criterion", {"", "what decided: its rule, and both sides of it"},
-              [&] { criterion_of(line, e); });
+  line.object({"", "what decided: its rule, and both sides of it"}, [&] { criterion_of(line, e); });
   line("penetration_m", e.penetration, {"m", "ξ, what of the contact is crushed"});
   if constexpr (requires { e.cusp_radius; })
-    line.optional(e.cusp_radius > 0, "cusp_radius_m", e.cusp_radius, {"m", "R of a bend", {}, 0});
+    line("cusp_radius_m", e.cusp_radius, optional(e.cusp_radius > 0, {"m", "R of a bend", {}, 0}));
   line("submerged_area_m2", e.submerged_area, {"m²", "gone under the ship for good", "submerged", 0});
   line("brash_area_m2", e.brash_area, {"m²", "pieces below the size limit, slivers and rims", "brash", 0});
   if constexpr (requires { e.under_hull_area; })
-    line.optional(e.under_hull_area > 0, "under_hull_area_m2", e.under_hull_area,
-                  {"m²", "gone under the hull, to come up", "under the hull", 0});
+    line("under_hull_area_m2", e.under_hull_area,
+         optional(e.under_hull_area > 0, {"m²", "gone under the hull, to come up", "under the hull", 0}));
   if constexpr (requires { e.under_ice_area; })
-    line.optional(e.under_ice_area > 0, "under_ice_area_m2", e.under_ice_area,
-                  {"m²", "that stays under the ice", "under the ice", 0});
+    line("under_ice_area_m2", e.under_ice_area,
+         optional(e.under_ice_area > 0, {"m²", "that stays under the ice", "under the ice", 0}));
   line("rounding_defect_m2", e.rounding_defect, {"m²", "what rounding added (+) or took (−)"});
   if constexpr (requires { e.reason; })
-    line.optional(!e.reason.empty(), "reason", e.reason, {"", "why geometry refused the cut", "reason"});
+    line("reason", e.reason, optional(!e.reason.empty(), {"", "why geometry refused the cut", "reason"}));
 }
 
 template <class Line>
 void kind_fields(Line& line, auto& event, Is<simulation::ShipContact> auto& e) {
-  line.ship("ship", event.ship, {"", "one of the two", "ship"});
-  line.ship("by_ship", e.other, {"", "the other: a ship, a structure or a wall", "other ship"});
+  line("ship", ShipName{event.ship}, {"", "one of the two", "ship"});
+  line("by_ship", ShipName{e.other}, {"", "the other: a ship, a structure or a wall", "other ship"});
   line("point_m", event.point_in_world, {"m", "where, in the world", "at"});
   line("closing_speed_m_per_s", e.closing_speed,
        {"m/s", "along the contact's normal, before the contact acts", "closing at"});
@@ -172,7 +176,7 @@ void kind_fields(Line& line, auto& event, Is<simulation::ShipContact> auto& e) {
 
 template <class Line>
 void kind_fields(Line& line, auto& event, Is<simulation::MooringBreak> auto& e) {
-  line.ship("ship", event.ship, {"", "that is adrift from then on", "ship"});
+  line("ship", ShipName{event.ship}, {"", "that is adrift from then on", "ship"});
   line("point_m", event.point_in_world, {"m", "its centre of gravity, in the world", "at"});
   line("force_N", e.force, {"N", "with which the mooring held it, horizontal", "force", 0});
   line("break_load_N", e.break_load, {"N", "which that force exceeds", "breaks above", 0});
@@ -184,7 +188,7 @@ void kind_fields(Line& line, auto& event, Is<simulation::MooringBreak> auto& e) 
 template <class Line>
 void fields(Line& line, Is<simulation::Event> auto& event) {
   line("t_s", event.time, {"s", "when", "time"});
-  line.derived("kind", simulation::name_of(event), {"", "what happened", "event"});
+  line("kind", simulation::name_of(event), derived({"", "what happened", "event"}));
   std::visit([&](auto& kind) { kind_fields(line, event, kind); }, event.what);
 }
 

@@ -46,9 +46,8 @@ void recentre(const Population& population, PendingFracture& pending) {
   if (distance(nearest, contact) <= kFarthestIce * pending.cusp_radius) pending.first_touch_in_body = nearest;
 }
 
-/// A kind of event with what all that fractures do to ice has.
 template <class Kind>
-Kind ice_event_of(const PendingFracture& pending) {
+Event event_of(const Clock& clock, const PendingFracture& pending) {
   Kind kind;
   kind.floe = pending.floe;
   kind.by_floe = pending.by_floe;
@@ -57,23 +56,19 @@ Kind ice_event_of(const PendingFracture& pending) {
   kind.criterion = pending.criteria;
   if constexpr (requires { kind.cusp_radius; })
     kind.cusp_radius = pending.failure == fracture::Failure::kBend ? pending.cusp_radius : 0;
-  return kind;
-}
-
-template <class Kind>
-Event event_of(const Clock& clock, const PendingFracture& pending, Kind kind) {
   return {clock.time(), pending.ship, pending.point_in_water + clock.drift(), std::move(kind)};
 }
 
 void reject(const Setup& setup, const Clock& clock, const PendingFracture& pending,
             const geometry::Shape& shape, const geometry::CutError& error, Counts& counts, Journal& journal) {
-  auto rejected = ice_event_of<RejectedCut>(pending);
+  Event event = event_of<RejectedCut>(clock, pending);
+  auto& rejected = std::get<RejectedCut>(event.what);
   rejected.reason = std::string(name_of(error.reason)) + ": " + error.detail;
   rejected.input = {++counts.rejected_cuts, shape.polygon, {}, {}};
   if (pending.failure == fracture::Failure::kBend) rejected.input.cusp_in_body = cusp_of(setup, pending);
   rejected.input.crack_in_body[0] = pending.crack_in_body.start;
   rejected.input.crack_in_body[1] = pending.crack_in_body.end;
-  journal.events.push_back(event_of(clock, pending, std::move(rejected)));
+  journal.events.push_back(std::move(event));
   pending.record->was_refused = true;
 }
 
@@ -92,10 +87,9 @@ InsideFate fate_of_cusp(const Setup& setup, int ship) {
 /// What becomes of the floe's pieces.
 Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFracture& pending) {
   if (pending.failure != fracture::Failure::kBend)
-    return {event_of(clock, pending, ice_event_of<Split>(pending)), InsideFate::kFloats,
-            &EnergyFlows::splitting, &Counts::splits};
-  return {event_of(clock, pending, ice_event_of<Bend>(pending)), fate_of_cusp(setup, pending.ship),
-          &EnergyFlows::bending, &Counts::bends};
+    return {event_of<Split>(clock, pending), InsideFate::kFloats, &EnergyFlows::splitting, &Counts::splits};
+  return {event_of<Bend>(clock, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending,
+          &Counts::bends};
 }
 
 }  // namespace

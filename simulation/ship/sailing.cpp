@@ -259,9 +259,7 @@ void sail(const Setup& setup, const Clock& clock, StepData& step, Population& po
   step.mooring_breaks.clear();
   for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
     if (!setup.sailing[ship].is_active) continue;
-    const ContactLoads& ice = step.loads[ship].ice;
-    population.helms[ship].ice_force =
-        (1 / clock.step) * Planar{ice.impulse.x, ice.impulse.y, ice.angular_impulse};
+    population.helms[ship].ice_force = (1 / clock.step) * step.loads[ship].ice.impulse;
     sail_ship(setup, clock, step.start[ship], ship, population, accounts, step.mooring_breaks);
   }
 }

@@ -73,7 +73,7 @@ void fields(Archive& archive, Is<SubmergedLoads> auto& l) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<ContactLoads> auto& l) {
-  archive(l.impulse, l.angular_impulse, l.largest, l.largest_moment, l.contacts);
+  archive(l.impulse, l.largest, l.contacts);
 }
 /// Of the contact of two ships.
 template <class Archive>
@@ -83,7 +83,7 @@ void fields(Archive& archive, Is<Event> auto& e) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<ShipLoads> auto& l) {
-  archive(l.ice, l.ships, l.submerged, l.peak, l.peak_moment);
+  archive(l.ice, l.ships, l.submerged, l.collision);
 }
 template <class Archive>
 void fields(Archive& archive, Is<dynamics::Planar> auto& p) {

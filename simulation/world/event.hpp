@@ -25,7 +25,6 @@ struct GrindCriterion {
   double least_area = 0;    ///< a smaller overlap is left [m²]
   double width = 0;         ///< |R|, by which the area falls per metre of motion [m]
   double least_width = 0;   ///< a wider overlap is left to its contact [m]
-  friend bool operator==(const GrindCriterion&, const GrindCriterion&) = default;
 };
 
 /// What decides that a floe goes under.
@@ -34,7 +33,6 @@ struct TiltCriterion {
   double least_deflection = 0;  ///< c_g h; 0 of a cusp, which goes under as it breaks off [m]
   double vertical_force = 0;    ///< V on it in the step [N]
   double capacity = 0;          ///< V_rot [N]
-  friend bool operator==(const TiltCriterion&, const TiltCriterion&) = default;
 };
 
 /// What decides that ice comes up, or stays under.
@@ -43,7 +41,6 @@ struct ResurfaceCriterion {
   double least_path = 0;    ///< s̄, of the hull [m]
   double waited = 0;        ///< for room [s]
   double longest_wait = 0;  ///< [s]
-  friend bool operator==(const ResurfaceCriterion&, const ResurfaceCriterion&) = default;
 };
 
 /// What all that happens to ice has.
@@ -56,7 +53,6 @@ struct IceEvent {
   double submerged_area = 0;              ///< gone under the ship for good [m²]
   double brash_area = 0;                  ///< pieces below the size limit and slivers [m²]
   double rounding_defect = 0;             ///< [m²]
-  friend bool operator==(const IceEvent&, const IceEvent&) = default;
 };
 
 /// A cusp broke off.
@@ -65,20 +61,17 @@ struct Bend : IceEvent {
   fracture::FailureCriteria criterion = {};
   double cusp_radius = 0;      ///< R [m]
   double under_hull_area = 0;  ///< gone under the hull, to come up [m²]
-  friend bool operator==(const Bend&, const Bend&) = default;
 };
 
 struct Split : IceEvent {
   static constexpr std::string_view kName = "split";
   fracture::FailureCriteria criterion = {};
-  friend bool operator==(const Split&, const Split&) = default;
 };
 
 /// An overlap that no contact could part was ground to brash.
 struct Grind : IceEvent {
   static constexpr std::string_view kName = "grind";
   GrindCriterion criterion = {};
-  friend bool operator==(const Grind&, const Grind&) = default;
 };
 
 /// What a cut that geometry refused was asked to do. Written as an input of `polynya cut`.
@@ -87,7 +80,6 @@ struct CutInput {
   geometry::Polygon polygon_in_body;  ///< of the floe
   geometry::Ring cusp_in_body;        ///< of a bend; empty of a split [m]
   geometry::Point crack_in_body[2];   ///< of a split: its ends [m]
-  friend bool operator==(const CutInput&, const CutInput&) = default;
 };
 
 /// A cut that geometry refused: the floe is as it was.
@@ -97,7 +89,6 @@ struct RejectedCut : IceEvent {
   double cusp_radius = 0;  ///< R of a bend, else 0 [m]
   std::string reason = {};
   CutInput input = {};  ///< not in events.ndjson
-  friend bool operator==(const RejectedCut&, const RejectedCut&) = default;
 };
 
 /// A floe or a broken cusp went under a hull.
@@ -105,14 +96,12 @@ struct Submerge : IceEvent {
   static constexpr std::string_view kName = "submerge";
   TiltCriterion criterion = {};
   double under_hull_area = 0;  ///< [m²]
-  friend bool operator==(const Submerge&, const Submerge&) = default;
 };
 
 /// It came up behind it.
 struct Resurface : IceEvent {
   static constexpr std::string_view kName = "resurface";
   ResurfaceCriterion criterion = {};
-  friend bool operator==(const Resurface&, const Resurface&) = default;
 };
 
 /// It found no room and stays under the ice.
@@ -120,7 +109,6 @@ struct StayUnder : IceEvent {
   static constexpr std::string_view kName = "stay_under";
   ResurfaceCriterion criterion = {};
   double under_ice_area = 0;  ///< [m²]
-  friend bool operator==(const StayUnder&, const StayUnder&) = default;
 };
 
 /// The first contact of two ships, or of a ship and a structure.
@@ -130,7 +118,6 @@ struct ShipContact {
   double closing_speed = 0;    ///< along the contact's normal, before the contact acts [m/s]
   double relative_speed = 0;   ///< of the two at that point [m/s]
   bool is_prescribed = false;  ///< the motion of both is: they pass through each other without a force
-  friend bool operator==(const ShipContact&, const ShipContact&) = default;
 };
 
 /// A mooring broke; its ship is adrift from the end of that step.
@@ -139,7 +126,6 @@ struct MooringBreak {
   geometry::Vector offset_in_moored_place;  ///< of the ship from it, along and across its heading [m]
   double force = 0;                         ///< with which the mooring held the ship, horizontal [N]
   double break_load = 0;                    ///< which that force exceeds [N]
-  friend bool operator==(const MooringBreak&, const MooringBreak&) = default;
 };
 
 /// A line of events.ndjson.
@@ -154,11 +140,6 @@ struct Event {
   bool is() const {
     return std::holds_alternative<Kind>(what);
   }
-  /// Of an event of that kind.
-  template <class Kind>
-  const Kind& get() const {
-    return std::get<Kind>(what);
-  }
   /// Whether ice broke in it.
   bool is_fracture() const { return is<Bend>() || is<Split>() || is<Grind>(); }
   /// Whether it ends the life of its floe.
@@ -168,7 +149,6 @@ struct Event {
   IceEvent* ice() { return const_cast<IceEvent*>(std::as_const(*this).ice()); }
   /// Both sides of what decided that ice bends or splits; all 0 where something else did.
   const fracture::FailureCriteria& criteria() const;
-  friend bool operator==(const Event&, const Event&) = default;
 };
 
 /// The kind's.
@@ -183,11 +163,5 @@ struct DecidingLoad {
   double capacity = 0;             ///< [N]
 };
 DecidingLoad deciding_load(const fracture::FailureCriteria& criteria, bool is_split);
-inline DecidingLoad deciding_load(const Bend& bend) {
-  return deciding_load(bend.criterion, false);
-}
-inline DecidingLoad deciding_load(const Split& split) {
-  return deciding_load(split.criterion, true);
-}
 
 }  // namespace polynya::simulation

@@ -32,35 +32,23 @@ struct Death {
   friend bool operator==(const Death&, const Death&) = default;
 };
 
-/// One recorded row of one ship, in the ship's frame. Loads are those of ice where their names state no other
-/// source.
+/// One recorded row of one ship, in the ship's frame. Loads are means over the interval where nothing else is
+/// stated; the columns of forces.csv that follow are in io/run/force_columns.cpp.
 struct ShipSample {
   double time = 0;  ///< end of the interval [s]
   int ship = 0;
-  double surge_force = 0;  ///< mean true force over the interval: momentum given / time [N]
-  double sway_force = 0;   ///< [N]
-  double yaw_moment = 0;   ///< [N m]
-  double surge_peak = 0;   ///< the paper's j/τ_c, the interval's largest by magnitude [N]
-  double sway_peak = 0;    ///< [N]
-  double yaw_peak = 0;     ///< [N m]
-  double surge_max = 0;    ///< largest true force of a single step in the interval, by magnitude [N]
-  double sway_max = 0;     ///< [N]
-  double yaw_max = 0;      ///< [N m]
-  // From contact with other ships and structures:
-  double surge_from_ships = 0;         ///< mean force over the interval [N]
-  double sway_from_ships = 0;          ///< [N]
-  double yaw_from_ships = 0;           ///< [N m]
-  double surge_from_ships_max = 0;     ///< largest force of a single step in the interval, by magnitude [N]
-  double sway_from_ships_max = 0;      ///< [N]
-  double yaw_from_ships_max = 0;       ///< [N m]
-  geometry::Point position_in_world;   ///< [m]
-  double heading = 0;                  ///< [rad]
-  geometry::Vector velocity_in_world;  ///< over ground [m/s]
-  double yaw_rate = 0;                 ///< [rad/s]
+  dynamics::Planar from_ice;            ///< around the hull: momentum given / time [N, N m]
+  dynamics::Planar from_ice_largest;    ///< of a single step, component by component by magnitude [N, N m]
+  dynamics::Planar collision;           ///< the paper's j/τ_c with ice, likewise the largest [N, N m]
+  dynamics::Planar from_ships;          ///< from contact with other ships and structures [N, N m]
+  dynamics::Planar from_ships_largest;  ///< of a single step [N, N m]
+  dynamics::Planar from_submerged;      ///< of the ice under the hull [N, N m]
+  double submerged_area = 0;            ///< ice under the hull, at the sampled step [m²]
+  geometry::Point position_in_world;    ///< [m]
+  double heading = 0;                   ///< [rad]
+  geometry::Vector velocity_in_world;   ///< over ground [m/s]
+  double yaw_rate = 0;                  ///< [rad/s]
   double thrust = 0;  ///< along the heading; for a constant-speed ship the force that kept its speed [N]
-  double surge_from_submerged = 0;  ///< of the ice under the hull, mean over the interval [N]
-  double yaw_from_submerged = 0;    ///< likewise [N m]
-  double submerged_area = 0;        ///< ice under the hull, at the sampled step [m²]
   // Of ships with water around the hull, an engine or a mooring:
   dynamics::Planar friction_of_ice;  ///< its share of the force of the ice [N, N m]
   dynamics::Planar from_water;       ///< on the hull, the inertia of the water with it [N, N m]
@@ -74,6 +62,7 @@ struct ShipSample {
   double delivered_power = 0;        ///< by the lever, of the installed power; 0 where that is not known [W]
   int contacts = 0;                  ///< with ice, at the sampled step
   int contacts_with_ships = 0;       ///< with other ships and structures, at the sampled step
+  friend bool operator==(const ShipSample&, const ShipSample&) = default;
 };
 
 /// What happened since the caller last cleared it; the vectors keep their capacity, but for the births of the

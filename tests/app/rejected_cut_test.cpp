@@ -41,7 +41,7 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
                   world.journal);
   ASSERT_EQ(world.journal.events.size(), 2U);
   for (const Event& event : world.journal.events) {
-    const auto& cut = event.get<RejectedCut>();
+    const auto& cut = std::get<RejectedCut>(event.what);
     ASSERT_TRUE(io::write_rejected_cut(folder.path(), event.time, cut).has_value());
     const std::string name = "rejected-cuts/00000" + std::to_string(cut.input.number);
     const Outcome again =
@@ -66,7 +66,7 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
       EXPECT_NE(again.err.find("separates nothing"), std::string::npos);
     }
   }
-  auto one_too_many = world.journal.events[0].get<RejectedCut>();
+  auto one_too_many = std::get<RejectedCut>(world.journal.events[0].what);
   one_too_many.input.number = io::kMostRejectedCuts + 1;
   EXPECT_TRUE(io::write_rejected_cut(folder.path(), 0, one_too_many).has_value());
   EXPECT_FALSE(std::filesystem::exists(folder / "rejected-cuts/000101.geojson"));

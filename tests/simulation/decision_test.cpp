@@ -42,9 +42,9 @@ TEST(Decision, ThePapersPlateIsKnifeEdge) {
     const Story story = run(simulation, 0.5);
     const double peak = std::max_element(story.samples.begin(), story.samples.end(),
                                          [](const ShipSample& p, const ShipSample& q) {
-                                           return std::abs(p.surge_peak) < std::abs(q.surge_peak);
+                                           return std::abs(p.collision.surge) < std::abs(q.collision.surge);
                                          })
-                            ->surge_peak;
+                            ->collision.surge;
     EXPECT_NEAR(std::abs(peak), 1.1 * speed / (1e-7 + 1 / (900 * 0.5 * 110 * 200)) / 0.5, 0.01e6);
     if (speed == 1.0) {
       EXPECT_NEAR(std::abs(peak), 10.945e6, 0.01e6);
@@ -96,8 +96,8 @@ TEST(Decision, AnInclinedBowBendsWhenItsVerticalForceReachesTheCapacity) {
     EXPECT_GT(event.criteria().vertical_force, 0);
     EXPECT_GE(event.criteria().vertical_force, event.criteria().bending_capacity);
     EXPECT_GE(event.criteria().floe_size, event.criteria().breakable_size);
-    EXPECT_GT(event.get<Bend>().cusp_radius, 0);
-    EXPECT_LT(event.get<Bend>().cusp_radius, 2 * 8.909);
+    EXPECT_GT(std::get<Bend>(event.what).cusp_radius, 0);
+    EXPECT_LT(std::get<Bend>(event.what).cusp_radius, 2 * 8.909);
     EXPECT_GT(event.ice()->penetration, 0);
     EXPECT_NEAR(length(event.ice()->normal_in_world), 1, 1e-12);
   }
@@ -141,7 +141,7 @@ TEST(Decision, CuspsSubmergeOrFloat) {
     }
   }
   EXPECT_EQ(first[0].time, first[1].time) << "until the first cusp nothing differs";
-  EXPECT_EQ(first[0].get<Bend>().cusp_radius, first[1].get<Bend>().cusp_radius);
+  EXPECT_EQ(std::get<Bend>(first[0].what).cusp_radius, std::get<Bend>(first[1].what).cusp_radius);
   EXPECT_EQ(first[0].ice()->children.size() + 1, first[1].ice()->children.size());
 }
 
@@ -157,8 +157,8 @@ TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
   EXPECT_EQ(counts.rejected_cuts, static_cast<std::int64_t>(story.events.size()));
   for (const Event& event : story.events) {
     EXPECT_TRUE(event.is<RejectedCut>());
-    EXPECT_NE(event.get<RejectedCut>().reason.find("invalid"), std::string::npos)
-        << event.get<RejectedCut>().reason;
+    EXPECT_NE(std::get<RejectedCut>(event.what).reason.find("invalid"), std::string::npos)
+        << std::get<RejectedCut>(event.what).reason;
     EXPECT_TRUE(event.ice()->children.empty());
   }
   EXPECT_EQ(counts.bends + counts.splits, 0);

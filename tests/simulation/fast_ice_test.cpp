@@ -28,7 +28,7 @@ Scene in_ice(const Propulsion& propulsion, FloeSpec ice) {
 
 double mean_surge(const Story& story) {
   double sum = 0;
-  for (const ShipSample& sample : story.samples) sum += sample.surge_force;
+  for (const ShipSample& sample : story.samples) sum += sample.from_ice.surge;
   return sum / static_cast<double>(story.samples.size());
 }
 
@@ -83,7 +83,7 @@ TEST(FastIce, ThatMovesCrushesOnAStructure) {
   Simulation simulation(scene);
   const Story story = run(simulation, 5);
   const double crushing = scene.ice.compressive_strength * scene.ice.thickness * 24;
-  EXPECT_NEAR(story.samples.back().surge_force / -crushing, 1, 0.02);
+  EXPECT_NEAR(story.samples.back().from_ice.surge / -crushing, 1, 0.02);
   expect_closed(simulation);
 }
 

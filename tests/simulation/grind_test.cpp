@@ -41,9 +41,9 @@ TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
   EXPECT_EQ(event.ice()->by_floe, kNoFloe);
   EXPECT_EQ(event.ice()->children.size(), 2U);
   EXPECT_NEAR(event.ice()->brash_area, 8, 1e-9);
-  EXPECT_NEAR(event.get<Grind>().criterion.overlap_area, 8, 1e-9);
-  EXPECT_LT(event.get<Grind>().criterion.width, 1e-9);
-  EXPECT_NEAR(event.get<Grind>().criterion.least_width, 0.25 * 8 / 4, 1e-9);
+  EXPECT_NEAR(std::get<Grind>(event.what).criterion.overlap_area, 8, 1e-9);
+  EXPECT_LT(std::get<Grind>(event.what).criterion.width, 1e-9);
+  EXPECT_NEAR(std::get<Grind>(event.what).criterion.least_width, 0.25 * 8 / 4, 1e-9);
   EXPECT_EQ(ground.simulation.counts().ground, 1);
   const AreaLedger ledger = ground.simulation.area_ledger();
   EXPECT_NEAR(ledger.brash_area, 8, 1e-9);
@@ -69,7 +69,7 @@ TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   ASSERT_EQ(around.simulation.floe_states().size(), 1U);
   EXPECT_EQ(around.simulation.floe_states()[0].polygon_in_body->holes.size(), 1U);
   EXPECT_EQ(around.event().ice()->brash_area, 4);
-  EXPECT_EQ(around.event().get<Grind>().criterion.overlap_area, 4) << "the smaller of the two";
+  EXPECT_EQ(std::get<Grind>(around.event().what).criterion.overlap_area, 4) << "the smaller of the two";
 }
 
 TEST(Grind, OfTwoFloesTheSmallerIsGround) {

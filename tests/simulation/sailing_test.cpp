@@ -97,8 +97,8 @@ TEST(Sailing, AnEngineComesToItsOpenWaterSpeed) {
 /// Σ of the forces on the ship by cause [N, N m], in the ship's axes.
 dynamics::Planar sum_of_causes(const ShipSample& s, bool has_engine) {
   dynamics::Planar sum = s.from_water + s.from_rudder + s.from_mooring;
-  sum += {s.surge_force + s.surge_from_ships + s.surge_from_submerged, s.sway_force + s.sway_from_ships,
-          s.yaw_moment + s.yaw_from_ships + s.yaw_from_submerged};
+  sum += {s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge, s.from_ice.sway + s.from_ships.sway,
+          s.from_ice.yaw + s.from_ships.yaw + s.from_submerged.yaw};
   return sum + (has_engine ? s.from_engine : dynamics::Planar{s.thrust, 0, 0});
 }
 
@@ -192,9 +192,9 @@ TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
   ASSERT_EQ(of_kind<ShipContact>(story).size(), 1U);
   double by_ships = 0;
   for (const ShipSample& s : story.samples) {
-    EXPECT_EQ(s.surge_force, 0);
+    EXPECT_EQ(s.from_ice.surge, 0);
     EXPECT_EQ(s.friction_of_ice, dynamics::Planar{});
-    by_ships = std::max(by_ships, std::abs(s.surge_from_ships));
+    by_ships = std::max(by_ships, std::abs(s.from_ships.surge));
   }
   EXPECT_GT(by_ships, 1e5);
   EXPECT_TRUE(simulation.audit().is_closed());
@@ -263,7 +263,7 @@ TEST(Sailing, AMooringBreaksInOneEventWithItsForceAndItsOffset) {
   const Story story = run(simulation, 200);
   ASSERT_EQ(of_kind<MooringBreak>(story).size(), 1U);
   const Event event = of_kind<MooringBreak>(story)[0];
-  const auto& broken = event.get<MooringBreak>();
+  const auto& broken = std::get<MooringBreak>(event.what);
   EXPECT_EQ(event.ship, 0);
   EXPECT_EQ(event.time, simulation.world().population.helms[0].adrift_since);
   EXPECT_EQ(broken.break_load, 3e5);

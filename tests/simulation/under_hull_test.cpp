@@ -49,10 +49,10 @@ TEST(UnderHull, AFloeBetweenAnInclinedHullAndAPlateTiltsAndGoesUnder) {
   const std::vector<Event> under = of_kind<Submerge>(story);
   ASSERT_FALSE(under.empty());
   EXPECT_EQ(under[0].ice()->floe, 0);
-  EXPECT_GE(under[0].get<Submerge>().criterion.deflection,
-            under[0].get<Submerge>().criterion.least_deflection);
-  EXPECT_NEAR(under[0].get<Submerge>().criterion.least_deflection, 0.9, 1e-12);
-  EXPECT_NEAR(under[0].get<Submerge>().under_hull_area, 144, 1e-9);
+  EXPECT_GE(std::get<Submerge>(under[0].what).criterion.deflection,
+            std::get<Submerge>(under[0].what).criterion.least_deflection);
+  EXPECT_NEAR(std::get<Submerge>(under[0].what).criterion.least_deflection, 0.9, 1e-12);
+  EXPECT_NEAR(std::get<Submerge>(under[0].what).under_hull_area, 144, 1e-9);
   EXPECT_EQ(simulation.counts().tilted_under, static_cast<std::int64_t>(under.size()));
   expect_closed(simulation);
 }
@@ -71,7 +71,7 @@ TEST(UnderHull, TiltingLimitsTheForceOfAFloeThatCannotGetAway) {
     Simulation simulation(of);
     double most = 0;
     for (const ShipSample& sample : run(simulation, 12).samples)
-      most = std::max(most, std::abs(sample.surge_force));
+      most = std::max(most, std::abs(sample.from_ice.surge));
     return most;
   };
   const double tilting = largest(scene);
@@ -102,7 +102,7 @@ TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
   const Story story = run(simulation, 100);
   ASSERT_EQ(of_kind<Submerge>(story).size(), 1U);
   double work = 0;
-  for (const ShipSample& sample : story.samples) work -= sample.surge_from_submerged * 0.1;  // at 1 m/s
+  for (const ShipSample& sample : story.samples) work -= sample.from_submerged.surge * 0.1;  // at 1 m/s
   const double weight = 100 * 9.81 * 16;
   const dynamics::SubmersionPath& path = simulation.world().setup.underwater[0].path;
   EXPECT_NEAR(work, weight * (path.rise + 0.2 * path.sliding), 1e-9 * work);
@@ -113,7 +113,7 @@ TEST(UnderHull, IceOffTheCentreLineTurnsTheShipTowardsIt) {
   const Story story = run(simulation, 40);
   ASSERT_EQ(of_kind<Submerge>(story).size(), 1U);
   double moment = 0;
-  for (const ShipSample& sample : story.samples) moment += sample.yaw_from_submerged;
+  for (const ShipSample& sample : story.samples) moment += sample.from_submerged.yaw;
   EXPECT_GT(moment, 0) << "to port, where it is";
 }
 
@@ -142,7 +142,8 @@ TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
   ASSERT_EQ(up.size(), 1U);
   EXPECT_EQ(up[0].ice()->floe, 0);
   ASSERT_EQ(up[0].ice()->children.size(), 1U);
-  EXPECT_GE(up[0].get<Resurface>().criterion.path, up[0].get<Resurface>().criterion.least_path);
+  EXPECT_GE(std::get<Resurface>(up[0].what).criterion.path,
+            std::get<Resurface>(up[0].what).criterion.least_path);
   EXPECT_NEAR(up[0].ice()->brash_area, 0.05 * 16, 1e-9);
   const auto born = std::ranges::find(story.births, up[0].ice()->children[0], &BirthRecord::floe);
   ASSERT_NE(born, story.births.end());
@@ -182,8 +183,8 @@ TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
   story = run(blocked, 220);
   const std::vector<Event> stays = of_kind<StayUnder>(story);
   ASSERT_EQ(stays.size(), 1U);
-  EXPECT_GE(stays[0].get<StayUnder>().criterion.waited, 10);
-  EXPECT_NEAR(stays[0].get<StayUnder>().under_ice_area, 16, 1e-9);
+  EXPECT_GE(std::get<StayUnder>(stays[0].what).criterion.waited, 10);
+  EXPECT_NEAR(std::get<StayUnder>(stays[0].what).under_ice_area, 16, 1e-9);
   EXPECT_NEAR(blocked.area_ledger().under_ice_area, 16, 1e-9);
   EXPECT_EQ(blocked.counts().stayed_under, 1);
   expect_closed(blocked);
@@ -206,7 +207,7 @@ TEST(UnderHull, AShipThatStopsKeepsItsIceAndOneThatBacksGivesItBack) {
   story = run(simulation, 60 + path + 30);
   const std::vector<Event> up = of_kind<Resurface>(story);
   ASSERT_EQ(up.size(), 1U);
-  EXPECT_LT(up[0].get<Resurface>().criterion.path, 0);
+  EXPECT_LT(std::get<Resurface>(up[0].what).criterion.path, 0);
 }
 
 TEST(UnderHull, IceUnderAHullGoesWithACurrent) {

@@ -107,14 +107,14 @@ void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelect
   columns.add("force_ship", rows, &simulation::ShipSample::ship);
   columns.add("force_t_s", rows, &simulation::ShipSample::time);
   for (const io::ForceColumn* column : io::plotted_columns(run.scene.scene))
-    columns.add(std::string(column->name), rows, column->read);
+    columns.add(column->name, rows, column->read);
 }
 
 void write_force_columns(io::JsonWriter& json, const simulation::Scene& scene) {
   json.key("force_columns").open('[');
   for (const io::ForceColumn* column : io::plotted_columns(scene)) {
     json.open('{').key("name").value(column->name).key("unit").value(column->unit);
-    json.key("plot").value(column->plot).key("curve").value(name_of(column->curve));
+    json.key("plot").value(column->plot).key("curve").value(column->curve);
     json.key("is_optional").value(column->is_optional).close('}');
   }
   json.close(']');
