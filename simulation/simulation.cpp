@@ -14,36 +14,6 @@ namespace polynya::simulation {
 
 using geometry::Vector;
 
-std::string_view name_of(EventKind kind) {
-  switch (kind) {
-    case EventKind::kBend:
-      return "bend";
-    case EventKind::kSplit:
-      return "split";
-    case EventKind::kGrind:
-      return "grind";
-    case EventKind::kRejectedCut:
-      return "rejected_cut";
-    case EventKind::kSubmerge:
-      return "submerge";
-    case EventKind::kResurface:
-      return "resurface";
-    case EventKind::kStayUnder:
-      return "stay_under";
-  }
-  return "unknown";
-}
-
-DecidingLoad deciding_load(const Event& event) {
-  const fracture::FailureCriteria& c = event.criteria;
-  const bool is_split =
-      event.kind == EventKind::kSplit || (event.kind == EventKind::kRejectedCut && event.cusp_radius == 0);
-  if (!is_split) return {"vertical force", ">=", "bending capacity", c.vertical_force, c.bending_capacity};
-  if (c.splitting_force > 0)
-    return {"collision force", ">", "splitting force", c.collision_force, c.splitting_force};
-  return {"opening force", ">=", "opening capacity", c.opening_force, c.opening_capacity};
-}
-
 Simulation::Simulation(Scene scene, Shortcuts shortcuts)
     : world_(std::make_unique<World>(std::move(scene), shortcuts)) {}
 Simulation::Simulation(std::unique_ptr<World> world) : world_(std::move(world)) {}

@@ -10,6 +10,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/run/checkpoint.hpp"
+#include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
 #include "io/run/rejected_cut.hpp"
 
@@ -174,29 +175,19 @@ void RunWriter::record(simulation::Journal& journal) {
     if (file(kFloes).buffered() > kMuchBuffered && !is_displaced_) file(kFloes).flush();
   }
   for (const simulation::Event& event : journal.events) {
+    const simulation::IceEvent* ice = event.ice();
     append_line(kEvents, [&](std::string& line) {
-      append_event(line, event, ship_name(scene_->scene, event.ship),
-                   parents_[static_cast<std::size_t>(event.floe)]);
+      append_event(line, event, scene_->scene,
+                   ice ? parents_[static_cast<std::size_t>(ice->floe)] : simulation::kNoFloe);
     });
-  }
-  for (const simulation::ShipContact& contact : journal.ship_contacts) {
-    append_line(kEvents, [&](std::string& line) {
-      append_ship_contact(line, contact, ship_name(scene_->scene, contact.ship),
-                          ship_name(scene_->scene, contact.other));
-    });
-  }
-  for (const simulation::MooringBreak& mooring : journal.mooring_breaks) {
-    append_line(kEvents, [&](std::string& line) {
-      append_mooring_break(line, mooring, ship_name(scene_->scene, mooring.ship));
-    });
+    if (const auto* cut = std::get_if<simulation::RejectedCut>(&event.what))
+      if (auto written = write_rejected_cut(folder(), event.time, *cut); !written)
+        status_ = std::move(written);
   }
   for (const simulation::ShipSample& sample : journal.samples) {
     append_line(kForces, [&](std::string& line) {
       append_forces_row(line, sample, ship_name(scene_->scene, sample.ship));
     });
-  }
-  for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
-    if (auto written = write_rejected_cut(folder(), cut); !written) status_ = std::move(written);
   }
   for (const simulation::ShipSample& sample : journal.samples) {
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;

@@ -9,7 +9,7 @@
 
 #include "io/run/active_run.hpp"
 #include "io/run/checkpoint.hpp"
-#include "io/run/records.hpp"
+#include "io/run/event_records.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::python {
@@ -112,19 +112,9 @@ void Simulation::take_journal() {
   const simulation::Scene& scene = simulation_.scene();
   const auto& floes = simulation_.world().population.floes;
   for (const simulation::Event& event : journal.events) {
-    const simulation::FloeId parent =
-        event.floe == simulation::kNoFloe ? simulation::kNoFloe : floes[event.floe].parent;
-    io::append_event(events_, event, io::ship_name(scene, event.ship), parent);
+    const simulation::IceEvent* ice = event.ice();
+    io::append_event(events_, event, scene, ice ? floes[ice->floe].parent : simulation::kNoFloe);
     events_.back() = ',';  // in place of the line's end
-  }
-  for (const simulation::ShipContact& contact : journal.ship_contacts) {
-    io::append_ship_contact(events_, contact, io::ship_name(scene, contact.ship),
-                            io::ship_name(scene, contact.other));
-    events_.back() = ',';
-  }
-  for (const simulation::MooringBreak& broken : journal.mooring_breaks) {
-    io::append_mooring_break(events_, broken, io::ship_name(scene, broken.ship));
-    events_.back() = ',';
   }
   for (const simulation::ShipSample& sample : journal.samples) samples_[sample.ship] = sample;
   journal.clear();

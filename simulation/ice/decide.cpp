@@ -109,12 +109,12 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
 }
 
 /// Adds j/τ_c of a ship's contact with ice.
-void add_peak(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
-              ShipLoads& loads) {
+void add_collision(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+                   ShipLoads& loads) {
   const Contact& c = load.contact;
   const Vector force = -(load.impulse / setup.scene.contact.contact_time) * c.normal;
-  loads.peak += rotate_back(bodies.rotation[c.a], force);
-  loads.peak_moment += cross(c.middle() - bodies.position[c.a], force);
+  const Vector in_ship = rotate_back(bodies.rotation[c.a], force);
+  loads.collision += {in_ship.x, in_ship.y, cross(c.middle() - bodies.position[c.a], force)};
 }
 
 /// Whether a floe was born by what broke at the end of the step before.
@@ -140,7 +140,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
   const dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
   const ShipContactLoad load = load_of(setup, population, c);
-  add_peak(setup, bodies, load, step.loads[c.a]);
+  add_collision(setup, bodies, load, step.loads[c.a]);
   const double horizontal = load.shares.horizontal;
   if (is_crush_law(setup))
     set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt,

@@ -148,7 +148,7 @@ void add(const SailingLoads& of_step, SailingLoads& sum) {
 /// The mooring breaks where it held the ship with more than it can. `velocity` is the ship's in the water at
 /// the end of the step: the pull is that of the place where the step takes the ship.
 void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar impulse, Vector velocity,
-                   BodyIndex i, Population& population, Journal& journal) {
+                   BodyIndex i, Population& population, std::vector<Event>& breaks) {
   const double force = std::hypot(impulse.surge, impulse.sway) / clock.step;
   if (mooring.break_load <= 0 || force <= mooring.break_load) return;
   Helm& helm = population.helms[i];
@@ -158,11 +158,11 @@ void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar im
       population.bodies.position[i] + clock.drift() + clock.step * (velocity + clock.water_drift);
   const Vector offset =
       rotate_back(geometry::Rotation::by(mooring.heading), place - mooring.position_in_world);
-  journal.mooring_breaks.push_back({helm.adrift_since, i, place, offset, force, mooring.break_load});
+  breaks.push_back({helm.adrift_since, i, place, MooringBreak{offset, force, mooring.break_load}});
 }
 
 void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, BodyIndex i,
-               Population& population, Accounts& accounts, Journal& journal) {
+               Population& population, Accounts& accounts, std::vector<Event>& mooring_breaks) {
   dynamics::Bodies& bodies = population.bodies;
   const double dt = clock.step;
   const bool is_free = bodies.inverse_mass[i] != 0;
@@ -179,7 +179,7 @@ void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, 
   add(impulses, accounts.sailing[i]);
   const Vector velocity = rotate(bodies.rotation[i], {end.surge, end.sway});
   if (const auto& mooring = setup.scene.ships[i].mooring)
-    break_mooring(*mooring, clock, impulses.mooring, velocity, i, population, journal);
+    break_mooring(*mooring, clock, impulses.mooring, velocity, i, population, mooring_breaks);
   if (!is_free) return;
   enter_all(impulses, 0.5 * (ship.now + end), bodies.rotation[i], accounts.audit);
   bodies.velocity[i] = velocity;
@@ -255,14 +255,13 @@ void keep_motion(const Population& population, StepData& step) {
     step.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};
 }
 
-void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
-          Accounts& accounts, Journal& journal) {
+void sail(const Setup& setup, const Clock& clock, StepData& step, Population& population,
+          Accounts& accounts) {
+  step.mooring_breaks.clear();
   for (BodyIndex ship = 0; ship < std::ssize(setup.sailing); ++ship) {
     if (!setup.sailing[ship].is_active) continue;
-    const ContactLoads& ice = step.loads[ship].ice;
-    population.helms[ship].ice_force =
-        (1 / clock.step) * Planar{ice.impulse.x, ice.impulse.y, ice.angular_impulse};
-    sail_ship(setup, clock, step.start[ship], ship, population, accounts, journal);
+    population.helms[ship].ice_force = (1 / clock.step) * step.loads[ship].ice.impulse;
+    sail_ship(setup, clock, step.start[ship], ship, population, accounts, step.mooring_breaks);
   }
 }
 

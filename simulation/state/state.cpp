@@ -81,10 +81,11 @@ class StateLoader {
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
     bytes_.require(c.largest_residual >= 0 && c.energy_created >= 0, "a negative residual");
     bytes_.require(world_.accounts.loads.size() == hull_count(scene_), "loads of other ships");
-    for (const ShipContact& contact : world_.accounts.ship_contacts)
-      bytes_.require(
-          contact.ship >= 0 && contact.ship < contact.other && contact.other < population_.hull_count,
-          "a contact of no two ships");
+    for (const Event& contact : world_.accounts.ship_contacts) {
+      const int other = std::get<ShipContact>(contact.what).other;
+      bytes_.require(contact.ship >= 0 && contact.ship < other && other < population_.hull_count,
+                     "a contact of no two ships");
+    }
     const std::int64_t steps = world_.clock.steps;
     bytes_.require(steps >= 0 && steps <= kMostSteps, "a number of steps that cannot be");
   }

@@ -5,13 +5,17 @@
 namespace polynya::simulation {
 namespace {
 
+using dynamics::Planar;
 using geometry::Vector;
 
 double larger(double a, double b) {
   return std::abs(b) > std::abs(a) ? b : a;
 }
-Vector larger(Vector a, Vector b) {
-  return {larger(a.x, b.x), larger(a.y, b.y)};
+Planar larger(Planar a, Planar b) {
+  return {larger(a.surge, b.surge), larger(a.sway, b.sway), larger(a.yaw, b.yaw)};
+}
+Planar over(Planar impulse, double time) {
+  return {impulse.surge / time, impulse.sway / time, impulse.yaw / time};
 }
 
 /// Adds what a contact's impulses did to one of its two bodies, a hull.
@@ -22,12 +26,10 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
   ContactLoads& loads = is_with_ship ? ship_loads.ships : ship_loads.ice;
   const auto add = [&](geometry::Point at, Vector impulse, bool is_slip) {
     const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
-    const double moment = cross(at - bodies.position[ship], impulse);
-    loads.impulse += in_ship;
-    loads.angular_impulse += moment;
-    loads.steady_impulse += c.steady_share * in_ship;
-    loads.steady_angular_impulse += c.steady_share * moment;
-    if (is_slip) loads.friction += {in_ship.x, in_ship.y, moment};
+    const Planar on_ship{in_ship.x, in_ship.y, cross(at - bodies.position[ship], impulse)};
+    loads.impulse += on_ship;
+    loads.steady_impulse += c.steady_share * on_ship;
+    if (is_slip) loads.friction += on_ship;
   };
   for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal, false);
   add(c.middle(), sign * c.slip_impulse * perpendicular(c.normal), true);
@@ -36,9 +38,7 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
 
 void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
   sum.impulse += step.impulse;
-  sum.angular_impulse += step.angular_impulse;
-  sum.largest = larger(sum.largest, step.steady_impulse / dt);
-  sum.largest_moment = larger(sum.largest_moment, step.steady_angular_impulse / dt);
+  sum.largest = larger(sum.largest, over(step.steady_impulse, dt));
   sum.contacts = step.contacts;
 }
 
@@ -48,15 +48,14 @@ void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
   sum.submerged.impulse += step.submerged.impulse;
   sum.submerged.angular_impulse += step.submerged.angular_impulse;
   sum.submerged.area = step.submerged.area;
-  sum.peak = larger(sum.peak, step.peak);
-  sum.peak_moment = larger(sum.peak_moment, step.peak_moment);
+  sum.collision = larger(sum.collision, step.collision);
 }
 
 /// What the helm is at, and what moved the ship beside ice and other ships.
 void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval,
                  ShipSample& sample) {
   ShipSample& s = sample;
-  const auto mean = [&](dynamics::Planar impulse) { return (1 / interval) * impulse; };
+  const auto mean = [&](Planar impulse) { return (1 / interval) * impulse; };
   s.friction_of_ice = mean(loads.ice_friction);
   s.from_water = mean(loads.water);
   s.from_engine = mean(loads.engine);
@@ -72,7 +71,7 @@ void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads
 
 /// What holds a hull at its speed.
 double holding_force(const ShipSample& s) {
-  return -(s.surge_force + s.surge_from_ships + s.surge_from_submerged + s.from_water.surge);
+  return -(s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge + s.from_water.surge);
 }
 
 double thrust_of(const Ship& ship, const ShipSample& s) {
@@ -94,27 +93,16 @@ ShipSample sample_of(const Setup& setup, const Clock& clock, const Population& p
   ShipSample sample;
   sample.time = clock.time();
   sample.ship = ship;
-  sample.surge_force = loads.ice.impulse.x / interval;
-  sample.sway_force = loads.ice.impulse.y / interval;
-  sample.yaw_moment = loads.ice.angular_impulse / interval;
-  sample.surge_peak = loads.peak.x;
-  sample.sway_peak = loads.peak.y;
-  sample.yaw_peak = loads.peak_moment;
-  sample.surge_max = loads.ice.largest.x;
-  sample.sway_max = loads.ice.largest.y;
-  sample.yaw_max = loads.ice.largest_moment;
-  sample.surge_from_ships = loads.ships.impulse.x / interval;
-  sample.sway_from_ships = loads.ships.impulse.y / interval;
-  sample.yaw_from_ships = loads.ships.angular_impulse / interval;
-  sample.surge_from_ships_max = loads.ships.largest.x;
-  sample.sway_from_ships_max = loads.ships.largest.y;
-  sample.yaw_from_ships_max = loads.ships.largest_moment;
+  sample.from_ice = over(loads.ice.impulse, interval);
+  sample.from_ice_largest = loads.ice.largest;
+  sample.collision = loads.collision;
+  sample.from_ships = over(loads.ships.impulse, interval);
+  sample.from_ships_largest = loads.ships.largest;
+  sample.from_submerged = over({-loads.submerged.impulse, 0, loads.submerged.angular_impulse}, interval);
   sample.position_in_world = bodies.position[ship] + clock.drift();
   sample.heading = bodies.angle[ship];
   sample.velocity_in_world = bodies.velocity[ship] + clock.water_drift;
   sample.yaw_rate = bodies.angular_velocity[ship];
-  sample.surge_from_submerged = -loads.submerged.impulse / interval;
-  sample.yaw_from_submerged = loads.submerged.angular_impulse / interval;
   sample.submerged_area = loads.submerged.area;
   if (population.kind(ship) == BodyKind::kShip)
     add_sailing(setup, population.helms[ship], accounts.sailing[ship], interval, sample);

@@ -168,18 +168,13 @@ const std::array<Stage, 25> kStages = {{
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
     {"pull of submerged ice",
      [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},
-    {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
+    {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
     {"integrate",
      [](World& w) {
        auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);
        if (failure && !w.failure) w.failure = std::move(failure);
      }},
     {"advance the clock", [](World& w) { ++w.clock.steps; }},
-    {"record ship contacts",
-     [](World& w) {
-       record_ship_contacts(w.setup, w.clock, w.population, w.step.contacts, w.accounts.ship_contacts,
-                            w.journal);
-     }},
     {"apply fractures",
      [](World& w) {
        apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal);
@@ -193,6 +188,10 @@ const std::array<Stage, 25> kStages = {{
        apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal);
      }},
     {"come up", [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},
+    {"record ship events",
+     [](World& w) {
+       record_ship_events(w.setup, w.clock, w.population, w.step, w.accounts.ship_contacts, w.journal);
+     }},
     {"put to rest", [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
     {"record", [](World& w) { record(w.setup, w.clock, w.population, w.step.loads, w.accounts, w.journal); }},
 }};

@@ -111,12 +111,10 @@ io::Run small_run(const Ring& drifting = square(5, 1, 2),
   add_floe(run, 0, 1, second_half);
   run.floes[0].died = 1;
   run.floes[0].death_event = 0;
-  simulation::Event event;
-  event.kind = simulation::EventKind::kSplit;
-  event.time = 1;
-  event.floe = 0;
-  event.children = {2, 3};
-  run.events.push_back(event);
+  simulation::Split split;
+  split.floe = 0;
+  split.children = {2, 3};
+  run.events.push_back({1, 0, {}, split});
   for (int t = 0; t <= 3; ++t) {
     io::Frame frame;
     frame.time = t;

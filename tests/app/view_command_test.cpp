@@ -109,8 +109,8 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
   ASSERT_EQ(time.size(), run->samples.size());
   for (std::size_t i = 0; i < time.size(); ++i) {
     EXPECT_EQ(time[i], run->samples[i].time);
-    EXPECT_EQ(surge[i], run->samples[i].surge_force);
-    EXPECT_EQ(step_maximum[i], run->samples[i].surge_max);
+    EXPECT_EQ(surge[i], run->samples[i].from_ice.surge);
+    EXPECT_EQ(step_maximum[i], run->samples[i].from_ice_largest.surge);
   }
   EXPECT_EQ(held.info.find("events")->items().size(), run->events.size());
   const io::JsonValue& cause = held.info.find("force_causes")->items().at(0);

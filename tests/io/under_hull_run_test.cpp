@@ -40,8 +40,7 @@ TEST_F(UnderHullRun, BrashIsWhatCameUpAndWhatItBrokeInto) {
   std::size_t came_up = 0;
   for (const RunFloe& floe : run->floes) {
     const RunFloe* parent = run->floe(floe.birth.parent);
-    const bool rose =
-        parent && run->events.at(*parent->death_event).kind == simulation::EventKind::kResurface;
+    const bool rose = parent && run->events.at(*parent->death_event).is<simulation::Resurface>();
     EXPECT_EQ(floe.came_up, rose || (parent && parent->came_up)) << floe.birth.floe;
     came_up += floe.came_up;
   }

@@ -32,19 +32,15 @@ Scene unbreakable() {
   return scene;
 }
 
-double mean(const Story& story, int ship, double from, double ShipSample::*member) {
+double mean_surge(const Story& story, int ship, double from) {
   double sum = 0;
   int count = 0;
   for (const ShipSample& sample : story.samples) {
     if (sample.ship != ship || sample.time < from) continue;
-    sum += sample.*member;
+    sum += sample.from_ice.surge;
     ++count;
   }
   return sum / count;
-}
-
-double mean_surge(const Story& story, int ship, double from) {
-  return mean(story, ship, from, &ShipSample::surge_force);
 }
 
 // Wind and skin drag
@@ -158,7 +154,7 @@ TEST(LimitMomentum, OfAFloeOnACylinderIsThatOfTheClosedForm) {
   Simulation simulation(scene);
   const Story story = run(simulation, 0.5);
   double largest = 0;
-  for (const ShipSample& sample : story.samples) largest = std::max(largest, -sample.surge_force);
+  for (const ShipSample& sample : story.samples) largest = std::max(largest, -sample.from_ice.surge);
   EXPECT_NEAR(largest / 2.766e6, 1, 0.01);
   const double moved = -simulation.floe_states().front().world_from_body.position.x;
   std::printf("limit momentum: %.3f MN, %.4f m\n", largest / 1e6, moved - 0.001);
@@ -230,7 +226,7 @@ TEST(Wall, ThatMovesPushesIceAlongAndDoesNotMeetOtherWalls) {
   const Story story = run(simulation, 2);
   EXPECT_NEAR(simulation.floe_states().front().velocity.x, 0.2, 1e-3);
   EXPECT_NEAR(simulation.ship_states()[0].world_from_ship.position.x, 0.4, 1e-9);
-  EXPECT_TRUE(story.ship_contacts.empty()) << "walls cross at their ends";
+  EXPECT_TRUE(of_kind<ShipContact>(story).empty()) << "walls cross at their ends";
   expect_closed(simulation);
 }
 

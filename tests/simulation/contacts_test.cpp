@@ -54,9 +54,9 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
       has_crushed = has_crushed || contact.is_crushing;
     }
     const Vector in_ship = rotate_back(geometry::Rotation::by(heading), force);
-    ASSERT_NEAR(in_ship.x, sample.surge_force, 1e-9 * size) << simulation.time();
-    ASSERT_NEAR(in_ship.y, sample.sway_force, 1e-9 * size);
-    ASSERT_NEAR(moment, sample.yaw_moment, 1e-7 * size);
+    ASSERT_NEAR(in_ship.x, sample.from_ice.surge, 1e-9 * size) << simulation.time();
+    ASSERT_NEAR(in_ship.y, sample.from_ice.sway, 1e-9 * size);
+    ASSERT_NEAR(moment, sample.from_ice.yaw, 1e-7 * size);
     ASSERT_EQ(static_cast<int>(contacts.size()), sample.contacts);
     pressed += size > 1e4;
     most = std::max(most, sample.contacts);

@@ -184,7 +184,7 @@ TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
     scene.floes = {floe(rectangle(0, -2000, 4000, 2000))};
     Simulation simulation(scene);
     std::vector<double> means;  // over 0.1 s [N]
-    for (const ShipSample& sample : run(simulation, 300).samples) means.push_back(sample.surge_force);
+    for (const ShipSample& sample : run(simulation, 300).samples) means.push_back(sample.from_ice.surge);
     return means;
   };
   std::vector<ContactSettings> others(3);

@@ -185,7 +185,7 @@ double mean_resistance(double radius) {
   run(simulation, 30);
   double sum = 0;
   const std::vector<ShipSample> samples = run(simulation, 130).samples;
-  for (const ShipSample& sample : samples) sum -= sample.surge_force;
+  for (const ShipSample& sample : samples) sum -= sample.from_ice.surge;
   return sum / static_cast<double>(samples.size());
 }
 

@@ -126,18 +126,17 @@ TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
     for (std::size_t i = 0; i < seen_still.samples.size(); ++i) {
       const ShipSample& p = seen_drifting.samples[i];
       const ShipSample& q = seen_still.samples[i];
-      ASSERT_EQ(p.surge_force, q.surge_force);
-      ASSERT_EQ(p.sway_force, q.sway_force);
-      ASSERT_EQ(p.yaw_moment, q.yaw_moment);
-      ASSERT_EQ(p.surge_peak, q.surge_peak);
+      ASSERT_EQ(p.from_ice.surge, q.from_ice.surge);
+      ASSERT_EQ(p.from_ice.sway, q.from_ice.sway);
+      ASSERT_EQ(p.from_ice.yaw, q.from_ice.yaw);
+      ASSERT_EQ(p.collision.surge, q.collision.surge);
       ASSERT_NEAR(distance(p.position_in_world, {0, 3}), 0, 1e-9) << "it stands where it stands";
       ASSERT_EQ(p.velocity_in_world, Vector{});
-      most = std::max(most, std::abs(p.surge_force));
+      most = std::max(most, std::abs(p.from_ice.surge));
     }
     EXPECT_GT(most, 1e4);
     ASSERT_EQ(seen_drifting.events.size(), seen_still.events.size());
-    const bool has_bent =
-        std::ranges::any_of(seen_still.events, [](const Event& e) { return e.kind == EventKind::kBend; });
+    const bool has_bent = std::ranges::any_of(seen_still.events, [](const Event& e) { return e.is<Bend>(); });
     EXPECT_EQ(has_bent, wall_angle > 0) << "only a sloping wall presses the ice down";
   }
 }

@@ -33,7 +33,7 @@ Scene plate(double speed = 1) {
 Event first_bend(const Scene& scene, double until = 20) {
   Simulation simulation(scene);
   for (const Event& event : run(simulation, until).events)
-    if (event.kind == EventKind::kBend) return event;
+    if (event.is<Bend>()) return event;
   ADD_FAILURE() << "nothing bent";
   return {};
 }
@@ -46,16 +46,16 @@ void expect_balanced(const Simulation& simulation) {
 }
 
 TEST(FloeIce, BreaksAtTheLoadOfItsOwnStrengthAndThickness) {
-  const double as_scene = first_bend(plate()).criteria.bending_capacity;
+  const double as_scene = first_bend(plate()).criteria().bending_capacity;
   Scene strong = plate();
   change_ice(strong, 0, [](fracture::Ice& ice) { ice.flexural_strength *= 2; });
   const Event bend = first_bend(strong);
-  EXPECT_NEAR(bend.criteria.bending_capacity / as_scene, 2, 1e-9);
-  EXPECT_GE(bend.criteria.vertical_force, bend.criteria.bending_capacity);
-  EXPECT_EQ(bend.criteria.flexural_strength, 2 * strong.ice.flexural_strength);
+  EXPECT_NEAR(bend.criteria().bending_capacity / as_scene, 2, 1e-9);
+  EXPECT_GE(bend.criteria().vertical_force, bend.criteria().bending_capacity);
+  EXPECT_EQ(bend.criteria().flexural_strength, 2 * strong.ice.flexural_strength);
   Scene thick = plate();
   change_ice(thick, 0, [](fracture::Ice& ice) { ice.thickness *= 1.5; });
-  EXPECT_NEAR(first_bend(thick).criteria.bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
+  EXPECT_NEAR(first_bend(thick).criteria().bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
 }
 
 TEST(FloeIce, IsWhatTheSceneWouldHaveByAllThatUsesIt) {
@@ -104,8 +104,8 @@ TEST(FloeIce, SplitsByItsOwnTensileStrengthAndToughness) {
     EXPECT_GT(a.counts().splits, 0);
     EXPECT_EQ(a.state_hash(), b.state_hash());
     for (const Event& event : story.events) {
-      if (event.kind != EventKind::kSplit) continue;
-      EXPECT_EQ(event.criteria.fracture_toughness, own.own_ice[0].fracture_toughness);
+      if (!event.is<Split>()) continue;
+      EXPECT_EQ(event.criteria().fracture_toughness, own.own_ice[0].fracture_toughness);
     }
   }
 }
@@ -249,8 +249,8 @@ TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
   const Story story = run(simulation, 40);
   std::vector<double> factors;
   for (const Event& event : story.events) {
-    if (event.kind == EventKind::kBend)
-      factors.push_back(event.criteria.flexural_strength / simulation.scene().ice.flexural_strength);
+    if (event.is<Bend>())
+      factors.push_back(event.criteria().flexural_strength / simulation.scene().ice.flexural_strength);
   }
   ASSERT_GT(factors.size(), 50u);
   const auto measures = fracture::measure({fracture::ScatterKind::kLogNormal, 1, 0.2}, factors);

@@ -35,14 +35,14 @@ TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
   const Ground ground = after_one_step(scene);
   ASSERT_EQ(ground.story.events.size(), 1U);
   const Event& event = ground.event();
-  EXPECT_EQ(event.kind, EventKind::kGrind);
+  EXPECT_TRUE(event.is<Grind>());
   EXPECT_EQ(event.ship, 0);
-  EXPECT_EQ(event.by_floe, kNoFloe);
-  EXPECT_EQ(event.children.size(), 2U);
-  EXPECT_NEAR(event.brash_area, 8, 1e-9);
-  EXPECT_NEAR(event.grinding.overlap_area, 8, 1e-9);
-  EXPECT_LT(event.grinding.width, 1e-9);
-  EXPECT_NEAR(event.grinding.least_width, 0.25 * 8 / 4, 1e-9);
+  EXPECT_EQ(event.ice()->by_floe, kNoFloe);
+  EXPECT_EQ(event.ice()->children.size(), 2U);
+  EXPECT_NEAR(event.ice()->brash_area, 8, 1e-9);
+  EXPECT_NEAR(std::get<Grind>(event.what).criterion.overlap_area, 8, 1e-9);
+  EXPECT_LT(std::get<Grind>(event.what).criterion.width, 1e-9);
+  EXPECT_NEAR(std::get<Grind>(event.what).criterion.least_width, 0.25 * 8 / 4, 1e-9);
   EXPECT_EQ(ground.simulation.counts().ground, 1);
   const AreaLedger ledger = ground.simulation.area_ledger();
   EXPECT_NEAR(ledger.brash_area, 8, 1e-9);
@@ -57,8 +57,8 @@ TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   scene.floes = {floe(rectangle(3, -2, 6, 2))};
   const Ground inside = after_one_step(scene);
   ASSERT_EQ(inside.story.events.size(), 1U);
-  EXPECT_TRUE(inside.event().children.empty());
-  EXPECT_EQ(inside.event().brash_area, 12);
+  EXPECT_TRUE(inside.event().ice()->children.empty());
+  EXPECT_EQ(inside.event().ice()->brash_area, 12);
   EXPECT_TRUE(inside.simulation.floe_states().empty());
 
   scene.structures = {block(-1, -1, 1, 1)};
@@ -67,8 +67,8 @@ TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   ASSERT_EQ(around.story.events.size(), 1U);
   ASSERT_EQ(around.simulation.floe_states().size(), 1U);
   EXPECT_EQ(around.simulation.floe_states()[0].polygon_in_body->holes.size(), 1U);
-  EXPECT_EQ(around.event().brash_area, 4);
-  EXPECT_EQ(around.event().grinding.overlap_area, 4) << "the smaller of the two";
+  EXPECT_EQ(around.event().ice()->brash_area, 4);
+  EXPECT_EQ(std::get<Grind>(around.event().what).criterion.overlap_area, 4) << "the smaller of the two";
 }
 
 TEST(Grind, OfTwoFloesTheSmallerIsGround) {
@@ -76,10 +76,10 @@ TEST(Grind, OfTwoFloesTheSmallerIsGround) {
   scene.floes = {floe(rectangle(-20, -1, 20, 1), {0.1, 0}), floe(rectangle(-1, -12, 1, 12))};
   const Ground ground = after_one_step(scene);
   ASSERT_EQ(ground.story.events.size(), 1U);
-  EXPECT_EQ(ground.event().floe, 1);
-  EXPECT_EQ(ground.event().by_floe, 0);
+  EXPECT_EQ(ground.event().ice()->floe, 1);
+  EXPECT_EQ(ground.event().ice()->by_floe, 0);
   EXPECT_EQ(ground.event().ship, -1);
-  EXPECT_EQ(ground.event().children.size(), 2U);
+  EXPECT_EQ(ground.event().ice()->children.size(), 2U);
 }
 
 TEST(Grind, AWedgeIsPartedByItsContactInstead) {

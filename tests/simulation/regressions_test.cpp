@@ -78,11 +78,11 @@ TEST(Regression, ACrackIsNotParedStripByStrip) {
     EXPECT_LE(simulation.counts().splits, 40);
     const double l = fracture::characteristic_length(scene.ice, scene.water.water);
     for (const Event& event : story.events) {
-      if (event.kind != EventKind::kSplit) continue;
-      for (const FloeId child : event.children) {
+      if (!event.is<Split>()) continue;
+      for (const FloeId child : event.ice()->children) {
         const double area = std::ranges::find(story.births, child, &Birth::floe)->area;
         EXPECT_GE(area, 0.499 * l * l) << child;
-        EXPECT_GE(area / event.criteria.crack_length, 0.49 * l) << child;
+        EXPECT_GE(area / event.criteria().crack_length, 0.49 * l) << child;
       }
     }
   }

@@ -97,8 +97,8 @@ TEST(Sailing, AnEngineComesToItsOpenWaterSpeed) {
 /// Σ of the forces on the ship by cause [N, N m], in the ship's axes.
 dynamics::Planar sum_of_causes(const ShipSample& s, bool has_engine) {
   dynamics::Planar sum = s.from_water + s.from_rudder + s.from_mooring;
-  sum += {s.surge_force + s.surge_from_ships + s.surge_from_submerged, s.sway_force + s.sway_from_ships,
-          s.yaw_moment + s.yaw_from_ships + s.yaw_from_submerged};
+  sum += {s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge, s.from_ice.sway + s.from_ships.sway,
+          s.from_ice.yaw + s.from_ships.yaw + s.from_submerged.yaw};
   return sum + (has_engine ? s.from_engine : dynamics::Planar{s.thrust, 0, 0});
 }
 
@@ -189,12 +189,12 @@ TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
   scene.ships.push_back(other);
   Simulation simulation(scene);
   const Story story = run(simulation, 10);
-  ASSERT_EQ(story.ship_contacts.size(), 1U);
+  ASSERT_EQ(of_kind<ShipContact>(story).size(), 1U);
   double by_ships = 0;
   for (const ShipSample& s : story.samples) {
-    EXPECT_EQ(s.surge_force, 0);
+    EXPECT_EQ(s.from_ice.surge, 0);
     EXPECT_EQ(s.friction_of_ice, dynamics::Planar{});
-    by_ships = std::max(by_ships, std::abs(s.surge_from_ships));
+    by_ships = std::max(by_ships, std::abs(s.from_ships.surge));
   }
   EXPECT_GT(by_ships, 1e5);
   EXPECT_TRUE(simulation.audit().is_closed());
@@ -261,24 +261,25 @@ TEST(Sailing, AMooringBreaksInOneEventWithItsForceAndItsOffset) {
                                            .break_load = 3e5};
   Simulation simulation(scene);
   const Story story = run(simulation, 200);
-  ASSERT_EQ(story.mooring_breaks.size(), 1U);
-  const MooringBreak& broken = story.mooring_breaks[0];
-  EXPECT_EQ(broken.ship, 0);
-  EXPECT_EQ(broken.time, simulation.world().population.helms[0].adrift_since);
+  ASSERT_EQ(of_kind<MooringBreak>(story).size(), 1U);
+  const Event event = of_kind<MooringBreak>(story)[0];
+  const auto& broken = std::get<MooringBreak>(event.what);
+  EXPECT_EQ(event.ship, 0);
+  EXPECT_EQ(event.time, simulation.world().population.helms[0].adrift_since);
   EXPECT_EQ(broken.break_load, 3e5);
   EXPECT_GT(broken.force, 3e5);
   EXPECT_LT(broken.force, 3.1e5) << "it breaks in the first step above its load";
   const geometry::Vector offset = broken.offset_in_moored_place;
   EXPECT_NEAR(broken.force, std::hypot(along * offset.x, across * offset.y), 1e-6 * broken.force);
   const geometry::Vector in_world = rotate(geometry::Rotation::by(heading), offset);
-  EXPECT_NEAR(distance(broken.point_in_world, scene.ships[0].position_in_world + in_world), 0, 1e-9);
+  EXPECT_NEAR(distance(event.point_in_world, scene.ships[0].position_in_world + in_world), 0, 1e-9);
   const auto row = std::ranges::find_if(
-      story.samples, [&](const ShipSample& s) { return s.time > broken.time - 0.5 * scene.time.step; });
+      story.samples, [&](const ShipSample& s) { return s.time > event.time - 0.5 * scene.time.step; });
   EXPECT_NEAR(std::hypot(row->from_mooring.surge, row->from_mooring.sway), broken.force, 1e-6 * broken.force);
-  EXPECT_NEAR(distance(row->position_in_world, broken.point_in_world), 0, 1e-9);
+  EXPECT_NEAR(distance(row->position_in_world, event.point_in_world), 0, 1e-9);
   auto resumed = Simulation::resumed(scene, simulation.state());
   ASSERT_TRUE(resumed.has_value()) << resumed.error();
-  EXPECT_TRUE(run(*resumed, 210).mooring_breaks.empty());
+  EXPECT_TRUE(of_kind<MooringBreak>(run(*resumed, 210)).empty());
 }
 
 TEST(Sailing, AStiffMooringIsStableInALongStep) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "geometry/exact/measures.hpp"
@@ -64,9 +66,14 @@ struct Story {
   std::vector<Birth> births;
   std::vector<Death> deaths;
   std::vector<ShipSample> samples;
-  std::vector<ShipContact> ship_contacts;
-  std::vector<MooringBreak> mooring_breaks;
 };
+
+template <class Kind>
+std::vector<Event> of_kind(const Story& story) {
+  std::vector<Event> events;
+  std::ranges::copy_if(story.events, std::back_inserter(events), &Event::is<Kind>);
+  return events;
+}
 
 inline void listen(Simulation& simulation, Story& story) {
   Journal& journal = simulation.journal();
@@ -74,10 +81,6 @@ inline void listen(Simulation& simulation, Story& story) {
   story.births.insert(story.births.end(), journal.births.begin(), journal.births.end());
   story.deaths.insert(story.deaths.end(), journal.deaths.begin(), journal.deaths.end());
   story.samples.insert(story.samples.end(), journal.samples.begin(), journal.samples.end());
-  story.ship_contacts.insert(story.ship_contacts.end(), journal.ship_contacts.begin(),
-                             journal.ship_contacts.end());
-  story.mooring_breaks.insert(story.mooring_breaks.end(), journal.mooring_breaks.begin(),
-                              journal.mooring_breaks.end());
   journal.clear();
 }
 

@@ -19,22 +19,23 @@ TEST(ShipContacts, AreNoIceLoad) {
   const Story story = run(simulation, 1);
   double surge = 0;
   for (const ShipSample& sample : story.samples) {
-    EXPECT_EQ(sample.surge_force, 0);
-    EXPECT_EQ(sample.surge_max, 0);
-    EXPECT_EQ(sample.surge_peak, 0);
+    EXPECT_EQ(sample.from_ice.surge, 0);
+    EXPECT_EQ(sample.from_ice_largest.surge, 0);
+    EXPECT_EQ(sample.collision.surge, 0);
     EXPECT_EQ(sample.contacts, 0);
-    if (sample.ship == 0) surge += scene.record.forces_interval * sample.surge_from_ships;
+    if (sample.ship == 0) surge += scene.record.forces_interval * sample.from_ships.surge;
   }
   EXPECT_NEAR(surge, 1e7 * (simulation.ship_states()[0].velocity.x - 0.5), 1e-3);
   EXPECT_LT(surge, -5e6);
-  ASSERT_EQ(story.ship_contacts.size(), 1U);
-  const ShipContact& contact = story.ship_contacts[0];
-  EXPECT_NEAR(contact.time, 0.55, 2 * scene.time.step + 1e-9);
-  EXPECT_EQ(contact.ship, 0);
+  ASSERT_EQ(of_kind<ShipContact>(story).size(), 1U);
+  const Event event = of_kind<ShipContact>(story)[0];
+  const auto& contact = std::get<ShipContact>(event.what);
+  EXPECT_NEAR(event.time, 0.55, 2 * scene.time.step + 1e-9);
+  EXPECT_EQ(event.ship, 0);
   EXPECT_EQ(contact.other, 1);
   EXPECT_NEAR(contact.closing_speed, 1, 1e-6);
   EXPECT_NEAR(contact.relative_speed, 1, 1e-6);
-  EXPECT_NEAR(contact.point_in_world.x, 0.275, 0.01);
+  EXPECT_NEAR(event.point_in_world.x, 0.275, 0.01);
   EXPECT_FALSE(contact.is_prescribed);
 }
 
@@ -49,10 +50,10 @@ TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
   double turned_by_ice = 0, turned_by_pile = 0;
   for (const ShipSample& sample : story.samples) {
     if (sample.ship != 0) continue;
-    by_ice += 0.1 * Vector{sample.surge_force, sample.sway_force};
-    by_pile += 0.1 * Vector{sample.surge_from_ships, sample.sway_from_ships};
-    turned_by_ice += 0.1 * sample.yaw_moment;
-    turned_by_pile += 0.1 * sample.yaw_from_ships;
+    by_ice += 0.1 * Vector{sample.from_ice.surge, sample.from_ice.sway};
+    by_pile += 0.1 * Vector{sample.from_ships.surge, sample.from_ships.sway};
+    turned_by_ice += 0.1 * sample.from_ice.yaw;
+    turned_by_pile += 0.1 * sample.from_ships.yaw;
   }
   const ShipState end = simulation.ship_states()[0];
   EXPECT_LT(by_ice.x, -1e4);
@@ -73,21 +74,22 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
       Simulation simulation(scene);
       const Story story = run(simulation, 30);
       if (std::abs(off) > 17) {
-        EXPECT_TRUE(story.ship_contacts.empty()) << off;
+        EXPECT_TRUE(of_kind<ShipContact>(story).empty()) << off;
         continue;
       }
-      ASSERT_EQ(story.ship_contacts.size(), 1U) << off << " in steps of " << step;
-      const ShipContact& contact = story.ship_contacts[0];
+      ASSERT_EQ(of_kind<ShipContact>(story).size(), 1U) << off << " in steps of " << step;
+      const Event event = of_kind<ShipContact>(story)[0];
+      const auto& contact = std::get<ShipContact>(event.what);
       // The side of the bow that meets the pile is 20 m from it at most, 25 m where it meets the very edge.
-      EXPECT_GE(contact.time, 10 - 1e-9);
-      EXPECT_LE(contact.time, 12.5 + 2 * step);
+      EXPECT_GE(event.time, 10 - 1e-9);
+      EXPECT_LE(event.time, 12.5 + 2 * step);
       if (std::abs(off) < 11) {
-        EXPECT_NEAR(contact.time, 10, 2 * step);
+        EXPECT_NEAR(event.time, 10, 2 * step);
       }
       EXPECT_EQ(contact.relative_speed, 2);
       EXPECT_GT(contact.closing_speed, 0);
       EXPECT_TRUE(contact.is_prescribed);
-      for (const ShipSample& sample : story.samples) EXPECT_EQ(sample.surge_from_ships, 0);
+      for (const ShipSample& sample : story.samples) EXPECT_EQ(sample.from_ships.surge, 0);
     }
   }
 }
@@ -97,11 +99,11 @@ TEST(ShipContacts, AreRecordedOnceAlsoAfterAResume) {
   scene.ships = {barge({0, 0}, ConstantThrust{1e5}), barge({0, 100}, ConstantSpeed{1})};
   scene.structures = {pile({6, 0}, 5), pile({6.5, 100}, 5)};
   Simulation simulation(scene);
-  EXPECT_EQ(run(simulation, 3).ship_contacts.size(), 2U);
+  EXPECT_EQ(of_kind<ShipContact>(run(simulation, 3)).size(), 2U);
   auto resumed = Simulation::resumed(scene, simulation.state());
   ASSERT_TRUE(resumed.has_value()) << resumed.error();
-  EXPECT_TRUE(run(*resumed, 6).ship_contacts.empty());
-  EXPECT_TRUE(run(simulation, 6).ship_contacts.empty());
+  EXPECT_TRUE(of_kind<ShipContact>(run(*resumed, 6)).empty());
+  EXPECT_TRUE(of_kind<ShipContact>(run(simulation, 6)).empty());
   EXPECT_EQ(resumed->state_hash(), simulation.state_hash());
 }
 

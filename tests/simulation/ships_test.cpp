@@ -36,8 +36,8 @@ TEST(ConstantSpeed, IsKeptExactlyAndTheForcesAreWhatItTakes) {
       ASSERT_EQ(sample.velocity_in_world, (Vector{1.25, 0}));
       ASSERT_EQ(sample.heading, 0);
       ASSERT_EQ(sample.yaw_rate, 0);
-      ASSERT_EQ(sample.thrust, -sample.surge_force);
-      impulse += scene.record.forces_interval * Vector{sample.surge_force, sample.sway_force};
+      ASSERT_EQ(sample.thrust, -sample.from_ice.surge);
+      impulse += scene.record.forces_interval * Vector{sample.from_ice.surge, sample.from_ice.sway};
     }
   }
   // Newton's third law: what the ice did to the ship is what the ship gave the floes.
@@ -57,7 +57,7 @@ TEST(ConstantThrust, GivesTheShipWhatTheIceDoesNotTake) {
   Simulation simulation(scene);
   const Story story = run(simulation, 15);
   double surge = 0;
-  for (const ShipSample& sample : story.samples) surge += 0.1 * sample.surge_force;
+  for (const ShipSample& sample : story.samples) surge += 0.1 * sample.from_ice.surge;
   const ShipState ship = simulation.ship_states()[0];
   EXPECT_LT(surge, -1e4);
   EXPECT_NEAR(ship.heading, 0, 0.1);
@@ -83,11 +83,11 @@ TEST(Ships, SeveralDoNotDisturbOneAnother) {
   ASSERT_EQ(first.size(), story_of_one.samples.size());
   ASSERT_EQ(second.size(), first.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
-    ASSERT_EQ(first[i].surge_force, story_of_one.samples[i].surge_force) << i;
+    ASSERT_EQ(first[i].from_ice.surge, story_of_one.samples[i].from_ice.surge) << i;
     ASSERT_EQ(first[i].position_in_world, story_of_one.samples[i].position_in_world) << i;
-    ASSERT_EQ(first[i].surge_max, story_of_one.samples[i].surge_max) << i;
+    ASSERT_EQ(first[i].from_ice_largest.surge, story_of_one.samples[i].from_ice_largest.surge) << i;
   }
-  const auto met_ice = [](const ShipSample& sample) { return sample.surge_force < 0; };
+  const auto met_ice = [](const ShipSample& sample) { return sample.from_ice.surge < 0; };
   EXPECT_TRUE(std::any_of(first.begin(), first.end(), met_ice));
   EXPECT_TRUE(std::any_of(second.begin(), second.end(), met_ice));
   EXPECT_TRUE(std::any_of(story_of_two.events.begin(), story_of_two.events.end(),
@@ -141,7 +141,7 @@ TEST(Drift, IsTheSameSceneSeenFromAMovingFrame) {
   for (std::size_t i = 0; i < seen_still.samples.size(); ++i) {
     const ShipSample& p = seen_still.samples[i];
     const ShipSample& q = seen_drifting.samples[i];
-    ASSERT_NEAR(p.surge_force, q.surge_force, 1e-6 * (1 + std::abs(p.surge_force))) << p.time;
+    ASSERT_NEAR(p.from_ice.surge, q.from_ice.surge, 1e-6 * (1 + std::abs(p.from_ice.surge))) << p.time;
     ASSERT_NEAR(distance(p.position_in_world, q.position_in_world + Vector{0.25 * q.time, 0}), 0, 1e-9);
     ASSERT_NEAR(length(p.velocity_in_world - q.velocity_in_world - Vector{0.25, 0}), 0, 1e-12);
   }

@@ -36,8 +36,9 @@ class Record {
 
 void add(Record& record, const Story& story) {
   for (const ShipSample& s : story.samples) {
-    for (const double value : {s.time, static_cast<double>(s.ship), s.surge_force, s.sway_force, s.yaw_moment,
-                               s.surge_peak, s.sway_peak, s.yaw_peak, s.surge_max, s.sway_max, s.yaw_max,
+    for (const double value : {s.time, static_cast<double>(s.ship), s.from_ice.surge, s.from_ice.sway,
+                               s.from_ice.yaw, s.collision.surge, s.collision.sway, s.collision.yaw,
+                               s.from_ice_largest.surge, s.from_ice_largest.sway, s.from_ice_largest.yaw,
                                s.heading, s.yaw_rate, s.thrust, static_cast<double>(s.contacts)})
       record.add(value);
     record.add(s.position_in_world);
@@ -45,12 +46,13 @@ void add(Record& record, const Story& story) {
   }
   for (const Event& e : story.events) {
     for (const double value :
-         {e.time, static_cast<double>(e.kind), static_cast<double>(e.floe), e.cusp_radius, e.penetration,
-          e.submerged_area, e.brash_area, e.criteria.collision_force, e.criteria.vertical_force,
-          e.criteria.bending_capacity})
+         {e.time, static_cast<double>(e.what.index()), static_cast<double>(e.ice()->floe),
+          e.is<Bend>() ? std::get<Bend>(e.what).cusp_radius : 0, e.ice()->penetration,
+          e.ice()->submerged_area, e.ice()->brash_area, e.criteria().collision_force,
+          e.criteria().vertical_force, e.criteria().bending_capacity})
       record.add(value);
     record.add(e.point_in_world);
-    record.add(e.normal_in_world);
+    record.add(e.ice()->normal_in_world);
   }
   for (const Birth& b : story.births) {
     record.add(b.area);
@@ -167,7 +169,7 @@ double farthest_apart(const Outcome& p, const Outcome& q) {
 
 double mean_surge(const Outcome& outcome) {
   double sum = 0;
-  for (const ShipSample& sample : outcome.story.samples) sum += sample.surge_force;
+  for (const ShipSample& sample : outcome.story.samples) sum += sample.from_ice.surge;
   return sum / static_cast<double>(outcome.story.samples.size());
 }
 

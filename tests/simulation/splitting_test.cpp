@@ -40,7 +40,7 @@ Event first_fracture(Simulation& simulation, double until) {
     simulation.step();
     listen(simulation, story);
     for (const Event& event : story.events)
-      if (is_fracture(event.kind)) return event;
+      if (event.is_fracture()) return event;
   }
   Event none;
   none.time = -1;
@@ -71,10 +71,10 @@ TEST(Splitting, APlateOfTwentyKilometresSplitsWhenTheForceHasGrownToWhatItTakes)
   }
   ASSERT_FALSE(story.events.empty());
   const Event& event = story.events.front();
-  EXPECT_EQ(event.kind, EventKind::kSplit);
-  EXPECT_NEAR(event.penetration / depth, 1, 0.02);
+  EXPECT_TRUE(event.is<Split>());
+  EXPECT_NEAR(event.ice()->penetration / depth, 1, 0.02);
   EXPECT_NEAR(event.time / depth, 1, 0.02) << "at 1 m/s";
-  const fracture::FailureCriteria& c = event.criteria;
+  const fracture::FailureCriteria& c = event.criteria();
   EXPECT_GE(c.opening_force, c.opening_capacity);
   EXPECT_LT(c.opening_force, 1.01 * c.opening_capacity) << "it grows by less in a step";
   EXPECT_LT(kOpeningOfStem * before, 1.001 * c.opening_capacity) << "no step before had it";
@@ -136,13 +136,13 @@ TEST(Splitting, AFloeSplitsAnotherWithItsPointAndNotWithItsSide) {
       EXPECT_LT(simulation.floe_states()[0].velocity.x, 0.95) << "they met";
       continue;
     }
-    EXPECT_EQ(event.kind, EventKind::kSplit);
+    EXPECT_TRUE(event.is<Split>());
     EXPECT_EQ(event.ship, -1);
-    EXPECT_EQ(event.by_floe, 0);
-    EXPECT_EQ(event.floe, 1);
-    EXPECT_GE(event.criteria.opening_force, event.criteria.opening_capacity);
-    EXPECT_NEAR(event.criteria.opening_capacity, fracture::lefm_splitting_force(scene.ice, 20, 20), 1e3);
-    EXPECT_EQ(event.children.size(), 2u);
+    EXPECT_EQ(event.ice()->by_floe, 0);
+    EXPECT_EQ(event.ice()->floe, 1);
+    EXPECT_GE(event.criteria().opening_force, event.criteria().opening_capacity);
+    EXPECT_NEAR(event.criteria().opening_capacity, fracture::lefm_splitting_force(scene.ice, 20, 20), 1e3);
+    EXPECT_EQ(event.ice()->children.size(), 2u);
   }
 }
 
@@ -154,7 +154,7 @@ TEST(Splitting, AFloeThatDriftsOnAStructureSplitsAtItsNoseAndNotAtItsWall) {
     const Event event = first_fracture(simulation, 3);
     EXPECT_EQ(event.time > 0, has_nose);
     if (has_nose) {
-      EXPECT_EQ(event.kind, EventKind::kSplit);
+      EXPECT_TRUE(event.is<Split>());
       EXPECT_EQ(event.ship, 0);
     }
   }
@@ -169,12 +169,12 @@ TEST(Splitting, TheFlanksOfABowOpenTheHeadOfTheSlotItIsIn) {
   scene.ships[0].position_in_world.x += 9;
   Simulation simulation(scene);
   const Event event = first_fracture(simulation, 10);
-  ASSERT_EQ(event.kind, EventKind::kSplit);
+  ASSERT_TRUE(event.is<Split>());
   ASSERT_GT(event.time, 0);
-  EXPECT_NEAR(event.criteria.crack_length, 50, 0.1);
+  EXPECT_NEAR(event.criteria().crack_length, 50, 0.1);
   EXPECT_NEAR(event.point_in_world.x, 0, 1);
   EXPECT_NEAR(event.point_in_world.y, 0, 0.1);
-  EXPECT_EQ(event.children.size(), 2u);
+  EXPECT_EQ(event.ice()->children.size(), 2u);
 }
 
 /// A plate with its edge along x = 0 and an older channel, parallel to it, from `spacing` on.
@@ -199,17 +199,17 @@ TEST(Splitting, BetweenParallelChannelsALongCrackRunsWhereTheyAreNearerThanSMax)
     return first_fracture(simulation, 10);
   };
   const Event bend = first_at(700);
-  ASSERT_EQ(bend.kind, EventKind::kBend);
-  ASSERT_GT(bend.criteria.opening_force, 0);
-  EXPECT_LT(bend.criteria.opening_force, bend.criteria.opening_capacity);
+  ASSERT_TRUE(bend.is<Bend>());
+  ASSERT_GT(bend.criteria().opening_force, 0);
+  EXPECT_LT(bend.criteria().opening_force, bend.criteria().opening_capacity);
   // S_max = (F_b / 0.2105 h K)², F_b what opens the crack when the ice bends.
-  const double most = std::pow(bend.criteria.opening_force / (0.2105 * 0.5 * 150e3), 2);
-  std::printf("F_b %.1f kN, S_max %.1f m\n", bend.criteria.opening_force / 1e3, most);
+  const double most = std::pow(bend.criteria().opening_force / (0.2105 * 0.5 * 150e3), 2);
+  std::printf("F_b %.1f kN, S_max %.1f m\n", bend.criteria().opening_force / 1e3, most);
   const Event near = first_at(0.85 * most);
-  ASSERT_EQ(near.kind, EventKind::kSplit);
-  EXPECT_NEAR(near.criteria.crack_length, 0.85 * most, 0.5) << "from the stem to the older channel";
-  EXPECT_GT(near.criteria.crack_width, 2 * near.criteria.crack_length);
-  EXPECT_EQ(first_at(1.15 * most).kind, EventKind::kBend);
+  ASSERT_TRUE(near.is<Split>());
+  EXPECT_NEAR(near.criteria().crack_length, 0.85 * most, 0.5) << "from the stem to the older channel";
+  EXPECT_GT(near.criteria().crack_width, 2 * near.criteria().crack_length);
+  EXPECT_TRUE(first_at(1.15 * most).is<Bend>());
 }
 
 /// 36 floes of three to six corners that rush at each other.

@@ -37,13 +37,6 @@ Scene pinned_floe() {
   return scene;
 }
 
-std::vector<Event> of_kind(const Story& story, EventKind kind) {
-  std::vector<Event> events;
-  for (const Event& event : story.events)
-    if (event.kind == kind) events.push_back(event);
-  return events;
-}
-
 void expect_closed(const Simulation& simulation) {
   const AreaLedger ledger = simulation.area_ledger();
   EXPECT_LT(std::abs(ledger.imbalance), 1e-9 * ledger.initial_ice_area);
@@ -53,12 +46,13 @@ void expect_closed(const Simulation& simulation) {
 TEST(UnderHull, AFloeBetweenAnInclinedHullAndAPlateTiltsAndGoesUnder) {
   Simulation simulation(pinned_floe());
   const Story story = run(simulation, 20);
-  const std::vector<Event> under = of_kind(story, EventKind::kSubmerge);
+  const std::vector<Event> under = of_kind<Submerge>(story);
   ASSERT_FALSE(under.empty());
-  EXPECT_EQ(under[0].floe, 0);
-  EXPECT_GE(under[0].tilting.deflection, under[0].tilting.least_deflection);
-  EXPECT_NEAR(under[0].tilting.least_deflection, 0.9, 1e-12);
-  EXPECT_NEAR(under[0].under_hull_area, 144, 1e-9);
+  EXPECT_EQ(under[0].ice()->floe, 0);
+  EXPECT_GE(std::get<Submerge>(under[0].what).criterion.deflection,
+            std::get<Submerge>(under[0].what).criterion.least_deflection);
+  EXPECT_NEAR(std::get<Submerge>(under[0].what).criterion.least_deflection, 0.9, 1e-12);
+  EXPECT_NEAR(std::get<Submerge>(under[0].what).under_hull_area, 144, 1e-9);
   EXPECT_EQ(simulation.counts().tilted_under, static_cast<std::int64_t>(under.size()));
   expect_closed(simulation);
 }
@@ -67,7 +61,7 @@ TEST(UnderHull, ByVerticalWallsItNeverDoes) {
   Scene scene = pinned_floe();
   scene.ships[0].hull.angles_from_vertical.assign(scene.ships[0].hull.waterline.size(), 0);
   Simulation simulation(scene);
-  EXPECT_TRUE(of_kind(run(simulation, 20), EventKind::kSubmerge).empty());
+  EXPECT_TRUE(of_kind<Submerge>(run(simulation, 20)).empty());
   expect_closed(simulation);
 }
 
@@ -77,7 +71,7 @@ TEST(UnderHull, TiltingLimitsTheForceOfAFloeThatCannotGetAway) {
     Simulation simulation(of);
     double most = 0;
     for (const ShipSample& sample : run(simulation, 12).samples)
-      most = std::max(most, std::abs(sample.surge_force));
+      most = std::max(most, std::abs(sample.from_ice.surge));
     return most;
   };
   const double tilting = largest(scene);
@@ -89,7 +83,7 @@ TEST(UnderHull, AFloeThatIsFreeToMoveIsPushedAsideAndStaysUp) {
   Scene scene = under(0.5);
   scene.floes = {floe(rectangle(0, 4, 8, 12))};
   Simulation simulation(scene);
-  EXPECT_TRUE(of_kind(run(simulation, 40), EventKind::kSubmerge).empty());
+  EXPECT_TRUE(of_kind<Submerge>(run(simulation, 40)).empty());
 }
 
 /// A small piece under the hull, and nothing else.
@@ -106,9 +100,9 @@ TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
   const Scene scene = one_tile(0);
   Simulation simulation(scene);
   const Story story = run(simulation, 100);
-  ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
+  ASSERT_EQ(of_kind<Submerge>(story).size(), 1U);
   double work = 0;
-  for (const ShipSample& sample : story.samples) work -= sample.surge_from_submerged * 0.1;  // at 1 m/s
+  for (const ShipSample& sample : story.samples) work -= sample.from_submerged.surge * 0.1;  // at 1 m/s
   const double weight = 100 * 9.81 * 16;
   const dynamics::SubmersionPath& path = simulation.world().setup.underwater[0].path;
   EXPECT_NEAR(work, weight * (path.rise + 0.2 * path.sliding), 1e-9 * work);
@@ -117,9 +111,9 @@ TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
 TEST(UnderHull, IceOffTheCentreLineTurnsTheShipTowardsIt) {
   Simulation simulation(one_tile(1));
   const Story story = run(simulation, 40);
-  ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
+  ASSERT_EQ(of_kind<Submerge>(story).size(), 1U);
   double moment = 0;
-  for (const ShipSample& sample : story.samples) moment += sample.yaw_from_submerged;
+  for (const ShipSample& sample : story.samples) moment += sample.from_submerged.yaw;
   EXPECT_GT(moment, 0) << "to port, where it is";
 }
 
@@ -144,13 +138,14 @@ TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
 TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
   Simulation simulation(one_tile(0));
   Story story = run(simulation, 140);
-  const std::vector<Event> up = of_kind(story, EventKind::kResurface);
+  const std::vector<Event> up = of_kind<Resurface>(story);
   ASSERT_EQ(up.size(), 1U);
-  EXPECT_EQ(up[0].floe, 0);
-  ASSERT_EQ(up[0].children.size(), 1U);
-  EXPECT_GE(up[0].resurfacing.path, up[0].resurfacing.least_path);
-  EXPECT_NEAR(up[0].brash_area, 0.05 * 16, 1e-9);
-  const auto born = std::ranges::find(story.births, up[0].children[0], &BirthRecord::floe);
+  EXPECT_EQ(up[0].ice()->floe, 0);
+  ASSERT_EQ(up[0].ice()->children.size(), 1U);
+  EXPECT_GE(std::get<Resurface>(up[0].what).criterion.path,
+            std::get<Resurface>(up[0].what).criterion.least_path);
+  EXPECT_NEAR(up[0].ice()->brash_area, 0.05 * 16, 1e-9);
+  const auto born = std::ranges::find(story.births, up[0].ice()->children[0], &BirthRecord::floe);
   ASSERT_NE(born, story.births.end());
   EXPECT_EQ(born->parent, 0);
   EXPECT_EQ(born->generation, 1);
@@ -165,11 +160,11 @@ TEST(UnderHull, WithoutScatterItComesUpInItsPlace) {
   scene.fracture.resurface.scatter = 0;
   Simulation simulation(scene);
   const Story story = run(simulation, 140);
-  const std::vector<Event> under = of_kind(story, EventKind::kSubmerge);
-  const std::vector<Event> up = of_kind(story, EventKind::kResurface);
+  const std::vector<Event> under = of_kind<Submerge>(story);
+  const std::vector<Event> up = of_kind<Resurface>(story);
   ASSERT_EQ(up.size(), 1U);
   const std::vector<FloeState> floes = simulation.floe_states();
-  const auto state = std::ranges::find(floes, up[0].children[0], &FloeState::floe);
+  const auto state = std::ranges::find(floes, up[0].ice()->children[0], &FloeState::floe);
   ASSERT_NE(state, floes.end());
   EXPECT_LT(distance(transform(state->world_from_body, {2, 0}), up[0].point_in_world), 1e-9);
 }
@@ -180,16 +175,16 @@ TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
   scene.fracture.resurface.scatter = 0;
   Simulation simulation(scene);
   Story story = run(simulation, 30);
-  ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
+  ASSERT_EQ(of_kind<Submerge>(story).size(), 1U);
   // A floe as large as the hull and more lies where the piece would come up, as soon as the ship has gone.
   scene.floes.push_back(floe(rectangle(-400, -60, -122, 60), {1.5, 0}));
   scene.water.drag_coefficient = 0;
   Simulation blocked(scene);
   story = run(blocked, 220);
-  const std::vector<Event> stays = of_kind(story, EventKind::kStayUnder);
+  const std::vector<Event> stays = of_kind<StayUnder>(story);
   ASSERT_EQ(stays.size(), 1U);
-  EXPECT_GE(stays[0].resurfacing.waited, 10);
-  EXPECT_NEAR(stays[0].under_ice_area, 16, 1e-9);
+  EXPECT_GE(std::get<StayUnder>(stays[0].what).criterion.waited, 10);
+  EXPECT_NEAR(std::get<StayUnder>(stays[0].what).under_ice_area, 16, 1e-9);
   EXPECT_NEAR(blocked.area_ledger().under_ice_area, 16, 1e-9);
   EXPECT_EQ(blocked.counts().stayed_under, 1);
   expect_closed(blocked);
@@ -201,18 +196,18 @@ TEST(UnderHull, AShipThatStopsKeepsItsIceAndOneThatBacksGivesItBack) {
   scene.ships[0].speed = 1;
   Simulation simulation(scene);
   Story story = run(simulation, 20);
-  ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
+  ASSERT_EQ(of_kind<Submerge>(story).size(), 1U);
   auto& world = const_cast<World&>(simulation.world());
   world.population.bodies.velocity[0] = {0, 0};
   story = run(simulation, 60);
-  EXPECT_TRUE(of_kind(story, EventKind::kResurface).empty());
+  EXPECT_TRUE(of_kind<Resurface>(story).empty());
   EXPECT_EQ(world.population.submerged.size(), 1U);
   const double path = world.population.submerged[0].path;
   world.population.bodies.velocity[0] = {-1, 0};
   story = run(simulation, 60 + path + 30);
-  const std::vector<Event> up = of_kind(story, EventKind::kResurface);
+  const std::vector<Event> up = of_kind<Resurface>(story);
   ASSERT_EQ(up.size(), 1U);
-  EXPECT_LT(up[0].resurfacing.path, 0);
+  EXPECT_LT(std::get<Resurface>(up[0].what).criterion.path, 0);
 }
 
 TEST(UnderHull, IceUnderAHullGoesWithACurrent) {
@@ -221,8 +216,8 @@ TEST(UnderHull, IceUnderAHullGoesWithACurrent) {
   scene.fracture.resurface.scatter = 0;
   Simulation simulation(scene);
   const Story story = run(simulation, 160);
-  const std::vector<Event> under = of_kind(story, EventKind::kSubmerge);
-  const std::vector<Event> up = of_kind(story, EventKind::kResurface);
+  const std::vector<Event> under = of_kind<Submerge>(story);
+  const std::vector<Event> up = of_kind<Resurface>(story);
   ASSERT_EQ(up.size(), 1U);
   EXPECT_GT(std::abs(up[0].point_in_world.y - under[0].point_in_world.y), 0.05);
   expect_closed(simulation);

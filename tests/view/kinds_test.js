@@ -208,11 +208,11 @@ test("a mooring that breaks has a mark on the timeline, and a card with its forc
   await withPage(makePage(run), {}, async (page) => {
     const box = await page.locator("#track").boundingBox();
     await page.mouse.move(box.x + (broken.t_s / 20) * box.width, box.y + 7);
-    assert.match(await page.locator("#timeline-tip").textContent(), /mooring broken of tanker/);
+    assert.match(await page.locator("#timeline-tip").textContent(), /mooring break of tanker/);
     await page.mouse.click(box.x + (broken.t_s / 20) * box.width, box.y + 7);
     assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), broken.t_s);
     const card = await page.locator("#event-card").textContent();
-    for (const words of ["mooring broken", "tanker", `${(broken.force_N / 1000).toPrecision(4)} kN`, "120.0 kN", `${Number(broken.offset_m[0].toPrecision(3))} m along`])
+    for (const words of ["mooring break", "tanker", `${(broken.force_N / 1000).toPrecision(4)} kN`, "120.0 kN", `(${broken.offset_m[0].toFixed(1)}, `])
       assert.ok(card.includes(words), `${words} in ${card}`);
     assert.match(await page.locator("#facts").textContent(), /moorings broken1/);
     await page.keyboard.press("[");

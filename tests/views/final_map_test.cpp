@@ -36,10 +36,7 @@ io::Run run_of_three(const std::string& name) {
     run.samples.push_back(sample);
   }
   run.frames = {{.time = 0, .ships = {}, .floes = {}}, {.time = 10, .ships = {}, .floes = {}}};
-  simulation::Event event;
-  event.time = 5;
-  event.ship = 1;
-  run.events = {event};
+  run.events = {{5, 1, {}, simulation::Bend()}};
   return run;
 }
 
@@ -73,14 +70,10 @@ io::Run run_with_ice_under_a_hull() {
   run.floes[1].went_under = 5;
   run.floes[2].came_up = true;
   run.floes[2].birth.generation = 2;
-  for (const auto kind : {simulation::EventKind::kSubmerge, simulation::EventKind::kSubmerge,
-                          simulation::EventKind::kResurface, simulation::EventKind::kStayUnder}) {
-    simulation::Event event;
-    event.time = 5;
-    event.ship = 1;
-    event.kind = kind;
-    run.events.push_back(event);
-  }
+  using namespace simulation;
+  for (const decltype(Event::what)& what :
+       std::initializer_list<decltype(Event::what)>{Submerge(), Submerge(), Resurface(), StayUnder()})
+    run.events.push_back({5, 1, {}, what});
   return run;
 }
 

@@ -40,14 +40,18 @@ std::string floes_layer(const io::Run& run, const std::vector<io::PlacedFloe>& f
 std::string fractures_layer(const io::Run& run, double time, const Project& project) {
   GeojsonLayer layer(time, project);
   for (const simulation::Event& event : run.events) {
-    if (event.time > time || !is_fracture(event.kind)) continue;
+    if (event.time > time || !event.is_fracture()) continue;
+    const fracture::FailureCriteria& criteria = event.criteria();
     io::JsonWriter& json = layer.start();
-    json.key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-    json.key("ship").value(io::ship_name(run.scene.scene, event.ship)).key("floe_id").value(event.floe);
-    json.key("contact_force_N").value(event.criteria.contact_force);
-    json.key("collision_force_N").value(event.criteria.collision_force);
-    json.key("vertical_force_N").value(event.criteria.vertical_force);
-    json.key("submerged_area_m2").value(event.submerged_area);
+    json.key("t_s").value(event.time).key("kind").value(name_of(event));
+    json.key("ship")
+        .value(io::ship_name(run.scene.scene, event.ship))
+        .key("floe_id")
+        .value(event.ice()->floe);
+    json.key("contact_force_N").value(criteria.contact_force);
+    json.key("collision_force_N").value(criteria.collision_force);
+    json.key("vertical_force_N").value(criteria.vertical_force);
+    json.key("submerged_area_m2").value(event.ice()->submerged_area);
     layer.end_with(event.point_in_world);
   }
   return layer.finish();

@@ -38,10 +38,10 @@ std::vector<bool> fast_floes(const io::Run& run) {
   const auto& specs = run.scene.scene.floes;
   for (std::size_t i = 0; i < std::min(specs.size(), is_fast.size()); ++i) is_fast[i] = specs[i].is_fast;
   for (const simulation::Event& event : run.events) {
-    if (event.floe < 0 || static_cast<std::size_t>(event.floe) >= is_fast.size() || !is_fast[event.floe])
-      continue;
+    const simulation::IceEvent* ice = event.ice();
+    if (!ice || !is_fast[static_cast<std::size_t>(ice->floe)]) continue;
     const io::RunFloe* largest = nullptr;
-    for (const simulation::FloeId child : event.children) {
+    for (const simulation::FloeId child : ice->children) {
       const io::RunFloe* floe = run.floe(child);
       if (floe && (!largest || floe->birth.area > largest->birth.area)) largest = floe;
     }
