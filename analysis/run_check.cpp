@@ -33,14 +33,10 @@ void check_shape(const io::Run& run, const simulation::BirthRecord& birth, RunCh
   see(check.recorded_area, geometry::exact_balance({}, ring, recorded), birth.area, birth.floe);
 }
 
-/// The area that a kind of event leaves under the ice, if any.
-double under_ice_of(const simulation::Event& event) {
-  const auto* stays = std::get_if<simulation::StayUnder>(&event.what);
-  return stays ? stays->under_ice_area : 0;
-}
-
 void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck& check) {
   const simulation::IceEvent& ice = *event.ice();
+  const auto* stays = std::get_if<simulation::StayUnder>(&event.what);
+  const double under_ice = stays ? stays->under_ice_area : 0;
   ++check.fractures;
   std::vector<FloeId> children;
   const auto parent = run.shape(ice.floe);
@@ -54,7 +50,7 @@ void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck
   }
   const double before = run.floe(ice.floe)->birth.area;
   const Polygon* const parents[]{parent.get()};
-  const double terms[]{ice.submerged_area, under_ice_of(event), ice.brash_area, -ice.rounding_defect};
+  const double terms[]{ice.submerged_area, under_ice, ice.brash_area, -ice.rounding_defect};
   see(check.balance, geometry::exact_balance(after, parents, terms), before, ice.floe);
   for (std::size_t i = 0; i < children.size(); ++i) {
     for (std::size_t j = i + 1; j < children.size(); ++j) {
