@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "dynamics/bodies.hpp"
@@ -80,6 +81,10 @@ inline double kinetic_energy(const dynamics::Bodies& bodies) {
               0.5 * bodies.moment[i] * bodies.angular_velocity[i] * bodies.angular_velocity[i];
   }
   return energy;
+}
+
+inline double mass(const dynamics::Bodies& bodies) {
+  return std::accumulate(bodies.mass.begin(), bodies.mass.end(), 0.0);
 }
 
 inline geometry::Vector momentum(const dynamics::Bodies& bodies) {

@@ -1,6 +1,6 @@
 // Contact that behaves as ice: closed forms, one answer, and a load in level ice that the step does not make.
 #include <cmath>
-#include <numeric>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -12,31 +12,19 @@ namespace {
 using namespace scenes;
 
 /// A 15 m floe of half a metre that meets a vertical wall at 1 m/s, with its corner or with a face of 2 m.
-Scene floe_against_wall(const geometry::Polygon& floe_polygon, double step) {
-  Scene scene = without_drag();
-  scene.time.step = step;
-  scene.contact = {};
-  scene.ships = {barge({0, 0}, ConstantSpeed{0}, 0)};
-  scene.floes = {floe(floe_polygon, {-1, 0})};
-  return scene;
+Scene floe_against_wall(const geometry::Polygon& polygon, double step) {
+  return Build().without_drag().step(step).ship(barge({0, 0}, ConstantSpeed{0}, 0)).floe(polygon, {-1, 0});
 }
 
 geometry::Polygon square_on_its_corner(double x) {
-  const double d = 15 / std::numbers::sqrt2;
-  return {{{x, 0}, {x + d, -d}, {x + 2 * d, 0}, {x + d, d}}, {}};
+  return shapes::diamond({x, 0}, 15 / std::numbers::sqrt2);
 }
 
 /// The same area, with a nose that ends in a face of 2 m.
 geometry::Polygon with_flat_nose(double x) {
-  return {{{x, -1},
-           {x + 2, -1},
-           {x + 2, -7.5},
-           {x + 16.73, -7.5},
-           {x + 16.73, 7.5},
-           {x + 2, 7.5},
-           {x + 2, 1},
-           {x, 1}},
-          {}};
+  const geometry::Point low[] = {{x, -1}, {x + 2, -1}, {x + 2, -7.5}, {x + 16.73, -7.5}};
+  const geometry::Point high[] = {{x + 16.73, 7.5}, {x + 2, 7.5}, {x + 2, 1}, {x, 1}};
+  return {{low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}, {}};
 }
 
 struct Stop {
@@ -98,48 +86,36 @@ TEST(CrushLaw, TheErrorOfACornersStopHalvesWithTheStep) {
     }
     return sum / 8;
   };
-  const double coarse = error(0.01);
-  const double fine = error(0.0025);
-  EXPECT_LT(fine, 0.4 * coarse);
-}
-
-/// Without drag, with contacts that crush.
-Scene crushing_floes(std::vector<FloeSpec> floes, double friction) {
-  Scene scene = without_drag();
-  scene.contact = {};
-  scene.ice.friction = friction;
-  scene.floes = std::move(floes);
-  return scene;
+  EXPECT_LT(error(0.0025), 0.4 * error(0.01));
 }
 
 /// Nothing springs back: what the first brings, all share, and the rest of its energy has crushed ice.
 TEST(CrushLaw, ALineOfFloesGoesOnTogether) {
-  std::vector<FloeSpec> line = {floe(rectangle(0, 0, 10, 10), {1, 0})};
-  for (int i = 1; i < 5; ++i) line.push_back(floe(rectangle(10.2 * i, 0, 10.2 * i + 10, 10)));
-  Simulation simulation(crushing_floes(line, 0.2));
-  const double mass = simulation.floe_states()[0].mass;
-  while (simulation.time() < 40) simulation.step();
+  Build scene = Build().without_drag().grid({0, 0}, 5, 1, 10, 10.2);
+  scene.floes[0].velocity = {1, 0};
+  const Trial done = run(scene, 40);
+  const double mass = 900 * 0.5 * 100;
   double momentum = 0;
-  for (const FloeState& state : simulation.floe_states()) {
+  for (const FloeState& state : done.simulation.floe_states()) {
     EXPECT_NEAR(state.velocity.x, 0.2, 2e-3);
     EXPECT_NEAR(state.angular_velocity, 0, 1e-6);
     momentum += mass * state.velocity.x;
   }
   EXPECT_NEAR(momentum / mass, 1, 1e-12);
-  EXPECT_NEAR(simulation.audit().sums.energy.crushing / (0.5 * mass * (1 - 0.2)), 1, 2e-3);
-  EXPECT_TRUE(simulation.audit().is_closed());
+  EXPECT_NEAR(done.simulation.audit().sums.energy.crushing / (0.5 * mass * (1 - 0.2)), 1, 2e-3);
+  expect_closed(done.simulation);
 }
 
 /// A floe that meets a wall obliquely slides along it: as long as it slides, Coulomb's friction takes μ times
 /// what the wall takes of its speed across.
 TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
   for (const double friction : {0.05, 0.2, 0.4}) {
-    Scene scene = crushing_floes({floe(rectangle(0.01, -3, 10.01, 3), {-1, 0.5})}, friction);
-    scene.ships = {barge({0, 0}, ConstantSpeed{0}, 0)};
-    scene.ships[0].hull.waterline = rectangle(-60, -40, 60, 40).outer;
-    Simulation simulation(scene);
-    while (simulation.time() < 0.1) simulation.step();
-    const FloeState state = simulation.floe_states()[0];
+    Scene scene = Build()
+                      .without_drag()
+                      .structure(rectangle(-120, -40, 0, 40).outer)
+                      .floe(rectangle(0.01, -3, 10.01, 3), {-1, 0.5});
+    scene.ice.friction = friction;
+    const FloeState state = run(scene, 0.1).simulation.floe_states()[0];
     EXPECT_NEAR(state.velocity.x, 0, 0.01) << friction;
     EXPECT_NEAR(state.velocity.y, 0.5 - friction, 0.02) << friction;
   }
@@ -147,96 +123,66 @@ TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
 
 /// The reference ship presses 15 m floes into a basin without a way out.
 TEST(CrushLaw, AJamIsSolvedAndItsContactsCreateNoEnergy) {
-  Scene scene;
-  scene.time.step = 0.01;
-  scene.ships = {icebreaker({-1, 0}, ConstantSpeed{1})};
-  const auto wall = [&](double x0, double y0, double x1, double y1) {
-    ShipSpec ship = barge({0, 0}, FixedInPlace{}, 0);
-    ship.name = "wall";
-    ship.hull.waterline = rectangle(x0, y0, x1, y1).outer;
-    ship.position_in_world = {};
-    scene.ships.push_back(ship);
-  };
-  wall(100, -60, 110, 60);
-  wall(-1, 60, 110, 70);
-  wall(-1, -70, 110, -60);
-  for (int column = 0; column < 6; ++column) {
-    for (int row = 0; row < 7; ++row) {
-      const double x = 1 + 16.3 * column, y = -57.5 + 16.4 * row + (column % 2);
-      scene.floes.push_back(floe(rectangle(x, y, x + 15, y + 15)));
-    }
-  }
-  Simulation simulation(scene);
-  run(simulation, 60);
-  const Counts& counts = simulation.world().accounts.counts;
-  EXPECT_LT(static_cast<double>(counts.unconverged_steps), 0.02 * static_cast<double>(simulation.steps()));
-  EXPECT_LT(counts.energy_created, 1e-6 * simulation.audit().turnover);
+  Build scene = Build().step(0.01).ship(icebreaker({-1, 0}, ConstantSpeed{1}));
+  for (const auto& wall :
+       {rectangle(100, -60, 110, 60), rectangle(-1, 60, 110, 70), rectangle(-1, -70, 110, -60)})
+    scene.structure(wall.outer);
+  for (int column = 0; column < 6; ++column)
+    scene.grid({1 + 16.3 * column, -57.5 + (column % 2)}, 1, 7, 15, 16.4);
+  const Trial done = run(scene, 60);
+  const Counts counts = done.simulation.counts();
+  EXPECT_LT(static_cast<double>(counts.unconverged_steps), 0.02 * static_cast<double>(counts.steps));
+  EXPECT_LT(counts.energy_created, 1e-6 * done.simulation.audit().turnover);
   EXPECT_GT(counts.peak_contacts, 60);
-  EXPECT_TRUE(simulation.audit().is_closed());
+  expect_closed(done.simulation);
 }
 
 /// 1.5 m of ice, whose tips press on both sides of the parallel midbody: rigid impulses keep each other alive
 /// there through the solver's start.
 TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
   const auto surge_of = [](const ContactSettings& settings) {
-    Scene scene;
+    Scene scene =
+        Build().ship(icebreaker({-2, 0}, ConstantSpeed{0.25}, 0.25)).floe(rectangle(0, -2000, 4000, 2000));
     scene.ice.thickness = 1.5;
     scene.contact = settings;
-    scene.ships = {icebreaker({-2, 0}, ConstantSpeed{0.25}, 0.25)};
-    scene.floes = {floe(rectangle(0, -2000, 4000, 2000))};
-    Simulation simulation(scene);
-    std::vector<double> means;  // over 0.1 s [N]
-    for (const ShipSample& sample : run(simulation, 300).samples) means.push_back(sample.surge_force);
-    return means;
+    return run(scene, 300).story;
   };
   std::vector<ContactSettings> others(3);
   others[0].substeps = 8;
   others[1].tolerance = 1e-6;
   others[2].is_warm_started = false;
-  const std::vector<double> first = surge_of({});
-  const double mean = std::accumulate(first.begin(), first.end(), 0.0) / static_cast<double>(first.size());
-  const double peak = std::ranges::min(first);
-  EXPECT_LT(mean, -5e4);
-  EXPECT_GT(mean, -3e5);
+  const Story first = surge_of({});
+  const double mean_of_first = mean(first, &ShipSample::surge_force);
+  EXPECT_LT(mean_of_first, -5e4);
+  EXPECT_GT(mean_of_first, -3e5);
   for (const ContactSettings& settings : others) {
-    const std::vector<double> surge = surge_of(settings);
-    ASSERT_EQ(surge.size(), first.size());
-    EXPECT_NEAR(std::accumulate(surge.begin(), surge.end(), 0.0) / static_cast<double>(surge.size()) / mean,
-                1, 0.01);
-    EXPECT_NEAR(std::ranges::min(surge) / peak, 1, 0.01);
+    const Story surge = surge_of(settings);
+    EXPECT_NEAR(mean(surge, &ShipSample::surge_force) / mean_of_first, 1, 0.01);
+    EXPECT_NEAR(largest(surge, &ShipSample::surge_force) / largest(first, &ShipSample::surge_force), 1, 0.01);
   }
 }
 
-/// Mean surge on the reference ship at 1 m/s through 120 m of level ice [N].
-double mean_load_in_level_ice(double step, int substeps, double offset) {
-  Scene scene;
-  scene.time.step = step;
-  scene.contact.law = ContactLaw::kCrush;
-  scene.contact.substeps = substeps;
-  scene.fracture.splitting = fracture::SplittingModel::kNone;  // it stands for ice without end
-  scene.ships = {icebreaker({-1, offset}, ConstantSpeed{1})};
-  scene.floes = {floe(rectangle(0, -100, 300, 100))};
-  Simulation simulation(scene);
-  double impulse = 0;
-  while (simulation.time() < 120) {
-    simulation.step();
-    if (simulation.time() <= 20) continue;  // the bow breaks its way in first
-    for (const dynamics::Contact& c : simulation.world().step.contacts) impulse += c.impulse_on_b().x;
-    simulation.journal().clear();
+/// Mean load on the reference ship at 1 m/s through 100 m of level ice, over four places to begin at [N].
+double mean_load_in_level_ice(double step, int substeps) {
+  double sum = 0;
+  for (const double offset : {0.0, 0.3, 0.7, 1.1}) {
+    Scene scene = Build()
+                      .step(step)
+                      .ship(icebreaker({-1, offset}, ConstantSpeed{1}))
+                      .floe(rectangle(0, -100, 300, 100));
+    scene.contact.substeps = substeps;
+    scene.fracture.splitting = fracture::SplittingModel::kNone;  // it stands for ice without end
+    sum -=
+        mean(run(scene, 120).story, &ShipSample::surge_force, 0, 20.05);  // the bow breaks its way in first
   }
-  return impulse / 100;
+  return sum / 4;
 }
 
 TEST(CrushLaw, TheLoadInLevelIceIsNotTheSteps) {
-  const auto mean = [](double step, int substeps) {
-    double sum = 0;
-    for (const double offset : {0.0, 0.3, 0.7, 1.1}) sum += mean_load_in_level_ice(step, substeps, offset);
-    return sum / 4;
-  };
-  const double fine = mean(0.0025, 1);
-  EXPECT_NEAR(mean(0.005, 1) / fine, 1, 0.05);
-  EXPECT_NEAR(mean(0.02, 1) / fine, 1, 0.10);
-  EXPECT_NEAR(mean(0.005, 4) / fine, 1, 0.05);
+  const double fine = mean_load_in_level_ice(0.0025, 1);
+  EXPECT_NEAR(mean_load_in_level_ice(0.005, 1) / fine, 1, 0.05);
+  EXPECT_NEAR(mean_load_in_level_ice(0.02, 1) / fine, 1, 0.10);
+  EXPECT_NEAR(mean_load_in_level_ice(0.005, 4) / fine, 1, 0.05);
   EXPECT_GT(fine, 2e4);
 }
 
