@@ -143,9 +143,7 @@ TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
     const double radius = random_.between(0.3, 2);
     const Boundary a = make_boundary(random_floe(random_), {radius, i % 3 == 0});
     const Boundary b = make_boundary(random_floe(random_), {radius, i % 3 == 0});
-    const double away = random_.between(0, 40);
-    const double towards = random_.angle();
-    const Pose a_from_b{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+    const Pose a_from_b = random_pose(random_, 0, 40);
     const double margin = i % 2 == 0 ? 0 : random_.between(0, 1);
     std::vector<NearPair> circle_pairs;
     NearEdges edges;

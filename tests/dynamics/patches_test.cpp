@@ -160,9 +160,7 @@ TEST_F(RandomPatches, OfConvexFloesHaveTheOverlapsExactArea) {
   for (int i = 0; i < 4000; ++i) {
     const Polygon a = random_convex(random_);
     const Polygon b = random_convex(random_);
-    const double away = random_.between(8, 24);
-    const double towards = random_.angle();
-    const Pose pose{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+    const Pose pose = random_pose(random_, 8, 24);
     const Found found = patches_of(a, b, pose);
     const auto exact = overlap({a}, {}, {b}, pose);
     ASSERT_TRUE(exact);
@@ -183,9 +181,7 @@ TEST_F(RandomPatches, OfJaggedFloesSumToTheOverlapsExactArea) {
   for (int i = 0; i < 4000; ++i) {
     const Polygon a = random_star(random_, 10, 6, 9);
     const Polygon b = random_star(random_, 10, 6, 9);
-    const double away = random_.between(14, 18);
-    const double towards = random_.angle();
-    const Pose pose{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+    const Pose pose = random_pose(random_, 14, 18);
     const Found found = patches_of(a, b, pose);
     const auto exact = overlap({a}, {}, {b}, pose);
     ASSERT_TRUE(exact);
@@ -227,9 +223,7 @@ TEST_F(RandomPatches, TheirWidthsAndNormalsAreTheGradientOfTheOverlapsArea) {
     Polygon a = random_star(random_, 4 + random_.below(8), 2, 9);
     const Polygon b = random_star(random_, 4 + random_.below(8), 2, 9);
     if (i % 3 == 0) a.holes.push_back({{-0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}});
-    const double away = random_.between(0, 16);
-    const double towards = random_.angle();
-    const Pose pose{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+    const Pose pose = random_pose(random_, 0, 16);
     const Found found = patches_of(a, b, pose);
     Vector gradient;
     double area = 0;
@@ -261,9 +255,7 @@ TEST_F(RandomPatches, ThePiercedOnesTurnAsTheOverlapsAreaDoes) {
   for (int i = 0; i < 600; ++i) {
     const Polygon a = random_star(random_, 4 + random_.below(8), 2, 9);
     const Polygon b = random_star(random_, 4 + random_.below(8), 2, 9);
-    const double away = random_.between(2, 14);
-    const double towards = random_.angle();
-    const Pose pose{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+    const Pose pose = random_pose(random_, 2, 14);
     const Found found = patches_of(a, b, pose);
     if (found.manifolds.size() != 1 || !found.manifolds[0].is_pierced) continue;
     const ContactManifold& m = found.manifolds[0];
@@ -348,9 +340,7 @@ TEST_F(RandomPatches, SwappingTheBodiesFlipsTheNormalAndChangesNothingElse) {
   for (int i = 0; i < 3000; ++i) {
     const Polygon a = random_star(random_, 10, 6, 9);
     const Polygon b = random_star(random_, 10, 6, 9);
-    const double away = random_.between(14, 18);
-    const double towards = random_.angle();
-    const Pose a_from_b{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+    const Pose a_from_b = random_pose(random_, 14, 18);
     const Pose b_from_a = relative_pose(a_from_b, {});
     std::vector<ContactManifold> ab = patches_of(a, b, a_from_b).manifolds;
     std::vector<ContactManifold> ba = patches_of(b, a, b_from_a).manifolds;

@@ -10,15 +10,15 @@
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 #include "geometry/exact/point_in_ring.hpp"
+#include "tests/shapes.hpp"
 
 namespace polynya::geometry {
 namespace {
 
+using shapes::reversed;
+
 Ring rectangle(Point low, double width, double height) {
-  return {low, {low.x + width, low.y}, {low.x + width, low.y + height}, {low.x, low.y + height}};
-}
-Ring reversed(Ring ring) {
-  return {ring.rbegin(), ring.rend()};
+  return shapes::rectangle(low.x, low.y, low.x + width, low.y + height).outer;
 }
 
 TEST(Measures, RectangleWithHoleHasItsClosedForms) {
@@ -32,34 +32,6 @@ TEST(Measures, RectangleWithHoleHasItsClosedForms) {
   const double hole = 4 * (4 + 4) / 12.0 + 4 * (1.2 * 1.2);
   EXPECT_NEAR(m.second_moment, outer - hole, 1e-12);
   EXPECT_DOUBLE_EQ(perimeter(polygon), 28);
-}
-
-TEST(Measures, ConvergeToTheCircleAtSecondOrder) {
-  // Inscribed polygons: A_n = πr² (1 − (2/3)(π/n)² + …), so the error falls by four as the sagitta does.
-  const double radius = 3;
-  double previous = 0;
-  for (const double sagitta : {1e-2, 2.5e-3, 6.25e-4}) {
-    const double error =
-        std::numbers::pi * radius * radius - measure({disc_polygon({5, -2}, radius, sagitta), {}}).area;
-    EXPECT_GT(error, 0);
-    if (previous > 0) {
-      EXPECT_NEAR(previous / error, 4, 0.35);
-    }
-    previous = error;
-  }
-}
-
-TEST(Measures, KeepTheirDigitsFarFromTheOrigin) {
-  // The offset 2^40 m is a double and so are the shifted vertices: nothing may change at all.
-  const double offset = std::ldexp(1.0, 40);
-  const Ring near_origin{{0, 0}, {0.5, 0.25}, {0.75, 1}, {-0.25, 0.5}};
-  Ring far;
-  for (const Point p : near_origin) far.push_back({p.x + offset, p.y - offset});
-  const Measures a = measure({near_origin, {}});
-  const Measures b = measure({far, {}});
-  EXPECT_EQ(a.area, b.area);
-  EXPECT_EQ(signed_area(near_origin), signed_area(far));
-  EXPECT_NEAR(a.second_moment, b.second_moment, 1e-15);
 }
 
 TEST(Measures, ContainsCountsTheBoundaryAndLeavesHolesOut) {

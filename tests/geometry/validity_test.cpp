@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/shapes.hpp"
+
 namespace polynya::geometry {
 namespace {
 
@@ -22,7 +24,7 @@ std::string defect_with_hole(const Ring& hole) {
   return defect_of(Polygon{kSquare, {hole}});
 }
 Ring hole_square(Point low, double side) {
-  return {low, {low.x, low.y + side}, {low.x + side, low.y + side}, {low.x + side, low.y}};
+  return shapes::reversed(shapes::square(low, side).outer);
 }
 
 TEST(Validity, NamesTheDefectsOfOneRing) {

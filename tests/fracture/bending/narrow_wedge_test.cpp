@@ -23,16 +23,6 @@ TEST(FloatingBeam, EndLoadIsTheClosedForm) {
   EXPECT_NEAR(beam.peak_distance, std::numbers::pi / 4 * std::numbers::sqrt2, 3e-4);
 }
 
-TEST(FloatingBeam, EndLoadConvergesUnderRefinement) {
-  double previous = 1;
-  for (const int elements : {10, 20, 40}) {
-    const double error = std::abs(solve_floating_beam(BeamShape::kUniform, 0, elements).peak_curvature -
-                                  std::exp(-std::numbers::pi / 4));
-    EXPECT_LT(error, 0.3 * previous) << elements;
-    previous = error;
-  }
-}
-
 struct WedgeRow {
   double patch, force, radius;
 };
@@ -48,34 +38,17 @@ TEST(NarrowWedge, AgreesWithThePrototype) {
   }
 }
 
-// Under a tip patch the deflection converges as the energy does; the stress follows.
-TEST(NarrowWedge, ConvergesUnderRefinement) {
-  for (const double patch : {0.1, 0.5}) {
-    const BeamResponse fine = solve_floating_beam(BeamShape::kWedge, patch, 100);
-    double previous = 1;
-    for (const int elements : {8, 16, 32}) {
-      const BeamResponse wedge = solve_floating_beam(BeamShape::kWedge, patch, elements);
-      const double error = std::abs(wedge.tip_deflection - fine.tip_deflection);
-      EXPECT_LT(error, 0.25 * previous) << patch << " " << elements;
-      previous = error;
-    }
-    EXPECT_NEAR(solve_floating_beam(BeamShape::kWedge, patch, 50).peak_curvature, fine.peak_curvature, 3e-5);
-  }
-}
-
 // Nevel's cubic is an approximation of this same beam: good to 0.5 % for short loads, 4 % low at a = l.
 TEST(Nevel, ForceFormIsTheNarrowWedge) {
   const double opening = 0.1;
   const Ice ice;
   const double scale = 2 * std::tan(opening / 2) * ice.flexural_strength * ice.thickness * ice.thickness / 6;
-  for (const double a : {0.05, 0.1, 0.2}) {
+  for (const auto& [a, expected, tolerance] :
+       {std::tuple(0.05, 1.0, 0.02), {0.1, 1.0, 0.02}, {0.2, 1.0, 0.02}, {1.0, 0.96, 0.005}}) {
     const double solved = 1 / solve_floating_beam(BeamShape::kWedge, a, 100).peak_curvature;
-    EXPECT_NEAR(nevel_force(opening, a, ice) / scale / solved, 1, 0.02) << a;
+    EXPECT_NEAR(nevel_force(opening, a, ice) / scale / solved, expected, tolerance) << a;
   }
   EXPECT_NEAR(nevel_force(opening, 1, ice) / scale, 3.55, 1e-12);
-  EXPECT_NEAR(nevel_force(opening, 1, ice) / scale /
-                  (1 / solve_floating_beam(BeamShape::kWedge, 1, 100).peak_curvature),
-              0.96, 0.005);
 }
 
 TEST(Nevel, RadiusTableIsTheBeamSolution) {

@@ -1,6 +1,5 @@
 // The water under the plate: added mass of a disc, a floating disc's heave, flexural-gravity waves.
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <utility>
 
@@ -130,7 +129,6 @@ TEST(Water, FlexuralGravityWavesDisperse) {
   const double coarse = dispersion_error(36, 32), fine = dispersion_error(54, 64);
   ASSERT_GT(coarse, 0);
   ASSERT_GT(fine, 0);
-  std::printf("worst error of omega^2: %.4f coarse, %.4f fine\n", coarse, fine);
   EXPECT_LT(fine, coarse);
   EXPECT_LT(fine, 0.05);
 }
