@@ -45,7 +45,6 @@ Polygon random_floe(Random& random) {
 
 class RandomFloes : public ::testing::Test {
  protected:
-  void SetUp() override { RecordProperty("seed", std::to_string(kSeed)); }
   Random random_{kSeed};
 };
 
@@ -71,10 +70,8 @@ TEST_F(RandomFloes, CirclesLieInsideAndTouchTheBoundary) {
       ++all;
     }
   }
-  // Deep in the sharpest corners, where circles measure tenths of a millimetre, the shrinking stops a little
+  // Deep in the sharpest corners, where circles measure tenths of a millimetre, shrinking stops a little
   // early.
-  std::printf("%d of %d circles touch worse than to 1e-6 of their radius, the worst to %.2g\n", far_off, all,
-              worst);
   EXPECT_LT(worst, 1e-3);
   EXPECT_LT(far_off, all / 1000);
 }

@@ -1,4 +1,4 @@
-// The water around a hull, propellers and rudders.
+// The water around a hull, propellers, rudders, and the ice under it.
 #include "dynamics/ship/manoeuvring.hpp"
 
 #include <cmath>
@@ -8,6 +8,8 @@
 
 #include "dynamics/ship/propulsion.hpp"
 #include "dynamics/ship/rudder.hpp"
+#include "dynamics/water/submerged_ice.hpp"
+#include "tests/shapes.hpp"
 
 namespace polynya::dynamics {
 namespace {
@@ -68,22 +70,17 @@ TEST(Manoeuvring, TheWaterTakesEnergyFromEveryMotion) {
   }
 }
 
-TEST(Manoeuvring, PortAndStarboardAreMirrorImages) {
-  const Planar at{4, 0.7, -0.02}, mirrored{4, -0.7, 0.02};
-  const Planar force = water_damping(hull(), at) * at;
-  const Planar other = water_damping(hull(), mirrored) * mirrored;
-  EXPECT_DOUBLE_EQ(force.surge, other.surge);
-  EXPECT_DOUBLE_EQ(force.sway, -other.sway);
-  EXPECT_DOUBLE_EQ(force.yaw, -other.yaw);
-}
-
-TEST(Manoeuvring, AsternTheHullIsItsMirrorImage) {
-  const Planar ahead{4, 0.7, 0.02}, astern{-4, 0.7, -0.02};  // x → −x
-  const Planar force = water_damping(hull(), ahead) * ahead;
-  const Planar other = water_damping(hull(), astern) * astern;
-  EXPECT_DOUBLE_EQ(force.surge, -other.surge);
-  EXPECT_DOUBLE_EQ(force.sway, other.sway);
-  EXPECT_DOUBLE_EQ(force.yaw, -other.yaw);
+/// To port and starboard, and ahead and astern.
+TEST(Manoeuvring, MirroredMotionsHaveMirroredForces) {
+  const auto force = [](const Planar& at) { return water_damping(hull(), at) * at; };
+  const auto expect_equal = [](const Planar& p, const Planar& q) {
+    EXPECT_DOUBLE_EQ(p.surge, q.surge);
+    EXPECT_DOUBLE_EQ(p.sway, q.sway);
+    EXPECT_DOUBLE_EQ(p.yaw, q.yaw);
+  };
+  const Planar here = force({4, 0.7, 0.02});
+  expect_equal(force({4, -0.7, -0.02}), {here.surge, -here.sway, -here.yaw});
+  expect_equal(force({-4, 0.7, -0.02}), {-here.surge, here.sway, -here.yaw});
 }
 
 TEST(Manoeuvring, CrossFlowIsTheIntegralOverTheHull) {
@@ -193,6 +190,55 @@ TEST(Planar, SolvesThreeEquations) {
   EXPECT_NEAR(found.surge, x.surge, 1e-15);
   EXPECT_NEAR(found.sway, x.sway, 1e-15);
   EXPECT_NEAR(found.yaw, x.yaw, 1e-15);
+}
+
+// ---- ice under the hull, against Lindqvist's resistance
+
+constexpr HullForm kReference{.length = 120,
+                              .beam = 24,
+                              .draught = 6,
+                              .stem_angle = 30 * shapes::kDegree,
+                              .entrance_angle = 27 * shapes::kDegree};
+
+TEST(SubmergedIce, ThePathOfTheReferenceShipIsLindqvists) {
+  const SubmersionPath path = submersion_path(kReference);
+  EXPECT_NEAR(path.rise, 5.0, 5e-4);
+  EXPECT_NEAR(path.sliding, 70.83, 5e-3);
+  EXPECT_NEAR(path.bow, 6 / std::tan(30 * shapes::kDegree), 1e-12);
+  // R_s = δρ g h B (z̄ + μ s̄): 58.9 kN potential, 166.8 kN friction.
+  const double weight = 100 * 9.81 * 0.5 * 24;  // per metre of way [N/m]
+  EXPECT_NEAR(weight * path.rise, 58.9e3, 50);
+  EXPECT_NEAR(weight * 0.2 * path.sliding, 166.8e3, 50);
+}
+
+TEST(SubmergedIce, APieceHasRisenAndSlidAllTheWayHoweverItIsCutIntoSteps) {
+  const SubmersionPath path = submersion_path(kReference);
+  double risen = 0, slid = 0;
+  for (double s = -0.3; s < 130;) {
+    const double to = s + 0.0137;
+    risen += path.risen_over(s, to);
+    slid += path.slid_over(s, to);
+    s = to;
+  }
+  EXPECT_NEAR(risen, path.rise, 1e-12);
+  EXPECT_NEAR(slid, path.sliding, 1e-11);
+}
+
+TEST(SubmergedIce, AHullCoveredWithIcePaysLindqvistsResistance) {
+  const SubmersionPath path = submersion_path(kReference);
+  const double mu = 0.2, speed = 1, dt = 0.01, piece = 0.5;  // a piece every half metre
+  const double weight = 100 * 9.81 * 0.5 * 24 * piece;       // of each [N]
+  double work = 0;
+  for (int step = 0; step < 50; ++step) {  // over one spacing of the pieces
+    for (double s = step * dt * speed; s < 120; s += piece)
+      work += weight * (path.risen_over(s, s + speed * dt) + mu * path.slid_over(s, s + speed * dt));
+  }
+  EXPECT_NEAR(work / (50 * dt * speed), 225.6e3, 0.01 * 225.6e3);
+}
+
+TEST(SubmergedIce, TheSpeedFactorIsLindqvists) {
+  EXPECT_EQ(submersion_speed_factor(0, 120), 1);
+  EXPECT_NEAR(submersion_speed_factor(1, 120), 1 + 9.4 / std::sqrt(9.81 * 120), 1e-12);
 }
 
 }  // namespace

@@ -24,19 +24,15 @@ Bodies one_floe(const geometry::Polygon& polygon, double angle = 0) {
   return bodies;
 }
 
-geometry::Polygon regular(int corners, double radius) {
-  geometry::Polygon polygon;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / corners;
-    polygon.outer.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-  }
-  return polygon;
+/// Lets the water brake the first body.
+WaterWork brake(Bodies& bodies, double time_step, DragArea area = DragArea::kEdge) {
+  return apply_water_drag(bodies, {0}, {kDrag, kWater, {}, area}, time_step);
 }
 
 TEST(WaterDrag, AFloeThatMovesWithTheWaterFeelsNothing) {
   // Velocities are relative to the water, so a drifting floe has none: nothing changes, to the last bit.
   Bodies bodies = one_floe(rectangle(10, 6), 0.7);
-  EXPECT_EQ(apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 100).lost, 0);
+  EXPECT_EQ(brake(bodies, 100).lost, 0);
   EXPECT_EQ(bodies.velocity[0], Vector{});
   EXPECT_EQ(bodies.angular_velocity[0], 0);
 }
@@ -47,12 +43,8 @@ TEST(WaterDrag, AFreeFloeSlowsAsTheClosedForm) {
     Bodies bodies = one_floe(rectangle(10, 6));
     bodies.velocity[0] = {1.5, 0};
     const double k = kDrag * kWater * kThickness * 6 / (2 * bodies.mass[0]);
-    double time = 0;
-    for (int step = 0; step < 2000; ++step) {
-      apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, dt);
-      time += dt;
-    }
-    EXPECT_NEAR(bodies.velocity[0].x * (1 + k * 1.5 * time) / 1.5, 1, 1e-11) << dt;
+    for (int step = 0; step < 2000; ++step) brake(bodies, dt);
+    EXPECT_NEAR(bodies.velocity[0].x * (1 + k * 1.5 * 2000 * dt) / 1.5, 1, 1e-11) << dt;
     EXPECT_EQ(bodies.velocity[0].y, 0);
     EXPECT_EQ(bodies.angular_velocity[0], 0);
   }
@@ -92,7 +84,7 @@ TEST(WaterDrag, AFloeWithoutATableOfWidthsMovesAsOneWithItToTheBit) {
     for (int step = 0; step < 100; ++step) {
       for (Bodies* bodies : {&with, &without}) {
         bodies->velocity[0] += geometry::Vector{0.1 * std::cos(0.2 * step), 0.1 * std::sin(0.2 * step)};
-        apply_water_drag(*bodies, {0}, {kDrag, kWater, {}}, 0.1);
+        brake(*bodies, 0.1);
         integrate(*bodies, {0}, 0.1);
       }
       ASSERT_EQ(with.velocity[0], without.velocity[0]);
@@ -103,7 +95,7 @@ TEST(WaterDrag, AFloeWithoutATableOfWidthsMovesAsOneWithItToTheBit) {
 
 TEST(WaterDrag, TheRotationalIntegralIsThatOfDiscAndSquare) {
   // K = mean over directions of ∫|s|³ ds: R⁴/2 for a disc; (a/2)⁴ (3/2 + 4/π) / 2 for a square of side a.
-  EXPECT_NEAR(make_drag_shape(regular(512, 7), {}).rotational / (std::pow(7, 4) / 2), 1, 1e-3);
+  EXPECT_NEAR(make_drag_shape(shapes::regular(512, 7), {}).rotational / (std::pow(7, 4) / 2), 1, 1e-3);
   const double square = std::pow(4.0, 4) * (1.5 + 4 / std::numbers::pi) / 2;
   EXPECT_NEAR(make_drag_shape(rectangle(8, 8), {}).rotational / square, 1, 2e-3);
 }
@@ -111,10 +103,10 @@ TEST(WaterDrag, TheRotationalIntegralIsThatOfDiscAndSquare) {
 TEST(WaterDrag, AFreeSpinSlowsAsTheClosedForm) {
   // I ω' = −½ C_D ρ_w h K ω²
   for (const double omega : {0.3, -0.3}) {
-    Bodies bodies = one_floe(regular(64, 9));
+    Bodies bodies = one_floe(shapes::regular(64, 9));
     bodies.angular_velocity[0] = omega;
     const double k = kDrag * kWater * kThickness * bodies.drag[0]->rotational / (2 * bodies.moment[0]);
-    for (int step = 0; step < 3000; ++step) apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 0.02);
+    for (int step = 0; step < 3000; ++step) brake(bodies, 0.02);
     EXPECT_NEAR(bodies.angular_velocity[0] * (1 + k * 0.3 * 60) / omega, 1, 1e-11);
     EXPECT_EQ(bodies.velocity[0], Vector{});
   }
@@ -148,56 +140,40 @@ TEST(WaterDrag, WidthOfASquareIsWithinItsStatedError) {
     const double relative = width_across(square, {std::cos(angle), std::sin(angle)}) / exact - 1;
     worst = std::max(worst, std::abs(relative));
   }
-  std::printf("width off by up to %.2g\n", worst);
   EXPECT_LT(worst, 1e-3);
   EXPECT_GT(worst, 1e-5) << "interpolation has some error: the bound is tested by something";
 }
 
 TEST(WaterDrag, ATurnedFloeWithATurnedVelocityFeelsTheSameDragTurned) {
   Random random(12);
-  double worst = 0;
   for (int i = 0; i < 1000; ++i) {
-    const double length_of_floe = random.between(5, 20);
-    const double width_of_floe = random.between(5, 20);
-    const geometry::Polygon polygon = rectangle(length_of_floe, width_of_floe);
-    const double course = random.angle();
-    const double angle = random.angle();
+    const double along = random.between(5, 20), across = random.between(5, 20);
+    const geometry::Polygon polygon = rectangle(along, across);
+    const double course = random.angle(), angle = random.angle();
     const geometry::Rotation turn = geometry::Rotation::by(angle);
     const Vector velocity{2 * std::cos(course), 2 * std::sin(course)};
     // The same floe placed turned, and drawn with its corners turned: then other directions are its known
     // ones.
-    geometry::Polygon corners = polygon;
-    for (Point& p : corners.outer) p = Point{} + rotate(turn, p - Point{});
-    Bodies straight = one_floe(polygon);
-    Bodies placed = one_floe(polygon, angle);
-    Bodies drawn = one_floe(corners);
+    Bodies straight = one_floe(polygon), placed = one_floe(polygon, angle);
+    Bodies drawn = one_floe(transform(geometry::Pose{{}, turn}, polygon));
     straight.velocity[0] = velocity;
     placed.velocity[0] = drawn.velocity[0] = rotate(turn, velocity);
-    for (Bodies* bodies : {&straight, &placed, &drawn})
-      apply_water_drag(*bodies, {0}, {kDrag, kWater, {}}, 5);
+    for (Bodies* bodies : {&straight, &placed, &drawn}) brake(*bodies, 5);
     ASSERT_NEAR(length(rotate_back(turn, placed.velocity[0]) - straight.velocity[0]), 0, 1e-13);
 
-    const auto resistance = [](const Bodies& bodies) {
-      return 1 / length(bodies.velocity[0]) - 0.5;
-    };  // = k t
+    const auto resistance = [](const Bodies& bodies) { return 1 / length(bodies.velocity[0]) - 0.5; };  // k t
     const double off = std::abs(resistance(drawn) / resistance(placed) - 1);
-    worst = std::max(worst, off);
     // A floe's width has a kink where it moves along an edge, and interpolation cuts it: by at most half the
     // spacing of the known directions (1/16 rad) times the floe's aspect ratio.
-    const double aspect = std::max(length_of_floe, width_of_floe) / std::min(length_of_floe, width_of_floe);
+    const double aspect = std::max(along, across) / std::min(along, across);
     ASSERT_LT(off, aspect / 32 + 1e-3) << aspect;
   }
-  std::printf("drag of the same rectangle drawn turned differs by up to %.2g\n", worst);
 }
 
 TEST(WaterDrag, BodiesOfPrescribedMotionKeepTheirVelocity) {
   Bodies bodies;
-  NewBody prescribed = floe_body(rectangle(10, 6), {});
-  prescribed.is_prescribed = true;
-  prescribed.velocity = {1, 0};
-  prescribed.angular_velocity = 0.1;
-  add_body(bodies, prescribed);
-  apply_water_drag(bodies, {0}, {kDrag, kWater, {}}, 10);
+  add_held(bodies, rectangle(10, 6), {}, {1, 0}, 0.1);
+  brake(bodies, 10);
   EXPECT_EQ(bodies.velocity[0], (Vector{1, 0}));
   EXPECT_EQ(bodies.angular_velocity[0], 0.1);
 }
@@ -226,9 +202,9 @@ TEST(PlanDrag, TheRotationalIntegralIsExactForDiscRingAndRectangles) {
     return make_drag_shape(polygon, about, DragArea::kPlan).rotational;
   };
   const auto of_disc = [](double radius) { return 2 * std::numbers::pi * std::pow(radius, 5) / 5; };
-  geometry::Polygon ring = regular(4096, 7);
+  geometry::Polygon ring = shapes::regular(4096, 7);
   EXPECT_NEAR(moment(ring, {}) / of_disc(7), 1, 3e-6);
-  ring.holes = {regular(4096, 5).outer};
+  ring.holes = {shapes::regular(4096, 5).outer};
   std::ranges::reverse(ring.holes[0]);
   EXPECT_NEAR(moment(ring, {}) / (of_disc(7) - of_disc(5)), 1, 5e-6);
   for (const Point about : {Point{}, Point{0.3, 1}, Point{5, 3}, Point{20, -7}})  // inside, on a corner, out
@@ -249,8 +225,7 @@ TEST(PlanDrag, AFreeFloeSlowsAsTheClosedFormWhateverItsCourseAndThickness) {
     const double braking = kDrag * kWater * 60 / (2 * bodies.mass[0]);
     const double turning =
         kDrag * kWater * third_moment_of_rectangle({-5, -3}, {5, 3}, {}) / (2 * bodies.moment[0]);
-    for (int step = 0; step < 2000; ++step)
-      apply_water_drag(bodies, {0}, {kDrag, kWater, {}, DragArea::kPlan}, dt);
+    for (int step = 0; step < 2000; ++step) brake(bodies, dt, DragArea::kPlan);
     const double time = 2000 * dt;
     EXPECT_NEAR(length(bodies.velocity[0]) * (1 + braking * 1.5 * time) / 1.5, 1, 1e-9) << dt;
     EXPECT_NEAR(-bodies.angular_velocity[0] * (1 + turning * 0.2 * time) / 0.2, 1, 1e-9) << dt;
