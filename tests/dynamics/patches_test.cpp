@@ -1,10 +1,13 @@
-// Contact manifolds against closed forms and against the exact area of the overlap.
+// Contact manifolds against closed forms and against the exact area of the overlap; and the circles and edges
+// that they are found by.
 #include <algorithm>
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "geometry/contact/boundary.hpp"
 #include "geometry/cut/overlap.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {
@@ -12,7 +15,165 @@ namespace {
 
 using namespace scenery;
 
+// ---- boundaries and what two of them have near each other, against brute force over all edges
+
 constexpr std::uint64_t kSeed = 77;
+
+bool crosses(Point a, Point b, Point c, Point d) {
+  const auto side = [](Point p, Point q, Point r) { return cross(q - p, r - p) > 0; };
+  return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+}
+
+double distance_of_segments(Point a, Point b, Point c, Point d) {
+  if (crosses(a, b, c, d)) return 0;
+  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
+                   distance_to_segment(d, a, b)});
+}
+
+Polygon random_floe(Random& random) {
+  switch (random.below(4)) {
+    case 0:
+      return rectangle(random.between(2, 30), random.between(2, 30));
+    case 1: {  // a plate with a hole
+      Polygon polygon = random_star(random, 12, 9, 15);
+      polygon.holes = {{{-2, -2}, {-3, 4}, {1, 5}, {4, -1}}};
+      return polygon;
+    }
+    case 2:  // many short edges
+      return random_star(random, 80, 8, 9);
+    default:
+      return random_star(random, 4 + random.below(9), 3, 15);
+  }
+}
+
+class RandomFloes : public ::testing::Test {
+ protected:
+  Random random_{kSeed};
+};
+
+TEST_F(RandomFloes, CirclesLieInsideAndTouchTheBoundary) {
+  double worst = 0;
+  int far_off = 0;
+  int all = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Polygon polygon = random_floe(random_);
+    const EdgeList edges = edge_list(polygon);
+    const double radius = random_.between(0.2, 3);
+    for (const ContactCircle& circle :
+         sample_contact_circles(edges, boundary_pieces(edges, radius), radius)) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        nearest = std::min(nearest, distance_to_segment(circle.centre, edges.from(e), edges.to(e)));
+      }
+      ASSERT_GT(circle.radius, 0);
+      ASSERT_LE(circle.radius, radius);
+      ASSERT_TRUE(contains(polygon, circle.centre)) << i;
+      worst = std::max(worst, std::abs(nearest / circle.radius - 1));
+      far_off += std::abs(nearest / circle.radius - 1) > 1e-6;
+      ++all;
+    }
+  }
+  // Deep in the sharpest corners, where circles measure tenths of a millimetre, shrinking stops a little
+  // early.
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_LT(far_off, all / 1000);
+}
+
+TEST_F(RandomFloes, PiecesAndTheirCirclesCoverAllBoundaryOneForEachRadiusOfIt) {
+  for (int i = 0; i < 300; ++i) {
+    const Polygon polygon = random_floe(random_);
+    const EdgeList edges = edge_list(polygon);
+    const double radius = random_.between(0.2, 3);
+    const std::vector<BoundaryPiece> pieces = boundary_pieces(edges, radius);
+    const std::vector<ContactCircle> circles = sample_contact_circles(edges, pieces, radius);
+    ASSERT_EQ(circles.size(), pieces.size());
+    std::vector<std::vector<std::size_t>> of_edge(edges.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      std::uint32_t e = pieces[p].first_edge;
+      double along = 0;
+      for (std::uint32_t k = 0; k < pieces[p].edges; ++k, e = edges.next[e]) {
+        of_edge[e].push_back(p);
+        along += distance(edges.from(e), edges.to(e));
+      }
+      ASSERT_TRUE(pieces[p].edges == 1 || along <= radius * (1 + 1e-12));
+    }
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      for (int k = 0; k <= 50; ++k) {
+        const Point at = edges.from(e) + (k / 50.0) * (edges.to(e) - edges.from(e));
+        const auto covers = [&](Point centre, double reach) {
+          return distance(centre, at) <= reach * (1 + 1e-9);
+        };
+        const bool is_covered = std::any_of(of_edge[e].begin(), of_edge[e].end(), [&](std::size_t p) {
+          return covers(circles[p].centre, circles[p].reach) && covers(pieces[p].middle, pieces[p].reach);
+        });
+        ASSERT_TRUE(is_covered) << "floe " << i << ", edge " << e << " at " << k / 50.0;
+      }
+      ASSERT_GE(static_cast<double>(of_edge[e].size()) * radius,
+                distance(edges.from(e), edges.to(e)) * (1 - 1e-12));
+    }
+    ASSERT_LE(static_cast<double>(pieces.size()),
+              perimeter(polygon) / radius + static_cast<double>(edges.size()));
+  }
+}
+
+TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
+  int with_near = 0;
+  int apart = 0;
+  std::size_t crossings = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double radius = random_.between(0.3, 2);
+    const Boundary a = make_boundary(random_floe(random_), {radius, i % 3 == 0});
+    const Boundary b = make_boundary(random_floe(random_), {radius, i % 3 == 0});
+    const Pose a_from_b = random_pose(random_, 0, 40);
+    const double margin = i % 2 == 0 ? 0 : random_.between(0, 1);
+    std::vector<NearPair> circle_pairs;
+    NearEdges edges;
+    const double bound = near_circles(a, b, a_from_b, margin, circle_pairs);
+    edges_of(a, b, circle_pairs, edges);
+    const std::vector<NearPair>& edge_pairs = edges.pairs;
+    ASSERT_TRUE(std::is_sorted(edge_pairs.begin(), edge_pairs.end()));
+    ASSERT_TRUE(std::adjacent_find(edge_pairs.begin(), edge_pairs.end()) == edge_pairs.end());
+    const std::set<NearPair> found(edge_pairs.begin(), edge_pairs.end());
+    NearEdges by_distance;
+    ASSERT_TRUE(have_few_edges(a.edges, b.edges));
+    const double bound_by_distance = near_edges(a.edges, b.edges, a_from_b, margin, by_distance);
+    ASSERT_TRUE(std::is_sorted(by_distance.pairs.begin(), by_distance.pairs.end()));
+    const std::set<NearPair> nearest_found(by_distance.pairs.begin(), by_distance.pairs.end());
+    ASSERT_EQ(nearest_found.size(), by_distance.pairs.size());
+
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t eb = 0; eb < b.edges.size(); ++eb) {
+      const Point b0 = transform(a_from_b, b.edges.from(eb));
+      const Point b1 = transform(a_from_b, b.edges.to(eb));
+      for (std::uint32_t ea = 0; ea < a.edges.size(); ++ea) {
+        const double d = distance_of_segments(a.edges.from(ea), a.edges.to(ea), b0, b1);
+        nearest = std::min(nearest, d);
+        crossings += d == 0;
+        if (d > margin * (1 + 1e-12)) {
+          ASSERT_FALSE(nearest_found.contains({ea, eb}));
+        }
+        if (d > margin * (1 - 1e-12)) continue;
+        ASSERT_TRUE(found.contains({ea, eb})) << "pose " << i << ": edges " << d << " m apart";
+        ASSERT_TRUE(nearest_found.contains({ea, eb})) << "pose " << i << ": edges " << d << " m apart";
+      }
+    }
+    with_near += !edge_pairs.empty();
+    apart += edge_pairs.empty();
+    ASSERT_LE(bound, nearest * (1 + 1e-12) + (nearest == 0 ? margin : 0));
+    if (edge_pairs.empty()) {
+      ASSERT_GT(bound, margin);
+    }
+    if (nearest_found.empty()) {
+      ASSERT_GT(bound_by_distance, margin);
+      ASSERT_LE(bound_by_distance, nearest * (1 + 1e-12));
+    }
+  }
+  EXPECT_GT(with_near, 500);
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(crossings, 3000u);
+}
+
+// ---- manifolds
 
 struct Found {
   std::vector<ContactManifold> manifolds;
@@ -299,31 +460,6 @@ TEST(Pierced, WhatIsOneInsideTheOtherIsFoundThough) {
   Polygon ring = rectangle(30, 30);
   ring.holes.push_back({{-5, -5}, {-5, 5}, {5, 5}, {5, -5}});
   EXPECT_FALSE(inside(ring, rectangle(4, 4), {{1, 1}, {}})) << "it floats in the hole";
-}
-
-TEST_F(RandomPatches, SwappingTheBodiesFlipsTheNormalAndChangesNothingElse) {
-  int checked = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const Polygon a = jagged(), b = jagged();
-    const Pose a_from_b = random_pose(random_, 14, 18);
-    const Pose b_from_a = relative_pose(a_from_b, {});
-    std::vector<ContactManifold> ab = patches_of(a, b, a_from_b).manifolds;
-    std::vector<ContactManifold> ba = patches_of(b, a, b_from_a).manifolds;
-    ASSERT_EQ(ab.size(), ba.size()) << i;
-    for (const ContactManifold& manifold : ab) {
-      const auto same = std::find_if(ba.begin(), ba.end(), [&](const ContactManifold& other) {
-        return distance(midpoint(manifold.ends[0], manifold.ends[1]),
-                        transform(a_from_b, midpoint(other.ends[0], other.ends[1]))) < 1e-9;
-      });
-      ASSERT_NE(same, ba.end()) << i;
-      ++checked;
-      EXPECT_NEAR(length(rotate(a_from_b.rotation, same->normal) + manifold.normal), 0, 1e-6);
-      EXPECT_NEAR(same->width, manifold.width, 1e-10);
-      EXPECT_NEAR(same->depth, manifold.depth, 1e-9);
-      EXPECT_NEAR(same->area, manifold.area, 1e-10);
-    }
-  }
-  EXPECT_GT(checked, 500);
 }
 
 TEST_F(RandomPatches, TheCircleRadiusDoesNotMatterToThem) {

@@ -139,7 +139,7 @@ TEST(Fracture, EveryFloeHasItsParentAndTheEventThatMadeIt) {
   for (const Laws laws : kBothLaws) {
     for (const CuspFate fate : {CuspFate::kSubmerge, CuspFate::kFloat}) {
       const Trial done = run(breaking_scene(laws, fate), 15);
-      EXPECT_TRUE(rejected_cuts(done.story).empty());
+      EXPECT_TRUE(done.story.rejected_cuts().empty());
       EXPECT_GT(done.story.events.size(), 2u);
       expect_lineage(done);
     }

@@ -209,8 +209,8 @@ TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
   const auto [simulation, story] = after_one_step(
       Build().structure(rectangle(-30, -1, 30, 1).outer).floe(rectangle(-2, -10, 2, 8), {0, 0.3}));
   ASSERT_EQ(story.events.size(), 1U);
-  ASSERT_EQ(grinds(story).size(), 1U);
-  const auto event = grinds(story)[0];
+  ASSERT_EQ(story.grinds().size(), 1U);
+  const auto event = story.grinds()[0];
   EXPECT_EQ(event.ship, 0);
   EXPECT_EQ(event.by_floe, kNoFloe);
   EXPECT_EQ(event.children.size(), 2U);
@@ -227,25 +227,25 @@ TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
 TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   const auto [inside, story_inside] =
       after_one_step(Build().structure(rectangle(-30, -10, 30, 10).outer).floe(rectangle(3, -2, 6, 2)));
-  ASSERT_EQ(grinds(story_inside).size(), 1U);
-  EXPECT_TRUE(grinds(story_inside)[0].children.empty());
-  EXPECT_EQ(grinds(story_inside)[0].brash_area, 12);
+  ASSERT_EQ(story_inside.grinds().size(), 1U);
+  EXPECT_TRUE(story_inside.grinds()[0].children.empty());
+  EXPECT_EQ(story_inside.grinds()[0].brash_area, 12);
   EXPECT_TRUE(inside.floe_states().empty());
 
   const auto [around, story_around] =
       after_one_step(Build().structure(rectangle(-1, -1, 1, 1).outer).floe(rectangle(-40, -40, 40, 40)));
-  ASSERT_EQ(grinds(story_around).size(), 1U);
+  ASSERT_EQ(story_around.grinds().size(), 1U);
   ASSERT_EQ(around.floe_states().size(), 1U);
   EXPECT_EQ(around.floe_states()[0].polygon_in_body->holes.size(), 1U);
-  EXPECT_EQ(grinds(story_around)[0].brash_area, 4);
-  EXPECT_EQ(grinds(story_around)[0].grinding.overlap_area, 4) << "the smaller of the two";
+  EXPECT_EQ(story_around.grinds()[0].brash_area, 4);
+  EXPECT_EQ(story_around.grinds()[0].grinding.overlap_area, 4) << "the smaller of the two";
 }
 
 TEST(Grind, OfTwoFloesTheSmallerIsGround) {
   const Trial done =
       after_one_step(Build().floe(rectangle(-20, -1, 20, 1), {0.1, 0}).floe(rectangle(-1, -12, 1, 12)));
-  ASSERT_EQ(grinds(done.story).size(), 1U);
-  const auto event = grinds(done.story)[0];
+  ASSERT_EQ(done.story.grinds().size(), 1U);
+  const auto event = done.story.grinds()[0];
   EXPECT_EQ(event.floe, 1);
   EXPECT_EQ(event.by_floe, 0);
   EXPECT_EQ(event.ship, -1);

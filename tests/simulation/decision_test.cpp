@@ -47,8 +47,8 @@ TEST(Decision, ThePapersPlateIsKnifeEdge) {
       EXPECT_NEAR(peak, 10.945e6, 0.01e6);
       continue;
     }
-    ASSERT_FALSE(splits(story).empty());
-    const auto event = splits(story).front();
+    ASSERT_FALSE(story.splits().empty());
+    const auto event = story.splits().front();
     EXPECT_NEAR(event.criteria.splitting_force, 11e6, 1e4);
     EXPECT_NEAR(event.criteria.crack_length, 110, 0.1);
     EXPECT_GT(event.criteria.collision_force, event.criteria.splitting_force);
@@ -67,12 +67,12 @@ TEST(Decision, LefmSplitsWhereMichelDoesNotAndStatesBothSides) {
     scene.ice.fracture_toughness = 50e3;
     const Story story = run(scene, 1).story;
     const bool is_lefm = model == fracture::SplittingModel::kLefm;
-    EXPECT_EQ(!splits(story).empty(), is_lefm);
+    EXPECT_EQ(!story.splits().empty(), is_lefm);
     for (const Event& event : story.events) {
       EXPECT_GT(event.criteria.contact_force, 0);
       EXPECT_EQ(event.criteria.splitting_force > 0, !is_lefm) << "F_s of Eq. (4)";
     }
-    for (const auto& event : splits(story)) {
+    for (const auto& event : story.splits()) {
       EXPECT_GE(event.criteria.opening_force, event.criteria.opening_capacity);
       EXPECT_GT(event.criteria.opening_capacity, 0);
       EXPECT_FALSE(event.criteria.pares);
@@ -87,7 +87,7 @@ TEST(Decision, AnInclinedBowBendsWhenItsVerticalForceReachesTheCapacity) {
         run(ship_against(icebreaker({0, 0}, ConstantSpeed{1}), rectangle(0.5, -100, 60.5, 100), laws), 20);
     EXPECT_GT(simulation.counts().bends, 3);
     EXPECT_EQ(simulation.counts().rejected_cuts, 0);
-    for (const auto& event : bends(story)) {
+    for (const auto& event : story.bends()) {
       EXPECT_GT(event.criteria.vertical_force, 0);
       EXPECT_GE(event.criteria.vertical_force, event.criteria.bending_capacity);
       EXPECT_GE(event.criteria.floe_size, event.criteria.breakable_size);
@@ -105,8 +105,8 @@ TEST(Decision, CuspsSubmergeOrFloat) {
     Scene scene = ship_against(icebreaker({0, 0}, ConstantSpeed{1}), rectangle(0.5, -60, 60.5, 60));
     scene.fracture.cusp_fate = fate;
     const auto [simulation, story] = run_to_first_event(scene, 20);
-    ASSERT_EQ(bends(story).size(), 1u);
-    const auto event = bends(story)[0];
+    ASSERT_EQ(story.bends().size(), 1u);
+    const auto event = story.bends()[0];
     first.push_back(event);
     double area = 0;
     for (const FloeState& state : simulation.floe_states()) area += state.area;
@@ -127,8 +127,8 @@ TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
   const Counts counts = simulation.counts();
   EXPECT_GT(counts.rejected_cuts, 0);
   EXPECT_EQ(counts.rejected_cuts, std::ssize(story.events));
-  EXPECT_EQ(counts.rejected_cuts, std::ssize(rejected_cuts(story)));
-  for (const auto& event : rejected_cuts(story))
+  EXPECT_EQ(counts.rejected_cuts, std::ssize(story.rejected_cuts()));
+  for (const auto& event : story.rejected_cuts())
     EXPECT_NE(event.reason.find("invalid"), std::string::npos) << event.reason;
   EXPECT_EQ(counts.bends + counts.splits, 0);
   EXPECT_EQ(counts.floes_final, 1);
@@ -249,10 +249,10 @@ TEST(Regression, ACrackIsNotParedStripByStrip) {
     scene.fracture.splitting_shape_factor = 0.02;
     scene.ice.fracture_toughness = 20e3;
     const Story story = run(scene, 5).story;
-    EXPECT_GE(splits(story).size(), 1u);
-    EXPECT_LE(splits(story).size(), 40u);
+    EXPECT_GE(story.splits().size(), 1u);
+    EXPECT_LE(story.splits().size(), 40u);
     const double l = fracture::characteristic_length(scene.ice, scene.water.water);
-    for (const auto& event : splits(story)) {
+    for (const auto& event : story.splits()) {
       for (const FloeId child : event.children) {
         const double area = std::ranges::find(story.births, child, &Birth::floe)->area;
         EXPECT_GE(area, 0.499 * l * l) << child;

@@ -81,8 +81,8 @@ TEST(FloeIce, SplitsByItsOwnTensileStrengthAndToughness) {
     Build scene = ship_in_ice(2).floe(rectangle(0, -30, 60, 30));
     scene.fracture.splitting = model;
     const Story story = expect_same(scene, weak, 10).story;
-    EXPECT_FALSE(splits(story).empty());
-    for (const auto& event : splits(story))
+    EXPECT_FALSE(story.splits().empty());
+    for (const auto& event : story.splits())
       EXPECT_EQ(event.criteria.fracture_toughness, weak.fracture_toughness);
   }
 }
@@ -198,7 +198,7 @@ Scene scattering(std::uint64_t seed) {
 
 TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
   std::vector<double> factors;
-  for (const auto& event : bends(run(scattering(5), 40).story))
+  for (const auto& event : run(scattering(5), 40).story.bends())
     factors.push_back(event.criteria.flexural_strength / fracture::Ice{}.flexural_strength);
   ASSERT_GT(factors.size(), 50u);
   const auto measures = fracture::measure({fracture::ScatterKind::kLogNormal, 1, 0.2}, factors);

@@ -183,15 +183,6 @@ TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
   expect_closed(done.simulation);
 }
 
-TEST(Sailing, EquilibriumOfAPrescribedResistanceIsTheClosedForm) {
-  // A mooring without stiffness is a linear resistance of 166.4 kN s/m; 391 kN are left out of T_B.
-  Scene scene = in_water(engine(1e6, 8), 1, 0.1);
-  scene.ships[0].mooring = MooringSettings{.position_in_world = {}, .surge_damping = 166.4e3};
-  const double linear = 1e6 / 24 + 166.4e3, quadratic = 2 / 3.0 * 1e6 / 64;
-  const double expected = (-linear + std::sqrt(linear * linear + 4 * quadratic * 1e6)) / (2 * quadratic);
-  EXPECT_NEAR(sail(scene, 600).back().velocity_in_world.x, expected, 0.005 * expected);
-}
-
 TEST(Sailing, ACurrentFromTheSideCarriesAShipAlong) {
   const Scene scene = in_water(ConstantThrust{0}, 0, 0.1).drift({0, 0.5});
   EXPECT_NEAR(sail(scene, 1200).back().velocity_in_world.y, 0.5, 0.05);

@@ -5,17 +5,6 @@
 #include <gtest/gtest.h>
 
 namespace polynya::simulation::scenes {
-namespace {
-
-std::vector<Event> of_kind(const Story& story, EventKind kind) {
-  std::vector<Event> events;
-  for (const Event& event : story.events)
-    if (event.kind == kind) events.push_back(event);
-  return events;
-}
-
-}  // namespace
-
 FloeSpec fast(const geometry::Polygon& polygon, geometry::Vector velocity) {
   FloeSpec spec = floe(polygon, velocity);
   spec.is_fast = true;
@@ -73,16 +62,6 @@ Build::Build(Laws laws) {
   fracture.splitting = fracture::SplittingModel::kMichel;
 }
 
-Build& Build::step(double seconds) {
-  time.step = seconds;
-  return *this;
-}
-
-Build& Build::ship(const ShipSpec& ship) {
-  ships.push_back(ship);
-  return *this;
-}
-
 Build& Build::structure(const geometry::Ring& waterline, geometry::Point at, double wall_angle) {
   ShipSpec structure;
   structure.name = "structure";
@@ -92,25 +71,6 @@ Build& Build::structure(const geometry::Ring& waterline, geometry::Point at, dou
   structure.position_in_world = at;
   structure.propulsion = FixedInPlace{};
   ships.push_back(structure);
-  return *this;
-}
-
-Build& Build::pile(geometry::Point at, double radius, double wall_angle) {
-  return structure(cylinder_waterline(radius), at, wall_angle);
-}
-
-Build& Build::wall(geometry::Point from, geometry::Point to, const Wall& wall) {
-  constexpr double kDepth = 5;  // [m]
-  ships.push_back(wall_between(from, to, kDepth, wall));
-  return *this;
-}
-
-Build& Build::floe(const geometry::Polygon& polygon, geometry::Vector velocity, double angular_velocity) {
-  return floe(scenes::floe(polygon, velocity, angular_velocity));
-}
-
-Build& Build::floe(const FloeSpec& spec) {
-  floes.push_back(spec);
   return *this;
 }
 
@@ -127,24 +87,11 @@ Build& Build::of(const fracture::Ice& its_own) {
   return *this;
 }
 
-Build& Build::without_drag() {
-  water.drag_coefficient = 0;
-  return *this;
-}
-
-Build& Build::unbreakable() {
-  fracture.breakable_size_factor = 1e9;
-  return *this;
-}
-
-Build& Build::drift(geometry::Vector velocity) {
-  water.drift = velocity;
-  return *this;
-}
-
-Build& Build::shear(double rate, double direction, geometry::Point through) {
-  water.shear = {rate, direction, through};
-  return *this;
+std::vector<Event> Story::of_kind(EventKind kind) const {
+  std::vector<Event> found;
+  for (const Event& event : events)
+    if (event.kind == kind) found.push_back(event);
+  return found;
 }
 
 void listen(Simulation& simulation, Story& story) {
@@ -191,36 +138,14 @@ void skip(Simulation& simulation, int steps) {
   }
 }
 
-std::vector<Event> bends(const Story& story) {
-  return of_kind(story, EventKind::kBend);
-}
-std::vector<Event> splits(const Story& story) {
-  return of_kind(story, EventKind::kSplit);
-}
-std::vector<Event> grinds(const Story& story) {
-  return of_kind(story, EventKind::kGrind);
-}
-std::vector<Event> submerged(const Story& story) {
-  return of_kind(story, EventKind::kSubmerge);
-}
-std::vector<Event> resurfaced(const Story& story) {
-  return of_kind(story, EventKind::kResurface);
-}
-std::vector<Event> stayed_under(const Story& story) {
-  return of_kind(story, EventKind::kStayUnder);
-}
-std::vector<Event> rejected_cuts(const Story& story) {
-  return of_kind(story, EventKind::kRejectedCut);
-}
-
 Event first_bend(const Scene& scene, double until) {
   Trial run{Simulation(scene), {}};
-  while (bends(run.story).empty() && run.simulation.time() < until) {
+  while (run.story.bends().empty() && run.simulation.time() < until) {
     run.simulation.step();
     run.story = {};
     listen(run.simulation, run.story);
   }
-  const std::vector<Event> found = bends(run.story);
+  const std::vector<Event> found = run.story.bends();
   EXPECT_FALSE(found.empty()) << "nothing bent";
   return found.empty() ? Event{} : found.front();
 }

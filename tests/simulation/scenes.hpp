@@ -1,7 +1,6 @@
 #pragma once
 
-#include <string>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 #include "simulation/simulation.hpp"
@@ -48,27 +47,57 @@ class Build : public Scene {
  public:
   Build() = default;
   explicit Build(Laws laws);
-  Build& step(double seconds);
-  Build& ship(const ShipSpec& ship);
+  Build& step(double seconds) { return set(time.step, seconds); }
+  Build& ship(const ShipSpec& ship) { return add(ships, ship); }
   /// A waterline that stands, about a point; its walls at an angle from the vertical [rad].
   Build& structure(const geometry::Ring& waterline, geometry::Point at = {}, double wall_angle = 0);
-  Build& pile(geometry::Point at, double radius, double wall_angle = 0);
-  /// With the ice to its left.
-  Build& wall(geometry::Point from, geometry::Point to, const Wall& wall = {});
-  Build& floe(const geometry::Polygon& polygon, geometry::Vector velocity = {}, double angular_velocity = 0);
-  Build& floe(const FloeSpec& spec);
+  Build& pile(geometry::Point at, double radius, double wall_angle = 0) {
+    return structure(cylinder_waterline(radius), at, wall_angle);
+  }
+  /// With the ice to its left, 5 m deep.
+  Build& wall(geometry::Point from, geometry::Point to, const Wall& wall = {}) {
+    return add(ships, wall_between(from, to, 5, wall));
+  }
+  Build& floe(const FloeSpec& spec) { return add(floes, spec); }
+  Build& floe(const geometry::Polygon& polygon, geometry::Vector velocity = {}, double spin = 0) {
+    return floe(scenes::floe(polygon, velocity, spin));
+  }
   /// Square floes of a side, their lower left corners `pitch` apart from `low` on.
   Build& grid(geometry::Point low, int columns, int rows, double side, double pitch);
   /// The last floe has ice of its own.
   Build& of(const fracture::Ice& own_ice);
-  Build& without_drag();  ///< nothing but contacts changes a velocity
-  Build& unbreakable();
-  Build& drift(geometry::Vector velocity);
-  Build& shear(double rate, double direction = 0, geometry::Point through = {});
+  /// Nothing but contacts changes a velocity.
+  Build& without_drag() { return set(water.drag_coefficient, 0); }
+  Build& unbreakable() { return set(fracture.breakable_size_factor, 1e9); }
+  Build& drift(geometry::Vector velocity) { return set(water.drift, velocity); }
+  Build& shear(double rate, double direction = 0, geometry::Point through = {}) {
+    return set(water.shear, {rate, direction, through});
+  }
+
+ private:
+  template <class T>
+  Build& set(T& member, const std::type_identity_t<T>& value) {
+    member = value;
+    return *this;
+  }
+  template <class T>
+  Build& add(std::vector<T>& list, const T& entry) {
+    list.push_back(entry);
+    return *this;
+  }
 };
 
 /// Everything a run recorded.
 struct Story {
+  std::vector<Event> bends() const { return of_kind(EventKind::kBend); }
+  std::vector<Event> splits() const { return of_kind(EventKind::kSplit); }
+  std::vector<Event> grinds() const { return of_kind(EventKind::kGrind); }
+  std::vector<Event> submerged() const { return of_kind(EventKind::kSubmerge); }
+  std::vector<Event> resurfaced() const { return of_kind(EventKind::kResurface); }
+  std::vector<Event> stayed_under() const { return of_kind(EventKind::kStayUnder); }
+  std::vector<Event> rejected_cuts() const { return of_kind(EventKind::kRejectedCut); }
+  std::vector<Event> of_kind(EventKind kind) const;
+
   std::vector<Event> events;
   std::vector<Birth> births;
   std::vector<Death> deaths;
@@ -94,15 +123,6 @@ Trial run_to_first_event(const Scene& scene, double until);
 
 /// Steps and forgets what is recorded.
 void skip(Simulation& simulation, int steps = 1);
-
-// What happened, by kind.
-std::vector<Event> bends(const Story& story);
-std::vector<Event> splits(const Story& story);
-std::vector<Event> grinds(const Story& story);
-std::vector<Event> submerged(const Story& story);   ///< what went under
-std::vector<Event> resurfaced(const Story& story);  ///< what came up
-std::vector<Event> stayed_under(const Story& story);
-std::vector<Event> rejected_cuts(const Story& story);
 
 /// The first bend of a run; fails where nothing bends.
 Event first_bend(const Scene& scene, double until = 20);

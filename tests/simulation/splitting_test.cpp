@@ -41,8 +41,8 @@ TEST(Splitting, APlateOfTwentyKilometresSplitsWhenTheForceHasGrownToWhatItTakes)
     simulation.step();
     listen(simulation, story);
   }
-  ASSERT_EQ(splits(story).size(), 1u);
-  const auto event = splits(story).front();
+  ASSERT_EQ(story.splits().size(), 1u);
+  const auto event = story.splits().front();
   EXPECT_NEAR(event.penetration / depth, 1, 0.02);
   EXPECT_NEAR(event.time / depth, 1, 0.02) << "at 1 m/s";
   const fracture::FailureCriteria& c = event.criteria;
@@ -102,8 +102,8 @@ TEST(Splitting, AFloeSplitsAnotherWithItsPointAndNotWithItsSide) {
       EXPECT_LT(simulation.floe_states()[0].velocity.x, 0.95) << "they met";
       continue;
     }
-    ASSERT_EQ(splits(story).size(), 1u);
-    const auto event = splits(story)[0];
+    ASSERT_EQ(story.splits().size(), 1u);
+    const auto event = story.splits()[0];
     EXPECT_EQ(event.ship, -1);
     EXPECT_EQ(event.by_floe, 0);
     EXPECT_EQ(event.floe, 1);
@@ -123,8 +123,8 @@ TEST(Splitting, AFloeThatDriftsOnAStructureSplitsAtItsNoseAndNotAtItsWall) {
                            3)
             .story;
     EXPECT_EQ(story.events.size(), has_nose ? 1u : 0u);
-    EXPECT_EQ(splits(story).size(), has_nose ? 1u : 0u);
-    for (const auto& event : splits(story)) EXPECT_EQ(event.ship, 0);
+    EXPECT_EQ(story.splits().size(), has_nose ? 1u : 0u);
+    for (const auto& event : story.splits()) EXPECT_EQ(event.ship, 0);
   }
 }
 
@@ -137,8 +137,8 @@ TEST(Splitting, TheFlanksOfABowOpenTheHeadOfTheSlotItIsIn) {
               .floe({{{0, -40}, {80, -40}, {80, 40}, {0, 40}, {0, 5}, {30, 5}, {30, -5}, {0, -5}}, {}}),
           10)
           .story;
-  ASSERT_EQ(splits(story).size(), 1u);
-  const auto event = splits(story)[0];
+  ASSERT_EQ(story.splits().size(), 1u);
+  const auto event = story.splits()[0];
   EXPECT_NEAR(event.criteria.crack_length, 50, 0.1);
   EXPECT_NEAR(event.point_in_world.x, 0, 1);
   EXPECT_NEAR(event.point_in_world.y, 0, 0.1);
@@ -159,18 +159,18 @@ TEST(Splitting, BetweenParallelChannelsALongCrackRunsWhereTheyAreNearerThanSMax)
         .story;
   };
   const Story far = first_at(700);
-  ASSERT_FALSE(bends(far).empty());
-  const fracture::FailureCriteria bend = bends(far)[0].criteria;
+  ASSERT_FALSE(far.bends().empty());
+  const fracture::FailureCriteria bend = far.bends()[0].criteria;
   ASSERT_GT(bend.opening_force, 0);
   EXPECT_LT(bend.opening_force, bend.opening_capacity);
   // S_max = (F_b / 0.2105 h K)², F_b what opens the crack when the ice bends.
   const double most = std::pow(bend.opening_force / (0.2105 * 0.5 * 150e3), 2);
   const Story near = first_at(0.85 * most);
-  ASSERT_FALSE(splits(near).empty());
-  const fracture::FailureCriteria split = splits(near)[0].criteria;
+  ASSERT_FALSE(near.splits().empty());
+  const fracture::FailureCriteria split = near.splits()[0].criteria;
   EXPECT_NEAR(split.crack_length, 0.85 * most, 0.5) << "from the stem to the older channel";
   EXPECT_GT(split.crack_width, 2 * split.crack_length);
-  EXPECT_FALSE(bends(first_at(1.15 * most)).empty());
+  EXPECT_FALSE(first_at(1.15 * most).bends().empty());
 }
 
 /// 36 floes of three to six corners that rush at each other.

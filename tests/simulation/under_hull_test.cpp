@@ -47,7 +47,7 @@ Build one_tile(double y) {
 
 TEST(UnderHull, AFloeBetweenAnInclinedHullAndAPlateTiltsAndGoesUnder) {
   const auto [simulation, story] = run(pinned_floe(), 20);
-  const auto under = submerged(story);
+  const auto under = story.submerged();
   ASSERT_FALSE(under.empty());
   EXPECT_EQ(under[0].floe, 0);
   EXPECT_GE(under[0].tilting.deflection, under[0].tilting.least_deflection);
@@ -62,7 +62,7 @@ TEST(UnderHull, ByVerticalWallsOrWhereItIsFreeToMoveItNeverDoes) {
   set_hull_angle(steep.ships[0], 0);
   for (const Scene& scene : {steep, Scene(under(0.5).floe(rectangle(0, 4, 8, 12)))}) {
     const auto [simulation, story] = run(scene, 40);
-    EXPECT_TRUE(submerged(story).empty());
+    EXPECT_TRUE(story.submerged().empty());
     expect_closed(simulation);
   }
 }
@@ -76,7 +76,7 @@ TEST(UnderHull, TiltingLimitsTheForceOfAFloeThatCannotGetAway) {
 
 TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
   const auto [simulation, story] = run(one_tile(0), 100);
-  ASSERT_EQ(submerged(story).size(), 1U);
+  ASSERT_EQ(story.submerged().size(), 1U);
   double work = 0;
   for (const ShipSample& sample : story.samples) work -= sample.surge_from_submerged * 0.1;  // at 1 m/s
   const double weight = 100 * 9.81 * 16;
@@ -86,7 +86,7 @@ TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
 
 TEST(UnderHull, IceOffTheCentreLineTurnsTheShipTowardsIt) {
   const Story story = run(one_tile(1), 40).story;
-  ASSERT_EQ(submerged(story).size(), 1U);
+  ASSERT_EQ(story.submerged().size(), 1U);
   EXPECT_GT(mean(story, &ShipSample::yaw_from_submerged), 0) << "to port, where it is";
 }
 
@@ -109,7 +109,7 @@ TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
 
 TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
   const auto [simulation, story] = run(one_tile(0), 140);
-  const auto up = resurfaced(story);
+  const auto up = story.resurfaced();
   ASSERT_EQ(up.size(), 1U);
   EXPECT_EQ(up[0].floe, 0);
   ASSERT_EQ(up[0].children.size(), 1U);
@@ -130,11 +130,11 @@ TEST(UnderHull, WithoutScatterItComesUpInItsPlaceWhichGoesWithACurrent) {
     Scene scene = one_tile(0).shear(shear, 0.5 * std::numbers::pi);
     scene.fracture.resurface.scatter = 0;
     const auto [simulation, story] = run(scene, 160);
-    const auto up = resurfaced(story);
+    const auto up = story.resurfaced();
     ASSERT_EQ(up.size(), 1U);
     expect_closed(simulation);
     if (shear > 0) {
-      EXPECT_GT(std::abs(up[0].point_in_world.y - submerged(story)[0].point_in_world.y), 0.05);
+      EXPECT_GT(std::abs(up[0].point_in_world.y - story.submerged()[0].point_in_world.y), 0.05);
       continue;
     }
     const std::vector<FloeState> floes = simulation.floe_states();
@@ -150,7 +150,7 @@ TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
   scene.fracture.resurface.give_up = 10;
   scene.fracture.resurface.scatter = 0;
   const auto [simulation, story] = run(scene, 220);
-  const auto stays = stayed_under(story);
+  const auto stays = story.stayed_under();
   ASSERT_EQ(stays.size(), 1U);
   EXPECT_GE(stays[0].resurfacing.waited, 10);
   EXPECT_NEAR(stays[0].under_ice_area, 16, 1e-9);
@@ -163,14 +163,14 @@ TEST(UnderHull, AShipThatStopsKeepsItsIceAndOneThatBacksGivesItBack) {
   Scene scene = one_tile(0);
   scene.ships[0].propulsion = ConstantThrust{0};
   auto [simulation, story] = run(scene, 20);
-  ASSERT_EQ(submerged(story).size(), 1U);
+  ASSERT_EQ(story.submerged().size(), 1U);
   auto& population = const_cast<World&>(simulation.world()).population;
   population.bodies.velocity[0] = {0, 0};
-  EXPECT_TRUE(resurfaced(run(simulation, 60)).empty());
+  EXPECT_TRUE(run(simulation, 60).resurfaced().empty());
   ASSERT_EQ(population.submerged.size(), 1U);
   const double path = population.submerged[0].path;
   population.bodies.velocity[0] = {-1, 0};
-  const auto up = resurfaced(run(simulation, 60 + path + 30));
+  const auto up = run(simulation, 60 + path + 30).resurfaced();
   ASSERT_EQ(up.size(), 1U);
   EXPECT_LT(up[0].resurfacing.path, 0);
 }
