@@ -152,10 +152,11 @@ TEST(Hazards, HugeCoordinatesAreRefusedByName) {
 /// The largest of what a crowd of discs covers, with its ponds, about its middle.
 Polygon ragged_floe(int size, unsigned seed) {
   scenery::Random random(seed);
+  const double largest = 0.06 * std::sqrt(60.0 * size);
   std::vector<Ring> discs;
   for (int i = 0; i < 4 * size; ++i) {
     const Point at = transform(scenery::random_pose(random, 0, 0.45 * size), Point{});
-    discs.push_back(disc_polygon(at, random.between(0.01, 0.06) * size, 2e-4 * size));
+    discs.push_back(disc_polygon(at, random.between(0.17, 1) * largest, largest / 300));
   }
   const std::vector<Shape> floes = repair(discs, FillRule::kNonZero)->shapes;
   return std::ranges::max(floes, {}, [](const Shape& s) { return vertex_count(s.polygon); }).polygon;
@@ -251,8 +252,12 @@ class Trial {
     floe.world_from_body = {{1000 * unit(), 1000 * unit()}, Rotation::by(2 * std::numbers::pi * unit())};
     const CutOutcome outcome = cut(floe);
     ASSERT_TRUE(is_sound(floe.shape, outcome)) << trials::to_code(floe.shape.polygon);
-    if (!outcome) return;
+    if (!outcome) {
+      ++refused_;
+      return;
+    }
     ++cuts_;
+    snap_rounded_ += outcome->ledger.snap_rounded;
     itemised_ += exact::Rational(outcome->ledger.rounding_defect);
     slivers_ += outcome->ledger.area_slivers;
     floes_[i] = std::move(floes_.back());
@@ -266,6 +271,8 @@ class Trial {
   }
 
   void finish() const {
+    std::printf("%d cuts, %d refused, %zu floes, %d snap-rounded, slivers %.3g m²\n", cuts_, refused_,
+                floes_.size(), snap_rounded_, slivers_);
     EXPECT_GT(cuts_, 1000);
     exact::Rational sum = brash_ - initial_ - itemised_;
     for (const Floe& floe : floes_) sum += exact_area(floe.shape);
@@ -320,6 +327,8 @@ class Trial {
   exact::Rational itemised_ = 0;
   double slivers_ = 0;
   int cuts_ = 0;
+  int refused_ = 0;
+  int snap_rounded_ = 0;
 };
 
 TEST(Endurance, EveryCutOfALongLineageIsSound) {
