@@ -243,50 +243,6 @@ TEST(BroadPhase, AFastFloeIsNotMissed) {
   EXPECT_GT(met, 0u);
 }
 
-TEST(BroadPhase, TurningEverythingTurnsTheContacts) {
-  Random random(5);
-  int checked = 0;
-  for (int i = 0; i < 400; ++i) {
-    const geometry::Polygon a = random_star(random, 8, 5, 9);
-    const geometry::Polygon b = random_star(random, 8, 5, 9);
-    const NewBody first = floe_body(a, {0, 0}, random.angle());
-    NewBody second = floe_body(b, {random.between(10, 16), random.between(-3, 3)}, random.angle());
-    second.velocity = {-1, 0.3};
-    second.angular_velocity = 0.2;
-    const double angle = random.angle();
-    const geometry::Rotation turn = geometry::Rotation::by(angle);
-    const auto contacts_of = [&](bool is_turned) {
-      Bodies bodies;
-      for (NewBody body : {first, second}) {
-        if (is_turned) {
-          body.position = Point{50, -70} + rotate(turn, body.position - Point{});
-          body.velocity = rotate(turn, body.velocity);
-          body.angle += angle;
-        }
-        add_body(bodies, body);
-      }
-      std::vector<Contact> contacts = ContactFinder(bodies).contacts(bodies, kStep);
-      std::ranges::sort(contacts, {}, &Contact::area);
-      for (Contact& c : contacts) c.record = nullptr;
-      return contacts;
-    };
-    const std::vector<Contact> straight = contacts_of(false);
-    const std::vector<Contact> turned = contacts_of(true);
-    ASSERT_EQ(straight.size(), turned.size()) << i;
-    for (std::size_t k = 0; k < straight.size(); ++k) {
-      if (straight[k].depth < 1e-6) continue;  // its normal is rounding
-      ++checked;
-      EXPECT_NEAR(length(rotate(turn, straight[k].normal) - turned[k].normal), 0, 1e-7);
-      EXPECT_NEAR(straight[k].approach_speed, turned[k].approach_speed, 1e-7);
-      EXPECT_NEAR(straight[k].slip_speed, turned[k].slip_speed, 1e-7);
-      EXPECT_NEAR(straight[k].area, turned[k].area, 1e-9);
-      EXPECT_NEAR(distance(Point{50, -70} + rotate(turn, straight[k].middle() - Point{}), turned[k].middle()),
-                  0, 1e-9);
-    }
-  }
-  EXPECT_GT(checked, 100);
-}
-
 /// A fast plate is awake while a ship breaks it, and had a pair with each piece of brash at rest in its box:
 /// a thousand, which each cusp entered again.
 TEST(BroadPhase, IceThatIsHeldIsPairedOnlyWithWhatMoves) {

@@ -23,6 +23,13 @@ TEST(FloatingBeam, EndLoadIsTheClosedForm) {
   EXPECT_NEAR(beam.peak_distance, std::numbers::pi / 4 * std::numbers::sqrt2, 3e-4);
 }
 
+TEST(FloatingBeam, EndLoadConvergesUnderRefinement) {
+  expect_falls({10, 20, 40}, 0.3, [](int elements) {
+    return std::abs(solve_floating_beam(BeamShape::kUniform, 0, elements).peak_curvature -
+                    std::exp(-std::numbers::pi / 4));
+  });
+}
+
 struct WedgeRow {
   double patch, force, radius;
 };
@@ -35,6 +42,18 @@ TEST(NarrowWedge, AgreesWithThePrototype) {
     const BeamResponse wedge = solve_floating_beam(BeamShape::kWedge, patch, 100);
     EXPECT_NEAR(1 / wedge.peak_curvature / force, 1, 2.5e-3) << patch;
     EXPECT_NEAR(wedge.peak_distance, radius, 1.1e-3) << patch;
+  }
+}
+
+// Under a tip patch the deflection converges as the energy does; the stress follows.
+TEST(NarrowWedge, ConvergesUnderRefinement) {
+  for (const double patch : {0.1, 0.5}) {
+    const BeamResponse fine = solve_floating_beam(BeamShape::kWedge, patch, 100);
+    expect_falls({8, 16, 32}, 0.25, [&](int elements) {
+      const BeamResponse wedge = solve_floating_beam(BeamShape::kWedge, patch, elements);
+      return std::abs(wedge.tip_deflection - fine.tip_deflection);
+    });
+    EXPECT_NEAR(solve_floating_beam(BeamShape::kWedge, patch, 50).peak_curvature, fine.peak_curvature, 3e-5);
   }
 }
 
