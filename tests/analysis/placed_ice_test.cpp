@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include <gtest/gtest.h>
+#include "../io/expect_text.hpp"
 
 #include "geometry/exact/measures.hpp"
 
@@ -42,7 +42,7 @@ TEST(PlacedIce, AFloeThatCannotBePlacedIsToldNotLost) {
   const auto done =
       analysis::add_ice(ice, nullptr, {{{0, 0}, {1, 0}, {0, std::numeric_limits<double>::infinity()}}, {}});
   ASSERT_FALSE(done.has_value());
-  EXPECT_NE(done.error().find("a placed floe is not a polygon"), std::string::npos) << done.error();
+  EXPECT_HAS(done.error(), "a placed floe is not a polygon");
   EXPECT_TRUE(ice.empty());
 }
 

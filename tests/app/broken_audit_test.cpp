@@ -60,10 +60,7 @@ class BrokenAudit : public testing::Test {
     checkpoint.state_hash = simulation.state_hash();
     ASSERT_TRUE(io::write_checkpoint(folder_ / "run", checkpoint).has_value());
   }
-  Outcome resume(std::vector<std::string> more = {}) {
-    more.insert(more.begin(), {"resume", "run"});
-    return polynya(more, start_);
-  }
+  Outcome resume(Words more = {}) { return polynya(Words{"resume", "run"} + more, start_); }
   /// The dump has the last state whose accounts close, and polynya gets the next one, the same each time.
   void expect_reproduced() {
     const auto scene = io::read_scene_file(folder_ / "run/scene.json");
@@ -75,12 +72,10 @@ class BrokenAudit : public testing::Test {
     EXPECT_TRUE(simulation->audit().is_closed());
     simulation->step();
     EXPECT_FALSE(simulation->audit().is_closed());
-    const Outcome repeated = resume({"--from-failure"});
+    const Outcome repeated = resume("--from-failure");
     EXPECT_EQ(repeated.code, 4) << repeated.err;
-    EXPECT_NE(repeated.out.find("now         the accounts of energy or momentum do not close\nreproduced\n"),
-              std::string::npos)
-        << repeated.out;
-    EXPECT_EQ(resume({"--from-failure"}).out, repeated.out);
+    EXPECT_HAS(repeated.out, "now         the accounts of energy or momentum do not close\nreproduced\n");
+    EXPECT_EQ(resume("--from-failure").out, repeated.out);
   }
 
   const TemporaryFolder folder_;
@@ -91,9 +86,8 @@ TEST_F(BrokenAudit, IsToldAtTheEndAndDumpedAndRepeated) {
   stop_run();
   const Outcome resumed = resume();
   EXPECT_EQ(resumed.code, 0) << resumed.err;
-  EXPECT_NE(resumed.err.find("THE AUDIT IS BROKEN: energy is off by 6.00e+00 J"), std::string::npos)
-      << resumed.err;
-  EXPECT_NE(resumed.err.find("polynya resume run --from-failure"), std::string::npos) << resumed.err;
+  EXPECT_HAS(resumed.err, "THE AUDIT IS BROKEN: energy is off by 6.00e+00 J");
+  EXPECT_HAS(resumed.err, "polynya resume run --from-failure");
   const auto summary = io::parse_json(read_file(folder_ / "run/summary.json"));
   EXPECT_FALSE(summary.root.find("audit_closed")->boolean());
   expect_reproduced();
@@ -101,11 +95,9 @@ TEST_F(BrokenAudit, IsToldAtTheEndAndDumpedAndRepeated) {
 
 TEST_F(BrokenAudit, StopsARunThatIsCheckedAtEveryStep) {
   stop_run();
-  const Outcome resumed = resume({"--check"});
+  const Outcome resumed = resume("--check");
   EXPECT_EQ(resumed.code, 4) << resumed.err;
-  EXPECT_NE(resumed.err.find("stopped at 6.33 s: the accounts of energy or momentum do not close"),
-            std::string::npos)
-      << resumed.err;
+  EXPECT_HAS(resumed.err, "stopped at 6.33 s: the accounts of energy or momentum do not close");
   expect_reproduced();
 }
 
@@ -115,11 +107,11 @@ TEST(NumericalFailure, ItsDumpIsReadBackAndFailsAgain) {
   write_file(folder / "scene.json", R"({"time": {"step_s": 0.01, "until_s": 10},
     "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e4,
       "moment_of_inertia_kg_m2": 5e9, "position_m": [0, 0], "propulsion": {"thrust_N": 5e7}}]})");
-  const Outcome failed = polynya({"run", "scene.json", "--out", "run"}, {folder.path()});
+  const Outcome failed = polynya("run scene.json --out run", folder);
   ASSERT_EQ(failed.code, 4) << failed.err;
-  const Outcome repeated = polynya({"resume", "run", "--from-failure"}, {folder.path()});
+  const Outcome repeated = polynya("resume run --from-failure", folder);
   EXPECT_EQ(repeated.code, 4) << repeated.err;
-  EXPECT_NE(repeated.out.find("\nreproduced"), std::string::npos) << repeated.out;
+  EXPECT_HAS(repeated.out, "\nreproduced");
 }
 
 }  // namespace

@@ -12,15 +12,12 @@ CrashTally crash_trials(int kills, unsigned seed) {
   std::cout << "seed " << seed << std::endl;  // before any fork
   std::mt19937 random(seed);
   const TemporaryFolder folder;
-  const Start start{folder.path()};
+  const Start start{.folder = folder.path(),
+                    .arrange_streams = [] { setenv("PATH", "/", 1); }};  // no rsvg-convert
   write_file(folder / "scene.json", crash_scene("100"));
-  const std::vector<std::string> often{"--checkpoint-every", "4", "--progress", "none"};
-  const auto with = [&](std::vector<std::string> words) {
-    words.insert(words.end(), often.begin(), often.end());
-    return words;
-  };
+  const Words often = "--checkpoint-every 4 --progress none";
   const auto begin = std::chrono::steady_clock::now();
-  const Outcome whole = polynya(with({"run", "scene.json", "--out", "whole"}), start);
+  const Outcome whole = polynya(Words("run scene.json --out whole") + often, start);
   const auto duration =
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
   CrashTally tally;
@@ -30,7 +27,7 @@ CrashTally crash_trials(int kills, unsigned seed) {
   const auto run = folder / "run";
   while (tally.kills < kills && !testing::Test::HasFailure()) {
     std::filesystem::remove_all(run);
-    bool is_killed = kill_after(start_polynya(with({"run", "scene.json", "--out", "run"}), start), start,
+    bool is_killed = kill_after(start_polynya(Words("run scene.json --out run") + often, start), start,
                                 std::chrono::microseconds(delay(random)));
     ++tally.runs;
     while (is_killed) {
@@ -40,7 +37,7 @@ CrashTally crash_trials(int kills, unsigned seed) {
         break;
       }
       const bool has_checkpoint = !io::checkpoints_in(run).empty();
-      const pid_t child = start_polynya(with({"resume", "run"}), start);
+      const pid_t child = start_polynya(Words("resume run") + often, start);
       if (tally.kills < kills && random() % 2 == 0) {
         is_killed = kill_after(child, start, std::chrono::microseconds(delay(random)));
         if (is_killed) continue;

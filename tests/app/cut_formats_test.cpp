@@ -16,7 +16,7 @@ std::string feature(const std::string& properties) {
 
 class CutFormats : public testing::Test {
  protected:
-  Outcome cut(const std::string& floes, std::vector<std::string> words, const std::string& input = "") const {
+  Outcome cut(const std::string& floes, Words words, const std::string& input = "") const {
     words.insert(words.begin(), {"cut", floes});
     return polynya(words,
                    {folder.path(), RLIM_INFINITY, input.empty() ? std::filesystem::path() : folder / input});
@@ -41,7 +41,7 @@ TEST_F(CutFormats, NothingLeftIsReadAgainAsNoFloes) {
               is_piped ? nothing : "");
       EXPECT_EQ(again.code, 0) << again.err;
       EXPECT_EQ(json("l.json").find("totals")->find("floes")->number(), 0);
-      EXPECT_NE(again.err.find("no floes in it"), std::string::npos) << again.err;
+      EXPECT_HAS(again.err, "no floes in it");
       EXPECT_EQ(again.out, read_file(folder / nothing)) << "and nothing again, in the same words";
     }
   }
@@ -64,7 +64,7 @@ TEST_F(CutFormats, EveryPieceHasItsParentsPropertiesAndTheFileItsCrs) {
   }
   ASSERT_EQ(cut("pieces.geojson", {"--crack", "5,5,120", "--out", "smaller.ndjson"}).code, 0);
   const std::string lines = read_file(folder / "smaller.ndjson");
-  EXPECT_NE(lines.find(kCrs), std::string::npos) << lines;
+  EXPECT_HAS(lines, kCrs);
   ASSERT_EQ(cut("smaller.ndjson", {"--disc", "5,5,1", "--out", "last.geojson"}).code, 0);
   EXPECT_EQ(json("last.geojson").find("crs")->find("type")->text(), "name");
 }
@@ -74,15 +74,15 @@ TEST_F(CutFormats, WhatAFormatCannotKeepIsReported) {
                                            R"(,"features":[)" + feature(R"("name":"north")") + "]}");
   const Outcome as_wkt = cut("floes.geojson", {"--crack", "5,5,30", "--out", "pieces.wkt"});
   EXPECT_EQ(as_wkt.code, 0);
-  EXPECT_NE(as_wkt.err.find("WKT has no room for its crs"), std::string::npos) << as_wkt.err;
-  EXPECT_NE(as_wkt.err.find("WKT has no room for properties"), std::string::npos) << as_wkt.err;
+  EXPECT_HAS(as_wkt.err, "WKT has no room for its crs");
+  EXPECT_HAS(as_wkt.err, "WKT has no room for properties");
   write_file(folder / "floes.wkt", "SRID=3413;POLYGON ((0 0, 1 0, 0 1))");
-  EXPECT_NE(cut("floes.wkt", {"--disc", "0,0,0.1"}).err.find("SRID is ignored"), std::string::npos);
+  EXPECT_HAS(cut("floes.wkt", {"--disc", "0,0,0.1"}).err, "SRID is ignored");
   const std::string other =
       R"({"type":"Feature","crs":null,"properties":{},"geometry":)" + std::string(kSquare) + "}\n";
   write_file(folder / "floes.ndjson",
              R"({"crs":)" + std::string(kCrs) + "," + feature("").substr(1) + "\n" + other);
-  EXPECT_NE(cut("floes.ndjson", {"--disc", "0,0,1"}).err.find("crs members differ"), std::string::npos);
+  EXPECT_HAS(cut("floes.ndjson", {"--disc", "0,0,1"}).err, "crs members differ");
 }
 
 TEST_F(CutFormats, LongitudeAndLatitudeAreNoMetres) {
@@ -93,13 +93,12 @@ TEST_F(CutFormats, LongitudeAndLatitudeAreNoMetres) {
       R"({"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)" + lonlat.substr(1));
   const Outcome refused = cut("crs.geojson", {"--disc", "15.6,78.2,0.01", "--out", "pieces.geojson"});
   EXPECT_EQ(refused.code, 4);
-  EXPECT_NE(refused.err.find("longitude and latitude (urn:ogc:def:crs:OGC:1.3:CRS84)"), std::string::npos)
-      << refused.err;
+  EXPECT_HAS(refused.err, "longitude and latitude (urn:ogc:def:crs:OGC:1.3:CRS84)");
   EXPECT_FALSE(std::filesystem::exists(folder / "pieces.geojson"));
   write_file(folder / "bare.geojson", lonlat);
   const Outcome noted = cut("bare.geojson", {"--disc", "15.6,78.2,0.01"});
   EXPECT_EQ(noted.code, 0);
-  EXPECT_NE(noted.err.find("look like longitude and latitude"), std::string::npos) << noted.err;
+  EXPECT_HAS(noted.err, "look like longitude and latitude");
 }
 
 TEST_F(CutFormats, AnExtensionOfNoFormatIsRefusedBeforeAnythingIsDone) {
@@ -107,13 +106,12 @@ TEST_F(CutFormats, AnExtensionOfNoFormatIsRefusedBeforeAnythingIsDone) {
   for (const char* name : {"pieces.shp", "pieces.gpkg", "pieces.txt", "pieces.geojson.bak"}) {
     const Outcome outcome = cut("floes.geojson", {"--disc", "0,0,1", "--out", name, "--ledger", "l.json"});
     EXPECT_EQ(outcome.code, 2) << name;
-    for (const char* known : {".geojson", ".json", ".ndjson", ".jsonl", ".geojsonl", ".wkt"})
-      EXPECT_NE(outcome.err.find(known), std::string::npos) << outcome.err;
+    EXPECT_HAS(outcome.err, ".geojson", ".json", ".ndjson", ".jsonl", ".geojsonl", ".wkt");
     EXPECT_FALSE(std::filesystem::exists(folder / name));
     EXPECT_FALSE(std::filesystem::exists(folder / "l.json"));
   }
   EXPECT_EQ(cut("floes.geojson", {"--disc", "0,0,1", "--out", "PIECES.WKT"}).code, 0);
-  EXPECT_EQ(read_file(folder / "PIECES.WKT").find("POLYGON"), 0U);
+  EXPECT_BEGINS(read_file(folder / "PIECES.WKT"), "POLYGON");
   EXPECT_EQ(cut("floes.geojson", {"--disc", "0,0,1", "--out", "pieces"}).code, 0);
 }
 

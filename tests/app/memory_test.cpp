@@ -23,7 +23,7 @@ std::string drifting_floes(int rows) {
 
 constexpr rlim_t kMegabyte = 1'000'000;
 
-Outcome run_within(rlim_t addresses, const Start& start, const std::vector<std::string>& words) {
+Outcome run_within(rlim_t addresses, const Start& start, const Words& words) {
   Start limited = start;
   limited.arrange_streams = [addresses] {
     const rlimit limit{addresses, addresses};
@@ -37,7 +37,7 @@ TEST(Memory, RunsOutAndLeavesNothingOrARunThatGoesOn) {
   const TemporaryFolder folder;
   const Start start{folder.path()};
   write_file(folder / "scene.json", drifting_floes(100));
-  ASSERT_EQ(polynya({"run", "scene.json", "--out", "whole", "--progress", "none"}, start).code, 0);
+  ASSERT_EQ(polynya("run scene.json --out whole --progress none", start).code, 0);
   int before = 0, during = 0;
   for (rlim_t limit = 40; limit < 400; limit += 20) {
     const std::string out = "run" + std::to_string(limit);
@@ -50,7 +50,7 @@ TEST(Memory, RunsOutAndLeavesNothingOrARunThatGoesOn) {
       continue;
     }
     if (outcome.code == 4) {
-      EXPECT_NE(outcome.err.find("polynya resume " + out), std::string::npos);
+      EXPECT_HAS(outcome.err, "polynya resume " + out);
     }
     if (++during % 3 != 1) continue;
     EXPECT_EQ(polynya({"resume", out, "--progress", "none"}, start).code, 0);

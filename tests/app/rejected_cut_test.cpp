@@ -44,25 +44,24 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
     ASSERT_TRUE(io::write_rejected_cut(folder.path(), cut).has_value());
     const std::string name = "rejected-cuts/00000" + std::to_string(cut.number);
     const Outcome again =
-        polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, {folder.path()});
+        polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, folder);
     SCOPED_TRACE(cut.reason);
     SCOPED_TRACE(again.err + again.out);
     EXPECT_EQ(world.accounts.counts.rejected_cuts, 2);
     EXPECT_EQ(again.code, 4);
     const std::string kind = cut.reason.substr(0, cut.reason.find(':'));
     EXPECT_EQ(kind, cut.number == 1 ? "misses" : "does-not-separate");
-    EXPECT_NE(again.err.find("feature 0, polygon 0: " + kind + ": "), std::string::npos);
-    EXPECT_NE(again.err.find("1 floe -> 1 piece"), std::string::npos);
-    EXPECT_NE(again.err.find("1 refused; nothing was cut"), std::string::npos);
+    EXPECT_HAS(again.err, "feature 0, polygon 0: " + kind + ": ");
+    EXPECT_HAS(again.err, "1 floe -> 1 piece");
+    EXPECT_HAS(again.err, "1 refused; nothing was cut");
     const auto ledger = io::parse_json(again.out);
     ASSERT_TRUE(ledger.faults.empty());
     EXPECT_EQ(ledger.root.find("floes")->items()[0].find("rejected")->find("reason")->text(), kind);
     if (cut.number == 2) {
-      EXPECT_NE(again.out.find("\"dangling_length_m\""), std::string::npos);
-      EXPECT_NE(again.out.find(R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})"),
-                std::string::npos)
+      EXPECT_HAS(again.out, "\"dangling_length_m\"");
+      EXPECT_HAS(again.out, R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})")
           << "to the last bit";
-      EXPECT_NE(again.err.find("separates nothing"), std::string::npos);
+      EXPECT_HAS(again.err, "separates nothing");
     }
   }
   RejectedCut one_too_many = world.journal.rejected_cuts[0];

@@ -2,7 +2,7 @@
 #include <csignal>
 #include <thread>
 
-#include "program.hpp"
+#include "interrupted_run.hpp"
 #include <gtest/gtest.h>
 
 #include "io/run/run_folder.hpp"
@@ -11,12 +11,6 @@
 
 namespace polynya::tests {
 namespace {
-
-std::vector<std::string> run_for(const std::string& until, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words{"run", scene_path("level-plate"), "--until", until};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 /// Lines of a text file; every one must be whole.
 std::size_t whole_lines(const std::filesystem::path& path) {
@@ -27,27 +21,21 @@ std::size_t whole_lines(const std::filesystem::path& path) {
 
 /// Waits until a running run has put rows behind the header on disk. False where it ended before.
 bool has_rows(pid_t child, const std::filesystem::path& forces) {
-  while (true) {
+  while (!has_ended(child)) {
     std::error_code not_there_yet;
     const auto size = std::filesystem::file_size(forces, not_there_yet);
     if (!not_there_yet && size > 2000) return true;
-    siginfo_t ended{};
-    if (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
-        ended.si_pid == child)
-      return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+  return false;
 }
 
 TEST(RunCommand, WritesAFolderAndTellsTheResult) {
   const TemporaryFolder folder;
-  const Outcome outcome = polynya(run_for("10"), {folder.path()});
+  const Outcome outcome = polynya("run scenes/level-plate.json --until 10", folder);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* words :
-       {"simulated   10 s", "real time", "cusps broken by bending", "splits", "imbalance", "ice force",
-        "run folder  runs/level-plate", "picture     runs/level-plate/final."}) {
-    EXPECT_NE(outcome.out.find(words), std::string::npos) << words << "\n" << outcome.out;
-  }
+  EXPECT_HAS(outcome.out, "simulated   10 s", "real time", "cusps broken by bending", "splits", "imbalance",
+             "ice force", "run folder  runs/level-plate", "picture     runs/level-plate/final.");
   const auto run = io::read_run(folder / "runs/level-plate");
   ASSERT_TRUE(run.has_value()) << run.error();
   EXPECT_TRUE(run->summary.find("finished")->boolean());
@@ -82,7 +70,7 @@ TEST(RunCommand, LeadsWithTheTrueForce) {
           "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0], "propulsion": {"constant_speed_m_per_s": 1}}],
         "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}}]})";
     write_file(folder / "scene.json", scene);
-    const Outcome outcome = polynya({"run", "scene.json", "--out", model}, {folder.path()});
+    const Outcome outcome = polynya({"run", "scene.json", "--out", model}, folder);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const auto run = io::read_run(folder / model);
     ASSERT_TRUE(run.has_value()) << run.error();
@@ -114,9 +102,9 @@ TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
      "moment_of_inertia_kg_m2": 8e9, "position_m": [5, 0], "propulsion": {"thrust_N": 2e5},
      "mooring": {"surge_stiffness_N_per_m": 1e4, "surge_damping_N_s_per_m": 1e5, "sway_stiffness_N_per_m": 1e4,
                  "break_load_N": 1e5}}]})");
-  const Outcome outcome = polynya({"run", "scene.json", "--out", "run"}, {folder.path()});
+  const Outcome outcome = polynya("run scene.json --out run", folder);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(line_with(outcome.err, "mooring of tanker broke at").find("events.ndjson"), std::string::npos);
+  EXPECT_HAS(line_with(outcome.err, "mooring of tanker broke at"), "events.ndjson");
   const auto run = io::read_run(folder / "run");
   ASSERT_TRUE(run.has_value()) << run.error();
   ASSERT_EQ(run->mooring_breaks.size(), 1U);
@@ -124,15 +112,14 @@ TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
   EXPECT_GT(broken.force, 1e5);
   EXPECT_NEAR(broken.offset_in_moored_place.x, broken.point_in_world.x - 5, 1e-9);
   const std::string line = read_file(folder / "run/events.ndjson");
-  for (const char* key : {R"("kind":"mooring_break")", R"("ship":"tanker")", "force_N",
-                          "break_load_N\":1e+05", "offset_m", "point_m", "t_s"})
-    EXPECT_NE(line.find(key), std::string::npos) << key << " in " << line;
-  const Outcome events = polynya({"inspect", "run", "--events"}, {folder.path()});
-  EXPECT_NE(events.out.find("mooring_break of tanker at ("), std::string::npos) << events.out;
-  EXPECT_NE(events.out.find("> 1e+05 N"), std::string::npos) << events.out;
+  EXPECT_HAS(line, R"("kind":"mooring_break")", R"("ship":"tanker")", "force_N", "break_load_N\":1e+05",
+             "offset_m", "point_m", "t_s");
+  const Outcome events = polynya("inspect run --events", folder);
+  EXPECT_HAS(events.out, "mooring_break of tanker at (");
+  EXPECT_HAS(events.out, "> 1e+05 N");
   EXPECT_EQ(std::ranges::count(events.out, '\n'), 1);
-  const Outcome json = polynya({"inspect", "run", "--events", "--json"}, {folder.path()});
-  EXPECT_NE(json.out.find(line.substr(0, line.size() - 1)), std::string::npos) << json.out;
+  const Outcome json = polynya("inspect run --events --json", folder);
+  EXPECT_HAS(json.out, line.substr(0, line.size() - 1));
 }
 
 TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
@@ -148,15 +135,15 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
                  ship +
                  R"("position_m": [-110, 0], "speed_m_per_s": 2, "propulsion": {"thrust_N": 0}}],
     "structures": [{"name": "pier", "radius_m": 5, "position_m": [70, 0]}], "floes": []})");
-  const Outcome outcome = polynya({"run", "scene.json", "--out", "run"}, {folder.path()});
+  const Outcome outcome = polynya("run scene.json --out run", folder);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string met = line_with(outcome.err, "leader and follower came into contact");
-  EXPECT_NE(met.find("closing at 1 m/s"), std::string::npos) << outcome.err;
-  EXPECT_NE(met.find("_from_ships"), std::string::npos) << outcome.err;
+  EXPECT_HAS(met, "closing at 1 m/s") << outcome.err;
+  EXPECT_HAS(met, "_from_ships") << outcome.err;
   const std::string through = line_with(outcome.err, "leader and pier came into contact");
-  EXPECT_NE(through.find("pass through each other"), std::string::npos) << outcome.err;
-  EXPECT_NE(line_with(outcome.out, "ship force  leader").find("surge"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("ship force  follower: surge -"), std::string::npos) << outcome.out;
+  EXPECT_HAS(through, "pass through each other") << outcome.err;
+  EXPECT_HAS(line_with(outcome.out, "ship force  leader"), "surge") << outcome.out;
+  EXPECT_HAS(outcome.out, "ship force  follower: surge -");
   const auto run = io::read_run(folder / "run");
   ASSERT_TRUE(run.has_value()) << run.error();
   EXPECT_EQ(run->summary.find("warnings")->items().size(), 2U);
@@ -178,10 +165,9 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
 
 TEST(RunCommand, TheSameSceneGivesTheSameBytesRunAfterRun) {
   const TemporaryFolder folder;
-  ASSERT_EQ(polynya(run_for("20", {"--out", "a"}), {folder.path()}).code, 0);
+  ASSERT_EQ(polynya("run scenes/level-plate.json --until 20 --out a", folder).code, 0);
   ASSERT_EQ(
-      polynya(run_for("20", {"--out", "b", "--threads", "2", "--progress", "json"}), {folder.path()}).code,
-      0);
+      polynya("run scenes/level-plate.json --until 20 --out b --threads 2 --progress json", folder).code, 0);
   for (const auto name : {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes,
                           io::run_file::kFrames, io::run_file::kContacts}) {
     const std::string a = read_file(folder.path() / "a" / name);
@@ -192,62 +178,47 @@ TEST(RunCommand, TheSameSceneGivesTheSameBytesRunAfterRun) {
 
 TEST(RunCommand, AnExistingRunIsKeptUnlessTold) {
   const TemporaryFolder folder;
-  ASSERT_EQ(polynya(run_for("2"), {folder.path()}).code, 0);
+  ASSERT_EQ(polynya("run scenes/level-plate.json --until 2", folder).code, 0);
   const std::string kept = read_file(folder / "runs/level-plate/forces.csv");
-  const Outcome refused = polynya(run_for("3"), {folder.path()});
+  const Outcome refused = polynya("run scenes/level-plate.json --until 3", folder);
   EXPECT_EQ(refused.code, 5);
-  EXPECT_NE(refused.err.find("--overwrite"), std::string::npos);
+  EXPECT_HAS(refused.err, "--overwrite");
   EXPECT_EQ(read_file(folder / "runs/level-plate/forces.csv"), kept);
-  EXPECT_EQ(polynya(run_for("3", {"--overwrite"}), {folder.path()}).code, 0);
+  EXPECT_EQ(polynya("run scenes/level-plate.json --until 3 --overwrite", folder).code, 0);
   EXPECT_NE(read_file(folder / "runs/level-plate/forces.csv"), kept);
 }
 
 /// The signal comes when the run has written something; then the folder must be whole and say that it is not
-/// finished.
-TEST(RunCommand, ASignalLeavesAWholeFolder) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+/// finished. SIGKILL allows no last words: what is there must be readable all the same.
+TEST(RunCommand, ASignalLeavesAUsableFolder) {
+  for (const auto& [signal, code, words] :
+       {std::tuple{SIGINT, 75, "SIGINT"}, {SIGTERM, 75, "SIGTERM"}, {SIGKILL, -SIGKILL, ""}}) {
     const TemporaryFolder folder;
-    // Two floes that never stop: the run lasts until it is stopped.
     const Start start{folder.path()};
-    const pid_t child =
-        start_polynya({"run", scene_path("sawamura2017-fig4c"), "--until", "1e6", "--out", "run"}, start);
+    const pid_t child = start_polynya("run scenes/sawamura2017-fig4c.json --until 1e6 --out run", start);
     ASSERT_TRUE(has_rows(child, folder / "run/forces.csv")) << wait_for(child, start).err;
     kill(child, signal);
     const Outcome outcome = wait_for(child, start);
-    EXPECT_EQ(outcome.code, 75) << outcome.err;
-    EXPECT_NE(outcome.err.find(signal == SIGINT ? "SIGINT" : "SIGTERM"), std::string::npos);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_HAS(outcome.err, words);
     const auto run = io::read_run(folder / "run");
     ASSERT_TRUE(run.has_value()) << run.error();
     EXPECT_FALSE(run->summary.find("finished")->boolean());
+    EXPECT_GT(run->samples.size(), 0U);
     EXPECT_EQ(whole_lines(folder / "run/forces.csv"), run->samples.size() + 1);
+    if (signal == SIGKILL) continue;
     whole_lines(folder / "run/events.ndjson");
     EXPECT_TRUE(std::filesystem::exists(folder / "run/final.svg"));
   }
-}
-
-/// SIGKILL allows no last words: what is there must be readable all the same.
-TEST(RunCommand, AKilledRunLeavesAUsableFolder) {
-  const TemporaryFolder folder;
-  const Start start{folder.path()};
-  const pid_t child =
-      start_polynya({"run", scene_path("sawamura2017-fig4c"), "--until", "1e6", "--out", "run"}, start);
-  ASSERT_TRUE(has_rows(child, folder / "run/forces.csv")) << wait_for(child, start).err;
-  kill(child, SIGKILL);
-  EXPECT_EQ(wait_for(child, start).code, -SIGKILL);
-  const auto run = io::read_run(folder / "run");
-  ASSERT_TRUE(run.has_value()) << run.error();
-  EXPECT_FALSE(run->summary.find("finished")->boolean());
-  EXPECT_GT(run->samples.size(), 0U);
-  EXPECT_EQ(whole_lines(folder / "run/forces.csv"), run->samples.size() + 1);
 }
 
 /// A size limit stands for a full disk.
 TEST(RunCommand, AFullDiskIsFiveAndLeavesAUsableFolder) {
   const TemporaryFolder folder;
   const Start start{folder.path(), 20'000};
-  const Outcome outcome = polynya(run_for("200", {"--out", "run"}), start);
+  const Outcome outcome = polynya("run scenes/level-plate.json --until 200 --out run", start);
   EXPECT_EQ(outcome.code, 5) << outcome.err;
-  EXPECT_NE(outcome.err.find("File too large"), std::string::npos) << outcome.err;
+  EXPECT_HAS(outcome.err, "File too large");
   const auto run = io::read_run(folder / "run");
   ASSERT_TRUE(run.has_value()) << run.error();
   EXPECT_FALSE(run->summary.find("finished")->boolean());
@@ -255,16 +226,9 @@ TEST(RunCommand, AFullDiskIsFiveAndLeavesAUsableFolder) {
   whole_lines(folder / "run/floes.ndjson");
 }
 
-TEST(RunCommand, AFolderThatCannotBeMadeIsFive) {
-  const TemporaryFolder folder;
-  write_file(folder / "file", "x");
-  EXPECT_EQ(polynya(run_for("1", {"--out", "file/run"}), {folder.path()}).code, 5);
-  EXPECT_EQ(polynya(run_for("1", {"--out", "file"}), {folder.path()}).code, 5);
-}
-
 TEST(RunCommand, JsonProgressIsOneObjectALine) {
   const TemporaryFolder folder;
-  const Outcome outcome = polynya(run_for("5", {"--progress", "json"}), {folder.path()});
+  const Outcome outcome = polynya("run scenes/level-plate.json --until 5 --progress json", folder);
   ASSERT_EQ(outcome.code, 0);
   const std::string line = outcome.err.substr(0, outcome.err.find('\n'));
   const auto document = io::parse_json(line);
@@ -273,8 +237,8 @@ TEST(RunCommand, JsonProgressIsOneObjectALine) {
        {"sim_time_s", "until_s", "wall_time_s", "real_time_factor", "time_left_s", "fractures"}) {
     EXPECT_NE(document.root.find(key), nullptr) << key;
   }
-  const Outcome quiet = polynya(run_for("5", {"--progress", "none", "--out", "quiet"}), {folder.path()});
-  EXPECT_EQ(quiet.err.find('%'), std::string::npos);
+  const Outcome quiet = polynya("run scenes/level-plate.json --until 5 --progress none --out quiet", folder);
+  EXPECT_LACKS(quiet.err, "%");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <gtest/gtest.h>
+#include "expect_text.hpp"
 
 #include "io/text/cut_report.hpp"
 #include "io/text/json_parser.hpp"
@@ -70,8 +70,7 @@ TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {
   for (const Wrong& wrong : all) {
     const auto ops = read_cut_ops(wrong.text, {});
     ASSERT_FALSE(ops.has_value()) << wrong.text;
-    EXPECT_NE(ops.error().words.find(wrong.words), std::string::npos) << wrong.text << "\n"
-                                                                      << ops.error().words;
+    EXPECT_HAS(ops.error().words, wrong.words) << wrong.text;
     EXPECT_EQ(ops.error().kind, wrong.kind) << wrong.text << "\n" << ops.error().words;
   }
 }

@@ -1,13 +1,11 @@
 // Ice of floes in scenes and floe files: what it reads as, what it is drawn from, and what is refused.
 #include "io/scene/floe_ice.hpp"
 
+#include "scene_text.hpp"
 #include "temporary_folder.hpp"
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "io/run/records.hpp"
 #include "io/scene/scene_input.hpp"
-#include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::io {
@@ -85,36 +83,6 @@ TEST(FloeIce, IsDrawnByItsLawAndTheSeed) {
   EXPECT_NE(ice_at(*seeded, 17).thickness, ice_at(*loaded, 17).thickness);
 }
 
-TEST(FloeIce, WhatCannotBeIsRefusedAtItsPlace) {
-  struct Case {
-    std::string ice, path, words;
-  };
-  const std::vector<Case> cases{
-      {R"({"thickness_m": -1})", "floes[0].ice.thickness_m", "a number ≥ 0.001"},
-      {R"({"thickness_m": "thin"})", "floes[0].ice.thickness_m", "or a law"},
-      {R"({"thicknes_m": 1})", "floes[0].ice.thicknes_m", "thickness_m"},
-      {R"({"thickness_m": {"mean": 30, "spread": 0.1}})", "floes[0].ice.thickness_m.mean", "≤ 20"},
-      {R"({"thickness_m": {"mean": 0.5}})", "floes[0].ice.thickness_m.spread", "law log_normal needs it"},
-      {R"({"thickness_m": {"law": "gamma", "spread": 0.1}})", "floes[0].ice.thickness_m.law", "log_normal"},
-      {R"({"thickness_m": {"law": "uniform", "mean": 0.5, "least": 0.4, "most": 0.6}})",
-       "floes[0].ice.thickness_m.mean", "law uniform has none"},
-      {R"({"thickness_m": {"spread": 0.1, "least": 0.6, "most": 0.4}})", "floes[0].ice.thickness_m.least",
-       "at most"},
-      {R"({"thickness_m": {"spread": 0.1, "least": 0.9}})", "floes[0].ice.thickness_m",
-       "bounds around the mean"},
-      {R"({"density_kg_per_m3": 1050})", "floes[0] (its floe 0): ice.density_kg_per_m3",
-       "the water's density"},
-      {R"({"seed": -1})", "floes[0].ice.seed", "an integer"}};
-  for (const Case& one : cases) {
-    const auto outcome = read(one.ice);
-    ASSERT_FALSE(outcome.has_value()) << one.ice;
-    ASSERT_EQ(outcome.error().size(), 1u) << one.ice;
-    const std::string text = to_string(outcome.error().front());
-    EXPECT_EQ(outcome.error().front().path, one.path) << text;
-    EXPECT_NE(text.find(one.words), std::string::npos) << text;
-  }
-}
-
 std::string feature(double x, const std::string& properties) {
   return fmt::format(R"({{"type":"Feature","properties":{{{}}},"geometry":{{"type":"Polygon","coordinates":)"
                      R"([[[{},0],[{},0],[{},500],[{},500],[{},0]]]}}}})",
@@ -141,12 +109,7 @@ TEST_F(FloeIceFile, FeaturesGiveTheirsBeforeTheEntryAndTheScene) {
   EXPECT_EQ(ice_at(*loaded, 1).thickness, 0.7);
   EXPECT_EQ(ice_at(*loaded, 1).fracture_toughness, 2e5);
   EXPECT_EQ(ice_at(*loaded, 2).fracture_toughness, 150e3);
-  const auto again = read_scene(loaded->resolved_text, "scene.json", ".");
-  ASSERT_TRUE(again.has_value()) << to_string(again.error().front());
-  EXPECT_EQ(again->resolved_text, loaded->resolved_text);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (const FloeIceProperty& property : floe_ice_properties())
-      EXPECT_EQ(ice_at(*again, i).*property.value, ice_at(*loaded, i).*property.value) << property.key;
+  tests::expect_reads_back(*loaded);
 }
 
 TEST_F(FloeIceFile, OfTheWrongTypeOrSignAreRefusedAtTheirPlace) {
@@ -155,9 +118,9 @@ TEST_F(FloeIceFile, OfTheWrongTypeOrSignAreRefusedAtTheirPlace) {
         read_file(feature(0, "") + ",\n" + feature(1000, fmt::format(R"("thickness_m":{})", wrong)));
     ASSERT_FALSE(outcome.has_value()) << wrong;
     const std::string text = to_string(outcome.error().front());
-    EXPECT_NE(text.find("floes.geojson:2:"), std::string::npos) << text;
-    EXPECT_NE(text.find("features[1].properties.thickness_m"), std::string::npos) << text;
-    EXPECT_NE(text.find("a number from 0.001 to 20 [m]"), std::string::npos) << text;
+    EXPECT_HAS(text, "floes.geojson:2:");
+    EXPECT_HAS(text, "features[1].properties.thickness_m");
+    EXPECT_HAS(text, "a number from 0.001 to 20 [m]");
   }
 }
 

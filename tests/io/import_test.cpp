@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
+#include "expect_text.hpp"
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
@@ -220,8 +220,7 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
     std::vector<SourceFloe> floes{c.floe};
     const auto report = bring(floes, c.crs, c.settings);
     ASSERT_FALSE(report) << c.parts[0];
-    for (const std::string& part : c.parts)
-      EXPECT_NE(report.error().words.find(part), std::string::npos) << part << "\n" << report.error().words;
+    for (const std::string& part : c.parts) EXPECT_HAS(report.error().words, part);
   }
 }
 
@@ -236,7 +235,7 @@ TEST(Plane, AWrongNumberDoesNotMoveTheOriginThatIsChosen) {
   ASSERT_TRUE(report);
   EXPECT_NEAR(report->origin->latitude / kRad, 78.205, 0.001);
   EXPECT_NEAR(report->origin->longitude / kRad, 15.615, 0.001);
-  EXPECT_NE(refused[2].find("With latitude and longitude exchanged"), std::string::npos) << refused[2];
+  EXPECT_HAS(refused[2], "With latitude and longitude exchanged");
 }
 
 /// A wrong number: of one vertex, or of all of a floe.
@@ -442,8 +441,7 @@ TEST(FloeImport, WithoutARuleCrossingOutlinesAreRefusedAndTheOthersKept) {
   ASSERT_TRUE(imported);
   EXPECT_EQ(imported->totals.refused, 2U);
   EXPECT_EQ(imported->floes.size(), 2U);
-  EXPECT_NE(imported->items[0].refused.find("self-crossing at (620, 15)"), std::string::npos)
-      << imported->items[0].refused;
+  EXPECT_HAS(imported->items[0].refused, "self-crossing at (620, 15)");
   EXPECT_EQ(imported->items[1].refused, "property thickness_m: found -1");
   EXPECT_EQ(imported->totals.area_read, 200);
 }

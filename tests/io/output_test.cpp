@@ -2,8 +2,8 @@
 #include <csignal>
 #include <new>
 
+#include "expect_text.hpp"
 #include "temporary_folder.hpp"
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -74,10 +74,10 @@ TEST(OutputFile, FollowsLinksToAFileThatIsNotThereYet) {
 TEST(OutputFile, ReplacesNoPipeNoDeviceAndNoFolder) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-  EXPECT_NE(write_whole_file(folder / "pipe", "x").error().find("not a regular file"), std::string::npos);
+  EXPECT_HAS(write_whole_file(folder / "pipe", "x").error(), "not a regular file");
   EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
-  EXPECT_NE(write_whole_file(folder.path(), "x").error().find("a folder"), std::string::npos);
-  EXPECT_NE(write_named_file("/dev/full", "x").error().find("No space left"), std::string::npos);
+  EXPECT_HAS(write_whole_file(folder.path(), "x").error(), "a folder");
+  EXPECT_HAS(write_named_file("/dev/full", "x").error(), "No space left");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
@@ -95,7 +95,7 @@ TEST(OutputFile, WritesThroughNoLinkThatWasPutInItsWay) {
   EXPECT_EQ(read_file(folder / "grown"), "text\n");
   const auto cut = OutputFile::reopen(folder / "cut", 0);
   ASSERT_FALSE(cut.has_value());
-  EXPECT_NE(cut.error().find("cut: a link"), std::string::npos) << cut.error();
+  EXPECT_HAS(cut.error(), "cut: a link");
   EXPECT_EQ(read_file(folder / "precious"), "years of work");
 }
 

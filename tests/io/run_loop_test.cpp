@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "expect_text.hpp"
 #include "temporary_folder.hpp"
-#include <gtest/gtest.h>
 
 #include "io/run/checkpoint.hpp"
 #include "io/run/run_folder.hpp"
@@ -96,7 +96,7 @@ TEST(RunLoop, ANumericalFailureAndALostFolderAreResults) {
   std::filesystem::remove_all(folder / "lost");
   const RunResult displaced = run_to_end(*lost);
   EXPECT_EQ(displaced.end, RunEnd::kFolderFailure);
-  EXPECT_NE(displaced.reason.find("removed, moved or replaced"), std::string::npos) << displaced.reason;
+  EXPECT_HAS(displaced.reason, "removed, moved or replaced");
 }
 
 /// Of many floes final.geojson is written on request; how long the files become is known before.

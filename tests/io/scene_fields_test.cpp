@@ -1,9 +1,9 @@
 #include <functional>
 #include <set>
 
+#include "expect_text.hpp"
 #include "temporary_folder.hpp"
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "io/scene/scene_input.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -253,8 +253,8 @@ TEST(SceneFields, EveryRangeIsKept) {
       const auto outcome = read_scene(text, "base.json", ".");
       ASSERT_FALSE(outcome.has_value()) << path;
       const Problem& problem = outcome.error().front();
-      EXPECT_NE(path.find(std::string(field.key)), std::string::npos);
-      EXPECT_NE(problem.path.find(field.key), std::string::npos) << to_string(problem);
+      EXPECT_HAS(path, std::string(field.key));
+      EXPECT_HAS(problem.path, field.key) << to_string(problem);
       EXPECT_GT(problem.line, 1);
       ++tried;
     }
@@ -287,8 +287,7 @@ TEST(SceneSchema, NamesEveryFieldOnceWhereItBelongs) {
 
 TEST(SceneDocs, HoldTheTablesAsThePrintedOnes) {
   const std::string page = tests::read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/scene.md");
-  EXPECT_NE(page.find(scene_tables()), std::string::npos)
-      << "run: polynya schema --markdown, and put it into docs/scene.md";
+  EXPECT_HAS(page, scene_tables()) << "run: polynya schema --markdown, and put it into docs/scene.md";
 }
 
 }  // namespace

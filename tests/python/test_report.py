@@ -24,18 +24,9 @@ def synthetic(folder, groups=3, of_group=40):
     ]
     write_cases(folder, [json.dumps({"scene": 0, "set": v}) + "\n" for v in values])
     plan = {
-        "format": 1,
-        "name": "synthetic",
-        "cases": len(values),
-        "chunk": 1,
-        "archive": False,
-        "keep": "summary",
-        "set": {},
-        "source": "",
-        "scenes": ["scenes/0/a.json"],
-        "varied": ["ice.thickness_m", "ice.friction", "seed"],
-        "collect": {},
-        "report": {"group_by": "ice.thickness_m", "against": "ice.thickness_m"},
+        "format": 1, "name": "synthetic", "cases": len(values), "chunk": 1, "archive": False, "keep": "summary",
+        "set": {}, "source": "", "scenes": ["scenes/0/a.json"], "varied": ["ice.thickness_m", "ice.friction", "seed"],
+        "collect": {}, "report": {"group_by": "ice.thickness_m", "against": "ice.thickness_m"},
     }
     (folder / PLAN).write_text(json.dumps(plan))
     study = open_study(folder)
@@ -43,8 +34,7 @@ def synthetic(folder, groups=3, of_group=40):
         case = study.case_folder(i)
         case.mkdir(parents=True)
         measures = {
-            "resistance_mean_N": rng.normal(1e5, 1e4),
-            "resistance_peak_N": rng.gumbel(1e6 * v["ice.thickness_m"], 5e4),
+            "resistance_mean_N": rng.normal(1e5, 1e4), "resistance_peak_N": rng.gumbel(1e6 * v["ice.thickness_m"], 5e4),
             "outcome": "bent" if v["ice.friction"] < 0.15 else "split",
         }
         (case / RESULT).write_text(json.dumps({"state": "finished", "case": i, "measures": measures}))
@@ -57,9 +47,7 @@ def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp
     page = (study.folder / "study.html").read_text()
     shown = re.findall(r"<img src='([^']+)'", page)
     assert {
-        "report/exceedance-resistance_peak_N.svg",
-        "report/means-resistance_mean_N.svg",
-        "report/outcomes.svg",
+        "report/exceedance-resistance_peak_N.svg", "report/means-resistance_mean_N.svg", "report/outcomes.svg"
     } <= set(shown)
     for name in shown:
         assert (study.folder / name).stat().st_size > 5000 and (study.folder / name).with_suffix(".png").exists()
@@ -117,8 +105,7 @@ def test_a_kept_run_opens_in_the_player(tmp_path, monkeypatch):
         json.dumps(
             {
                 "scene": os.path.join(os.path.abspath(os.environ["POLYNYA_SCENES"]), "level-plate.json"),
-                "set": {"time.until_s": 10},
-                "grid": {"ice.thickness_m": [0.4, 0.5]},
+                "set": {"time.until_s": 10}, "grid": {"ice.thickness_m": [0.4, 0.5]},
             }
         )
     )

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "../io/expect_text.hpp"
 #include "../io/temporary_folder.hpp"
-#include <gtest/gtest.h>
 
 #include "views/export/geojson_export.hpp"
 #include "views/export/vtk_export.hpp"
@@ -116,12 +116,12 @@ TEST(FinalMap, AWallIsDrawnAsOneAndLeavesNoTrack) {
   Picture picture;
   picture.ships.push_back({{{0, 0}, {50, 0}, {50, 5}, {0, 5}}, {{25, 0}, {25, 9}}, true});
   const std::string walls = to_svg(picture);
-  EXPECT_NE(walls.find(">wall<"), std::string::npos);
-  EXPECT_EQ(walls.find("<polyline"), std::string::npos);
+  EXPECT_HAS(walls, ">wall<");
+  EXPECT_LACKS(walls, "<polyline");
   picture.ships.front().is_wall = false;
   const std::string ships = to_svg(picture);
-  EXPECT_EQ(ships.find(">wall<"), std::string::npos);
-  EXPECT_NE(ships.find("<polyline"), std::string::npos);
+  EXPECT_LACKS(ships, ">wall<");
+  EXPECT_HAS(ships, "<polyline");
 }
 
 TEST(FinalMap, IceUnderAHullIsNeitherFloatingIceNorAFracture) {
