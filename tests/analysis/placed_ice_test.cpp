@@ -54,8 +54,7 @@ TEST(PlacedIce, NearIsWhereBoxesMeet) {
 
 TEST(PlacedIce, APolygonIsPartedIntoWhatOthersCoverAndTheRest) {
   const Polygon half{{{-1, -1}, {1, -1}, {1, 3}, {-1, 3}}, {}};
-  const auto parted = analysis::part(kSquare, {half});
-  ASSERT_TRUE(parted.has_value());
+  const auto parted = checked(analysis::part(kSquare, {half}));
   EXPECT_EQ(parted->inside_area, 2);
   ASSERT_EQ(parted->outside.size(), 1);
   EXPECT_EQ(geometry::measure(parted->outside[0]).area, 2);
@@ -64,8 +63,7 @@ TEST(PlacedIce, APolygonIsPartedIntoWhatOthersCoverAndTheRest) {
 TEST(PlacedIce, WhatNothingMeetsIsOutsideWhole) {
   const Polygon far{{{10, 10}, {11, 10}, {11, 11}}, {}};
   for (const auto& by : {std::vector<Polygon>{}, std::vector<Polygon>{far}}) {
-    const auto parted = analysis::part(kSquare, by);
-    ASSERT_TRUE(parted.has_value());
+    const auto parted = checked(analysis::part(kSquare, by));
     EXPECT_TRUE(parted->inside.empty());
     ASSERT_EQ(parted->outside.size(), 1);
     EXPECT_EQ(parted->outside[0].outer, kSquare.outer);

@@ -1,14 +1,13 @@
 // A run whose account of energy does not close says so, leaves the state before the step after which it does
 // not, and that step can be had again.
 
+#include "../io/scene_text.hpp"
 #include "program.hpp"
 #include <gtest/gtest.h>
 
 #include "io/run/checkpoint.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_writer.hpp"
-#include "io/scene/scene_reader.hpp"
-#include "io/text/json_parser.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/world/world.hpp"
 
@@ -19,10 +18,10 @@ using simulation::Simulation;
 
 /// A ship that thrust alone has brought to ½ m v² = (F t)² / 2 m = 5e4 J/s² · t², and a floe that nobody
 /// meets.
-constexpr auto kScene = R"({"time": {"step_s": 0.01, "until_s": 10}, "record": {"frames_interval_s": 1},
-    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},
-      "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [0, 0], "propulsion": {"thrust_N": 1e6}}],
-    "floes": [{"rectangle": {"corner_m": [500, -30], "size_m": [40, 60]}}]})";
+const std::string kScene =
+    scene({R"("time": {"step_s": 0.01, "until_s": 10}, "record": {"frames_interval_s": 1})",
+           list("ships", {ship(R"("position_m": [0, 0], "propulsion": {"thrust_N": 1e6})")}),
+           list("floes", {square(500, -30, 40)})});
 
 /// Books 4 MJ of kinetic energy that was never there, but for 6 J, and as much that thrust never took out. At
 /// first those 6 J are lost in a turnover of 7.2 MJ. Thrust goes on and brings it down by what it gives,
@@ -38,11 +37,9 @@ class BrokenAudit : public testing::Test {
   /// Leaves a run that was stopped after 4 s, by its own program, with such books in its checkpoint.
   void stop_run() {
     write_file(folder_ / "scene.json", kScene);
-    const auto scene = io::read_scene_file(folder_ / "scene.json");
-    ASSERT_TRUE(scene.has_value());
+    const auto scene = checked(io::read_scene_file(folder_ / "scene.json"));
     Simulation simulation(scene->scene);
-    auto writer = io::RunWriter::create(folder_ / "run", false, *scene);
-    ASSERT_TRUE(writer.has_value()) << writer.error();
+    auto writer = checked(io::RunWriter::create(folder_ / "run", false, *scene));
     for (int step = 0; step < 400; ++step) {
       writer->record(simulation.journal());
       if (step % 100 == 0) writer->frame(simulation);
@@ -64,11 +61,10 @@ class BrokenAudit : public testing::Test {
   /// The dump has the last state whose accounts close, and polynya gets the next one, the same each time.
   void expect_reproduced() {
     const auto scene = io::read_scene_file(folder_ / "run/scene.json");
-    const auto dump = io::read_checkpoint_file(folder_ / "run" / io::run_file::kFailure, scene->hash);
-    ASSERT_TRUE(dump.has_value()) << dump.error();
+    const auto dump =
+        checked(io::read_checkpoint_file(folder_ / "run" / io::run_file::kFailure, scene->hash));
     EXPECT_EQ(dump->steps, 632) << "√40 s = 632.5 steps";
-    auto simulation = Simulation::resumed(scene->scene, dump->state);
-    ASSERT_TRUE(simulation.has_value()) << simulation.error();
+    auto simulation = checked(Simulation::resumed(scene->scene, dump->state));
     EXPECT_TRUE(simulation->audit().is_closed());
     simulation->step();
     EXPECT_FALSE(simulation->audit().is_closed());
@@ -104,9 +100,9 @@ TEST_F(BrokenAudit, StopsARunThatIsCheckedAtEveryStep) {
 /// A thrust that brings a ship to 1000 m/s in a fifth of a second.
 TEST(NumericalFailure, ItsDumpIsReadBackAndFailsAgain) {
   const TemporaryFolder folder;
-  write_file(folder / "scene.json", R"({"time": {"step_s": 0.01, "until_s": 10},
-    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e4,
-      "moment_of_inertia_kg_m2": 5e9, "position_m": [0, 0], "propulsion": {"thrust_N": 5e7}}]})");
+  write_file(folder / "scene.json",
+             scene({R"("time": {"step_s": 0.01, "until_s": 10})",
+                    list("ships", {ship(R"("mass_kg": 1e4, "propulsion": {"thrust_N": 5e7})")})}));
   const Outcome failed = polynya("run scene.json --out run", folder);
   ASSERT_EQ(failed.code, 4) << failed.err;
   const Outcome repeated = polynya("resume run --from-failure", folder);

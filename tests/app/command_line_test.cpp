@@ -38,7 +38,6 @@ TEST_F(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder / "runs"));
 }
 
-/// Problems as JSON: the same places, paths and words as on stderr; none are an empty array.
 TEST_F(CommandLine, ProblemsAreJsonOnRequest) {
   write_file(folder / "wrong.json",
              "{\"ice\": {\"thicknes_m\": 1},\n \"time\": {\"step_s\": 0},\n \"name\": \"a \\\"b\\\"\"}");
@@ -102,8 +101,7 @@ TEST_F(CommandLine, ASceneComesFromStdin) {
 TEST_F(CommandLine, InitWritesAValidSceneWhoseShipDoesNotRunAway) {
   EXPECT_EQ(call("init new.json").code, 0);
   EXPECT_EQ(call("init").out, read_file(folder / "new.json"));
-  const auto scene = io::read_scene_file(folder / "new.json");
-  ASSERT_TRUE(scene.has_value());
+  const auto scene = checked(io::read_scene_file(folder / "new.json"));
   simulation::Simulation simulation(scene->scene);
   double fastest = 0;
   while (simulation.time() < scene->scene.time.until) {

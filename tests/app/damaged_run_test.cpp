@@ -26,8 +26,7 @@ class DamagedRun : public testing::Test {
     write_file(folder->path() / "tiny.json", kTinyScene);
     ASSERT_EQ(polynya("run tiny.json --out damaged", *folder).code, 0);
     // Every shape whole: no other line then needs the vertices of one that is damaged.
-    const auto run = io::read_run(folder->path() / "damaged");
-    ASSERT_TRUE(run.has_value()) << run.error();
+    const auto run = checked(io::read_run(folder->path() / "damaged"));
     floes = new std::string;
     for (const io::RunFloe& floe : run->floes)
       io::append_birth(*floes, {floe.birth, *run->shape(floe.birth.floe)}, nullptr);

@@ -43,8 +43,7 @@ TEST_F(Database, BuildMakesTheShippedBytes) {
 TEST_F(Database, BuildMakesWhatIsAskedAndOverwritesOnlyWhenTold) {
   ASSERT_EQ(database(build_small + "small.txt").code, 0);
   const std::string small = read_file(folder / "small.txt");
-  const auto read = fracture::parse_database(small);
-  ASSERT_TRUE(read.has_value()) << read.error().message;
+  const auto read = checked(fracture::parse_database(small));
   EXPECT_EQ(read->settings().fluid, fracture::FluidModel::kWinkler);
   EXPECT_EQ(read->grid().opening_angles_deg, (std::vector<double>{40, 90}));
   EXPECT_EQ(read->grid().softnesses, fracture::default_grid().softnesses);

@@ -87,7 +87,6 @@ TEST(Guide, BashCompletesCommandsOptionsChoicesAndFiles) {
   EXPECT_EQ(completed("polynya validate scene-of"), " scene-of-mine.json \n");
 }
 
-/// Files where a file is expected, folders where a folder is, and nothing else where neither is.
 TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
   std::filesystem::create_directories(folder() / "scene-folder");
   write_file(folder() / "scene-of-mine.json", "{}");
@@ -107,7 +106,6 @@ TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
     EXPECT_HAS(options, std::string(" ") + tool + " ");
 }
 
-/// What a command is for comes first, as it was added, in help and manual page.
 TEST(Guide, OptionsComeInTheOrderOfTheirUse) {
   const std::string help = output_of("cut --help");
   const std::string page = std::regex_replace(output_of("man"), std::regex(R"(\\-)"), "-");

@@ -52,13 +52,12 @@ TEST_F(InspectCommand, TheTableHasALineForEachLivingFloe) {
 TEST_F(InspectCommand, AFloesShapeReadsBackToTheSameDoubles) {
   const simulation::BirthRecord& birth = run->floes[3].birth;
   for (const char* format : {"wkt", "geojson"}) {
-    const auto floes = io::read_floe_text(inspect({"--floe", "3", "--format", format}).out);
-    ASSERT_TRUE(floes.has_value());
+    const auto floes = checked(io::read_floe_text(inspect({"--floe", "3", "--format", format}).out));
     EXPECT_EQ(geometry::normalised(floes->entries.at(0).polygon), *run->shape(3)) << format;
   }
   const simulation::BirthRecord& last = run->floes.back().birth;
-  const auto moved = io::read_floe_text(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).out);
-  ASSERT_TRUE(moved.has_value());
+  const auto moved =
+      checked(io::read_floe_text(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).out));
   const auto motion = io::MotionIndex(*run).floe_at(last.floe, 30);
   EXPECT_EQ(geometry::normalised(moved->entries.at(0).polygon),
             polygon_in_world(*run->shape(last.floe), last.centroid_in_body, *motion));
@@ -118,7 +117,6 @@ TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
   EXPECT_HAS(outcome.out, "Overlap is part of the contact model");
 }
 
-/// The same reports as JSON.
 TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
   const auto json = [](Words words) {
     words.emplace_back("--json");

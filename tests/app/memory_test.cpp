@@ -80,8 +80,7 @@ TEST(Memory, IsEstimatedWithinAFactorOfWhatRunsTake) {
     const std::string name = std::to_string(rows) + ".json";
     write_file(folder / name, drifting_floes(rows));
     const double taken = peak_of_run(name, start) - program;
-    const auto scene = io::read_scene_file(folder / name);
-    ASSERT_TRUE(scene.has_value());
+    const auto scene = checked(io::read_scene_file(folder / name));
     const simulation::MemoryEstimate estimate = simulation::estimate_memory(scene->scene);
     EXPECT_LT(estimate.at_start, taken) << "a run that fits would be refused";
     EXPECT_LT(taken, 7 * estimate.at_start);

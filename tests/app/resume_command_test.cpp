@@ -145,7 +145,6 @@ TEST_F(Resume, AfterAFullDiskTheRunGoesOn) {
   }
 }
 
-/// A ship that is pushed out of all proportion: it breaks ice, and then runs away.
 TEST_F(Resume, AFailureIsDumpedAndRepeated) {
   write_file(folder_ / "scene.json", R"({"time": {"step_s": 0.01, "until_s": 60},
     "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <thread>
 
+#include "../io/scene_text.hpp"
 #include "interrupted_run.hpp"
 #include <gtest/gtest.h>
 
@@ -36,8 +37,7 @@ TEST(RunCommand, WritesAFolderAndTellsTheResult) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_HAS(outcome.out, "simulated   10 s", "real time", "cusps broken by bending", "splits", "imbalance",
              "ice force", "run folder  runs/level-plate", "picture     runs/level-plate/final.");
-  const auto run = io::read_run(folder / "runs/level-plate");
-  ASSERT_TRUE(run.has_value()) << run.error();
+  const auto run = checked(io::read_run(folder / "runs/level-plate"));
   EXPECT_TRUE(run->summary.find("finished")->boolean());
   EXPECT_EQ(run->samples.size(), 100U);
   EXPECT_NEAR(run->end_time(), 10, 1e-9);
@@ -64,16 +64,14 @@ double surge_in(const std::string& line) {
 TEST(RunCommand, LeadsWithTheTrueForce) {
   const TemporaryFolder folder;
   for (const std::string model : {"michel", "lefm"}) {
-    const std::string scene =
-        R"({"time": {"until_s": 20}, "fracture": {"splitting": {"model": ")" + model + R"("}},
-        "ships": [{"name": "ship", "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7,
-          "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0], "propulsion": {"constant_speed_m_per_s": 1}}],
-        "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}}]})";
-    write_file(folder / "scene.json", scene);
+    write_file(folder / "scene.json",
+               scene({R"("time": {"until_s": 20}, "fracture": {"splitting": {"model": ")" + model + "\"}}",
+                      list("ships",
+                           {ship(R"("position_m": [-62, 0], "propulsion": {"constant_speed_m_per_s": 1})")}),
+                      list("floes", {R"({"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}})"})}));
     const Outcome outcome = polynya({"run", "scene.json", "--out", model}, folder);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const auto run = io::read_run(folder / model);
-    ASSERT_TRUE(run.has_value()) << run.error();
+    const auto run = checked(io::read_run(folder / model));
     double mean = 0, step = 0;
     for (const simulation::ShipSample& sample : run->samples) {
       mean = std::min(mean, sample.surge_force);
@@ -97,16 +95,20 @@ TEST(RunCommand, LeadsWithTheTrueForce) {
 
 TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
   const TemporaryFolder folder;
-  write_file(folder / "scene.json", R"({"time": {"step_s": 0.1, "until_s": 60}, "floes": [], "ships": [
-    {"name": "tanker", "hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 30}, "mass_kg": 1e7,
-     "moment_of_inertia_kg_m2": 8e9, "position_m": [5, 0], "propulsion": {"thrust_N": 2e5},
-     "mooring": {"surge_stiffness_N_per_m": 1e4, "surge_damping_N_s_per_m": 1e5, "sway_stiffness_N_per_m": 1e4,
-                 "break_load_N": 1e5}}]})");
+  write_file(
+      folder / "scene.json",
+      scene(
+          {R"("time": {"step_s": 0.1, "until_s": 60}, "floes": [])",
+           list(
+               "ships",
+               {ship(
+                   R"("name": "tanker", "hull": {"length_m": 100}, "position_m": [5, 0], "propulsion": {"thrust_N": 2e5},
+      "mooring": {"surge_stiffness_N_per_m": 1e4, "surge_damping_N_s_per_m": 1e5, "sway_stiffness_N_per_m": 1e4,
+                  "break_load_N": 1e5})")})}));
   const Outcome outcome = polynya("run scene.json --out run", folder);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_HAS(line_with(outcome.err, "mooring of tanker broke at"), "events.ndjson");
-  const auto run = io::read_run(folder / "run");
-  ASSERT_TRUE(run.has_value()) << run.error();
+  const auto run = checked(io::read_run(folder / "run"));
   ASSERT_EQ(run->mooring_breaks.size(), 1U);
   const simulation::MooringBreak& broken = run->mooring_breaks[0];
   EXPECT_GT(broken.force, 1e5);
@@ -124,17 +126,15 @@ TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
 
 TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
   const TemporaryFolder folder;
-  const std::string ship =
-      R"("hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 30}, "mass_kg": 1e7,
-    "moment_of_inertia_kg_m2": 8e9, )";
-  write_file(folder / "scene.json",
-             R"({"time": {"until_s": 30}, "ships": [
-      {"name": "leader", )" +
-                 ship + R"("position_m": [0, 0], "propulsion": {"constant_speed_m_per_s": 1}},
-      {"name": "follower", )" +
-                 ship +
-                 R"("position_m": [-110, 0], "speed_m_per_s": 2, "propulsion": {"thrust_N": 0}}],
-    "structures": [{"name": "pier", "radius_m": 5, "position_m": [70, 0]}], "floes": []})");
+  const std::string hull = R"("hull": {"length_m": 100, "beam_m": 20}, "propulsion": )";
+  write_file(
+      folder / "scene.json",
+      scene({R"("time": {"until_s": 30}, "floes": [])",
+             R"("structures": [{"name": "pier", "radius_m": 5, "position_m": [70, 0]}])",
+             list("ships",
+                  {ship(hull + R"({"constant_speed_m_per_s": 1}, "name": "leader", "position_m": [0, 0])"),
+                   ship(hull + R"({"thrust_N": 0}, "name": "follower", "position_m": [-110, 0],
+                                     "speed_m_per_s": 2)")})}));
   const Outcome outcome = polynya("run scene.json --out run", folder);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string met = line_with(outcome.err, "leader and follower came into contact");
@@ -144,8 +144,7 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
   EXPECT_HAS(through, "pass through each other") << outcome.err;
   EXPECT_HAS(line_with(outcome.out, "ship force  leader"), "surge") << outcome.out;
   EXPECT_HAS(outcome.out, "ship force  follower: surge -");
-  const auto run = io::read_run(folder / "run");
-  ASSERT_TRUE(run.has_value()) << run.error();
+  const auto run = checked(io::read_run(folder / "run"));
   EXPECT_EQ(run->summary.find("warnings")->items().size(), 2U);
   ASSERT_EQ(run->ship_contacts.size(), 2U);
   EXPECT_NEAR(run->ship_contacts[0].time, 10, 0.02);
@@ -201,8 +200,7 @@ TEST(RunCommand, ASignalLeavesAUsableFolder) {
     const Outcome outcome = wait_for(child, start);
     EXPECT_EQ(outcome.code, code) << outcome.err;
     EXPECT_HAS(outcome.err, words);
-    const auto run = io::read_run(folder / "run");
-    ASSERT_TRUE(run.has_value()) << run.error();
+    const auto run = checked(io::read_run(folder / "run"));
     EXPECT_FALSE(run->summary.find("finished")->boolean());
     EXPECT_GT(run->samples.size(), 0U);
     EXPECT_EQ(whole_lines(folder / "run/forces.csv"), run->samples.size() + 1);
@@ -212,15 +210,13 @@ TEST(RunCommand, ASignalLeavesAUsableFolder) {
   }
 }
 
-/// A size limit stands for a full disk.
 TEST(RunCommand, AFullDiskIsFiveAndLeavesAUsableFolder) {
   const TemporaryFolder folder;
   const Start start{folder.path(), 20'000};
   const Outcome outcome = polynya("run scenes/level-plate.json --until 200 --out run", start);
   EXPECT_EQ(outcome.code, 5) << outcome.err;
   EXPECT_HAS(outcome.err, "File too large");
-  const auto run = io::read_run(folder / "run");
-  ASSERT_TRUE(run.has_value()) << run.error();
+  const auto run = checked(io::read_run(folder / "run"));
   EXPECT_FALSE(run->summary.find("finished")->boolean());
   whole_lines(folder / "run/forces.csv");
   whole_lines(folder / "run/floes.ndjson");

@@ -166,7 +166,6 @@ TEST_F(Usage, WhatIsNotThereOrCannotBeWrittenIsFive) {
   EXPECT_FALSE(std::filesystem::exists(*folder / "runs"));
 }
 
-/// What starts Python says so where it cannot.
 TEST_F(Usage, AMissingPythonIsNamed) {
   Start start{folder->path()};
   start.arrange_streams = [] { setenv("POLYNYA_PYTHON", "/no/such/python3", 1); };

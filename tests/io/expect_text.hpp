@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,18 @@ inline testing::AssertionResult has_parts(std::string_view text,
 inline testing::AssertionResult begins_with(std::string_view text, std::string_view part) {
   if (text.starts_with(part)) return testing::AssertionSuccess();
   return testing::AssertionFailure() << '"' << part << "\" does not begin\n" << text;
+}
+
+/// What was expected; ends the test with the reason where it is refused.
+template <class Expected>
+Expected checked(Expected outcome) {
+  if (outcome) return outcome;
+  if constexpr (requires { std::string(outcome.error()); })
+    throw std::runtime_error(std::string(outcome.error()));
+  else if constexpr (requires { to_string(outcome.error().front()); })
+    throw std::runtime_error(to_string(outcome.error().front()));
+  else
+    throw std::runtime_error("refused");
 }
 
 /// Replaces the one place of a text.

@@ -149,7 +149,6 @@ TEST_F(FloeFile, ASceneWithAnOriginProjectsDegrees) {
              "import.crs in a scene that has an origin");
 }
 
-/// One wrong number among degrees: its floe is named, and the others are not taken for metres.
 TEST_F(FloeFile, AWrongLatitudeIsAProblemOfItsFloe) {
   const std::string wrong =
       R"({"type":"Polygon","coordinates":[[[15.61,78.2],[15.612,782],[15.612,78.202],[15.61,78.2]]]})";
@@ -185,7 +184,6 @@ TEST_F(FloeFile, PropertiesThatAreNearlyReadAreWarnedOf) {
       "features[1].properties.vx_m_per_s: found \"fast\"");
 }
 
-/// An entry's import does what `polynya import` does, and its resolved scene gives the same floes.
 TEST_F(FloeFile, AnImportRepairsTrimsAndReports) {
   const std::string bow = R"({"type":"Polygon","coordinates":[[[60,0],[64,3],[64,0],[60,3],[60,0]]]})";
   const std::string floes =

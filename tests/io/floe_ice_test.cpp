@@ -41,8 +41,7 @@ TEST(FloeIce, KeysAndRangesAreThoseOfTheScenesIce) {
 }
 
 TEST(FloeIce, GivenIsTheirsAndTheRestTheScenes) {
-  const auto loaded = read(R"({"thickness_m": 0.8, "flexural_strength_Pa": 6e5})", 3);
-  ASSERT_TRUE(loaded.has_value());
+  const auto loaded = tests::checked(read(R"({"thickness_m": 0.8, "flexural_strength_Pa": 6e5})", 3));
   EXPECT_EQ(loaded->scene.own_ice.size(), 1u) << "once for all three";
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(ice_at(*loaded, i).thickness, 0.8);
@@ -55,8 +54,7 @@ TEST(FloeIce, OfNoScatterIsTheScenes) {
   for (const char* ice : {"{}", R"({"thickness_m": 0.5})", R"({"thickness_m": {"spread": 0}})",
                           R"({"density_kg_per_m3": {"law": "constant"}})",
                           R"({"thickness_m": {"law": "uniform", "least": 0.5, "most": 0.5}})"}) {
-    const auto loaded = read(ice, 2);
-    ASSERT_TRUE(loaded.has_value()) << ice << to_string(loaded.error().front());
+    const auto loaded = tests::checked(read(ice, 2));
     EXPECT_TRUE(loaded->scene.own_ice.empty()) << ice;
   }
 }
@@ -65,8 +63,7 @@ TEST(FloeIce, IsDrawnByItsLawAndTheSeed) {
   const std::string ice =
       R"({"thickness_m": {"spread": 0.2}, "compressive_strength_Pa": {"law": "normal", "mean": 2e6, "spread": 0.1},
           "tensile_strength_Pa": {"law": "uniform", "least": 4e5, "most": 9e5}})";
-  const auto loaded = read(ice, 4000);
-  ASSERT_TRUE(loaded.has_value());
+  const auto loaded = tests::checked(read(ice, 4000));
   ASSERT_EQ(loaded->ice.size(), 3u);
   for (const IceReport& report : loaded->ice) {
     EXPECT_EQ(report.measures.count, 4000u);
@@ -100,11 +97,10 @@ class FloeIceFile : public testing::Test {
 };
 
 TEST_F(FloeIceFile, FeaturesGiveTheirsBeforeTheEntryAndTheScene) {
-  const auto loaded = read_file(
+  const auto loaded = tests::checked(read_file(
       feature(0, R"("thickness_m":0.9,"name":"a")") + "," +
           feature(1000, R"("thickness_m":null,"fracture_toughness_Pa_sqrt_m":2e5)") + "," + feature(2000, ""),
-      R"(, "ice": {"thickness_m": 0.7, "tensile_strength_Pa": {"spread": 0.3}})");
-  ASSERT_TRUE(loaded.has_value()) << to_string(loaded.error().front());
+      R"(, "ice": {"thickness_m": 0.7, "tensile_strength_Pa": {"spread": 0.3}})"));
   EXPECT_EQ(ice_at(*loaded, 0).thickness, 0.9);
   EXPECT_EQ(ice_at(*loaded, 1).thickness, 0.7);
   EXPECT_EQ(ice_at(*loaded, 1).fracture_toughness, 2e5);
@@ -125,13 +121,12 @@ TEST_F(FloeIceFile, OfTheWrongTypeOrSignAreRefusedAtTheirPlace) {
 }
 
 TEST_F(FloeIceFile, WhatARunWritesReadsBack) {
-  const auto loaded =
-      read_file(feature(0, R"("thickness_m":0.9,"density_kg_per_m3":870)") + "," + feature(1000, ""));
-  ASSERT_TRUE(loaded.has_value());
+  const auto loaded = tests::checked(
+      read_file(feature(0, R"("thickness_m":0.9,"density_kg_per_m3":870)") + "," + feature(1000, "")));
   const simulation::Simulation simulation(loaded->scene);
   write_file(folder / "again.geojson", to_geojson(simulation.floe_states(), 0));
-  const auto again = read_scene(R"({"floes": [{"file": "again.geojson"}]})", "scene.json", folder.path());
-  ASSERT_TRUE(again.has_value()) << to_string(again.error().front());
+  const auto again =
+      tests::checked(read_scene(R"({"floes": [{"file": "again.geojson"}]})", "scene.json", folder.path()));
   EXPECT_EQ(again->scene.own_ice.size(), 1u);
   EXPECT_EQ(ice_at(*again, 0).density, 870);
   EXPECT_EQ(again->scene.floes[1].own_ice, simulation::kSceneIce);

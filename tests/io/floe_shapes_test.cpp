@@ -108,9 +108,8 @@ TEST(FloeShapes, ReadBackToTheBitWhateverTheCuts) {
   int floes = 0, of_parts = 0, holed = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const Family family = roll_family(random, 12);
-    const auto shapes = read_lines(family.lines), whole_shapes = read_lines(family.whole_lines);
-    ASSERT_TRUE(shapes.has_value()) << shapes.error() << "\n" << family.lines;
-    ASSERT_TRUE(whole_shapes.has_value()) << whole_shapes.error();
+    const auto shapes = tests::checked(read_lines(family.lines));
+    const auto whole_shapes = tests::checked(read_lines(family.whole_lines));
     ASSERT_EQ(shapes->size(), family.births.size());
     std::vector<simulation::Birth> births = family.births;
     std::ranges::shuffle(births, random);  // asked for in any order
@@ -245,7 +244,6 @@ TEST(FloeShapes, DamagedPartsAreRefusedWithTheReason) {
   }
 }
 
-/// Whatever becomes of a byte: shapes, or a reason.
 TEST(FloeShapes, DamageNeverCrashes) {
   std::mt19937 random(17);
   Family family;

@@ -133,7 +133,6 @@ TEST(FloeText, ABadLineOfWktLeavesTheOthers) {
   EXPECT_EQ(wkt.entries[3].line, 4U);
 }
 
-/// One rule for lines of NDJSON: a bad one is refused by its number wherever it stands, the others are read.
 TEST(FloeText, ABadLineOfNdjsonIsRefusedWhereverItStands) {
   for (const auto& [bad, reason] : {std::pair{"garbage", "syntax"},
                                     {"null", "malformed"},
@@ -173,7 +172,6 @@ TEST(FloeText, CommentsAndBlankLinesOfNdjsonArePassedOver) {
   EXPECT_TRUE(wkt.entries[0].refusal.empty() && wkt.entries[1].refusal.empty());
 }
 
-/// A GeoJSON text with a fault stays one, though a line of it is an object of its own.
 TEST(FloeText, AFaultOfGeojsonIsNotTakenForNdjson) {
   const std::string begin = "{\"type\":\"GeometryCollection\",\"geometries\":[\n";
   for (const std::string& text : {begin + kSquareText + ",\n" + kSquareText + "\n" + kSquareText + "\n]}\n",
@@ -230,7 +228,6 @@ TEST(FloeText, NumbersThatAreNoneBecomeNan) {
   EXPECT_EQ(wkt[1].y, 0);
 }
 
-/// Parts of the shapes of lines before; lines may be missing, but not those they are parts of.
 TEST(FloeText, ARunsFloesMayBePartsOfEarlierOnes) {
   const std::string first =
       R"({"floe_id":3,"parent_id":null,"ring_m":[[0,0],[4,0],[4,4],[0,4]],"holes_m":[[[1,1],[1,2],[2,1]]]})";

@@ -89,7 +89,6 @@ TEST(RunFolder, RemovesThroughNoLink) {
   EXPECT_EQ(read_file(folder / "elsewhere/000001.geojson"), "precious");
 }
 
-/// What a kill leaves before a run has its scene, or while --overwrite removes one.
 TEST(RunFolder, WhatAKillLeavesIsTakenAndNamed) {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
@@ -143,8 +142,7 @@ TEST(RunFolder, HasOneOwner) {
 
 TEST(RunFolder, ALockIsNotFooledByAnotherFolderOfThatName) {
   const TemporaryFolder folder;
-  const auto lock = claim_run_folder(folder / "run", false);
-  ASSERT_TRUE(lock.has_value());
+  const auto lock = tests::checked(claim_run_folder(folder / "run", false));
   EXPECT_TRUE(lock->is_in_place());
   EXPECT_HAS(refusal(folder / "run", true), "another polynya is writing this run");
   fs::rename(folder / "run", folder / "moved");
@@ -181,7 +179,6 @@ TEST(Checkpoints, AreWrittenInPartsAsTheyAreInMemory) {
   EXPECT_EQ(read_checkpoint_file(file, "")->state, checkpoint.state);
 }
 
-/// Whatever is there, the checkpoint that is written stays, and is the newest.
 TEST(Checkpoints, TheOneJustWrittenIsTheNewestThatIsKept) {
   const TemporaryFolder folder;
   std::int64_t before = -1;

@@ -227,8 +227,7 @@ TEST_F(RunFiles, WhoLivesWhereAtEveryFrame) {
     EXPECT_EQ(living, states.size()) << time;
     for (std::size_t i = 0; i < states.size(); ++i) {
       EXPECT_TRUE(run.is_alive(states[i].floe, time));
-      const auto motion = motions.floe_at(states[i].floe, time);
-      ASSERT_TRUE(motion.has_value());
+      const auto motion = checked(motions.floe_at(states[i].floe, time));
       EXPECT_LE(distance(motion->position, recorded.centroids[k].second[i]), 1.5 * kFramePositionTolerance);
       EXPECT_NEAR(motion->angle, states[i].angle, kFrameAngleTolerance);
     }
@@ -291,15 +290,13 @@ TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
          "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 3})")}),
        list("floes", {R"({"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}})"})}));
   simulation::Simulation simulation(scene.scene);
-  auto writer = RunWriter::create(folder / "run", false, scene);
-  ASSERT_TRUE(writer.has_value());
+  auto writer = checked(RunWriter::create(folder / "run", false, scene));
   for (int step = 0; step < 3000; ++step) {
     writer->record(simulation.journal());
     simulation.step();
   }
   ASSERT_TRUE(writer->finish({}, &simulation).has_value());
-  const auto run = read_run(folder / "run");
-  ASSERT_TRUE(run.has_value()) << run.error();
+  const auto run = checked(read_run(folder / "run"));
   std::istringstream lines(read_file(folder.path() / "run" / run_file::kFloes));
   const std::size_t half = run->floes.size() / 2;
   ASSERT_GT(half, 100U);

@@ -344,8 +344,7 @@ TEST(SceneProblems, ASceneThatCouldNotBeReadBackIsRefused) {
   const std::string text = R"({"floes": [{"file": "f.geojson"}]})";
   const std::size_t length = load(text, folder.path(), "s.json").resolved_text.size();
   EXPECT_GT(length, text.size());
-  const auto fits = read_scene(text, "s.json", folder.path(), {}, length);
-  ASSERT_TRUE(fits.has_value());
+  const auto fits = checked(read_scene(text, "s.json", folder.path(), {}, length));
   EXPECT_TRUE(read_scene(fits->resolved_text, "scene.json", ".", {}, length).has_value());
   const auto refused = read_scene(text, "s.json", folder.path(), {}, length - 1);
   ASSERT_FALSE(refused.has_value());

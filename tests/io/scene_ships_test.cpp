@@ -113,9 +113,8 @@ TEST(ShipPresets, EachIsAShipWithASourceForEveryParticular) {
   ASSERT_GE(ship_presets().size(), 7u);
   for (const ShipPreset& one : ship_presets()) {
     const bool has_engine = json_of(one).find("propulsion") != nullptr;
-    const auto loaded =
-        preset(fmt::format("\"{}\"{}", one.name, has_engine ? "" : R"(, "propulsion": {"thrust_N": 2e4})"));
-    ASSERT_TRUE(loaded.has_value()) << one.name << ": " << in_words(loaded.error());
+    const auto loaded = checked(
+        preset(fmt::format("\"{}\"{}", one.name, has_engine ? "" : R"(, "propulsion": {"thrust_N": 2e4})")));
     EXPECT_GT(loaded->scene.ships[0].mass, 1e6) << one.name;
     for (const Particular& particular : one.particulars)
       EXPECT_FALSE(particular.source.empty()) << particular.path;
@@ -130,14 +129,12 @@ TEST(ShipPresets, WhatASceneGivesStandsInsteadOfThePresets) {
   EXPECT_EQ(deeper->scene.ships[0].hull.draught, 8.5);
   EXPECT_EQ(deeper->scene.ships[0].hull.waterline, polaris->scene.ships[0].hull.waterline);
   EXPECT_NEAR(polaris->scene.ships[0].mass, 10961e3, 5e3);
-  const auto other = preset(R"("sawamura2017", "propulsion": {"constant_speed_m_per_s": 2},
-      "hull": {"waterline_m": [[60, 0], [40, 10], [-60, 10], [-60, -10], [40, -10]]})");
-  ASSERT_TRUE(other.has_value()) << in_words(other.error());
+  const auto other = checked(preset(R"("sawamura2017", "propulsion": {"constant_speed_m_per_s": 2},
+      "hull": {"waterline_m": [[60, 0], [40, 10], [-60, 10], [-60, -10], [40, -10]]})"));
   EXPECT_EQ(other->scene.ships[0].hull.waterline.size(), 5u);
   EXPECT_TRUE(std::holds_alternative<simulation::ConstantSpeed>(other->scene.ships[0].propulsion));
   for (const char* drive : {R"("constant_speed_m_per_s": 2)", R"("thrust_N": 1e5)"}) {
-    const auto held = preset(fmt::format(R"("reference", "propulsion": {{{}}})", drive));
-    ASSERT_TRUE(held.has_value()) << in_words(held.error());
+    const auto held = checked(preset(fmt::format(R"("reference", "propulsion": {{{}}})", drive)));
     EXPECT_TRUE(std::holds_alternative<simulation::NoSteering>(held->scene.ships[0].steering));
   }
 }

@@ -34,8 +34,7 @@ TEST(Scene, FloesFromGeojsonStayInTheScenesFolder) {
                R"({"floes": [{"file": ")" + file + R"(", "velocity_m_per_s": [0.1, 0]}]})");
     return read_scene_file(folder / "scenes/s.json");
   };
-  const auto loaded = read_floes("floes/a.geojson");
-  ASSERT_TRUE(loaded.has_value()) << in_words(loaded.error());
+  const auto loaded = checked(read_floes("floes/a.geojson"));
   ASSERT_EQ(loaded->scene.floes.size(), 3U);
   EXPECT_EQ(loaded->scene.floes[1].velocity.x, 0.1);
   EXPECT_EQ(geometry::measure(loaded->scene.floes[1].polygon_in_world).area, 25);
@@ -49,9 +48,9 @@ TEST(Scene, FloesFromGeojsonStayInTheScenesFolder) {
 }
 
 TEST(Scene, OverridesTakeTheScenesPlace) {
-  const auto loaded = read_scene(scene({R"("time": {"until_s": 5})", list("floes", {square(0, 0, 1)})}),
-                                 "a b é.json", ".", {.until = 7.5, .seed = 12});
-  ASSERT_TRUE(loaded.has_value());
+  const auto loaded =
+      checked(read_scene(scene({R"("time": {"until_s": 5})", list("floes", {square(0, 0, 1)})}), "a b é.json",
+                         ".", {.until = 7.5, .seed = 12}));
   EXPECT_EQ(loaded->scene.time.until, 7.5);
   EXPECT_EQ(loaded->scene.seed, 12U);
   EXPECT_HAS(loaded->resolved_text, "\"until_s\": 7.5");
@@ -92,8 +91,7 @@ TEST(Scene, WindHasSkinDragOfItsOwnUnlessGiven) {
 TEST(ShippedScenes, AreValidAndHaveNoHints) {
   for (const auto& entry : std::filesystem::directory_iterator(std::string(POLYNYA_SOURCE_DIR) + "/scenes")) {
     if (entry.path().extension() != ".json") continue;
-    const auto loaded = read_scene_file(entry.path());
-    ASSERT_TRUE(loaded.has_value()) << in_words(loaded.error());
+    const auto loaded = checked(read_scene_file(entry.path()));
     EXPECT_EQ(loaded->scene.name, entry.path().stem());
     EXPECT_EQ(in_words(loaded->hints), "");
   }
@@ -108,9 +106,8 @@ TEST(PaperScenes, HoldThePapersIce) {
   };
   for (const Case& c : {Case{"fig4a", 110, 15, 0.53, 0.005}, Case{"fig6a", 225, 10, 0.55, 0.005},
                         Case{"fig6b", 64, 20, 0.55, 0.005}}) {
-    const auto loaded =
-        read_scene_file(std::string(POLYNYA_SOURCE_DIR) + "/scenes/sawamura2017-" + c.name + ".json");
-    ASSERT_TRUE(loaded.has_value());
+    const auto loaded = checked(
+        read_scene_file(std::string(POLYNYA_SOURCE_DIR) + "/scenes/sawamura2017-" + c.name + ".json"));
     const auto& floes = loaded->scene.floes;
     ASSERT_EQ(floes.size(), c.small + 21 + 2);
     geometry::Box box = geometry::bounding_box(floes.front().polygon_in_world.outer);
@@ -217,10 +214,9 @@ SceneOutcome with_values(const std::vector<std::string>& words, const std::strin
 }
 
 TEST(SceneAssign, PutsValuesOfEveryKindWhereTheirPathsLead) {
-  const auto outcome =
+  const auto outcome = checked(
       with_values({"ice.thickness_m=0.7", "floes[0].rectangle.corner_m[1]=5", "water.drift_m_per_s=[1,2]",
-                   "name=of-no-quotes", "fracture.bending.radial_cracks=\"ignored\"", "seed=7"});
-  ASSERT_TRUE(outcome) << in_words(outcome.error());
+                   "name=of-no-quotes", "fracture.bending.radial_cracks=\"ignored\"", "seed=7"}));
   EXPECT_EQ(outcome->scene.ice.thickness, 0.7);
   EXPECT_EQ(outcome->scene.floes.at(0).polygon_in_world.outer.front().y, 5);
   EXPECT_EQ(outcome->scene.water.drift.y, 2);

@@ -7,10 +7,9 @@ const path = require("node:path");
 const { startBrowser, openPage } = require("./browser.js");
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
-let browser;
-before(async () => { browser = await startBrowser(); });
+const browser = startBrowser();
 after(async () => {
-  await browser?.close();
+  await (await browser).close();
   fs.rmSync(folder, { recursive: true, force: true });
 });
 
@@ -18,7 +17,7 @@ module.exports = {
   test, before, fs, path, folder,
   assert: require("node:assert/strict"),
   /** Opens a page in that browser. */
-  open: (file, options) => openPage(browser, file, options),
+  open: async (file, options) => openPage(await browser, file, options),
   /** Waits until what was asked for is drawn. */
   drawn: (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))),
 };
