@@ -21,10 +21,9 @@ const std::vector<Words> kReading{"inspect damaged",
 class DamagedRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    setenv("PATH", "/", 1);  // without rsvg-convert, which takes seconds
     folder = new TemporaryFolder;
     write_file(folder->path() / "tiny.json", kTinyScene);
-    ASSERT_EQ(polynya("run tiny.json --out damaged", *folder).code, 0);
+    ASSERT_EQ(call("run tiny.json --out damaged").code, 0);
     // Every shape whole: no other line then needs the vertices of one that is damaged.
     const auto run = checked(io::read_run(folder->path() / "damaged"));
     floes = new std::string;
@@ -35,6 +34,10 @@ class DamagedRun : public testing::Test {
   static void TearDownTestSuite() {
     delete floes;
     delete folder;
+  }
+  /// Without rsvg-convert, which takes seconds.
+  static Outcome call(const Words& words) {
+    return polynya(words, Start{.folder = folder->path(), .arrange_streams = [] { setenv("PATH", "/", 1); }});
   }
   static std::filesystem::path file() { return folder->path() / "damaged/floes.ndjson"; }
   /// Writes other rings to the first floe, a plate.
@@ -57,7 +60,7 @@ TEST_F(DamagedRun, ARingOfTooFewPointsIsNamedWithItsLineByEveryCommand) {
   for (const auto& [ring, hole] : rings) {
     damage(ring, hole);
     for (const auto& words : kReading) {
-      const Outcome outcome = polynya(words, *folder);
+      const Outcome outcome = call(words);
       EXPECT_EQ(outcome.code, 5) << words.front() << ' ' << words.back() << ring << hole;
       EXPECT_HAS(outcome.err, "damaged/floes.ndjson:1: ");
     }
@@ -72,7 +75,7 @@ TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
   text.insert(text.find("\"steps\": ") + 9, "j");
   write_file(summary, text);
   for (const auto& words : kReading) {
-    const Outcome outcome = polynya(words, *folder);
+    const Outcome outcome = call(words);
     EXPECT_EQ(outcome.code, 5);
     EXPECT_HAS(outcome.err, "damaged/summary.json:8:12: ");
   }
@@ -87,7 +90,7 @@ TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
         "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {
     damage(ring);
     for (const auto& words : kReading) {
-      const Outcome outcome = polynya(words, *folder);
+      const Outcome outcome = call(words);
       EXPECT_GE(outcome.code, 0) << words.front() << ' ' << words.back() << ring;
       if (words.back() == "--check") {
         EXPECT_EQ(outcome.code, 4) << outcome.out;
@@ -96,7 +99,7 @@ TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
     }
   }
   damage("[[0,0],[1,0],[2,0]]");
-  const Outcome exported = polynya("export damaged --vtk vtk", *folder);
+  const Outcome exported = call("export damaged --vtk vtk");
   EXPECT_EQ(exported.code, 0);
   EXPECT_HAS(exported.err, "note: 1 floe without triangles");
 }
@@ -107,7 +110,7 @@ TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
     const std::size_t start = text.find("\"area_m2\":") + 10;
     text.replace(start, text.find(',', start) - start, area);
     write_file(file(), text);
-    const Outcome outcome = polynya("inspect damaged --fsd --at 0", *folder);
+    const Outcome outcome = call("inspect damaged --fsd --at 0");
     EXPECT_EQ(outcome.code, 0) << area << outcome.err;
     EXPECT_HAS(outcome.out, "left out: 1 floe whose");
   }

@@ -1,4 +1,3 @@
-#include "crash_trials.hpp"
 #include "interrupted_run.hpp"
 #include <gtest/gtest.h>
 
@@ -178,11 +177,6 @@ TEST_F(Resume, TheBytesAreTheSameOnAnyNumberOfThreads) {
     EXPECT_LACKS(outcome.err, "TBB");
     EXPECT_EQ(first_difference(folder_ / "on1", folder_ / (std::string("on") + threads)), "") << threads;
   }
-}
-
-TEST_F(Resume, AFewKillsLoseAndDoubleNothing) {
-  const CrashTally tally = crash_trials(4, 1);
-  EXPECT_GE(tally.kills, 4);
 }
 
 }  // namespace
