@@ -97,18 +97,5 @@ TEST_F(BrokenAudit, StopsARunThatIsCheckedAtEveryStep) {
   expect_reproduced();
 }
 
-/// A thrust that brings a ship to 1000 m/s in a fifth of a second.
-TEST(NumericalFailure, ItsDumpIsReadBackAndFailsAgain) {
-  const TemporaryFolder folder;
-  write_file(folder / "scene.json",
-             scene({R"("time": {"step_s": 0.01, "until_s": 10})",
-                    list("ships", {ship(R"("mass_kg": 1e4, "propulsion": {"thrust_N": 5e7})")})}));
-  const Outcome failed = polynya("run scene.json --out run", folder);
-  ASSERT_EQ(failed.code, 4) << failed.err;
-  const Outcome repeated = polynya("resume run --from-failure", folder);
-  EXPECT_EQ(repeated.code, 4) << repeated.err;
-  EXPECT_HAS(repeated.out, "\nreproduced");
-}
-
 }  // namespace
 }  // namespace polynya::tests

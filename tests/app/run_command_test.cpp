@@ -6,7 +6,6 @@
 #include "interrupted_run.hpp"
 #include <gtest/gtest.h>
 
-#include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
 
@@ -162,19 +161,6 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
   EXPECT_GT(most, 1e6);
 }
 
-TEST(RunCommand, TheSameSceneGivesTheSameBytesRunAfterRun) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(polynya("run scenes/level-plate.json --until 20 --out a", folder).code, 0);
-  ASSERT_EQ(
-      polynya("run scenes/level-plate.json --until 20 --out b --threads 2 --progress json", folder).code, 0);
-  for (const auto name : {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes,
-                          io::run_file::kFrames, io::run_file::kContacts}) {
-    const std::string a = read_file(folder.path() / "a" / name);
-    EXPECT_FALSE(a.empty());
-    EXPECT_TRUE(a == read_file(folder.path() / "b" / name)) << name;
-  }
-}
-
 TEST(RunCommand, AnExistingRunIsKeptUnlessTold) {
   const TemporaryFolder folder;
   ASSERT_EQ(polynya("run scenes/level-plate.json --until 2", folder).code, 0);
@@ -208,18 +194,6 @@ TEST(RunCommand, ASignalLeavesAUsableFolder) {
     whole_lines(folder / "run/events.ndjson");
     EXPECT_TRUE(std::filesystem::exists(folder / "run/final.svg"));
   }
-}
-
-TEST(RunCommand, AFullDiskIsFiveAndLeavesAUsableFolder) {
-  const TemporaryFolder folder;
-  const Start start{folder.path(), 20'000};
-  const Outcome outcome = polynya("run scenes/level-plate.json --until 200 --out run", start);
-  EXPECT_EQ(outcome.code, 5) << outcome.err;
-  EXPECT_HAS(outcome.err, "File too large");
-  const auto run = checked(io::read_run(folder / "run"));
-  EXPECT_FALSE(run->summary.find("finished")->boolean());
-  whole_lines(folder / "run/forces.csv");
-  whole_lines(folder / "run/floes.ndjson");
 }
 
 TEST(RunCommand, JsonProgressIsOneObjectALine) {

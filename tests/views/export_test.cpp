@@ -30,14 +30,6 @@ double normal_radius(double latitude) {
   return 6378137 / std::sqrt(1 - e2 * s * s);
 }
 
-TEST(Geographic, TheOriginIsWhereTheSceneSays) {
-  for (const double latitude : {-80.0, 0.0, 45.0, 78.2, 90.0}) {
-    const GeographicOrigin origin{latitude * kRad, 15.6 * kRad, 0.4};
-    EXPECT_NEAR(io::GeographicPlane::about(origin)->geographic_of({0, 0}).latitude, latitude * kRad, 1e-14);
-    EXPECT_NEAR(io::GeographicPlane::about(origin)->geographic_of({0, 0}).longitude, 15.6 * kRad, 1e-14);
-  }
-}
-
 TEST(Geographic, SmallStepsFollowTheRadiiOfCurvature) {
   for (const double latitude : {-60.0, 0.0, 45.0, 78.2}) {
     const double lat = latitude * kRad;

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "../io/expect_text.hpp"
+#include "../io/scene_text.hpp"
 #include "../io/temporary_folder.hpp"
 
 #include "views/export/geojson_export.hpp"
@@ -17,17 +17,16 @@ namespace {
 
 /// Two ships and a structure; the second ship breaks a floe.
 io::Run run_of_three(const std::string& name) {
-  const std::string hull = R"("hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27}, "mass_kg": 1e6,
-    "moment_of_inertia_kg_m2": 1e8, "propulsion": {"constant_speed_m_per_s": 1})";
-  auto scene =
-      io::read_scene(R"({"name": ")" + name + R"(", "ships": [{"name": "north", "position_m": [0, 50], )" +
-                         hull + R"(}, {"name": "south", )" + hull +
-                         R"(}], "structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}],
-    "floes": [{"rectangle": {"corner_m": [200, 0], "size_m": 10}}]})",
-                     "scene.json", ".");
-  EXPECT_TRUE(scene.has_value());
+  const auto named = [](const std::string& members) {
+    return tests::ship(
+        R"("hull": {"length_m": 40, "beam_m": 8}, "propulsion": {"constant_speed_m_per_s": 1}, )" + members);
+  };
   io::Run run;
-  run.scene = std::move(*scene);
+  run.scene = tests::load(
+      tests::scene({"\"name\": \"" + name + '"', tests::list("floes", {tests::square(200, 0, 10)}),
+                    tests::list("ships", {named(R"("name": "north", "position_m": [0, 50])"),
+                                          named(R"("name": "south", "position_m": [0, 0])")}),
+                    R"("structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}])"}));
   run.label = name;
   for (int ship = 0; ship < 3; ++ship) {
     simulation::ShipSample sample;
