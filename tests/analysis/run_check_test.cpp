@@ -171,7 +171,6 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
   EXPECT_EQ(check_run(small_run(), 2).most_shared, 0) << "they touch at 2 s";
 }
 
-/// At 3 s floe 1 shares 0.5 m² with each half, and a hull stands in it.
 TEST(RunCheck, OverlapsThatWereNotCrushedAreFoundHullsIncluded) {
   io::Run run = small_run();
   simulation::Structure pile;

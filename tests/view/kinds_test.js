@@ -1,25 +1,10 @@
 // Runs of every kind, and a phone: the page opens without errors and shows what there is.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const { test, assert, fs, path, folder, open } = require("./bench.js");
 const { makeRun, makePage, readNdjson, polynya, smallScene, ship } = require("./runs.js");
 
-let folder, browser;
-before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
-});
-
 async function withPage(file, options, use) {
-  const page = await openPage(browser, file, options);
+  const page = await open(file, options);
   await use(page);
   assert.deepEqual(page.errors, []);
   await page.context().close();

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../io/expect_text.hpp"
 #include "../io/temporary_folder.hpp"
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "io/run/motion_index.hpp"
 #include "io/run/run_loop.hpp"
@@ -97,8 +97,7 @@ TEST_F(SceneExport, ContinuingFromTheEndMovesAsAnUnbrokenRun) {
 
 TEST_F(SceneExport, AFrameIsAStartToo) {
   const io::Run whole = run("whole", load(crowd(12)));
-  const auto scene = views::continued_scene(whole, 8.6);
-  ASSERT_TRUE(scene);
+  const auto scene = checked(views::continued_scene(whole, 8.6));
   EXPECT_EQ(scene->time, 8);
   EXPECT_TRUE(scene->left_out.empty());
   const io::LoadedScene loaded = continued(whole, 8.6);
