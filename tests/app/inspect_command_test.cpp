@@ -81,7 +81,7 @@ TEST_F(InspectCommand, EventsAreALineEachInOrderOfTime) {
     const double time = std::stod(all[i]);
     EXPECT_GE(time, before);
     before = time;
-    EXPECT_HAS(all[i], "(floe " + std::to_string(run->events[i].floe) + ")");
+    EXPECT_HAS(all[i], "(floe " + std::to_string(run->events[i].ice()->floe) + ")");
   }
   const io::JsonDocument json = io::parse_json(inspect("--events --json").out);
   ASSERT_EQ(json.root.find("events")->items().size(), run->events.size());
@@ -194,12 +194,12 @@ TEST(InspectSplit, TheLineageAndThePlayerStateBothSidesOfASplitByTrueForces) {
         "floes": [{"rectangle": {"corner_m": [0, -8], "size_m": [16, 16]}}]})");
   ASSERT_EQ(polynya("run square.json --out run", folder).code, 0);
   const std::string tree = polynya("inspect run --lineage 1", folder).out;
-  EXPECT_HAS(tree, "split by", "opening force", ">= opening capacity", "crack L 15.", "contact force",
-             "flanks", "K_IC 1.5e+05 Pa sqrt(m)");
+  EXPECT_HAS(tree, "split by", "opening force", ">= opening capacity", "crack length 15.", "contact force",
+             "left flank", "K_IC 1.5e+05 Pa √m");
   ASSERT_EQ(polynya("view run", folder).code, 0);
   const std::string page = read_file(folder.path() / "run/view.html");
   EXPECT_HAS(page,
-             "\"flank_forces_N\":", "\"opening_capacity_N\":", "\"fracture_toughness_Pa_sqrt_m\":150000");
+             "\"left_flank_force_N\":", "\"opening_capacity_N\":", "\"fracture_toughness_Pa_sqrt_m\":150000");
 }
 
 }  // namespace

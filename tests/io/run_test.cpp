@@ -8,6 +8,7 @@
 #include "temporary_folder.hpp"
 
 #include "geometry/exact/measures.hpp"
+#include "io/run/event_records.hpp"
 #include "io/run/force_columns.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/record_reader.hpp"
@@ -83,19 +84,17 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
 }
 
 /// An event with all that is kept of it.
-std::string line_of(const simulation::Event& event) {
+std::string line_of(const simulation::Event& event, const LoadedScene& scene) {
   std::string text;
-  append_event(text, event, "", simulation::kNoFloe);
+  append_event(text, event, scene.scene);
   return text;
 }
 
 TEST(Run, AnEventOfASplitStatesAndReadsBackBothSides) {
-  simulation::Event split;
-  split.kind = simulation::EventKind::kSplit;
-  split.ship = -1;
+  simulation::Split split;
   split.by_floe = 7;
   split.floe = 8;
-  fracture::FailureCriteria& c = split.criteria;
+  fracture::FailureCriteria& c = split.criterion;
   c.contact_force = 1e5 / 3;
   c.crack_length = 50.1;
   c.crack_width = 60.2;
@@ -106,16 +105,16 @@ TEST(Run, AnEventOfASplitStatesAndReadsBackBothSides) {
   c.fracture_toughness = 115e3;
   const LoadedScene scene = load(kScene);
   const auto again = [&](std::string_view kind) {
-    const std::string text = line_of(split);
+    const std::string text = line_of({.time = 1, .ship = -1, .point_in_world = {1, 2}, .what = split}, scene);
     EXPECT_HAS(text, kind);
-    return event_of(json_of(text), scene.scene);
+    const simulation::Event read = event_of(json_of(text), scene.scene);
+    EXPECT_EQ(line_of(read, scene), text);
+    return simulation::deciding_load(read.criteria(), true).load;
   };
-  const simulation::Event read = again("\"opening force >= opening capacity\"");
-  EXPECT_EQ(line_of(read), line_of(split));
-  EXPECT_EQ(simulation::deciding_load(read).load, c.opening_force);
+  EXPECT_EQ(again("\"opening force >= opening capacity\""), c.opening_force);
   c.splitting_force = 10e6;
   c.collision_force = 11e6;
-  EXPECT_EQ(simulation::deciding_load(again("\"collision force > splitting force\"")).load, 11e6);
+  EXPECT_EQ(again("\"collision force > splitting force\""), 11e6);
 }
 
 auto fields_of(const simulation::ContactState& state) {
@@ -152,7 +151,7 @@ TEST_F(RunFiles, ReadBackWhatWasWritten) {
   EXPECT_GT(recorded.events.size(), 3U);
   ASSERT_EQ(run.events.size(), recorded.events.size());
   for (std::size_t i = 0; i < run.events.size(); ++i)
-    EXPECT_EQ(line_of(run.events[i]), line_of(recorded.events[i]));
+    EXPECT_EQ(line_of(run.events[i], scene), line_of(recorded.events[i], scene));
   ASSERT_EQ(run.floes.size(), recorded.births.size());
   for (std::size_t i = 0; i < run.floes.size(); ++i) {
     EXPECT_EQ(*run.shape(recorded.births[i].floe), recorded.births[i].polygon_in_body);
@@ -210,9 +209,45 @@ TEST(ForceColumns, NameTheirUnitsOnceAndAreDocumented) {
     ASSERT_TRUE(suffixes.contains(column.unit)) << column.name;
     EXPECT_TRUE(column.name.ends_with(suffixes.at(column.unit))) << column.name;
     EXPECT_TRUE(names.insert(column.name).second) << column.name;
-    EXPECT_TRUE(page.find(fmt::format("| `{}` | {} |\n", column.name, column.meaning)) != std::string::npos)
-        << column.name;
+    const char* over = column.over == Over::kMean          ? "mean"
+                       : column.over == Over::kLargestStep ? "largest step"
+                                                           : "at its end";
+    EXPECT_HAS(page, fmt::format("| `{}` | {} | {} |\n", column.name, over, column.meaning));
   }
+}
+
+TEST(EventFields, AreDocumented) {
+  const std::string page = read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/run-folder.md");
+  const auto kinds = std::variant_size_v<decltype(simulation::Event::what)>;
+  for (const EventField& field : event_fields()) {
+    const std::string of = field.kinds.size() == kinds ? "all"
+                           : field.kinds.size() == kinds - 2
+                               ? "all of ice"
+                               : fmt::format("`{}`", fmt::join(field.kinds, "`, `"));
+    const std::string unit = field.meaning.unit.empty() ? "" : fmt::format(" [{}]", field.meaning.unit);
+    const std::string row = fmt::format("| `{}{}` | {} | {}{} |\n", field.is_of_criterion ? "criterion." : "",
+                                        field.key, of, field.meaning.meaning, unit);
+    EXPECT_HAS(page, row);
+  }
+}
+
+TEST(EventFields, OfWrongValuesAreRefusedByTheirNames) {
+  const LoadedScene scene = load(kScene);
+  const std::string line = line_of({1, 0, {1, 2}, simulation::MooringBreak{{3, 4}, 6, 5}}, scene);
+  const auto refusal = [&](const std::string& from, const std::string& to) -> std::string {
+    try {
+      return std::string(name_of(event_of(json_of(replaced(line, from, to)), scene.scene)));
+    } catch (const ReadError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal("kind", "kind"), "mooring_break");
+  EXPECT_EQ(refusal("\"force_N\":6", "\"force_kN\":6"), "\"force_N\" is missing");
+  EXPECT_EQ(refusal("\"force_N\":6", "\"force_N\":\"6\""), "\"force_N\" is not a number");
+  EXPECT_EQ(refusal("\"force_N\":6", "\"force_N\":-6"), "\"force_N\" is not ≥ 0");
+  EXPECT_EQ(refusal("[3,4]", "[3]"), "not a point");
+  EXPECT_EQ(refusal("\"a ship\"", "\"b ship\""), "\"ship\" is \"b ship\", which is not in the scene");
+  EXPECT_EQ(refusal("mooring_break", "mooring"), "an unknown kind of event, \"mooring\"");
 }
 
 /// Who lives is known by births and events; where, by frames.

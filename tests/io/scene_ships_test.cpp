@@ -11,9 +11,9 @@ namespace {
 using namespace tests;
 using simulation::CuspFate;
 
-simulation::ShipSpec ship_of(const std::string& text) {
+simulation::Ship ship_of(const std::string& text) {
   LoadedScene loaded = load(scene_of_ship(text));
-  return loaded.scene.ships.empty() ? simulation::ShipSpec{} : loaded.scene.ships.front();
+  return loaded.scene.ships.empty() ? simulation::Ship{} : loaded.scene.ships.front();
 }
 
 TEST(SceneShips, AShipAtConstantSpeedStartsAtIt) {
@@ -79,18 +79,20 @@ TEST(SceneShips, WallsHaveTheIceToTheirLeft) {
   const auto loaded =
       walled(R"({"from_m": [-50, -1], "to_m": [50, -1], "velocity_m_per_s": [0.1, 0.2]}, {"name": "north",
     "from_m": [50, 20], "to_m": [-50, 20], "depth_m": 3, "pressure": {"line_load_N_per_m": 5e4}})");
-  ASSERT_EQ(loaded.scene.ships.size(), 2u);
+  ASSERT_EQ(loaded.scene.walls.size(), 2u);
   EXPECT_TRUE(loaded.hints.empty());
-  const simulation::ShipSpec& south = loaded.scene.ships[0];
+  const simulation::Wall& south = loaded.scene.walls[0];
   EXPECT_EQ(south.name, "wall-1");
   EXPECT_EQ(south.position_in_world, (geometry::Point{0, -1}));
   EXPECT_NEAR(std::sin(south.heading), 1, 1e-15) << "its face looks along +y";
-  EXPECT_EQ(std::get<simulation::Wall>(south.propulsion).velocity, (geometry::Vector{0.1, 0.2}));
-  EXPECT_TRUE(std::isinf(south.mass));
-  const simulation::ShipSpec& north = loaded.scene.ships[1];
+  EXPECT_EQ(south.velocity, (geometry::Vector{0.1, 0.2}));
+  EXPECT_FALSE(south.pressure);
+  const simulation::Wall& north = loaded.scene.walls[1];
   EXPECT_EQ(north.name, "north");
   EXPECT_NEAR(std::sin(north.heading), -1, 1e-15);
-  EXPECT_EQ(north.mass, 4.5e7);
+  ASSERT_TRUE(north.pressure);
+  EXPECT_EQ(north.load(), 5e6);
+  EXPECT_EQ(north.pressure->mass_per_length, 4.5e5);
   const auto box = bounding_box(north.hull.waterline);
   EXPECT_EQ(box.low.x, -3);
   EXPECT_EQ(box.high.x, 0);

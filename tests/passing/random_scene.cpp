@@ -71,7 +71,7 @@ bool is_free(const std::vector<Polygon>& placed, const Polygon& polygon) {
 
 /// Gives the scene a ship or a structure where there is room.
 bool add_random_ship(Random& random, int number, std::vector<Polygon>& placed, Build& scene) {
-  simulation::ShipSpec ship;
+  simulation::Ship ship;
   ship.name = "ship-" + std::to_string(number);
   ship.mass = random.between(3e5, 8e6);
   ship.heading = random.angle();

@@ -74,8 +74,8 @@ TEST(Fracture, PiecesMoveOnAsThePartsOfOneBody) {
       for (const Event& event : simulation.journal().events) {
         std::map<FloeId, FloeState> states;
         for (const FloeState& state : simulation.floe_states()) states[state.floe] = state;
-        for (const FloeId child : event.children) {
-          const FloeId eldest = event.children.front();
+        for (const FloeId child : event.ice()->children) {
+          const FloeId eldest = event.ice()->children.front();
           if (!states.contains(child) || !states.contains(eldest)) continue;  // broke again at once
           const FloeState &first = states[eldest], &state = states[child];
           const Vector arm = population.bodies.position[population.body_of(child)] -
@@ -105,14 +105,14 @@ void expect_lineage(const Trial& run) {
   }
   std::map<FloeId, const Event*> event_of_child;
   for (const Event& event : run.story.events) {
-    EXPECT_EQ(deaths[event.floe], 1);
-    double area = event.submerged_area + event.brash_area - event.rounding_defect;
-    for (const FloeId child : event.children) {
+    EXPECT_EQ(deaths[event.ice()->floe], 1);
+    double area = event.ice()->submerged_area + event.ice()->brash_area - event.ice()->rounding_defect;
+    for (const FloeId child : event.ice()->children) {
       ASSERT_TRUE(births.contains(child));
       ASSERT_TRUE(event_of_child.emplace(child, &event).second) << "made by two events";
       area += births[child].area;
     }
-    EXPECT_NEAR(area / births[event.floe].area, 1, 1e-12) << "the parts of floe " << event.floe;
+    EXPECT_NEAR(area / births[event.ice()->floe].area, 1, 1e-12) << "the parts of floe " << event.ice()->floe;
   }
   for (const auto& [id, birth] : births) {
     ASSERT_EQ(event_of_child.contains(id), id >= 2);
@@ -121,7 +121,7 @@ void expect_lineage(const Trial& run) {
       EXPECT_EQ(birth.generation, 0);
       continue;
     }
-    EXPECT_EQ(event_of_child[id]->floe, birth.parent);
+    EXPECT_EQ(event_of_child[id]->ice()->floe, birth.parent);
     EXPECT_EQ(event_of_child[id]->time, birth.time);
     EXPECT_EQ(birth.generation, births[birth.parent].generation + 1);
   }

@@ -14,7 +14,7 @@ using geometry::Vector;
 
 /// A ship under thrust in drifting water, into loose floes and a plate behind them.
 Scene pack(RecordedContacts contacts) {
-  ShipSpec ship = icebreaker({0, 0}, ConstantThrust{2e6}, 2);
+  Ship ship = icebreaker({0, 0}, ConstantThrust{2e6}, 2);
   ship.heading = 0.1;
   Scene scene = Build()
                     .without_drag()
@@ -50,9 +50,9 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
       has_crushed = has_crushed || contact.is_crushing;
     }
     const Vector in_ship = rotate_back(geometry::Rotation::by(before.heading), force);
-    ASSERT_NEAR(in_ship.x, sample.surge_force, 1e-9 * size) << simulation.time();
-    ASSERT_NEAR(in_ship.y, sample.sway_force, 1e-9 * size);
-    ASSERT_NEAR(moment, sample.yaw_moment, 1e-7 * size);
+    ASSERT_NEAR(in_ship.x, sample.from_ice.surge, 1e-9 * size) << simulation.time();
+    ASSERT_NEAR(in_ship.y, sample.from_ice.sway, 1e-9 * size);
+    ASSERT_NEAR(moment, sample.from_ice.yaw, 1e-7 * size);
     ASSERT_EQ(static_cast<int>(contacts.size()), sample.contacts);
     pressed += size > 1e4;
     most = std::max(most, sample.contacts);
@@ -111,31 +111,32 @@ TEST(Contacts, AreThoseTheSceneAsksFor) {
 
 TEST(ShipContacts, AreNoIceLoadAndEndAsEq5Says) {
   // Two equal barges bow to bow, steel on steel, no ice in the scene: restitution in one blow.
-  const ShipSpec barge_ahead = barge({0, 0}, ConstantThrust{0}, 0.5);
-  ShipSpec barge_back = barge_ahead;
+  const Ship barge_ahead = barge({0, 0}, ConstantThrust{0}, 0.5);
+  Ship barge_back = barge_ahead;
   barge_back.position_in_world = {60.55, 0};
   barge_back.heading = std::numbers::pi;
   const Scene scene = Build(Laws::kPaper).without_drag().ship(barge_ahead).ship(barge_back);
   const auto [simulation, story] = run(scene, 1);
   double surge = 0;
   for (const ShipSample& sample : story.samples) {
-    EXPECT_EQ(sample.surge_force, 0);
-    EXPECT_EQ(sample.surge_max, 0);
-    EXPECT_EQ(sample.surge_peak, 0);
+    EXPECT_EQ(sample.from_ice.surge, 0);
+    EXPECT_EQ(sample.from_ice_largest.surge, 0);
+    EXPECT_EQ(sample.collision.surge, 0);
     EXPECT_EQ(sample.contacts, 0);
-    if (sample.ship == 0) surge += scene.record.forces_interval * sample.surge_from_ships;
+    if (sample.ship == 0) surge += scene.record.forces_interval * sample.from_ships.surge;
   }
   EXPECT_NEAR(simulation.ship_states()[0].velocity.x, -0.05, 1e-6);
   EXPECT_NEAR(simulation.ship_states()[1].velocity.x, 0.05, 1e-6);
   EXPECT_NEAR(surge, 1e7 * (simulation.ship_states()[0].velocity.x - 0.5), 1e-3);
-  ASSERT_EQ(story.ship_contacts.size(), 1U);
-  const ShipContact& contact = story.ship_contacts[0];
-  EXPECT_NEAR(contact.time, 0.55, 2 * scene.time.step + 1e-9);
-  EXPECT_EQ(contact.ship, 0);
+  const std::vector<Event> met = story.of_kind<ShipContact>();
+  ASSERT_EQ(met.size(), 1U);
+  const auto& contact = std::get<ShipContact>(met[0].what);
+  EXPECT_NEAR(met[0].time, 0.55, 2 * scene.time.step + 1e-9);
+  EXPECT_EQ(met[0].ship, 0);
   EXPECT_EQ(contact.other, 1);
   EXPECT_NEAR(contact.closing_speed, 1, 1e-6);
   EXPECT_NEAR(contact.relative_speed, 1, 1e-6);
-  EXPECT_NEAR(contact.point_in_world.x, 0.275, 0.01);
+  EXPECT_NEAR(met[0].point_in_world.x, 0.275, 0.01);
   EXPECT_FALSE(contact.is_prescribed);
 }
 
@@ -151,10 +152,10 @@ TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
     double turned_by_ice = 0, turned_by_pile = 0;
     for (const ShipSample& sample : story.samples) {
       if (sample.ship != 0) continue;
-      by_ice += 0.1 * Vector{sample.surge_force, sample.sway_force};
-      by_pile += 0.1 * Vector{sample.surge_from_ships, sample.sway_from_ships};
-      turned_by_ice += 0.1 * sample.yaw_moment;
-      turned_by_pile += 0.1 * sample.yaw_from_ships;
+      by_ice += 0.1 * Vector{sample.from_ice.surge, sample.from_ice.sway};
+      by_pile += 0.1 * Vector{sample.from_ships.surge, sample.from_ships.sway};
+      turned_by_ice += 0.1 * sample.from_ice.yaw;
+      turned_by_pile += 0.1 * sample.from_ships.yaw;
     }
     const ShipState end = simulation.ship_states()[0];
     EXPECT_LT(by_ice.x, -1e4);
@@ -173,19 +174,20 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
           run(Build().step(step).ship(barge({0, 0}, ConstantSpeed{2})).pile({25, off}, 5).pile({-150, 0}, 5),
               30)
               .story;
+      const std::vector<Event> met = story.of_kind<ShipContact>();
       if (std::abs(off) > 17) {
-        EXPECT_TRUE(story.ship_contacts.empty()) << off;
+        EXPECT_TRUE(met.empty()) << off;
         continue;
       }
-      ASSERT_EQ(story.ship_contacts.size(), 1U) << off << " in steps of " << step;
-      const ShipContact& contact = story.ship_contacts[0];
+      ASSERT_EQ(met.size(), 1U) << off << " in steps of " << step;
+      const auto& contact = std::get<ShipContact>(met[0].what);
       // The side of the bow that meets the pile is 20 m from it at most, 25 m where it meets the very edge.
-      EXPECT_GE(contact.time, 10 - 1e-9);
-      EXPECT_LE(contact.time, (std::abs(off) < 11 ? 10 : 12.5) + 2 * step);
+      EXPECT_GE(met[0].time, 10 - 1e-9);
+      EXPECT_LE(met[0].time, (std::abs(off) < 11 ? 10 : 12.5) + 2 * step);
       EXPECT_EQ(contact.relative_speed, 2);
       EXPECT_GT(contact.closing_speed, 0);
       EXPECT_TRUE(contact.is_prescribed);
-      EXPECT_EQ(largest(story, &ShipSample::surge_from_ships), 0);
+      EXPECT_EQ(largest(story, &ShipSample::from_ships), 0);
     }
   }
 }
@@ -196,9 +198,9 @@ TEST(ShipContacts, AreRecordedOnceAlsoAfterAResume) {
                           .ship(barge({0, 100}, ConstantSpeed{1}))
                           .pile({6, 0}, 5)
                           .pile({6.5, 100}, 5);
-  EXPECT_EQ(run(scene, 3).story.ship_contacts.size(), 2U);
-  EXPECT_EQ(run(scene, 6).story.ship_contacts.size(), 2U);
-  EXPECT_TRUE(expect_resumes(scene, 3, 6).story.ship_contacts.empty());
+  EXPECT_EQ(run(scene, 3).story.of_kind<ShipContact>().size(), 2U);
+  EXPECT_EQ(run(scene, 6).story.of_kind<ShipContact>().size(), 2U);
+  EXPECT_TRUE(expect_resumes(scene, 3, 6).story.of_kind<ShipContact>().empty());
 }
 
 Trial after_one_step(const Scene& scene) {
@@ -212,12 +214,12 @@ TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
   ASSERT_EQ(story.grinds().size(), 1U);
   const auto event = story.grinds()[0];
   EXPECT_EQ(event.ship, 0);
-  EXPECT_EQ(event.by_floe, kNoFloe);
-  EXPECT_EQ(event.children.size(), 2U);
-  EXPECT_NEAR(event.brash_area, 8, 1e-9);
-  EXPECT_NEAR(event.grinding.overlap_area, 8, 1e-9);
-  EXPECT_LT(event.grinding.width, 1e-9);
-  EXPECT_NEAR(event.grinding.least_width, 0.25 * 8 / 4, 1e-9);
+  EXPECT_EQ(event.ice()->by_floe, kNoFloe);
+  EXPECT_EQ(event.ice()->children.size(), 2U);
+  EXPECT_NEAR(event.ice()->brash_area, 8, 1e-9);
+  EXPECT_NEAR(std::get<Grind>(event.what).criterion.overlap_area, 8, 1e-9);
+  EXPECT_LT(std::get<Grind>(event.what).criterion.width, 1e-9);
+  EXPECT_NEAR(std::get<Grind>(event.what).criterion.least_width, 0.25 * 8 / 4, 1e-9);
   EXPECT_EQ(simulation.counts().ground, 1);
   EXPECT_NEAR(simulation.area_ledger().brash_area, 8, 1e-9);
   EXPECT_GT(simulation.audit().sums.energy.grinding, 0);
@@ -228,8 +230,8 @@ TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   const auto [inside, story_inside] =
       after_one_step(Build().structure(rectangle(-30, -10, 30, 10).outer).floe(rectangle(3, -2, 6, 2)));
   ASSERT_EQ(story_inside.grinds().size(), 1U);
-  EXPECT_TRUE(story_inside.grinds()[0].children.empty());
-  EXPECT_EQ(story_inside.grinds()[0].brash_area, 12);
+  EXPECT_TRUE(story_inside.grinds()[0].ice()->children.empty());
+  EXPECT_EQ(story_inside.grinds()[0].ice()->brash_area, 12);
   EXPECT_TRUE(inside.floe_states().empty());
 
   const auto [around, story_around] =
@@ -237,8 +239,9 @@ TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   ASSERT_EQ(story_around.grinds().size(), 1U);
   ASSERT_EQ(around.floe_states().size(), 1U);
   EXPECT_EQ(around.floe_states()[0].polygon_in_body->holes.size(), 1U);
-  EXPECT_EQ(story_around.grinds()[0].brash_area, 4);
-  EXPECT_EQ(story_around.grinds()[0].grinding.overlap_area, 4) << "the smaller of the two";
+  EXPECT_EQ(story_around.grinds()[0].ice()->brash_area, 4);
+  EXPECT_EQ(std::get<Grind>(story_around.grinds()[0].what).criterion.overlap_area, 4)
+      << "the smaller of the two";
 }
 
 TEST(Grind, OfTwoFloesTheSmallerIsGround) {
@@ -246,10 +249,10 @@ TEST(Grind, OfTwoFloesTheSmallerIsGround) {
       after_one_step(Build().floe(rectangle(-20, -1, 20, 1), {0.1, 0}).floe(rectangle(-1, -12, 1, 12)));
   ASSERT_EQ(done.story.grinds().size(), 1U);
   const auto event = done.story.grinds()[0];
-  EXPECT_EQ(event.floe, 1);
-  EXPECT_EQ(event.by_floe, 0);
+  EXPECT_EQ(event.ice()->floe, 1);
+  EXPECT_EQ(event.ice()->by_floe, 0);
   EXPECT_EQ(event.ship, -1);
-  EXPECT_EQ(event.children.size(), 2U);
+  EXPECT_EQ(event.ice()->children.size(), 2U);
 }
 
 TEST(Grind, AWedgeIsPartedByItsContactInstead) {

@@ -154,13 +154,13 @@ TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
   others[1].tolerance = 1e-6;
   others[2].is_warm_started = false;
   const Story first = surge_of({});
-  const double mean_of_first = mean(first, &ShipSample::surge_force);
+  const double mean_of_first = mean(first, &ShipSample::from_ice);
   EXPECT_LT(mean_of_first, -5e4);
   EXPECT_GT(mean_of_first, -3e5);
   for (const ContactSettings& settings : others) {
     const Story surge = surge_of(settings);
-    EXPECT_NEAR(mean(surge, &ShipSample::surge_force) / mean_of_first, 1, 0.01);
-    EXPECT_NEAR(largest(surge, &ShipSample::surge_force) / largest(first, &ShipSample::surge_force), 1, 0.01);
+    EXPECT_NEAR(mean(surge, &ShipSample::from_ice) / mean_of_first, 1, 0.01);
+    EXPECT_NEAR(largest(surge, &ShipSample::from_ice) / largest(first, &ShipSample::from_ice), 1, 0.01);
   }
 }
 
@@ -173,9 +173,8 @@ double mean_load_in_level_ice(double step, int substeps) {
                       .ship(icebreaker({-1, offset}, ConstantSpeed{1}))
                       .floe(rectangle(0, -100, 300, 100));
     scene.contact.substeps = substeps;
-    scene.fracture.splitting = fracture::SplittingModel::kNone;  // it stands for ice without end
-    sum -=
-        mean(run(scene, 120).story, &ShipSample::surge_force, 0, 20.05);  // the bow breaks its way in first
+    scene.fracture.splitting = fracture::SplittingModel::kNone;           // it stands for ice without end
+    sum -= mean(run(scene, 120).story, &ShipSample::from_ice, 0, 20.05);  // the bow breaks its way in first
   }
   return sum / 4;
 }
@@ -195,7 +194,7 @@ constexpr double kMass = 900 * 0.5 * 2 * 7 * 7;  // of a diamond of 7 m [kg]
 
 /// A floe's corner runs into a fixed ship, along the normal of its flat bow.
 Scene corner_into_bow(double hull_angle, double speed, double density, double step, double restitution = 0) {
-  ShipSpec bow = barge({0, 0}, ConstantSpeed{0}, 0);
+  Ship bow = barge({0, 0}, ConstantSpeed{0}, 0);
   set_hull_angle(bow, hull_angle);
   Scene scene = Build(Laws::kPaper)
                     .unbreakable()
@@ -290,7 +289,7 @@ TEST(CrushingCollision, LevelIceDependsOnTheRadiusALittle) {
     Scene scene =
         Build(Laws::kPaper).ship(icebreaker({-2, 0}, ConstantSpeed{1})).floe(rectangle(0, -75, 300, 75));
     scene.contact.circle_radius = radius;
-    return -mean(run(scene, 130).story, &ShipSample::surge_force, 0, 30.05);
+    return -mean(run(scene, 130).story, &ShipSample::from_ice, 0, 30.05);
   };
   const double fine = resistance(0.5), coarse = resistance(2);
   EXPECT_GT(fine, 1e4);

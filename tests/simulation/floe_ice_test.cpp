@@ -39,15 +39,15 @@ Build ship_over_ice(double speed, bool comes_up = true) {
 const geometry::Polygon kPlate = rectangle(0, -60, 120, 60);
 
 TEST(FloeIce, BreaksAtTheLoadOfItsOwnStrengthAndThickness) {
-  const double as_scene = first_bend(ship_in_ice().floe(kPlate)).criteria.bending_capacity;
+  const double as_scene = first_bend(ship_in_ice().floe(kPlate)).criteria().bending_capacity;
   const fracture::Ice strong = changed([](fracture::Ice& ice) { ice.flexural_strength *= 2; });
   const auto bend = first_bend(ship_in_ice().floe(kPlate).of(strong));
-  EXPECT_NEAR(bend.criteria.bending_capacity / as_scene, 2, 1e-9);
-  EXPECT_GE(bend.criteria.vertical_force, bend.criteria.bending_capacity);
-  EXPECT_EQ(bend.criteria.flexural_strength, strong.flexural_strength);
+  EXPECT_NEAR(bend.criteria().bending_capacity / as_scene, 2, 1e-9);
+  EXPECT_GE(bend.criteria().vertical_force, bend.criteria().bending_capacity);
+  EXPECT_EQ(bend.criteria().flexural_strength, strong.flexural_strength);
   const fracture::Ice thick = changed([](fracture::Ice& ice) { ice.thickness *= 1.5; });
   const auto bend_of_thick = first_bend(ship_in_ice().floe(kPlate).of(thick));
-  EXPECT_NEAR(bend_of_thick.criteria.bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
+  EXPECT_NEAR(bend_of_thick.criteria().bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
 }
 
 /// One floe: to give it the ice is to give the scene that ice, to the bit.
@@ -83,7 +83,7 @@ TEST(FloeIce, SplitsByItsOwnTensileStrengthAndToughness) {
     const Story story = expect_same(scene, weak, 10).story;
     EXPECT_FALSE(story.splits().empty());
     for (const auto& event : story.splits())
-      EXPECT_EQ(event.criteria.fracture_toughness, weak.fracture_toughness);
+      EXPECT_EQ(event.criteria().fracture_toughness, weak.fracture_toughness);
   }
 }
 
@@ -199,7 +199,7 @@ Scene scattering(std::uint64_t seed) {
 TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
   std::vector<double> factors;
   for (const auto& event : run(scattering(5), 40).story.bends())
-    factors.push_back(event.criteria.flexural_strength / fracture::Ice{}.flexural_strength);
+    factors.push_back(event.criteria().flexural_strength / fracture::Ice{}.flexural_strength);
   ASSERT_GT(factors.size(), 50u);
   const auto measures = fracture::measure({fracture::ScatterKind::kLogNormal, 1, 0.2}, factors);
   EXPECT_LT(measures.distance, 1.63 / std::sqrt(static_cast<double>(factors.size())));

@@ -17,7 +17,7 @@ constexpr double kLength = 120;
 
 /// The reference ship in water, alone.
 Build in_water(const Propulsion& propulsion, double speed, double step = 0.05) {
-  ShipSpec ship = icebreaker({60, 0}, propulsion, speed);
+  Ship ship = icebreaker({60, 0}, propulsion, speed);
   ship.hull.draught = 6;
   ship.water.acts = true;
   ship.water.block_coefficient = 0.579;
@@ -99,8 +99,8 @@ TEST(Sailing, AnEngineComesToItsOpenWaterSpeed) {
 /// Σ of the forces on the ship by cause [N, N m], in the ship's axes.
 dynamics::Planar sum_of_causes(const ShipSample& s, bool has_engine) {
   dynamics::Planar sum = s.from_water + s.from_rudder + s.from_mooring;
-  sum += {s.surge_force + s.surge_from_ships + s.surge_from_submerged, s.sway_force + s.sway_from_ships,
-          s.yaw_moment + s.yaw_from_ships + s.yaw_from_submerged};
+  sum += {s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge, s.from_ice.sway + s.from_ships.sway,
+          s.from_ice.yaw + s.from_ships.yaw + s.from_submerged.yaw};
   return sum + (has_engine ? s.from_engine : dynamics::Planar{s.thrust, 0, 0});
 }
 
@@ -170,16 +170,16 @@ TEST(Sailing, TheWaterSharesABlow) {
 }
 
 TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
-  ShipSpec other = in_water(ConstantThrust{0}, 0).ships[0];
+  Ship other = in_water(ConstantThrust{0}, 0).ships[0];
   other.name = "other";
   other.position_in_world = {125, 3};
   const Trial done = run(in_water(engine(), 2, 0.01).ship(other), 10);
-  ASSERT_EQ(done.story.ship_contacts.size(), 1U);
+  ASSERT_EQ(done.story.of_kind<ShipContact>().size(), 1U);
   for (const ShipSample& s : done.story.samples) {
-    EXPECT_EQ(s.surge_force, 0);
+    EXPECT_EQ(s.from_ice.surge, 0);
     EXPECT_EQ(s.friction_of_ice, dynamics::Planar{});
   }
-  EXPECT_GT(largest(done.story, &ShipSample::surge_from_ships), 1e5);
+  EXPECT_GT(largest(done.story, &ShipSample::from_ships), 1e5);
   expect_closed(done.simulation);
 }
 
@@ -224,22 +224,24 @@ TEST(Sailing, AMooringBreaksInOneEventWithItsForceAndItsOffset) {
                                            .sway_stiffness = across,
                                            .break_load = 3e5};
   const auto [simulation, story] = run(scene, 200);
-  ASSERT_EQ(story.mooring_breaks.size(), 1U);
-  const MooringBreak& broken = story.mooring_breaks[0];
-  EXPECT_EQ(broken.ship, 0);
-  EXPECT_EQ(broken.time, simulation.world().population.helms[0].adrift_since);
+  const std::vector<Event> breaks = story.of_kind<MooringBreak>();
+  ASSERT_EQ(breaks.size(), 1U);
+  const auto& [time, ship, place, what] = breaks[0];
+  const auto& broken = std::get<MooringBreak>(what);
+  EXPECT_EQ(ship, 0);
+  EXPECT_EQ(time, simulation.world().population.helms[0].adrift_since);
   EXPECT_EQ(broken.break_load, 3e5);
   EXPECT_GT(broken.force, 3e5);
   EXPECT_LT(broken.force, 3.1e5) << "it breaks in the first step above its load";
   const geometry::Vector offset = broken.offset_in_moored_place;
   EXPECT_NEAR(broken.force, std::hypot(along * offset.x, across * offset.y), 1e-6 * broken.force);
   const geometry::Vector in_world = rotate(geometry::Rotation::by(heading), offset);
-  EXPECT_NEAR(distance(broken.point_in_world, scene.ships[0].position_in_world + in_world), 0, 1e-9);
+  EXPECT_NEAR(distance(place, scene.ships[0].position_in_world + in_world), 0, 1e-9);
   const auto row = std::ranges::find_if(
-      story.samples, [&](const ShipSample& s) { return s.time > broken.time - 0.5 * scene.time.step; });
+      story.samples, [&](const ShipSample& s) { return s.time > breaks[0].time - 0.5 * scene.time.step; });
   EXPECT_NEAR(std::hypot(row->from_mooring.surge, row->from_mooring.sway), broken.force, 1e-6 * broken.force);
-  EXPECT_NEAR(distance(row->position_in_world, broken.point_in_world), 0, 1e-9);
-  EXPECT_TRUE(expect_resumes(scene, 200, 210).story.mooring_breaks.empty());
+  EXPECT_NEAR(distance(row->position_in_world, place), 0, 1e-9);
+  EXPECT_TRUE(expect_resumes(scene, 200, 210).story.of_kind<MooringBreak>().empty());
 }
 
 TEST(Sailing, AStiffMooringIsStableInALongStep) {
@@ -399,7 +401,7 @@ TEST(Pilot, RamsThickIceAndCountsIt) {
 }
 
 TEST(Pilot, FollowsAShipAtADistance) {
-  ShipSpec follower = piloted(FollowingPilot{"icebreaker", 0, 100}, 3).ships[0];
+  Ship follower = piloted(FollowingPilot{"icebreaker", 0, 100}, 3).ships[0];
   follower.name = "follower";
   follower.position_in_world = {-400, 30};
   const auto samples = sail(piloted(SpeedPilot{.speed = 3}, 3).ship(follower), 900);
@@ -482,8 +484,8 @@ TEST(ConstantSpeed, IsKeptExactlyAndTheForcesAreWhatItTakes) {
     ASSERT_EQ(sample.velocity_in_world, (geometry::Vector{1.25, 0}));
     ASSERT_EQ(sample.heading, 0);
     ASSERT_EQ(sample.yaw_rate, 0);
-    ASSERT_EQ(sample.thrust, -sample.surge_force);
-    impulse += scene.record.forces_interval * geometry::Vector{sample.surge_force, sample.sway_force};
+    ASSERT_EQ(sample.thrust, -sample.from_ice.surge);
+    impulse += scene.record.forces_interval * geometry::Vector{sample.from_ice.surge, sample.from_ice.sway};
   }
   // Newton's third law: what the ice did to the ship is what the ship gave the floes.
   for (const FloeState& state : simulation.floe_states()) given += state.mass * state.velocity;
@@ -502,11 +504,11 @@ TEST(Ships, SeveralDoNotDisturbOneAnother) {
   ASSERT_EQ(both.samples.size(), 2 * alone.samples.size());
   for (std::size_t i = 0; i < alone.samples.size(); ++i) {
     ASSERT_EQ(both.samples[2 * i].ship, 0);
-    ASSERT_EQ(both.samples[2 * i].surge_force, alone.samples[i].surge_force) << i;
+    ASSERT_EQ(both.samples[2 * i].from_ice.surge, alone.samples[i].from_ice.surge) << i;
     ASSERT_EQ(both.samples[2 * i].position_in_world, alone.samples[i].position_in_world) << i;
-    ASSERT_EQ(both.samples[2 * i].surge_max, alone.samples[i].surge_max) << i;
+    ASSERT_EQ(both.samples[2 * i].from_ice_largest.surge, alone.samples[i].from_ice_largest.surge) << i;
   }
-  for (const int ship : {0, 1}) EXPECT_GT(largest(both, &ShipSample::surge_force, ship), 0);
+  for (const int ship : {0, 1}) EXPECT_GT(largest(both, &ShipSample::from_ice, ship), 0);
   EXPECT_TRUE(std::ranges::any_of(both.events, [](const Event& e) { return e.ship == 1; }));
 }
 

@@ -1,7 +1,5 @@
 #include "tests/simulation/scenes.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 namespace polynya::simulation::scenes {
@@ -11,8 +9,8 @@ FloeSpec fast(const geometry::Polygon& polygon, geometry::Vector velocity) {
   return spec;
 }
 
-ShipSpec icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed) {
-  ShipSpec ship;
+Ship icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed) {
+  Ship ship;
   ship.name = "icebreaker";
   ship.hull.waterline = wedge_bow_waterline(120, 24, 27 * kDegree);
   ship.hull.stem_angle = 30 * kDegree;
@@ -24,34 +22,30 @@ ShipSpec icebreaker(geometry::Point stem, const Propulsion& propulsion, double s
   return ship;
 }
 
-ShipSpec steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed) {
-  ShipSpec ship = icebreaker(stem, propulsion, speed);
+Ship steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed) {
+  Ship ship = icebreaker(stem, propulsion, speed);
   set_hull_angle(ship, 0);
   return ship;
 }
 
-ShipSpec barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed) {
-  ShipSpec ship = icebreaker(middle_of_bow, propulsion, speed);
+Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed) {
+  Ship ship = icebreaker(middle_of_bow, propulsion, speed);
   ship.name = "barge";
   ship.hull.waterline = rectangle(-60, -12, 60, 12).outer;
   set_hull_angle(ship, 0);
   return ship;
 }
 
-void set_hull_angle(ShipSpec& ship, double angle) {
+void set_hull_angle(PlacedHull& ship, double angle) {
   ship.hull.angles_from_vertical.assign(ship.hull.waterline.size(), angle);
 }
 
-Wall pressing(double line_load) {
-  Wall wall;
-  wall.line_load = line_load;
-  return wall;
+WallMotion pressing(double line_load) {
+  return {{}, WallPressure{.line_load = line_load}};
 }
 
-Wall moving(geometry::Vector velocity) {
-  Wall wall;
-  wall.velocity = velocity;
-  return wall;
+WallMotion moving(geometry::Vector velocity) {
+  return {velocity, {}};
 }
 
 Build::Build(Laws laws) {
@@ -63,14 +57,19 @@ Build::Build(Laws laws) {
 }
 
 Build& Build::structure(const geometry::Ring& waterline, geometry::Point at, double wall_angle) {
-  ShipSpec structure;
+  Structure structure;
   structure.name = "structure";
   structure.hull.waterline = waterline;
   set_hull_angle(structure, wall_angle);
-  structure.mass = structure.moment_of_inertia = std::numeric_limits<double>::infinity();
   structure.position_in_world = at;
-  structure.propulsion = FixedInPlace{};
-  ships.push_back(structure);
+  structures.push_back(structure);
+  return *this;
+}
+
+Build& Build::wall(geometry::Point from, geometry::Point to, const WallMotion& motion) {
+  walls.push_back(wall_between(from, to, 5));
+  walls.back().velocity = motion.velocity;
+  walls.back().pressure = motion.pressure;
   return *this;
 }
 
@@ -87,13 +86,6 @@ Build& Build::of(const fracture::Ice& its_own) {
   return *this;
 }
 
-std::vector<Event> Story::of_kind(EventKind kind) const {
-  std::vector<Event> found;
-  for (const Event& event : events)
-    if (event.kind == kind) found.push_back(event);
-  return found;
-}
-
 void listen(Simulation& simulation, Story& story) {
   Journal& journal = simulation.journal();
   const auto take = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
@@ -101,8 +93,6 @@ void listen(Simulation& simulation, Story& story) {
   take(story.births, journal.births);
   take(story.deaths, journal.deaths);
   take(story.samples, journal.samples);
-  take(story.ship_contacts, journal.ship_contacts);
-  take(story.mooring_breaks, journal.mooring_breaks);
   journal.clear();
 }
 
@@ -150,21 +140,22 @@ Event first_bend(const Scene& scene, double until) {
   return found.empty() ? Event{} : found.front();
 }
 
-double mean(const Story& story, double ShipSample::*member, int ship, double from) {
+double mean(const Story& story, dynamics::Planar ShipSample::*load, int ship, double from,
+            double dynamics::Planar::*direction) {
   double sum = 0;
   int count = 0;
   for (const ShipSample& sample : story.samples) {
     if (sample.ship != ship || sample.time < from) continue;
-    sum += sample.*member;
+    sum += (sample.*load).*direction;
     ++count;
   }
   return sum / count;
 }
 
-double largest(const Story& story, double ShipSample::*member, int ship) {
+double largest(const Story& story, dynamics::Planar ShipSample::*load, int ship) {
   double most = 0;
   for (const ShipSample& sample : story.samples)
-    if (sample.ship == ship) most = std::max(most, std::abs(sample.*member));
+    if (sample.ship == ship) most = std::max(most, std::abs((sample.*load).surge));
   return most;
 }
 

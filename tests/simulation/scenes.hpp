@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -28,19 +31,24 @@ inline FloeSpec floe(const geometry::Polygon& polygon, geometry::Vector velocity
 FloeSpec fast(const geometry::Polygon& polygon, geometry::Vector velocity = {});
 
 /// The paper's ship, its stem at `stem`, heading along x.
-ShipSpec icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1);
+Ship icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1);
 
 /// The same with vertical walls: it crushes and splits ice, and does not bend it.
-ShipSpec steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1);
+Ship steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1);
 
 /// A box-shaped ship with vertical walls: it can only crush.
-ShipSpec barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1);
+Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1);
 
-/// Gives a ship's whole hull one angle from the vertical [rad].
-void set_hull_angle(ShipSpec& ship, double angle);
+/// Gives a whole hull one angle from the vertical [rad].
+void set_hull_angle(PlacedHull& ship, double angle);
 
-Wall pressing(double line_load);         ///< [N/m]
-Wall moving(geometry::Vector velocity);  ///< [m/s]
+/// How a wall moves; one that stands by default.
+struct WallMotion {
+  geometry::Vector velocity;  ///< [m/s]
+  std::optional<WallPressure> pressure;
+};
+WallMotion pressing(double line_load);         ///< [N/m]
+WallMotion moving(geometry::Vector velocity);  ///< [m/s]
 
 /// A scene in two or three lines: each call adds something and gives the scene back. By the default laws.
 class Build : public Scene {
@@ -48,16 +56,14 @@ class Build : public Scene {
   Build() = default;
   explicit Build(Laws laws);
   Build& step(double seconds) { return set(time.step, seconds); }
-  Build& ship(const ShipSpec& ship) { return add(ships, ship); }
+  Build& ship(const Ship& ship) { return add(ships, ship); }
   /// A waterline that stands, about a point; its walls at an angle from the vertical [rad].
   Build& structure(const geometry::Ring& waterline, geometry::Point at = {}, double wall_angle = 0);
   Build& pile(geometry::Point at, double radius, double wall_angle = 0) {
     return structure(cylinder_waterline(radius), at, wall_angle);
   }
   /// With the ice to its left, 5 m deep.
-  Build& wall(geometry::Point from, geometry::Point to, const Wall& wall = {}) {
-    return add(ships, wall_between(from, to, 5, wall));
-  }
+  Build& wall(geometry::Point from, geometry::Point to, const WallMotion& motion = {});
   Build& floe(const FloeSpec& spec) { return add(floes, spec); }
   Build& floe(const geometry::Polygon& polygon, geometry::Vector velocity = {}, double spin = 0) {
     return floe(scenes::floe(polygon, velocity, spin));
@@ -89,21 +95,24 @@ class Build : public Scene {
 
 /// Everything a run recorded.
 struct Story {
-  std::vector<Event> bends() const { return of_kind(EventKind::kBend); }
-  std::vector<Event> splits() const { return of_kind(EventKind::kSplit); }
-  std::vector<Event> grinds() const { return of_kind(EventKind::kGrind); }
-  std::vector<Event> submerged() const { return of_kind(EventKind::kSubmerge); }
-  std::vector<Event> resurfaced() const { return of_kind(EventKind::kResurface); }
-  std::vector<Event> stayed_under() const { return of_kind(EventKind::kStayUnder); }
-  std::vector<Event> rejected_cuts() const { return of_kind(EventKind::kRejectedCut); }
-  std::vector<Event> of_kind(EventKind kind) const;
+  std::vector<Event> bends() const { return of_kind<Bend>(); }
+  std::vector<Event> splits() const { return of_kind<Split>(); }
+  std::vector<Event> grinds() const { return of_kind<Grind>(); }
+  std::vector<Event> submerged() const { return of_kind<Submerge>(); }
+  std::vector<Event> resurfaced() const { return of_kind<Resurface>(); }
+  std::vector<Event> stayed_under() const { return of_kind<StayUnder>(); }
+  std::vector<Event> rejected_cuts() const { return of_kind<RejectedCut>(); }
+  template <class Kind>
+  std::vector<Event> of_kind() const {
+    std::vector<Event> found;
+    std::ranges::copy_if(events, std::back_inserter(found), &Event::is<Kind>);
+    return found;
+  }
 
   std::vector<Event> events;
   std::vector<Birth> births;
   std::vector<Death> deaths;
   std::vector<ShipSample> samples;
-  std::vector<ShipContact> ship_contacts;
-  std::vector<MooringBreak> mooring_breaks;
 };
 
 /// A simulation and all that it has recorded.
@@ -127,9 +136,11 @@ void skip(Simulation& simulation, int steps = 1);
 /// The first bend of a run; fails where nothing bends.
 Event first_bend(const Scene& scene, double until = 20);
 
-/// The mean over a ship's samples from a time on.
-double mean(const Story& story, double ShipSample::*member, int ship = 0, double from = 0);
-double largest(const Story& story, double ShipSample::*member, int ship = 0);  ///< by magnitude
+/// The mean of a load over a ship's samples from a time on.
+double mean(const Story& story, dynamics::Planar ShipSample::*load, int ship = 0, double from = 0,
+            double dynamics::Planar::*direction = &dynamics::Planar::surge);
+/// Of its surge, by magnitude.
+double largest(const Story& story, dynamics::Planar ShipSample::*load, int ship = 0);
 
 /// All accounts close: areas, masses, energy and momentum.
 void expect_closed(const Simulation& simulation);

@@ -43,9 +43,9 @@ TEST(Splitting, APlateOfTwentyKilometresSplitsWhenTheForceHasGrownToWhatItTakes)
   }
   ASSERT_EQ(story.splits().size(), 1u);
   const auto event = story.splits().front();
-  EXPECT_NEAR(event.penetration / depth, 1, 0.02);
+  EXPECT_NEAR(event.ice()->penetration / depth, 1, 0.02);
   EXPECT_NEAR(event.time / depth, 1, 0.02) << "at 1 m/s";
-  const fracture::FailureCriteria& c = event.criteria;
+  const fracture::FailureCriteria& c = event.criteria();
   EXPECT_GE(c.opening_force, c.opening_capacity);
   EXPECT_LT(c.opening_force, 1.01 * c.opening_capacity) << "it grows by less in a step";
   EXPECT_LT(kOpeningOfStem * before, 1.001 * c.opening_capacity) << "no step before had it";
@@ -105,12 +105,12 @@ TEST(Splitting, AFloeSplitsAnotherWithItsPointAndNotWithItsSide) {
     ASSERT_EQ(story.splits().size(), 1u);
     const auto event = story.splits()[0];
     EXPECT_EQ(event.ship, -1);
-    EXPECT_EQ(event.by_floe, 0);
-    EXPECT_EQ(event.floe, 1);
-    EXPECT_GE(event.criteria.opening_force, event.criteria.opening_capacity);
-    EXPECT_NEAR(event.criteria.opening_capacity,
+    EXPECT_EQ(event.ice()->by_floe, 0);
+    EXPECT_EQ(event.ice()->floe, 1);
+    EXPECT_GE(event.criteria().opening_force, event.criteria().opening_capacity);
+    EXPECT_NEAR(event.criteria().opening_capacity,
                 fracture::lefm_splitting_force(simulation.scene().ice, 20, 20), 1e3);
-    EXPECT_EQ(event.children.size(), 2u);
+    EXPECT_EQ(event.ice()->children.size(), 2u);
   }
 }
 
@@ -139,10 +139,10 @@ TEST(Splitting, TheFlanksOfABowOpenTheHeadOfTheSlotItIsIn) {
           .story;
   ASSERT_EQ(story.splits().size(), 1u);
   const auto event = story.splits()[0];
-  EXPECT_NEAR(event.criteria.crack_length, 50, 0.1);
+  EXPECT_NEAR(event.criteria().crack_length, 50, 0.1);
   EXPECT_NEAR(event.point_in_world.x, 0, 1);
   EXPECT_NEAR(event.point_in_world.y, 0, 0.1);
-  EXPECT_EQ(event.children.size(), 2u);
+  EXPECT_EQ(event.ice()->children.size(), 2u);
 }
 
 /// A plate with its edge along x = 0 and an older channel, parallel to it, from `spacing` on.
@@ -160,14 +160,14 @@ TEST(Splitting, BetweenParallelChannelsALongCrackRunsWhereTheyAreNearerThanSMax)
   };
   const Story far = first_at(700);
   ASSERT_FALSE(far.bends().empty());
-  const fracture::FailureCriteria bend = far.bends()[0].criteria;
+  const fracture::FailureCriteria bend = far.bends()[0].criteria();
   ASSERT_GT(bend.opening_force, 0);
   EXPECT_LT(bend.opening_force, bend.opening_capacity);
   // S_max = (F_b / 0.2105 h K)², F_b what opens the crack when the ice bends.
   const double most = std::pow(bend.opening_force / (0.2105 * 0.5 * 150e3), 2);
   const Story near = first_at(0.85 * most);
   ASSERT_FALSE(near.splits().empty());
-  const fracture::FailureCriteria split = near.splits()[0].criteria;
+  const fracture::FailureCriteria split = near.splits()[0].criteria();
   EXPECT_NEAR(split.crack_length, 0.85 * most, 0.5) << "from the stem to the older channel";
   EXPECT_GT(split.crack_width, 2 * split.crack_length);
   EXPECT_FALSE(first_at(1.15 * most).bends().empty());

@@ -130,15 +130,17 @@ std::vector<std::uint64_t> record_of(const Trial& run) {
     for (const double number : numbers) record.push_back(std::bit_cast<std::uint64_t>(number));
   };
   for (const ShipSample& s : run.story.samples) {
-    add({s.time, 1.0 * s.ship, s.surge_force, s.sway_force, s.yaw_moment, s.surge_peak, s.sway_peak,
-         s.yaw_peak, s.surge_max, s.sway_max, s.yaw_max, s.heading, s.yaw_rate, s.thrust, 1.0 * s.contacts,
-         s.position_in_world.x, s.position_in_world.y, s.velocity_in_world.x, s.velocity_in_world.y});
+    add({s.time, 1.0 * s.ship, s.from_ice.surge, s.from_ice.sway, s.from_ice.yaw, s.collision.surge,
+         s.collision.sway, s.collision.yaw, s.from_ice_largest.surge, s.from_ice_largest.sway,
+         s.from_ice_largest.yaw, s.heading, s.yaw_rate, s.thrust, 1.0 * s.contacts, s.position_in_world.x,
+         s.position_in_world.y, s.velocity_in_world.x, s.velocity_in_world.y});
   }
   for (const Event& e : run.story.events) {
-    add({e.time, 1.0 * static_cast<int>(e.kind), static_cast<double>(e.floe), e.cusp_radius, e.penetration,
-         e.submerged_area, e.brash_area, e.criteria.collision_force, e.criteria.vertical_force,
-         e.criteria.bending_capacity, e.point_in_world.x, e.point_in_world.y, e.normal_in_world.x,
-         e.normal_in_world.y});
+    const auto* bend = std::get_if<Bend>(&e.what);
+    add({e.time, static_cast<double>(e.what.index()), static_cast<double>(e.ice()->floe),
+         bend ? bend->cusp_radius : 0, e.ice()->penetration, e.ice()->submerged_area, e.ice()->brash_area,
+         e.criteria().collision_force, e.criteria().vertical_force, e.criteria().bending_capacity,
+         e.point_in_world.x, e.point_in_world.y, e.ice()->normal_in_world.x, e.ice()->normal_in_world.y});
   }
   for (const Birth& b : run.story.births) {
     add({b.area});
@@ -229,7 +231,7 @@ TEST(Shortcuts, SleepMovesFloesByNoMoreThanTheRestSpeedDoes) {
   EXPECT_GT(with.story.events.size(), 10u);
   for (std::size_t i = 0; i < with.story.events.size(); ++i)
     EXPECT_EQ(with.story.events[i].time, without.story.events[i].time);
-  const auto mean_surge = [](const Trial& run) { return mean(run.story, &ShipSample::surge_force); };
+  const auto mean_surge = [](const Trial& run) { return mean(run.story, &ShipSample::from_ice); };
   EXPECT_NEAR(mean_surge(with) / mean_surge(without), 1, 1e-4);
   EXPECT_NEAR(mean_surge(run(voyage(), 40)) / mean_surge(run(voyage(), 40, all_awake)), 1, 0.05);
 }

@@ -18,7 +18,7 @@ FloeState only_floe(const Simulation& simulation) {
 }
 
 double mean_surge(const Story& story, int ship, double from) {
-  return mean(story, &ShipSample::surge_force, ship, from);
+  return mean(story, &ShipSample::from_ice, ship, from);
 }
 
 // ---- wind and skin drag
@@ -103,7 +103,7 @@ TEST(LimitMomentum, OfAFloeOnACylinderIsThatOfTheClosedForm) {
                     .floe(rectangle(10.001, -20, 50.001, 20), {-0.5, 0});
   scene.record.forces_interval = 1e-3;
   const Trial done = run(scene, 0.5);
-  EXPECT_NEAR(largest(done.story, &ShipSample::surge_force) / 2.766e6, 1, 0.01);
+  EXPECT_NEAR(largest(done.story, &ShipSample::from_ice) / 2.766e6, 1, 0.01);
   const double moved = -only_floe(done.simulation).world_from_body.position.x;
   EXPECT_NEAR((moved - 0.001) / 0.0488, 1, 0.02);
 }
@@ -183,7 +183,7 @@ TEST(Drift, IsTheSameSceneSeenFromAMovingFrame) {
     ASSERT_EQ(still.story.samples.size(), drifting.story.samples.size());
     for (std::size_t i = 0; i < still.story.samples.size(); ++i) {
       const ShipSample &p = still.story.samples[i], &q = drifting.story.samples[i];
-      ASSERT_NEAR(p.surge_force, q.surge_force, 1e-6 * (1 + std::abs(p.surge_force))) << p.time;
+      ASSERT_NEAR(p.from_ice.surge, q.from_ice.surge, 1e-6 * (1 + std::abs(p.from_ice.surge))) << p.time;
       ASSERT_NEAR(distance(p.position_in_world, q.position_in_world + Vector{0.25 * q.time, 0}), 0, 1e-9);
       ASSERT_NEAR(length(p.velocity_in_world - q.velocity_in_world - Vector{0.25, 0}), 0, 1e-12);
     }
@@ -202,7 +202,7 @@ TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
     Build ice = Build().floe(rectangle(7, -40, 60, 40));
     for (int row = 0; row < 4; ++row) ice.floe(rectangle(62, -30 + 15 * row, 75, -17 + 15 * row));
     Build drifting = ice, still = ice;
-    ShipSpec ship = icebreaker({60, 3}, ConstantSpeed{0.7});
+    Ship ship = icebreaker({60, 3}, ConstantSpeed{0.7});
     ship.hull.waterline = cylinder_waterline(6);
     set_hull_angle(ship, wall_angle);
     ship.mass = ship.moment_of_inertia = std::numeric_limits<double>::infinity();
@@ -211,14 +211,14 @@ TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
     ASSERT_EQ(a.samples.size(), b.samples.size());
     for (std::size_t i = 0; i < b.samples.size(); ++i) {
       const ShipSample &p = a.samples[i], &q = b.samples[i];
-      ASSERT_EQ(p.surge_force, q.surge_force);
-      ASSERT_EQ(p.sway_force, q.sway_force);
-      ASSERT_EQ(p.yaw_moment, q.yaw_moment);
-      ASSERT_EQ(p.surge_peak, q.surge_peak);
+      ASSERT_EQ(p.from_ice.surge, q.from_ice.surge);
+      ASSERT_EQ(p.from_ice.sway, q.from_ice.sway);
+      ASSERT_EQ(p.from_ice.yaw, q.from_ice.yaw);
+      ASSERT_EQ(p.collision.surge, q.collision.surge);
       ASSERT_NEAR(distance(p.position_in_world, {0, 3}), 0, 1e-9) << "it stands where it stands";
       ASSERT_EQ(p.velocity_in_world, Vector{});
     }
-    EXPECT_GT(largest(a, &ShipSample::surge_force), 1e4);
+    EXPECT_GT(largest(a, &ShipSample::from_ice), 1e4);
     ASSERT_EQ(a.events.size(), b.events.size());
     EXPECT_EQ(!b.bends().empty(), wall_angle > 0) << "only a sloping wall presses the ice down";
   }
@@ -282,7 +282,7 @@ TEST(Wall, ThatMovesPushesIceAlongAndDoesNotMeetOtherWalls) {
                          2);
   EXPECT_NEAR(only_floe(done.simulation).velocity.x, 0.2, 1e-3);
   EXPECT_NEAR(done.simulation.ship_states()[0].world_from_ship.position.x, 0.4, 1e-9);
-  EXPECT_TRUE(done.story.ship_contacts.empty()) << "walls cross at their ends";
+  EXPECT_TRUE(done.story.of_kind<ShipContact>().empty()) << "walls cross at their ends";
   expect_closed(done.simulation);
 }
 
@@ -298,7 +298,7 @@ TEST(Wall, GoesOnFromASavedStateAsItWould) {
 TEST(LinePressure, OnAShipsBowAndSidesIsThatOfTheClosedForm) {
   constexpr double kLoad = 5e4;
   constexpr double kWay = 10;  // from hull to wall
-  const ShipSpec ship = steep_icebreaker({60, 0}, ConstantSpeed{0.005}, 0.005);
+  const Ship ship = steep_icebreaker({60, 0}, ConstantSpeed{0.005}, 0.005);
   const geometry::Ring& hull = ship.hull.waterline;
   Build scene = Build().unbreakable().step(0.01).ship(ship);
   scene.contact.tolerance = 1e-5;
@@ -367,7 +367,7 @@ TEST(FastIce, ThatMovesCrushesOnAStructure) {
                              .floe(fast(rectangle(0.01, -40, 100, 40), {-0.2, 0})),
                          5);
   const double crushing = 2.8e6 * 0.5 * 24;
-  EXPECT_NEAR(done.story.samples.back().surge_force / -crushing, 1, 0.02);
+  EXPECT_NEAR(done.story.samples.back().from_ice.surge / -crushing, 1, 0.02);
   expect_closed(done.simulation);
 }
 
@@ -377,7 +377,7 @@ TEST(FastIce, ItsPiecesAreFreeAndMoveOnAsItDid) {
   scene.fracture.cusp_fate = CuspFate::kFloat;
   auto [simulation, story] = run_to_first_event(scene, 20);
   ASSERT_EQ(story.bends().size(), 1u);
-  const std::vector<FloeId> children = story.bends()[0].children;
+  const std::vector<FloeId> children = story.bends()[0].ice()->children;
   ASSERT_GE(children.size(), 2u);
   for (const FloeId child : children) {
     EXPECT_EQ(simulation.world().population.is_fast(child), child == fast_floe(simulation));

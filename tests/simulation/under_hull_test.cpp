@@ -12,7 +12,7 @@ namespace {
 
 using namespace scenes;
 
-ShipSpec with_draught(ShipSpec ship) {
+Ship with_draught(Ship ship) {
   ship.hull.draught = 6;
   return ship;
 }
@@ -49,10 +49,11 @@ TEST(UnderHull, AFloeBetweenAnInclinedHullAndAPlateTiltsAndGoesUnder) {
   const auto [simulation, story] = run(pinned_floe(), 20);
   const auto under = story.submerged();
   ASSERT_FALSE(under.empty());
-  EXPECT_EQ(under[0].floe, 0);
-  EXPECT_GE(under[0].tilting.deflection, under[0].tilting.least_deflection);
-  EXPECT_NEAR(under[0].tilting.least_deflection, 0.9, 1e-12);
-  EXPECT_NEAR(under[0].under_hull_area, 144, 1e-9);
+  EXPECT_EQ(under[0].ice()->floe, 0);
+  EXPECT_GE(std::get<Submerge>(under[0].what).criterion.deflection,
+            std::get<Submerge>(under[0].what).criterion.least_deflection);
+  EXPECT_NEAR(std::get<Submerge>(under[0].what).criterion.least_deflection, 0.9, 1e-12);
+  EXPECT_NEAR(std::get<Submerge>(under[0].what).under_hull_area, 144, 1e-9);
   EXPECT_EQ(simulation.counts().tilted_under, std::ssize(under));
   expect_closed(simulation);
 }
@@ -69,16 +70,16 @@ TEST(UnderHull, ByVerticalWallsOrWhereItIsFreeToMoveItNeverDoes) {
 
 TEST(UnderHull, TiltingLimitsTheForceOfAFloeThatCannotGetAway) {
   Scene scene = pinned_floe();
-  const double tilting = largest(run(scene, 12).story, &ShipSample::surge_force);
+  const double tilting = largest(run(scene, 12).story, &ShipSample::from_ice);
   scene.fracture.going_under.is_enabled = false;
-  EXPECT_GT(largest(run(scene, 12).story, &ShipSample::surge_force), 5 * tilting);
+  EXPECT_GT(largest(run(scene, 12).story, &ShipSample::from_ice), 5 * tilting);
 }
 
 TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
   const auto [simulation, story] = run(one_tile(0), 100);
   ASSERT_EQ(story.submerged().size(), 1U);
   double work = 0;
-  for (const ShipSample& sample : story.samples) work -= sample.surge_from_submerged * 0.1;  // at 1 m/s
+  for (const ShipSample& sample : story.samples) work -= sample.from_submerged.surge * 0.1;  // at 1 m/s
   const double weight = 100 * 9.81 * 16;
   const dynamics::SubmersionPath& path = simulation.world().setup.underwater[0].path;
   EXPECT_NEAR(work, weight * (path.rise + 0.2 * path.sliding), 1e-9 * work);
@@ -87,7 +88,8 @@ TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
 TEST(UnderHull, IceOffTheCentreLineTurnsTheShipTowardsIt) {
   const Story story = run(one_tile(1), 40).story;
   ASSERT_EQ(story.submerged().size(), 1U);
-  EXPECT_GT(mean(story, &ShipSample::yaw_from_submerged), 0) << "to port, where it is";
+  EXPECT_GT(mean(story, &ShipSample::from_submerged, 0, 0, &dynamics::Planar::yaw), 0)
+      << "to port, where it is";
 }
 
 TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
@@ -111,11 +113,12 @@ TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
   const auto [simulation, story] = run(one_tile(0), 140);
   const auto up = story.resurfaced();
   ASSERT_EQ(up.size(), 1U);
-  EXPECT_EQ(up[0].floe, 0);
-  ASSERT_EQ(up[0].children.size(), 1U);
-  EXPECT_GE(up[0].resurfacing.path, up[0].resurfacing.least_path);
-  EXPECT_NEAR(up[0].brash_area, 0.05 * 16, 1e-9);
-  const auto born = std::ranges::find(story.births, up[0].children[0], &BirthRecord::floe);
+  EXPECT_EQ(up[0].ice()->floe, 0);
+  ASSERT_EQ(up[0].ice()->children.size(), 1U);
+  EXPECT_GE(std::get<Resurface>(up[0].what).criterion.path,
+            std::get<Resurface>(up[0].what).criterion.least_path);
+  EXPECT_NEAR(up[0].ice()->brash_area, 0.05 * 16, 1e-9);
+  const auto born = std::ranges::find(story.births, up[0].ice()->children[0], &BirthRecord::floe);
   ASSERT_NE(born, story.births.end());
   EXPECT_EQ(born->parent, 0);
   EXPECT_EQ(born->generation, 1);
@@ -138,7 +141,7 @@ TEST(UnderHull, WithoutScatterItComesUpInItsPlaceWhichGoesWithACurrent) {
       continue;
     }
     const std::vector<FloeState> floes = simulation.floe_states();
-    const auto state = std::ranges::find(floes, up[0].children[0], &FloeState::floe);
+    const auto state = std::ranges::find(floes, up[0].ice()->children[0], &FloeState::floe);
     ASSERT_NE(state, floes.end());
     EXPECT_LT(distance(transform(state->world_from_body, {2, 0}), up[0].point_in_world), 1e-9);
   }
@@ -152,8 +155,8 @@ TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
   const auto [simulation, story] = run(scene, 220);
   const auto stays = story.stayed_under();
   ASSERT_EQ(stays.size(), 1U);
-  EXPECT_GE(stays[0].resurfacing.waited, 10);
-  EXPECT_NEAR(stays[0].under_ice_area, 16, 1e-9);
+  EXPECT_GE(std::get<StayUnder>(stays[0].what).criterion.waited, 10);
+  EXPECT_NEAR(std::get<StayUnder>(stays[0].what).under_ice_area, 16, 1e-9);
   EXPECT_NEAR(simulation.area_ledger().under_ice_area, 16, 1e-9);
   EXPECT_EQ(simulation.counts().stayed_under, 1);
   expect_closed(simulation);
@@ -172,11 +175,11 @@ TEST(UnderHull, AShipThatStopsKeepsItsIceAndOneThatBacksGivesItBack) {
   population.bodies.velocity[0] = {-1, 0};
   const auto up = run(simulation, 60 + path + 30).resurfaced();
   ASSERT_EQ(up.size(), 1U);
-  EXPECT_LT(up[0].resurfacing.path, 0);
+  EXPECT_LT(std::get<Resurface>(up[0].what).criterion.path, 0);
 }
 
 TEST(UnderHull, AChannelFillsWithBrashAndAResumedRunGoesOnBitByBit) {
-  ShipSpec follower = with_draught(icebreaker({-140, 0}, ConstantSpeed{2}, 2));
+  Ship follower = with_draught(icebreaker({-140, 0}, ConstantSpeed{2}, 2));
   follower.name = "follower";
   const Scene scene = under(2).step(0.01).ship(follower).floe(rectangle(0, -60, 300, 60));
   const Simulation simulation = expect_resumes(scene, 90, 110).simulation;
