@@ -67,7 +67,7 @@ class StateLoader {
   }
 
  private:
-  static constexpr std::int64_t kMostSteps = 1'000'000'000;
+  static constexpr std::int64_t kMostSteps = 1'000'000'000;  // 58 days of the default step: more is damage
   static constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
 
   void load_accounts() {

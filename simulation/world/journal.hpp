@@ -68,7 +68,7 @@ struct ShipSample {
 /// What happened since the caller last cleared it; the vectors keep their capacity, but for the births of the
 /// scene's many floes.
 struct Journal {
-  static constexpr std::size_t kManyBirths = 1000;
+  static constexpr std::size_t kManyBirths = 1000;  ///< of a scene; what breaks in a step stays below
   std::vector<Event> events;
   std::vector<Birth> births;
   std::vector<Death> deaths;
