@@ -15,7 +15,7 @@ geometry::Ring cusp_of(const Setup& setup, const PendingFracture& pending) {
 geometry::CutOutcome cut(const Setup& setup, const geometry::Shape& shape, const PendingFracture& pending) {
   if (pending.failure == fracture::Failure::kBend)
     return geometry::cut_by_polygon(shape, {cusp_of(setup, pending), {}});
-  return geometry::cut_along(shape, {pending.crack_in_body.start, pending.crack_in_body.end});
+  return geometry::cut_along(shape, pending.crack_in_body.points());
 }
 
 /// Whether the ice where the hull first touched has broken off with other cusps since: a fast ship goes

@@ -27,7 +27,7 @@ fracture::Face face_of(const dynamics::Bodies& bodies, const Contact& c, BodyInd
   if (dot(normal, into_floe(c, floe)) < 0) normal = -normal;
   const Vector relative = velocity_at(bodies, by, middle - bodies.position[by]) -
                           velocity_at(bodies, floe, middle - bodies.position[floe]);
-  return {middle, normal, dot(relative, perpendicular(normal))};
+  return {middle, normal, dot(relative, perpendicular(normal)), dot(relative, normal)};
 }
 
 /// The pushes of a contact where the other body's corner is in the floe.
