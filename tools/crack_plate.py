@@ -5,8 +5,9 @@
   tools/crack_plate.py arms      a straight crack of length a that leaves an arm of width b: K_I, K_II, against a beam's
   tools/crack_plate.py paths     the path by the largest hoop stress of a crack that begins b from a corner of a plate
 
-Plane stress, quadratic triangles, K_I and K_II by the interaction integral. The mouth is at (0, b), the free edge beside
-the crack is y = 0; the two lips are pushed apart by ±F across the crack. Lengths in b, K in F/(h √b). Needs numpy, scipy.
+Plane stress, quadratic triangles, K_I and K_II by the interaction integral. The mouth is at (0, b), the free edge
+beside the crack is y = 0, the two lips are pushed apart by ±F across the crack. Lengths in b, K in F/(h √b). Needs
+numpy and scipy.
 """
 import argparse
 import math
@@ -243,8 +244,8 @@ def path_of(side, step=0.12, nearest=0.12):
 
 
 def study_paths(straight=0.8, end=1.25):
-    print("| b/L | F_max/(h K √b) | at a/b | ends at x/b | piece/b² | mean width/b | two legs: piece/b² | farthest off/b"
-          " |\n"
+    print("| b/L | F_max/(h K √b) | at a/b | ends at x/b | piece/b² | mean width/b | two legs: piece/b² "
+          "| farthest off/b |\n"
           "|---|---|---|---|---|---|---|---|")
     for ratio in (0.02, 0.05, 0.1, 0.25):
         path, forces = path_of(1 / ratio)
@@ -252,7 +253,8 @@ def study_paths(straight=0.8, end=1.25):
         length = np.hypot(*(path[1:] - path[:-1]).T).sum()
         legs = np.array([[0, 1], [straight, 1], [end, 0]])
         at = 0.12 * (1 + int(np.argmax(forces)))
-        print(f"| {ratio} | {max(forces):.3f} | {at:.2f} | {path[-1, 0]:.2f} | {piece:.2f} | {piece / length:.2f} | {(straight + end) / 2:.2f} | {polyline_distance(path, legs).max():.2f} |")
+        print(f"| {ratio} | {max(forces):.3f} | {at:.2f} | {path[-1, 0]:.2f} | {piece:.2f} | "
+              f"{piece / length:.2f} | {(straight + end) / 2:.2f} | {polyline_distance(path, legs).max():.2f} |")
     print("\npath at b/L 0.25: " + ", ".join(f"({x:.2f}, {y:.2f})" for x, y in path[::2]))
 
 

@@ -109,7 +109,7 @@ CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
 }
 
 std::optional<Arm> arm_beside(const Boundary& boundary, Point first_ice, Vector direction, double share) {
-  constexpr int kMostSteps = 20;       // each makes the width right to some tenth where the edge is not even
+  constexpr int kMostSteps = 20;      // each makes the width right to some tenth where the edge is not even
   constexpr double kAccuracy = 1e-3;  // of the width
   const Vector across = perpendicular(direction);
   const auto nearest_at = [&](double along) {

@@ -64,7 +64,7 @@ CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path);
 
 /// The ice between a straight crack and the boundary beside it, on the side where that is nearer.
 struct Arm {
-  double width = 0;       ///< across the crack [m]
+  double width = 0;      ///< across the crack [m]
   bool is_left = false;  ///< of the crack
 };
 

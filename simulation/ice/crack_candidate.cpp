@@ -13,9 +13,9 @@ using geometry::Vector;
 
 /// A straight crack from a mouth, in the floe's frame.
 struct StraightCrack {
-  Point from;        ///< the mouth, or where the body ends ahead of it [m]
-  Vector direction;  ///< unit
-  Point first_ice;   ///< [m]
+  Point from;               ///< the mouth, or where the body ends ahead of it [m]
+  Vector direction;         ///< unit
+  Point first_ice;          ///< [m]
   double to_first_ice = 0;  ///< from the mouth [m]
   CrackPath path;
 };
@@ -30,8 +30,8 @@ std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, Body
   const geometry::Pose pose_of_by = dynamics::water_from_body(bodies, by);
   StraightCrack crack{inverse_transform(pose, mouth.point), rotate_back(pose.rotation, direction), {}, 0, {}};
   const auto find_path = [&] {
-    crack.path = crack_path(boundary, crack.from, crack.direction, kCrackMargin,
-                            geometry::CrackReach::kFirstEdge);
+    crack.path =
+        crack_path(boundary, crack.from, crack.direction, kCrackMargin, geometry::CrackReach::kFirstEdge);
     const double on = dot(crack.path.start - crack.from, crack.direction) + kCrackMargin;
     crack.first_ice = crack.from + std::max(0.0, on) * crack.direction;
     return crack.path.length_in_ice > 0;
@@ -67,8 +67,8 @@ void measure_hardest(const dynamics::Bodies& bodies, BodyIndex floe, const fract
     return;
   }
   double most = 0;
-  for (const CrackPath& ligament : ligaments_of(*bodies.boundary[floe], crack.from, crack.direction,
-                                                kCrackMargin, crack.path)) {
+  for (const CrackPath& ligament :
+       ligaments_of(*bodies.boundary[floe], crack.from, crack.direction, kCrackMargin, crack.path)) {
     fracture::FailureCriteria own;
     measure_crack(bodies, floe, ligament, own);
     const double force = widen(own);
@@ -85,8 +85,8 @@ std::optional<CrackPath> turning_crack(const geometry::Boundary& boundary, const
   const fracture::TurningCrack& shape = fracture::kTurningCrack;
   const auto turn = geometry::Rotation::by(arm.is_left ? shape.turn : -shape.turn);
   const Point knee = straight.first_ice + shape.straight * arm.width * straight.direction;
-  auto path = turned_path(boundary, straight.path, straight.first_ice, knee,
-                          rotate(turn, straight.direction), kCrackMargin);
+  auto path = turned_path(boundary, straight.path, straight.first_ice, knee, rotate(turn, straight.direction),
+                          kCrackMargin);
   if (path && path->length_in_ice > (shape.straight + shape.most_on) * arm.width) return std::nullopt;
   return path;
 }

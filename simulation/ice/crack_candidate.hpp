@@ -10,7 +10,8 @@ namespace polynya::simulation {
 /// A crack that a body may open in a floe.
 struct CrackCandidate {
   Mouth mouth;
-  geometry::Point begins_at;  ///< in the water frame: at the edge of the ice that the body has not crushed [m]
+  geometry::Point
+      begins_at;  ///< in the water frame: at the edge of the ice that the body has not crushed [m]
   geometry::CrackPath path_in_body;
   fracture::FailureCriteria criteria;
   double share() const { return criteria.opening_force / criteria.opening_capacity; }

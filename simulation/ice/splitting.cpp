@@ -23,7 +23,7 @@ constexpr double kBetweenDirections = std::numbers::pi / 12;  // [rad]
 
 /// The crack that is nearest to running.
 std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population& population, BodyIndex floe,
-                                      const PressedFloe& pressed, double least_share) {
+                                           const PressedFloe& pressed, double least_share) {
   std::optional<CrackCandidate> best;
   for (const Mouth& mouth : pressed.mouths) {
     if (mouth.contact->record->was_refused) continue;
