@@ -54,7 +54,7 @@ class ChannelMeasure {
  public:
   ChannelMeasure(const io::Run& run, const io::MotionIndex& motions, const ChannelOptions& options)
       : run_(run), motions_(motions), ship_(options.ship), time_(*options.time) {
-    const auto& spec = run.scene.scene.ships[ship_];
+    const simulation::PlacedHull& spec = hull_of(run.scene.scene, ship_);
     const Box box = geometry::bounding_box(spec.hull.waterline);
     channel_.ship = spec.name;
     channel_.time = time_;
@@ -217,7 +217,7 @@ class ChannelMeasure {
     }
     const auto corridor = union_of(cells);
     if (!corridor) return tl::unexpected(describe(corridor.error()));
-    const auto& waterline = run_.scene.scene.ships[ship_].hull.waterline;
+    const auto& waterline = hull_of(run_.scene.scene, ship_).hull.waterline;
     for (const Polygon& piece : *corridor) {
       std::vector<Polygon> taken = near(firm_ice_, bounding_box(piece.outer));
       taken.push_back({transform(ship_pose_at(run_, motions_, ship_, time_), waterline), {}});
@@ -262,7 +262,7 @@ class ChannelMeasure {
 
 /// With the time.
 tl::expected<ChannelOptions, std::string> checked_options(const io::Run& run, ChannelOptions options) {
-  if (options.ship >= run.scene.scene.ships.size())
+  if (options.ship >= hull_count(run.scene.scene))
     return tl::unexpected(std::string("the run has no such ship"));
   if (run.frames.empty()) return tl::unexpected(std::string("the run has no frames"));
   const double time = options.time.value_or(run.end_time());

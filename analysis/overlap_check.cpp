@@ -55,20 +55,20 @@ Box common_part(const Box& a, const Box& b) {
 }  // namespace
 
 OverlapCheck::OverlapCheck(const io::Run& run, RunCheck& check) : run_(run), check_(check), motions_(run) {
-  for (const simulation::ShipSpec& ship : run.scene.scene.ships)
-    hulls_.push_back(std::make_shared<Polygon>(Polygon{ship.hull.waterline, {}}));
+  for (std::size_t i = 0; i < hull_count(run.scene.scene); ++i)
+    hulls_.push_back(std::make_shared<Polygon>(Polygon{hull_of(run.scene.scene, i).hull.waterline, {}}));
 }
 
 std::shared_ptr<const Polygon> OverlapCheck::polygon_of(BodyKey body) const {
-  return is_ship(body) ? hulls_[static_cast<std::size_t>(-1 - body)] : run_.shape(body);
+  return is_hull(body) ? hulls_[static_cast<std::size_t>(-1 - body)] : run_.shape(body);
 }
 
 Point OverlapCheck::centre_of(BodyKey body) const {
-  return is_ship(body) ? Point{} : run_.floe(body)->birth.centroid_in_body;
+  return is_hull(body) ? Point{} : run_.floe(body)->birth.centroid_in_body;
 }
 
 simulation::ContactState::Body OverlapCheck::name_of(BodyKey body) const {
-  if (is_ship(body)) return {static_cast<int>(-1 - body), simulation::kNoFloe};
+  if (is_hull(body)) return {static_cast<int>(-1 - body), simulation::kNoFloe};
   return {-1, body};
 }
 
@@ -77,10 +77,10 @@ OverlapCheck::Placed OverlapCheck::placed(BodyKey body, const io::Motion& motion
   const auto rotation = geometry::Rotation::by(motion.angle);
   Placed placed{body, motion, {motion.position - rotate(rotation, centre_of(body) - Point{}), rotation},
                 {},   0,      0};
-  if (!is_ship(body)) placed.world_from_body = pose_of(run_.floe(body)->birth, motion);
+  if (!is_hull(body)) placed.world_from_body = pose_of(run_.floe(body)->birth, motion);
   const Box box = bounding_box(transform(placed.world_from_body, polygon->outer));
   placed.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
-  placed.area = is_ship(body) ? geometry::measure(*polygon).area : run_.floe(body)->birth.area;
+  placed.area = is_hull(body) ? geometry::measure(*polygon).area : run_.floe(body)->birth.area;
   placed.radius = 0.5 * length(box.high - box.low);
   return placed;
 }
@@ -96,8 +96,8 @@ void OverlapCheck::place_bodies(double time) {
     bodies_.push_back(is_still ? known->second : placed(body, *motion));
     bodies_.back().motion = *motion;
   };
-  for (std::size_t ship = 0; ship < hulls_.size(); ++ship)
-    add(-1 - static_cast<BodyKey>(ship), motions_.ship_at(ship, time));
+  for (std::size_t hull = 0; hull < hulls_.size(); ++hull)
+    add(-1 - static_cast<BodyKey>(hull), motions_.ship_at(hull, time));
   for (const io::RunFloe& floe : run_.floes) {
     if (run_.is_alive(floe.birth.floe, time)) add(floe.birth.floe, motions_.floe_at(floe.birth.floe, time));
   }
@@ -135,15 +135,15 @@ void OverlapCheck::measure(double time) {
   read_crushed(time);
   double shared = 0;
   double ice = 0;
-  for (const Placed& body : bodies_) ice += is_ship(body.body) ? 0 : body.area;
+  for (const Placed& body : bodies_) ice += is_hull(body.body) ? 0 : body.area;
   for_near_pairs([&](const Placed& a, const Placed& b) {
-    if (is_ship(a.body) && is_ship(b.body)) return;  // no ice; events.ndjson has their contacts
-    ++(is_ship(a.body) ? check_.hull_pairs : check_.pairs);
+    if (is_hull(a.body) && is_hull(b.body)) return;  // no ice; events.ndjson has their contacts
+    ++(is_hull(a.body) ? check_.hull_pairs : check_.pairs);
     const Known& known = shared_by(a, b);
     if (is_recorded_) compare_with_crushed(a, b, known.area, time);
-    const SharedIce pair{is_ship(a.body) ? simulation::kNoFloe : a.body, b.body, time, known.area,
+    const SharedIce pair{is_hull(a.body) ? simulation::kNoFloe : a.body, b.body, time, known.area,
                          known.depth};
-    if (is_ship(a.body)) {
+    if (is_hull(a.body)) {
       if (pair.area > check_.worst_with_hull.area) {
         check_.worst_with_hull = pair;
         check_.worst_hull = static_cast<int>(-1 - a.body);

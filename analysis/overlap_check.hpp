@@ -16,7 +16,7 @@ class OverlapCheck {
   void measure(double time);
 
  private:
-  using BodyKey = std::int64_t;  ///< a floe's id; -1 - index of a ship
+  using BodyKey = std::int64_t;  ///< a floe's id; -1 - the number of a hull
 
   struct Placed {
     BodyKey body = 0;
@@ -34,7 +34,7 @@ class OverlapCheck {
     double depth = 0;  ///< 0 where they share less than kTouchingArea [m]
   };
 
-  static bool is_ship(BodyKey body) { return body < 0; }
+  static bool is_hull(BodyKey body) { return body < 0; }
   std::shared_ptr<const geometry::Polygon> polygon_of(BodyKey body) const;
   geometry::Point centre_of(BodyKey body) const;  ///< that a motion is of, in the body's frame
   simulation::ContactState::Body name_of(BodyKey body) const;

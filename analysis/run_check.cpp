@@ -34,21 +34,24 @@ void check_shape(const io::Run& run, const simulation::BirthRecord& birth, RunCh
 }
 
 void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck& check) {
+  const simulation::IceEvent& ice = *event.ice();
+  const auto* stays = std::get_if<simulation::StayUnder>(&event.what);
+  const double under_ice = stays ? stays->under_ice_area : 0;
   ++check.fractures;
   std::vector<FloeId> children;
-  const auto parent = run.shape(event.floe);
+  const auto parent = run.shape(ice.floe);
   std::vector<std::shared_ptr<const Polygon>> pieces;
   std::vector<const Polygon*> after;
-  for (const FloeId child : event.children) {
+  for (const FloeId child : ice.children) {
     if (!run.floe(child)) continue;
     children.push_back(child);
     pieces.push_back(run.shape(child));
     after.push_back(pieces.back().get());
   }
-  const double before = run.floe(event.floe)->birth.area;
+  const double before = run.floe(ice.floe)->birth.area;
   const Polygon* const parents[]{parent.get()};
-  const double terms[]{event.submerged_area, event.under_ice_area, event.brash_area, -event.rounding_defect};
-  see(check.balance, geometry::exact_balance(after, parents, terms), before, event.floe);
+  const double terms[]{ice.submerged_area, under_ice, ice.brash_area, -ice.rounding_defect};
+  see(check.balance, geometry::exact_balance(after, parents, terms), before, ice.floe);
   for (std::size_t i = 0; i < children.size(); ++i) {
     for (std::size_t j = i + 1; j < children.size(); ++j) {
       const auto shared = shared_area(*pieces[i], {}, *pieces[j], {});
@@ -80,8 +83,7 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at,
     advance(1);
   }
   for (const simulation::Event& event : run.events) {
-    if (event.kind != simulation::EventKind::kRejectedCut && event.kind != simulation::EventKind::kSubmerge)
-      check_fracture(run, event, check);
+    if (event.ends_floe()) check_fracture(run, event, check);
     advance(1);
   }
   OverlapCheck overlaps(run, check);

@@ -34,7 +34,7 @@ namespace {
 
 Ring hull_at(const io::Run& run, const io::MotionIndex& motions, std::size_t ship, double time, double now) {
   const auto& scene = run.scene.scene;
-  Polygon hull{transform(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline), {}};
+  Polygon hull{transform(ship_pose_at(run, motions, ship, time), hull_of(scene, ship).hull.waterline), {}};
   return carried_by_water(scene.water, std::move(hull), time, now).outer;
 }
 

@@ -50,13 +50,16 @@ PeerScene peer_scene(const simulation::Simulation& simulation) {
   scene.friction = world.setup.scene.ice.friction;
   scene.restitution = world.setup.scene.contact.restitution;
   scene.step = world.setup.scene.time.step;
-  for (simulation::BodyIndex i = 0; i < world.population.ship_count; ++i) {
-    const simulation::ShipSpec& ship = world.setup.scene.ships[i];
-    PeerBody body = body_at(world, i, ship.hull.waterline);
-    if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&ship.propulsion))
-      body.thrust = thrust->thrust;
-    if (std::holds_alternative<simulation::FixedInPlace>(ship.propulsion))
-      body.radius = distance(ship.hull.waterline.front(), {});
+  for (simulation::BodyIndex i = 0; i < world.population.hull_count; ++i) {
+    const geometry::Ring& waterline = hull_of(world.setup.scene, i).hull.waterline;
+    PeerBody body = body_at(world, i, waterline);
+    if (world.population.kind(i) == simulation::BodyKind::kStructure)
+      body.radius = distance(waterline.front(), {});
+    if (world.population.kind(i) == simulation::BodyKind::kShip) {
+      const simulation::Propulsion& propulsion = world.setup.scene.ships[i].propulsion;
+      if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&propulsion))
+        body.thrust = thrust->thrust;
+    }
     scene.bodies.push_back(std::move(body));
   }
   for (std::size_t id = 0; id < world.population.floes.size(); ++id) {

@@ -57,7 +57,7 @@ simulation::Scene voyage_beside(int copies) {
 /// Floes that all move, in a sheared current, without a structure.
 simulation::Scene sheared(int floes, double concentration) {
   simulation::Scene scene = load("cylinder-shear.json");
-  scene.ships.clear();
+  scene.structures.clear();
   scene.floes = field_floes(floes, concentration);
   scene.water.shear.rate = 0.002;
   return scene;

@@ -94,7 +94,7 @@ RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
     simulation.journal().clear();
     report.seconds = seconds_since(before);
     report.awake = static_cast<int>(simulation.world().population.awake.size()) -
-                   simulation.world().population.ship_count;
+                   simulation.world().population.hull_count;
     report.contacts = counts_contacts ? touching_pairs(simulation.world().step.contacts) : -1;
     return report;
   });

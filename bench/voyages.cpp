@@ -72,12 +72,15 @@ Edit with_law(simulation::ContactLaw law) {
   return [law](simulation::Scene& scene) { scene.contact.law = law; };
 }
 
-/// The ships some way to port: another voyage through the same ice.
+/// The hulls some way to port: another voyage through the same ice.
 Edit moved_to_port(const Edit& edit, double lateral) {
   return [edit, lateral](simulation::Scene& scene) {
     if (edit) edit(scene);
-    for (simulation::ShipSpec& ship : scene.ships)
-      ship.position_in_world += rotate(geometry::Rotation::by(ship.heading), geometry::Vector{0, lateral});
+    const auto move = [&](simulation::PlacedHull& hull) {
+      hull.position_in_world += rotate(geometry::Rotation::by(hull.heading), geometry::Vector{0, lateral});
+    };
+    std::ranges::for_each(scene.ships, move);
+    std::ranges::for_each(scene.structures, move);
   };
 }
 

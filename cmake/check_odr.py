@@ -1,6 +1,6 @@
 """Finds one name with two types in the product: GCC's link-time optimiser compares every type it meets (-Wodr).
 
-    python3 cmake/check_odr.py SOURCE BUILD WORK      BUILD holds compile_commands.json; objects go to WORK
+    python3 cmake/check_odr.py SOURCE WORK      objects go to WORK
 
 Compiles every source of the libraries, the program and the Python module without optimisation, for the link-time
 optimiser, and links all of them at once. First it does so with two sources of its own that declare one name as two
@@ -87,11 +87,13 @@ def entries(source, build):
             yield compiler(entry["command"]), file, entry["directory"]
 
 
-def main(source, build, work):
-    work.mkdir(parents=True, exist_ok=True)
-    sources = list(entries(source, build))
+def main(source, work):
+    tree = work / "tree"
+    configure = ["cmake", "--preset", "sources", "-S", source, "-B", tree, "-DPOLYNYA_BUILD_TESTS=OFF"]
+    subprocess.run(configure, cwd=source, stdout=subprocess.DEVNULL, check=True)
+    sources = list(entries(source, tree))
     if not sources:
-        raise SystemExit(f"check_odr: {build}/compile_commands.json lists no source of {source}")
+        raise SystemExit(f"check_odr: {tree}/compile_commands.json lists no source of {source}")
     cxx = sources[0][0][0]
     if not find_planted(cxx, work):
         raise SystemExit(f"check_odr: {cxx} does not report two planted types of one name: nothing is checked")
@@ -107,4 +109,4 @@ def main(source, build, work):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*(pathlib.Path(word).resolve() for word in sys.argv[1:4])))
+    sys.exit(main(*(pathlib.Path(word).resolve() for word in sys.argv[1:3])))

@@ -37,7 +37,7 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   bodies.centroid.push_back(body.centroid);
   bodies.area.push_back(area);
   bodies.thickness.push_back(body.thickness);
-  bodies.is_grounded.push_back(body.is_grounded);
+  bodies.kind.push_back(body.kind);
   bodies.boundary.push_back(body.boundary);
   bodies.drag.push_back(body.drag);
   return bodies.size() - 1;
@@ -48,8 +48,8 @@ void reserve(Bodies& bodies, std::size_t count) {
   reserve_all(bodies.position, bodies.angle, bodies.rotation, bodies.velocity, bodies.angular_velocity,
               bodies.inverse_mass, bodies.inverse_moment, bodies.travel, bodies.bounding_radius,
               bodies.rim_speed, bodies.drag_span, bodies.is_awake, bodies.is_alive, bodies.mass,
-              bodies.moment, bodies.centroid, bodies.area, bodies.thickness, bodies.is_grounded,
-              bodies.boundary, bodies.drag);
+              bodies.moment, bodies.centroid, bodies.area, bodies.thickness, bodies.kind, bodies.boundary,
+              bodies.drag);
 }
 
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn) {

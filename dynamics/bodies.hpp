@@ -12,6 +12,14 @@ namespace polynya::dynamics {
 
 using BodyIndex = std::int32_t;
 
+/// Ships, structures and walls are hulls: rigid bodies that are not ice.
+enum class BodyKind : std::uint8_t { kShip, kStructure, kWall, kFloe };
+
+/// Whether it stands on the ground, or for ice far away: such bodies do not meet each other.
+inline bool is_grounded(BodyKind kind) {
+  return kind == BodyKind::kStructure || kind == BodyKind::kWall;
+}
+
 /// The drag of a shape, without speed and, by DragArea::kEdge, thickness. Made once per shape
 /// (drag_shape.hpp). By kPlan, all widths are the area [m²] and K is ∫ r³ dA [m⁵].
 struct DragShape {
@@ -31,7 +39,7 @@ struct DragSpan {
   int place = -1;         ///< −1: none yet
 };
 
-/// The rigid bodies of a world, ships and floes alike, as columns. Positions and velocities are in the water
+/// The rigid bodies of a world, hulls and floes alike, as columns. Positions and velocities are in the water
 /// frame, which drifts over ground with the water's uniform velocity: ice at rest in it is at rest exactly.
 /// Bodies are only ever added; one that broke is marked dead and its index is not used again.
 struct Bodies {
@@ -54,8 +62,8 @@ struct Bodies {
   std::vector<double> moment;             ///< of inertia about the centre of mass [kg m²]
   std::vector<geometry::Point> centroid;  ///< centre of mass in the body frame [m]
   std::vector<double> area;               ///< in plan [m²]
-  std::vector<double> thickness;          ///< of the ice, or the draught that meets water [m]
-  std::vector<std::uint8_t> is_grounded;  ///< a structure or a wall: they do not meet each other
+  std::vector<double> thickness;          ///< of the ice; 0 of hulls [m]
+  std::vector<BodyKind> kind;
   std::vector<std::shared_ptr<geometry::Boundary>> boundary;  ///< made ready when another body comes near
   std::vector<std::shared_ptr<const DragShape>> drag;         ///< null: no drag, or it sleeps
 
@@ -71,9 +79,9 @@ struct NewBody {
   double mass = 0;              ///< [kg]
   double moment = 0;            ///< [kg m²]
   bool is_prescribed = false;   ///< impulses do not change its velocity
-  bool is_grounded = false;     ///< a structure or a wall
-  geometry::Point centroid;     ///< in the body frame [m]
-  double thickness = 0;         ///< [m]
+  BodyKind kind = BodyKind::kFloe;
+  geometry::Point centroid;  ///< in the body frame [m]
+  double thickness = 0;      ///< of the ice [m]
   std::shared_ptr<geometry::Boundary> boundary;
   std::shared_ptr<const DragShape> drag;
 };
@@ -106,8 +114,8 @@ inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b,
 
 /// Whether it is ice of prescribed motion that stands in the water: nothing moves it.
 inline bool is_held(const Bodies& bodies, BodyIndex i) {
-  return bodies.inverse_mass[i] == 0 && bodies.thickness[i] > 0 && bodies.velocity[i] == geometry::Vector{} &&
-         bodies.angular_velocity[i] == 0;
+  return bodies.kind[i] == BodyKind::kFloe && bodies.inverse_mass[i] == 0 &&
+         bodies.velocity[i] == geometry::Vector{} && bodies.angular_velocity[i] == 0;
 }
 
 /// Velocity of a point of the body at `arm` from its centre of mass, v + ω × r [m/s].

@@ -14,36 +14,6 @@ namespace polynya::simulation {
 
 using geometry::Vector;
 
-std::string_view name_of(EventKind kind) {
-  switch (kind) {
-    case EventKind::kBend:
-      return "bend";
-    case EventKind::kSplit:
-      return "split";
-    case EventKind::kGrind:
-      return "grind";
-    case EventKind::kRejectedCut:
-      return "rejected_cut";
-    case EventKind::kSubmerge:
-      return "submerge";
-    case EventKind::kResurface:
-      return "resurface";
-    case EventKind::kStayUnder:
-      return "stay_under";
-  }
-  return "unknown";
-}
-
-DecidingLoad deciding_load(const Event& event) {
-  const fracture::FailureCriteria& c = event.criteria;
-  const bool is_split =
-      event.kind == EventKind::kSplit || (event.kind == EventKind::kRejectedCut && event.cusp_radius == 0);
-  if (!is_split) return {"vertical force", ">=", "bending capacity", c.vertical_force, c.bending_capacity};
-  if (c.splitting_force > 0)
-    return {"collision force", ">", "splitting force", c.collision_force, c.splitting_force};
-  return {"opening force", ">=", "opening capacity", c.opening_force, c.opening_capacity};
-}
-
 Simulation::Simulation(Scene scene, Shortcuts shortcuts)
     : world_(std::make_unique<World>(std::move(scene), shortcuts)) {}
 Simulation::Simulation(std::unique_ptr<World> world) : world_(std::move(world)) {}
@@ -93,8 +63,7 @@ bool is_recorded(const World& world, const dynamics::Contact& contact) {
     case RecordedContacts::kNone:
       return false;
     case RecordedContacts::kShips:
-      return world.population.is_ship(
-          contact.a);  // ships come first, so a contact's first body is one if any is
+      return world.population.is_hull(contact.a);  // hulls come first: the first body is one if any is
     case RecordedContacts::kAll:
       return true;
   }
@@ -225,7 +194,7 @@ std::vector<FloeState> Simulation::all_states() const {
 namespace {
 
 ContactState::Body contact_body(const Population& population, BodyIndex body) {
-  return population.is_ship(body) ? ContactState::Body{body, kNoFloe}
+  return population.is_hull(body) ? ContactState::Body{body, kNoFloe}
                                   : ContactState::Body{-1, population.floe_of(body)};
 }
 
@@ -266,13 +235,13 @@ std::vector<ContactState> Simulation::contact_states() const {
 std::vector<ShipState> Simulation::ship_states() const {
   const dynamics::Bodies& bodies = world_->population.bodies;
   std::vector<ShipState> states;
-  for (BodyIndex ship = 0; ship < world_->population.ship_count; ++ship) {
+  for (BodyIndex hull = 0; hull < world_->population.hull_count; ++hull) {
     ShipState state;
-    state.world_from_ship = dynamics::water_from_body(bodies, ship);
+    state.world_from_ship = dynamics::water_from_body(bodies, hull);
     state.world_from_ship.position += world_->clock.drift();
-    state.heading = bodies.angle[ship];
-    state.velocity = bodies.velocity[ship] + world_->clock.water_drift;
-    state.angular_velocity = bodies.angular_velocity[ship];
+    state.heading = bodies.angle[hull];
+    state.velocity = bodies.velocity[hull] + world_->clock.water_drift;
+    state.angular_velocity = bodies.angular_velocity[hull];
     states.push_back(state);
   }
   return states;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/studies.hpp"
 #include "fracture/crushing.hpp"
+#include "geometry/shape/angle.hpp"
 #include "io/text/output_file.hpp"
 #include "io/text/source_text.hpp"
 
@@ -27,8 +27,6 @@ using fracture::BendingForecast;
 using fracture::BendingLoad;
 
 using DatabasePointer = std::shared_ptr<const fracture::BendingDatabase>;
-
-constexpr double kRadian = std::numbers::pi / 180;
 
 constexpr double kNarrowestWedge = 0.1;  ///< as --wedge-angle allows [deg]
 
@@ -188,8 +186,8 @@ void print_errors(const char* name, const std::vector<AccuracyRow>& rows, double
       *std::ranges::max_element(rows, {}, [error](const AccuracyRow& row) { return std::abs(row.*error); });
   print_out("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} deg, {:.4f}, {:.3g}, {:.3g} |\n", name,
             quantile(sizes, 0.5), quantile(sizes, 0.9), quantile(sizes, 0.99), quantile(sizes, 1),
-            worst.groups.opening_angle * kDegree, worst.groups.mass_ratio, worst.groups.softness,
-            worst.groups.froude);
+            worst.groups.opening_angle * geometry::kRadiansPerDegree, worst.groups.mass_ratio,
+            worst.groups.softness, worst.groups.froude);
 }
 
 std::string mesh_of(const fracture::SolverSettings& settings) {
@@ -308,9 +306,9 @@ tl::expected<fracture::BendingLoad, ExitCode> bending_load(const DatabaseLoadOpt
   load.ice = options.ice;
   load.water = options.water;
   const double half_angle = 0.5 * options.wedge_angle_deg.value_or(kUsualWedgeAngle);
-  load.front_half_angle = kRadian * options.front_angle_deg.value_or(half_angle);
-  load.back_half_angle = kRadian * options.back_angle_deg.value_or(half_angle);
-  load.hull_angle = kRadian * options.hull_angle_deg;
+  load.front_half_angle = geometry::kRadiansPerDegree * options.front_angle_deg.value_or(half_angle);
+  load.back_half_angle = geometry::kRadiansPerDegree * options.back_angle_deg.value_or(half_angle);
+  load.hull_angle = geometry::kRadiansPerDegree * options.hull_angle_deg;
   load.mean_approach_speed = options.speed;
   load.vertical_to_crushing =
       fracture::crushing_shares(load.hull_angle, load.ice.friction, options.speed, options.slip_speed)
@@ -319,11 +317,12 @@ tl::expected<fracture::BendingLoad, ExitCode> bending_load(const DatabaseLoadOpt
 }
 
 std::string describe(const fracture::BendingLoad& load) {
-  const double front = load.front_half_angle / kRadian, back = load.back_half_angle / kRadian;
+  const double front = load.front_half_angle / geometry::kRadiansPerDegree,
+               back = load.back_half_angle / geometry::kRadiansPerDegree;
   const std::string wedge = front == back ? fmt::format("{:g} deg wedge", front + back)
                                           : fmt::format("wedge of {:g} + {:g} deg", front, back);
   return fmt::format("{:g} m of ice, {}, hull {:g} deg from the vertical, v_n {:g} m/s", load.ice.thickness,
-                     wedge, load.hull_angle / kRadian, load.mean_approach_speed);
+                     wedge, load.hull_angle / geometry::kRadiansPerDegree, load.mean_approach_speed);
 }
 
 int thread_count(int asked) {

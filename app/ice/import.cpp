@@ -1,11 +1,11 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 
 #include "app/command_line/commands.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
+#include "geometry/shape/angle.hpp"
 #include "io/import/foreign_file.hpp"
 #include "io/import/import_report.hpp"
 #include "io/text/cut_ops.hpp"
@@ -15,7 +15,6 @@
 namespace polynya::app {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr std::size_t kMostReported = 20;  ///< messages about floes; the report has all
 
 constexpr auto kExamples =
@@ -58,7 +57,8 @@ Outcome<std::optional<simulation::GeographicOrigin>> read_origin(const std::stri
     return failure(kUsage, fmt::format("--origin {}: a latitude from -90 to 90 and a longitude from -180 to "
                                        "180 are needed; latitude comes first",
                                        words));
-  return simulation::GeographicOrigin{n[0] * kRadians, n[1] * kRadians, n[2] * kRadians};
+  return simulation::GeographicOrigin{n[0] * geometry::kRadiansPerDegree, n[1] * geometry::kRadiansPerDegree,
+                                      n[2] * geometry::kRadiansPerDegree};
 }
 
 Outcome<io::FloeText> read_floes(const Options& options, const std::string& name) {

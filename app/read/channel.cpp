@@ -34,11 +34,10 @@ int measure(const Options& options) {
   const auto run = read_run(options.run, options.progress);
   if (!run) return fail(kInputOutput, run.error());
   analysis::ChannelOptions wanted = options.measure;
-  const auto& ships = run->scene.scene.ships;
   if (!options.ship.empty()) {
-    const auto found = std::ranges::find(ships, options.ship, &simulation::ShipSpec::name);
-    if (found == ships.end()) return fail(kUsage, fmt::format("the run has no ship \"{}\"", options.ship));
-    wanted.ship = static_cast<std::size_t>(found - ships.begin());
+    const int ship = hull_named(run->scene.scene, options.ship);
+    if (ship < 0) return fail(kUsage, fmt::format("the run has no ship \"{}\"", options.ship));
+    wanted.ship = static_cast<std::size_t>(ship);
   }
   const auto channel = with_progress(options.progress, "measuring the channel",
                                      [&] { return analysis::measure_channel(*run, wanted); });

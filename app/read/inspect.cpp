@@ -91,8 +91,7 @@ int print(const io::Run& run, const Options& options) {
   }
   if (options.check) {
     const analysis::RunCheck check = check_of(run, options);
-    write_out(options.json ? check_json(check, run.scene.scene.ships)
-                           : check_text(check, run.scene.scene.ships));
+    write_out(options.json ? check_json(check, run.scene.scene) : check_text(check, run.scene.scene));
     return check.is_sound() ? kDone : kRefused;
   }
   if (options.fsd) {

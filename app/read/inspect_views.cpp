@@ -7,6 +7,7 @@
 #include "app/command_line/console.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
+#include "io/run/event_records.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
 #include "io/scene/floe_ice.hpp"
@@ -68,13 +69,13 @@ std::string as_svg(const ShapeView& view) {
 }
 
 void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
-                           const std::vector<simulation::ShipSpec>& ships) {
+                           const simulation::Scene& scene) {
   const auto add = [&text](const std::string& line) { text += line + "\n"; };
   if (check.worst_with_hull.area > 0)
     add(fmt::format(
         "hulls      {} with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
         "vertex {:.4g} m deep",
-        counted(check.hull_pairs, "pair"), ships[static_cast<std::size_t>(check.worst_hull)].name,
+        counted(check.hull_pairs, "pair"), io::ship_name(scene, check.worst_hull),
         check.worst_with_hull.second, check.worst_with_hull.time, check.worst_with_hull.area,
         check.worst_with_hull.depth));
   if (!check.has_crushed) {
@@ -85,7 +86,7 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
         check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
         100 * analysis::kUncrushedShare));
     const auto name = [&](const simulation::ContactState::Body& body) {
-      return body.ship >= 0 ? ships[static_cast<std::size_t>(body.ship)].name
+      return body.ship >= 0 ? std::string(io::ship_name(scene, body.ship))
                             : fmt::format("floe {}", body.floe);
     };
     for (const analysis::UncrushedOverlap& pair : check.uncrushed)
@@ -99,74 +100,30 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
 
 // ---- parts of the lines of events
 
-std::string how_it_went_under(const simulation::TiltCriterion& c) {
-  if (c.least_deflection == 0) return "a cusp broken off at the hull";
-  return fmt::format("edge {:.3g} m down >= {:.3g} m", c.deflection, c.least_deflection);
-}
-
-/// Both sides of what decided a bend or a split.
-std::string decided_by(const simulation::Event& event) {
-  const simulation::DecidingLoad deciding = simulation::deciding_load(event);
-  std::string text = fmt::format("{} {:.4g} N {} {} {:.4g} N", deciding.name, deciding.load,
-                                 deciding.comparison, deciding.capacity_name, deciding.capacity);
-  const auto& c = event.criteria;
-  if (event.kind != simulation::EventKind::kSplit || c.crack_width == 0) return text;
-  text += fmt::format("; crack L {:.4g} m, W {:.4g} m", c.crack_length, c.crack_width);
-  text += fmt::format("; contact force {:.4g} N, flanks {:.4g} and {:.4g} N", c.contact_force,
-                      c.flank_forces[0], c.flank_forces[1]);
-  if (deciding.load != c.opening_force)
-    text += fmt::format(", opening {:.4g} N of {:.4g} N", c.opening_force, c.opening_capacity);
-  return text + fmt::format(", K_IC {:.4g} Pa sqrt(m)", c.fracture_toughness);
-}
-
 /// What happened, where and what decided it, in a line.
 std::string described(const io::Run& run, const simulation::Event& event) {
-  const std::string_view name = io::ship_name(run.scene.scene, event.ship);
-  const bool is_by_floe = event.by_floe != simulation::kNoFloe;
-  const std::string by = is_by_floe     ? fmt::format(" by floe {}", event.by_floe)
-                         : name.empty() ? ""
-                                        : fmt::format(" by {}", name);
-  std::string text = fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): ", event.time, name_of(event.kind), by,
-                                 event.point_in_world.x, event.point_in_world.y);
-  if (event.kind == simulation::EventKind::kSubmerge)
-    text += how_it_went_under(event.tilting);
-  else if (event.resurfacing.longest_wait > 0 || event.resurfacing.path != 0)
-    text += fmt::format("{:.4g} m after the stem, {:.4g} s for room", event.resurfacing.path,
-                        event.resurfacing.waited);
-  else if (event.grinding.least_width > 0)
-    text += fmt::format("{:.4g} m2 overlapped, width {:.4g} m < {:.4g} m", event.grinding.overlap_area,
-                        event.grinding.width, event.grinding.least_width);
-  else
-    text += decided_by(event);
-  if (event.under_hull_area > 0) text += fmt::format("; {:.6g} m2 under the hull", event.under_hull_area);
-  if (event.under_ice_area > 0) text += fmt::format("; {:.6g} m2 under the ice", event.under_ice_area);
-  if (event.submerged_area > 0) text += fmt::format("; {:.6g} m2 submerged", event.submerged_area);
-  if (event.brash_area > 0) text += fmt::format("; {:.6g} m2 brash", event.brash_area);
-  return text;
+  const std::string_view ship = io::ship_name(run.scene.scene, event.ship);
+  const bool is_by_floe = event.ice() && event.ice()->by_floe != simulation::kNoFloe;
+  const std::string by = is_by_floe     ? fmt::format(" by floe {}", event.ice()->by_floe)
+                         : ship.empty() ? ""
+                                        : fmt::format(" {} {}", event.ice() ? "by" : "of", ship);
+  return fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): {}", event.time, name_of(event), by,
+                     event.point_in_world.x, event.point_in_world.y, io::words_of(event, run.scene.scene));
 }
 
-std::string described(const io::Run& run, const simulation::ShipContact& contact) {
-  return fmt::format("{:.6g} s  {} of {} and {} at ({:.3f}, {:.3f}): closing at {:.3g} m/s", contact.time,
-                     io::kShipContactKind, io::ship_name(run.scene.scene, contact.ship),
-                     io::ship_name(run.scene.scene, contact.other), contact.point_in_world.x,
-                     contact.point_in_world.y, contact.closing_speed);
+/// A line of events.ndjson, without its end.
+std::string json_of(const io::Run& run, const simulation::Event& event) {
+  const io::RunFloe* floe = event.ice() ? run.floe(event.ice()->floe) : nullptr;
+  std::string line;
+  io::append_event(line, event, run.scene.scene, floe ? floe->birth.parent : simulation::kNoFloe);
+  line.pop_back();
+  return line;
 }
-
-std::string described(const io::Run& run, const simulation::MooringBreak& broken) {
-  return fmt::format(
-      "{:.6g} s  {} of {} at ({:.3f}, {:.3f}): force {:.4g} N > {:.4g} N, {:.3g} m off its place",
-      broken.time, io::kMooringBreakKind, io::ship_name(run.scene.scene, broken.ship),
-      broken.point_in_world.x, broken.point_in_world.y, broken.force, broken.break_load,
-      length(broken.offset_in_moored_place));
-}
-
-/// A line of text for each event, with its time [s].
-using Lines = std::vector<std::pair<double, std::string>>;
 
 /// In order of time; those of one time as they come in events.ndjson.
-Lines in_order(Lines lines) {
-  std::ranges::stable_sort(lines, {}, &Lines::value_type::first);
-  return lines;
+std::vector<simulation::Event> in_order(std::vector<simulation::Event> events) {
+  std::ranges::stable_sort(events, {}, &simulation::Event::time);
+  return events;
 }
 
 // ---- parts of the JSON
@@ -196,18 +153,17 @@ void write_invalid(JsonWriter& json, const std::vector<analysis::InvalidFloe>& i
   json.close(']');
 }
 
-void write_hulls(JsonWriter& json, const analysis::RunCheck& check,
-                 const std::vector<simulation::ShipSpec>& ships) {
+void write_hulls(JsonWriter& json, const analysis::RunCheck& check, const simulation::Scene& scene) {
   const auto write_body = [&](std::string_view key, const simulation::ContactState::Body& body) {
     json.key(key);
     if (body.ship >= 0)
-      json.value(ships[static_cast<std::size_t>(body.ship)].name);
+      json.value(io::ship_name(scene, body.ship));
     else
       json.value(body.floe);
   };
   json.key("hull_pairs").value(check.hull_pairs).key("largest_overlap_with_hull");
   if (check.worst_hull >= 0) {
-    json.open('{').key("ship").value(ships[static_cast<std::size_t>(check.worst_hull)].name);
+    json.open('{').key("ship").value(io::ship_name(scene, check.worst_hull));
     json.key("floe_id").value(check.worst_with_hull.second).key("t_s").value(check.worst_with_hull.time);
     json.key("area_m2").value(check.worst_with_hull.area).key("depth_m").value(check.worst_with_hull.depth);
     json.close('}');
@@ -286,7 +242,7 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
     if (!at.death_event) continue;
     const simulation::Event& event = run.events[*at.death_event];
     text += fmt::format("|  {}\n", described(run, event));
-    for (const FloeId child : event.children) {
+    for (const FloeId child : event.ice()->children) {
       if (std::ranges::find(ids, child) == ids.end() && run.floe(child))
         text += fmt::format("|--floe {}  {:.6f} m2\n", child, run.floe(child)->birth.area);
     }
@@ -311,7 +267,7 @@ std::string size_text(const analysis::SizeDistribution& sizes) {
   return text;
 }
 
-std::string check_text(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships) {
+std::string check_text(const analysis::RunCheck& check, const simulation::Scene& scene) {
   std::string text;
   const auto add = [&text](const std::string& line) { text += line + "\n"; };
   const auto from = [](simulation::FloeId floe) {
@@ -349,7 +305,7 @@ std::string check_text(const analysis::RunCheck& check, const std::vector<simula
   };
   add_pair("largest", check.worst);
   add_pair("deepest", check.deepest);
-  add_hulls_and_crushed(text, check, ships);
+  add_hulls_and_crushed(text, check, scene);
   add("           Overlap is part of the contact model: ice in contact is let in by what it crushes, and "
       "frames are right to");
   add("           1 mm and 1e-5 rad. All areas are exact for the rings and poses on record.");
@@ -358,50 +314,22 @@ std::string check_text(const analysis::RunCheck& check, const std::vector<simula
 }
 
 std::string event_list(const io::Run& run) {
-  Lines lines;
-  const auto add = [&](const auto& events) {
-    for (const auto& event : events) lines.emplace_back(event.time, described(run, event));
-  };
-  for (const simulation::Event& event : run.events) {
-    const std::string of_floe =
-        event.floe == simulation::kNoFloe ? "" : fmt::format("  (floe {})", event.floe);
-    lines.emplace_back(event.time, described(run, event) + of_floe);
-  }
-  add(run.ship_contacts);
-  add(run.mooring_breaks);
-  if (lines.empty()) return "no events\n";
   std::string text;
-  for (const auto& [time, line] : in_order(std::move(lines))) text += line + "\n";
-  return text;
+  for (const simulation::Event& event : in_order(run.events)) {
+    text += described(run, event);
+    if (event.ice()) text += fmt::format("  (floe {})", event.ice()->floe);
+    text += '\n';
+  }
+  return text.empty() ? "no events\n" : text;
 }
 
 std::string events_json(const io::Run& run) {
-  const simulation::Scene& scene = run.scene.scene;
-  Lines lines;
-  const auto add = [&](const auto& events, auto append) {
-    for (const auto& event : events) {
-      append(lines.emplace_back(event.time, "").second, event);
-      lines.back().second.pop_back();  // its newline
-    }
-  };
-  add(run.events, [&](std::string& line, const simulation::Event& event) {
-    const io::RunFloe* floe = run.floe(event.floe);
-    io::append_event(line, event, io::ship_name(scene, event.ship),
-                     floe ? floe->birth.parent : simulation::kNoFloe);
-  });
-  add(run.ship_contacts, [&](std::string& line, const simulation::ShipContact& contact) {
-    io::append_ship_contact(line, contact, io::ship_name(scene, contact.ship),
-                            io::ship_name(scene, contact.other));
-  });
-  add(run.mooring_breaks, [&](std::string& line, const simulation::MooringBreak& broken) {
-    io::append_mooring_break(line, broken, io::ship_name(scene, broken.ship));
-  });
   std::string text;
   io::JsonWriter json(text);
   json.open('{').key("events").open('[');
-  for (const auto& [time, line] : in_order(std::move(lines))) {
+  for (const simulation::Event& event : in_order(run.events)) {
     json.start_line();
-    json.json(line);
+    json.json(json_of(run, event));
   }
   json.close(']').close('}');
   return text + "\n";
@@ -450,22 +378,17 @@ std::string lineage_json(const io::Run& run, simulation::FloeId floe) {
     json.start_line();
     json.open('{').key("floe_id").value(id).key("born_s").value(at.birth.time);
     json.key("area_m2").value(at.birth.area).key("broken_by");
-    if (at.death_event) {
-      const simulation::Event& event = run.events[*at.death_event];
-      std::string line;
-      io::append_event(line, event, io::ship_name(run.scene.scene, event.ship), at.birth.parent);
-      line.pop_back();  // its newline
-      json.json(line);
-    } else {
+    if (at.death_event)
+      json.json(json_of(run, run.events[*at.death_event]));
+    else
       json.null();
-    }
     json.close('}');
   }
   json.close(']').close('}');
   return text + "\n";
 }
 
-std::string check_json(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships) {
+std::string check_json(const analysis::RunCheck& check, const simulation::Scene& scene) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
   json.open('{').key("is_sound").value(check.is_sound()).key("shapes").value(check.shapes);
@@ -481,7 +404,7 @@ std::string check_json(const analysis::RunCheck& check, const std::vector<simula
   json.key("ice_then_m2").value(check.ice_then);
   write_shared(json, "largest_overlap", check.worst);
   write_shared(json, "deepest_overlap", check.deepest);
-  write_hulls(json, check, ships);
+  write_hulls(json, check, scene);
   json.close('}');
   return text + "\n";
 }

@@ -48,7 +48,7 @@ std::string lineage_tree(const io::Run& run, simulation::FloeId floe);
 std::string size_text(const analysis::SizeDistribution& sizes);
 
 /// What check_run found, in words.
-std::string check_text(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships);
+std::string check_text(const analysis::RunCheck& check, const simulation::Scene& scene);
 
 /// The same reports as JSON: one object each.
 std::string floes_json(const std::vector<FloeRow>& rows, double time);
@@ -57,6 +57,6 @@ std::string size_json(const analysis::SizeDistribution& sizes);
 std::string lineage_json(const io::Run& run, simulation::FloeId floe);
 /// The lines of events.ndjson as time goes.
 std::string events_json(const io::Run& run);
-std::string check_json(const analysis::RunCheck& check, const std::vector<simulation::ShipSpec>& ships);
+std::string check_json(const analysis::RunCheck& check, const simulation::Scene& scene);
 
 }  // namespace polynya::app

@@ -16,7 +16,6 @@
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/run/run_writer.hpp"
-#include "io/run/shown_loads.hpp"
 #include "io/run/summary.hpp"
 #include "simulation/simulation.hpp"
 #include "views/map/final_map.hpp"
@@ -43,25 +42,30 @@ std::string with_time(const io::Peak& peak) {
   return fmt::format("{} at {:.6g} s", with_unit(peak.value), peak.time);
 }
 
-/// The largest loads on each ship and structure, the true force first (io/run/shown_loads.hpp).
+/// What a peak of that column is of.
+std::string measure_of(const io::ForceColumn& column, const simulation::Scene& scene) {
+  if (column.curve == "paper") return "j/τ_c of the paper";
+  return column.over == io::Over::kMean ? fmt::format("mean over {:.6g} s", recording_interval(scene))
+                                        : fmt::format("single step of {:.6g} s", scene.time.step);
+}
+
+/// The largest loads on each ship and structure (docs/theory.md, "Which force"): of ice, then of other ships
+/// and structures, the paper's last.
 std::string force_lines(const io::RunSummary& summary, const simulation::Scene& scene) {
   std::string text;
-  const std::vector<io::ShownLoad> loads = io::shown_loads(scene);
   const std::vector<const io::ForceColumn*> columns = io::peak_columns(scene);
   for (const io::ShipPeaks& peaks : summary.peaks) {
-    const auto peak_of = [&](const io::ForceColumn& column) -> const io::Peak& {
-      return peaks.of_column.at(
-          static_cast<std::size_t>(std::ranges::find(columns, &column) - columns.begin()));
-    };
     bool is_free = true;
-    for (const io::ShownLoad& load : loads) {
-      const io::Peak& surge = peak_of(*load.columns[0]);
-      const io::Peak& sway = peak_of(*load.columns[1]);
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+      const bool is_by_ice = columns[i]->plot == "Surge force of the ice";
+      if (!is_by_ice && columns[i]->plot != "Surge force of ships") continue;
+      const io::Peak& surge = peaks.of_column[i];
+      const io::Peak& sway = peaks.of_column[i + 1];
       if (surge.value == 0 && sway.value == 0) continue;
       is_free = false;
-      text += fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n",
-                          load.is_by_ice ? "ice force" : "ship force", peaks.ship, with_time(surge),
-                          with_time(sway), load.measure);
+      text +=
+          fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n", is_by_ice ? "ice force" : "ship force",
+                      peaks.ship, with_time(surge), with_time(sway), measure_of(*columns[i], scene));
     }
     if (is_free) text += fmt::format("ice force   {}: none\n", peaks.ship);
   }

@@ -149,17 +149,13 @@ int validate(const ValidateOptions& options) {
     return kDone;
   }
   const simulation::Scene& scene = loaded->scene;
-  const auto grounded = static_cast<std::size_t>(std::ranges::count_if(scene.ships, simulation::is_grounded));
-  const auto walls =
-      static_cast<std::size_t>(std::ranges::count_if(scene.ships, [](const simulation::ShipSpec& ship) {
-        return std::holds_alternative<simulation::Wall>(ship.propulsion);
-      }));
+  const auto listed = [](std::size_t count, std::string_view noun) {
+    return count > 0 ? ", " + counted(count, noun) : "";
+  };
   print_out("{}: valid; \"{}\" with {}{}{} and {}, {:g} s in steps of {:g} s, hash {}\n",
-            options.scene == "-" ? "stdin" : options.scene, scene.name,
-            counted(scene.ships.size() - grounded, "ship"),
-            grounded > walls ? ", " + counted(grounded - walls, "structure") : "",
-            walls > 0 ? ", " + counted(walls, "wall") : "", counted(scene.floes.size(), "floe"),
-            scene.time.until, scene.time.step, loaded->hash);
+            options.scene == "-" ? "stdin" : options.scene, scene.name, counted(scene.ships.size(), "ship"),
+            listed(scene.structures.size(), "structure"), listed(scene.walls.size(), "wall"),
+            counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step, loaded->hash);
   print_floes(*loaded);
   return kDone;
 }

@@ -39,9 +39,9 @@ Box box_in_water(const Bodies& bodies, BodyIndex i) {
 /// Not two bodies of prescribed motion, which no impulse moves, but for a hull in fast ice: that crushes. Nor
 /// two walls, which stand for ice far away and may cross at their ends.
 bool can_press(const Bodies& bodies, BodyIndex a, BodyIndex b, bool presses_prescribed) {
-  if (bodies.is_grounded[a] != 0 && bodies.is_grounded[b] != 0) return false;
+  if (is_grounded(bodies.kind[a]) && is_grounded(bodies.kind[b])) return false;
   if (bodies.inverse_mass[a] != 0 || bodies.inverse_mass[b] != 0) return true;
-  return presses_prescribed && (bodies.thickness[a] > 0) != (bodies.thickness[b] > 0);
+  return presses_prescribed && (bodies.kind[a] == BodyKind::kFloe) != (bodies.kind[b] == BodyKind::kFloe);
 }
 
 }  // namespace

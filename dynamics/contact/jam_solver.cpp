@@ -22,7 +22,7 @@ constexpr double kBoundFound = 0.05;
 /// greater: the masses are lost to rounding beside it, and the matrix is singular.
 constexpr double kRigid = 1e6;
 
-using Vector = Eigen::VectorXd;
+using Unknowns = Eigen::VectorXd;
 
 JamRows rows_of(const ContactConstraint& c, int a, int b) {
   const geometry::Vector n = c.normal;
@@ -115,8 +115,8 @@ class Jam {
     const bool is_free = found != body_of_.end() && *found == body;
     return is_free ? static_cast<int>(found - body_of_.begin()) : -1;
   }
-  Vector velocities() const {
-    Vector v(mass_.size());
+  Unknowns velocities() const {
+    Unknowns v(mass_.size());
     for (std::size_t i = 0; i < body_of_.size(); ++i) {
       const SolverBody& body = bodies_[index(body_of_[i])];
       v.segment<3>(static_cast<Eigen::Index>(3 * i)) << body.velocity.x, body.velocity.y,
@@ -178,8 +178,8 @@ class Jam {
     for (int end = 0; end < 2; ++end) load.slip_by_apart[end] = friction * load.slope[end];
     return load;
   }
-  Vector gradient_now() const {
-    Vector gradient = mass_.cwiseProduct(velocity_ - without_);
+  Unknowns gradient_now() const {
+    Unknowns gradient = mass_.cwiseProduct(velocity_ - without_);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const JamRows& r = rows_[k];
       for (int row = 0; row < 3; ++row) {
@@ -192,7 +192,7 @@ class Jam {
     return gradient;
   }
   /// Changes the velocities, and with them speeds and impulses.
-  void advance(const Vector& direction) {
+  void advance(const Unknowns& direction) {
     velocity_ += direction;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const JamRows& r = rows_[k];
@@ -267,8 +267,8 @@ class Jam {
   std::vector<Speeds> speeds_;
   std::vector<JamLoad> loads_;  ///< by the speeds, on the branches; the impulses need not obey their laws
   std::vector<ActiveSet> active_sets_;
-  std::vector<double> slip_bound_;    ///< [N s]
-  Vector mass_, velocity_, without_;  ///< now, and without any impulses
+  std::vector<double> slip_bound_;      ///< [N s]
+  Unknowns mass_, velocity_, without_;  ///< now, and without any impulses
 };
 
 }  // namespace

@@ -55,11 +55,10 @@ inline constexpr double kManyPieces = 512;
 
 /// How contacts are found.
 struct ContactRule {
-  double circle_radius = 1.0;      ///< [m]
-  bool is_circle_centres = false;  ///< the paper's own normals, instead of those of the boundary
-  bool is_culling = true;          ///< false: every step collides all pairs with one awake (tests)
-  bool presses_prescribed =
-      false;  ///< a body without thickness (a hull) presses ice though both motions are prescribed
+  double circle_radius = 1.0;       ///< [m]
+  bool is_circle_centres = false;   ///< the paper's own normals, instead of those of the boundary
+  bool is_culling = true;           ///< false: every step collides all pairs with one awake (tests)
+  bool presses_prescribed = false;  ///< a hull presses ice though both motions are prescribed
   /// Covers are kept until they have this many pieces in all, of 64 bytes each: those of some 50 000 floes of
   /// 20 m. Of more bodies they are made again where they are needed, for the same contacts.
   double most_kept_pieces = 4'194'304;

@@ -14,16 +14,14 @@ using geometry::Vector;
 
 namespace {
 
-constexpr int kDirections = DragShape::kDirections;
-
-/// Where a direction (of any length > 0) is among those of half a turn, from [0, kDirections]. The inverse of
-/// drag_direction.
+/// Where a direction (of any length > 0) is among those of half a turn, from [0, DragShape::kDirections]. The
+/// inverse of drag_direction.
 inline double place_along(Vector d) {
   const bool is_behind = d.y < 0;
   const double x = is_behind ? -d.x : d.x;
   const double y = is_behind ? -d.y : d.y;
   const double from_axis = y / (std::abs(x) + y);
-  return (x >= 0 ? from_axis : 2 - from_axis) * (0.5 * kDirections);
+  return (x >= 0 ? from_axis : 2 - from_axis) * (0.5 * DragShape::kDirections);
 }
 
 }  // namespace
@@ -31,7 +29,7 @@ inline double place_along(Vector d) {
 double width_across(const DragShape& shape, Vector direction_in_body) {
   if (shape.is_same) return shape.same_width;
   const double at = place_along(direction_in_body);
-  const int k = std::min(static_cast<int>(at), kDirections - 1);
+  const int k = std::min(static_cast<int>(at), DragShape::kDirections - 1);
   return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
 }
 
@@ -120,7 +118,7 @@ DragSpan span_at(const Columns& bodies, BodyIndex i, int k) {
 /// The width across a place between two known directions.
 double width_at(const Columns& bodies, BodyIndex i, double place) {
   DragSpan& span = bodies.span[i];
-  const int k = std::min(static_cast<int>(place), kDirections - 1);
+  const int k = std::min(static_cast<int>(place), DragShape::kDirections - 1);
   if (span.place != k) span = span_at(bodies, i, k);
   return span.width + (place - k) * (span.next_width - span.width);
 }

@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "fracture/characteristic_length.hpp"
+#include "geometry/shape/angle.hpp"
 
 namespace polynya::fracture {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array<double, 8> kAngles = {20, 30, 40, 60, 90, 120, 150, 180};  // 2α [°]
 /// [t0]; the last row is that of a wedge at rest.
 constexpr std::array<double, 15> kDurations = {0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 0.9,
@@ -57,7 +56,7 @@ double geometric_mean(double a, double b, double share) {
 
 double tip_compliance(double opening_angle, double duration) {
   if (duration <= 0) return 0;
-  const Place angle = place_of(opening_angle / kDegree, kAngles);
+  const Place angle = place_of(opening_angle / geometry::kRadiansPerDegree, kAngles);
   const Place time = place_of(duration, kDurations);
   const auto at_angle = [&](std::size_t i) {
     return geometric_mean(kCompliance[i][time.first], kCompliance[i][time.first + 1], time.share);

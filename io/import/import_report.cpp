@@ -1,21 +1,20 @@
 #include "io/import/import_report.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
+#include "geometry/shape/angle.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/problem.hpp"
 #include "io/text/lenient_json.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::io {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kMostYields = 3;  ///< floes named in a message
 
 /// The floes' own ids where every one has one of its own, else their numbers; further pieces of a floe are
@@ -60,9 +59,12 @@ std::string others_of(const FloeEntry& entry) {
 
 void write_plane(JsonWriter& json, const PlaneReport& plane) {
   if (plane.origin) {
-    json.key("origin").open('{').key("latitude_deg").value(kDegrees * plane.origin->latitude);
-    json.key("longitude_deg").value(kDegrees * plane.origin->longitude);
-    json.key("heading_deg").value(kDegrees * plane.origin->heading).close('}');
+    json.key("origin")
+        .open('{')
+        .key("latitude_deg")
+        .value(geometry::kDegreesPerRadian * plane.origin->latitude);
+    json.key("longitude_deg").value(geometry::kDegreesPerRadian * plane.origin->longitude);
+    json.key("heading_deg").value(geometry::kDegreesPerRadian * plane.origin->heading).close('}');
   }
   if (plane.shift != geometry::Vector{}) json.key("shift_m").value(plane.shift);
 }
@@ -214,8 +216,9 @@ std::string areas_in_words(const ImportTotals& totals) {
 std::string plane_in_words(const PlaneReport& plane) {
   std::string words = plane.system.empty() ? "metres of the plane" : plane.system;
   if (plane.origin && !plane.system.empty()) {
-    words += fmt::format(", projected about {:.9g}, {:.9g}", kDegrees * plane.origin->latitude,
-                         kDegrees * plane.origin->longitude);
+    words +=
+        fmt::format(", projected about {:.9g}, {:.9g}", geometry::kDegreesPerRadian * plane.origin->latitude,
+                    geometry::kDegreesPerRadian * plane.origin->longitude);
     if (plane.is_origin_chosen) words += " (the floes' middle: give it as the scene's origin)";
   } else if (!plane.target.empty()) {
     words += fmt::format(", in the plane of {}", plane.target);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
+#include "geometry/shape/angle.hpp"
 #include "io/text/degrees.hpp"
 
 namespace polynya::io {
@@ -19,8 +20,7 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr const char* kLongitudeLatitude = "OGC:CRS84";
+constexpr const char* kDegreesByOgc = "OGC:CRS84";
 
 tl::unexpected<PlaneError> refuse(std::string words, std::optional<std::size_t> floe = {}) {
   return tl::unexpected(PlaneError{floe, std::move(words)});
@@ -139,7 +139,7 @@ class PlaneImport {
     for (const SourceFloe& floe : floes_) evidence.add(floe.polygon);
     const bool is_projected = settings_.origin || !settings_.target.empty();
     if (!settings_.are_metres && (evidence.look_like_degrees() || (settings_.origin && lie_about_origin()))) {
-      if (is_projected) return std::string(kLongitudeLatitude);
+      if (is_projected) return std::string(kDegreesByOgc);
       const Point middle = middle_of_degrees();
       return refuse(
           fmt::format("these look like longitude and latitude, and the file names no coordinate system: {} "
@@ -174,8 +174,8 @@ class PlaneImport {
       ++floes;
       const Point at = ring.front();
       if (of_floe < kLeastIce && std::ranges::all_of(ring, is_in_degrees) &&
-          great_circle(at.y / kDegrees, at.x / kDegrees, settings_.origin->latitude,
-                       settings_.origin->longitude) < kFarthestFloe)
+          great_circle(at.y / geometry::kDegreesPerRadian, at.x / geometry::kDegreesPerRadian,
+                       settings_.origin->latitude, settings_.origin->longitude) < kFarthestFloe)
         ++near;
     }
     return floes > 0 && (area < kLeastIce || 10 * near >= floes);
@@ -191,25 +191,27 @@ class PlaneImport {
         std::ranges::copy_if(floes_[i].polygon.outer, std::back_inserter(points), is_in_degrees);
     if (points.empty()) return {};
     for (const Point p : points) {
-      latitudes.push_back(p.y / kDegrees);
-      longitudes.push_back(std::remainder(p.x - points[0].x, 360) / kDegrees);  // also across 180°
+      latitudes.push_back(p.y / geometry::kDegreesPerRadian);
+      longitudes.push_back(std::remainder(p.x - points[0].x, 360) /
+                           geometry::kDegreesPerRadian);  // also across 180°
     }
     const double latitude = median(std::move(latitudes));
-    const double longitude = median(std::move(longitudes)) + points[0].x / kDegrees;
+    const double longitude = median(std::move(longitudes)) + points[0].x / geometry::kDegreesPerRadian;
     const auto is_near = [&](Point p) {
-      return great_circle(p.y / kDegrees, p.x / kDegrees, latitude, longitude) < kFarthestFloe;
+      return great_circle(p.y / geometry::kDegreesPerRadian, p.x / geometry::kDegreesPerRadian, latitude,
+                          longitude) < kFarthestFloe;
     };
     const bool are_all = std::ranges::none_of(points, is_near);
     double x = 0, y = 0, z = 0;
     for (const Point p : points) {
       if (!are_all && !is_near(p)) continue;
-      x += std::cos(p.y / kDegrees) * std::cos(p.x / kDegrees);
-      y += std::cos(p.y / kDegrees) * std::sin(p.x / kDegrees);
-      z += std::sin(p.y / kDegrees);
+      x += std::cos(p.y / geometry::kDegreesPerRadian) * std::cos(p.x / geometry::kDegreesPerRadian);
+      y += std::cos(p.y / geometry::kDegreesPerRadian) * std::sin(p.x / geometry::kDegreesPerRadian);
+      z += std::sin(p.y / geometry::kDegreesPerRadian);
     }
     const auto to_thousandths = [](double value) { return std::round(1000 * value) / 1000; };
-    return {to_thousandths(kDegrees * std::atan2(y, x)),
-            to_thousandths(kDegrees * std::atan2(z, std::hypot(x, y)))};
+    return {to_thousandths(geometry::kDegreesPerRadian * std::atan2(y, x)),
+            to_thousandths(geometry::kDegreesPerRadian * std::atan2(z, std::hypot(x, y)))};
   }
 
   Done project(const std::string& system, bool is_of_file) {
@@ -229,7 +231,8 @@ class PlaneImport {
       if (!settings_.chooses_origin)
         return refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}",
                                   crs->name, settings_.origin_in_words(middle.y, middle.x)));
-      origin = {middle.y / kDegrees, middle.x / kDegrees, std::numbers::pi / 2};
+      origin = {middle.y / geometry::kDegreesPerRadian, middle.x / geometry::kDegreesPerRadian,
+                std::numbers::pi / 2};
       report_.is_origin_chosen = true;
     }
     if (origin) return project_about(*origin, system, crs->is_geographic);
@@ -334,10 +337,12 @@ class PlaneImport {
     return refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
       const simulation::GeographicOrigin& origin = *report_.origin;
       const Geographic at = plane.geographic_of(one.point);
-      const double latitude = kDegrees * at.latitude, longitude = kDegrees * at.longitude;
+      const double latitude = geometry::kDegreesPerRadian * at.latitude,
+                   longitude = geometry::kDegreesPerRadian * at.longitude;
       std::string words = fmt::format("{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km",
                                       place_in_words(latitude, longitude), length(one.point - Point{}) / 1000,
-                                      place_in_words(kDegrees * origin.latitude, kDegrees * origin.longitude),
+                                      place_in_words(geometry::kDegreesPerRadian * origin.latitude,
+                                                     geometry::kDegreesPerRadian * origin.longitude),
                                       latitude * origin.latitude < 0 ? ", in the other hemisphere" : "",
                                       more_in_words(others), kFarthestFloe / 1000);
       const std::span<const SourceFloe> all(as_read);

@@ -2,19 +2,19 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <proj.h>
+
+#include "geometry/shape/angle.hpp"
 
 namespace polynya::io {
 namespace {
 
 using geometry::Point;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr const char* kLongitudeLatitude = "+proj=longlat +datum=WGS84 +no_defs +type=crs";
+constexpr const char* kDegreesByProj = "+proj=longlat +datum=WGS84 +no_defs +type=crs";
 
 /// PROJ, loaded when it is first asked: it brings 37 libraries along, which each command would wait for and
 /// carry otherwise. POLYNYA_PROJ is the name of the one that this was built with.
@@ -142,11 +142,12 @@ void Projection::apply_inverse(std::vector<Point>& points) const {
 
 std::string GeographicPlane::system(const simulation::GeographicOrigin& origin) {
   return fmt::format("+proj=aeqd +lat_0={} +lon_0={} +datum=WGS84 +units=m +no_defs +type=crs",
-                     kDegrees * origin.latitude, kDegrees * origin.longitude);
+                     geometry::kDegreesPerRadian * origin.latitude,
+                     geometry::kDegreesPerRadian * origin.longitude);
 }
 
 Result<GeographicPlane> GeographicPlane::about(const simulation::GeographicOrigin& origin) {
-  auto from_degrees = Projection::between(kLongitudeLatitude, system(origin));
+  auto from_degrees = Projection::between(kDegreesByProj, system(origin));
   if (!from_degrees) return fail(from_degrees.error());
   return GeographicPlane(origin, std::move(*from_degrees));
 }
@@ -156,9 +157,9 @@ Geographic GeographicPlane::geographic_of(Point point) const {
   const double sin_h = std::sin(origin_.heading), cos_h = std::cos(origin_.heading);
   std::vector<Point> at{{point.x * sin_h - point.y * cos_h, point.x * cos_h + point.y * sin_h}};
   from_degrees_.apply_inverse(at);
-  const double origin_longitude = kDegrees * origin_.longitude;
+  const double origin_longitude = geometry::kDegreesPerRadian * origin_.longitude;
   const double longitude = origin_longitude + std::remainder(at[0].x - origin_longitude, 360);
-  return {at[0].y / kDegrees, longitude / kDegrees};
+  return {at[0].y / geometry::kDegreesPerRadian, longitude / geometry::kDegreesPerRadian};
 }
 
 void GeographicPlane::place(std::vector<Point>& degrees) const {

@@ -1,6 +1,5 @@
 #include "io/run/failure_dump.hpp"
 
-
 #include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/text/output_file.hpp"

@@ -2,236 +2,199 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iterator>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/shape/angle.hpp"
 #include "io/text/csv_row.hpp"
 
 namespace polynya::io {
 namespace {
 
-using simulation::ShipSample;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kRadians = std::numbers::pi / 180;
-
-template <auto Member>
-constexpr ForceColumn column(std::string_view name, std::string_view unit, std::string_view meaning,
-                             std::string_view plot = {}, bool is_optional = false) {
-  return {.name = name,
-          .unit = unit,
-          .meaning = meaning,
-          .read = [](const ShipSample& s) { return static_cast<double>(s.*Member); },
-          .store =
-              [](ShipSample& s, double value) {
-                s.*Member = static_cast<std::remove_reference_t<decltype(s.*Member)>>(value);
-              },
-          .plot = plot,
-          .is_optional = is_optional};
-}
-
-template <double ShipSample::*Member>
-constexpr ForceColumn in_degrees(std::string_view name, std::string_view unit, std::string_view meaning) {
-  return {.name = name,
-          .unit = unit,
-          .meaning = meaning,
-          .read = [](const ShipSample& s) { return kDegrees * s.*Member; },
-          .store = [](ShipSample& s, double value) { s.*Member = kRadians * value; }};
-}
-
-template <auto Pair, auto Component>
-constexpr ForceColumn component(std::string_view name, std::string_view unit, std::string_view meaning) {
-  return {.name = name,
-          .unit = unit,
-          .meaning = meaning,
-          .read = [](const ShipSample& s) { return s.*Pair.*Component; },
-          .store = [](ShipSample& s, double value) { s.*Pair.*Component = value; }};
-}
-
-using S = ShipSample;
+using S = simulation::ShipSample;
 using dynamics::Planar;
 using geometry::Point;
 using geometry::Vector;
+using enum Over;
 using enum ShownWhere;
-using enum CurveKind;
 
 /// Whether older runs do not have what is shown there.
 constexpr bool is_of_newer_runs(ShownWhere where) {
   return where != kAlways && where != kWhereItSplits;
 }
 
-/// A load of ships that sail, component by component.
-template <auto Load, double dynamics::Planar::*Component>
-constexpr ForceColumn sailing(std::string_view name, std::string_view unit, std::string_view meaning,
-                              ShownWhere where, std::string_view plot) {
-  ForceColumn load = component<Load, Component>(name, unit, meaning);
-  load.is_optional = true;
-  load.peak = where;
-  load.plot = plot;
-  return load;
-}
-
-/// Of the helm; without a peak.
-constexpr ForceColumn of_helm(ForceColumn column, ShownWhere where, std::string_view plot) {
-  column.is_optional = true;
-  column.plotted = where;
-  column.plot = plot;
-  return column;
-}
-
-/// A load, with its peak and its plot; older runs do not have those of ships.
-template <double S::*Member>
-constexpr ForceColumn load(std::string_view name, std::string_view unit, std::string_view meaning,
-                           ShownWhere where, std::string_view plot, CurveKind curve = kMean) {
-  ForceColumn load = column<Member>(name, unit, meaning);
-  load.is_optional = is_of_newer_runs(where);
-  load.peak = where;
-  load.plot = plot;
-  load.curve = curve;
-  return load;
-}
-
-constexpr std::string_view kSurge = "Surge force of the ice", kSurgeOfShips = "Surge force of ships";
-constexpr std::string_view kSway = "Sway force of the ice", kSwayOfShips = "Sway force of ships";
-constexpr std::string_view kYaw = "Yaw moment of the ice", kYawOfShips = "Yaw moment of ships";
-constexpr bool kInNewerRuns = true;
-
-constexpr ForceColumn kColumns[] = {
-    load<&S::surge_force>("surge_N", "N",
-                          "force of the ice forward, mean of the interval: momentum given / time", kAlways,
-                          kSurge),
-    load<&S::sway_force>("sway_N", "N", "to port, likewise", kAlways, kSway),
-    load<&S::yaw_moment>("yaw_Nm", "N·m", "moment counter-clockwise, likewise", kAlways, kYaw),
-    load<&S::surge_max>("surge_max_N", "N",
-                        "force of the ice forward in the single step where it is largest by magnitude",
-                        kAlways, kSurge, kMax),
-    load<&S::sway_max>("sway_max_N", "N", "to port, likewise", kAlways, kSway, kMax),
-    load<&S::yaw_max>("yaw_max_Nm", "N·m", "moment counter-clockwise, likewise", kAlways, kYaw, kMax),
-    load<&S::surge_from_ships>("surge_from_ships_N", "N",
-                               "force of other ships and structures forward, mean of the interval",
-                               kAmongShips, kSurgeOfShips),
-    load<&S::sway_from_ships>("sway_from_ships_N", "N", "to port, likewise", kAmongShips, kSwayOfShips),
-    load<&S::yaw_from_ships>("yaw_from_ships_Nm", "N·m", "moment counter-clockwise, likewise", kAmongShips,
-                             kYawOfShips),
-    load<&S::surge_from_ships_max>(
-        "surge_from_ships_max_N", "N",
-        "force of other ships and structures forward in the single step where it is largest by magnitude",
-        kAmongShips, kSurgeOfShips, kMax),
-    load<&S::sway_from_ships_max>("sway_from_ships_max_N", "N", "to port, likewise", kAmongShips,
-                                  kSwayOfShips, kMax),
-    load<&S::yaw_from_ships_max>("yaw_from_ships_max_Nm", "N·m", "moment counter-clockwise, likewise",
-                                 kAmongShips, kYawOfShips, kMax),
-    load<&S::surge_from_submerged>("surge_from_submerged_ice_N", "N",
-                                   "force of the ice under the hull forward, mean of the interval",
-                                   kUnderHulls, "Surge force of the ice under the hull"),
-    load<&S::yaw_from_submerged>("yaw_from_submerged_ice_Nm", "N·m", "its moment counter-clockwise, likewise",
-                                 kUnderHulls, "Yaw moment of the ice under the hull"),
-    load<&S::submerged_area>("ice_under_hull_m2", "m²", "ice under the hull, at the end of the interval",
-                             kUnderHulls, "Ice under the hull"),
-    load<&S::surge_peak>("surge_j_over_tau_c_N", "N",
-                         "the paper's collision force j/τ_c of the ice forward, largest by magnitude",
-                         kWhereItSplits, kSurge, kPaper),
-    load<&S::sway_peak>("sway_j_over_tau_c_N", "N", "to port, likewise", kWhereItSplits, kSway, kPaper),
-    load<&S::yaw_peak>("yaw_j_over_tau_c_Nm", "N·m", "its moment counter-clockwise, likewise", kWhereItSplits,
-                       kYaw, kPaper),
-    component<&S::position_in_world, &Point::x>("x_m", "m", "centre of gravity, over ground"),
-    component<&S::position_in_world, &Point::y>("y_m", "m", "centre of gravity, over ground"),
-    in_degrees<&S::heading>("heading_deg", "°", "from the x axis, counter-clockwise"),
-    {.name = "speed_m_per_s",
-     .unit = "m/s",
-     .meaning = "over ground",
-     .read = [](const S& s) { return length(s.velocity_in_world); },
-     .store = [](S&, double) {},  // it follows from the velocity
-     .peak = kAlways,
-     .plot = "Speed over ground"},
-    component<&S::velocity_in_world, &Vector::x>("vx_m_per_s", "m/s", "velocity over ground"),
-    component<&S::velocity_in_world, &Vector::y>("vy_m_per_s", "m/s", "velocity over ground"),
-    in_degrees<&S::yaw_rate>("yaw_rate_deg_per_s", "°/s", "counter-clockwise"),
-    column<&S::thrust>("thrust_N", "N",
-                       "along the heading; of a ship at constant speed what it takes to hold it", "Thrust"),
-    sailing<&S::from_engine, &Planar::sway>("sway_from_thrusters_N", "N",
-                                            "of turned thrusters to port, mean of the interval",
-                                            kWithThrusters, "Sway force of thrusters"),
-    sailing<&S::from_engine, &Planar::yaw>("yaw_from_thrusters_Nm", "N·m",
-                                           "their moment counter-clockwise, likewise", kWithThrusters,
-                                           "Yaw moment of thrusters"),
-    sailing<&S::from_water, &Planar::surge>(
-        "surge_from_water_N", "N",
-        "force of the water on the hull forward, its inertia with it, mean of the interval", kInWater,
-        "Surge force of the water"),
-    sailing<&S::from_water, &Planar::sway>("sway_from_water_N", "N", "to port, likewise", kInWater,
-                                           "Sway force of the water"),
-    sailing<&S::from_water, &Planar::yaw>("yaw_from_water_Nm", "N·m", "moment counter-clockwise, likewise",
-                                          kInWater, "Yaw moment of the water"),
-    sailing<&S::from_rudder, &Planar::surge>("surge_from_rudder_N", "N",
-                                             "force of the rudder forward, mean of the interval",
-                                             kWithRudders, "Surge force of the rudder"),
-    sailing<&S::from_rudder, &Planar::sway>("sway_from_rudder_N", "N",
-                                            "to port, with the hull's share, likewise", kWithRudders,
-                                            "Sway force of the rudder"),
-    sailing<&S::from_rudder, &Planar::yaw>("yaw_from_rudder_Nm", "N·m", "moment counter-clockwise, likewise",
-                                           kWithRudders, "Yaw moment of the rudder"),
-    sailing<&S::from_mooring, &Planar::surge>("surge_from_mooring_N", "N",
-                                              "force of the mooring forward, mean of the interval", kMoored,
-                                              "Surge force of the mooring"),
-    sailing<&S::from_mooring, &Planar::sway>("sway_from_mooring_N", "N", "to port, likewise", kMoored,
-                                             "Sway force of the mooring"),
-    sailing<&S::from_mooring, &Planar::yaw>("yaw_from_mooring_Nm", "N·m",
-                                            "moment counter-clockwise, likewise", kMoored,
-                                            "Yaw moment of the mooring"),
-    sailing<&S::friction_of_ice, &Planar::surge>(
-        "surge_from_ice_friction_N", "N",
-        "share of surge_N that friction along the waterline has; the rest presses", kInWater,
-        "Surge force of the ice's friction"),
-    sailing<&S::friction_of_ice, &Planar::sway>("sway_from_ice_friction_N", "N", "of sway_N, likewise",
-                                                kInWater, "Sway force of the ice's friction"),
-    sailing<&S::friction_of_ice, &Planar::yaw>("yaw_from_ice_friction_Nm", "N·m", "of yaw_Nm, likewise",
-                                               kInWater, "Yaw moment of the ice's friction"),
-    of_helm(column<&S::lever>("lever", "",
-                              "of the thrust, a share of the power: −1 full astern to 1 full ahead, at the "
-                              "end of the interval"),
-            kWithEngines, "Thrust lever"),
-    of_helm(in_degrees<&S::steering_angle>("steering_deg", "°",
-                                           "angle of rudder or thrusters, to port, at the end of the "
-                                           "interval"),
-            kWithEngines, "Steering angle"),
-    of_helm(column<&S::delivered_power>("delivered_power_W", "W",
-                                        "power of the engine at that lever; 0 where none is given"),
-            kWithEngines, "Delivered power"),
-    of_helm(column<&S::rams>("rams", "", "charges after the first, of a pilot that rams"), kRamming, "Rams"),
-    of_helm(column<&S::gained>("gained_m", "m", "by rams, from where the ship was first stuck"), kRamming,
-            "Gained by ramming"),
-    column<&S::contacts>("contacts", "", "with ice, at the end of the interval", "Contacts at the hull"),
-    column<&S::contacts_with_ships>("contacts_with_ships", "",
-                                    "with other ships and structures, at the end of the interval", "",
-                                    kInNewerRuns),
+/// What a load is in one of the ship's axes.
+struct Axis {
+  std::string_view key, suffix, unit, title, noun, direction;
+  double Planar::*component;
 };
+constexpr Axis kSurge{"surge", "_N", "N", "Surge force", "force", "forward", &Planar::surge};
+constexpr Axis kSway{"sway", "_N", "N", "Sway force", "force", "to port", &Planar::sway};
+constexpr Axis kYaw{"yaw", "_Nm", "N·m", "Yaw moment", "moment", "counter-clockwise", &Planar::yaw};
+
+/// A load of which rows have surge, sway and yaw.
+struct Load {
+  std::string_view stem;  ///< "_from_water": surge_from_water_N, …
+  Planar S::*place;
+  Over over = kMean;
+  std::string_view source;  ///< "of the water": force of the water forward, Surge force of the water
+  ShownWhere where = kAlways;
+  std::string_view source_in_titles = {};  ///< where it is shorter there
+  std::string_view curve = "mean";
+  std::vector<Axis> axes = {kSurge, kSway, kYaw};
+};
+
+/// Where a number has its peak or its plot, and the plot's title.
+struct Shown {
+  std::optional<ShownWhere> peak = {};
+  std::optional<ShownWhere> plotted = {};
+  std::string plot = {};
+};
+
+struct Table {
+  std::vector<ForceColumn> columns = {};
+
+  /// The number at the end of a path of pointers to members.
+  template <class... Path>
+  ForceColumn& number(std::string name, std::string_view unit, Over over, std::string meaning,
+                      const Shown& shown, Path... path) {
+    const bool is_turn = unit.starts_with("°");
+    const double scale = is_turn ? geometry::kDegreesPerRadian : 1;
+    const double inverse = is_turn ? geometry::kRadiansPerDegree : 1;
+    const auto where = shown.plotted ? shown.plotted : shown.peak;
+    return columns.emplace_back(
+        ForceColumn{.name = std::move(name),
+                    .unit = unit,
+                    .meaning = std::move(meaning),
+                    .over = over,
+                    .read = [=](const S& s) { return scale * static_cast<double>((s.*....*path)); },
+                    .store =
+                        [=](S& s, double value) {
+                          auto& place = (s.*....*path);
+                          place = static_cast<std::remove_reference_t<decltype(place)>>(inverse * value);
+                        },
+                    .peak = shown.peak,
+                    .plotted = shown.plotted,
+                    .plot = shown.plot,
+                    .is_optional = where && is_of_newer_runs(*where)});
+  }
+  void load(const Load& l) {
+    const std::string_view source = l.source_in_titles.empty() ? l.source : l.source_in_titles;
+    for (const Axis& axis : l.axes)
+      number(fmt::format("{}{}{}", axis.key, l.stem, axis.suffix), axis.unit, l.over,
+             fmt::format("{} {} {}", axis.noun, l.source, axis.direction),
+             {l.where, {}, fmt::format("{} {}", axis.title, source)}, l.place, axis.component)
+          .curve = l.curve;
+  }
+};
+
+void add_contact_loads(Table& t) {
+  t.load({"", &S::from_ice, kMean, "of the ice"});
+  t.load({"_max", &S::from_ice_largest, kLargestStep, "of the ice", kAlways, {}, "max"});
+  constexpr std::string_view kOfShips = "of other ships and structures";
+  t.load({"_from_ships", &S::from_ships, kMean, kOfShips, kAmongShips, "of ships"});
+  t.load({"_from_ships_max", &S::from_ships_largest, kLargestStep, kOfShips, kAmongShips, "of ships", "max"});
+  t.load({"_from_submerged_ice",
+          &S::from_submerged,
+          kMean,
+          "of the ice under the hull",
+          kUnderHulls,
+          {},
+          "mean",
+          {kSurge, kYaw}});
+  t.number("ice_under_hull_m2", "m²", kAtEnd, "ice under the hull", {kUnderHulls, {}, "Ice under the hull"},
+           &S::submerged_area);
+  t.load({"_j_over_tau_c", &S::collision, kLargestStep, "of the ice by the paper, j/τ_c,", kWhereItSplits,
+          "of the ice", "paper"});
+}
+
+void add_motion(Table& t) {
+  t.number("x_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::x);
+  t.number("y_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::y);
+  t.number("heading_deg", "°", kAtEnd, "from the x axis, counter-clockwise", {}, &S::heading);
+  t.columns.push_back({.name = "speed_m_per_s",
+                       .unit = "m/s",
+                       .meaning = "over ground",
+                       .read = [](const S& s) { return length(s.velocity_in_world); },
+                       .store = [](S&, double) {},  // it follows from the velocity
+                       .peak = kAlways,
+                       .plot = "Speed over ground"});
+  t.number("vx_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::x);
+  t.number("vy_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::y);
+  t.number("yaw_rate_deg_per_s", "°/s", kAtEnd, "counter-clockwise", {}, &S::yaw_rate);
+}
+
+void add_sailing_loads(Table& t) {
+  t.number("thrust_N", "N", kMean, "along the heading; of a ship at constant speed what it takes to hold it",
+           {{}, {}, "Thrust"}, &S::thrust);
+  t.load({"_from_thrusters",
+          &S::from_engine,
+          kMean,
+          "of turned thrusters",
+          kWithThrusters,
+          "of thrusters",
+          "mean",
+          {kSway, kYaw}});
+  t.load({"_from_water", &S::from_water, kMean, "of the water on the hull, with its inertia,", kInWater,
+          "of the water"});
+  t.load({"_from_rudder", &S::from_rudder, kMean, "of the rudder, with the hull's share,", kWithRudders,
+          "of the rudder"});
+  t.load({"_from_mooring", &S::from_mooring, kMean, "of the mooring", kMoored});
+  t.load({"_from_ice_friction", &S::friction_of_ice, kMean,
+          "of the ice's friction along the waterline, a share of that of the ice,", kInWater,
+          "of the ice's friction"});
+}
+
+void add_helm(Table& t) {
+  t.number("lever", "", kAtEnd, "of the thrust, a share of the power: −1 full astern to 1 full ahead",
+           {{}, kWithEngines, "Thrust lever"}, &S::lever);
+  t.number("steering_deg", "°", kAtEnd, "angle of rudder or thrusters, to port",
+           {{}, kWithEngines, "Steering angle"}, &S::steering_angle);
+  t.number("delivered_power_W", "W", kAtEnd, "power of the engine at that lever; 0 where none is given",
+           {{}, kWithEngines, "Delivered power"}, &S::delivered_power);
+  t.number("rams", "", kAtEnd, "charges after the first, of a pilot that rams", {{}, kRamming, "Rams"},
+           &S::rams);
+  t.number("gained_m", "m", kAtEnd, "by rams, from where the ship was first stuck",
+           {{}, kRamming, "Gained by ramming"}, &S::gained);
+  t.number("contacts", "", kAtEnd, "with ice", {{}, {}, "Contacts at the hull"}, &S::contacts);
+  t.number("contacts_with_ships", "", kAtEnd, "with other ships and structures", {}, &S::contacts_with_ships)
+      .is_optional = true;
+}
+
+std::vector<ForceColumn> all_columns() {
+  Table table;
+  add_contact_loads(table);
+  add_motion(table);
+  add_sailing_loads(table);
+  add_helm(table);
+  return std::move(table.columns);
+}
 
 template <class Condition>
 std::vector<const ForceColumn*> columns_where(Condition condition) {
   std::vector<const ForceColumn*> columns;
-  for (const ForceColumn& column : kColumns)
+  for (const ForceColumn& column : force_columns())
     if (condition(column)) columns.push_back(&column);
   return columns;
+}
+
+const ForceColumn* find_column(std::string_view name) {
+  const auto found = std::ranges::find(force_columns(), name, &ForceColumn::name);
+  return found == force_columns().end() ? nullptr : &*found;
 }
 
 }  // namespace
 
 std::span<const ForceColumn> force_columns() {
+  static const std::vector<ForceColumn> kColumns = all_columns();
   return kColumns;
 }
 
-std::string_view name_of(CurveKind kind) {
-  return kind == kMean ? "mean" : kind == kMax ? "max" : "paper";
-}
-
 bool is_shown(ShownWhere where, const simulation::Scene& scene) {
-  if (where == kAmongShips) return scene.ships.size() > 1;
+  if (where == kAmongShips) return hull_count(scene) > 1;
   if (where == kUnderHulls) return has_draught(scene);
   const auto any_ship = [&](auto condition) { return std::ranges::any_of(scene.ships, condition); };
-  using Ship = simulation::ShipSpec;
+  using simulation::Ship;
   if (where == kInWater) return any_ship(simulation::sails);
   if (where == kWithEngines)
     return any_ship([](const Ship& s) { return std::holds_alternative<simulation::Engine>(s.propulsion); });
@@ -259,8 +222,8 @@ std::vector<const ForceColumn*> plotted_columns(const simulation::Scene& scene) 
 }
 
 const ForceColumn& force_column(std::string_view name) {
-  const auto* found = std::ranges::find(kColumns, name, &ForceColumn::name);
-  assert(found != std::end(kColumns));
+  const ForceColumn* found = find_column(name);
+  assert(found != nullptr);
   return *found;
 }
 
@@ -269,12 +232,12 @@ Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header
   std::vector<const ForceColumn*> columns;
   while (!header.empty()) {
     const std::string_view name = csv_field(header);
-    const auto* found = std::ranges::find(kColumns, name, &ForceColumn::name);
-    if (found == std::end(kColumns) || std::ranges::count(columns, found) > 0)
+    const ForceColumn* found = find_column(name);
+    if (found == nullptr || std::ranges::count(columns, found) > 0)
       return fail(fmt::format("a column \"{}\" of another version, or a second one", name));
     columns.push_back(found);
   }
-  for (const ForceColumn& column : kColumns) {
+  for (const ForceColumn& column : force_columns()) {
     if (!column.is_optional && std::ranges::count(columns, &column) == 0)
       return fail(fmt::format("no column \"{}\"", column.name));
   }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,23 +27,23 @@ enum class ShownWhere {
   kWhereItSplits   ///< in scenes where j/τ_c decides splits
 };
 
-/// Which curve of its plot a column is.
-enum class CurveKind { kMean, kMax, kPaper };
-std::string_view name_of(CurveKind kind);
+/// What a number is of the steps of its interval.
+enum class Over { kMean, kLargestStep, kAtEnd };
 
 /// A number that forces.csv records of each ship and structure. The writer, the reader, the checkpoint's
-/// peaks, summary.json and the player follow this table, a test compares docs/run-folder.md with it: to add a
-/// column, add a line to force_columns.cpp and to that page.
+/// peaks, summary.json, the player and Python follow this table, a test compares docs/run-folder.md with it:
+/// to add a column, add it in force_columns.cpp and its row, which that test prints, to that page.
 struct ForceColumn {
-  std::string_view name;     ///< with its unit: "surge_N"
-  std::string_view unit;     ///< as people read it: "N·m"; empty of a count
-  std::string_view meaning;  ///< as docs/run-folder.md has it
-  double (*read)(const simulation::ShipSample& row);
-  void (*store)(simulation::ShipSample& row, double value);
+  std::string name;       ///< with its unit: "surge_N"
+  std::string_view unit;  ///< as people read it: "N·m"; empty of a count
+  std::string meaning;    ///< as docs/run-folder.md has it
+  Over over = Over::kAtEnd;
+  std::function<double(const simulation::ShipSample& row)> read;
+  std::function<void(simulation::ShipSample& row, double value)> store;
   std::optional<ShownWhere> peak = {};     ///< where summary.json has its largest value by magnitude
   std::optional<ShownWhere> plotted = {};  ///< where it has a plot, if that is not where it has a peak
-  std::string_view plot = {};              ///< title of its plot in the player; empty: none
-  CurveKind curve = CurveKind::kMean;      ///< in that plot
+  std::string plot = {};                   ///< title of its plot in the player; empty: none
+  std::string_view curve = "mean";         ///< in that plot; or "max", or "paper"
   bool is_optional = false;                ///< older runs do not have it
 };
 

@@ -20,7 +20,7 @@ geometry::Polygon polygon_in_world(const geometry::Polygon& polygon_in_body, geo
   return polygon;
 }
 
-MotionIndex::MotionIndex(const Run& run) : floes_(run.floes.size()), ships_(run.scene.scene.ships.size()) {
+MotionIndex::MotionIndex(const Run& run) : floes_(run.floes.size()), ships_(hull_count(run.scene.scene)) {
   for (const Frame& frame : run.frames) {
     frame_times_.push_back(frame.time);
     for (const FloeMotion& floe : frame.floes) {

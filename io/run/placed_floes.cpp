@@ -50,8 +50,8 @@ std::vector<PlacedFloe> floes_under_hulls_at(const Run& run, const MotionIndex& 
 geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time) {
   if (const auto motion = motions.ship_at(ship, time))
     return {motion->position, geometry::Rotation::by(motion->angle)};
-  const simulation::ShipSpec& spec = run.scene.scene.ships.at(ship);
-  return {spec.position_in_world, geometry::Rotation::by(spec.heading)};
+  const simulation::PlacedHull& hull = hull_of(run.scene.scene, ship);
+  return {hull.position_in_world, geometry::Rotation::by(hull.heading)};
 }
 
 std::vector<double> frame_times_until(const Run& run, double time) {

@@ -18,12 +18,13 @@ struct ReadError : std::runtime_error {
 };
 
 JsonValue json_of(std::string_view text);
-/// Of a line of events.ndjson.
-std::string_view kind_of(const JsonValue& line);
+const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
+simulation::FloeId floe_id(const JsonValue& value);
+geometry::Point point(const JsonValue& value);
+/// −1 where the scene has no ship or structure of that name.
+int ship_index(const simulation::Scene& scene, std::string_view name);
+
 simulation::BirthRecord birth_of(const JsonValue& line);
-simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene);
-simulation::ShipContact ship_contact_of(const JsonValue& line, const simulation::Scene& scene);
-simulation::MooringBreak mooring_break_of(const JsonValue& line, const simulation::Scene& scene);
 simulation::ShipSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene);
 /// `run` has its scene and its floes.

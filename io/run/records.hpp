@@ -45,20 +45,6 @@ void append_state(std::string& text, double time, std::int64_t steps, std::uint6
 void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent,
                   const simulation::Scene* scene = nullptr);
 
-/// `parent` is the parent of the floe that broke.
-void append_event(std::string& text, const simulation::Event& event, std::string_view ship_name,
-                  simulation::FloeId parent);
-
-/// Also a line of events.ndjson, of this kind.
-inline constexpr std::string_view kShipContactKind = "ship_contact";
-void append_ship_contact(std::string& text, const simulation::ShipContact& contact,
-                         std::string_view ship_name, std::string_view by_ship_name);
-
-/// Likewise.
-inline constexpr std::string_view kMooringBreakKind = "mooring_break";
-void append_mooring_break(std::string& text, const simulation::MooringBreak& broken,
-                          std::string_view ship_name);
-
 /// All floes as a GeoJSON FeatureCollection in world coordinates [m].
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time);
 class GeojsonLayer;

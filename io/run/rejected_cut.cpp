@@ -9,16 +9,16 @@
 namespace polynya::io {
 namespace {
 
-std::string floe_text(const simulation::RejectedCut& cut) {
+std::string floe_text(double time, const simulation::RejectedCut& cut) {
   std::string text;
   JsonWriter json(text);
   json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(cut.floe);
-  json.key("t_s").value(cut.time).key("reason").value(cut.reason);
-  json.close('}').key("geometry").polygon(cut.polygon_in_body).close('}');
+  json.key("t_s").value(time).key("reason").value(cut.reason);
+  json.close('}').key("geometry").polygon(cut.input.polygon_in_body).close('}');
   return text + "\n";
 }
 
-std::string ops_text(const simulation::RejectedCut& cut) {
+std::string ops_text(const simulation::CutInput& cut) {
   std::string text;
   JsonWriter json(text);
   json.open('[').open('{');
@@ -55,18 +55,20 @@ Result<std::filesystem::path> folder_in(const std::filesystem::path& run_folder)
 
 }  // namespace
 
-Result<> write_rejected_cut(const std::filesystem::path& run_folder, const simulation::RejectedCut& cut) {
-  if (cut.number > kMostRejectedCuts) return {};
+Result<> write_rejected_cut(const std::filesystem::path& run_folder, double time,
+                            const simulation::RejectedCut& cut) {
+  if (cut.input.number > kMostRejectedCuts) return {};
   const auto folder = folder_in(run_folder);
   if (!folder) return fail(folder.error());
   std::error_code error;
   std::filesystem::create_directory(*folder, error);
   if (error) return fail(fmt::format("{}: {}", folder->string(), error.message()));
   const auto write = [&](std::string_view ending, const std::string& text) {
-    return write_whole_file(*folder / fmt::format("{:06}{}", cut.number, ending), text, Durability::kSynced);
+    return write_whole_file(*folder / fmt::format("{:06}{}", cut.input.number, ending), text,
+                            Durability::kSynced);
   };
-  if (auto written = write(kFloeEnding, floe_text(cut)); !written) return written;
-  return write(kOpsEnding, ops_text(cut));
+  if (auto written = write(kFloeEnding, floe_text(time, cut)); !written) return written;
+  return write(kOpsEnding, ops_text(cut.input));
 }
 
 Result<> remove_rejected_cuts(const std::filesystem::path& run_folder) {

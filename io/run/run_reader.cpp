@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/run/event_records.hpp"
 #include "io/run/force_columns.hpp"
 #include "io/run/record_reader.hpp"
 #include "io/run/records.hpp"
@@ -91,34 +92,25 @@ void read_floes(Run& run) {
 
 /// What comes up from under a hull is brash, and so is all that it breaks into.
 void mark_brash(Run& run, const simulation::Event& event) {
-  const bool came_up = event.kind == simulation::EventKind::kResurface || run.floe(event.floe)->came_up;
-  for (const FloeId child : event.children) {
+  const bool came_up = event.is<simulation::Resurface>() || run.floe(event.ice()->floe)->came_up;
+  for (const FloeId child : event.ice()->children) {
     if (run.floe(child)) run.floes[static_cast<std::size_t>(child)].came_up = came_up;
   }
 }
 
 void read_events(Run& run) {
   for_lines(run.folder, run_file::kEvents, [&](std::string_view line, int) {
-    const JsonValue json = json_of(line);
-    if (kind_of(json) == kShipContactKind) {
-      run.ship_contacts.push_back(ship_contact_of(json, run.scene.scene));
-      return;
-    }
-    if (kind_of(json) == kMooringBreakKind) {
-      run.mooring_breaks.push_back(mooring_break_of(json, run.scene.scene));
-      return;
-    }
-    simulation::Event event = event_of(json, run.scene.scene);
-    if (!run.floe(event.floe)) throw ReadError(fmt::format("floe {} was never born", event.floe));
-    RunFloe& floe = run.floes[static_cast<std::size_t>(event.floe)];
-    if (event.kind == simulation::EventKind::kSubmerge) {
-      floe.went_under = event.time;
-    } else if (event.kind != simulation::EventKind::kRejectedCut) {
+    const simulation::Event& event = run.events.emplace_back(event_of(json_of(line), run.scene.scene));
+    if (!event.ice()) return;
+    const FloeId id = event.ice()->floe;
+    if (!run.floe(id)) throw ReadError(fmt::format("floe {} was never born", id));
+    RunFloe& floe = run.floes[static_cast<std::size_t>(id)];
+    if (event.is<simulation::Submerge>()) floe.went_under = event.time;
+    if (event.ends_floe()) {
       floe.died = event.time;
-      floe.death_event = run.events.size();
+      floe.death_event = run.events.size() - 1;
     }
     mark_brash(run, event);
-    run.events.push_back(std::move(event));
   });
 }
 

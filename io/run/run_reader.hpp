@@ -48,8 +48,6 @@ struct Run {
   std::vector<RunFloe> floes;  ///< by floe id
   FloeShapes shapes;           ///< theirs, in their body frames
   std::vector<simulation::Event> events;
-  std::vector<simulation::ShipContact> ship_contacts;  ///< the first one of each two ships or structures
-  std::vector<simulation::MooringBreak> mooring_breaks;
   std::vector<simulation::ShipSample> samples;
   std::vector<Frame> frames;
   std::vector<RunContact> contacts;  ///< as time goes; none in runs of versions that did not record them

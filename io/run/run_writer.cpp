@@ -10,6 +10,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/run/checkpoint.hpp"
+#include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
 #include "io/run/rejected_cut.hpp"
 
@@ -98,7 +99,7 @@ Result<> check_progress(const RunProgress& progress, const std::filesystem::path
   const auto is_of_scene = [columns = peak_columns(scene).size()](const ShipPeaks& peaks) {
     return peaks.of_column.size() == columns;
   };
-  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != scene.ships.size() ||
+  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != hull_count(scene) ||
       !std::ranges::all_of(progress.peaks, is_of_scene))
     return fail(fmt::format("{}: the checkpoint is of another run", folder.string()));
   for (std::size_t i = 0; i < kGrowing.size(); ++i)
@@ -148,11 +149,11 @@ RunWriter::RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, Ru
     : scene_(&scene),
       files_(std::move(files)),
       peak_columns_(peak_columns(scene.scene)),
-      peaks_(scene.scene.ships.size()),
+      peaks_(hull_count(scene.scene)),
       lock_(std::move(lock)),
       last_flush_(std::chrono::steady_clock::now()) {
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
-    peaks_[i].ship = scene.scene.ships[i].name;
+    peaks_[i].ship = hull_of(scene.scene, i).name;
     peaks_[i].of_column.resize(peak_columns_.size());
   }
 }
@@ -174,29 +175,19 @@ void RunWriter::record(simulation::Journal& journal) {
     if (file(kFloes).buffered() > kMuchBuffered && !is_displaced_) file(kFloes).flush();
   }
   for (const simulation::Event& event : journal.events) {
+    const simulation::IceEvent* ice = event.ice();
     append_line(kEvents, [&](std::string& line) {
-      append_event(line, event, ship_name(scene_->scene, event.ship),
-                   parents_[static_cast<std::size_t>(event.floe)]);
+      append_event(line, event, scene_->scene,
+                   ice ? parents_[static_cast<std::size_t>(ice->floe)] : simulation::kNoFloe);
     });
-  }
-  for (const simulation::ShipContact& contact : journal.ship_contacts) {
-    append_line(kEvents, [&](std::string& line) {
-      append_ship_contact(line, contact, ship_name(scene_->scene, contact.ship),
-                          ship_name(scene_->scene, contact.other));
-    });
-  }
-  for (const simulation::MooringBreak& mooring : journal.mooring_breaks) {
-    append_line(kEvents, [&](std::string& line) {
-      append_mooring_break(line, mooring, ship_name(scene_->scene, mooring.ship));
-    });
+    if (const auto* cut = std::get_if<simulation::RejectedCut>(&event.what))
+      if (auto written = write_rejected_cut(folder(), event.time, *cut); !written)
+        status_ = std::move(written);
   }
   for (const simulation::ShipSample& sample : journal.samples) {
     append_line(kForces, [&](std::string& line) {
       append_forces_row(line, sample, ship_name(scene_->scene, sample.ship));
     });
-  }
-  for (const simulation::RejectedCut& cut : journal.rejected_cuts) {
-    if (auto written = write_rejected_cut(folder(), cut); !written) status_ = std::move(written);
   }
   for (const simulation::ShipSample& sample : journal.samples) {
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;

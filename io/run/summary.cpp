@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_writer.hpp"
 #include "io/scene/floe_ice.hpp"
@@ -126,8 +127,8 @@ constexpr std::size_t kMostShipContacts = 5;  ///< that each have a warning
 std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
   std::vector<std::string> warnings;
   const auto& contacts = simulation.world().accounts.ship_contacts;
-  const auto& ships = simulation.scene().ships;
-  for (const simulation::ShipContact& c : contacts) {
+  for (const simulation::Event& event : contacts) {
+    const auto& c = std::get<simulation::ShipContact>(event.what);
     if (warnings.size() == kMostShipContacts) {
       warnings.push_back(
           fmt::format("{} more pairs of ships and structures came into contact (events.ndjson)",
@@ -136,7 +137,7 @@ std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
     }
     warnings.push_back(fmt::format(
         "{} and {} came into contact at {:.6g} s, closing at {:.3g} m/s; {}",
-        ships[static_cast<std::size_t>(c.ship)].name, ships[static_cast<std::size_t>(c.other)].name, c.time,
+        ship_name(simulation.scene(), event.ship), ship_name(simulation.scene(), c.other), event.time,
         c.closing_speed,
         c.is_prescribed ? "the motion of both is prescribed, so they pass through each other and no force is "
                           "computed: give the ship thrust_N or an engine"

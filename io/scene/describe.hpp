@@ -46,10 +46,10 @@ struct Optional<std::optional<T>> : std::true_type {
   using Value = T;
 };
 
-/// What holds a T: itself, an optional or a variant. Null where it holds none.
+/// What holds a T: itself, what is derived from it, an optional or a variant. Null where it holds none.
 template <class T, class Held>
 const T* held(const Held& holder) {
-  if constexpr (std::is_same_v<T, Held>) {
+  if constexpr (std::is_convertible_v<const Held*, const T*>) {
     return &holder;
   } else if constexpr (Optional<Held>::value) {
     return holder ? held<T>(*holder) : nullptr;
@@ -60,7 +60,7 @@ const T* held(const Held& holder) {
 /// The same, made to hold a T.
 template <class T, class Held>
 T& hold(Held& holder) {
-  if constexpr (std::is_same_v<T, Held>) {
+  if constexpr (std::is_convertible_v<Held*, T*>) {
     return holder;
   } else if constexpr (Optional<Held>::value) {
     if (!holder) holder.emplace();

@@ -187,7 +187,7 @@ FieldOf<FloeGroup> form(std::string_view key, const Description<Form>& descripti
   return of(key, required(object(key, description, meaning, &FloeGroup::form)));
 }
 
-const Description<FloeGroup> kFloes{
+const Description<FloeGroup> kFloeGroup{
     {form("lattice", kLattice, "rows and columns of equal rectangles"),
      form("rectangle", kRectangle, "one rectangle"), form("polygon", kPolygon, "one polygon, with holes"),
      form("field", kField, "random convex floes at a concentration"),
@@ -230,7 +230,7 @@ const Description<IceInput>& floe_ice_description() {
   return kOwnIce;
 }
 const Description<FloeGroup>& floes_description() {
-  return kFloes;
+  return kFloeGroup;
 }
 
 }  // namespace polynya::io

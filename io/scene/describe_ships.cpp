@@ -26,16 +26,16 @@ const Description<ShipInput> kHull{
                           "from the stem angle",
                           &ShipInput::form, &HullOutline::angles_from_vertical)),
      member("stem_angle_deg", "°", from(1, 90), "φ, of the stem from the horizontal", &ShipInput::spec,
-            &ShipSpec::hull, &Hull::stem_angle),
+            &Ship::hull, &Hull::stem_angle),
      left_out(member("draught_m", "m", above(0, 1000),
                      "T: ice goes under the hull and comes up behind it; without it none does",
-                     &ShipInput::spec, &ShipSpec::hull, &Hull::draught)),
+                     &ShipInput::spec, &Ship::hull, &Hull::draught)),
      left_out(member("block_coefficient", "", from(0.2, 1),
                      "C_B, displaced volume over length, beam and draught; if not given, by the mass",
-                     &ShipInput::spec, &ShipSpec::water, &HullWaterSettings::block_coefficient)),
+                     &ShipInput::spec, &Ship::water, &HullWaterSettings::block_coefficient)),
      choice<bool>("submersion_speed_factor",
                   "how the load of ice under the hull grows with speed: by 1 + 9.4 v/√(gL), or not",
-                  {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &ShipSpec::hull,
+                  {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull,
                   &Hull::has_speed_factor)},
     {"wedge bow", "outline"}};
 
@@ -225,26 +225,26 @@ const Description<ShipInput> kShip{
      or_preset(object("hull", kHull, "the waterline, by its main dimensions or point by point")),
      left_out(member("mass_kg", "kg", from(1, 1e12),
                      "displacement; if not given, of the water that draught and block coefficient displace",
-                     &ShipInput::spec, &ShipSpec::mass)),
+                     &ShipInput::spec, &Ship::mass)),
      left_out(
          member("moment_of_inertia_kg_m2", "kg m²", from(1e-3, 1e16),
                 "about the vertical through the centre of gravity; if not given, of a radius of gyration "
                 "of a quarter of the length",
-                &ShipInput::spec, &ShipSpec::moment_of_inertia)),
+                &ShipInput::spec, &Ship::moment_of_inertia)),
      member("position_m", "m", coordinate(),
             "of the centre of gravity at the start (amidships for a wedge bow)", &ShipInput::spec,
-            &ShipSpec::position_in_world),
+            &Ship::position_in_world),
      member("heading_deg", "°", from(-360, 360), "from the x axis, counter-clockwise", &ShipInput::spec,
-            &ShipSpec::heading),
+            &Ship::heading),
      member("speed_m_per_s", "m/s", from(-20, 20),
             "along the heading over ground at the start; of a ship at constant speed, that speed",
-            &ShipInput::spec, &ShipSpec::speed),
+            &ShipInput::spec, &Ship::speed),
      member("sway_speed_m_per_s", "m/s", from(-20, 20), "to port over ground at the start",
             &ShipInput::sway_speed),
      member("yaw_rate_deg_per_s", "°/s", from(-90, 90), "counter-clockwise at the start",
             &ShipInput::yaw_rate),
      or_preset(object("propulsion", kPropulsion, "constant thrust, constant speed or an engine")),
-     object("water", kHullWater, "", &ShipInput::spec, &ShipSpec::water),
+     object("water", kHullWater, "", &ShipInput::spec, &Ship::water),
      object("steering", kSteering, "a rudder or thrusters that turn; needs an engine", &ShipInput::steering),
      object("pilot", kPilot, "works lever and steering; if not given, full ahead with the rudder amidships",
             &ShipInput::pilot),
@@ -260,26 +260,27 @@ const Description<StructureInput> kStructure{
         required(member("waterline_m", "m", from(-1000, 1000), "the waterline in the structure's frame",
                         &StructureInput::form, &HullOutline::waterline))),
      member("position_m", "m", coordinate(), "of its frame's origin; moments are about it",
-            &StructureInput::spec, &ShipSpec::position_in_world),
+            &StructureInput::spec, &Structure::position_in_world),
      member("heading_deg", "°", from(-360, 360),
             "of its frame, from the x axis, counter-clockwise; forces are in that frame",
-            &StructureInput::spec, &ShipSpec::heading),
+            &StructureInput::spec, &Structure::heading),
      member("wall_angle_deg", "°", below(0, 89),
             "inclination of its walls from the vertical, all around: 0 crushes the ice, more presses it down "
             "as a hull does",
             &StructureInput::slope)},
     {"cylinder", "outline"}};
 
-const Description<Wall> kPressure{
+const Description<WallPressure> kPressure{
     {required(member("line_load_N_per_m", "N/m", above(0, 1e8),
                      "q, along the wall's normal: it closes until ice bears that, and gives way where more "
                      "presses",
-                     &Wall::line_load)),
+                     &WallPressure::line_load)),
      member("closing_speed_m_per_s", "m/s", above(0, 10),
-            "at which it closes where nothing bears; its damping is q over that speed", &Wall::closing_speed),
+            "at which it closes where nothing bears; its damping is q over that speed",
+            &WallPressure::closing_speed),
      member("mass_kg_per_m", "kg/m", from(1e3, 1e9),
             "of what moves with the wall; that of a kilometre of ice of half a metre",
-            &Wall::mass_per_length)}};
+            &WallPressure::mass_per_length)}};
 
 const Description<WallInput> kWall{
     {as(FieldKind::kName,

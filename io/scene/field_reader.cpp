@@ -85,8 +85,9 @@ class FieldReader {
     field_.seed += scene_.seed;
     for (const geometry::Ring& clear : input_.keep_clear)
       field_.kept_clear.push_back(in_house_notation({clear, {}}));
-    for (const auto& ship : scene_.ships) {
-      if (ship.hull.waterline.size() >= 3) field_.kept_clear.push_back(waterline_in_world(ship));
+    for (std::size_t i = 0; i < hull_count(scene_); ++i) {
+      const simulation::PlacedHull& hull = hull_of(scene_, i);
+      if (hull.hull.waterline.size() >= 3) field_.kept_clear.push_back(waterline_in_world(hull));
     }
     if (problems_.count() > problems_before) return std::nullopt;
     check_rings();

@@ -15,10 +15,6 @@ namespace {
 
 using JsonKind = JsonValue::Kind;
 
-std::string join(const std::string& path, std::string_view key) {
-  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-}
-
 bool is_in(const Range& range, double value) {
   const bool low_ok = range.is_low_excluded ? value > range.low : value >= range.low;
   const bool high_ok = range.is_high_excluded ? value < range.high : value <= range.high;
@@ -135,6 +131,10 @@ std::optional<JsonValue> write_field(const Field& field, const void* record) {
 
 }  // namespace
 
+std::string key_path(std::string_view path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
 bool RecordReader::object(const Object& table, const JsonValue& value, const std::string& path, void* record,
                           std::size_t number) {
   if (!value.is(JsonKind::kObject)) {
@@ -157,7 +157,7 @@ void RecordReader::report_unknown_keys(const Object& table, const JsonValue& val
   for (const JsonMember& member : value.members()) {
     if (std::ranges::find(known, member.key) != known.end()) continue;
     if (path.empty() && member.key == "$schema") continue;
-    report(member.key_offset, join(path, member.key), "an unknown key",
+    report(member.key_offset, key_path(path, member.key), "an unknown key",
            fmt::format("{}", fmt::join(known, ", ")), nearest(member.key, known));
   }
 }
@@ -181,7 +181,7 @@ bool RecordReader::choose_alternative(const Object& table, const JsonValue& valu
 
 bool RecordReader::one_field(const Field& field, const JsonValue& parent, const std::string& parent_path,
                              void* record, std::size_t number) {
-  const std::string path = join(parent_path, field.key);
+  const std::string path = key_path(parent_path, field.key);
   const JsonValue* given = parent.find(field.key);
   if (given && checked(field, *given, path, record)) return true;
   if (!given && field.presence == Presence::kRequired)
@@ -237,7 +237,7 @@ bool RecordReader::law(const Field& field, const JsonValue& value, const std::st
   bool is_whole = true;
   for (const std::string_view key : {"mean", "least", "most"}) {
     const JsonValue* member = value.find(key);
-    if (member && !leaf(number, *member, join(path, key), nullptr)) is_whole = false;
+    if (member && !leaf(number, *member, key_path(path, key), nullptr)) is_whole = false;
   }
   return is_whole;
 }

@@ -85,6 +85,9 @@ struct Description : Object {
       : Object{{of.begin(), of.end()}, std::move(or_else)} {}
 };
 
+/// "ships[2].hull.beam_m": a key below a path, which is empty of the scene itself.
+std::string key_path(std::string_view path, std::string_view key);
+
 /// "a number > 0, ≤ 20 [m]", "one of nevel, kashtelyan".
 std::string describe_allowed(const Field& field);
 

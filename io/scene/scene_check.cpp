@@ -18,6 +18,7 @@ namespace polynya::io {
 namespace {
 
 using geometry::Polygon;
+using simulation::BodyKind;
 
 constexpr double kMostSteps = 1e9;
 constexpr std::size_t kMostOverlaps = 200;
@@ -56,7 +57,7 @@ void check_own_density(const SceneDraft& draft, ProblemCollector& problems) {
 }
 
 /// At the start [m/s].
-double speed_of(const simulation::Scene& scene, const simulation::ShipSpec& ship) {
+double speed_of(const simulation::Scene& scene, const simulation::Ship& ship) {
   const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
   const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
   const double thrust = constant ? std::abs(constant->thrust) : engine ? engine->bollard_pull : 0;
@@ -95,7 +96,7 @@ Fastest fastest_ship(const SceneDraft& draft) {
   Fastest fastest{length(draft.scene.water.drift), "the drift"};
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
     if (const double speed = speed_of(draft.scene, draft.scene.ships[i]); speed > fastest.speed)
-      fastest = {speed, ship_path(draft, i)};
+      fastest = {speed, hull_path(draft, i)};
   return fastest;
 }
 
@@ -116,7 +117,7 @@ void report_step(const Fastest& fastest, const simulation::Scene& scene, const J
 
 void check_speeds_of_ships(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
-    report_runaway({speed_of(draft.scene, draft.scene.ships[i]), ship_path(draft, i)}, draft.ship_origins[i],
+    report_runaway({speed_of(draft.scene, draft.scene.ships[i]), hull_path(draft, i)}, draft.hull_origins[i],
                    problems);
   const Fastest fastest = fastest_ship(draft);
   if (is_too_fast_for_step(fastest, draft.scene)) report_step(fastest, draft.scene, given, problems);
@@ -148,79 +149,80 @@ double most_that_ice_bears(const simulation::Scene& scene) {
 }
 
 /// A load that no ice bears, and a mass that it takes beyond the closing speed in one step.
-void check_load(const simulation::Scene& scene, const simulation::Wall& wall, const JsonValue& given,
-                const std::string& path, ProblemCollector& problems) {
+void check_load(const simulation::Scene& scene, const simulation::WallPressure& pressure,
+                const JsonValue& given, const std::string& path, ProblemCollector& problems) {
   const auto report = [&](const std::string& key, std::string found, std::string allowed) {
     problems.report(0, nearest_offset(given, "pressure." + key), path + "pressure." + key, std::move(found),
                     std::move(allowed));
   };
-  if (const double most = most_that_ice_bears(scene); wall.line_load >= most)
-    report("line_load_N_per_m",
-           fmt::format("{:g} N/m, which crushes the strongest ice of the scene without end", wall.line_load),
-           fmt::format("less than its σ_c h, {:.4g} [N/m]", most));
-  const double gain = scene.time.step * wall.line_load / wall.mass_per_length;
-  if (gain > wall.closing_speed)
+  if (const double most = most_that_ice_bears(scene); pressure.line_load >= most)
+    report(
+        "line_load_N_per_m",
+        fmt::format("{:g} N/m, which crushes the strongest ice of the scene without end", pressure.line_load),
+        fmt::format("less than its σ_c h, {:.4g} [N/m]", most));
+  const double gain = scene.time.step * pressure.line_load / pressure.mass_per_length;
+  if (gain > pressure.closing_speed)
     report("mass_kg_per_m",
            fmt::format("{:g} kg/m, which the load takes to {:.3g} m/s in one step, beyond the closing speed",
-                       wall.mass_per_length, gain),
+                       pressure.mass_per_length, gain),
            fmt::format("at least {:.4g} [kg/m], or a shorter time.step_s",
-                       scene.time.step * wall.line_load / wall.closing_speed));
+                       scene.time.step * pressure.line_load / pressure.closing_speed));
 }
 
-/// Calls with each wall that presses, its JSON and its path.
+/// Calls with the pressure of each wall that has one, the JSON of the wall and its path.
 template <class Call>
 void each_pressing_wall(const SceneDraft& draft, const JsonValue& given, Call call) {
-  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
-    const auto* wall = std::get_if<simulation::Wall>(&draft.scene.ships[i].propulsion);
-    const std::size_t index = draft.ship_origins[i].group;
-    if (wall && wall->presses())
-      call(*wall, given.find("walls")->items()[index], fmt::format("walls[{}].", index));
+  std::size_t hull = hull_count(draft.scene) - draft.scene.walls.size();
+  for (const simulation::Wall& wall : draft.scene.walls) {
+    const std::size_t index = draft.hull_origins[hull++].group;
+    if (wall.pressure)
+      call(*wall.pressure, given.find("walls")->items()[index], fmt::format("walls[{}].", index));
   }
 }
 
 void check_walls(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
-  each_pressing_wall(
-      draft, given, [&](const simulation::Wall&, const JsonValue& item, const std::string& path) {
-        if (const JsonValue* velocity = item.find("velocity_m_per_s"))
-          problems.report(0, velocity->offset, path + "velocity_m_per_s",
-                          "a velocity of a wall with pressure", "either of them: the load moves the wall");
-        if (draft.scene.contact.law == simulation::ContactLaw::kImpulse)
-          problems.report(0, nearest_offset(item, "pressure"), path + "pressure",
-                          "a load with contact.law impulse",
-                          "contact.law crush, or velocity_m_per_s: rigid impulses bear no definite load");
-      });
+  each_pressing_wall(draft, given, [&](const auto&, const JsonValue& item, const std::string& path) {
+    if (const JsonValue* velocity = item.find("velocity_m_per_s"))
+      problems.report(0, velocity->offset, path + "velocity_m_per_s", "a velocity of a wall with pressure",
+                      "either of them: the load moves the wall");
+    if (draft.scene.contact.law == simulation::ContactLaw::kImpulse)
+      problems.report(0, nearest_offset(item, "pressure"), path + "pressure",
+                      "a load with contact.law impulse",
+                      "contact.law crush, or velocity_m_per_s: rigid impulses bear no definite load");
+  });
 }
 
 void check_loads_of_walls(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
-  each_pressing_wall(draft, given,
-                     [&](const simulation::Wall& wall, const JsonValue& item, const std::string& path) {
-                       check_load(draft.scene, wall, item, path, problems);
-                     });
+  each_pressing_wall(draft, given, [&](const auto& pressure, const JsonValue& item, const std::string& path) {
+    check_load(draft.scene, pressure, item, path, problems);
+  });
 }
 
 /// A body that takes part in the search for overlaps.
 struct Named {
   std::string path;
   const Origin* origin;
-  bool is_ship;
   std::size_t index;  ///< in the scene
+
+  bool is_floe() const { return origin->kind == BodyKind::kFloe; }
+  bool is_wall() const { return origin->kind == BodyKind::kWall; }
 };
 
-void check_ships(const SceneDraft& draft, ProblemCollector& problems) {
-  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
-    const auto& ship = draft.scene.ships[i];
-    const Origin& origin = draft.ship_origins[i];
-    const std::string path = ship_path(draft, i);
+void check_hulls(const SceneDraft& draft, ProblemCollector& problems) {
+  for (std::size_t i = 0; i < hull_count(draft.scene); ++i) {
+    const simulation::PlacedHull& placed = hull_of(draft.scene, i);
+    const Origin& origin = draft.hull_origins[i];
+    const std::string path = hull_path(draft, i);
     const auto report = [&](std::string_view key, std::string found, std::string allowed) {
       problems.report(origin.source, origin.offset, fmt::format("{}.{}", path, key), std::move(found),
                       std::move(allowed));
     };
     for (std::size_t k = 0; k < i; ++k) {
-      if (draft.scene.ships[k].name == ship.name)
-        report("name", fmt::format("\"{}\" a second time", ship.name),
+      if (hull_of(draft.scene, k).name == placed.name)
+        report("name", fmt::format("\"{}\" a second time", placed.name),
                "each ship and structure its own name");
     }
-    const auto& hull = ship.hull;
+    const auto& hull = placed.hull;
     const geometry::Box box = bounding_box(hull.waterline);
     if (hull.draught > box.high.x - box.low.x)
       report("hull.draught_m", fmt::format("{:g}", hull.draught),
@@ -229,17 +231,20 @@ void check_ships(const SceneDraft& draft, ProblemCollector& problems) {
       report("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
              fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
     if (const auto defect = geometry::find_defect({hull.waterline, {}}))
-      report(origin.is_structure ? "waterline_m" : "hull", "an invalid waterline: " + describe(*defect),
-             origin.is_structure ? "a simple ring with an area"
-                                 : "a simple ring with an area; a wedge bow must end before the stern");
+      report(origin.kind == BodyKind::kShip ? "hull" : "waterline_m",
+             "an invalid waterline: " + describe(*defect),
+             origin.kind == BodyKind::kShip
+                 ? "a simple ring with an area; a wedge bow must end before the stern"
+                 : "a simple ring with an area");
   }
 }
 
 void add_valid_hulls(const SceneDraft& draft, std::vector<Named>& named, std::vector<Polygon>& outlines) {
-  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
-    if (geometry::find_defect({draft.scene.ships[i].hull.waterline, {}})) continue;
-    outlines.push_back(waterline_in_world(draft.scene.ships[i]));
-    named.push_back({ship_path(draft, i), &draft.ship_origins[i], true, i});
+  for (std::size_t i = 0; i < hull_count(draft.scene); ++i) {
+    const simulation::PlacedHull& hull = hull_of(draft.scene, i);
+    if (geometry::find_defect({hull.hull.waterline, {}})) continue;
+    outlines.push_back(waterline_in_world(hull));
+    named.push_back({hull_path(draft, i), &draft.hull_origins[i], i});
   }
 }
 
@@ -265,7 +270,7 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
       continue;
     }
     outlines.push_back(polygon);
-    named.push_back({floe_path(draft, i), &origin, false, i});
+    named.push_back({floe_path(draft, i), &origin, i});
   }
 }
 
@@ -274,7 +279,7 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
 bool is_crushed(const SceneDraft& draft, const Named& first, const Named& second, double area,
                 const Polygon& a, const Polygon& b) {
   const auto is_as_a_run_left_it = [&](const Named& one) {
-    return !one.is_ship && draft.scene.floes[one.index].has_crushed_overlaps;
+    return one.is_floe() && draft.scene.floes[one.index].has_crushed_overlaps;
   };
   constexpr double kMostShare = 0.9;
   return (is_as_a_run_left_it(first) || is_as_a_run_left_it(second)) &&
@@ -288,14 +293,10 @@ std::size_t most_overlaps(const SceneDraft& draft) {
   return may_overlap ? std::numeric_limits<std::size_t>::max() : kMostOverlaps;
 }
 
-bool is_wall(const Named& body) {
-  return body.is_ship && body.origin->list == "walls";
-}
-
 std::string remedy_of(const Named& first, const Named& second) {
-  if (is_wall(second)) return "a face and a depth_m clear of it";
-  if (!first.is_ship || second.is_ship) return "bodies that at most touch";
-  return is_wall(first) ? "floes in front of the wall" : "floes outside the waterline";
+  if (second.is_wall()) return "a face and a depth_m clear of it";
+  if (first.is_floe() || !second.is_floe()) return "bodies that at most touch";
+  return first.is_wall() ? "floes in front of the wall" : "floes outside the waterline";
 }
 
 void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
@@ -309,7 +310,8 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
   for (const geometry::OverlappingPair& overlap : overlaps) {
     const Named& first = named[overlap.first];
     const Named& second = named[overlap.second];
-    if (is_wall(second) && first.origin->is_structure) continue;  // walls cross each other and structures
+    if (second.is_wall() && is_grounded(first.origin->kind))
+      continue;  // walls cross each other and structures
     const std::string area = std::isnan(overlap.area) ? "" : fmt::format(", {:.6g} m² shared", overlap.area);
     problems.add(second.origin->source, second.origin->offset,
                  {.path = second.path,
@@ -323,9 +325,14 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
 
 }  // namespace
 
-std::string ship_path(const SceneDraft& draft, std::size_t ship) {
-  const Origin& origin = draft.ship_origins[ship];
-  return fmt::format("{}[{}]", origin.list, origin.group);
+std::string_view list_of(BodyKind kind) {
+  constexpr std::string_view kLists[] = {"ships", "structures", "walls", "floes"};
+  return kLists[static_cast<std::size_t>(kind)];
+}
+
+std::string hull_path(const SceneDraft& draft, std::size_t hull) {
+  const Origin& origin = draft.hull_origins[hull];
+  return fmt::format("{}[{}]", list_of(origin.kind), origin.group);
 }
 
 std::string floe_path(const SceneDraft& draft, std::size_t floe) {
@@ -338,20 +345,20 @@ std::string describe(const geometry::DefectAt& defect) {
   return fmt::format("{}{}", name_of(defect.defect), places_in_words(defect.places, 3));
 }
 
-Polygon waterline_in_world(const simulation::ShipSpec& ship) {
-  const geometry::Pose world_from_ship{ship.position_in_world, geometry::Rotation::by(ship.heading)};
-  return {transform(world_from_ship, ship.hull.waterline), {}};
+Polygon waterline_in_world(const simulation::PlacedHull& hull) {
+  const geometry::Pose world_from_hull{hull.position_in_world, geometry::Rotation::by(hull.heading)};
+  return {transform(world_from_hull, hull.hull.waterline), {}};
 }
 
 void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   check_water_and_time(draft, given, problems);
   check_walls(draft, given, problems);
-  check_ships(draft, problems);
+  check_hulls(draft, problems);
   check_speeds_of_ships(draft, given, problems);
 }
 
 void check_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
-  if (draft.scene.ships.empty() && draft.scene.floes.empty() && problems.count() == 0)
+  if (draft.hull_origins.empty() && draft.scene.floes.empty() && problems.count() == 0)
     problems.add(0, given.offset,
                  {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
   if (problems.count() == 0) check_own_density(draft, problems);

@@ -8,12 +8,15 @@ namespace polynya::io {
 // What no single field of a scene shows. Every problem is reported with its place; `given` is the scene's
 // JSON.
 
+/// The scene's list of bodies of a kind: "ships".
+std::string_view list_of(simulation::BodyKind kind);
+
 /// "ships[0]" or "structures[2]", "floes[1]" or "floes[1] (its floe 7)": for messages.
-std::string ship_path(const SceneDraft& draft, std::size_t ship);
+std::string hull_path(const SceneDraft& draft, std::size_t hull);
 std::string floe_path(const SceneDraft& draft, std::size_t floe);
 
 /// A waterline in the world.
-geometry::Polygon waterline_in_world(const simulation::ShipSpec& ship);
+geometry::Polygon waterline_in_world(const simulation::PlacedHull& hull);
 
 /// "self-crossing at (5, 5), (0, 0)".
 std::string describe(const geometry::DefectAt& defect);

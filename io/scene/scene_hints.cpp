@@ -7,16 +7,19 @@
 
 #include "geometry/contact/first_contact.hpp"
 #include "io/scene/scene_check.hpp"
+#include "simulation/world/population.hpp"
 
 namespace polynya::io {
 namespace {
 
 using geometry::Point;
 using geometry::Vector;
-using simulation::ShipSpec;
+using simulation::PlacedHull;
+using simulation::Ship;
+using simulation::Wall;
 
 // Block coefficients are those of fine-lined and of full ships; a draught is most often a third of the beam.
-constexpr double kLeastBlock = 0.4, kMostBlock = 0.9;                          // [-]
+constexpr double kSlenderBlock = 0.4, kFullBlock = 0.9;                        // [-]
 constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
 constexpr double kMassError = 0.05;    ///< of what the hull displaces [-]
 constexpr double kFastestShip = 12;    ///< icebreakers reach 11 m/s in open water [m/s]
@@ -34,42 +37,25 @@ struct HullSize {
   double length = 0;
   double beam = 0;
 };
-HullSize size_of(const ShipSpec& ship) {
+HullSize size_of(const Ship& ship) {
   const geometry::Box box = geometry::bounding_box(ship.hull.waterline);
   return {box.high.x - box.low.x, box.high.y - box.low.y};
 }
 
-Vector ahead_of(const ShipSpec& ship) {
-  return {std::cos(ship.heading), std::sin(ship.heading)};
+Vector ahead_of(const PlacedHull& hull) {
+  return {std::cos(hull.heading), std::sin(hull.heading)};
 }
 
-const simulation::Wall* wall_of(const ShipSpec& ship) {
-  return std::get_if<simulation::Wall>(&ship.propulsion);
-}
-bool is_prescribed(const ShipSpec& ship) {
-  if (const auto* wall = wall_of(ship)) return !wall->presses();
-  return is_grounded(ship) || std::holds_alternative<simulation::ConstantSpeed>(ship.propulsion);
-}
-/// Over ground, at the start [m/s].
-Vector velocity_of(const ShipSpec& ship) {
-  const auto* wall = wall_of(ship);
-  return wall ? wall->velocity : ship.speed * ahead_of(ship);
-}
-/// At which it closes on the ice at most [m/s].
-double closing_speed_of(const ShipSpec& ship) {
-  const auto* wall = wall_of(ship);
-  return wall && wall->presses() ? wall->closing_speed : length(velocity_of(ship));
-}
-double thrust_of(const ShipSpec& ship) {
+double thrust_of(const Ship& ship) {
   const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
   const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
   return constant ? constant->thrust : engine ? engine->bollard_pull : 0;
 }
-bool is_steered(const ShipSpec& ship) {
+bool is_steered(const Ship& ship) {
   return !std::holds_alternative<simulation::NoSteering>(ship.steering);
 }
 /// Whether water slows the ship.
-bool is_slowed(const ShipSpec& ship) {
+bool is_slowed(const Ship& ship) {
   return ship.water.acts || std::holds_alternative<simulation::Engine>(ship.propulsion);
 }
 
@@ -81,16 +67,14 @@ class Hinter {
   void add_all() {
     hint_at_ice();
     for (std::size_t i = 0; i < scene_.ships.size(); ++i) {
-      if (wall_of(scene_.ships[i])) hint_at_side(i);
-      if (is_grounded(scene_.ships[i])) continue;
       hint_at_mass(i);
       hint_at_mooring(i);
       hint_at_speed(i);
       hint_at_course(i);
     }
-    for (std::size_t i = 0; i < scene_.ships.size(); ++i) {
-      for (std::size_t k = i + 1; k < scene_.ships.size(); ++k) hint_at_crossing(i, k);
-    }
+    for (std::size_t i = 0; i < scene_.walls.size(); ++i)
+      hint_at_side(scene_.walls[i], hull_count(scene_) - scene_.walls.size() + i);
+    hint_at_crossings();
     hint_at_drift();
     hint_at_wind();
     hint_at_step();
@@ -101,11 +85,11 @@ class Hinter {
     hints_.add(0, at.offset,
                {.path = std::move(path), .sentence = std::move(sentence), .severity = severity});
   }
-  void add(Severity severity, std::size_t ship, std::string_view key, std::string sentence) {
-    const Origin& origin = draft_.ship_origins[ship];
-    const JsonValue& item = given_.find(origin.list)->items()[origin.group];
+  void add(Severity severity, std::size_t hull, std::string_view key, std::string sentence) {
+    const Origin& origin = draft_.hull_origins[hull];
+    const JsonValue& item = given_.find(list_of(origin.kind))->items()[origin.group];
     const JsonValue* member = item.find(key);
-    add(severity, member ? *member : item, fmt::format("{}[{}].{}", origin.list, origin.group, key),
+    add(severity, member ? *member : item, fmt::format("{}.{}", hull_path(draft_, hull), key),
         std::move(sentence));
   }
   /// A member of an object of the scene, or what is there of it.
@@ -144,7 +128,7 @@ class Hinter {
   }
 
   void hint_at_mass(std::size_t i) {
-    const ShipSpec& ship = scene_.ships[i];
+    const Ship& ship = scene_.ships[i];
     const auto [length, beam] = size_of(ship);
     const double displaced =
         scene_.water.water.density * ship.water.block_coefficient * length * beam * ship.hull.draught;
@@ -155,13 +139,13 @@ class Hinter {
     if (displaced > 0) return;
     const double shallow = kLeastDraughtOfBeam * beam, deep = kMostDraughtOfBeam * beam;
     const double area = scene_.water.water.density * length * beam;
-    const double least = kLeastBlock * area * shallow, most = kMostBlock * area * deep;
+    const double least = kSlenderBlock * area * shallow, most = kFullBlock * area * deep;
     if (ship.mass >= least && ship.mass <= most) return;
     add(Severity::kWarning, i, "mass_kg",
         fmt::format(
             "{:.4g} kg for a hull of {:.4g} × {:.4g} m, which displaces {:.2g} to {:.2g} kg of water at a "
             "draught of {:.2g} to {:.2g} m and block coefficients of {:g} to {:g}",
-            ship.mass, length, beam, least, most, shallow, deep, kLeastBlock, kMostBlock));
+            ship.mass, length, beam, least, most, shallow, deep, kSlenderBlock, kFullBlock));
   }
 
   void hint_at_mooring(std::size_t i) {
@@ -174,10 +158,11 @@ class Hinter {
   }
 
   void hint_at_speed(std::size_t i) {
-    const ShipSpec& ship = scene_.ships[i];
+    const Ship& ship = scene_.ships[i];
     const auto too_fast = [&](double speed) { return std::abs(speed) > kFastestShip; };
     const std::string most = fmt::format("ships in ice stay below {:g} m/s", kFastestShip);
-    const std::string_view key = is_prescribed(ship) ? "propulsion" : "speed_m_per_s";
+    const bool is_prescribed = std::holds_alternative<simulation::ConstantSpeed>(ship.propulsion);
+    const std::string_view key = is_prescribed ? "propulsion" : "speed_m_per_s";
     if (too_fast(ship.speed))
       return add(Severity::kHint, i, key,
                  fmt::format("{:.4g} m/s ({:.3g} kn): {}", ship.speed, ship.speed * kKnots, most));
@@ -192,11 +177,11 @@ class Hinter {
 
   /// All of the ice is behind the hull, and the ship moves away from it.
   void hint_at_course(std::size_t i) {
-    const ShipSpec& ship = scene_.ships[i];
-    const bool is_ice_moved =
-        scene_.water.shear.rate != 0 || scene_.wind.blows() || std::ranges::any_of(scene_.ships, wall_of) ||
-        std::ranges::any_of(scene_.floes,
-                            [](const simulation::FloeSpec& floe) { return floe.velocity != Vector{}; });
+    const Ship& ship = scene_.ships[i];
+    const bool is_ice_moved = scene_.water.shear.rate != 0 || scene_.wind.blows() || !scene_.walls.empty() ||
+                              std::ranges::any_of(scene_.floes, [](const simulation::FloeSpec& floe) {
+                                return floe.velocity != Vector{};
+                              });
     if (scene_.floes.empty() || is_ice_moved || ship.mooring || is_steered(ship)) return;
     const double drift = dot(scene_.water.drift, ahead_of(ship));
     const double speed = ship.speed - drift, thrust = thrust_of(ship);
@@ -214,14 +199,26 @@ class Hinter {
   }
 
   /// Two whose motions are prescribed do not stop each other.
-  void hint_at_crossing(std::size_t i, std::size_t k) {
-    const ShipSpec &ship = scene_.ships[i], &other = scene_.ships[k];
-    if (!is_prescribed(ship) || !is_prescribed(other) || (is_grounded(ship) && is_grounded(other))) return;
-    const Vector velocity = velocity_of(other) - velocity_of(ship);
-    const auto touch = geometry::first_contact(
-        waterline_in_world(ship).outer, waterline_in_world(other).outer, velocity, 0, scene_.time.until);
+  void hint_at_crossings() {
+    std::vector<dynamics::NewBody> bodies;
+    for (std::size_t i = 0; i < hull_count(scene_); ++i) bodies.push_back(simulation::new_body_of(scene_, i));
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      for (std::size_t k = i + 1; k < bodies.size(); ++k) {
+        const bool can_cross = !is_grounded(bodies[i].kind) || !is_grounded(bodies[k].kind);
+        if (can_cross && bodies[i].is_prescribed && bodies[k].is_prescribed)
+          hint_at_crossing(i, k, bodies[i].velocity, bodies[k].velocity);
+      }
+    }
+  }
+
+  /// Of velocities in the water frame [m/s].
+  void hint_at_crossing(std::size_t i, std::size_t k, Vector velocity, Vector velocity_of_other) {
+    const PlacedHull &hull = hull_of(scene_, i), &other = hull_of(scene_, k);
+    const auto touch =
+        geometry::first_contact(waterline_in_world(hull).outer, waterline_in_world(other).outer,
+                                velocity_of_other - velocity, 0, scene_.time.until);
     if (!touch) return;
-    const Point at = touch->point + touch->time * velocity_of(ship);
+    const Point at = touch->point + touch->time * (velocity + scene_.water.drift);
     add(Severity::kWarning, i, "propulsion",
         fmt::format(
             "it meets {} after {:.4g} s at ({:.4g}, {:.4g}) m, where the motion of both is prescribed: they "
@@ -254,19 +251,20 @@ class Hinter {
   }
 
   /// All of the ice is behind a wall's face.
-  void hint_at_side(std::size_t i) {
-    const ShipSpec& wall = scene_.ships[i];
+  void hint_at_side(const Wall& wall, std::size_t hull) {
     const auto is_before = [&](Point p) { return dot(p - wall.position_in_world, ahead_of(wall)) > 0; };
     const auto has_part_before = [&](const simulation::FloeSpec& floe) {
       return std::ranges::any_of(floe.polygon_in_world.outer, is_before);
     };
     if (scene_.floes.empty() || std::ranges::any_of(scene_.floes, has_part_before)) return;
-    add(Severity::kWarning, i, "to_m", "all ice lies behind its face: exchange from_m and to_m");
+    add(Severity::kWarning, hull, "to_m", "all ice lies behind its face: exchange from_m and to_m");
   }
 
   void hint_at_step() {
     double speed = 0;
-    for (const ShipSpec& ship : scene_.ships) speed = std::max(speed, closing_speed_of(ship));
+    for (const Ship& ship : scene_.ships) speed = std::max(speed, std::abs(ship.speed));
+    for (const Wall& wall : scene_.walls)
+      speed = std::max(speed, wall.pressure ? wall.pressure->closing_speed : length(wall.velocity));
     for (const simulation::FloeSpec& floe : scene_.floes) speed = std::max(speed, length(floe.velocity));
     if (speed == 0 || scene_.floes.empty()) return;
     const double way = speed * scene_.time.step;

@@ -54,7 +54,7 @@ struct MooringInput {
 
 struct ShipInput {
   std::string name = "ship-#";
-  simulation::ShipSpec spec;  ///< mass and moment of inertia 0: by the hull's form
+  simulation::Ship spec;  ///< mass and moment of inertia 0: by the hull's form
   std::variant<WedgeBow, HullOutline> form;
   std::optional<double> sway_speed;  ///< [m/s]
   std::optional<double> yaw_rate;    ///< [rad/s]
@@ -69,7 +69,7 @@ struct Cylinder {
 };
 struct StructureInput {
   std::string name = "structure-#";
-  simulation::ShipSpec spec;
+  simulation::Structure spec;
   std::variant<Cylinder, HullOutline> form;
   double slope = 0;  ///< of its walls from the vertical [rad]
 };
@@ -79,7 +79,7 @@ struct WallInput {
   geometry::Point from, to;  ///< [m]
   double depth = 10;         ///< [m]
   std::optional<geometry::Vector> velocity;
-  std::optional<simulation::Wall> pressure;  ///< its load, closing speed and mass
+  std::optional<simulation::WallPressure> pressure;
 };
 
 /// How a property of floes' ice is drawn, in its unit; what is not given follows from the scene and the law.
@@ -159,21 +159,20 @@ const Description<fracture::Ice>& ice_description();
 const Description<IceInput>& floe_ice_description();
 const Description<LawInput>& law_description();
 
-/// Where a ship or a floe of the scene stands in the text, for messages.
+/// Where a body of the scene stands in the text, for messages.
 struct Origin {
   std::size_t source = 0;       ///< index in the ProblemCollector's sources
   std::uint32_t offset = 0;     ///< byte in that source
-  std::size_t group = 0;        ///< index in the scene's "floes", or in `list`
+  std::size_t group = 0;        ///< index in the scene's list of its kind
   int member = -1;              ///< which floe of a lattice or file; −1: the only one
   bool is_known_valid = false;  ///< by construction
-  bool is_structure = false;    ///< or a wall
-  std::string_view list = "ships";
+  simulation::BodyKind kind = simulation::BodyKind::kFloe;
 };
 
 /// A scene while it is put together: what is checked as a whole.
 struct SceneDraft {
   simulation::Scene scene;
-  std::vector<Origin> ship_origins;
+  std::vector<Origin> hull_origins;
   std::vector<Origin> floe_origins;
 };
 

@@ -17,6 +17,7 @@ namespace polynya::io {
 namespace {
 
 using JsonKind = JsonValue::Kind;
+using simulation::BodyKind;
 
 /// FNV-1a, 64 bits.
 std::string hash_of(std::string_view text) {
@@ -148,11 +149,20 @@ class SceneReader {
     complete_fate_of_ice(given, ships);
     complete_skin_drag(given);
     resolved_ = write(scene_description(), input_);
-    draft_.scene = std::move(input_.scene);
-    draft_.scene.name = input_.name;
-    add_ships(given, ships);
-    add_structures(given, structures);
-    add_walls(given, walls);
+    simulation::Scene& scene = draft_.scene = std::move(input_.scene);
+    scene.name = input_.name;
+    add_hulls(given, BodyKind::kShip, ship_description(), ships,
+              [&](auto& ship, auto& item, const auto& path) {
+                scene.ships.push_back(complete_ship(ship, item, path, scene.water.water.density, problems_));
+              });
+    add_hulls(
+        given, BodyKind::kStructure, structure_description(), structures,
+        [&](auto& structure, auto&, auto&&) { scene.structures.push_back(complete_structure(structure)); });
+    add_hulls(given, BodyKind::kWall, wall_description(), walls,
+              [&](auto& wall, auto& item, const auto& path) {
+                if (auto completed = complete_wall(wall, item, path, problems_))
+                  scene.walls.push_back(*std::move(completed));
+              });
     if (is_whole) {
       complete_pilots(given, draft_, problems_);
       check_without_ice(draft_, given, problems_);
@@ -223,34 +233,18 @@ class SceneReader {
       input_.scene.water.skin_drag_coefficient = kSkinDragInWind;
   }
 
-  void add_ships(const JsonValue& given, std::vector<std::optional<ShipInput>>& ships) {
-    for (std::size_t i = 0; i < ships.size(); ++i) {
-      if (!ships[i]) continue;
-      const JsonValue& item = items_of(given, "ships")[i];
-      draft_.scene.ships.push_back(complete_ship(*ships[i], item, fmt::format("ships[{}]", i),
-                                                 draft_.scene.water.water.density, problems_));
-      draft_.ship_origins.push_back({.offset = item.offset, .group = i});
-      resolved_.find("ships")->items().push_back(write(ship_description(), *ships[i]));
-    }
-  }
-
-  void add_structures(const JsonValue& given, const std::vector<std::optional<StructureInput>>& structures) {
-    for (std::size_t i = 0; i < structures.size(); ++i) {
-      if (!structures[i]) continue;
-      draft_.scene.ships.push_back(complete_structure(*structures[i]));
-      draft_.ship_origins.push_back({.offset = items_of(given, "structures")[i].offset,
-                                     .group = i,
-                                     .is_structure = true,
-                                     .list = "structures"});
-      resolved_.find("structures")->items().push_back(write(structure_description(), *structures[i]));
-    }
-  }
-
-  void add_walls(const JsonValue& given, const std::vector<std::optional<WallInput>>& walls) {
-    for (std::size_t i = 0; i < walls.size(); ++i) {
-      if (!walls[i]) continue;
-      add_wall(i, items_of(given, "walls")[i], *walls[i], draft_, problems_);
-      resolved_.find("walls")->items().push_back(write(wall_description(), *walls[i]));
+  /// Completes what could be read of a list of hulls into the draft; what is none has been reported.
+  template <class Input, class Complete>
+  void add_hulls(const JsonValue& given, BodyKind kind, const Description<Input>& description,
+                 std::vector<std::optional<Input>>& inputs, Complete complete) {
+    const std::string list(list_of(kind));
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (!inputs[i]) continue;
+      const JsonValue& item = items_of(given, list)[i];
+      complete(*inputs[i], item, fmt::format("{}[{}]", list, i));
+      if (draft_.hull_origins.size() < hull_count(draft_.scene))
+        draft_.hull_origins.push_back({.offset = item.offset, .group = i, .kind = kind});
+      resolved_.find(list)->items().push_back(write(description, *inputs[i]));
     }
   }
 

@@ -140,10 +140,6 @@ void write_object(JsonWriter& json, const Object& object) {
   json.close('}');
 }
 
-std::string join(std::string_view path, std::string_view key) {
-  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-}
-
 void append_table(std::string& text, const Object& object, const std::string& path) {
   const std::string title = path.empty() ? "The scene" : fmt::format("`{}`", path);
   text += fmt::format("### {}\n\n", title);
@@ -163,10 +159,10 @@ void append_table(std::string& text, const Object& object, const std::string& pa
   }
   text += '\n';
   const auto law = std::ranges::find(object.fields, Kind::kNumberOrLaw, &Field::kind);
-  if (law != object.fields.end()) append_table(text, *law->object, join(path, "*"));
+  if (law != object.fields.end()) append_table(text, *law->object, key_path(path, "*"));
   for (const Field& field : object.fields) {
     if (field.object == nullptr || field.kind == Kind::kNumberOrLaw) continue;
-    append_table(text, *field.object, join(path, field.key) + (field.kind == Kind::kList ? "[]" : ""));
+    append_table(text, *field.object, key_path(path, field.key) + (field.kind == Kind::kList ? "[]" : ""));
   }
 }
 

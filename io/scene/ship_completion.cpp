@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/shape/angle.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 using geometry::Point;
 using geometry::Vector;
-using simulation::ShipSpec;
+using simulation::Ship;
 
 constexpr double kLargestRudder = 0.2;        ///< A_R of L T; rudders have a tenth of that [-]
 constexpr double kRudderShare = 0.018;        ///< A_R of L T [-]
@@ -25,7 +26,6 @@ constexpr double kPropellerOfDraught = 0.65;  ///< D of T (recall) [-]
 constexpr double kGyrationOfLength = 0.25;    ///< [-]
 constexpr double kLeastBlock = 0.2;           ///< [-]
 constexpr double kShortestWall = 0.1;         ///< [m]
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// The outline in house notation, with the angles of its vertices.
 void set_waterline(const HullOutline& outline, simulation::Hull& hull) {
@@ -44,7 +44,7 @@ class Completion {
              ProblemCollector& problems)
       : input_(input), item_(given), path_(path), density_(density), problems_(problems) {}
 
-  ShipSpec run() {
+  Ship run() {
     choose_water_and_speed();
     ship_ = input_.spec;
     ship_.name = input_.name;
@@ -206,10 +206,10 @@ class Completion {
   const std::string& path_;
   const double density_;
   ProblemCollector& problems_;
-  ShipSpec ship_;
+  Ship ship_;
 };
 
-double steering_most(const ShipSpec& ship) {
+double steering_most(const Ship& ship) {
   if (const auto* rudder = std::get_if<simulation::RudderSettings>(&ship.steering)) return rudder->most;
   if (const auto* azimuth = std::get_if<simulation::AzimuthSettings>(&ship.steering)) return azimuth->most;
   return 0;
@@ -238,7 +238,7 @@ class PilotCheck {
 
  private:
   void report(const std::string& key, std::string found, std::string allowed) {
-    problems_.report(0, nearest_offset(item_, key), fmt::format("{}.{}", ship_path(draft_, index_), key),
+    problems_.report(0, nearest_offset(item_, key), fmt::format("{}.{}", hull_path(draft_, index_), key),
                      std::move(found), std::move(allowed));
   }
 
@@ -251,8 +251,8 @@ class PilotCheck {
   void check_angle(const std::string& key, double angle) {
     const double most = steering_most(ship_);
     if (std::abs(angle) <= most * (1 + 1e-9)) return;
-    report(key, fmt::format("{:.4g}°", kDegrees * angle),
-           fmt::format("at most {:.4g}° to either side", kDegrees * most));
+    report(key, fmt::format("{:.4g}°", geometry::kDegreesPerRadian * angle),
+           fmt::format("at most {:.4g}° to either side", geometry::kDegreesPerRadian * most));
   }
 
   void check(const simulation::ConstantPilot& pilot) {
@@ -284,7 +284,7 @@ class PilotCheck {
     Point from = ship_.position_in_world;
     for (std::size_t i = 0; i < pilot.waypoints.size(); ++i) {
       const Point to = pilot.waypoints[i].position_in_world;
-      if (const ShipSpec* structure = structure_on(from, to))
+      if (const auto* structure = structure_on(from, to))
         report(fmt::format("pilot.route.waypoints[{}].position_m", i),
                fmt::format("a leg to ({:g}, {:g}) that leads through {}", to.x, to.y, structure->name),
                "legs that stay half a beam clear of structures");
@@ -292,31 +292,29 @@ class PilotCheck {
     }
   }
 
-  /// A structure nearer to a leg than half the beam.
-  const ShipSpec* structure_on(Point from, Point to) const {
+  /// A structure or a wall nearer to a leg than half the beam.
+  const simulation::PlacedHull* structure_on(Point from, Point to) const {
     const geometry::Box box = bounding_box(ship_.hull.waterline);
     const double half_beam = 0.5 * (box.high.y - box.low.y);
-    for (std::size_t k = 0; k < draft_.scene.ships.size(); ++k) {
-      if (!draft_.ship_origins[k].is_structure) continue;
-      const geometry::Ring ring = waterline_in_world(draft_.scene.ships[k]).outer;
+    for (std::size_t k = draft_.scene.ships.size(); k < hull_count(draft_.scene); ++k) {
+      const simulation::PlacedHull& hull = hull_of(draft_.scene, k);
+      const geometry::Ring ring = waterline_in_world(hull).outer;
       for (std::size_t i = 0; i < ring.size(); ++i)
-        if (are_near(from, to, ring[i], ring[(i + 1) % ring.size()], half_beam))
-          return &draft_.scene.ships[k];
+        if (are_near(from, to, ring[i], ring[(i + 1) % ring.size()], half_beam)) return &hull;
     }
     return nullptr;
   }
 
   void check(simulation::FollowingPilot& pilot) {
-    const auto& ships = draft_.scene.ships;
-    const auto leader = std::ranges::find(ships, pilot.ship, &ShipSpec::name);
-    pilot.leader = leader == ships.end() ? 0 : static_cast<int>(leader - ships.begin());
+    const int leader = hull_named(draft_.scene, pilot.ship);
+    pilot.leader = std::max(leader, 0);
     if (!has_steering("pilot.follow")) return;
     const std::string key = "pilot.follow.ship";
     const std::string found = fmt::format("\"{}\"", pilot.ship);
-    if (leader == ships.end() || is_grounded(*leader))
-      return report(key, found + (leader == ships.end() ? ", the name of no ship" : ", which is no ship"),
+    if (leader < 0 || leader >= std::ssize(draft_.scene.ships))
+      return report(key, found + (leader < 0 ? ", the name of no ship" : ", which is no ship"),
                     "the name of another ship");
-    if (pilot.leader == static_cast<int>(index_))
+    if (leader == static_cast<int>(index_))
       return report(key, found + ": a ship cannot follow itself", "the name of another ship");
     if (follows_back(pilot))
       report(key, found + ", which follows this ship", "a ship that follows no ship of the same line");
@@ -327,7 +325,7 @@ class PilotCheck {
     const auto& ships = draft_.scene.ships;
     std::string_view name = pilot.ship;
     for (std::size_t i = 0; i < ships.size(); ++i) {
-      const auto leader = std::ranges::find(ships, name, &ShipSpec::name);
+      const auto leader = std::ranges::find(ships, name, &Ship::name);
       if (leader == ships.end()) return false;
       if (static_cast<std::size_t>(leader - ships.begin()) == index_) return true;
       const auto* next = std::get_if<simulation::FollowingPilot>(&leader->pilot);
@@ -338,7 +336,7 @@ class PilotCheck {
   }
 
   const std::size_t index_;
-  ShipSpec& ship_;
+  Ship& ship_;
   const JsonValue& item_;
   SceneDraft& draft_;
   ProblemCollector& problems_;
@@ -346,46 +344,40 @@ class PilotCheck {
 
 }  // namespace
 
-simulation::ShipSpec complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
-                                   double density, ProblemCollector& problems) {
+simulation::Ship complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
+                               double density, ProblemCollector& problems) {
   return Completion(input, given, path, density, problems).run();
 }
 
-simulation::ShipSpec complete_structure(const StructureInput& input) {
-  ShipSpec structure = input.spec;
+simulation::Structure complete_structure(const StructureInput& input) {
+  simulation::Structure structure = input.spec;
   structure.name = input.name;
   if (const auto* cylinder = std::get_if<Cylinder>(&input.form))
     structure.hull.waterline = simulation::cylinder_waterline(cylinder->radius);
   else
     set_waterline(std::get<HullOutline>(input.form), structure.hull);
   structure.hull.angles_from_vertical.assign(structure.hull.waterline.size(), input.slope);
-  structure.mass = structure.moment_of_inertia = std::numeric_limits<double>::infinity();
-  structure.propulsion = simulation::FixedInPlace{};
   return structure;
 }
 
-void add_wall(std::size_t index, const JsonValue& item, const WallInput& wall, SceneDraft& draft,
-              ProblemCollector& problems) {
-  const double length = distance(wall.from, wall.to);
-  if (length < kShortestWall) {
-    problems.report(0, nearest_offset(item, "to_m"), fmt::format("walls[{}].to_m", index),
-                    fmt::format("({:g}, {:g}), {:.3g} m from from_m", wall.to.x, wall.to.y, length),
+std::optional<simulation::Wall> complete_wall(const WallInput& input, const JsonValue& given,
+                                              const std::string& path, ProblemCollector& problems) {
+  simulation::Wall wall = simulation::wall_between(input.from, input.to, input.depth);
+  if (wall.length < kShortestWall) {
+    problems.report(0, nearest_offset(given, "to_m"), path + ".to_m",
+                    fmt::format("({:g}, {:g}), {:.3g} m from from_m", input.to.x, input.to.y, wall.length),
                     fmt::format("a face of at least {:g} m", kShortestWall));
-    return;
+    return std::nullopt;
   }
-  simulation::Wall settings = wall.pressure.value_or(simulation::Wall{});
-  settings.velocity = wall.velocity.value_or(geometry::Vector{});
-  draft.scene.ships.push_back(simulation::wall_between(wall.from, wall.to, wall.depth, settings));
-  draft.scene.ships.back().name = wall.name;
-  draft.ship_origins.push_back(
-      {.offset = item.offset, .group = index, .is_structure = true, .list = "walls"});
+  wall.name = input.name;
+  wall.velocity = input.velocity.value_or(geometry::Vector{});
+  wall.pressure = input.pressure;
+  return wall;
 }
 
 void complete_pilots(const JsonValue& given, SceneDraft& draft, ProblemCollector& problems) {
-  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
-    if (!draft.ship_origins[i].is_structure)
-      PilotCheck(i, given.find("ships")->items()[draft.ship_origins[i].group], draft, problems).run();
-  }
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
+    PilotCheck(i, given.find("ships")->items()[draft.hull_origins[i].group], draft, problems).run();
 }
 
 }  // namespace polynya::io

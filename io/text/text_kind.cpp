@@ -6,10 +6,6 @@
 namespace polynya::io {
 namespace {
 
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 /// Whether the first bracket of the line is closed by its last character.
 bool is_one_object(std::string_view line) {
   if (line.front() != '{' || line.back() != '}') return false;
@@ -47,6 +43,10 @@ bool begins_wkt(std::string_view line) {
 }
 
 }  // namespace
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
 
 std::string_view trimmed(std::string_view line) {
   const std::size_t first = line.find_first_not_of(kBlanks);

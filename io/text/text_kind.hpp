@@ -7,6 +7,9 @@ namespace polynya::io {
 
 inline constexpr std::string_view kBlanks = " \t\r\n";
 
+/// Whether it is one of A to Z or a to z.
+bool is_letter(char c);
+
 /// A line without the blanks around it.
 std::string_view trimmed(std::string_view line);
 

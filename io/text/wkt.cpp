@@ -9,18 +9,12 @@
 #include <fmt/format.h>
 
 #include "io/text/json_writer.hpp"
+#include "io/text/text_kind.hpp"
 
 namespace polynya::io {
 namespace {
 
 constexpr int kDeepestCollection = 64;
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
 
 /// What is wrong at the reader's place; ends the geometry it stands in.
 struct SyntaxError : std::runtime_error {
@@ -52,7 +46,7 @@ class WktReader {
   void skip_blanks() {
     for (; at_ < text_.size(); ++at_) {
       const bool is_comment = text_[at_] == '#' || text_.substr(at_, 2) == "//";
-      if (!is_comment && !is_blank(text_[at_])) return;
+      if (!is_comment && kBlanks.find(text_[at_]) == kBlanks.npos) return;
       if (is_comment) at_ = std::min(text_.find('\n', at_), text_.size() - 1);
     }
   }

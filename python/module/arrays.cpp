@@ -47,13 +47,14 @@ py::dict forces_of(const simulation::ShipSample& sample) {
 py::object ships_of(const Simulation& python) {
   const simulation::Simulation& simulation = python.between_steps();
   const std::vector<simulation::ShipState> states = simulation.ship_states();
+  const std::vector<simulation::Helm>& helms = simulation.world().population.helms;
   py::list ships;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const simulation::ShipState& state = states[i];
-    const auto& helm = simulation.world().population.helms[i];
+    const simulation::Helm helm = i < helms.size() ? helms[i] : simulation::Helm{};
     const geometry::Point at = state.world_from_ship.position;
     const auto& sample = python.last_sample(i);
-    ships.append(Ship{simulation.scene().ships[i].name, pair_of(at.x, at.y),
+    ships.append(Ship{hull_of(simulation.scene(), i).name, pair_of(at.x, at.y),
                       pair_of(state.velocity.x, state.velocity.y), state.heading, state.angular_velocity,
                       helm.lever, helm.steering_angle, sample ? forces_of(*sample) : py::dict()});
   }

@@ -73,7 +73,7 @@ template <auto Member>
 py::array of_bodies(const FloeMemory& memory) {
   const simulation::Population& population = population_of(memory);
   const auto& all = population.bodies.*Member;
-  const auto rows = std::span(all).subspan(static_cast<std::size_t>(population.ship_count));
+  const auto rows = std::span(all).subspan(static_cast<std::size_t>(population.hull_count));
   using Value = typename decltype(rows)::value_type;
   if constexpr (sizeof(Value) == 2 * sizeof(double)) {
     return points(memory, rows.empty() ? nullptr : &rows.front().x, rows.size());

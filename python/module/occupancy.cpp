@@ -130,7 +130,7 @@ py::array_t<float> occupancy(const Simulation& python, const py::object& ship, s
   add_floes(simulation, world_from_ship, ice, frame);
   for (std::size_t i = 0; i < ships.size(); ++i) {
     if (i == own) continue;
-    others.add({simulation.scene().ships[i].hull.waterline, {}},
+    others.add({hull_of(simulation.scene(), i).hull.waterline, {}},
                relative_pose(world_from_ship, ships[i].world_from_ship));
   }
   const auto rows = static_cast<py::ssize_t>(frame.rows), columns = static_cast<py::ssize_t>(frame.columns);

@@ -9,7 +9,7 @@
 
 #include "io/run/active_run.hpp"
 #include "io/run/checkpoint.hpp"
-#include "io/run/records.hpp"
+#include "io/run/event_records.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::python {
@@ -69,7 +69,7 @@ Simulation::Simulation(const std::shared_ptr<Scene>& scene, int threads)
 Simulation::Simulation(std::shared_ptr<Scene> scene, simulation::Simulation simulation, int threads)
     : scene_(std::move(scene)),
       simulation_(std::move(simulation)),
-      samples_(scene_->loaded().scene.ships.size()),
+      samples_(hull_count(scene_->loaded().scene)),
       pilots_(samples_.size(), py::none()) {
   simulation_.set_threads(checked_threads(threads));
   simulation_.journal().clear();
@@ -112,19 +112,9 @@ void Simulation::take_journal() {
   const simulation::Scene& scene = simulation_.scene();
   const auto& floes = simulation_.world().population.floes;
   for (const simulation::Event& event : journal.events) {
-    const simulation::FloeId parent =
-        event.floe == simulation::kNoFloe ? simulation::kNoFloe : floes[event.floe].parent;
-    io::append_event(events_, event, io::ship_name(scene, event.ship), parent);
+    const simulation::IceEvent* ice = event.ice();
+    io::append_event(events_, event, scene, ice ? floes[ice->floe].parent : simulation::kNoFloe);
     events_.back() = ',';  // in place of the line's end
-  }
-  for (const simulation::ShipContact& contact : journal.ship_contacts) {
-    io::append_ship_contact(events_, contact, io::ship_name(scene, contact.ship),
-                            io::ship_name(scene, contact.other));
-    events_.back() = ',';
-  }
-  for (const simulation::MooringBreak& broken : journal.mooring_breaks) {
-    io::append_mooring_break(events_, broken, io::ship_name(scene, broken.ship));
-    events_.back() = ',';
   }
   for (const simulation::ShipSample& sample : journal.samples) samples_[sample.ship] = sample;
   journal.clear();
@@ -201,8 +191,7 @@ py::bytes Simulation::save() const {
 }
 
 std::size_t Simulation::index_of(const py::object& ship, const char* caller) const {
-  const auto& ships = simulation_.scene().ships;
-  const auto count = static_cast<std::int64_t>(ships.size());
+  const auto count = static_cast<std::int64_t>(hull_count(simulation_.scene()));
   if (py::isinstance<py::int_>(ship)) {
     const auto index = ship.cast<std::int64_t>();
     if (index < 0 || index >= count)
@@ -212,18 +201,19 @@ std::size_t Simulation::index_of(const py::object& ship, const char* caller) con
   if (!py::isinstance<py::str>(ship))
     throw py::type_error(fmt::format("{}: a ship is an index or a name", caller));
   const auto name = ship.cast<std::string>();
-  const auto found = std::ranges::find(ships, name, &simulation::ShipSpec::name);
-  if (found == ships.end()) throw py::value_error(fmt::format("the scene has no ship named \"{}\"", name));
-  return static_cast<std::size_t>(found - ships.begin());
+  const int found = hull_named(simulation_.scene(), name);
+  if (found < 0) throw py::value_error(fmt::format("the scene has no ship named \"{}\"", name));
+  return static_cast<std::size_t>(found);
 }
 
 void Simulation::set_pilot(const py::object& ship, const py::object& pilot) {
   refuse_while_stepping();
   const std::size_t index = index_of(ship, "set_pilot");
-  const simulation::ShipSpec& spec = simulation_.scene().ships[index];
-  if (!std::holds_alternative<simulation::Engine>(spec.propulsion))
-    throw py::value_error(fmt::format(
-        "ship \"{}\" has no engine to command: give it propulsion.engine (docs/scene.md)", spec.name));
+  const auto& ships = simulation_.scene().ships;
+  if (index >= ships.size() || !std::holds_alternative<simulation::Engine>(ships[index].propulsion))
+    throw py::value_error(
+        fmt::format("ship \"{}\" has no engine to command: give it propulsion.engine (docs/scene.md)",
+                    hull_of(simulation_.scene(), index).name));
   if (!pilot.is_none() && !PyCallable_Check(pilot.ptr()))
     throw py::type_error("set_pilot: a pilot is a callable that takes a PilotView, or None");
   pilots_[index] = pilot;

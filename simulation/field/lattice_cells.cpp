@@ -17,9 +17,10 @@ using geometry::Site;
 using geometry::Vector;
 
 // Every one of these changes all fields without a size law, to the bit.
-constexpr double kFarthestDeviation = 2.5;  ///< of the logarithm of a floe's size, in standard deviations
-constexpr int kRelaxations = 12;            ///< fewer leave cells slender and off their areas
-constexpr double kShortestEdge = 0.1;  ///< of a floe, in sizes of its cell; smaller leaves slivers of edges
+constexpr double kFarthestCellDeviation = 2.5;  ///< of the logarithm of a floe's size, in standard deviations
+constexpr int kRelaxations = 12;                ///< fewer leave cells slender and off their areas
+constexpr double kShortestCellEdge =
+    0.1;  ///< of a floe, in sizes of its cell; smaller leaves slivers of edges
 
 /// e^x for moderate x, without a library's: (1 + x/2²⁰)^(2²⁰), to 1e-6.
 double exponential(double x) {
@@ -45,7 +46,7 @@ std::vector<double> draw_areas(const FloeField& field, std::size_t count, Random
   const double sigma = std::sqrt(variance);
   std::vector<double> areas(count);
   for (double& area : areas) {
-    const double z = std::clamp(random.normal(), -kFarthestDeviation, kFarthestDeviation);
+    const double z = std::clamp(random.normal(), -kFarthestCellDeviation, kFarthestCellDeviation);
     const double size = field.floe_size * exponential(sigma * z - 0.5 * variance);
     area = size * size;
   }
@@ -118,7 +119,7 @@ FieldLayout lattice_cells(const FloeField& field) {
     if (rings[i].empty()) continue;
     Candidate cell;
     cell.ring = std::move(rings[i]);
-    reduce_corners(cell.ring, field.most_corners, kShortestEdge * std::sqrt(areas[i]));
+    reduce_corners(cell.ring, field.most_corners, kShortestCellEdge * std::sqrt(areas[i]));
     const CellMeasures measures = measure_convex(cell.ring);
     if (!(measures.area > 0)) continue;
     cell.centroid = measures.centroid;

@@ -16,7 +16,7 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
-constexpr double kShortestEdge = 0.03;  ///< of a floe, in sizes; smaller leaves slivers of edges
+constexpr double kShortestFloeEdge = 0.03;  ///< of a floe, in sizes; smaller leaves slivers of edges
 /// Of a floe's area that its cell must have room for. Smaller, and floes far off the law stand at boundaries;
 /// larger, and boundaries are left bare.
 constexpr double kLeastShare = 0.25;
@@ -110,7 +110,7 @@ void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_
                    FieldLayout& layout) {
   const auto lose = [&layout] { ++layout.left_out; };
   if (ring.empty()) return lose();
-  const double shortest = kShortestEdge * std::sqrt(item.area);
+  const double shortest = kShortestFloeEdge * std::sqrt(item.area);
   reduce_corners(ring, field.most_corners, shortest);
   const double cell_area = measure_convex(ring).area;
   Candidate candidate{inset(ring, 0.5 * field.gap), {}, 0, item.area, 0, is_at_boundary};

@@ -109,17 +109,17 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
 }
 
 /// Adds j/τ_c of a ship's contact with ice.
-void add_peak(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
-              ShipLoads& loads) {
+void add_collision(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+                   ShipLoads& loads) {
   const Contact& c = load.contact;
   const Vector force = -(load.impulse / setup.scene.contact.contact_time) * c.normal;
-  loads.peak += rotate_back(bodies.rotation[c.a], force);
-  loads.peak_moment += cross(c.middle() - bodies.position[c.a], force);
+  const Vector in_ship = rotate_back(bodies.rotation[c.a], force);
+  loads.collision += {in_ship.x, in_ship.y, cross(c.middle() - bodies.position[c.a], force)};
 }
 
 /// Whether a floe was born by what broke at the end of the step before.
 bool is_just_born(const Population& population, const Clock& clock, BodyIndex body) {
-  return !population.is_ship(body) && population.floes[population.floe_of(body)].born == clock.time();
+  return !population.is_hull(body) && population.floes[population.floe_of(body)].born == clock.time();
 }
 
 /// Of floe against floe: vertical walls.
@@ -140,7 +140,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
   const dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
   const ShipContactLoad load = load_of(setup, population, c);
-  add_peak(setup, bodies, load, step.loads[c.a]);
+  add_collision(setup, bodies, load, step.loads[c.a]);
   const double horizontal = load.shares.horizontal;
   if (is_crush_law(setup))
     set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt,
@@ -164,19 +164,19 @@ void decide(const Setup& setup, const Clock& clock, int threads, const Populatio
             Counts& counts) {
   step.fractures.clear();
   step.slopes.clear();
-  step.loads.assign(static_cast<std::size_t>(population.ship_count), {});
+  step.loads.assign(static_cast<std::size_t>(population.hull_count), {});
   dynamics::for_chunks(step.contacts.size(), dynamics::kContactsPerChunk, threads,
                        [&](std::size_t, std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
                            Contact& c = step.contacts[i];
                            c.friction = setup.scene.ice.friction;
-                           if (!population.is_ship(c.a)) decide_between_floes(setup, clock, population, c);
+                           if (!population.is_hull(c.a)) decide_between_floes(setup, clock, population, c);
                          }
                        });
-  for (Contact& c : step.contacts) {  // by (a, b): those of ships come first
-    if (!population.is_ship(c.a)) break;
+  for (Contact& c : step.contacts) {  // by (a, b): those of hulls come first
+    if (!population.is_hull(c.a)) break;
     step.slopes.emplace_back();
-    if (!population.is_ship(c.b)) decide_at_ship(setup, clock, population, c, step, counts);
+    if (!population.is_hull(c.b)) decide_at_ship(setup, clock, population, c, step, counts);
   }
 }
 

@@ -46,31 +46,28 @@ void recentre(const Population& population, PendingFracture& pending) {
   if (distance(nearest, contact) <= kFarthestIce * pending.cusp_radius) pending.first_touch_in_body = nearest;
 }
 
-Event event_of(const Clock& clock, const PendingFracture& pending, EventKind kind) {
-  Event event;
-  event.time = clock.time();
-  event.kind = kind;
-  event.ship = pending.ship;
-  event.by_floe = pending.by_floe;
-  event.floe = pending.floe;
-  event.point_in_world = pending.point_in_water + clock.drift();
-  event.normal_in_world = pending.normal;
-  event.criteria = pending.criteria;
-  event.cusp_radius = pending.failure == fracture::Failure::kBend ? pending.cusp_radius : 0;
-  event.penetration = pending.penetration;
-  return event;
+template <class Kind>
+Event event_of(const Clock& clock, const PendingFracture& pending) {
+  Kind kind;
+  kind.floe = pending.floe;
+  kind.by_floe = pending.by_floe;
+  kind.normal_in_world = pending.normal;
+  kind.penetration = pending.penetration;
+  kind.criterion = pending.criteria;
+  if constexpr (requires { kind.cusp_radius; })
+    kind.cusp_radius = pending.failure == fracture::Failure::kBend ? pending.cusp_radius : 0;
+  return {clock.time(), pending.ship, pending.point_in_water + clock.drift(), std::move(kind)};
 }
 
 void reject(const Setup& setup, const Clock& clock, const PendingFracture& pending,
             const geometry::Shape& shape, const geometry::CutError& error, Counts& counts, Journal& journal) {
-  Event event = event_of(clock, pending, EventKind::kRejectedCut);
-  event.reason = std::string(name_of(error.reason)) + ": " + error.detail;
-  ++counts.rejected_cuts;
-  RejectedCut rejected{counts.rejected_cuts, clock.time(), pending.floe, event.reason, shape.polygon, {}, {}};
-  if (pending.failure == fracture::Failure::kBend) rejected.cusp_in_body = cusp_of(setup, pending);
-  rejected.crack_in_body[0] = pending.crack_in_body.start;
-  rejected.crack_in_body[1] = pending.crack_in_body.end;
-  journal.rejected_cuts.push_back(std::move(rejected));
+  Event event = event_of<RejectedCut>(clock, pending);
+  auto& rejected = std::get<RejectedCut>(event.what);
+  rejected.reason = std::string(name_of(error.reason)) + ": " + error.detail;
+  rejected.input = {++counts.rejected_cuts, shape.polygon, {}, {}};
+  if (pending.failure == fracture::Failure::kBend) rejected.input.cusp_in_body = cusp_of(setup, pending);
+  rejected.input.crack_in_body[0] = pending.crack_in_body.start;
+  rejected.input.crack_in_body[1] = pending.crack_in_body.end;
   journal.events.push_back(std::move(event));
   pending.record->was_refused = true;
 }
@@ -90,10 +87,9 @@ InsideFate fate_of_cusp(const Setup& setup, int ship) {
 /// What becomes of the floe's pieces.
 Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFracture& pending) {
   if (pending.failure != fracture::Failure::kBend)
-    return {event_of(clock, pending, EventKind::kSplit), InsideFate::kFloats, &EnergyFlows::splitting,
-            &Counts::splits};
-  return {event_of(clock, pending, EventKind::kBend), fate_of_cusp(setup, pending.ship),
-          &EnergyFlows::bending, &Counts::bends};
+    return {event_of<Split>(clock, pending), InsideFate::kFloats, &EnergyFlows::splitting, &Counts::splits};
+  return {event_of<Bend>(clock, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending,
+          &Counts::bends};
 }
 
 }  // namespace

@@ -25,14 +25,10 @@ double weight_under(const Setup& setup, const Population& population, FloeId flo
 }  // namespace
 
 Event submersion_event(const Clock& clock, const Population& population, FloeId floe, int ship) {
-  Event event;
-  event.time = clock.time();
-  event.kind = EventKind::kSubmerge;
-  event.ship = ship;
-  event.floe = floe;
-  event.point_in_world = population.bodies.position[population.body_of(floe)] + clock.drift();
-  event.under_hull_area = population.floes[floe].area;
-  return event;
+  Submerge submerge{.under_hull_area = population.floes[floe].area};
+  submerge.floe = floe;
+  const geometry::Point place = population.bodies.position[population.body_of(floe)] + clock.drift();
+  return {clock.time(), ship, place, submerge};
 }
 
 void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Population& population,
@@ -59,9 +55,10 @@ void apply_submersions(const Setup& setup, const Clock& clock, const std::vector
     if (!population.is_floating(floe.floe)) continue;  // it broke in this step, or another ship has it
     Event event = submersion_event(clock, population, floe.floe, floe.ship);
     event.point_in_world = floe.point_in_water + clock.drift();
-    event.normal_in_world = floe.normal;
-    event.penetration = floe.penetration;
-    event.tilting = floe.criterion;
+    auto& submerge = std::get<Submerge>(event.what);
+    submerge.normal_in_world = floe.normal;
+    submerge.penetration = floe.penetration;
+    submerge.criterion = floe.criterion;
     go_under(setup, clock, floe.floe, floe.ship, population, accounts);
     ++accounts.counts.tilted_under;
     journal.events.push_back(std::move(event));

@@ -30,7 +30,7 @@ NewFloe child_of(const Population& population, FloeId parent) {
 constexpr std::size_t kNoPiece = SIZE_MAX;
 std::size_t still_fast(const Population& population, const Breakage& breakage, const geometry::CutResult& cut,
                        const std::vector<geometry::Measures>& measures) {
-  if (!population.is_fast(breakage.event.floe)) return kNoPiece;
+  if (!population.is_fast(breakage.event.ice()->floe)) return kNoPiece;
   std::size_t largest = kNoPiece;
   double most = 0;
   for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
@@ -63,7 +63,7 @@ void enter_removed(const NewFloe& piece, const geometry::Measures& measures, dou
 }
 
 /// Enters what the cut left out beside its pieces into the event, and the event's areas into the accounts.
-void enter_areas(Event& event, const geometry::CutLedger& cut, double mass_per_area, Accounts& accounts) {
+void enter_areas(IceEvent& event, const geometry::CutLedger& cut, double mass_per_area, Accounts& accounts) {
   event.brash_area += cut.area_slivers;
   event.rounding_defect = cut.rounding_defect;
   accounts.counts.snap_rounded += cut.snap_rounded;
@@ -80,7 +80,8 @@ void enter_areas(Event& event, const geometry::CutLedger& cut, double mass_per_a
 void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage,
                        const geometry::CutResult& cut, Population& population, Accounts& accounts,
                        Journal& journal) {
-  Event& event = breakage.event;
+  IceEvent& event = *breakage.event.ice();
+  const int ship = breakage.event.ship;
   NewFloe child = child_of(population, event.floe);
   const bool was_fast = population.is_fast(event.floe);
   const double own_mass_per_area = mass_per_area(ice_of_floe(setup, population, event.floe));
@@ -112,9 +113,9 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
       enter_motion(population.bodies, population.body_of(id), accounts.audit.energy.thrust,
                    accounts.audit.momentum.held, accounts.audit);
     if (is_inside && breakage.inside == InsideFate::kUnderHull) {
-      event.under_hull_area += measures.area;
-      submersions.push_back(submersion_event(clock, population, id, event.ship));
-      go_under(setup, clock, id, event.ship, population, accounts);
+      std::get<Bend>(breakage.event.what).under_hull_area += measures.area;
+      submersions.push_back(submersion_event(clock, population, id, ship));
+      go_under(setup, clock, id, ship, population, accounts);
       continue;
     }
     wake(population.body_of(id), population);
@@ -123,7 +124,7 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   }
   enter_areas(event, cut.ledger, own_mass_per_area, accounts);
   ++(accounts.counts.*breakage.count);
-  journal.events.push_back(std::move(event));
+  journal.events.push_back(std::move(breakage.event));
   for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));
 }
 

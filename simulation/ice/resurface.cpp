@@ -52,10 +52,10 @@ bool is_clear_of(const Population& population, BodyIndex other, const geometry::
                   relative_pose(water_from_other, water_from_piece));
 }
 
-bool is_under_ship(const Population& population, const geometry::Boundary& piece,
+bool is_under_hull(const Population& population, const geometry::Boundary& piece,
                    const Pose& water_from_piece) {
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship)
-    if (!is_clear_of(population, ship, piece, water_from_piece)) return true;
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
+    if (!is_clear_of(population, hull, piece, water_from_piece)) return true;
   return false;
 }
 
@@ -83,17 +83,15 @@ bool is_over_another(const Population& population, const SubmergedPiece& submerg
   });
 }
 
+/// A kind of event with what decided it.
+template <class Kind>
 Event event_of(const Setup& setup, const Clock& clock, const Population& population,
-               const SubmergedPiece& submerged, EventKind kind) {
-  Event event;
-  event.time = clock.time();
-  event.kind = kind;
-  event.ship = submerged.ship;
-  event.floe = submerged.floe;
-  event.point_in_world = population.bodies.position[population.body_of(submerged.floe)] + clock.drift();
-  event.resurfacing = {submerged.path, setup.underwater[submerged.ship].path.sliding, submerged.waited,
-                       setup.scene.fracture.resurface.give_up};
-  return event;
+               const SubmergedPiece& submerged, Kind kind) {
+  kind.floe = submerged.floe;
+  kind.criterion = {submerged.path, setup.underwater[submerged.ship].path.sliding, submerged.waited,
+                    setup.scene.fracture.resurface.give_up};
+  const BodyIndex body = population.body_of(submerged.floe);
+  return {clock.time(), submerged.ship, population.bodies.position[body] + clock.drift(), std::move(kind)};
 }
 
 /// One submerged piece's attempts to come up.
@@ -120,9 +118,9 @@ class Resurfacing {
 
  private:
   bool stay_under(const SubmergedPiece& submerged) {
-    Event event = event_of(setup_, clock_, population_, submerged, EventKind::kStayUnder);
-    event.under_ice_area = population_.floes[submerged.floe].area;
-    accounts_.ledger.under_ice_area += event.under_ice_area;
+    const StayUnder stays{.under_ice_area = population_.floes[submerged.floe].area};
+    Event event = event_of(setup_, clock_, population_, submerged, stays);
+    accounts_.ledger.under_ice_area += stays.under_ice_area;
     accounts_.masses.under_ice_mass += population_.bodies.mass[population_.body_of(submerged.floe)];
     ++accounts_.counts.stayed_under;
     retire_floe(submerged.floe, population_, journal_);
@@ -137,7 +135,7 @@ class Resurfacing {
         shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
     const geometry::Boundary boundary = geometry::make_outline(polygon);
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
-    if (is_under_ship(population_, boundary, in_place)) return false;  // not behind it yet
+    if (is_under_hull(population_, boundary, in_place)) return false;  // not behind it yet
     Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(submerged.floe) << 32U) ^
                   static_cast<std::uint64_t>(clock_.steps));
     for (int i = 0; i < kPlaces; ++i) {
@@ -157,17 +155,18 @@ class Resurfacing {
   }
 
   void come_up(const SubmergedPiece& submerged, const geometry::Polygon& polygon, const Place& place) {
-    Event event = event_of(setup_, clock_, population_, submerged, EventKind::kResurface);
+    Resurface up;
     const geometry::Measures measures = geometry::measure(polygon);
     const double area_before = population_.floes[submerged.floe].area;
     const bool is_floe = can_be_floe(measures) && measures.area >= setup_.scene.fracture.smallest_floe_area &&
                          !geometry::find_defect(polygon);
-    event.brash_area = is_floe ? area_before - measures.area : area_before;
-    if (is_floe) event.children.push_back(add_piece(submerged, polygon, measures, place));
+    up.brash_area = is_floe ? area_before - measures.area : area_before;
+    if (is_floe) up.children.push_back(add_piece(submerged, polygon, measures, place));
     accounts_.counts.brash_pieces += is_floe ? 0 : 1;
-    accounts_.ledger.brash_area += event.brash_area;
+    accounts_.ledger.brash_area += up.brash_area;
     accounts_.masses.brash_mass +=
-        mass_per_area(ice_of_floe(setup_, population_, submerged.floe)) * event.brash_area;
+        mass_per_area(ice_of_floe(setup_, population_, submerged.floe)) * up.brash_area;
+    Event event = event_of(setup_, clock_, population_, submerged, std::move(up));
     ++accounts_.counts.came_up;
     retire_floe(submerged.floe, population_, journal_);
     journal_.events.push_back(std::move(event));

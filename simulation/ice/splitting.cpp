@@ -57,8 +57,8 @@ std::optional<PendingFracture> split_of(const Setup& setup, const Population& po
   split.failure = fracture::Failure::kSplit;
   split.criteria = crack->criteria;
   split.record = c.record;
-  split.ship = population.is_ship(by) ? by : -1;
-  split.by_floe = population.is_ship(by) ? kNoFloe : population.floe_of(by);
+  split.ship = population.is_hull(by) ? by : -1;
+  split.by_floe = population.is_hull(by) ? kNoFloe : population.floe_of(by);
   split.floe = population.floe_of(floe);
   split.point_in_water = crack->begins_at;
   split.normal = into_floe(c, floe);
@@ -123,7 +123,7 @@ void find_splits(const Setup& setup, const Population& population, StepData& ste
     i += contacts.size();
     const double bound = opening_bound(setup, contacts);
     for (const BodyIndex body : {contacts.front().a, contacts.front().b}) {
-      if (population.is_ship(body)) continue;
+      if (population.is_hull(body)) continue;
       if (bound < limits_of_body(setup, population, body).least_splitting_force) continue;
       if (auto split = split_of(setup, population, contacts, body, pressed)) splits.push_back(*split);
     }

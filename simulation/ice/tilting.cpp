@@ -30,7 +30,7 @@ void for_pressed(const Setup& setup, const Population& population, std::vector<C
     const Contact& c = contacts[first];
     std::size_t end = first + 1;
     while (end < slopes.size() && contacts[end].a == c.a && contacts[end].b == c.b) ++end;
-    const bool is_free = !population.is_ship(c.b) && !population.is_fast(population.floe_of(c.b));
+    const bool is_free = !population.is_hull(c.b) && !population.is_fast(population.floe_of(c.b));
     if (is_free && can_go_under(setup, c.a)) {
       use(Pressed{c.a, population.floe_of(c.b), std::span(contacts).subspan(first, end - first),
                   std::span(slopes).subspan(first, end - first)});

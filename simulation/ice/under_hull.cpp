@@ -92,11 +92,11 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
   if (population.submerged.empty()) return;
   dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
-  std::vector<Pull> pulls(static_cast<std::size_t>(population.ship_count));
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship)
-    pulls[ship].speed = speed_ahead(setup, bodies, ship);
+  std::vector<Pull> pulls(setup.scene.ships.size());
+  const auto ships = static_cast<BodyIndex>(pulls.size());
+  for (BodyIndex ship = 0; ship < ships; ++ship) pulls[ship].speed = speed_ahead(setup, bodies, ship);
   add_tiles(setup, population, pulls);
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+  for (BodyIndex ship = 0; ship < ships; ++ship) {
     apply(setup, ship, pulls[ship], bodies, loads[ship].submerged, audit);
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
   }

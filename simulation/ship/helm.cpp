@@ -9,8 +9,8 @@ using geometry::Vector;
 
 std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies) {
   std::vector<SeenShip> seen;
-  for (std::size_t i = 0; i < setup.scene.ships.size(); ++i) {
-    const geometry::Box box = bounding_box(setup.scene.ships[i].hull.waterline);
+  for (std::size_t i = 0; i < hull_count(setup.scene); ++i) {
+    const geometry::Box box = bounding_box(hull_of(setup.scene, i).hull.waterline);
     seen.push_back({.position_in_world = bodies.position[i] + clock.drift(),
                     .heading = bodies.angle[i],
                     .velocity = bodies.velocity[i] + clock.water_drift,
@@ -81,7 +81,7 @@ Command commanded(const Setup& setup, const PilotView& view, const std::vector<E
 void take_helms(const Setup& setup, const Clock& clock, Population& population) {
   population.helms.resize(setup.scene.ships.size());
   const std::vector<SeenShip> ships = seen_ships(setup, clock, population.bodies);
-  for (BodyIndex i = 0; i < population.ship_count; ++i) {
+  for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {
     if (!setup.sailing[i].engine) continue;
     Helm& helm = population.helms[i];
     helm.memory = memory_at_start(view_of(setup, clock, population, ships, i));
@@ -98,7 +98,7 @@ void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPil
            Population& population) {
   if (std::ranges::none_of(setup.sailing, [](const Sailing& s) { return s.engine.has_value(); })) return;
   const std::vector<SeenShip> ships = seen_ships(setup, clock, population.bodies);
-  for (BodyIndex i = 0; i < population.ship_count; ++i) {
+  for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {
     const Sailing& sailing = setup.sailing[i];
     if (!sailing.engine) continue;
     Helm& helm = population.helms[i];

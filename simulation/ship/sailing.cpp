@@ -18,7 +18,7 @@ Planar in_ship(geometry::Rotation rotation, Vector velocity, double angular_velo
 }
 
 /// A ship in a step, in the ship's axes, which stand still while impulses act.
-struct Ship {
+struct ShipInStep {
   double mass = 0;     ///< [kg]
   double moment = 0;   ///< [kg m²]
   Planar now;          ///< ν with the step's other impulses, in the water frame
@@ -28,10 +28,10 @@ struct Ship {
   Planar of_ground;    ///< of the ground
 };
 
-Ship ship_of(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies, const ShipMotion& start,
-             BodyIndex i) {
+ShipInStep ship_of(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies,
+                   const ShipMotion& start, BodyIndex i) {
   const geometry::Rotation rotation = bodies.rotation[i];
-  Ship ship;
+  ShipInStep ship;
   ship.mass = bodies.mass[i];
   ship.moment = bodies.moment[i];
   ship.now = in_ship(rotation, bodies.velocity[i], bodies.angular_velocity[i]);
@@ -54,7 +54,7 @@ struct LinearForce {
 
 /// The pull of a mooring at the end of the step, in the axes of the ship.
 LinearForce mooring_force(const MooringSettings& mooring, const Clock& clock, const dynamics::Bodies& bodies,
-                          const Ship& ship, BodyIndex i) {
+                          const ShipInStep& ship, BodyIndex i) {
   const auto to_mooring = geometry::Rotation::by(mooring.heading);
   const double turn = bodies.angle[i] - mooring.heading;
   const Vector off = rotate_back(to_mooring, bodies.position[i] + clock.drift() - mooring.position_in_world);
@@ -84,7 +84,7 @@ struct Forces {
   LinearForce mooring;
 };
 
-Forces forces_on(const Setup& setup, const Clock& clock, const Population& population, const Ship& ship,
+Forces forces_on(const Setup& setup, const Clock& clock, const Population& population, const ShipInStep& ship,
                  BodyIndex i) {
   const Sailing& sailing = setup.sailing[i];
   const Helm& helm = population.helms[i];
@@ -109,7 +109,8 @@ Forces forces_on(const Setup& setup, const Clock& clock, const Population& popul
 
 /// ν at the end of the step: (M + A + Δt D) ν⁺ = M ν + A ν_b + Δt F, ν with the step's other impulses, ν_b in
 /// the ship's axes of the step before (docs/theory.md, "The ship in water").
-Planar solved_motion(const Ship& ship, const PlanarMatrix& added_mass, const Forces& forces, double dt) {
+Planar solved_motion(const ShipInStep& ship, const PlanarMatrix& added_mass, const Forces& forces,
+                     double dt) {
   const PlanarMatrix inertia = PlanarMatrix{{{{ship.mass, 0, 0}, {0, ship.mass, 0}, {0, 0, ship.moment}}}};
   const PlanarMatrix damping = forces.water.damping + forces.mooring.damping;
   const Planar force = forces.engine + forces.rudder + forces.water.at({}) + forces.mooring.at({});
@@ -147,7 +148,7 @@ void add(const SailingLoads& of_step, SailingLoads& sum) {
 /// The mooring breaks where it held the ship with more than it can. `velocity` is the ship's in the water at
 /// the end of the step: the pull is that of the place where the step takes the ship.
 void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar impulse, Vector velocity,
-                   BodyIndex i, Population& population, Journal& journal) {
+                   BodyIndex i, Population& population, std::vector<Event>& breaks) {
   const double force = std::hypot(impulse.surge, impulse.sway) / clock.step;
   if (mooring.break_load <= 0 || force <= mooring.break_load) return;
   Helm& helm = population.helms[i];
@@ -157,15 +158,15 @@ void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar im
       population.bodies.position[i] + clock.drift() + clock.step * (velocity + clock.water_drift);
   const Vector offset =
       rotate_back(geometry::Rotation::by(mooring.heading), place - mooring.position_in_world);
-  journal.mooring_breaks.push_back({helm.adrift_since, i, place, offset, force, mooring.break_load});
+  breaks.push_back({helm.adrift_since, i, place, MooringBreak{offset, force, mooring.break_load}});
 }
 
 void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, BodyIndex i,
-               Population& population, Accounts& accounts, Journal& journal) {
+               Population& population, Accounts& accounts, std::vector<Event>& mooring_breaks) {
   dynamics::Bodies& bodies = population.bodies;
   const double dt = clock.step;
   const bool is_free = bodies.inverse_mass[i] != 0;
-  const Ship ship = ship_of(setup, clock, bodies, start, i);
+  const ShipInStep ship = ship_of(setup, clock, bodies, start, i);
   const PlanarMatrix& added_mass = setup.sailing[i].hull.added_mass;
   const Forces forces = forces_on(setup, clock, population, ship, i);
   const Planar end = is_free ? solved_motion(ship, added_mass, forces, dt) : ship.now;
@@ -178,7 +179,7 @@ void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, 
   add(impulses, accounts.sailing[i]);
   const Vector velocity = rotate(bodies.rotation[i], {end.surge, end.sway});
   if (const auto& mooring = setup.scene.ships[i].mooring)
-    break_mooring(*mooring, clock, impulses.mooring, velocity, i, population, journal);
+    break_mooring(*mooring, clock, impulses.mooring, velocity, i, population, mooring_breaks);
   if (!is_free) return;
   enter_all(impulses, 0.5 * (ship.now + end), bodies.rotation[i], accounts.audit);
   bodies.velocity[i] = velocity;
@@ -187,7 +188,7 @@ void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, 
 
 }  // namespace
 
-dynamics::MainDimensions dimensions_of(const ShipSpec& ship, double water_density) {
+dynamics::MainDimensions dimensions_of(const Ship& ship, double water_density) {
   const geometry::Box box = bounding_box(ship.hull.waterline);
   dynamics::MainDimensions d;
   d.length = box.high.x - box.low.x;
@@ -201,7 +202,7 @@ dynamics::MainDimensions dimensions_of(const ShipSpec& ship, double water_densit
 
 namespace {
 
-dynamics::HullInWater hull_in_water(const ShipSpec& ship, const dynamics::Engine* engine, double density) {
+dynamics::HullInWater hull_in_water(const Ship& ship, const dynamics::Engine* engine, double density) {
   const geometry::Box box = bounding_box(ship.hull.waterline);
   const dynamics::MainDimensions dimensions = dimensions_of(ship, density);
   dynamics::HullInWater hull;
@@ -224,7 +225,7 @@ dynamics::HullInWater hull_in_water(const ShipSpec& ship, const dynamics::Engine
 
 }  // namespace
 
-Sailing sailing_of(const ShipSpec& ship, double water_density) {
+Sailing sailing_of(const Ship& ship, double water_density) {
   const auto* engine = std::get_if<Engine>(&ship.propulsion);
   Sailing sailing;
   sailing.is_active = sails(ship);
@@ -249,19 +250,18 @@ Sailing sailing_of(const ShipSpec& ship, double water_density) {
 }
 
 void keep_motion(const Population& population, StepData& step) {
-  step.start.resize(static_cast<std::size_t>(population.ship_count));
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship)
+  step.start.resize(population.helms.size());
+  for (std::size_t ship = 0; ship < step.start.size(); ++ship)
     step.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};
 }
 
-void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
-          Accounts& accounts, Journal& journal) {
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+void sail(const Setup& setup, const Clock& clock, StepData& step, Population& population,
+          Accounts& accounts) {
+  step.mooring_breaks.clear();
+  for (BodyIndex ship = 0; ship < std::ssize(setup.sailing); ++ship) {
     if (!setup.sailing[ship].is_active) continue;
-    const ContactLoads& ice = step.loads[ship].ice;
-    population.helms[ship].ice_force =
-        (1 / clock.step) * Planar{ice.impulse.x, ice.impulse.y, ice.angular_impulse};
-    sail_ship(setup, clock, step.start[ship], ship, population, accounts, journal);
+    population.helms[ship].ice_force = (1 / clock.step) * step.loads[ship].ice.impulse;
+    sail_ship(setup, clock, step.start[ship], ship, population, accounts, step.mooring_breaks);
   }
 }
 

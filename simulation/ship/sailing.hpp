@@ -22,8 +22,8 @@ struct Sailing {
 };
 
 /// L, B, T and C_B of a ship; C_B from its mass where it is not given.
-dynamics::MainDimensions dimensions_of(const ShipSpec& ship, double water_density);
+dynamics::MainDimensions dimensions_of(const Ship& ship, double water_density);
 
-Sailing sailing_of(const ShipSpec& ship, double water_density);
+Sailing sailing_of(const Ship& ship, double water_density);
 
 }  // namespace polynya::simulation

@@ -89,7 +89,7 @@ ShipContactLoad load_of(const Setup& setup, const Population& population, const 
   if (const double scatter = setup.scene.fracture.bending_scatter; scatter > 0)
     load.ice.flexural_strength *= strength_factor(setup.scene.seed, c.record->first_touch_in_b, scatter);
   load.impulse = eq5_impulse(setup, bodies, c);
-  load.hull_angle = hull_angle_at(setup.scene.ships[c.a].hull, bodies, c);
+  load.hull_angle = hull_angle_at(hull_of(setup.scene, c.a).hull, bodies, c);
   load.shares = fracture::crushing_shares(load.hull_angle, load.ice.friction, c.approach_speed, c.slip_speed);
   load.penetration = c.depth;
   load.mean_speed = c.record->age > 0 ? c.record->approach / c.record->age : c.approach_speed;

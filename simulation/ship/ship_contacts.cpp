@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "geometry/contact/first_contact.hpp"
 #include "simulation/world/step.hpp"
@@ -9,21 +10,21 @@ namespace {
 
 using geometry::Vector;
 
-bool is_known(const std::vector<ShipContact>& contacts, BodyIndex ship, BodyIndex other) {
-  return std::ranges::any_of(contacts,
-                             [&](const ShipContact& c) { return c.ship == ship && c.other == other; });
+bool is_known(const std::vector<Event>& contacts, BodyIndex ship, BodyIndex other) {
+  return std::ranges::any_of(contacts, [&](const Event& e) {
+    return e.ship == ship && std::get<ShipContact>(e.what).other == other;
+  });
 }
 
 geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
   return transform(dynamics::water_from_body(bodies, ship),
-                   setup.scene.ships[static_cast<std::size_t>(ship)].hull.waterline);
+                   hull_of(setup.scene, static_cast<std::size_t>(ship)).hull.waterline);
 }
 
 /// The contact of two ships of prescribed motion whose outlines came to touch in the step. The contact search
 /// leaves such pairs out: no impulse moves them.
-std::optional<ShipContact> prescribed_contact(const Setup& setup, const Clock& clock,
-                                              const dynamics::Bodies& bodies, BodyIndex ship,
-                                              BodyIndex other) {
+std::optional<Event> prescribed_contact(const Setup& setup, const Clock& clock,
+                                        const dynamics::Bodies& bodies, BodyIndex ship, BodyIndex other) {
   const Vector velocity = bodies.velocity[other] - bodies.velocity[ship];
   const double speed = length(velocity);
   // The touch may lie in the step before, where rounding hid it.
@@ -33,42 +34,33 @@ std::optional<ShipContact> prescribed_contact(const Setup& setup, const Clock& c
   const auto touch = geometry::first_contact(waterline_in_water(setup, bodies, ship),
                                              waterline_in_water(setup, bodies, other), velocity, earliest, 0);
   if (!touch) return std::nullopt;
-  return ShipContact{.time = clock.time(),
-                     .ship = ship,
-                     .other = other,
-                     .point_in_world = touch->point + clock.drift(),
-                     .closing_speed = -dot(velocity, touch->normal),
-                     .relative_speed = speed,
-                     .is_prescribed = true};
+  return Event{clock.time(), ship, touch->point + clock.drift(),
+               ShipContact{other, -dot(velocity, touch->normal), speed, true}};
 }
 
 }  // namespace
 
-void record_ship_contacts(const Setup& setup, const Clock& clock, const Population& population,
-                          const std::vector<dynamics::Contact>& contacts,
-                          std::vector<ShipContact>& known_contacts, Journal& journal) {
+void record_ship_events(const Setup& setup, const Clock& clock, const Population& population,
+                        const StepData& step, std::vector<Event>& known_contacts, Journal& journal) {
   const dynamics::Bodies& bodies = population.bodies;
-  const auto enter = [&](const ShipContact& contact) {
+  const auto enter = [&](const Event& contact) {
     known_contacts.push_back(contact);
-    journal.ship_contacts.push_back(contact);
+    journal.events.push_back(contact);
   };
-  for (const dynamics::Contact& c : contacts) {
-    if (!population.is_ship(c.b) || is_known(known_contacts, c.a, c.b)) continue;
-    enter({.time = clock.time(),
-           .ship = c.a,
-           .other = c.b,
-           .point_in_world = c.middle() + clock.drift(),
-           .closing_speed = c.approach_speed,
-           .relative_speed = std::hypot(c.approach_speed, c.slip_speed)});
+  for (const dynamics::Contact& c : step.contacts) {
+    if (!population.is_hull(c.b) || is_known(known_contacts, c.a, c.b)) continue;
+    enter({clock.time(), c.a, c.middle() + clock.drift(),
+           ShipContact{c.b, c.approach_speed, std::hypot(c.approach_speed, c.slip_speed), false}});
   }
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
-    for (BodyIndex other = ship + 1; other < population.ship_count; ++other) {
+  for (BodyIndex ship = 0; ship < population.hull_count; ++ship) {
+    for (BodyIndex other = ship + 1; other < population.hull_count; ++other) {
       if (bodies.inverse_mass[ship] != 0 || bodies.inverse_mass[other] != 0) continue;
-      if (bodies.is_grounded[ship] != 0 && bodies.is_grounded[other] != 0) continue;  // they do not meet
+      if (is_grounded(bodies.kind[ship]) && is_grounded(bodies.kind[other])) continue;  // they do not meet
       if (is_known(known_contacts, ship, other)) continue;
       if (const auto contact = prescribed_contact(setup, clock, bodies, ship, other)) enter(*contact);
     }
   }
+  std::ranges::copy(step.mooring_breaks, std::back_inserter(journal.events));
 }
 
 }  // namespace polynya::simulation

@@ -16,10 +16,11 @@ struct Pressing {
 
 template <class Use>
 void for_pressing(const Setup& setup, const Population& population, Use use) {
-  for (BodyIndex i = 0; i < population.ship_count; ++i) {
-    const auto* wall = std::get_if<Wall>(&setup.scene.ships[i].propulsion);
-    const geometry::Rotation rotation = population.bodies.rotation[i];
-    if (wall && wall->presses()) use(Pressing{*wall, i, {rotation.cosine, rotation.sine}});
+  auto body = population.hull_count - static_cast<BodyIndex>(setup.scene.walls.size());
+  for (const Wall& wall : setup.scene.walls) {
+    const geometry::Rotation rotation = population.bodies.rotation[body];
+    if (wall.pressure) use(Pressing{wall, body, {rotation.cosine, rotation.sine}});
+    ++body;
   }
 }
 
@@ -42,7 +43,8 @@ void press_walls(const Setup& setup, const Clock& clock, Population& population,
     // not by what the load adds: where the ice bears all of the load, it is q L.
     const double most = clock.step * p.wall.load() / bodies.mass[p.body];
     const double speed = dot(bodies.velocity[p.body] + clock.water_drift, p.normal);
-    const double gain = std::min(most, p.wall.closing_speed) * (1 - speed / p.wall.closing_speed);
+    const double closing_speed = p.wall.pressure->closing_speed;
+    const double gain = std::min(most, closing_speed) * (1 - speed / closing_speed);
     change_velocity(bodies.velocity[p.body] + gain * p.normal, p.body, bodies, audit);
   });
 }

@@ -20,9 +20,9 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
   archive(world.clock.steps, world.accounts);
   if (has_wind_or_walls(world.setup.scene)) archive(world.accounts.audit.boundaries);
   archive(std::uint64_t{population.floes.size()});
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
-    archive(motion_of(population.bodies, ship));
-    if (world.setup.sailing[ship].is_active) archive(population.helms[ship], world.accounts.sailing[ship]);
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull) {
+    archive(motion_of(population.bodies, hull));
+    if (is_sailing(world.setup, hull)) archive(population.helms[hull], world.accounts.sailing[hull]);
   }
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     const Floe& floe = population.floes[id];

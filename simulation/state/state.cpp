@@ -54,7 +54,7 @@ class StateLoader {
     bytes_(floes);
     bytes_.require(floes >= scene_.floes.size() && floes <= bytes_.left(),
                    "a number of floes that cannot be");
-    for (BodyIndex ship = 0; ship < population_.ship_count && bytes_.is_well(); ++ship) load_ship(ship);
+    for (BodyIndex hull = 0; hull < population_.hull_count && bytes_.is_well(); ++hull) load_hull(hull);
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_ice_at_hulls();
     if (bytes_.is_well()) load_pairs();
@@ -80,11 +80,12 @@ class StateLoader {
           c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches, c.peak_contacts, c.peak_awake})
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
     bytes_.require(c.largest_residual >= 0 && c.energy_created >= 0, "a negative residual");
-    bytes_.require(world_.accounts.loads.size() == scene_.ships.size(), "loads of other ships");
-    for (const ShipContact& contact : world_.accounts.ship_contacts)
-      bytes_.require(
-          contact.ship >= 0 && contact.ship < contact.other && contact.other < population_.ship_count,
-          "a contact of no two ships");
+    bytes_.require(world_.accounts.loads.size() == hull_count(scene_), "loads of other ships");
+    for (const Event& contact : world_.accounts.ship_contacts) {
+      const int other = std::get<ShipContact>(contact.what).other;
+      bytes_.require(contact.ship >= 0 && contact.ship < other && other < population_.hull_count,
+                     "a contact of no two ships");
+    }
     const std::int64_t steps = world_.clock.steps;
     bytes_.require(steps >= 0 && steps <= kMostSteps, "a number of steps that cannot be");
   }
@@ -117,12 +118,12 @@ class StateLoader {
     add_drag(body, population_);
   }
 
-  void load_ship(BodyIndex ship) {
-    add_body(population_.bodies, new_body_of(scene_.ships[ship], scene_.water.drift));
-    const BodyMotion motion = load_motion(population_.bodies.bounding_radius[ship]);
+  void load_hull(BodyIndex hull) {
+    add_body(population_.bodies, new_body_of(scene_, hull));
+    const BodyMotion motion = load_motion(population_.bodies.bounding_radius[hull]);
     bytes_.require(motion.is_awake, "a ship asleep");
-    place(ship, motion);
-    if (world_.setup.sailing[ship].is_active) bytes_(population_.helms[ship], world_.accounts.sailing[ship]);
+    place(hull, motion);
+    if (is_sailing(world_.setup, hull)) bytes_(population_.helms[hull], world_.accounts.sailing[hull]);
   }
 
   FloeHead load_head(FloeId id) {
@@ -193,13 +194,13 @@ class StateLoader {
     return shape;
   }
 
-  bool is_hull(int ship) const {
-    return ship >= 0 && ship < population_.ship_count &&
+  bool can_take_ice(int ship) const {
+    return ship >= 0 && ship < population_.hull_count &&
            world_.setup.underwater[static_cast<std::size_t>(ship)].can_take_ice;
   }
 
   bool is_in_contact_world(BodyIndex body) const {
-    return population_.is_ship(body) || population_.is_floating(population_.floe_of(body));
+    return population_.is_hull(body) || population_.is_floating(population_.floe_of(body));
   }
 
   void load_ice_at_hulls() {
@@ -209,17 +210,18 @@ class StateLoader {
     };
     std::pair<int, FloeId> last{-1, kNoFloe};
     for (const TiltedFloe& tilted : population_.tilted) {
-      bytes_.require(is_hull(tilted.ship) && is_floe(tilted.floe) && population_.is_floating(tilted.floe),
-                     "a tilted floe that there is not");
+      bytes_.require(
+          can_take_ice(tilted.ship) && is_floe(tilted.floe) && population_.is_floating(tilted.floe),
+          "a tilted floe that there is not");
       bytes_.require(tilted.edge.deflection >= 0, "an edge above the water");
       bytes_.require(last < std::pair(tilted.ship, tilted.floe), "tilted floes out of their order");
       last = {tilted.ship, tilted.floe};
     }
     std::vector<bool> is_submerged(population_.floes.size());
     for (SubmergedPiece& submerged : population_.submerged) {
-      bytes_.require(
-          is_hull(submerged.ship) && is_floe(submerged.floe) && population_.floes[submerged.floe].is_under,
-          "ice under a hull that there is not");
+      bytes_.require(can_take_ice(submerged.ship) && is_floe(submerged.floe) &&
+                         population_.floes[submerged.floe].is_under,
+                     "ice under a hull that there is not");
       if (!bytes_.is_well()) return;
       bytes_.require(!is_submerged[static_cast<std::size_t>(submerged.floe)], "ice under two hulls");
       bytes_.require(submerged.weight >= 0 && submerged.waited >= 0, "a negative weight or wait");
@@ -243,9 +245,10 @@ class StateLoader {
       if (!bytes_.is_well()) return;
       bytes_.require(bodies.is_awake[pair.a] || bodies.is_awake[pair.b], "a pair of two asleep");
       const bool is_held = bodies.inverse_mass[pair.a] == 0 && bodies.inverse_mass[pair.b] == 0;
-      bytes_.require(!is_held || (population_.is_ship(pair.a) && !population_.is_ship(pair.b)),
+      bytes_.require(!is_held || (population_.is_hull(pair.a) && !population_.is_hull(pair.b)),
                      "a pair of two of prescribed motion");
-      bytes_.require(!bodies.is_grounded[pair.a] || !bodies.is_grounded[pair.b], "a pair of two walls");
+      bytes_.require(!is_grounded(bodies.kind[pair.a]) || !is_grounded(bodies.kind[pair.b]),
+                     "a pair of two walls");
       const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
       bytes_.require(is_next, "pairs out of their order");
       pair.separation_bound = separation_bound[i];

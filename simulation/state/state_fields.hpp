@@ -25,6 +25,11 @@ struct BodyMotion {
 /// What holds a floe, if anything.
 enum class Standing : std::uint8_t { kFree, kUnderHull, kFast };
 
+/// Whether a body is a ship that has a helm and loads of its own.
+inline bool is_sailing(const Setup& setup, std::int32_t body) {
+  return body < std::ssize(setup.sailing) && setup.sailing[body].is_active;
+}
+
 /// A floe without its shape.
 struct FloeHead {
   FloeId parent = kNoFloe;
@@ -73,15 +78,17 @@ void fields(Archive& archive, Is<SubmergedLoads> auto& l) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<ContactLoads> auto& l) {
-  archive(l.impulse, l.angular_impulse, l.largest, l.largest_moment, l.contacts);
+  archive(l.impulse, l.largest, l.contacts);
 }
+/// Of the contact of two ships.
 template <class Archive>
-void fields(Archive& archive, Is<ShipContact> auto& c) {
-  archive(c.time, c.ship, c.other, c.point_in_world, c.closing_speed, c.relative_speed, c.is_prescribed);
+void fields(Archive& archive, Is<Event> auto& e) {
+  auto& c = std::get<ShipContact>(e.what);
+  archive(e.time, e.ship, c.other, e.point_in_world, c.closing_speed, c.relative_speed, c.is_prescribed);
 }
 template <class Archive>
 void fields(Archive& archive, Is<ShipLoads> auto& l) {
-  archive(l.ice, l.ships, l.submerged, l.peak, l.peak_moment);
+  archive(l.ice, l.ships, l.submerged, l.collision);
 }
 template <class Archive>
 void fields(Archive& archive, Is<dynamics::Planar> auto& p) {

@@ -17,15 +17,15 @@ constexpr double kAreaTolerance = 1e-9;  ///< of sums of doubles, relative to th
 
 Defect check_columns(const World& world) {
   const dynamics::Bodies& b = world.population.bodies;
-  const auto count = static_cast<std::size_t>(world.population.ship_count) + world.population.floes.size();
+  const auto count = static_cast<std::size_t>(world.population.hull_count) + world.population.floes.size();
   const auto size_of = [](const auto&... columns) { return std::array{columns.size()...}; };
   const auto sizes =
       size_of(b.position, b.angle, b.rotation, b.velocity, b.angular_velocity, b.inverse_mass,
               b.inverse_moment, b.travel, b.bounding_radius, b.rim_speed, b.drag_span, b.is_awake, b.is_alive,
-              b.mass, b.moment, b.centroid, b.thickness, b.is_grounded, b.boundary, b.drag);
+              b.mass, b.moment, b.centroid, b.thickness, b.kind, b.boundary, b.drag);
   const auto is_count = [&](std::size_t size) { return size == count; };
   if (!std::ranges::all_of(sizes, is_count)) return fmt::format("a column of bodies is not {} long", count);
-  if (world.accounts.loads.size() != world.setup.scene.ships.size())
+  if (world.accounts.loads.size() != hull_count(world.setup.scene))
     return "loads of other ships than there are";
   return {};
 }

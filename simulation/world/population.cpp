@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace polynya::simulation {
@@ -10,6 +11,10 @@ namespace {
 
 using geometry::Point;
 using geometry::Vector;
+
+/// A moment of inertia that no impulse turns by more than rounding, and whose inverse solvers can take
+/// [kg m²].
+constexpr double kNeverTurns = 1e30;
 
 /// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them
 /// [m].
@@ -54,17 +59,16 @@ NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
 }  // namespace
 
 Population::Population(const Setup& setup)
-    : ship_count(static_cast<int>(setup.scene.ships.size())),
+    : hull_count(static_cast<int>(simulation::hull_count(setup.scene))),
       drag_area(setup.scene.water.drag_area),
       has_skin_drag(setup.scene.water.skin_drag_coefficient > 0),
       pairs(contact_rule(setup), grid_cell(setup.scene)) {}
 
 void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
                Journal& journal) {
-  const Scene& scene = setup.scene;
-  for (const ShipSpec& ship : scene.ships) {
-    const BodyIndex index = add_body(population.bodies, new_body_of(ship, scene.water.drift));
-    population.pairs.add(population.bodies, index);
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull) {
+    add_body(population.bodies, new_body_of(setup.scene, hull));
+    population.pairs.add(population.bodies, hull);
   }
   reserve(population.bodies, population.bodies.position.size() + floes.size());
   population.pairs.reserve(population.bodies.position.size() + floes.size());
@@ -75,7 +79,7 @@ void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clo
     add_floe(setup, clock, new_floe_of(spec, measures.centroid, setup), measures, population, journal);
   }
   // Only now: a body that wakes looks up its neighbours once, so they all have to be there.
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) wake(ship, population);
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull) wake(hull, population);
   for (std::size_t i = 0; i < floes.size(); ++i) {
     const FloeSpec& spec = floes[i];
     const BodyIndex body = population.body_of(static_cast<FloeId>(i));
@@ -146,7 +150,7 @@ void wake(BodyIndex body, Population& population) {
 }
 
 void add_drag(BodyIndex body, Population& population) {
-  if (population.is_ship(body) || population.bodies.drag[body] != nullptr) return;
+  if (population.is_hull(body) || population.bodies.drag[body] != nullptr) return;
   if (population.bodies.inverse_mass[body] == 0) {  // water does not move fast ice
     static const auto none =
         std::make_shared<const dynamics::DragShape>(dynamics::DragShape{.width = {}, .is_same = true});
@@ -166,32 +170,55 @@ bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& b
   return length(current.velocity_at(bodies.position[body])) + rim < kRestSpeed;
 }
 
-dynamics::NewBody new_body_of(const ShipSpec& ship, Vector water_drift) {
-  dynamics::NewBody body;
-  body.position = ship.position_in_world;
-  body.angle = ship.heading;
-  const Vector ahead{std::cos(ship.heading), std::sin(ship.heading)};
-  double speed = ship.speed;
-  if (const auto* prescribed = std::get_if<ConstantSpeed>(&ship.propulsion)) {
-    speed = prescribed->speed;
-    body.is_prescribed = true;
-  }
-  if (std::holds_alternative<FixedInPlace>(ship.propulsion)) {
-    speed = 0;
-    body.is_prescribed = true;
-  }
-  body.velocity = speed * ahead - water_drift;
-  if (ship.sway_speed != 0) body.velocity += ship.sway_speed * perpendicular(ahead);
+namespace {
+
+/// A body that goes ahead at a prescribed speed over ground [m/s].
+dynamics::NewBody held_body(const PlacedHull& hull, BodyKind kind, double speed, Vector water_drift) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  return {.position = hull.position_in_world,
+          .angle = hull.heading,
+          .velocity = speed * Vector{std::cos(hull.heading), std::sin(hull.heading)} - water_drift,
+          .mass = kInfinite,
+          .moment = kInfinite,
+          .is_prescribed = true,
+          .kind = kind,
+          .centroid = {},
+          .boundary = std::make_shared<geometry::Boundary>(geometry::make_outline({hull.hull.waterline, {}})),
+          .drag = nullptr};
+}
+
+dynamics::NewBody body_of(const Ship& ship, Vector water_drift) {
+  const auto* prescribed = std::get_if<ConstantSpeed>(&ship.propulsion);
+  dynamics::NewBody body =
+      held_body(ship, BodyKind::kShip, prescribed ? prescribed->speed : ship.speed, water_drift);
+  if (ship.sway_speed != 0)
+    body.velocity += ship.sway_speed * Vector{-std::sin(ship.heading), std::cos(ship.heading)};
   body.angular_velocity = ship.yaw_rate;
-  body.is_grounded = is_grounded(ship);
-  if (const auto* wall = std::get_if<Wall>(&ship.propulsion)) {
-    body.velocity += wall->velocity;
-    body.is_prescribed = !wall->presses();
-  }
+  body.is_prescribed = prescribed != nullptr;
   body.mass = ship.mass;
   body.moment = ship.moment_of_inertia;
-  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_outline({ship.hull.waterline, {}}));
   return body;
+}
+
+dynamics::NewBody body_of(const Structure& structure, Vector water_drift) {
+  return held_body(structure, BodyKind::kStructure, 0, water_drift);
+}
+
+dynamics::NewBody body_of(const Wall& wall, Vector water_drift) {
+  dynamics::NewBody body = held_body(wall, BodyKind::kWall, 0, water_drift);
+  body.velocity += wall.velocity;
+  if (!wall.pressure) return body;
+  body.is_prescribed = false;
+  body.mass = wall.pressure->mass_per_length * wall.length;
+  body.moment = kNeverTurns;
+  return body;
+}
+
+}  // namespace
+
+dynamics::NewBody new_body_of(const Scene& scene, std::size_t hull) {
+  return visit_hull(scene, hull,
+                    [&](const auto& of_a_kind) { return body_of(of_a_kind, scene.water.drift); });
 }
 
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,

@@ -15,7 +15,7 @@ namespace polynya::simulation {
 
 using dynamics::BodyIndex;
 
-/// A floe's cold data. Its body is at index ships + floe id; both are never reused.
+/// A floe's cold data. Its body is at index hulls + floe id; both are never reused.
 struct Floe {
   FloeId parent = kNoFloe;
   double born = 0;                   ///< [s]
@@ -54,14 +54,14 @@ struct Helm {
   PilotMemory memory;
 };
 
-/// The ships and floes of a run, where they are and how they move.
+/// The hulls and floes of a run, where they are and how they move.
 struct Population {
   explicit Population(const Setup& setup);
 
-  int ship_count = 0;
+  int hull_count = 0;
   dynamics::DragArea drag_area;           ///< the scene's
   bool has_skin_drag = false;             ///< likewise
-  dynamics::Bodies bodies;                ///< the ships first, then floes by id
+  dynamics::Bodies bodies;                ///< the hulls as the scene numbers them, then floes by id
   std::vector<Helm> helms;                ///< per ship
   std::vector<Floe> floes;                ///< by id
   std::vector<BodyIndex> awake;           ///< ascending
@@ -70,9 +70,10 @@ struct Population {
   std::vector<SubmergedPiece> submerged;  ///< in the order in which they went under
 
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
-  bool is_ship(BodyIndex body) const { return body < ship_count; }
-  BodyIndex body_of(FloeId floe) const { return static_cast<BodyIndex>(floe) + ship_count; }
-  FloeId floe_of(BodyIndex body) const { return body - ship_count; }
+  BodyKind kind(BodyIndex body) const { return bodies.kind[body]; }
+  bool is_hull(BodyIndex body) const { return body < hull_count; }
+  BodyIndex body_of(FloeId floe) const { return static_cast<BodyIndex>(floe) + hull_count; }
+  FloeId floe_of(BodyIndex body) const { return body - hull_count; }
   bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
   bool is_floating(FloeId floe) const { return is_alive(floe) && !floes[floe].is_under; }
   bool is_fast(FloeId floe) const { return bodies.inverse_mass[body_of(floe)] == 0; }
@@ -91,7 +92,7 @@ struct NewFloe {
   bool is_fast = false;         ///< its motion is prescribed
 };
 
-/// Adds the scene's ships, and its floes, asleep and awake.
+/// Adds the scene's hulls, and its floes, asleep and awake.
 void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
                Journal& journal);
 
@@ -115,8 +116,8 @@ void add_drag(BodyIndex body, Population& population);
 /// a wind carries it off.
 bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies);
 
-/// The body of a ship where the scene has it.
-dynamics::NewBody new_body_of(const ShipSpec& ship, geometry::Vector water_drift);
+/// The body of a hull where the scene has it.
+dynamics::NewBody new_body_of(const Scene& scene, std::size_t hull);
 
 /// The body of a floe, without its place and motion. Its thickness is kept there too, in Bodies::thickness,
 /// where drag reads it.

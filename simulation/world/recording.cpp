@@ -5,29 +5,31 @@
 namespace polynya::simulation {
 namespace {
 
+using dynamics::Planar;
 using geometry::Vector;
 
 double larger(double a, double b) {
   return std::abs(b) > std::abs(a) ? b : a;
 }
-Vector larger(Vector a, Vector b) {
-  return {larger(a.x, b.x), larger(a.y, b.y)};
+Planar larger(Planar a, Planar b) {
+  return {larger(a.surge, b.surge), larger(a.sway, b.sway), larger(a.yaw, b.yaw)};
+}
+Planar over(Planar impulse, double time) {
+  return {impulse.surge / time, impulse.sway / time, impulse.yaw / time};
 }
 
-/// Adds what a contact's impulses did to one of its two bodies, a ship.
+/// Adds what a contact's impulses did to one of its two bodies, a hull.
 void add_contact(const Population& population, const dynamics::Contact& c, BodyIndex ship, double sign,
                  ShipLoads& ship_loads) {
   const dynamics::Bodies& bodies = population.bodies;
-  const bool is_with_ship = population.is_ship(ship == c.a ? c.b : c.a);
+  const bool is_with_ship = population.is_hull(ship == c.a ? c.b : c.a);
   ContactLoads& loads = is_with_ship ? ship_loads.ships : ship_loads.ice;
   const auto add = [&](geometry::Point at, Vector impulse, bool is_slip) {
     const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
-    const double moment = cross(at - bodies.position[ship], impulse);
-    loads.impulse += in_ship;
-    loads.angular_impulse += moment;
-    loads.steady_impulse += c.steady_share * in_ship;
-    loads.steady_angular_impulse += c.steady_share * moment;
-    if (is_slip) loads.friction += {in_ship.x, in_ship.y, moment};
+    const Planar on_ship{in_ship.x, in_ship.y, cross(at - bodies.position[ship], impulse)};
+    loads.impulse += on_ship;
+    loads.steady_impulse += c.steady_share * on_ship;
+    if (is_slip) loads.friction += on_ship;
   };
   for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal, false);
   add(c.middle(), sign * c.slip_impulse * perpendicular(c.normal), true);
@@ -36,9 +38,7 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
 
 void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
   sum.impulse += step.impulse;
-  sum.angular_impulse += step.angular_impulse;
-  sum.largest = larger(sum.largest, step.steady_impulse / dt);
-  sum.largest_moment = larger(sum.largest_moment, step.steady_angular_impulse / dt);
+  sum.largest = larger(sum.largest, over(step.steady_impulse, dt));
   sum.contacts = step.contacts;
 }
 
@@ -48,15 +48,14 @@ void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
   sum.submerged.impulse += step.submerged.impulse;
   sum.submerged.angular_impulse += step.submerged.angular_impulse;
   sum.submerged.area = step.submerged.area;
-  sum.peak = larger(sum.peak, step.peak);
-  sum.peak_moment = larger(sum.peak_moment, step.peak_moment);
+  sum.collision = larger(sum.collision, step.collision);
 }
 
 /// What the helm is at, and what moved the ship beside ice and other ships.
 void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval,
                  ShipSample& sample) {
   ShipSample& s = sample;
-  const auto mean = [&](dynamics::Planar impulse) { return (1 / interval) * impulse; };
+  const auto mean = [&](Planar impulse) { return (1 / interval) * impulse; };
   s.friction_of_ice = mean(loads.ice_friction);
   s.from_water = mean(loads.water);
   s.from_engine = mean(loads.engine);
@@ -70,45 +69,45 @@ void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads
   s.delivered_power = engine ? std::abs(helm.lever) * engine->power : 0;
 }
 
-double thrust_of(const Setup& setup, const ShipSample& s) {
-  const Propulsion& propulsion = setup.scene.ships[s.ship].propulsion;
-  if (const auto* constant = std::get_if<ConstantThrust>(&propulsion)) return constant->thrust;
-  if (std::holds_alternative<Engine>(propulsion)) return s.from_engine.surge;
-  if (const auto* wall = std::get_if<Wall>(&propulsion); wall && wall->presses()) return wall->load();
-  return -(s.surge_force + s.surge_from_ships + s.surge_from_submerged + s.from_water.surge);
+/// What holds a hull at its speed.
+double holding_force(const ShipSample& s) {
+  return -(s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge + s.from_water.surge);
+}
+
+double thrust_of(const Ship& ship, const ShipSample& s) {
+  if (const auto* constant = std::get_if<ConstantThrust>(&ship.propulsion)) return constant->thrust;
+  return std::holds_alternative<Engine>(ship.propulsion) ? s.from_engine.surge : holding_force(s);
+}
+double thrust_of(const Structure&, const ShipSample& s) {
+  return holding_force(s);
+}
+double thrust_of(const Wall& wall, const ShipSample& s) {
+  return wall.pressure ? wall.load() : holding_force(s);
 }
 
 ShipSample sample_of(const Setup& setup, const Clock& clock, const Population& population, BodyIndex ship,
-                     const ShipLoads& loads, const SailingLoads& sailing) {
+                     const Accounts& accounts) {
+  const ShipLoads& loads = accounts.loads[ship];
   const dynamics::Bodies& bodies = population.bodies;
   const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
   ShipSample sample;
   sample.time = clock.time();
   sample.ship = ship;
-  sample.surge_force = loads.ice.impulse.x / interval;
-  sample.sway_force = loads.ice.impulse.y / interval;
-  sample.yaw_moment = loads.ice.angular_impulse / interval;
-  sample.surge_peak = loads.peak.x;
-  sample.sway_peak = loads.peak.y;
-  sample.yaw_peak = loads.peak_moment;
-  sample.surge_max = loads.ice.largest.x;
-  sample.sway_max = loads.ice.largest.y;
-  sample.yaw_max = loads.ice.largest_moment;
-  sample.surge_from_ships = loads.ships.impulse.x / interval;
-  sample.sway_from_ships = loads.ships.impulse.y / interval;
-  sample.yaw_from_ships = loads.ships.angular_impulse / interval;
-  sample.surge_from_ships_max = loads.ships.largest.x;
-  sample.sway_from_ships_max = loads.ships.largest.y;
-  sample.yaw_from_ships_max = loads.ships.largest_moment;
+  sample.from_ice = over(loads.ice.impulse, interval);
+  sample.from_ice_largest = loads.ice.largest;
+  sample.collision = loads.collision;
+  sample.from_ships = over(loads.ships.impulse, interval);
+  sample.from_ships_largest = loads.ships.largest;
+  sample.from_submerged = over({-loads.submerged.impulse, 0, loads.submerged.angular_impulse}, interval);
   sample.position_in_world = bodies.position[ship] + clock.drift();
   sample.heading = bodies.angle[ship];
   sample.velocity_in_world = bodies.velocity[ship] + clock.water_drift;
   sample.yaw_rate = bodies.angular_velocity[ship];
-  sample.surge_from_submerged = -loads.submerged.impulse / interval;
-  sample.yaw_from_submerged = loads.submerged.angular_impulse / interval;
   sample.submerged_area = loads.submerged.area;
-  add_sailing(setup, population.helms[ship], sailing, interval, sample);
-  sample.thrust = thrust_of(setup, sample);
+  if (population.kind(ship) == BodyKind::kShip)
+    add_sailing(setup, population.helms[ship], accounts.sailing[ship], interval, sample);
+  sample.thrust = visit_hull(setup.scene, static_cast<std::size_t>(ship),
+                             [&](const auto& hull) { return thrust_of(hull, sample); });
   sample.contacts = loads.ice.contacts;
   sample.contacts_with_ships = loads.ships.contacts;
   return sample;
@@ -119,26 +118,24 @@ ShipSample sample_of(const Setup& setup, const Clock& clock, const Population& p
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
                  std::vector<ShipLoads>& loads) {
   for (const dynamics::Contact& c : contacts) {
-    if (population.is_ship(c.a)) add_contact(population, c, c.a, -1, loads[c.a]);
-    if (population.is_ship(c.b)) add_contact(population, c, c.b, +1, loads[c.b]);
+    if (population.is_hull(c.a)) add_contact(population, c, c.a, -1, loads[c.a]);
+    if (population.is_hull(c.b)) add_contact(population, c, c.b, +1, loads[c.b]);
   }
 }
 
 void record(const Setup& setup, const Clock& clock, const Population& population,
             const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal) {
-  for (std::size_t ship = 0; ship < step_loads.size(); ++ship) {
-    add_step(accounts.loads[ship], step_loads[ship], setup.scene.time.step);
+  for (std::size_t hull = 0; hull < step_loads.size(); ++hull)
+    add_step(accounts.loads[hull], step_loads[hull], setup.scene.time.step);
+  for (std::size_t ship = 0; ship < setup.sailing.size(); ++ship)
     if (setup.sailing[ship].is_active) accounts.sailing[ship].ice_friction += step_loads[ship].ice.friction;
-  }
   Counts& counts = accounts.counts;
   counts.peak_awake = std::max(counts.peak_awake, static_cast<std::int64_t>(population.awake.size()));
   if (clock.steps % setup.steps_per_sample != 0) return;
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
-    journal.samples.push_back(
-        sample_of(setup, clock, population, ship, accounts.loads[ship], accounts.sailing[ship]));
-    accounts.loads[ship] = {};
-    accounts.sailing[ship] = {};
-  }
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
+    journal.samples.push_back(sample_of(setup, clock, population, hull, accounts));
+  std::ranges::fill(accounts.loads, ShipLoads{});
+  std::ranges::fill(accounts.sailing, SailingLoads{});
 }
 
 }  // namespace polynya::simulation

@@ -2,18 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace polynya::simulation {
-namespace {
-
-/// A moment of inertia that no impulse turns by more than rounding, and whose inverse solvers can take
-/// [kg m²].
-constexpr double kNeverTurns = 1e30;
-
-}  // namespace
-
 geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle) {
   const double bow = 0.5 * beam / std::tan(entrance_angle);
   return {{0.5 * length, 0},
@@ -21,6 +12,26 @@ geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_a
           {-0.5 * length, 0.5 * beam},
           {-0.5 * length, -0.5 * beam},
           {0.5 * length - bow, -0.5 * beam}};
+}
+
+std::size_t hull_count(const Scene& scene) {
+  return scene.ships.size() + scene.structures.size() + scene.walls.size();
+}
+
+const PlacedHull& hull_of(const Scene& scene, std::size_t hull) {
+  return visit_hull(scene, hull, [](const PlacedHull& placed) -> const PlacedHull& { return placed; });
+}
+
+BodyKind kind_of_hull(const Scene& scene, std::size_t hull) {
+  return visit_hull(scene, hull, [](const auto& of_a_kind) { return of_a_kind.kKind; });
+}
+
+int hull_named(const Scene& scene, std::string_view name) {
+  const int count = static_cast<int>(hull_count(scene));
+  for (int hull = 0; hull < count; ++hull) {
+    if (hull_of(scene, static_cast<std::size_t>(hull)).name == name) return hull;
+  }
+  return -1;
 }
 
 double recording_interval(const Scene& scene) {
@@ -33,38 +44,28 @@ bool splits_by_j_over_tau_c(const Scene& scene) {
 }
 
 bool has_draught(const Scene& scene) {
-  return std::ranges::any_of(scene.ships, [](const ShipSpec& ship) { return ship.hull.draught > 0; });
+  return std::ranges::any_of(scene.ships, [](const Ship& ship) { return ship.hull.draught > 0; });
 }
 
-bool sails(const ShipSpec& ship) {
+bool sails(const Ship& ship) {
   return ship.water.acts || std::holds_alternative<Engine>(ship.propulsion) || ship.mooring.has_value();
 }
 
-bool is_grounded(const ShipSpec& ship) {
-  return std::holds_alternative<FixedInPlace>(ship.propulsion) ||
-         std::holds_alternative<Wall>(ship.propulsion);
-}
-
 bool has_wind_or_walls(const Scene& scene) {
-  return scene.wind.blows() || std::ranges::any_of(scene.ships, [](const ShipSpec& ship) {
-           const auto* wall = std::get_if<Wall>(&ship.propulsion);
-           return wall && wall->presses();
-         });
+  return scene.wind.blows() ||
+         std::ranges::any_of(scene.walls, [](const Wall& wall) { return wall.pressure.has_value(); });
 }
 
-ShipSpec wall_between(geometry::Point from, geometry::Point to, double depth, Wall wall) {
-  wall.length = distance(from, to);
+Wall wall_between(geometry::Point from, geometry::Point to, double depth) {
   const geometry::Vector normal = perpendicular(to - from);
-  ShipSpec spec;
-  spec.position_in_world = midpoint(from, to);
-  spec.heading = std::atan2(normal.y, normal.x);
+  Wall wall;
+  wall.length = distance(from, to);
+  wall.position_in_world = midpoint(from, to);
+  wall.heading = std::atan2(normal.y, normal.x);
   const double half = 0.5 * wall.length;
-  spec.hull.waterline = {{0, -half}, {0, half}, {-depth, half}, {-depth, -half}};
-  spec.hull.angles_from_vertical.assign(4, 0.0);
-  spec.mass = wall.presses() ? wall.mass_per_length * wall.length : std::numeric_limits<double>::infinity();
-  spec.moment_of_inertia = wall.presses() ? kNeverTurns : spec.mass;
-  spec.propulsion = wall;
-  return spec;
+  wall.hull.waterline = {{0, -half}, {0, half}, {-depth, half}, {-depth, -half}};
+  wall.hull.angles_from_vertical.assign(4, 0.0);
+  return wall;
 }
 
 geometry::Ring cylinder_waterline(double radius) {

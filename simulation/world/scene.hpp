@@ -4,9 +4,11 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
+#include "dynamics/bodies.hpp"
 #include "dynamics/water/drag_shape.hpp"
 #include "dynamics/water/wind.hpp"
 #include "fracture/bending/bending_model.hpp"
@@ -136,44 +138,60 @@ struct ConstantSpeed {
   double speed = 0;  ///< [m/s]
   friend bool operator==(const ConstantSpeed&, const ConstantSpeed&) = default;
 };
-/// A structure that stands on the ground. Its mass is infinite.
-struct FixedInPlace {
-  friend bool operator==(const FixedInPlace&, const FixedInPlace&) = default;
-};
-/// A straight boundary that ice cannot pass: it stands, moves at a prescribed velocity, or presses on the
-/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory.md, "Wind and
-/// walls").
-struct Wall {
-  geometry::Vector velocity;       ///< over ground, of one that does not press [m/s]
-  double length = 0;               ///< [m]
-  double line_load = 0;            ///< q, along its normal, over ground; 0: its motion is prescribed [N/m]
-  double closing_speed = 0.1;      ///< at which q alone moves it [m/s]
-  double mass_per_length = 4.5e5;  ///< of one that presses [kg/m]
-
-  bool presses() const { return line_load > 0; }
-  double load() const { return line_load * length; }  ///< [N]
-  friend bool operator==(const Wall&, const Wall&) = default;
-};
 using dynamics::Engine;
-using Propulsion = std::variant<ConstantThrust, ConstantSpeed, FixedInPlace, Engine, Wall>;
+using Propulsion = std::variant<ConstantThrust, ConstantSpeed, Engine>;
 
-/// A ship, a structure, which is a ship that does not move, or a wall.
-struct ShipSpec {
+using dynamics::BodyKind;
+
+/// What ships, structures and walls have in common: a hull, and where it is at the start.
+struct PlacedHull {
   std::string name;
   Hull hull;
-  double mass = 0;                    ///< [kg]
-  double moment_of_inertia = 0;       ///< about the vertical through the centre of gravity [kg m²]
-  geometry::Point position_in_world;  ///< of the centre of gravity at the start [m]
+  geometry::Point position_in_world;  ///< of the origin of its frame, of a ship its centre of gravity [m]
   double heading = 0;                 ///< from the x axis, counter-clockwise [rad]
-  double speed = 0;                   ///< along the heading over ground at the start [m/s]
-  double sway_speed = 0;              ///< to port, likewise [m/s]
-  double yaw_rate = 0;                ///< counter-clockwise at the start [rad/s]
+  friend bool operator==(const PlacedHull&, const PlacedHull&) = default;
+};
+
+struct Ship : PlacedHull {
+  static constexpr BodyKind kKind = BodyKind::kShip;
+  double mass = 0;               ///< [kg]
+  double moment_of_inertia = 0;  ///< about the vertical through the centre of gravity [kg m²]
+  double speed = 0;              ///< along the heading over ground at the start [m/s]
+  double sway_speed = 0;         ///< to port, likewise [m/s]
+  double yaw_rate = 0;           ///< counter-clockwise at the start [rad/s]
   Propulsion propulsion;
   HullWaterSettings water;
   Steering steering;
   PilotSettings pilot;  ///< of a ship with an engine
   std::optional<MooringSettings> mooring;
-  friend bool operator==(const ShipSpec&, const ShipSpec&) = default;
+  friend bool operator==(const Ship&, const Ship&) = default;
+};
+
+/// Stands on the ground, whatever pushes it.
+struct Structure : PlacedHull {
+  static constexpr BodyKind kKind = BodyKind::kStructure;
+  friend bool operator==(const Structure&, const Structure&) = default;
+};
+
+/// A load with which a wall presses on the ice along its normal.
+struct WallPressure {
+  double line_load = 0;            ///< q, over ground [N/m]
+  double closing_speed = 0.1;      ///< at which q alone moves it [m/s]
+  double mass_per_length = 4.5e5;  ///< of what moves with the wall [kg/m]
+  friend bool operator==(const WallPressure&, const WallPressure&) = default;
+};
+
+/// A straight boundary that ice cannot pass: it stands, moves at a prescribed velocity, or presses on the
+/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory.md, "Wind and
+/// walls").
+struct Wall : PlacedHull {
+  static constexpr BodyKind kKind = BodyKind::kWall;
+  double length = 0;          ///< of its face [m]
+  geometry::Vector velocity;  ///< over ground; of one that presses 0 [m/s]
+  std::optional<WallPressure> pressure;
+
+  double load() const { return pressure ? pressure->line_load * length : 0; }  ///< [N]
+  friend bool operator==(const Wall&, const Wall&) = default;
 };
 
 inline constexpr std::int32_t kSceneIce = -1;  ///< instead of an index in Scene::own_ice
@@ -223,7 +241,10 @@ struct Scene {
   ContactSettings contact;
   FractureSettings fracture;
   RecordSettings record;
-  std::vector<ShipSpec> ships;  ///< and then the structures and the walls
+  // Its hulls are numbered in this order, and so are the bodies of a run: the floes follow.
+  std::vector<Ship> ships;
+  std::vector<Structure> structures;
+  std::vector<Wall> walls;
   std::vector<FloeSpec> floes;
   /// Of floes whose thickness, density, strengths or toughness are not the scene's; the rest of it is.
   std::vector<fracture::Ice> own_ice;
@@ -234,6 +255,21 @@ struct Scene {
 inline const fracture::Ice& ice_of(const Scene& scene, std::int32_t own_ice) {
   return own_ice == kSceneIce ? scene.ice : scene.own_ice[static_cast<std::size_t>(own_ice)];
 }
+
+/// Calls `use` with a hull by its number: the ship, the structure or the wall that it is.
+template <class Use>
+decltype(auto) visit_hull(const Scene& scene, std::size_t hull, Use use) {
+  if (hull < scene.ships.size()) return use(scene.ships[hull]);
+  hull -= scene.ships.size();
+  if (hull < scene.structures.size()) return use(scene.structures[hull]);
+  return use(scene.walls.at(hull - scene.structures.size()));
+}
+
+std::size_t hull_count(const Scene& scene);
+const PlacedHull& hull_of(const Scene& scene, std::size_t hull);
+BodyKind kind_of_hull(const Scene& scene, std::size_t hull);
+/// The number of a hull by its name; −1: there is none.
+int hull_named(const Scene& scene, std::string_view name);
 
 /// What a row of forces.csv covers: a whole number of steps [s].
 double recording_interval(const Scene& scene);
@@ -250,17 +286,14 @@ struct Shortcuts {
 
 /// Whether anything beside ice, other ships and a prescribed thrust or speed moves the ship: water around the
 /// hull, an engine, a mooring.
-bool sails(const ShipSpec& ship);
-
-/// Whether it is a structure or a wall.
-bool is_grounded(const ShipSpec& ship);
+bool sails(const Ship& ship);
 
 /// Whether a wind blows or a wall presses: both do work, which states keep.
 bool has_wind_or_walls(const Scene& scene);
 
-/// A wall whose face runs from one point to another, with the ice to its left, and its body of a depth [m]
-/// to its right. Its frame: the face's middle, x along the normal into the ice.
-ShipSpec wall_between(geometry::Point from, geometry::Point to, double depth, Wall wall);
+/// A wall that stands, whose face runs from one point to another, with the ice to its left, and its body of a
+/// depth [m] to its right. Its frame: the face's middle, x along the normal into the ice.
+Wall wall_between(geometry::Point from, geometry::Point to, double depth);
 
 /// Whether ice can go under a ship's hull.
 bool has_draught(const Scene& scene);

@@ -45,10 +45,9 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
       current(current_of(scene.water.shear)),
       ice_limits(limits_of(scene)) {
   solver.max_iterations = scene.contact.iterations;
-  for (const ShipSpec& ship : scene.ships) {
-    underwater.push_back(underwater_of(ship.hull));
-    sailing.push_back(sailing_of(ship, scene.water.water.density));
-  }
+  for (std::size_t hull = 0; hull < hull_count(scene); ++hull)
+    underwater.push_back(underwater_of(hull_of(scene, hull).hull));
+  for (const Ship& ship : scene.ships) sailing.push_back(sailing_of(ship, scene.water.water.density));
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
   const ContactSettings& contact = scene.contact;
   if (contact.law == ContactLaw::kCrush) {

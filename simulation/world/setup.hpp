@@ -42,7 +42,7 @@ struct Setup {
   dynamics::ResponseLaw law;                               ///< of contacts
   dynamics::SolverSettings solver;                         ///< but for its threads
   std::optional<dynamics::SeparationSettings> separation;  ///< of a law that leaves overlap to be separated
-  std::vector<Underwater> underwater;                      ///< per ship
+  std::vector<Underwater> underwater;                      ///< per hull
   std::vector<Sailing> sailing;                            ///< per ship
   std::vector<IceLimits> ice_limits;                       ///< of the scene's ice, then of each own_ice
   std::int64_t steps_per_sample = 1;

@@ -48,7 +48,7 @@ void enter_water(const dynamics::WaterWork& work, AuditSums& audit) {
 }
 
 void blow(const dynamics::Wind& wind, Population& population, double dt, AuditSums& audit) {
-  const auto first_floe = std::ranges::lower_bound(population.awake, population.ship_count);
+  const auto first_floe = std::ranges::lower_bound(population.awake, population.hull_count);
   const dynamics::WindWork work =
       apply_wind(population.bodies, {first_floe, population.awake.end()}, wind.stress(), dt);
   audit.boundaries.wind += work.energy;
@@ -105,9 +105,9 @@ void apply_forces(const Setup& setup, int threads, Population& population, Audit
                                 water.skin_drag_coefficient},
                                dt, threads),
               audit);
-  for (BodyIndex ship = 0; ship < population.ship_count; ++ship) {
+  for (std::size_t ship = 0; ship < setup.scene.ships.size(); ++ship) {
     if (const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion))
-      push_ship(population.bodies, ship, dt * thrust->thrust, audit);
+      push_ship(population.bodies, static_cast<BodyIndex>(ship), dt * thrust->thrust, audit);
   }
 }
 
@@ -134,7 +134,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
     step.touched_at_step[c.b] = clock.steps;
   }
   std::erase_if(population.awake, [&](BodyIndex i) {
-    if (population.is_ship(i) || step.touched_at_step[i] == clock.steps) return false;
+    if (population.is_hull(i) || step.touched_at_step[i] == clock.steps) return false;
     if (bodies.rim_speed[i] >= kRestSpeed) return false;
     if (bodies.inverse_mass[i] == 0 && bodies.rim_speed[i] > 0) return false;  // its motion is prescribed
     if (!stays_at_rest(i, setup, bodies)) return false;                        // it would not stay at rest
@@ -168,18 +168,13 @@ const std::array<Stage, 25> kStages = {{
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
     {"pull of submerged ice",
      [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},
-    {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
+    {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
     {"integrate",
      [](World& w) {
        auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);
        if (failure && !w.failure) w.failure = std::move(failure);
      }},
     {"advance the clock", [](World& w) { ++w.clock.steps; }},
-    {"record ship contacts",
-     [](World& w) {
-       record_ship_contacts(w.setup, w.clock, w.population, w.step.contacts, w.accounts.ship_contacts,
-                            w.journal);
-     }},
     {"apply fractures",
      [](World& w) {
        apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal);
@@ -193,6 +188,10 @@ const std::array<Stage, 25> kStages = {{
        apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal);
      }},
     {"come up", [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},
+    {"record ship events",
+     [](World& w) {
+       record_ship_events(w.setup, w.clock, w.population, w.step, w.accounts.ship_contacts, w.journal);
+     }},
     {"put to rest", [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
     {"record", [](World& w) { record(w.setup, w.clock, w.population, w.step.loads, w.accounts, w.journal); }},
 }};

@@ -63,18 +63,12 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
 
 /// Moves ships by water, engine, steering and mooring (sailing.hpp). After all other impulses of the step,
 /// since the water shares those too.
-void sail(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
-          Accounts& accounts, Journal& journal);
+void sail(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts);
 
 /// Returns why the numbers cannot be trusted any more, where a body has no finite speed below kRunawaySpeed.
 std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
                                             const std::vector<dynamics::Contact>& contacts,
                                             Population& population);
-
-/// Records the first contact of each two ships. After the motion, so that a contact has the step's time.
-void record_ship_contacts(const Setup& setup, const Clock& clock, const Population& population,
-                          const std::vector<dynamics::Contact>& contacts,
-                          std::vector<ShipContact>& known_contacts, Journal& journal);
 
 /// With the next three all that changes which floes there are: serially, in floe-id order.
 void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
@@ -92,6 +86,10 @@ void apply_submersions(const Setup& setup, const Clock& clock, const std::vector
 /// Lets ice come up that ships have passed, in the order in which it went under.
 void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
              Journal& journal);
+
+/// Records the first contact of each two ships, and the moorings that broke.
+void record_ship_events(const Setup& setup, const Clock& clock, const Population& population,
+                        const StepData& step, std::vector<Event>& known_contacts, Journal& journal);
 
 void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
                  AuditSums& audit);

@@ -16,14 +16,12 @@ namespace polynya::simulation {
 
 /// What one kind of contact does to a ship over a recording interval, in the ship's frame.
 struct ContactLoads {
-  geometry::Vector impulse;           ///< on the ship [N s]
-  double angular_impulse = 0;         ///< [N m s]
-  geometry::Vector steady_impulse;    ///< of the present step: what the largest force is found from [N s]
-  double steady_angular_impulse = 0;  ///< likewise [N m s]
-  geometry::Vector largest;           ///< single-step true force, component by component [N]
-  double largest_moment = 0;          ///< [N m]
-  dynamics::Planar friction;          ///< of the present step: what slip gave of the impulse [N s, N m s]
-  int contacts = 0;                   ///< at the last step
+  dynamics::Planar impulse;  ///< on the ship [N s, N m s]
+  dynamics::Planar
+      steady_impulse;         ///< of the present step: what the largest force is found from [N s, N m s]
+  dynamics::Planar largest;   ///< single-step true force, component by component [N, N m]
+  dynamics::Planar friction;  ///< of the present step: what slip gave of the impulse [N s, N m s]
+  int contacts = 0;           ///< at the last step
 };
 
 /// What the ice under its hull does to a ship.
@@ -38,8 +36,7 @@ struct ShipLoads {
   ContactLoads ice;
   ContactLoads ships;  ///< other ships and structures
   SubmergedLoads submerged;
-  geometry::Vector peak;   ///< the paper's j/τ_c of contacts with ice, component by component [N]
-  double peak_moment = 0;  ///< [N m]
+  dynamics::Planar collision;  ///< the paper's j/τ_c of contacts with ice, component by component [N, N m]
 };
 
 /// What moves a ship that sails, beside ice and other ships. Over a recording interval, in the ship's frame.
@@ -93,10 +90,11 @@ struct ShipMotion {
 struct StepData {
   std::vector<dynamics::Contact> contacts;
   std::vector<dynamics::BlindOverlap> blind_overlaps;
-  std::vector<HullSlope> slopes;  ///< of the contacts of ships, which come first
+  std::vector<HullSlope> slopes;  ///< of the contacts of hulls, which come first
   std::vector<PendingFracture> fractures;
   std::vector<PendingSubmersion> submersions;
-  std::vector<ShipLoads> loads;               ///< per ship
+  std::vector<Event> mooring_breaks;          ///< to be recorded after what happens to ice
+  std::vector<ShipLoads> loads;               ///< per hull
   std::vector<ShipMotion> start;              ///< per ship: its motion before the step's impulses
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
   dynamics::ContactSolver solver;             ///< its reusable memory
@@ -108,15 +106,15 @@ struct Accounts {
   MassLedger masses;  ///< likewise
   AuditSums audit;
   Counts counts;
-  std::vector<ShipLoads> loads;                                       ///< per ship, since the last sample
+  std::vector<ShipLoads> loads;                                       ///< per hull, since the last sample
   std::vector<SailingLoads> sailing;                                  ///< per ship, since the last sample
-  std::vector<ShipContact> ship_contacts;                             ///< the first one of each pair of ships
+  std::vector<Event> ship_contacts;                                   ///< the first one of each pair of ships
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut
 };
 
 /// What a new world has in it.
 enum class Start {
-  kScene,  ///< the scene's ships and floes
+  kScene,  ///< the scene's hulls and floes
   kEmpty,  ///< nothing: a saved state is to be loaded (state.hpp)
 };
 

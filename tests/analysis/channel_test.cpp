@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <gtest/gtest.h>
+#include "../io/expect_text.hpp"
 
 #include "analysis/channel_text.hpp"
 #include "analysis/swept_band.hpp"
@@ -103,7 +103,7 @@ TEST(Channel, WithoutIceInReachHasNoWidth) {
     EXPECT_FALSE(s.has_port_ice);
     EXPECT_EQ(s.width(), 20);
   }
-  EXPECT_NE(to_table(channel).find(">20.00"), std::string::npos);
+  EXPECT_HAS(to_table(channel), ">20.00");
 }
 
 TEST(Channel, IceAcrossTheTrackClosesIt) {
@@ -158,12 +158,9 @@ TEST(Channel, BrashCoversItAndDoesNotNarrowIt) {
     EXPECT_NEAR(sizes.median, 6, 1e-9);
     EXPECT_NEAR(sizes.largest, std::sqrt(99.0), 1e-9);
     EXPECT_NEAR(channel.brash_pieces.back().inside, 2, 1e-8);
-    EXPECT_NE(
-        to_table(channel).find("brash covers 5.27 % of the 2904.00 m2 from ice to ice, 94.73 % is open"),
-        std::string::npos)
-        << to_table(channel);
-    EXPECT_NE(to_json_text(channel).find("\"brash_pieces\": 4"), std::string::npos);
-    EXPECT_NE(to_geojson(channel).find("\"part\":\"brash\""), std::string::npos);
+    EXPECT_HAS(to_table(channel), "brash covers 5.27 % of the 2904.00 m2 from ice to ice, 94.73 % is open");
+    EXPECT_HAS(to_json_text(channel), "\"brash_pieces\": 4");
+    EXPECT_HAS(to_geojson(channel), "\"part\":\"brash\"");
     const std::string csv = to_csv(channel);
     EXPECT_EQ(csv.substr(0, csv.find('\n')).substr(csv.find("channel_area_m2")),
               "channel_area_m2,brash_area_m2,brash_cover");
@@ -178,7 +175,7 @@ TEST(Channel, WithoutBrashHasNoPiecesAndNoSizes) {
   EXPECT_EQ(channel.brash_cover(), 0);
   EXPECT_EQ(brash_sizes(channel).count, 0U);
   EXPECT_TRUE(std::isnan(brash_sizes(channel).mean));
-  EXPECT_EQ(to_table(channel).find("brash"), std::string::npos);
+  EXPECT_LACKS(to_table(channel), "brash");
 }
 
 TEST(Channel, WaterCarriesAffinelyAndBack) {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include <gtest/gtest.h>
+#include "../io/expect_text.hpp"
 
 #include "geometry/exact/measures.hpp"
 
@@ -42,7 +42,7 @@ TEST(PlacedIce, AFloeThatCannotBePlacedIsToldNotLost) {
   const auto done =
       analysis::add_ice(ice, nullptr, {{{0, 0}, {1, 0}, {0, std::numeric_limits<double>::infinity()}}, {}});
   ASSERT_FALSE(done.has_value());
-  EXPECT_NE(done.error().find("a placed floe is not a polygon"), std::string::npos) << done.error();
+  EXPECT_HAS(done.error(), "a placed floe is not a polygon");
   EXPECT_TRUE(ice.empty());
 }
 
@@ -54,8 +54,7 @@ TEST(PlacedIce, NearIsWhereBoxesMeet) {
 
 TEST(PlacedIce, APolygonIsPartedIntoWhatOthersCoverAndTheRest) {
   const Polygon half{{{-1, -1}, {1, -1}, {1, 3}, {-1, 3}}, {}};
-  const auto parted = analysis::part(kSquare, {half});
-  ASSERT_TRUE(parted.has_value());
+  const auto parted = checked(analysis::part(kSquare, {half}));
   EXPECT_EQ(parted->inside_area, 2);
   ASSERT_EQ(parted->outside.size(), 1);
   EXPECT_EQ(geometry::measure(parted->outside[0]).area, 2);
@@ -64,8 +63,7 @@ TEST(PlacedIce, APolygonIsPartedIntoWhatOthersCoverAndTheRest) {
 TEST(PlacedIce, WhatNothingMeetsIsOutsideWhole) {
   const Polygon far{{{10, 10}, {11, 10}, {11, 11}}, {}};
   for (const auto& by : {std::vector<Polygon>{}, std::vector<Polygon>{far}}) {
-    const auto parted = analysis::part(kSquare, by);
-    ASSERT_TRUE(parted.has_value());
+    const auto parted = checked(analysis::part(kSquare, by));
     EXPECT_TRUE(parted->inside.empty());
     ASSERT_EQ(parted->outside.size(), 1);
     EXPECT_EQ(parted->outside[0].outer, kSquare.outer);

@@ -111,12 +111,10 @@ io::Run small_run(const Ring& drifting = square(5, 1, 2),
   add_floe(run, 0, 1, second_half);
   run.floes[0].died = 1;
   run.floes[0].death_event = 0;
-  simulation::Event event;
-  event.kind = simulation::EventKind::kSplit;
-  event.time = 1;
-  event.floe = 0;
-  event.children = {2, 3};
-  run.events.push_back(event);
+  simulation::Split split;
+  split.floe = 0;
+  split.children = {2, 3};
+  run.events.push_back({1, 0, {}, split});
   for (int t = 0; t <= 3; ++t) {
     io::Frame frame;
     frame.time = t;
@@ -173,14 +171,13 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
   EXPECT_EQ(check_run(small_run(), 2).most_shared, 0) << "they touch at 2 s";
 }
 
-/// At 3 s floe 1 shares 0.5 m² with each half, and a hull stands in it.
 TEST(RunCheck, OverlapsThatWereNotCrushedAreFoundHullsIncluded) {
   io::Run run = small_run();
-  simulation::ShipSpec pile;
+  simulation::Structure pile;
   pile.name = "pile";
   pile.hull.waterline = square(0, 0, 1);
   pile.position_in_world = {5, 2.5};
-  run.scene.scene.ships.push_back(pile);
+  run.scene.scene.structures.push_back(pile);
   for (io::Frame& frame : run.frames) {
     io::Motion motion;
     motion.position = pile.position_in_world;

@@ -1,14 +1,13 @@
 // A run whose account of energy does not close says so, leaves the state before the step after which it does
 // not, and that step can be had again.
 
+#include "../io/scene_text.hpp"
 #include "program.hpp"
 #include <gtest/gtest.h>
 
 #include "io/run/checkpoint.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_writer.hpp"
-#include "io/scene/scene_reader.hpp"
-#include "io/text/json_parser.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/world/world.hpp"
 
@@ -19,10 +18,10 @@ using simulation::Simulation;
 
 /// A ship that thrust alone has brought to ½ m v² = (F t)² / 2 m = 5e4 J/s² · t², and a floe that nobody
 /// meets.
-constexpr auto kScene = R"({"time": {"step_s": 0.01, "until_s": 10}, "record": {"frames_interval_s": 1},
-    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},
-      "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [0, 0], "propulsion": {"thrust_N": 1e6}}],
-    "floes": [{"rectangle": {"corner_m": [500, -30], "size_m": [40, 60]}}]})";
+const std::string kScene =
+    scene({R"("time": {"step_s": 0.01, "until_s": 10}, "record": {"frames_interval_s": 1})",
+           list("ships", {ship(R"("position_m": [0, 0], "propulsion": {"thrust_N": 1e6})")}),
+           list("floes", {square(500, -30, 40)})});
 
 /// Books 4 MJ of kinetic energy that was never there, but for 6 J, and as much that thrust never took out. At
 /// first those 6 J are lost in a turnover of 7.2 MJ. Thrust goes on and brings it down by what it gives,
@@ -38,11 +37,9 @@ class BrokenAudit : public testing::Test {
   /// Leaves a run that was stopped after 4 s, by its own program, with such books in its checkpoint.
   void stop_run() {
     write_file(folder_ / "scene.json", kScene);
-    const auto scene = io::read_scene_file(folder_ / "scene.json");
-    ASSERT_TRUE(scene.has_value());
+    const auto scene = checked(io::read_scene_file(folder_ / "scene.json"));
     Simulation simulation(scene->scene);
-    auto writer = io::RunWriter::create(folder_ / "run", false, *scene);
-    ASSERT_TRUE(writer.has_value()) << writer.error();
+    auto writer = checked(io::RunWriter::create(folder_ / "run", false, *scene));
     for (int step = 0; step < 400; ++step) {
       writer->record(simulation.journal());
       if (step % 100 == 0) writer->frame(simulation);
@@ -60,27 +57,21 @@ class BrokenAudit : public testing::Test {
     checkpoint.state_hash = simulation.state_hash();
     ASSERT_TRUE(io::write_checkpoint(folder_ / "run", checkpoint).has_value());
   }
-  Outcome resume(std::vector<std::string> more = {}) {
-    more.insert(more.begin(), {"resume", "run"});
-    return polynya(more, start_);
-  }
+  Outcome resume(Words more = {}) { return polynya(Words{"resume", "run"} + more, start_); }
   /// The dump has the last state whose accounts close, and polynya gets the next one, the same each time.
   void expect_reproduced() {
     const auto scene = io::read_scene_file(folder_ / "run/scene.json");
-    const auto dump = io::read_checkpoint_file(folder_ / "run" / io::run_file::kFailure, scene->hash);
-    ASSERT_TRUE(dump.has_value()) << dump.error();
+    const auto dump =
+        checked(io::read_checkpoint_file(folder_ / "run" / io::run_file::kFailure, scene->hash));
     EXPECT_EQ(dump->steps, 632) << "√40 s = 632.5 steps";
-    auto simulation = Simulation::resumed(scene->scene, dump->state);
-    ASSERT_TRUE(simulation.has_value()) << simulation.error();
+    auto simulation = checked(Simulation::resumed(scene->scene, dump->state));
     EXPECT_TRUE(simulation->audit().is_closed());
     simulation->step();
     EXPECT_FALSE(simulation->audit().is_closed());
-    const Outcome repeated = resume({"--from-failure"});
+    const Outcome repeated = resume("--from-failure");
     EXPECT_EQ(repeated.code, 4) << repeated.err;
-    EXPECT_NE(repeated.out.find("now         the accounts of energy or momentum do not close\nreproduced\n"),
-              std::string::npos)
-        << repeated.out;
-    EXPECT_EQ(resume({"--from-failure"}).out, repeated.out);
+    EXPECT_HAS(repeated.out, "now         the accounts of energy or momentum do not close\nreproduced\n");
+    EXPECT_EQ(resume("--from-failure").out, repeated.out);
   }
 
   const TemporaryFolder folder_;
@@ -91,9 +82,8 @@ TEST_F(BrokenAudit, IsToldAtTheEndAndDumpedAndRepeated) {
   stop_run();
   const Outcome resumed = resume();
   EXPECT_EQ(resumed.code, 0) << resumed.err;
-  EXPECT_NE(resumed.err.find("THE AUDIT IS BROKEN: energy is off by 6.00e+00 J"), std::string::npos)
-      << resumed.err;
-  EXPECT_NE(resumed.err.find("polynya resume run --from-failure"), std::string::npos) << resumed.err;
+  EXPECT_HAS(resumed.err, "THE AUDIT IS BROKEN: energy is off by 6.00e+00 J");
+  EXPECT_HAS(resumed.err, "polynya resume run --from-failure");
   const auto summary = io::parse_json(read_file(folder_ / "run/summary.json"));
   EXPECT_FALSE(summary.root.find("audit_closed")->boolean());
   expect_reproduced();
@@ -101,25 +91,10 @@ TEST_F(BrokenAudit, IsToldAtTheEndAndDumpedAndRepeated) {
 
 TEST_F(BrokenAudit, StopsARunThatIsCheckedAtEveryStep) {
   stop_run();
-  const Outcome resumed = resume({"--check"});
+  const Outcome resumed = resume("--check");
   EXPECT_EQ(resumed.code, 4) << resumed.err;
-  EXPECT_NE(resumed.err.find("stopped at 6.33 s: the accounts of energy or momentum do not close"),
-            std::string::npos)
-      << resumed.err;
+  EXPECT_HAS(resumed.err, "stopped at 6.33 s: the accounts of energy or momentum do not close");
   expect_reproduced();
-}
-
-/// A thrust that brings a ship to 1000 m/s in a fifth of a second.
-TEST(NumericalFailure, ItsDumpIsReadBackAndFailsAgain) {
-  const TemporaryFolder folder;
-  write_file(folder / "scene.json", R"({"time": {"step_s": 0.01, "until_s": 10},
-    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e4,
-      "moment_of_inertia_kg_m2": 5e9, "position_m": [0, 0], "propulsion": {"thrust_N": 5e7}}]})");
-  const Outcome failed = polynya({"run", "scene.json", "--out", "run"}, {folder.path()});
-  ASSERT_EQ(failed.code, 4) << failed.err;
-  const Outcome repeated = polynya({"resume", "run", "--from-failure"}, {folder.path()});
-  EXPECT_EQ(repeated.code, 4) << repeated.err;
-  EXPECT_NE(repeated.out.find("\nreproduced"), std::string::npos) << repeated.out;
 }
 
 }  // namespace

@@ -1,19 +1,22 @@
+// `polynya cut`: the ledger and the pieces of every tool, what is refused, and what is kept of a file's
+// formats.
 #include <cmath>
 
 #include "program.hpp"
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/text/floe_text.hpp"
-#include "io/text/json_parser.hpp"
 
 namespace polynya::tests {
 namespace {
 
 using geometry::Polygon;
+using nlohmann::json;
 
 std::string polygon_json(const std::string& rings) {
   return R"({"type":"Polygon","coordinates":[)" + rings + "]}";
@@ -21,146 +24,117 @@ std::string polygon_json(const std::string& rings) {
 std::string feature(const std::string& rings, const std::string& properties = "") {
   return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":)" + polygon_json(rings) + "}";
 }
-std::string collection(const std::vector<std::string>& features) {
-  std::string text = R"({"type":"FeatureCollection","features":[)";
-  for (const std::string& one : features) text += (one == features.front() ? "\n" : ",\n") + one;
-  return text + "\n]}\n";
+std::string collection(const std::vector<std::string>& features, const std::string& members = "") {
+  return fmt::format("{{\"type\":\"FeatureCollection\",{}\"features\":[\n{}\n]}}\n", members,
+                     fmt::join(features, ",\n"));
 }
 
 const std::string kSquare = "[[0,0],[10,0],[10,10],[0,10],[0,0]]";
 const std::string kFarSquare = "[[100,0],[110,0],[110,10],[100,10],[100,0]]";
+const std::string kCrs = R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3413"}},)";
 
-/// A folder with floes.geojson of these features, in which commands run.
+/// A folder with floes.geojson of two squares, in which commands run.
 class CutCommand : public testing::Test {
  protected:
-  Outcome cut(std::vector<std::string> words, const std::string& floes = "floes.geojson") const {
-    words.insert(words.begin(), {"cut", floes});
-    return polynya(words, {folder.path()});
+  Outcome cut(const Words& words, const std::string& floes = "floes.geojson") const {
+    return polynya(Words{"cut", floes} + words, folder);
   }
   void write(const std::string& name, const std::string& text) const { write_file(folder / name, text); }
   std::string read(const std::string& name) const { return read_file(folder / name); }
-
-  static io::JsonValue json(const std::string& text) {
-    io::JsonDocument document = io::parse_json(text);
-    EXPECT_TRUE(document.faults.empty()) << text;
-    return std::move(document.root);
-  }
-  static double total(const io::JsonValue& ledger, const char* key) {
-    return ledger.find("totals")->find(key)->number();
-  }
-  static const io::JsonValue& floe(const io::JsonValue& ledger, std::size_t i) {
-    return ledger.find("floes")->items().at(i);
-  }
-  static io::FloeText floes_of(const std::string& text) {
-    auto floes = io::read_floe_text(text);
+  json read_json(const std::string& name) const { return json::parse(read(name)); }
+  static std::vector<Polygon> polygons_of(const std::string& text) {
+    const auto floes = io::read_floe_text(text);
     EXPECT_TRUE(floes.has_value()) << text;
-    return floes ? *std::move(floes) : io::FloeText{};
+    std::vector<Polygon> polygons;
+    for (const io::FloeEntry& entry : floes->entries) polygons.push_back(geometry::normalised(entry.polygon));
+    return polygons;
   }
-  static double area_of(const io::FloeText& floes) {
+  static double area_of(const std::string& text) {
     double area = 0;
-    for (const io::FloeEntry& entry : floes.entries) {
-      const Polygon polygon = geometry::normalised(entry.polygon);
+    for (const Polygon& polygon : polygons_of(text)) {
       EXPECT_FALSE(geometry::find_defect(polygon).has_value());
       area += geometry::measure(polygon).area;
     }
     return area;
   }
-  /// Everything a ledger promises of its sums.
-  static void expect_balanced(const io::JsonValue& ledger) {
-    const auto balance = [](const io::JsonValue& one) {
-      const auto number = [&](const char* key) { return one.find(key)->number(); };
-      EXPECT_NEAR(number("area_of_pieces_m2") + number("removed_m2") - number("rounding_defect_m2"),
-                  number("area_m2"), 1e-12 * (1 + number("area_m2")));
-      EXPECT_EQ(one.find("exact_defect_m2")->text(), "0");
-    };
-    balance(*ledger.find("totals"));
+  /// What an outcome's ledger holds, all of whose sums balance.
+  static json ledger_of(const Outcome& outcome, int code = 0) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    json ledger = json::parse(outcome.out);
+    std::vector<json> all{ledger["totals"]};
     double pieces = 0;
-    for (const io::JsonValue& one : ledger.find("floes")->items()) {
-      balance(one);
-      pieces += one.find("pieces")->number();
-      EXPECT_EQ(one.find("parts")->items().size(), static_cast<std::size_t>(one.find("pieces")->number()));
+    for (const json& one : ledger["floes"]) {
+      all.push_back(one);
+      pieces += one["pieces"].get<double>();
+      EXPECT_EQ(one["parts"].size(), one["pieces"]);
     }
-    EXPECT_EQ(total(ledger, "pieces"), pieces);
-    EXPECT_EQ(total(ledger, "floes"), static_cast<double>(ledger.find("floes")->items().size()));
+    for (const json& one : all) {
+      const double area = one["area_m2"];
+      EXPECT_NEAR(one["area_of_pieces_m2"].get<double>() + one["removed_m2"].get<double>() -
+                      one["rounding_defect_m2"].get<double>(),
+                  area, 1e-12 * (1 + area));
+      EXPECT_EQ(one["exact_defect_m2"], "0");
+    }
+    EXPECT_EQ(ledger["totals"]["pieces"], pieces);
+    EXPECT_EQ(ledger["totals"]["floes"], ledger["floes"].size());
+    return ledger;
   }
+  void SetUp() override { write("floes.geojson", collection({feature(kSquare), feature(kFarSquare)})); }
 
   TemporaryFolder folder;
 };
 
 TEST_F(CutCommand, ADiscLeavesTheOutsideAndAccountsForTheRest) {
-  write("floes.geojson", collection({feature(kSquare), feature(kFarSquare)}));
-  const Outcome outcome = cut({"--disc", "0,0,5", "--out", "pieces.geojson"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "area_m2"), 200);
+  json ledger = ledger_of(cut("--disc 0,0,5 --out pieces.geojson"));
+  EXPECT_EQ(ledger["totals"]["area_m2"], 200);
   // A quarter of the inscribed regular 36-gon.
-  EXPECT_NEAR(total(ledger, "removed_m2"), 0.5 * 36 * 25 * std::sin(M_PI / 18) / 4, 1e-12);
-  EXPECT_EQ(ledger.find("tools")->items()[0].find("vertices")->number(), 36);
-  const io::JsonValue pieces = json(read("pieces.geojson"));
-  ASSERT_EQ(pieces.find("features")->items().size(), 2U);
+  EXPECT_NEAR(ledger["totals"]["removed_m2"], 0.5 * 36 * 25 * std::sin(M_PI / 18) / 4, 1e-12);
+  EXPECT_EQ(ledger["tools"][0]["vertices"], 36);
+  json pieces = read_json("pieces.geojson")["features"];
+  ASSERT_EQ(pieces.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
-    const io::JsonValue& properties = *pieces.find("features")->items()[i].find("properties");
-    EXPECT_EQ(properties.find("floe_id")->number(), 2.0 + static_cast<double>(i));
-    EXPECT_EQ(properties.find("parent_id")->number(), static_cast<double>(i));
-    EXPECT_EQ(properties.find("part")->text(), "outside");
-    EXPECT_EQ(properties.find("area_m2")->number(), floe(ledger, i).find("area_of_pieces_m2")->number());
+    const json expected{{"floe_id", 2 + i},
+                        {"parent_id", i},
+                        {"part", "outside"},
+                        {"area_m2", ledger["floes"][i]["area_of_pieces_m2"]}};
+    EXPECT_EQ(pieces[i]["properties"], expected);
   }
-  EXPECT_EQ(floe(ledger, 1).find("removed_m2")->number(), 0) << "the disc misses it: it stays whole";
-  EXPECT_EQ(area_of(floes_of(read("pieces.geojson"))), total(ledger, "area_of_pieces_m2"));
+  EXPECT_EQ(ledger["floes"][1]["removed_m2"], 0) << "the disc misses it: it stays whole";
+  EXPECT_EQ(ledger["totals"]["area_of_pieces_m2"], area_of(read("pieces.geojson")));
 }
 
 TEST_F(CutCommand, KeepSaysWhichSideStays) {
-  write("floes.geojson", collection({feature(kSquare), feature(kFarSquare)}));
-  double area_kept[3] = {};
-  const char* const keeps[] = {"outside", "inside", "both"};
-  for (int i = 0; i < 3; ++i) {
-    const Outcome outcome = cut({"--disc", "5,5,3", "--keep", keeps[i], "--out", "pieces.geojson"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const io::JsonValue ledger = json(outcome.out);
-    expect_balanced(ledger);
-    area_kept[i] = total(ledger, "area_of_pieces_m2");
-    const io::JsonValue pieces = json(read("pieces.geojson"));
-    for (const io::JsonValue& one : pieces.find("features")->items()) {
-      const std::string part = one.find("properties")->find("part")->text();
-      EXPECT_TRUE(i == 2 || part == keeps[i]) << part;
-    }
+  std::map<std::string, double> kept;
+  for (const std::string keep : {"outside", "inside", "both"}) {
+    kept[keep] =
+        ledger_of(cut("--disc 5,5,3 --out pieces.geojson --keep " + keep))["totals"]["area_of_pieces_m2"];
+    for (const json& piece : read_json("pieces.geojson")["features"])
+      EXPECT_TRUE(keep == "both" || piece["properties"]["part"] == keep);
   }
-  EXPECT_NEAR(area_kept[0] + area_kept[1], 200, 1e-12);
-  EXPECT_EQ(area_kept[2], 200);
-  EXPECT_LT(area_kept[1], M_PI * 9);
+  EXPECT_NEAR(kept["outside"] + kept["inside"], 200, 1e-12);
+  EXPECT_EQ(kept["both"], 200);
+  EXPECT_LT(kept["inside"], M_PI * 9);
 }
 
 TEST_F(CutCommand, AToolOfSeveralPolygonsWithHolesIsTakenTogether) {
   write("floes.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10, 0 0))");
   // A frame of area 16 − 4, and a square that overlaps its corner: 4 − 1 more.
   write("tool.wkt", "MULTIPOLYGON (((1 1, 5 1, 5 5, 1 5), (2 2, 4 2, 4 4, 2 4)), ((4 4, 6 4, 6 6, 4 6)))");
-  const Outcome outcome =
-      cut({"--polygon", "tool.wkt", "--keep", "both", "--out", "pieces.geojson"}, "floes.wkt");
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  double inside = 0;
-  double outside = 0;
-  for (const io::JsonValue& part : floe(ledger, 0).find("parts")->items())
-    (part.find("part")->text() == "inside" ? inside : outside) += part.find("area_m2")->number();
-  EXPECT_EQ(inside, 15);
-  EXPECT_EQ(outside, 85);
-  EXPECT_EQ(total(ledger, "pieces"), 3);
-  EXPECT_EQ(json(read("pieces.geojson")).find("features")->items().size(), 3U) << "by its extension";
+  json ledger = ledger_of(cut("--polygon tool.wkt --keep both --out pieces.geojson", "floes.wkt"));
+  std::map<std::string, double> area;
+  for (const json& part : ledger["floes"][0]["parts"]) area[part["part"]] += part["area_m2"].get<double>();
+  EXPECT_EQ(area, (std::map<std::string, double>{{"inside", 15}, {"outside", 85}}));
+  EXPECT_EQ(ledger["totals"]["pieces"], 3);
+  EXPECT_EQ(read_json("pieces.geojson")["features"].size(), 3U) << "by its extension";
 }
 
 TEST_F(CutCommand, ACrackGoesThroughEveryFloeAndKeepsEverything) {
   write("floes.geojson",
         collection({feature(kSquare), feature(kFarSquare), feature("[[0,50],[1,50],[0,51]]")}));
-  const Outcome outcome = cut({"--crack", "0,5,0", "--keep", "inside"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "pieces"), 5);
-  EXPECT_EQ(total(ledger, "removed_m2"), 0);
-  for (const io::JsonValue& part : floe(ledger, 0).find("parts")->items())
-    EXPECT_EQ(part.find("area_m2")->number(), 50);
+  json ledger = ledger_of(cut("--crack 0,5,0 --keep inside"));
+  EXPECT_EQ(ledger["totals"]["pieces"], 5);
+  EXPECT_EQ(ledger["totals"]["removed_m2"], 0);
+  for (const json& part : ledger["floes"][0]["parts"]) EXPECT_EQ(part["area_m2"], 50);
 }
 
 /// Along axes and diagonals a crack through vertices goes through them to the last bit, from any point on it.
@@ -173,46 +147,32 @@ TEST_F(CutCommand, ACrackAlongADiagonalHitsTheCorners) {
                                         {"3,0,180", 4},
                                         {"0,0.1,-90", 4},
                                         {"0,9,450", 4}}) {
-    const Outcome outcome = cut({"--crack", crack, "--out", "-"}, "floes.wkt");
-    const io::FloeText pieces = floes_of(outcome.out);
-    ASSERT_EQ(pieces.entries.size(), 2U) << crack;
-    for (const io::FloeEntry& entry : pieces.entries) {
-      const Polygon piece = geometry::normalised(entry.polygon);
+    const auto pieces = polygons_of(cut(Words("--out - --crack") + crack, "floes.wkt").out);
+    ASSERT_EQ(pieces.size(), 2U) << crack;
+    for (const Polygon& piece : pieces) {
       EXPECT_EQ(piece.outer.size(), static_cast<std::size_t>(vertices)) << crack;
       EXPECT_EQ(geometry::measure(piece).area, 2) << crack;
     }
   }
 }
 
-/// The line crosses the first floe, ends in the second and misses the third.
 TEST_F(CutCommand, ALineSeparatesWhereItCrossesAndSaysWhereItDangles) {
   write("floes.geojson",
         collection({feature(kSquare), feature(kFarSquare), feature("[[0,50],[1,50],[0,51]]")}));
-  const Outcome outcome = cut({"--line", "-1,5,103,5"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "pieces"), 4);
-  EXPECT_EQ(total(ledger, "dangling"), 1);
-  EXPECT_EQ(floe(ledger, 0).find("dangling")->items().size(), 0U);
-  const io::JsonValue& dangling = floe(ledger, 1).find("dangling")->items().at(0);
-  EXPECT_EQ(dangling.find("from_m")->items()[0].number(), 100);
-  EXPECT_EQ(dangling.find("to_m")->items()[0].number(), 103);
-  EXPECT_EQ(floe(ledger, 1).find("dangling_length_m")->number(), 3);
-  EXPECT_NE(outcome.err.find("separates nothing from (100, 5) to (103, 5)"), std::string::npos)
-      << outcome.err;
-}
-
-/// A line through one arm of a U that ends in the other: it separates and dangles at once.
-TEST_F(CutCommand, ALineCanSeparateAndDangleInOneFloe) {
-  write("floes.wkt", "POLYGON ((0 0, 9 0, 9 9, 6 9, 6 3, 3 3, 3 9, 0 9))");
-  const Outcome outcome = cut({"--line", "-1,6,8,6"}, "floes.wkt");
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "pieces"), 2);
-  EXPECT_EQ(floe(ledger, 0).find("dangling_length_m")->number(), 2);
-  EXPECT_EQ(floe(ledger, 0).find("dangling")->items().size(), 1U);
+  const Outcome outcome = cut("--line -1,5,103,5");
+  json ledger = ledger_of(outcome);
+  EXPECT_EQ(ledger["totals"]["pieces"], 4);
+  EXPECT_EQ(ledger["totals"]["dangling"], 1);
+  EXPECT_EQ(ledger["floes"][0]["dangling"].size(), 0U);
+  EXPECT_EQ(ledger["floes"][1]["dangling"][0]["from_m"][0], 100);
+  EXPECT_EQ(ledger["floes"][1]["dangling"][0]["to_m"][0], 103);
+  EXPECT_EQ(ledger["floes"][1]["dangling_length_m"], 3);
+  EXPECT_HAS(outcome.err, "separates nothing from (100, 5) to (103, 5)");
+  // Through one arm of a U, ending in the other: it separates and dangles at once.
+  write("u.wkt", "POLYGON ((0 0, 9 0, 9 9, 6 9, 6 3, 3 3, 3 9, 0 9))");
+  json of_u = ledger_of(cut("--line -1,6,8,6", "u.wkt"));
+  EXPECT_EQ(of_u["totals"]["pieces"], 2);
+  EXPECT_EQ(of_u["floes"][0]["dangling_length_m"], 2);
 }
 
 TEST_F(CutCommand, OpsApplyInOrderToAllPieces) {
@@ -220,288 +180,248 @@ TEST_F(CutCommand, OpsApplyInOrderToAllPieces) {
   write("cuts.json", R"([{"crack": [5, 5, 0]}, {"crack": [5, 5, 90]},
     {"polygon": {"type": "Polygon", "coordinates": [[[4,4],[6,4],[6,6],[4,6],[4,4]]]}, "keep": "both"},
     {"disc": [0, 0, 1]}])");
-  const Outcome outcome = cut({"--ops", "cuts.json", "--out", "pieces.geojson"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "pieces"), 8);
-  EXPECT_NEAR(total(ledger, "removed_m2"), 0.5 * 36 * std::sin(M_PI / 18) / 4, 1e-12);
+  json ledger = ledger_of(cut("--ops cuts.json"));
+  EXPECT_EQ(ledger["totals"]["pieces"], 8);
+  EXPECT_NEAR(ledger["totals"]["removed_m2"], 0.5 * 36 * std::sin(M_PI / 18) / 4, 1e-12);
   write("inside.json", R"([{"crack": [5, 5, 0]}, {"disc": [5, 10, 2], "keep": "inside"}])");
-  const io::JsonValue second = json(cut({"--ops", "inside.json"}).out);
-  expect_balanced(second);
-  EXPECT_EQ(total(second, "pieces"), 1) << "the lower half is missed by the disc, so nothing of it is inside";
+  EXPECT_EQ(ledger_of(cut("--ops inside.json"))["totals"]["pieces"], 1)
+      << "the lower half is missed by the disc, so nothing of it is inside";
 }
 
 /// A cut that must cut is refused where it leaves a floe, or one of its pieces, as it was; the others are
 /// cut.
 TEST_F(CutCommand, ACutThatMustCutRefusesWhatItLeavesWhole) {
-  write("floes.geojson", collection({feature(kSquare), feature(kFarSquare)}));
-  const std::string disc = R"({"disc": [0, 0, 1], "keep": "both")";
-  write("may.json", "[" + disc + "}]");
-  write("must.json", "[" + disc + R"(, "must_cut": true}])");
-  write("must-each.json", "[" + disc + R"(}, {"crack": [5, 5, 0], "must_cut": true}])");
-  EXPECT_EQ(cut({"--ops", "may.json"}).code, 0);
-  const Outcome outcome = cut({"--ops", "must.json"});
-  EXPECT_EQ(outcome.code, 4);
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "pieces"), 3);
-  EXPECT_EQ(total(ledger, "rejected"), 1);
-  EXPECT_TRUE(floe(ledger, 0).find("rejected")->is_null());
-  EXPECT_EQ(floe(ledger, 1).find("rejected")->find("reason")->text(), "misses");
-  EXPECT_NE(outcome.err.find("feature 1, polygon 0: misses: cut 0: "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("2 floes -> 3 pieces"), std::string::npos) << outcome.err;
-  const io::JsonValue each = json(cut({"--ops", "must-each.json"}).out);
-  expect_balanced(each);
-  EXPECT_EQ(floe(each, 0).find("rejected")->find("reason")->text(), "misses") << "the piece in the disc";
-  EXPECT_EQ(floe(each, 0).find("pieces")->number(), 3);
+  const std::string disc = R"([{"disc": [0, 0, 1], "keep": "both")";
+  write("may.json", disc + "}]");
+  write("must.json", disc + R"(, "must_cut": true}])");
+  write("must-each.json", disc + R"(}, {"crack": [5, 5, 0], "must_cut": true}])");
+  EXPECT_EQ(cut("--ops may.json").code, 0);
+  const Outcome outcome = cut("--ops must.json");
+  json ledger = ledger_of(outcome, 4);
+  EXPECT_EQ(ledger["totals"]["pieces"], 3);
+  EXPECT_EQ(ledger["totals"]["rejected"], 1);
+  EXPECT_TRUE(ledger["floes"][0]["rejected"].is_null());
+  EXPECT_EQ(ledger["floes"][1]["rejected"]["reason"], "misses");
+  EXPECT_HAS(outcome.err, "feature 1, polygon 0: misses: cut 0: ", "2 floes -> 3 pieces");
+  json each = ledger_of(cut("--ops must-each.json"), 4)["floes"][0];
+  EXPECT_EQ(each["rejected"]["reason"], "misses") << "the piece in the disc";
+  EXPECT_EQ(each["pieces"], 3);
 }
 
-TEST_F(CutCommand, EveryDefectIsRefusedByNameAndTheGoodAreCut) {
-  struct Bad {
-    const char* rings;
-    const char* reason;
-  };
-  const std::vector<Bad> all{
-      {"[[0,0],[1,0]]", "too-few-points"},
-      {"[[0,0],[1,0],[0,0],[1,0]]", "too-few-points"},
-      {"", "too-few-points"},
-      {"[[0,0],[4,4],[4,0],[0,4]]", "self-crossing"},
-      {"[[0,0],[4,0],[2,2],[4,4],[0,4],[2,2]]", "self-crossing"},
-      {"[[0,0],[4,0],[4,4],[4,2],[4,6],[0,6]]", "overlapping-edges"},
-      {"[[0,0],[4,0],[8,0]]", "zero-area"},
-      {"[[0,0],[NaN,0],[4,4]]", "not-finite"},
-      {"[[0,0],[1e999,0],[4,4]]", "not-finite"},
-      {"[[0,0],[4,0],[4,4]],[[10,10],[11,10],[10,11]]", "hole-outside"},
-      {"[[0,0],[9,0],[9,9],[0,9]],[[1,1],[5,1],[5,5],[1,5]],[[2,2],[4,2],[4,4],[2,4]]", "holes-overlap"},
-      {"[[0,0],[9,0],[9,9],[0,9]],[[1,1],[5,1],[5,5],[1,5]],[[3,3],[7,3],[7,7],[3,7]]", "rings-cross"},
-      {"[[0,0],[9,0],[9,9],[0,9]],[[0,0],[9,9],[3,9],[0,6]]", "overlapping-edges"},
-      {"[[0,0],[8,0],[8,8],[0,8]],[[0,4],[4,2],[8,4],[4,6]]", "disconnected"}};
+/// By every name that tests/geometry/validity_test.cpp does not reach through a text, and some that it does.
+TEST_F(CutCommand, DefectsAreRefusedByNameAndTheGoodAreCut) {
+  const std::vector<std::pair<std::string, std::string>> all{
+      {feature(""), "too-few-points"},
+      {feature("[[0,0],[1,0],[0,0],[1,0]]"), "too-few-points"},
+      {feature("[[0,0],[4,4],[4,0],[0,4]]"), "self-crossing"},
+      {feature("[[0,0],[NaN,0],[4,4]]"), "not-finite"},
+      {feature("[[0,0],[1e999,0],[4,4]]"), "not-finite"},
+      {feature("[[0,0],[4,0],[4,4]],[[10,10],[11,10],[10,11]]"), "hole-outside"},
+      {R"({"type":"Feature","properties":{},"geometry":null})", "no-geometry"},
+      {R"({"type":"LineString","coordinates":[[0,0],[1,1]]})", "not-a-polygon"},
+      {polygon_json("[[0,0],[1,0],5]"), "malformed"}};
   std::vector<std::string> features{feature(kSquare)};
-  for (const Bad& bad : all) features.push_back(feature(bad.rings));
-  features.emplace_back(R"({"type":"Feature","properties":{},"geometry":null})");
-  features.emplace_back(R"({"type":"LineString","coordinates":[[0,0],[1,1]]})");
-  features.push_back(polygon_json("[[0,0],[1,0],5]"));
+  for (const auto& [text, reason] : all) features.push_back(text);
   features.push_back(feature(kFarSquare));
   write("floes.geojson", collection(features));
-  const Outcome outcome = cut({"--crack", "0,5,0", "--out", "pieces.geojson"});
-  EXPECT_EQ(outcome.code, 4);
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "area_m2"), 200);
-  EXPECT_EQ(total(ledger, "pieces"), 4);
-  EXPECT_EQ(total(ledger, "rejected"), static_cast<double>(all.size() + 3));
+  const Outcome outcome = cut("--crack 0,5,0 --out pieces.geojson");
+  json ledger = ledger_of(outcome, 4);
+  EXPECT_EQ(ledger["totals"]["area_m2"], 200);
+  EXPECT_EQ(ledger["totals"]["rejected"], all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const io::JsonValue& rejected = *floe(ledger, i + 1).find("rejected");
-    ASSERT_FALSE(rejected.is_null()) << all[i].rings;
-    EXPECT_EQ(rejected.find("reason")->text(), all[i].reason) << all[i].rings;
-    EXPECT_EQ(floe(ledger, i + 1).find("feature")->number(), static_cast<double>(i + 1));
-    const bool has_vertices = !rejected.find("vertices")->items().empty();
-    EXPECT_TRUE(has_vertices || std::string(all[i].rings).empty()) << all[i].rings;
-    EXPECT_NE(outcome.err.find(
-                  fmt::format("floes.geojson:{}: feature {}, polygon 0: {}", i + 3, i + 1, all[i].reason)),
-              std::string::npos)
-        << outcome.err;
+    EXPECT_EQ(ledger["floes"][i + 1]["rejected"]["reason"], all[i].second);
+    EXPECT_EQ(ledger["floes"][i + 1]["feature"], i + 1);
+    EXPECT_HAS(outcome.err,
+               fmt::format("floes.geojson:{}: feature {}, polygon 0: {}", i + 3, i + 1, all[i].second));
   }
-  EXPECT_EQ(floe(ledger, all.size() + 1).find("rejected")->find("reason")->text(), "no-geometry");
-  EXPECT_EQ(floe(ledger, all.size() + 2).find("rejected")->find("reason")->text(), "not-a-polygon");
-  EXPECT_EQ(floe(ledger, all.size() + 3).find("rejected")->find("reason")->text(), "malformed");
-  EXPECT_EQ(floes_of(read("pieces.geojson")).entries.size(), 4U);
+  EXPECT_FALSE(ledger["floes"][3]["rejected"]["vertices"].empty());
+  EXPECT_EQ(polygons_of(read("pieces.geojson")).size(), 4U);
+  write("floes.wkt", "POLYGON ((0 0, 1 1, 1 0, 0 1))\n");
+  EXPECT_HAS(cut("--crack 5,5,33", "floes.wkt").err, "1 refused; nothing was cut");
+  expect_refusals({{"cut floes.geojson --polygon floes.wkt", 4,
+                    "floes.wkt: feature 0, polygon 0: self-crossing at (0.5, 0.5)"}},
+                  {folder.path()});
 }
 
 TEST_F(CutCommand, WhatOgcAllowsIsCut) {
+  // Clockwise and open; a point twice and one straight; a hole at the shell's vertex; holes that touch.
   write("floes.geojson",
-        collection(
-            {feature("[[0,0],[0,10],[10,10],[10,0]]"),              // clockwise, open
-             feature("[[0,0],[5,0],[5,0],[10,0],[10,10],[0,10]]"),  // a point twice, one straight
-             feature(
-                 "[[0,0],[10,0],[10,10],[0,10],[0,0]],[[0,0],[6,2],[2,6]]"),  // a hole at the shell's vertex
-             feature("[[0,0],[10,0],[10,10],[0,10]],[[2,2],[4,2],[4,4],[2,4]],[[4,4],[6,4],[6,6],[4,6]]")}));
-  const Outcome outcome = cut({"--crack", "0,3,7", "--out", "pieces.wkt"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "area_m2"), 100 + 100 + 84 + 92);
-  EXPECT_NEAR(area_of(floes_of(read("pieces.wkt"))), 376, 1e-11);
+        collection({feature("[[0,0],[0,10],[10,10],[10,0]]"),
+                    feature("[[0,0],[5,0],[5,0],[10,0],[10,10],[0,10]]"),
+                    feature(kSquare + ",[[0,0],[6,2],[2,6]]"),
+                    feature(kSquare + ",[[2,2],[4,2],[4,4],[2,4]],[[4,4],[6,4],[6,6],[4,6]]")}));
+  EXPECT_EQ(ledger_of(cut("--crack 0,3,7 --out pieces.wkt"))["totals"]["area_m2"], 100 + 100 + 84 + 92);
+  EXPECT_NEAR(area_of(read("pieces.wkt")), 376, 1e-11);
 }
 
 TEST_F(CutCommand, RepairIsOnRequestAndSaysWhatItChanged) {
   // A bow-tie, and a pentagram: its middle is wound around twice.
-  const std::string bow_tie = "[[0,0],[4,4],[4,0],[0,4]]";
-  const std::string star = "[[0,3],[8,3],[2,8],[4,0],[6,8]]";
-  write("floes.geojson", collection({feature(bow_tie), feature(star), feature(kFarSquare)}));
-  EXPECT_EQ(cut({"--crack", "0,100,0"}).code, 4);
-  double star_area[2] = {};
-  for (int i = 0; i < 2; ++i) {
-    const Outcome outcome = cut({"--crack", "0,100,0", "--repair", i == 0 ? "even-odd" : "non-zero"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const io::JsonValue ledger = json(outcome.out);
-    expect_balanced(ledger);
-    EXPECT_EQ(total(ledger, "repaired"), 2);
-    const io::JsonValue& repair = *floe(ledger, 0).find("repair");
-    EXPECT_EQ(repair.find("area_drawn_m2")->number(), 0);
-    EXPECT_EQ(repair.find("area_changed_m2")->number(), 8);
-    EXPECT_EQ(repair.find("shapes")->number(), 2);
-    EXPECT_EQ(floe(ledger, 0).find("area_m2")->number(), 8);
-    EXPECT_EQ(floe(ledger, 2).find("repair"), nullptr);
-    star_area[i] = floe(ledger, 1).find("area_m2")->number();
-    EXPECT_NE(outcome.err.find("repaired"), std::string::npos);
+  write("floes.geojson", collection({feature("[[0,0],[4,4],[4,0],[0,4]]"),
+                                     feature("[[0,3],[8,3],[2,8],[4,0],[6,8]]"), feature(kFarSquare)}));
+  EXPECT_EQ(cut("--crack 0,100,0").code, 4);
+  std::vector<double> star_area;
+  for (const char* rule : {"even-odd", "non-zero"}) {
+    const Outcome outcome = cut(Words("--crack 0,100,0 --repair") + rule);
+    json ledger = ledger_of(outcome);
+    EXPECT_EQ(ledger["totals"]["repaired"], 2);
+    json repair = ledger["floes"][0]["repair"];
+    EXPECT_EQ(repair["area_drawn_m2"], 0);
+    EXPECT_EQ(repair["area_changed_m2"], 8);
+    EXPECT_EQ(repair["shapes"], 2);
+    EXPECT_EQ(ledger["floes"][0]["area_m2"], 8);
+    EXPECT_FALSE(ledger["floes"][2].contains("repair"));
+    star_area.push_back(ledger["floes"][1]["area_m2"]);
+    EXPECT_HAS(outcome.err, "repaired");
   }
   EXPECT_LT(star_area[0], star_area[1]) << "even-odd leaves the middle open";
   write("floes.geojson", collection({feature("[[0,0],[NaN,0],[4,4]]"), feature("[[0,0],[1,0],[2,0]]")}));
-  const Outcome hopeless = cut({"--crack", "0,100,0", "--repair", "non-zero"});
-  EXPECT_EQ(hopeless.code, 4);
-  EXPECT_EQ(floe(json(hopeless.out), 0).find("rejected")->find("reason")->text(), "not-finite");
-  EXPECT_EQ(floe(json(hopeless.out), 1).find("rejected")->find("reason")->text(), "zero-area");
+  json hopeless = ledger_of(cut("--crack 0,100,0 --repair non-zero"), 4)["floes"];
+  EXPECT_EQ(hopeless[0]["rejected"]["reason"], "not-finite");
+  EXPECT_EQ(hopeless[1]["rejected"]["reason"], "zero-area");
 }
 
 TEST_F(CutCommand, FormatsGoInAndOutAndStdinIsRead) {
+  const std::string triangle = "[[20,0],[30,0],[30,10]]";
   write("floes.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10))\nPOLYGON ((20 0, 30 0, 30 10))\n");
-  write("floes.ndjson", feature(kSquare) + "\n" + feature("[[20,0],[30,0],[30,10]]") + "\n");
-  write("floes.geojson", collection({feature(kSquare), feature("[[20,0],[30,0],[30,10]]")}));
-  std::string pieces[3];
-  int i = 0;
-  for (const std::string name : {"floes.wkt", "floes.ndjson", "floes.geojson"}) {
-    const Start start{folder.path(), RLIM_INFINITY, folder / name};
-    const Outcome outcome = polynya({"cut", "-", "--crack", "0,0,30", "--ledger", "ledger.json"}, start);
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    expect_balanced(json(read("ledger.json")));
-    const io::FloeText floes = floes_of(outcome.out);
-    EXPECT_EQ(floes.format, floes_of(read(name)).format) << name;
-    ASSERT_EQ(floes.entries.size(), 3U);
-    for (const io::FloeEntry& entry : floes.entries) {
-      for (const geometry::Point p : entry.polygon.outer) pieces[i] += fmt::format("{} {},", p.x, p.y);
-    }
-    ++i;
+  write("floes.ndjson", feature(kSquare) + "\n" + feature(triangle) + "\n");
+  write("floes.geojson", collection({feature(kSquare), feature(triangle)}));
+  std::vector<std::vector<Polygon>> pieces;
+  for (const char* name : {"floes.wkt", "floes.ndjson", "floes.geojson"}) {
+    const Start piped{.folder = folder.path(), .input = folder / name};
+    const Outcome outcome = polynya("cut - --crack 0,0,30 --ledger ledger.json", piped);
+    ledger_of({outcome.code, read("ledger.json"), outcome.err});
+    EXPECT_EQ(io::read_floe_text(outcome.out)->format, io::read_floe_text(read(name))->format) << name;
+    pieces.push_back(polygons_of(outcome.out));
+    EXPECT_EQ(pieces.back().size(), 3U);
+    EXPECT_EQ(pieces.back(), pieces.front());
   }
-  EXPECT_EQ(pieces[0], pieces[1]);
-  EXPECT_EQ(pieces[0], pieces[2]);
-  EXPECT_EQ(cut({"--crack", "0,0,30", "--out", "-"}, "floes.wkt").out.find("POLYGON (("), 0U);
+  EXPECT_BEGINS(cut("--crack 0,0,30 --out -", "floes.wkt").out, "POLYGON ((");
 }
 
 TEST_F(CutCommand, LinksAndPipesAreWrittenThrough) {
-  write("floes.geojson", collection({feature(kSquare)}));
   write("real.wkt", "");
   std::filesystem::create_symlink("real.wkt", folder / "link.wkt");
-  ASSERT_EQ(cut({"--crack", "5,5,33", "--out", "link.wkt"}).code, 0);
+  ASSERT_EQ(cut("--crack 5,5,33 --out link.wkt").code, 0);
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.wkt"));
-  EXPECT_EQ(read("real.wkt").find("POLYGON"), 0U);
-  const Outcome piped = cut({"--crack", "5,5,33", "--out", "/proc/self/fd/1", "--ledger", "l.json"});
-  EXPECT_EQ(piped.code, 0) << piped.err;
+  EXPECT_BEGINS(read("real.wkt"), "POLYGON");
+  EXPECT_EQ(cut("--crack 5,5,33 --out /proc/self/fd/1 --ledger l.json").code, 0);
 }
 
-/// As with `2>&1 | head`: messages for a stderr that is closed or full are lost, and nothing else.
-TEST_F(CutCommand, WordsThatCannotBeWrittenAreNoCrash) {
-  write("floes.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10))\nPOLYGON ((0 0, 1 1, 1 0, 0 1))\n");
-  const Start cramped{.folder = folder.path(), .largest_file = 5};
-  EXPECT_EQ(polynya({"cut", "floes.wkt", "--crack", "5,5,33", "--out", "/dev/null", "--ledger", "/dev/zero"},
-                    cramped)
-                .code,
-            4);
-  EXPECT_EQ(polynya({"cut", "floes.wkt", "--crack", "5,5,33"}, cramped).code, 4);
-  EXPECT_EQ(polynya({"cut", "nowhere.wkt", "--crack", "5,5,33"}, cramped).code, 5);
-}
-
-TEST_F(CutCommand, SaysWhereNothingWasCut) {
-  write("floes.wkt", "POLYGON ((0 0, 1 1, 1 0, 0 1))\n");
-  EXPECT_NE(polynya({"cut", "floes.wkt", "--crack", "5,5,33"}, {folder.path()})
-                .err.find("1 refused; nothing was cut"),
-            std::string::npos);
-}
-
-/// Pieces are floes again: cut once more, ids go on and lead back.
+/// Pieces are floes again: ids go on and lead back, properties and crs stay.
 TEST_F(CutCommand, PiecesAreFloesAgain) {
-  write("floes.geojson",
-        collection({feature(kSquare, R"("floe_id":12)"), feature(kFarSquare, R"("floe_id":3)")}));
-  ASSERT_EQ(cut({"--crack", "5,5,33", "--out", "first.geojson", "--ledger", "l.json"}).code, 0);
-  const io::JsonValue first = json(read("first.geojson"));
-  EXPECT_EQ(first.find("features")->items()[0].find("properties")->find("parent_id")->number(), 12);
-  EXPECT_EQ(first.find("features")->items()[0].find("properties")->find("floe_id")->number(), 13);
-  const Outcome again = cut({"--disc", "5,5,4", "--out", "second.geojson"}, "first.geojson");
-  ASSERT_EQ(again.code, 0) << again.err;
-  EXPECT_EQ(floe(json(again.out), 0).find("floe_id")->number(), 13);
-  EXPECT_EQ(total(json(again.out), "area_m2"), total(json(read("l.json")), "area_of_pieces_m2"));
+  write("floes.geojson", collection({feature(kSquare, R"("floe_id":12,"name":"north","area":7)"),
+                                     feature(kFarSquare, R"("floe_id":3)")},
+                                    kCrs));
+  ASSERT_EQ(cut("--crack 5,5,30 --out first.geojson --ledger l.json").code, 0);
+  json first = read_json("first.geojson")["features"][0]["properties"];
+  EXPECT_EQ(first["parent_id"], 12);
+  EXPECT_EQ(first["floe_id"], 13);
+  const json again = ledger_of(cut("--crack 5,5,120 --out second.geojson", "first.geojson"));
+  EXPECT_EQ(again["floes"][0]["floe_id"], 13);
+  EXPECT_EQ(again["totals"]["area_m2"], read_json("l.json")["totals"]["area_of_pieces_m2"]);
+  json second = read_json("second.geojson");
+  EXPECT_EQ(second["crs"]["properties"]["name"], "urn:ogc:def:crs:EPSG::3413");
+  for (int i = 0; i < 4; ++i) {
+    json properties = second["features"][i]["properties"];
+    EXPECT_EQ(properties["name"], "north");
+    EXPECT_EQ(properties["area"], 7) << "the user's own, of the parent";
+    EXPECT_NEAR(properties["area_m2"], 25, 1e-12);
+    EXPECT_EQ(properties["part"], "outside");
+  }
+  ASSERT_EQ(cut("--crack 5,5,120 --out second.ndjson", "first.geojson").code, 0);
+  EXPECT_HAS(read("second.ndjson"), kCrs.substr(6, kCrs.size() - 7));
+  ASSERT_EQ(cut("--disc 5,5,1 --out last.geojson", "second.ndjson").code, 0);
+  EXPECT_EQ(read_json("last.geojson")["crs"]["type"], "name");
+}
+
+TEST_F(CutCommand, NothingLeftIsReadAgainAsNoFloes) {
+  write("floes.geojson", feature(kSquare));
+  for (const std::string extension : {"wkt", "ndjson", "geojson"}) {
+    const std::string nothing = "nothing." + extension;
+    ASSERT_EQ(cut("--disc 5,5,30 --out " + nothing).code, 0);
+    for (const bool is_piped : {false, true}) {
+      const Start start{.folder = folder.path(), .input = is_piped ? folder / nothing : ""};
+      const Outcome again =
+          polynya(Words{"cut", is_piped ? "-" : nothing} + "--crack 0,0,30 --out - --ledger l.json", start);
+      EXPECT_EQ(again.code, 0) << again.err;
+      EXPECT_EQ(read_json("l.json")["totals"]["floes"], 0);
+      EXPECT_HAS(again.err, "no floes in it");
+      EXPECT_EQ(again.out, read(nothing)) << "and nothing again, in the same words";
+    }
+  }
+}
+
+TEST_F(CutCommand, WhatAFormatCannotKeepIsReported) {
+  write("floes.geojson", collection({feature(kSquare, R"("name":"north")")}, kCrs));
+  EXPECT_HAS(cut("--crack 5,5,30 --out pieces.wkt").err, "WKT has no room for its crs",
+             "WKT has no room for properties");
+  write("floes.wkt", "SRID=3413;POLYGON ((0 0, 1 0, 0 1))");
+  EXPECT_HAS(cut("--disc 0,0,0.1", "floes.wkt").err, "SRID is ignored");
+  write("floes.ndjson",
+        "{" + kCrs + feature(kSquare).substr(1) + "\n{\"crs\":null," + feature(kSquare).substr(1));
+  EXPECT_HAS(cut("--disc 0,0,1", "floes.ndjson").err, "crs members differ");
+}
+
+TEST_F(CutCommand, LongitudeAndLatitudeAreNoMetres) {
+  const std::string degrees = polygon_json("[[15.6,78.2],[15.61,78.2],[15.61,78.21],[15.6,78.2]]");
+  write("crs.geojson", R"({"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)" +
+                           degrees.substr(1));
+  expect_refusals({{"cut crs.geojson --disc 15.6,78.2,0.01 --out pieces.geojson", 4,
+                    "longitude and latitude (urn:ogc:def:crs:OGC:1.3:CRS84)"}},
+                  {folder.path()});
+  EXPECT_FALSE(std::filesystem::exists(folder / "pieces.geojson"));
+  write("bare.geojson", degrees);
+  const Outcome noted = cut("--disc 15.6,78.2,0.01", "bare.geojson");
+  EXPECT_EQ(noted.code, 0);
+  EXPECT_HAS(noted.err, "look like longitude and latitude");
+}
+
+TEST_F(CutCommand, AnExtensionOfNoFormatIsRefusedBeforeAnythingIsDone) {
+  for (const char* name : {"pieces.shp", "pieces.gpkg", "pieces.txt", "pieces.geojson.bak"}) {
+    const Outcome outcome = cut(Words("--disc 0,0,1 --ledger l.json --out") + name);
+    EXPECT_EQ(outcome.code, 2) << name;
+    EXPECT_HAS(outcome.err, ".geojson", ".json", ".ndjson", ".jsonl", ".geojsonl", ".wkt");
+    EXPECT_FALSE(std::filesystem::exists(folder / name) || std::filesystem::exists(folder / "l.json"));
+  }
+  EXPECT_EQ(cut("--disc 0,0,1 --out PIECES.WKT").code, 0);
+  EXPECT_BEGINS(read("PIECES.WKT"), "POLYGON");
+  EXPECT_EQ(cut("--disc 0,0,1 --out pieces").code, 0);
 }
 
 // The line leaves a corner of 3e-33 m2, all of whose vertices round to (1.5, 1.5): no floe, but an item of
-// the ledger.
-TEST_F(CutCommand, APieceThatRoundsToAPointIsASliver) {
+// the ledger. In plain doubles the other floe has −3.5e-18 m2, and with rings that run clockwise it must be
+// the same floe.
+TEST_F(CutCommand, SliversAreItemsOfTheLedgerAndTheirAreasTheNearestDoubles) {
   write("square.wkt", "POLYGON ((0 0, 1.5 0, 1.5 1.5, 0 1.5))\n");
-  const Outcome outcome = cut({"--line", "0,4,2.4,0", "--out", "pieces.wkt", "--ledger", "-"}, "square.wkt");
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  json totals = ledger_of(cut("--line 0,4,2.4,0 --out pieces.wkt --ledger -", "square.wkt"))["totals"];
   EXPECT_EQ(read("pieces.wkt"), "POLYGON ((1.5 1.5, 0 1.5, 0 0, 1.5 0, 1.5 1.5))\n");
-  const io::JsonValue ledger = json(outcome.out);
-  expect_balanced(ledger);
-  EXPECT_EQ(total(ledger, "slivers"), 1);
-  EXPECT_GT(total(ledger, "area_slivers_m2"), 0);
-  EXPECT_EQ(total(ledger, "area_slivers_m2"), total(ledger, "removed_m2"));
-}
-
-TEST_F(CutCommand, AreasOfSliversAreTheNearestDoubles) {
-  // In plain doubles this floe has −3.5e-18 m2, and with rings that run clockwise it must be the same floe.
+  EXPECT_EQ(totals["slivers"], 1);
+  EXPECT_GT(totals["area_slivers_m2"], 0);
+  EXPECT_EQ(totals["area_slivers_m2"], totals["removed_m2"]);
   write("sliver.wkt",
         "POLYGON ((10.214251825832536 9.982363678414115, 10.151854324862311 9.969288413081589, "
         "9.066274827191009 9.741807508383557))\n");
-  const Outcome outcome = cut({"--disc", "0,0,1", "--out", "-", "--ledger", "ledger.json"}, "sliver.wkt");
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  const io::JsonValue ledger = json(read("ledger.json"));
-  EXPECT_EQ(total(ledger, "area_m2"), 4.1982189329424393e-18);
-  EXPECT_EQ(total(ledger, "area_of_pieces_m2"), 4.1982189329424393e-18);
-}
-
-TEST_F(CutCommand, WrongUsageIsTwo) {
-  write("floes.geojson", collection({feature(kSquare)}));
-  write("ops.json", "[{\"disk\": [1,2,3]}]");
-  const std::vector<std::vector<std::string>> wrong{{},
-                                                    {"--disc", "0,0"},
-                                                    {"--disc", "0,0,-1"},
-                                                    {"--disc", "0,0,x"},
-                                                    {"--disc", "0,0,1", "--crack", "0,0,1"},
-                                                    {"--crack", "0,0,nan"},
-                                                    {"--line", "1,1,1,1"},
-                                                    {"--ops", "ops.json"},
-                                                    {"--disc", "0,0,1", "--keep", "all"},
-                                                    {"--disc", "0,0,1", "--sagitta", "-1"},
-                                                    {"--disc", "0,0,1", "--repair", "please"},
-                                                    {"--disc", "0,0,1", "--out", "-", "--ledger", "-"},
-                                                    {"--disc", "0,0,1", "more"}};
-  for (const auto& words : wrong) {
-    const Outcome outcome = cut(words);
-    EXPECT_EQ(outcome.code, 2) << (words.empty() ? "" : words[1]) << outcome.err;
-    EXPECT_TRUE(outcome.out.empty());
-    EXPECT_FALSE(outcome.err.empty());
-  }
-  EXPECT_EQ(cut({"--polygon", "-"}, "-").code, 2);
-}
-
-TEST_F(CutCommand, AnInvalidToolIsRefusedByName) {
-  write("floes.geojson", collection({feature(kSquare)}));
-  write("tool.wkt", "POLYGON ((0 0, 4 4, 4 0, 0 4))");
-  const Outcome outcome = cut({"--polygon", "tool.wkt"});
-  EXPECT_EQ(outcome.code, 4);
-  EXPECT_TRUE(outcome.out.empty());
-  EXPECT_NE(outcome.err.find("tool.wkt: feature 0, polygon 0: self-crossing at (2, 2)"), std::string::npos)
-      << outcome.err;
+  totals = ledger_of(cut("--disc 0,0,1", "sliver.wkt"))["totals"];
+  EXPECT_EQ(totals["area_m2"], 4.1982189329424393e-18);
+  EXPECT_EQ(totals["area_of_pieces_m2"], 4.1982189329424393e-18);
 }
 
 TEST_F(CutCommand, WhatCannotBeReadOrWrittenIsFive) {
-  write("floes.geojson", collection({feature(kSquare)}));
   write("broken.geojson", "{\"type\": \"Polygon\",\n  \"coordinates\": [[[0,0],}");
   write("prose.txt", "42 is no floe");
-  EXPECT_EQ(cut({"--disc", "0,0,1"}, "missing.geojson").code, 5);
-  EXPECT_EQ(cut({"--disc", "0,0,1"}, "prose.txt").code, 5);
-  EXPECT_EQ(cut({"--polygon", "missing.geojson"}).code, 5);
-  EXPECT_EQ(cut({"--disc", "0,0,1", "--out", "no/such/folder.geojson"}).code, 5);
-  // A size limit stands for a full disk: nothing half-written is left, nor is what was there lost.
   write("pieces.wkt", "as it was");
-  const Start full_disk{folder.path(), 300};
-  const Outcome full = polynya({"cut", "floes.geojson", "--disc", "0,0,5", "--out", "pieces.wkt"}, full_disk);
+  expect_refusals(
+      {{"cut missing.geojson --disc 0,0,1", 5, "missing.geojson"},
+       {"cut prose.txt --disc 0,0,1", 5, "prose.txt"},
+       {"cut floes.geojson --polygon missing.geojson", 5, "missing.geojson"},
+       {"cut floes.geojson --disc 0,0,1 --out no/such/folder.geojson", 5, "no/such/folder.geojson"},
+       {"cut broken.geojson --disc 0,0,1", 5, "broken.geojson:2:"}},
+      {folder.path()});
+  // A size limit stands for a full disk: nothing half-written is left, nor is what was there lost.
+  const Outcome full = polynya("cut floes.geojson --disc 0,0,5 --out pieces.wkt", {folder.path(), 300});
   EXPECT_EQ(full.code, 5);
-  EXPECT_NE(full.err.find("File too large"), std::string::npos) << full.err;
+  EXPECT_HAS(full.err, "File too large");
   EXPECT_EQ(read("pieces.wkt"), "as it was");
-  const Outcome broken = cut({"--disc", "0,0,1"}, "broken.geojson");
-  EXPECT_EQ(broken.code, 5);
-  EXPECT_NE(broken.err.find("broken.geojson:2:"), std::string::npos) << broken.err;
 }
 
 }  // namespace

@@ -8,27 +8,24 @@
 namespace polynya::tests {
 namespace {
 
-const std::vector<std::vector<std::string>> kReading{
-    {"inspect", "damaged"},
-    {"inspect", "damaged", "--check"},
-    {"inspect", "damaged", "--fsd"},
-    {"inspect", "damaged", "--floe", "0", "--format", "svg"},
-    {"inspect", "damaged", "--floe", "0", "--format", "geojson"},
-    {"view", "damaged"},
-    {"channel", "damaged"},
-    {"export", "damaged", "--vtk", "vtk"},
-    {"export", "damaged", "--geojson", "layers"}};
+const std::vector<Words> kReading{"inspect damaged",
+                                  "inspect damaged --check",
+                                  "inspect damaged --fsd",
+                                  "inspect damaged --floe 0 --format svg",
+                                  "inspect damaged --floe 0 --format geojson",
+                                  "view damaged",
+                                  "channel damaged",
+                                  "export damaged --vtk vtk",
+                                  "export damaged --geojson layers"};
 
 class DamagedRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    setenv("PATH", "/", 1);  // without rsvg-convert, which takes seconds
     folder = new TemporaryFolder;
     write_file(folder->path() / "tiny.json", kTinyScene);
-    ASSERT_EQ(polynya({"run", "tiny.json", "--out", "damaged"}, {folder->path()}).code, 0);
+    ASSERT_EQ(call("run tiny.json --out damaged").code, 0);
     // Every shape whole: no other line then needs the vertices of one that is damaged.
-    const auto run = io::read_run(folder->path() / "damaged");
-    ASSERT_TRUE(run.has_value()) << run.error();
+    const auto run = checked(io::read_run(folder->path() / "damaged"));
     floes = new std::string;
     for (const io::RunFloe& floe : run->floes)
       io::append_birth(*floes, {floe.birth, *run->shape(floe.birth.floe)}, nullptr);
@@ -37,6 +34,10 @@ class DamagedRun : public testing::Test {
   static void TearDownTestSuite() {
     delete floes;
     delete folder;
+  }
+  /// Without rsvg-convert, which takes seconds.
+  static Outcome call(const Words& words) {
+    return polynya(words, Start{.folder = folder->path(), .arrange_streams = [] { setenv("PATH", "/", 1); }});
   }
   static std::filesystem::path file() { return folder->path() / "damaged/floes.ndjson"; }
   /// Writes other rings to the first floe, a plate.
@@ -59,9 +60,9 @@ TEST_F(DamagedRun, ARingOfTooFewPointsIsNamedWithItsLineByEveryCommand) {
   for (const auto& [ring, hole] : rings) {
     damage(ring, hole);
     for (const auto& words : kReading) {
-      const Outcome outcome = polynya(words, {folder->path()});
+      const Outcome outcome = call(words);
       EXPECT_EQ(outcome.code, 5) << words.front() << ' ' << words.back() << ring << hole;
-      EXPECT_NE(outcome.err.find("damaged/floes.ndjson:1: "), std::string::npos) << outcome.err;
+      EXPECT_HAS(outcome.err, "damaged/floes.ndjson:1: ");
     }
   }
 }
@@ -74,9 +75,9 @@ TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
   text.insert(text.find("\"steps\": ") + 9, "j");
   write_file(summary, text);
   for (const auto& words : kReading) {
-    const Outcome outcome = polynya(words, {folder->path()});
+    const Outcome outcome = call(words);
     EXPECT_EQ(outcome.code, 5);
-    EXPECT_NE(outcome.err.find("damaged/summary.json:8:12: "), std::string::npos) << outcome.err;
+    EXPECT_HAS(outcome.err, "damaged/summary.json:8:12: ");
   }
   write_file(summary, whole);
 }
@@ -89,18 +90,18 @@ TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
         "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {
     damage(ring);
     for (const auto& words : kReading) {
-      const Outcome outcome = polynya(words, {folder->path()});
+      const Outcome outcome = call(words);
       EXPECT_GE(outcome.code, 0) << words.front() << ' ' << words.back() << ring;
       if (words.back() == "--check") {
         EXPECT_EQ(outcome.code, 4) << outcome.out;
-        EXPECT_NE(outcome.out.find("floe 0: "), std::string::npos) << outcome.out;
+        EXPECT_HAS(outcome.out, "floe 0: ");
       }
     }
   }
   damage("[[0,0],[1,0],[2,0]]");
-  const Outcome exported = polynya({"export", "damaged", "--vtk", "vtk"}, {folder->path()});
+  const Outcome exported = call("export damaged --vtk vtk");
   EXPECT_EQ(exported.code, 0);
-  EXPECT_NE(exported.err.find("note: 1 floe without triangles"), std::string::npos) << exported.err;
+  EXPECT_HAS(exported.err, "note: 1 floe without triangles");
 }
 
 TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
@@ -109,23 +110,9 @@ TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
     const std::size_t start = text.find("\"area_m2\":") + 10;
     text.replace(start, text.find(',', start) - start, area);
     write_file(file(), text);
-    const Outcome outcome = polynya({"inspect", "damaged", "--fsd", "--at", "0"}, {folder->path()});
+    const Outcome outcome = call("inspect damaged --fsd --at 0");
     EXPECT_EQ(outcome.code, 0) << area << outcome.err;
-    EXPECT_NE(outcome.out.find("left out: 1 floe whose"), std::string::npos) << outcome.out;
-  }
-}
-
-TEST(NotARun, IsNamedAsSuch) {
-  const TemporaryFolder folder;
-  write_file(folder / "empty/notes.txt", "");
-  for (const auto& [path, words] : {std::pair{"empty", "not a run folder: empty has no scene.json"},
-                                    {"nowhere", "not a run folder: nowhere does not exist"},
-                                    {"empty/notes.txt", "not a run folder: empty/notes.txt is a file"}}) {
-    for (const char* command : {"view", "inspect", "channel"}) {
-      const Outcome outcome = polynya({command, path}, {folder.path()});
-      EXPECT_EQ(outcome.code, 5);
-      EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    }
+    EXPECT_HAS(outcome.out, "left out: 1 floe whose");
   }
 }
 

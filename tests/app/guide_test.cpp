@@ -12,7 +12,7 @@ const TemporaryFolder& folder() {
   static const TemporaryFolder kFolder;
   return kFolder;
 }
-std::string output_of(const std::vector<std::string>& words) {
+std::string output_of(const Words& words) {
   const Outcome outcome = polynya(words, {folder().path()});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   return outcome.out;
@@ -49,8 +49,8 @@ std::string completed(const std::string& line) {
 }
 
 TEST(Guide, HelpLeadsWithExamples) {
-  const std::string help = output_of({"--help"});
-  EXPECT_EQ(help.find("Examples:"), 0U);
+  const std::string help = output_of("--help");
+  EXPECT_BEGINS(help, "Examples:");
   const auto commands = subcommands(help);
   ASSERT_GE(commands.size(), 11U);
   for (const std::string& command : commands) {
@@ -58,36 +58,35 @@ TEST(Guide, HelpLeadsWithExamples) {
     const std::size_t examples = text.find("Examples:\n");
     ASSERT_NE(examples, std::string::npos) << command;
     EXPECT_LT(examples, text.find("Usage:")) << command;
-    EXPECT_NE(text.find("  polynya " + command), std::string::npos) << command;
+    EXPECT_HAS(text, "  polynya " + command) << command;
   }
 }
 
 TEST(Guide, TheManualPageHasEveryCommandAndOption) {
-  std::string page = output_of({"man"});
+  std::string page = output_of("man");
   page = std::regex_replace(page, std::regex(R"(\\-)"), "-");
-  for (const std::string& command : subcommands(output_of({"--help"}))) {
-    EXPECT_NE(page.find(".SS " + command + "\n"), std::string::npos) << command;
+  for (const std::string& command : subcommands(output_of("--help"))) {
+    EXPECT_HAS(page, ".SS " + command + "\n") << command;
     for (const std::string& option : long_options(output_of({command, "--help"})))
-      EXPECT_NE(page.find(option), std::string::npos) << command << ' ' << option;
+      EXPECT_HAS(page, option) << command << ' ';
   }
 }
 
 TEST(Guide, BashCompletesCommandsOptionsChoicesAndFiles) {
   write_file(folder() / "scene-of-mine.json", "{}");
-  const std::string help = output_of({"--help"});
+  const std::string help = output_of("--help");
   const std::string all = completed("polynya \"\"");
   for (const std::string& command : subcommands(help)) {
-    EXPECT_NE(all.find(" " + command + " "), std::string::npos) << command;
+    EXPECT_HAS(all, " " + command + " ") << command;
     const std::string options = completed("polynya " + command + " --");
     for (const std::string& option : long_options(output_of({command, "--help"})))
-      EXPECT_NE(options.find(" " + option + " "), std::string::npos) << command << ' ' << option << options;
+      EXPECT_HAS(options, " " + option + " ") << command << ' ' << option;
   }
   EXPECT_EQ(completed("polynya cha"), " channel \n");
   EXPECT_EQ(completed("polynya run --progress js"), " json \n");
   EXPECT_EQ(completed("polynya validate scene-of"), " scene-of-mine.json \n");
 }
 
-/// Files where a file is expected, folders where a folder is, and nothing else where neither is.
 TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
   std::filesystem::create_directories(folder() / "scene-folder");
   write_file(folder() / "scene-of-mine.json", "{}");
@@ -104,13 +103,12 @@ TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
   EXPECT_EQ(completed("polynya run \"scene of\""), " scene of two words.json \n");
   const std::string options = completed("polynya cut floes.wkt --");
   for (const char* tool : {"--disc", "--crack", "--line", "--polygon", "--ops", "--keep", "--repair"})
-    EXPECT_NE(options.find(std::string(" ") + tool + " "), std::string::npos) << options;
+    EXPECT_HAS(options, std::string(" ") + tool + " ");
 }
 
-/// What a command is for comes first, as it was added, in help and manual page.
 TEST(Guide, OptionsComeInTheOrderOfTheirUse) {
-  const std::string help = output_of({"cut", "--help"});
-  const std::string page = std::regex_replace(output_of({"man"}), std::regex(R"(\\-)"), "-");
+  const std::string help = output_of("cut --help");
+  const std::string page = std::regex_replace(output_of("man"), std::regex(R"(\\-)"), "-");
   for (const auto& [text, begin] :
        {std::pair{help, "\n  "}, {page.substr(page.find(".SS cut\n")), "\n.B "}}) {
     std::size_t last = 0;

@@ -66,8 +66,8 @@ inline bool kill_after(pid_t child, const Start& start, std::chrono::microsecond
 }
 
 /// Starts polynya and kills it when the run folder has that many checkpoints. False where it ended before.
-inline bool kill_at_checkpoints(const std::vector<std::string>& words, const Start& start,
-                                const std::filesystem::path& run, std::size_t count) {
+inline bool kill_at_checkpoints(const Words& words, const Start& start, const std::filesystem::path& run,
+                                std::size_t count) {
   const pid_t child = start_polynya(words, start);
   while (!has_ended(child) && io::checkpoints_in(run).size() < count)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

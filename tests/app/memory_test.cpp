@@ -23,7 +23,7 @@ std::string drifting_floes(int rows) {
 
 constexpr rlim_t kMegabyte = 1'000'000;
 
-Outcome run_within(rlim_t addresses, const Start& start, const std::vector<std::string>& words) {
+Outcome run_within(rlim_t addresses, const Start& start, const Words& words) {
   Start limited = start;
   limited.arrange_streams = [addresses] {
     const rlimit limit{addresses, addresses};
@@ -37,7 +37,7 @@ TEST(Memory, RunsOutAndLeavesNothingOrARunThatGoesOn) {
   const TemporaryFolder folder;
   const Start start{folder.path()};
   write_file(folder / "scene.json", drifting_floes(100));
-  ASSERT_EQ(polynya({"run", "scene.json", "--out", "whole", "--progress", "none"}, start).code, 0);
+  ASSERT_EQ(polynya("run scene.json --out whole --progress none", start).code, 0);
   int before = 0, during = 0;
   for (rlim_t limit = 40; limit < 400; limit += 20) {
     const std::string out = "run" + std::to_string(limit);
@@ -50,7 +50,7 @@ TEST(Memory, RunsOutAndLeavesNothingOrARunThatGoesOn) {
       continue;
     }
     if (outcome.code == 4) {
-      EXPECT_NE(outcome.err.find("polynya resume " + out), std::string::npos);
+      EXPECT_HAS(outcome.err, "polynya resume " + out);
     }
     if (++during % 3 != 1) continue;
     EXPECT_EQ(polynya({"resume", out, "--progress", "none"}, start).code, 0);
@@ -80,8 +80,7 @@ TEST(Memory, IsEstimatedWithinAFactorOfWhatRunsTake) {
     const std::string name = std::to_string(rows) + ".json";
     write_file(folder / name, drifting_floes(rows));
     const double taken = peak_of_run(name, start) - program;
-    const auto scene = io::read_scene_file(folder / name);
-    ASSERT_TRUE(scene.has_value());
+    const auto scene = checked(io::read_scene_file(folder / name));
     const simulation::MemoryEstimate estimate = simulation::estimate_memory(scene->scene);
     EXPECT_LT(estimate.at_start, taken) << "a run that fits would be refused";
     EXPECT_LT(taken, 7 * estimate.at_start);

@@ -12,8 +12,7 @@ class PlateRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = new TemporaryFolder;
-    const Outcome outcome =
-        polynya({"run", scene_path("level-plate"), "--until", "30", "--out", "run"}, {folder->path()});
+    const Outcome outcome = polynya("run scenes/level-plate.json --until 30 --out run", *folder);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     auto read = io::read_run(folder->path() / "run");
     ASSERT_TRUE(read.has_value()) << read.error();
@@ -25,10 +24,8 @@ class PlateRun : public testing::Test {
     delete folder;
   }
   /// The command with the run's folder, or another of that folder's, and more words.
-  static Outcome on_run(const std::string& command, std::vector<std::string> words,
-                        const std::string& of = "run") {
-    words.insert(words.begin(), {command, of});
-    return polynya(words, {folder->path()});
+  static Outcome on_run(const std::string& command, const Words& words, const std::string& of = "run") {
+    return polynya(Words{command, of} + words, *folder);
   }
 
   static inline TemporaryFolder* folder = nullptr;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../io/expect_text.hpp"
 #include "../io/temporary_folder.hpp"
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -13,6 +14,23 @@
 #include <unistd.h>
 
 namespace polynya::tests {
+
+/// The words of a command line. A text is parted at its blanks, and scenes/NAME.json is a scene that ships.
+struct Words : std::vector<std::string> {
+  using std::vector<std::string>::vector;
+  Words(std::vector<std::string> words) : std::vector<std::string>(std::move(words)) {}
+  Words(const std::string& line) {
+    std::istringstream parts(line);
+    for (std::string word; parts >> word;)
+      push_back(word.starts_with("scenes/") ? POLYNYA_SOURCE_DIR "/" + word : word);
+  }
+  Words(const char* line) : Words(std::string(line)) {}
+};
+
+inline Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 
 struct Outcome {
   int code = -1;  ///< exit code; −signal where a signal ended it
@@ -43,7 +61,7 @@ inline void fill_disk_of(int descriptor) {
 }
 
 /// Starts the built polynya; its stdout and stderr go to files in the folder.
-inline pid_t start_polynya(const std::vector<std::string>& words, const Start& start) {
+inline pid_t start_polynya(const Words& words, const Start& start) {
   const pid_t child = fork();
   if (child != 0) return child;
   // A shell's background job, nohup's too, passes on that it ignores these; the tests send them.
@@ -74,8 +92,37 @@ inline Outcome wait_for(pid_t child, const Start& start) {
           read_file(start.folder / "stderr.txt")};
 }
 
-inline Outcome polynya(const std::vector<std::string>& words, const Start& start) {
+inline Outcome polynya(const Words& words, const Start& start) {
   return wait_for(start_polynya(words, start), start);
+}
+
+inline Outcome polynya(const Words& words, const TemporaryFolder& folder) {
+  return polynya(words, Start{folder.path()});
+}
+
+/// A command line that is refused: its exit code, and what the message has.
+struct Refusal {
+  Words words;
+  int code = 0;
+  std::string message = {};
+};
+
+/// Each line ends with its code and message, and prints nothing to stdout.
+inline void expect_refusals(const std::vector<Refusal>& all, const Start& start) {
+  for (const Refusal& one : all) {
+    const Outcome outcome = polynya(one.words, start);
+    std::string line;
+    for (const std::string& word : one.words) line += word + ' ';
+    EXPECT_EQ(outcome.code, one.code) << line << outcome.err;
+    EXPECT_EQ(outcome.out, "") << line;
+    EXPECT_NE(outcome.err, "") << line;
+    EXPECT_HAS(outcome.err, one.message) << line;
+  }
+}
+
+/// The same code for all, and some message.
+inline void expect_refusals(int code, const std::vector<Words>& lines, const Start& start) {
+  for (const Words& words : lines) expect_refusals({{words, code}}, start);
 }
 
 inline std::string scene_path(const std::string& name) {

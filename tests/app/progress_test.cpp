@@ -9,7 +9,7 @@ namespace polynya::tests {
 namespace {
 
 /// What a program writes to stderr where that is a terminal of that many columns.
-std::string on_terminal(const std::vector<std::string>& words, const TemporaryFolder& folder, int columns) {
+std::string on_terminal(const Words& words, const TemporaryFolder& folder, int columns) {
   int terminal = -1, stream = -1;
   const winsize size{
       .ws_row = 24, .ws_col = static_cast<unsigned short>(columns), .ws_xpixel = 0, .ws_ypixel = 0};
@@ -49,7 +49,7 @@ TEST(ProgressBar, FitsAnyTerminal) {
     const std::string text =
         on_terminal({"run", "tiny.json", "--out", "run", "--overwrite"}, folder, columns);
     std::filesystem::remove_all(folder / "run");
-    EXPECT_NE(text.find('\r'), std::string::npos);
+    EXPECT_HAS(text, "\r");
     EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;  // at the end
     for (const int used : columns_of_lines(text)) EXPECT_LT(used, columns) << text;
     EXPECT_EQ(text.find("100 %") != std::string::npos, columns > 6) << text;
@@ -62,19 +62,18 @@ TEST(ProgressBar, IsThereWhileASceneIsReadAndGoesAway) {
   write_file(folder / "tiny.json", kTinyScene);
   Start start{folder.path()};
   start.under = {"/bin/sh", "-c", "{ /bin/sleep 4; /bin/cat tiny.json; } | \"$@\"", "sh"};
-  const Outcome outcome = polynya({"validate", "-", "--progress", "json"}, start);
+  const Outcome outcome = polynya("validate - --progress json", start);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find(R"({"work":"reading the scene","part":null,"wall_time_s":)"), std::string::npos)
-      << outcome.err;
-  EXPECT_EQ(polynya({"validate", "tiny.json", "--progress", "json"}, {folder.path()}).err, "");
+  EXPECT_HAS(outcome.err, R"({"work":"reading the scene","part":null,"wall_time_s":)");
+  EXPECT_EQ(polynya("validate tiny.json --progress json", folder).err, "");
 }
 
 TEST(ProgressBar, IsLinesWhereThereIsNoTerminal) {
   const TemporaryFolder folder;
   write_file(folder / "tiny.json", kTinyScene);
-  const Outcome outcome = polynya({"run", "tiny.json", "--out", "run", "--progress", "bar"}, {folder.path()});
+  const Outcome outcome = polynya("run tiny.json --out run --progress bar", folder);
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << outcome.err;
+  EXPECT_LACKS(outcome.err, "\r");
 }
 
 }  // namespace

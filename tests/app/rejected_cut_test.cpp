@@ -39,35 +39,35 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
                           misplaced(fracture::Failure::kSplit, record)};
   apply_fractures(world.setup, world.clock, world.step.fractures, world.population, world.accounts,
                   world.journal);
-  ASSERT_EQ(world.journal.rejected_cuts.size(), 2U);
-  for (const RejectedCut& cut : world.journal.rejected_cuts) {
-    ASSERT_TRUE(io::write_rejected_cut(folder.path(), cut).has_value());
-    const std::string name = "rejected-cuts/00000" + std::to_string(cut.number);
+  ASSERT_EQ(world.journal.events.size(), 2U);
+  for (const Event& event : world.journal.events) {
+    const auto& cut = std::get<RejectedCut>(event.what);
+    ASSERT_TRUE(io::write_rejected_cut(folder.path(), event.time, cut).has_value());
+    const std::string name = "rejected-cuts/00000" + std::to_string(cut.input.number);
     const Outcome again =
-        polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, {folder.path()});
+        polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, folder);
     SCOPED_TRACE(cut.reason);
     SCOPED_TRACE(again.err + again.out);
     EXPECT_EQ(world.accounts.counts.rejected_cuts, 2);
     EXPECT_EQ(again.code, 4);
     const std::string kind = cut.reason.substr(0, cut.reason.find(':'));
-    EXPECT_EQ(kind, cut.number == 1 ? "misses" : "does-not-separate");
-    EXPECT_NE(again.err.find("feature 0, polygon 0: " + kind + ": "), std::string::npos);
-    EXPECT_NE(again.err.find("1 floe -> 1 piece"), std::string::npos);
-    EXPECT_NE(again.err.find("1 refused; nothing was cut"), std::string::npos);
+    EXPECT_EQ(kind, cut.input.number == 1 ? "misses" : "does-not-separate");
+    EXPECT_HAS(again.err, "feature 0, polygon 0: " + kind + ": ");
+    EXPECT_HAS(again.err, "1 floe -> 1 piece");
+    EXPECT_HAS(again.err, "1 refused; nothing was cut");
     const auto ledger = io::parse_json(again.out);
     ASSERT_TRUE(ledger.faults.empty());
     EXPECT_EQ(ledger.root.find("floes")->items()[0].find("rejected")->find("reason")->text(), kind);
-    if (cut.number == 2) {
-      EXPECT_NE(again.out.find("\"dangling_length_m\""), std::string::npos);
-      EXPECT_NE(again.out.find(R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})"),
-                std::string::npos)
+    if (cut.input.number == 2) {
+      EXPECT_HAS(again.out, "\"dangling_length_m\"");
+      EXPECT_HAS(again.out, R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})")
           << "to the last bit";
-      EXPECT_NE(again.err.find("separates nothing"), std::string::npos);
+      EXPECT_HAS(again.err, "separates nothing");
     }
   }
-  RejectedCut one_too_many = world.journal.rejected_cuts[0];
-  one_too_many.number = io::kMostRejectedCuts + 1;
-  EXPECT_TRUE(io::write_rejected_cut(folder.path(), one_too_many).has_value());
+  auto one_too_many = std::get<RejectedCut>(world.journal.events[0].what);
+  one_too_many.input.number = io::kMostRejectedCuts + 1;
+  EXPECT_TRUE(io::write_rejected_cut(folder.path(), 0, one_too_many).has_value());
   EXPECT_FALSE(std::filesystem::exists(folder / "rejected-cuts/000101.geojson"));
 }
 

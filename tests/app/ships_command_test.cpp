@@ -9,35 +9,18 @@
 namespace polynya::tests {
 namespace {
 
-TEST(ShipsCommand, ListsEveryShip) {
-  const TemporaryFolder folder;
-  const Outcome list = polynya({"ships"}, {folder.path()});
-  EXPECT_EQ(list.code, 0);
-  for (const io::ShipPreset& ship : io::ship_presets())
-    EXPECT_NE(list.out.find("\n" + std::string(ship.name) + " "), std::string::npos) << ship.name;
-}
-
 TEST(ShipsCommand, PrintsTheListAsJsonOfEachShipAsItPrintsThat) {
   const TemporaryFolder folder;
-  const Outcome list = polynya({"ships", "--json"}, {folder.path()});
-  ASSERT_EQ(list.code, 0) << list.err;
+  const Outcome table = polynya("ships", folder), list = polynya("ships --json", folder);
+  ASSERT_EQ(table.code + list.code, 0) << list.err;
   const auto ships = nlohmann::json::parse(list.out);
   ASSERT_EQ(ships.size(), io::ship_presets().size());
   for (const auto& ship : ships) {
     const std::string name = ship.at("name");
+    EXPECT_HAS(table.out, "\n" + name + " ");
     EXPECT_GT(ship.at("ship").at("hull").size(), 0u) << name;
-    const Outcome one = polynya({"ships", name, "--json"}, {folder.path()});
-    ASSERT_EQ(one.code, 0) << one.err;
-    EXPECT_EQ(nlohmann::json::parse(one.out), ship);
+    EXPECT_EQ(nlohmann::json::parse(polynya({"ships", name, "--json"}, folder).out), ship);
   }
-}
-
-TEST(ShipsCommand, NamesTheShipsWhereThereIsNoneOfAName) {
-  const TemporaryFolder folder;
-  const Outcome refused = polynya({"ships", "titanic"}, {folder.path()});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("no ship \"titanic\"; there are"), std::string::npos) << refused.err;
-  EXPECT_NE(refused.err.find(" polaris"), std::string::npos) << refused.err;
 }
 
 constexpr const char* kWrongShips[] = {
@@ -70,7 +53,7 @@ TEST(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
       expected += to_string(problem) + "\n";
     }
     write_file(folder / "ship.json", text);
-    const Outcome refused = polynya({"ships", "ship.json", "--json"}, {folder.path()});
+    const Outcome refused = polynya("ships ship.json --json", folder);
     EXPECT_EQ(refused.code, 3) << text;
     EXPECT_TRUE(refused.out.empty()) << refused.out;
     if (text.ends_with('}') || text.ends_with(']')) {
@@ -86,49 +69,38 @@ TEST(ShipsCommand, AShipOfAFileIsPrintedAsItsSceneResolvesIt) {
   const std::string text = R"({"ship": "polaris", // as scenes have it
     "hull": {"draught_m": 8.5}})";
   write_file(folder / "deeper.json", text);
-  const Outcome printed = polynya({"ships", "deeper.json", "--json"}, {folder.path()});
+  const Outcome printed = polynya("ships deeper.json --json", folder);
   ASSERT_EQ(printed.code, 0) << printed.err;
   const auto ship = nlohmann::json::parse(printed.out);
-  const auto scene = io::read_scene("{\"ships\": [" + text + "]}", "scene.json", ".");
-  ASSERT_TRUE(scene);
+  const auto scene = checked(io::read_scene("{\"ships\": [" + text + "]}", "scene.json", "."));
   EXPECT_EQ(ship.at("ship"), nlohmann::json::parse(scene->resolved_text).at("ships").at(0));
   EXPECT_EQ(ship.at("title"), "deeper");
   EXPECT_EQ(ship.at("engine").at("bollard_pull_N"), 2.1e6);
   EXPECT_EQ(ship.at("reported").size(), 2u);
-  const Outcome list = polynya({"ships", "deeper.json"}, {folder.path()});
-  for (const char* line : {"hull.draught_m                                         8.5  given\n",
-                           "hull.beam_m                                             24  polaris\n",
-                           "hull.submersion_speed_factor                   \"lindqvist\"  default\n"})
-    EXPECT_NE(list.out.find(line), std::string::npos) << line << list.out;
+  const Outcome list = polynya("ships deeper.json", folder);
+  EXPECT_HAS(list.out, "hull.draught_m                                         8.5  given\n",
+             "hull.beam_m                                             24  polaris\n",
+             "hull.submersion_speed_factor                   \"lindqvist\"  default\n");
 }
 
-TEST(ShipsCommand, PerformanceNeedsMore) {
-  const TemporaryFolder folder;
-  const std::string outline = R"({"name": "x", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
-    "hull": {"waterline_m": [[60, 0], [30, 12], [-60, 12], [-60, -12], [30, -12]]},
-    "propulsion": {"thrust_N": 1e6}, "mooring": {}})";
-  write_file(folder / "outline.json", outline);
-  EXPECT_EQ(polynya({"ships", "outline.json"}, {folder.path()}).code, 0);
-  const Outcome refused = polynya({"ships", "outline.json", "--for-performance"}, {folder.path()});
-  EXPECT_EQ(refused.code, 3);
-  for (const char* place : {"outline.json:2:29: hull.waterline_m: ", "outline.json:2:13: hull.draught_m: ",
-                            "outline.json:3:19: propulsion.engine: ", "outline.json:3:49: mooring: "})
-    EXPECT_NE(refused.err.find(place), std::string::npos) << refused.err;
-  const Outcome paper = polynya({"ships", "sawamura2017", "--for-performance"}, {folder.path()});
-  EXPECT_EQ(paper.code, 3);
-  EXPECT_EQ(paper.err.find("sawamura2017: "), 0U) << paper.err;
-}
-
-TEST(ShipsCommand, AFileAndANameThatAreNoneAreDistinct) {
+TEST(ShipsCommand, WhatIsNoShipOrNoneForPerformanceIsRefusedWithItsPlace) {
   const TemporaryFolder folder;
   write_file(folder / "scene.json", R"({"ships": []})");
-  const auto refused = [&](const char* name) { return polynya({"ships", name, "--json"}, {folder.path()}); };
-  EXPECT_NE(refused("araoon").err.find("no ship \"araoon\"; did you mean araon?"), std::string::npos);
-  EXPECT_EQ(refused("araoon").code, 2);
-  EXPECT_EQ(refused("nofile.json").err, "polynya: nofile.json: no such file\n");
-  EXPECT_EQ(refused("nofile.json").code, 5);
-  EXPECT_EQ(refused("scene.json").err.find("scene.json:1:1: found a scene, with its \"ships\""), 0U);
-  EXPECT_EQ(refused("scene.json").code, 3);
+  write_file(folder / "outline.json", R"({"name": "x", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
+    "hull": {"waterline_m": [[60, 0], [30, 12], [-60, 12], [-60, -12], [30, -12]]},
+    "propulsion": {"thrust_N": 1e6}, "mooring": {}})");
+  EXPECT_EQ(polynya("ships outline.json", folder).code, 0);
+  const Words outline = "ships outline.json --for-performance";
+  expect_refusals({{outline, 3, "outline.json:2:29: hull.waterline_m: "},
+                   {outline, 3, "outline.json:2:13: hull.draught_m: "},
+                   {outline, 3, "outline.json:3:19: propulsion.engine: "},
+                   {outline, 3, "outline.json:3:49: mooring: "},
+                   {"ships sawamura2017 --for-performance", 3, "sawamura2017: "},
+                   {"ships titanic", 2, "no ship \"titanic\"; there are"},
+                   {"ships araoon --json", 2, "no ship \"araoon\"; did you mean araon?"},
+                   {"ships nofile.json", 5, "polynya: nofile.json: no such file\n"},
+                   {"ships scene.json", 3, "scene.json:1:1: found a scene, with its \"ships\""}},
+                  {folder.path()});
 }
 
 }  // namespace

@@ -13,12 +13,12 @@ class Streams : public testing::Test {
     folder = new TemporaryFolder;
     write_file(folder->path() / "tiny.json", kTinyScene);
     write_file(folder->path() / "floes.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10))\n");
-    ASSERT_EQ(in_folder({"run", "tiny.json", "--out", "good"}).code, 0);
+    ASSERT_EQ(in_folder("run tiny.json --out good").code, 0);
     ASSERT_GT(read_file(folder->path() / "good/events.ndjson").size(), 0U);
   }
   static void TearDownTestSuite() { delete folder; }
   static Outcome in_folder(
-      const std::vector<std::string>& words, std::function<void()> arrange = [] {}) {
+      const Words& words, std::function<void()> arrange = [] {}) {
     const auto arrange_all = [&] {
       setenv("PATH", "/", 1);  // without rsvg-convert, which takes seconds
       arrange();
@@ -29,38 +29,36 @@ class Streams : public testing::Test {
 };
 
 /// Every command that prints to stdout, as a user calls it.
-const std::vector<std::vector<std::string>> kPrinting{
-    {"--help"},
-    {"--version"},
-    {"run", "--help"},
-    {"run", "tiny.json", "--out", "replaced", "--overwrite", "--progress", "none"},
-    {"validate", "tiny.json"},
-    {"validate", "tiny.json", "--resolved"},
-    {"schema"},
-    {"schema", "--markdown"},
-    {"init"},
-    {"man"},
-    {"completion"},
-    {"inspect", "good"},
-    {"inspect", "good", "--check"},
-    {"inspect", "good", "--fsd"},
-    {"inspect", "good", "--floe", "0"},
-    {"inspect", "good", "--lineage", "1"},
-    {"view", "good"},
-    {"channel", "good"},
-    {"export", "good", "--vtk", "vtk"},
-    {"export", "good", "--geojson", "layers"},
-    {"cut", "floes.wkt", "--crack", "5,5,30"},
-    {"cut", "floes.wkt", "--crack", "5,5,30", "--out", "-", "--ledger", "ledger.json"},
-    {"database", "show"},
-    {"database", "query", "--thickness", "1", "--speed", "1", "--wedge-angle", "90", "--hull-angle", "60"}};
+const std::vector<Words> kPrinting{"--help",
+                                   "--version",
+                                   "run --help",
+                                   "run tiny.json --out replaced --overwrite --progress none",
+                                   "validate tiny.json",
+                                   "validate tiny.json --resolved",
+                                   "schema",
+                                   "schema --markdown",
+                                   "init",
+                                   "man",
+                                   "completion",
+                                   "inspect good",
+                                   "inspect good --check",
+                                   "inspect good --fsd",
+                                   "inspect good --floe 0",
+                                   "inspect good --lineage 1",
+                                   "view good",
+                                   "channel good",
+                                   "export good --vtk vtk",
+                                   "export good --geojson layers",
+                                   "cut floes.wkt --crack 5,5,30",
+                                   "cut floes.wkt --crack 5,5,30 --out - --ledger ledger.json",
+                                   "database show",
+                                   "database query --thickness 1 --speed 1 --wedge-angle 90 --hull-angle 60"};
 
 TEST_F(Streams, TextThatAFullDiskRefusesNeverEndsInZero) {
   for (const auto& words : kPrinting) {
     const Outcome outcome = in_folder(words, [] { fill_disk_of(1); });
     EXPECT_EQ(outcome.code, 5) << words.front();
-    EXPECT_NE(outcome.err.find("polynya: stdout: No space left on device"), std::string::npos)
-        << words.front() << ": " << outcome.err;
+    EXPECT_HAS(outcome.err, "polynya: stdout: No space left on device") << words.front() << ": ";
   }
 }
 
@@ -77,18 +75,18 @@ TEST_F(Streams, AClosedPipeIsQuietAndEndsAsShellsReportIt) {
 }
 
 TEST_F(Streams, AClosedStdoutIsReported) {
-  const Outcome outcome = in_folder({"schema"}, [] { close(1); });
+  const Outcome outcome = in_folder("schema", [] { close(1); });
   EXPECT_EQ(outcome.code, 5);
-  EXPECT_NE(outcome.err.find("polynya: stdout: it is closed"), std::string::npos) << outcome.err;
+  EXPECT_HAS(outcome.err, "polynya: stdout: it is closed");
 }
 
 TEST_F(Streams, MessagesThatCannotBeWrittenNeverEndInZero) {
-  const std::vector<std::string> noisy{"cut", "floes.wkt", "--crack", "5,5,30"};
+  const Words noisy = "cut floes.wkt --crack 5,5,30";
   ASSERT_NE(in_folder(noisy).err, "");
   EXPECT_EQ(in_folder(noisy, [] { fill_disk_of(2); }).code, 5);
   EXPECT_EQ(in_folder(noisy, [] { close(2); }).code, 5);
   EXPECT_EQ(in_folder(noisy, [] { close_pipe_behind(2); }).code, 141);
-  EXPECT_EQ(in_folder({"validate", "tiny.json"}, [] { fill_disk_of(2); }).code, 0);  // it has no message
+  EXPECT_EQ(in_folder("validate tiny.json", [] { fill_disk_of(2); }).code, 0);  // it has no message
 }
 
 /// The files of the run would take the descriptors of closed streams, and reports and progress would go
@@ -108,30 +106,26 @@ TEST_F(Streams, WhateverStreamIsClosedARunsFilesHoldTheRun) {
 }
 
 TEST_F(Streams, AClosedStdinIsAnErrorWhereItIsRead) {
-  const Outcome outcome = in_folder({"cut", "-", "--crack", "5,5,30"}, [] { close(0); });
+  const Outcome outcome = in_folder("cut - --crack 5,5,30", [] { close(0); });
   EXPECT_EQ(outcome.code, 5);
-  EXPECT_NE(outcome.err.find("stdin: "), std::string::npos) << outcome.err;
+  EXPECT_HAS(outcome.err, "stdin: ");
 }
 
 /// A named pipe without a writer would be waited for.
 TEST_F(Streams, ANamedPipeIsNoFileToRead) {
   ASSERT_EQ(mkfifo((folder->path() / "in").c_str(), 0600), 0);
   write_file(folder->path() / "of-pipe.json", R"({"floes": [{"file": "in"}]})");
-  for (const std::vector<std::string>& words :
-       std::vector<std::vector<std::string>>{{"validate", "in"},
-                                             {"validate", "of-pipe.json"},
-                                             {"import", "in", "--out", "o.geojson"},
-                                             {"cut", "in", "--crack", "5,5,30"},
-                                             {"database", "show", "in"},
-                                             {"inspect", "in"}}) {
+  for (const Words& words :
+       std::vector<Words>{"validate in", "validate of-pipe.json", "import in --out o.geojson",
+                          "cut in --crack 5,5,30", "database show in", "inspect in"}) {
     const Outcome outcome = in_folder(words);
     EXPECT_GT(outcome.code, 0) << words.front();
-    EXPECT_NE(outcome.err.find("in"), std::string::npos) << outcome.err;
+    EXPECT_HAS(outcome.err, "in");
   }
 }
 
 TEST_F(Streams, APageGoesIntoAPipeADeviceOrALinksTarget) {
-  ASSERT_EQ(in_folder({"view", "good", "--out", "page.html"}).code, 0);
+  ASSERT_EQ(in_folder("view good --out page.html").code, 0);
   const std::string page = read_file(folder->path() / "page.html");
   ASSERT_EQ(mkfifo((folder->path() / "fifo").c_str(), 0600), 0);
   const pid_t reader = fork();
@@ -139,7 +133,7 @@ TEST_F(Streams, APageGoesIntoAPipeADeviceOrALinksTarget) {
     write_file(folder->path() / "read.html", read_file(folder->path() / "fifo"));
     _exit(0);
   }
-  EXPECT_EQ(in_folder({"view", "good", "--out", "fifo"}).code, 0);
+  EXPECT_EQ(in_folder("view good --out fifo").code, 0);
   EXPECT_TRUE(std::filesystem::is_fifo(folder->path() / "fifo"));
   std::filesystem::remove(folder->path() / "fifo");
   waitpid(reader, nullptr, 0);
@@ -150,7 +144,7 @@ TEST_F(Streams, APageGoesIntoAPipeADeviceOrALinksTarget) {
     const auto link = folder->path() / "link.html";
     std::filesystem::remove(link);
     std::filesystem::create_symlink(target, link);
-    EXPECT_EQ(in_folder({"view", "good", "--out", "link.html"}).code, 0);
+    EXPECT_EQ(in_folder("view good --out link.html").code, 0);
     EXPECT_TRUE(std::filesystem::is_symlink(link));
     EXPECT_TRUE(read_file(folder->path() / target) == page) << target;
   }
@@ -158,11 +152,11 @@ TEST_F(Streams, APageGoesIntoAPipeADeviceOrALinksTarget) {
 
 /// The line about the page goes to stderr then; a page that is a file would lose it.
 TEST_F(Streams, APageOnStdoutIsThePageAlone) {
-  ASSERT_EQ(in_folder({"view", "good", "--out", "page.html"}).code, 0);
-  const Outcome outcome = in_folder({"view", "good", "--out", "/dev/stdout"});
+  ASSERT_EQ(in_folder("view good --out page.html").code, 0);
+  const Outcome outcome = in_folder("view good --out /dev/stdout");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_TRUE(outcome.out == read_file(folder->path() / "page.html"));
-  EXPECT_NE(outcome.err.find("open it in a browser"), std::string::npos);
+  EXPECT_HAS(outcome.err, "open it in a browser");
 }
 
 /// A run folder may come from elsewhere: what is linked there is not written to.

@@ -74,9 +74,7 @@ struct Jam {
 Jam jam_of(Random& random, int floes) {
   Jam jam;
   const auto wall = [&](double x, double speed) {
-    NewBody body = floe_body(rectangle(10, 40), {x, 0});
-    body.velocity = {speed, 0};
-    const BodyIndex i = add_body(jam.bodies, body);
+    const BodyIndex i = add_floe(jam.bodies, rectangle(10, 40), {x, 0}, {speed, 0});
     jam.bodies.inverse_mass[i] = jam.bodies.inverse_moment[i] = 0;
   };
   wall(-5, random.between(0, 1));
@@ -164,38 +162,38 @@ TEST_P(ByBothLaws, MomentumIsKeptAndNoEnergyMade) {
   }
 }
 
-TEST_P(ByBothLaws, BodiesThatPartAreLeftAlone) {
+/// Two floes side by side, one of which moves, and their contact.
+struct Pair {
   Bodies bodies;
-  add_body(bodies, floe_body(rectangle(2, 2), {0, 0}));
-  NewBody right = floe_body(rectangle(2, 2), {2, 0});
-  right.velocity = {0.5, 0.1};
-  add_body(bodies, right);
   PersistentContact record;
   std::vector<Contact> contacts{contact_at(0, 1, {1, 0}, {1, 0}, 2, 0.5)};
-  contacts[0].record = &record;
+
+  explicit Pair(Vector velocity) {
+    add_floe(bodies, rectangle(2, 2), {0, 0});
+    add_floe(bodies, rectangle(2, 2), {2, 0}, velocity);
+    contacts[0].record = &record;
+  }
+};
+
+TEST_P(ByBothLaws, BodiesThatPartAreLeftAlone) {
+  Pair pair({0.5, 0.1});
   for (const double force : {1e5, std::numeric_limits<double>::infinity()}) {
-    contacts[0].crushing_force = force;
-    ContactSolver().solve(bodies, contacts, GetParam(), {});
-    EXPECT_EQ(bodies.velocity[0], Vector{});
-    EXPECT_EQ(bodies.velocity[1], (Vector{0.5, 0.1}));
-    EXPECT_EQ(contacts[0].total_normal_impulse(), 0);
+    pair.contacts[0].crushing_force = force;
+    ContactSolver().solve(pair.bodies, pair.contacts, GetParam(), {});
+    EXPECT_EQ(pair.bodies.velocity[0], Vector{});
+    EXPECT_EQ(pair.bodies.velocity[1], (Vector{0.5, 0.1}));
+    EXPECT_EQ(pair.contacts[0].total_normal_impulse(), 0);
   }
 }
 
 /// What does not crush ends its approach, by either law.
 TEST_P(ByBothLaws, RigidBodiesStopEachOtherWhateverTheIceIs) {
-  Bodies bodies;
-  add_body(bodies, floe_body(rectangle(2, 2), {0, 0}));
-  NewBody right = floe_body(rectangle(2, 2), {2, 0});
-  right.velocity = {-1, 0};
-  add_body(bodies, right);
-  PersistentContact record;
-  std::vector<Contact> contacts{contact_at(0, 1, {1, 0}, {1, 0}, 2)};
-  contacts[0].record = &record;
+  Pair pair({-1, 0});
   const auto* law = std::get_if<RestitutionLaw>(&GetParam());
-  EXPECT_TRUE(ContactSolver().solve(bodies, contacts, GetParam(), {}).is_converged());
-  EXPECT_NEAR(parting_speed(bodies, contacts[0], {1, 0}), law != nullptr ? law->restitution : 0, 1e-12);
-  EXPECT_FALSE(contacts[0].is_at_limit);
+  EXPECT_TRUE(ContactSolver().solve(pair.bodies, pair.contacts, GetParam(), {}).is_converged());
+  EXPECT_NEAR(parting_speed(pair.bodies, pair.contacts[0], {1, 0}), law != nullptr ? law->restitution : 0,
+              1e-12);
+  EXPECT_FALSE(pair.contacts[0].is_at_limit);
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
-// Contact manifolds against closed forms and against the exact area of the overlap.
+// Contact manifolds against closed forms and against the exact area of the overlap; and the circles and edges
+// that they are found by.
 #include <algorithm>
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "geometry/contact/boundary.hpp"
 #include "geometry/cut/overlap.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {
@@ -12,7 +15,165 @@ namespace {
 
 using namespace scenery;
 
+// ---- boundaries and what two of them have near each other, against brute force over all edges
+
 constexpr std::uint64_t kSeed = 77;
+
+bool crosses(Point a, Point b, Point c, Point d) {
+  const auto side = [](Point p, Point q, Point r) { return cross(q - p, r - p) > 0; };
+  return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+}
+
+double distance_of_segments(Point a, Point b, Point c, Point d) {
+  if (crosses(a, b, c, d)) return 0;
+  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
+                   distance_to_segment(d, a, b)});
+}
+
+Polygon random_floe(Random& random) {
+  switch (random.below(4)) {
+    case 0:
+      return rectangle(random.between(2, 30), random.between(2, 30));
+    case 1: {  // a plate with a hole
+      Polygon polygon = random_star(random, 12, 9, 15);
+      polygon.holes = {{{-2, -2}, {-3, 4}, {1, 5}, {4, -1}}};
+      return polygon;
+    }
+    case 2:  // many short edges
+      return random_star(random, 80, 8, 9);
+    default:
+      return random_star(random, 4 + random.below(9), 3, 15);
+  }
+}
+
+class RandomFloes : public ::testing::Test {
+ protected:
+  Random random_{kSeed};
+};
+
+TEST_F(RandomFloes, CirclesLieInsideAndTouchTheBoundary) {
+  double worst = 0;
+  int far_off = 0;
+  int all = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Polygon polygon = random_floe(random_);
+    const EdgeList edges = edge_list(polygon);
+    const double radius = random_.between(0.2, 3);
+    for (const ContactCircle& circle :
+         sample_contact_circles(edges, boundary_pieces(edges, radius), radius)) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        nearest = std::min(nearest, distance_to_segment(circle.centre, edges.from(e), edges.to(e)));
+      }
+      ASSERT_GT(circle.radius, 0);
+      ASSERT_LE(circle.radius, radius);
+      ASSERT_TRUE(contains(polygon, circle.centre)) << i;
+      worst = std::max(worst, std::abs(nearest / circle.radius - 1));
+      far_off += std::abs(nearest / circle.radius - 1) > 1e-6;
+      ++all;
+    }
+  }
+  // Deep in the sharpest corners, where circles measure tenths of a millimetre, shrinking stops a little
+  // early.
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_LT(far_off, all / 1000);
+}
+
+TEST_F(RandomFloes, PiecesAndTheirCirclesCoverAllBoundaryOneForEachRadiusOfIt) {
+  for (int i = 0; i < 300; ++i) {
+    const Polygon polygon = random_floe(random_);
+    const EdgeList edges = edge_list(polygon);
+    const double radius = random_.between(0.2, 3);
+    const std::vector<BoundaryPiece> pieces = boundary_pieces(edges, radius);
+    const std::vector<ContactCircle> circles = sample_contact_circles(edges, pieces, radius);
+    ASSERT_EQ(circles.size(), pieces.size());
+    std::vector<std::vector<std::size_t>> of_edge(edges.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      std::uint32_t e = pieces[p].first_edge;
+      double along = 0;
+      for (std::uint32_t k = 0; k < pieces[p].edges; ++k, e = edges.next[e]) {
+        of_edge[e].push_back(p);
+        along += distance(edges.from(e), edges.to(e));
+      }
+      ASSERT_TRUE(pieces[p].edges == 1 || along <= radius * (1 + 1e-12));
+    }
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      for (int k = 0; k <= 50; ++k) {
+        const Point at = edges.from(e) + (k / 50.0) * (edges.to(e) - edges.from(e));
+        const auto covers = [&](Point centre, double reach) {
+          return distance(centre, at) <= reach * (1 + 1e-9);
+        };
+        const bool is_covered = std::any_of(of_edge[e].begin(), of_edge[e].end(), [&](std::size_t p) {
+          return covers(circles[p].centre, circles[p].reach) && covers(pieces[p].middle, pieces[p].reach);
+        });
+        ASSERT_TRUE(is_covered) << "floe " << i << ", edge " << e << " at " << k / 50.0;
+      }
+      ASSERT_GE(static_cast<double>(of_edge[e].size()) * radius,
+                distance(edges.from(e), edges.to(e)) * (1 - 1e-12));
+    }
+    ASSERT_LE(static_cast<double>(pieces.size()),
+              perimeter(polygon) / radius + static_cast<double>(edges.size()));
+  }
+}
+
+TEST_F(RandomFloes, NoEdgesWithinTheMarginAreMissedAndTheBoundIsALowerBound) {
+  int with_near = 0;
+  int apart = 0;
+  std::size_t crossings = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double radius = random_.between(0.3, 2);
+    const Boundary a = make_boundary(random_floe(random_), {radius, i % 3 == 0});
+    const Boundary b = make_boundary(random_floe(random_), {radius, i % 3 == 0});
+    const Pose a_from_b = random_pose(random_, 0, 40);
+    const double margin = i % 2 == 0 ? 0 : random_.between(0, 1);
+    std::vector<NearPair> circle_pairs;
+    NearEdges edges;
+    const double bound = near_circles(a, b, a_from_b, margin, circle_pairs);
+    edges_of(a, b, circle_pairs, edges);
+    const std::vector<NearPair>& edge_pairs = edges.pairs;
+    ASSERT_TRUE(std::is_sorted(edge_pairs.begin(), edge_pairs.end()));
+    ASSERT_TRUE(std::adjacent_find(edge_pairs.begin(), edge_pairs.end()) == edge_pairs.end());
+    const std::set<NearPair> found(edge_pairs.begin(), edge_pairs.end());
+    NearEdges by_distance;
+    ASSERT_TRUE(have_few_edges(a.edges, b.edges));
+    const double bound_by_distance = near_edges(a.edges, b.edges, a_from_b, margin, by_distance);
+    ASSERT_TRUE(std::is_sorted(by_distance.pairs.begin(), by_distance.pairs.end()));
+    const std::set<NearPair> nearest_found(by_distance.pairs.begin(), by_distance.pairs.end());
+    ASSERT_EQ(nearest_found.size(), by_distance.pairs.size());
+
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t eb = 0; eb < b.edges.size(); ++eb) {
+      const Point b0 = transform(a_from_b, b.edges.from(eb));
+      const Point b1 = transform(a_from_b, b.edges.to(eb));
+      for (std::uint32_t ea = 0; ea < a.edges.size(); ++ea) {
+        const double d = distance_of_segments(a.edges.from(ea), a.edges.to(ea), b0, b1);
+        nearest = std::min(nearest, d);
+        crossings += d == 0;
+        if (d > margin * (1 + 1e-12)) {
+          ASSERT_FALSE(nearest_found.contains({ea, eb}));
+        }
+        if (d > margin * (1 - 1e-12)) continue;
+        ASSERT_TRUE(found.contains({ea, eb})) << "pose " << i << ": edges " << d << " m apart";
+        ASSERT_TRUE(nearest_found.contains({ea, eb})) << "pose " << i << ": edges " << d << " m apart";
+      }
+    }
+    with_near += !edge_pairs.empty();
+    apart += edge_pairs.empty();
+    ASSERT_LE(bound, nearest * (1 + 1e-12) + (nearest == 0 ? margin : 0));
+    if (edge_pairs.empty()) {
+      ASSERT_GT(bound, margin);
+    }
+    if (nearest_found.empty()) {
+      ASSERT_GT(bound_by_distance, margin);
+      ASSERT_LE(bound_by_distance, nearest * (1 + 1e-12));
+    }
+  }
+  EXPECT_GT(with_near, 500);
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(crossings, 3000u);
+}
+
+// ---- manifolds
 
 struct Found {
   std::vector<ContactManifold> manifolds;
@@ -67,53 +228,78 @@ TEST(Patch, OfACornerInAFlatEdgeIsItsTriangle) {
   }
 }
 
-TEST(Patch, OfFaceToFaceIsTheSharedStripe) {
-  const Found found = patches_of(wall(), rectangle(10, 8), {{5 - 0.25, 2}, {}});
-  ASSERT_EQ(found.manifolds.size(), 1u);
-  const ContactManifold& manifold = found.manifolds[0];
-  EXPECT_EQ(manifold.normal, (Vector{1, 0}));
-  EXPECT_NEAR(manifold.width, 8, 1e-12);
-  EXPECT_NEAR(manifold.depth, 0.25, 1e-12);
-  EXPECT_NEAR(manifold.area, 2, 1e-12);
-  expect_points(manifold, {0, -2}, {0, 6}, 1e-12);
+struct Form {
+  Polygon a, b;
+  Pose a_from_b;
+  Vector normal;
+  double width, depth, area;
+  Point ends[2];
+};
+
+/// Squares of 10 m shifted by 3 m along the face: the line joins opposite corners of the stripe of 7 × 0.1 m.
+TEST(Patch, OfFacesAndCornersIsThatOfTheClosedForm) {
+  const double d = 0.2, stripe = std::hypot(7, 0.1);
+  const Polygon diamond = shapes::diamond({-5, 0}, 5);
+  for (const Form& form :
+       {Form{wall(), rectangle(10, 8), {{5 - 0.25, 2}, {}}, {1, 0}, 8, 0.25, 2, {{0, -2}, {0, 6}}},
+        Form{rectangle(10, 10, {-5, 0}),
+             rectangle(10, 10),
+             {{5 - 0.1, 3}, {}},
+             {7 / stripe, 0.1 / stripe},
+             stripe,
+             -1,
+             0.7,
+             {{0, -2}, {-0.1, 5}}},
+        Form{diamond,
+             diamond,
+             {{10 - 2 * d, 0}, {}},
+             {1, 0},
+             2 * d,
+             2 * d,
+             2 * d * d,
+             {{5 - d, d}, {5 - d, -d}}}}) {
+    const Found found = patches_of(form.a, form.b, form.a_from_b);
+    ASSERT_EQ(found.manifolds.size(), 1u);
+    const ContactManifold& manifold = found.manifolds[0];
+    EXPECT_NEAR(length(manifold.normal - form.normal), 0, 1e-12);
+    EXPECT_NEAR(manifold.width, form.width, 1e-12);
+    if (form.depth > 0) {
+      EXPECT_NEAR(manifold.depth, form.depth, 1e-12);
+    }
+    EXPECT_NEAR(manifold.area, form.area, 1e-12);
+    expect_points(manifold, form.ends[0], form.ends[1], 1e-12);
+  }
 }
 
-TEST(Patch, OfOffsetFacesStandsBetweenWhereTheBoundariesCross) {
-  // Two squares of 10 m, shifted by 3 m along the face and overlapping by 0.1 m: the line joins opposite
-  // corners of the stripe of 7 × 0.1 m.
-  const Found found = patches_of(rectangle(10, 10, {-5, 0}), rectangle(10, 10), {{5 - 0.1, 3}, {}});
-  ASSERT_EQ(found.manifolds.size(), 1u);
-  const ContactManifold& manifold = found.manifolds[0];
-  EXPECT_NEAR(manifold.width, std::hypot(7, 0.1), 1e-12);
-  EXPECT_NEAR(manifold.area, 0.7, 1e-12);
-  EXPECT_NEAR(manifold.normal.x, 7 / std::hypot(7, 0.1), 1e-12);
-  expect_points(manifold, {0, -2}, {-0.1, 5}, 1e-12);
-}
-
-TEST(Patch, OfCornerToCornerIsTheRhombus) {
-  // Two squares standing on their corners, the corners overlapping by 2 d: a square of diagonal 2 d.
-  const double d = 0.2;
-  const Polygon diamond{{{5, 0}, {0, 5}, {-5, 0}, {0, -5}}, {}};
-  const Found found = patches_of(diamond, diamond, {{10 - 2 * d, 0}, {}});
-  ASSERT_EQ(found.manifolds.size(), 1u);
-  EXPECT_NEAR(found.manifolds[0].normal.x, 1, 1e-12);
-  EXPECT_NEAR(found.manifolds[0].width, 2 * d, 1e-12);
-  EXPECT_NEAR(found.manifolds[0].depth, 2 * d, 1e-12);
-  EXPECT_NEAR(found.manifolds[0].area, 2 * d * d, 1e-12);
-  expect_points(found.manifolds[0], {5 - d, d}, {5 - d, -d}, 1e-12);
-}
-
-TEST(Patch, OfThreeTeethAreThree) {
+TEST(Patch, OfThreeTeethOrTwoProngsAreAsMany) {
   const Polygon teeth{{{0, 3}, {2, 2}, {0, 0}, {2, -2}, {0, -3}, {10, -5}, {10, 5}}, {}};
-  const Found found = patches_of(wall(), teeth, {{-0.1, 0}, {}});
-  ASSERT_EQ(found.manifolds.size(), 3u);
-  for (const ContactManifold& manifold : found.manifolds) EXPECT_NEAR(manifold.normal.x, 1, 1e-12);
+  const Found bites = patches_of(wall(), teeth, {{-0.1, 0}, {}});
+  ASSERT_EQ(bites.manifolds.size(), 3u);
+  for (const ContactManifold& m : bites.manifolds) EXPECT_NEAR(m.normal.x, 1, 1e-12);
+  // A fork whose prongs both go through a plank.
+  const Polygon fork{{{-3, 0}, {3, 0}, {3, 6}, {2, 6}, {2, 1}, {-2, 1}, {-2, 6}, {-3, 6}}, {}};
+  const Found prongs = patches_of(rectangle(20, 1, {0, 4}), fork, {});
+  ASSERT_EQ(prongs.manifolds.size(), 2u);
+  for (const ContactManifold& m : prongs.manifolds) EXPECT_NEAR(m.area, 1, 1e-12);
 }
 
 TEST(Patch, BodiesThatDoNotOverlapHaveNone) {
   EXPECT_TRUE(patches_of(wall(), rectangle(10, 8), {{5 + 1e-12, 2}, {}}).manifolds.empty());
   EXPECT_TRUE(patches_of(rectangle(30, 30), rectangle(4, 4), {{0, 0}, {}}).manifolds.empty())
       << "one inside the other";
+}
+
+/// S by exact arithmetic: what the rule is checked against.
+double exact_area(const Polygon& a, const Polygon& b, const Pose& a_from_b) {
+  const auto shared = overlap({a}, {}, {b}, a_from_b);
+  EXPECT_TRUE(shared.has_value());
+  return shared ? shared->area : 0;
+}
+
+double area_of(const Found& found) {
+  double area = 0;
+  for (const ContactManifold& manifold : found.manifolds) area += manifold.area;
+  return area;
 }
 
 TEST(Patch, OnAGridWhereEverythingTouchesConvexFloesHaveTheirExactOverlap) {
@@ -128,77 +314,47 @@ TEST(Patch, OnAGridWhereEverythingTouchesConvexFloesHaveTheirExactOverlap) {
       for (int y = -5; y <= 9; ++y) {
         const Pose pose{{static_cast<double>(x), static_cast<double>(y)}, quarter};
         const Found found = patches_of(fixed, moving, pose);
-        const auto exact = overlap({fixed}, {}, {moving}, pose);
-        ASSERT_TRUE(exact);
+        const double exact = exact_area(fixed, moving, pose);
         ASSERT_LE(found.manifolds.size(), 1u) << x << ' ' << y << ' ' << turn;
         ++checked;
-        double area = 0;
-        for (const ContactManifold& manifold : found.manifolds) area += manifold.area;
-        const bool is_one_inside_the_other = exact->area == 8.5 && found.manifolds.empty();
-        EXPECT_NEAR(area, is_one_inside_the_other ? 0 : exact->area, 1e-12) << x << ' ' << y << ' ' << turn;
+        const bool is_one_inside_the_other = exact == 8.5 && found.manifolds.empty();
+        EXPECT_NEAR(area_of(found), is_one_inside_the_other ? 0 : exact, 1e-12)
+            << x << ' ' << y << ' ' << turn;
       }
     }
   }
   EXPECT_GT(checked, 900);
 }
 
-// Convex: points of a circle.
-Polygon random_convex(Random& random) {
-  const double radius = random.between(3, 12);
-  return random_star(random, 3 + random.below(9), radius, radius);
-}
-
 class RandomPatches : public ::testing::Test {
  protected:
-  void SetUp() override { RecordProperty("seed", std::to_string(kSeed)); }
+  Polygon jagged() { return random_star(random_, 10, 6, 9); }
+  Polygon any() { return random_star(random_, 4 + random_.below(8), 2, 9); }
+  Polygon convex() {  // points of a circle
+    const double radius = random_.between(3, 12);
+    return random_star(random_, 3 + random_.below(9), radius, radius);
+  }
   Random random_{kSeed};
 };
 
-TEST_F(RandomPatches, OfConvexFloesHaveTheOverlapsExactArea) {
-  int checked = 0;
-  double worst = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const Polygon a = random_convex(random_);
-    const Polygon b = random_convex(random_);
-    const double away = random_.between(8, 24);
-    const double towards = random_.angle();
-    const Pose pose{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+TEST_F(RandomPatches, HaveTheOverlapsExactAreaOfConvexFloesInOne) {
+  int checked[2] = {0, 0};
+  for (int i = 0; i < 8000; ++i) {
+    const bool is_convex = i % 2 == 0;
+    const Polygon a = is_convex ? convex() : jagged(), b = is_convex ? convex() : jagged();
+    const Pose pose = is_convex ? random_pose(random_, 8, 24) : random_pose(random_, 14, 18);
     const Found found = patches_of(a, b, pose);
-    const auto exact = overlap({a}, {}, {b}, pose);
-    ASSERT_TRUE(exact);
-    ASSERT_LE(found.manifolds.size(), 1u) << "convex bodies have one overlap";
-    ASSERT_EQ(found.manifolds.empty(), exact->area == 0) << i;
-    if (found.manifolds.empty()) continue;
-    ++checked;
-    worst = std::max(worst, std::abs(found.manifolds[0].area - exact->area));
-  }
-  std::printf("areas off by up to %.2g m2 over %d overlaps\n", worst, checked);
-  EXPECT_LT(worst, 1e-11);
-  EXPECT_GT(checked, 800);
-}
-
-TEST_F(RandomPatches, OfJaggedFloesSumToTheOverlapsExactArea) {
-  int checked = 0;
-  double worst = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const Polygon a = random_star(random_, 10, 6, 9);
-    const Polygon b = random_star(random_, 10, 6, 9);
-    const double away = random_.between(14, 18);
-    const double towards = random_.angle();
-    const Pose pose{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
-    const Found found = patches_of(a, b, pose);
-    const auto exact = overlap({a}, {}, {b}, pose);
-    ASSERT_TRUE(exact);
+    const double exact = exact_area(a, b, pose);
     ASSERT_EQ(found.left_out, 0);
+    if (is_convex) {
+      ASSERT_EQ(found.manifolds.size(), exact == 0 ? 0u : 1u) << i;
+    }
     if (found.manifolds.empty()) continue;
-    ++checked;
-    double area = 0;
-    for (const ContactManifold& manifold : found.manifolds) area += manifold.area;
-    worst = std::max(worst, std::abs(area - exact->area));
-    ASSERT_LT(worst, 1e-11) << i << " with " << found.manifolds.size() << " manifolds";
+    ++checked[is_convex ? 0 : 1];
+    ASSERT_NEAR(area_of(found), exact, 1e-11) << i << " with " << found.manifolds.size() << " manifolds";
   }
-  std::printf("areas off by up to %.2g m2 over %d overlaps\n", worst, checked);
-  EXPECT_GT(checked, 400);
+  EXPECT_GT(checked[0], 800);
+  EXPECT_GT(checked[1], 400);
 }
 
 Pose moved(Pose pose, Vector by) {
@@ -212,34 +368,23 @@ Pose turned(const Pose& pose, double by) {  // about the origin
   return {transform(turn, pose.position), {x.x, x.y}};
 }
 
-/// S by exact arithmetic: what the rule is checked against.
-double exact_area(const Polygon& a, const Polygon& b, const Pose& a_from_b) {
-  const auto shared = overlap({a}, {}, {b}, a_from_b);
-  EXPECT_TRUE(shared.has_value());
-  return shared ? shared->area : 0;
-}
-
 // The rule's gradient, over all patches of a pair: that of the overlap's area, shallow, deep and pierced.
 TEST_F(RandomPatches, TheirWidthsAndNormalsAreTheGradientOfTheOverlapsArea) {
   constexpr double kStep = 1e-5;  // S is piecewise quadratic: central differences are exact but for corners
   int plain = 0, pierced = 0, corners = 0;
   for (int i = 0; i < 600; ++i) {
-    Polygon a = random_star(random_, 4 + random_.below(8), 2, 9);
-    const Polygon b = random_star(random_, 4 + random_.below(8), 2, 9);
+    Polygon a = any();
+    const Polygon b = any();
     if (i % 3 == 0) a.holes.push_back({{-0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}});
-    const double away = random_.between(0, 16);
-    const double towards = random_.angle();
-    const Pose pose{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+    const Pose pose = random_pose(random_, 0, 16);
     const Found found = patches_of(a, b, pose);
     Vector gradient;
-    double area = 0;
     for (const ContactManifold& m : found.manifolds) {
       gradient -= m.width * m.normal;
-      area += m.area;
       ++(m.is_pierced ? pierced : plain);
     }
     if (!found.manifolds.empty()) {
-      EXPECT_NEAR(area, exact_area(a, b, pose), 1e-9) << i;
+      EXPECT_NEAR(area_of(found), exact_area(a, b, pose), 1e-9) << i;
     }
     const auto slope = [&](Vector by) {
       return (exact_area(a, b, moved(pose, by)) - exact_area(a, b, moved(pose, -by))) / (2 * kStep);
@@ -249,7 +394,6 @@ TEST_F(RandomPatches, TheirWidthsAndNormalsAreTheGradientOfTheOverlapsArea) {
     corners += off > 1e-6;  // a vertex passes an edge within the step
     EXPECT_LT(off, 1e-3) << i;
   }
-  std::printf("%d plain, %d pierced, %d at corners\n", plain, pierced, corners);
   EXPECT_LT(corners, 6);
   EXPECT_GT(plain, 100);
   EXPECT_GT(pierced, 100);
@@ -259,11 +403,8 @@ TEST_F(RandomPatches, ThePiercedOnesTurnAsTheOverlapsAreaDoes) {
   constexpr double kStep = 1e-6;
   int checked = 0, limited = 0;
   for (int i = 0; i < 600; ++i) {
-    const Polygon a = random_star(random_, 4 + random_.below(8), 2, 9);
-    const Polygon b = random_star(random_, 4 + random_.below(8), 2, 9);
-    const double away = random_.between(2, 14);
-    const double towards = random_.angle();
-    const Pose pose{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
+    const Polygon a = any(), b = any();
+    const Pose pose = random_pose(random_, 2, 14);
     const Found found = patches_of(a, b, pose);
     if (found.manifolds.size() != 1 || !found.manifolds[0].is_pierced) continue;
     const ContactManifold& m = found.manifolds[0];
@@ -275,7 +416,6 @@ TEST_F(RandomPatches, ThePiercedOnesTurnAsTheOverlapsAreaDoes) {
     ++(std::abs(here - lever) < 1e-4 ? checked : limited);  // beyond the overlap it is held within
     EXPECT_LE(distance(middle, m.centroid), m.extent);
   }
-  std::printf("%d turn so, %d lines of action lie beyond the overlap\n", checked, limited);
   EXPECT_GT(checked, 50);
   EXPECT_LT(limited, checked / 4);
 }
@@ -310,27 +450,6 @@ TEST(Pierced, AStripThroughAPlankIsBlind) {
   EXPECT_TRUE(is_blind(m.width, m.area, m.extent));
 }
 
-TEST(Pierced, TwoOverlapsOfOnePairStayTwo) {
-  // A fork whose prongs both go through a plank.
-  const Polygon fork{{{-3, 0}, {3, 0}, {3, 6}, {2, 6}, {2, 1}, {-2, 1}, {-2, 6}, {-3, 6}}, {}};
-  const Found found = patches_of(rectangle(20, 1, {0, 4}), fork, {});
-  ASSERT_EQ(found.manifolds.size(), 2u);
-  for (const ContactManifold& m : found.manifolds) EXPECT_NEAR(m.area, 1, 1e-12);
-}
-
-TEST(Pierced, AHoleInTheOverlapIsNoIce) {
-  // A strip over a plate with a hole: once beside the hole's edge, once over all of the hole.
-  Polygon plate = rectangle(30, 10);
-  plate.holes.push_back({{-1, -1}, {-1, 1}, {1, 1}, {1, -1}});
-  for (const double width : {1.5, 4.0}) {
-    const Polygon strip = rectangle(width, 30);
-    const Found found = patches_of(strip, plate, {});
-    double area = 0;
-    for (const ContactManifold& m : found.manifolds) area += m.area;
-    EXPECT_NEAR(area, exact_area(strip, plate, {}), 1e-12) << width;
-  }
-}
-
 TEST(Pierced, WhatIsOneInsideTheOtherIsFoundThough) {
   const auto inside = [](const Polygon& a, const Polygon& b, const Pose& pose) {
     return is_one_inside(make_boundary(a, {1}), make_boundary(b, {1}), pose);
@@ -341,34 +460,6 @@ TEST(Pierced, WhatIsOneInsideTheOtherIsFoundThough) {
   Polygon ring = rectangle(30, 30);
   ring.holes.push_back({{-5, -5}, {-5, 5}, {5, 5}, {5, -5}});
   EXPECT_FALSE(inside(ring, rectangle(4, 4), {{1, 1}, {}})) << "it floats in the hole";
-}
-
-TEST_F(RandomPatches, SwappingTheBodiesFlipsTheNormalAndChangesNothingElse) {
-  int checked = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const Polygon a = random_star(random_, 10, 6, 9);
-    const Polygon b = random_star(random_, 10, 6, 9);
-    const double away = random_.between(14, 18);
-    const double towards = random_.angle();
-    const Pose a_from_b{{away * std::cos(towards), away * std::sin(towards)}, Rotation::by(random_.angle())};
-    const Pose b_from_a = relative_pose(a_from_b, {});
-    std::vector<ContactManifold> ab = patches_of(a, b, a_from_b).manifolds;
-    std::vector<ContactManifold> ba = patches_of(b, a, b_from_a).manifolds;
-    ASSERT_EQ(ab.size(), ba.size()) << i;
-    for (const ContactManifold& manifold : ab) {
-      const auto same = std::find_if(ba.begin(), ba.end(), [&](const ContactManifold& other) {
-        return distance(midpoint(manifold.ends[0], manifold.ends[1]),
-                        transform(a_from_b, midpoint(other.ends[0], other.ends[1]))) < 1e-9;
-      });
-      ASSERT_NE(same, ba.end()) << i;
-      ++checked;
-      EXPECT_NEAR(length(rotate(a_from_b.rotation, same->normal) + manifold.normal), 0, 1e-6);
-      EXPECT_NEAR(same->width, manifold.width, 1e-10);
-      EXPECT_NEAR(same->depth, manifold.depth, 1e-9);
-      EXPECT_NEAR(same->area, manifold.area, 1e-10);
-    }
-  }
-  EXPECT_GT(checked, 500);
 }
 
 TEST_F(RandomPatches, TheCircleRadiusDoesNotMatterToThem) {

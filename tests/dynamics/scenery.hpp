@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "dynamics/bodies.hpp"
+#include "dynamics/contact/broad_phase.hpp"
 #include "dynamics/contact/contact_solver.hpp"
 #include "dynamics/water/water_drag.hpp"
 #include "geometry/exact/measures.hpp"
+#include "tests/shapes.hpp"
 
 namespace polynya::scenery {
 
@@ -34,13 +37,14 @@ class Random {
 };
 
 inline geometry::Polygon rectangle(double width, double height, geometry::Point centre = {}) {
-  const double x = 0.5 * width;
-  const double y = 0.5 * height;
-  return {{{centre.x - x, centre.y - y},
-           {centre.x + x, centre.y - y},
-           {centre.x + x, centre.y + y},
-           {centre.x - x, centre.y + y}},
-          {}};
+  const double x = 0.5 * width, y = 0.5 * height;
+  return shapes::rectangle(centre.x - x, centre.y - y, centre.x + x, centre.y + y);
+}
+
+/// At a distance from the origin, turned.
+inline geometry::Pose random_pose(Random& random, double least, double most) {
+  const double away = random.between(least, most), towards = random.angle();
+  return {{away * std::cos(towards), away * std::sin(towards)}, geometry::Rotation::by(random.angle())};
 }
 
 /// A star-shaped polygon of random radii, usually not convex.
@@ -73,6 +77,26 @@ inline dynamics::NewBody floe_body(const geometry::Polygon& polygon, geometry::P
   return body;
 }
 
+inline dynamics::BodyIndex add_floe(dynamics::Bodies& bodies, const geometry::Polygon& polygon,
+                                    geometry::Point position, geometry::Vector velocity = {},
+                                    double angular_velocity = 0, double angle = 0) {
+  dynamics::NewBody body = floe_body(polygon, position, angle);
+  body.velocity = velocity;
+  body.angular_velocity = angular_velocity;
+  return add_body(bodies, body);
+}
+
+/// One of prescribed motion.
+inline dynamics::BodyIndex add_held(dynamics::Bodies& bodies, const geometry::Polygon& polygon,
+                                    geometry::Point position, geometry::Vector velocity = {},
+                                    double angular_velocity = 0) {
+  dynamics::NewBody body = floe_body(polygon, position);
+  body.is_prescribed = true;
+  body.velocity = velocity;
+  body.angular_velocity = angular_velocity;
+  return add_body(bodies, body);
+}
+
 inline double kinetic_energy(const dynamics::Bodies& bodies) {
   double energy = 0;
   for (dynamics::BodyIndex i = 0; i < bodies.size(); ++i) {
@@ -80,6 +104,10 @@ inline double kinetic_energy(const dynamics::Bodies& bodies) {
               0.5 * bodies.moment[i] * bodies.angular_velocity[i] * bodies.angular_velocity[i];
   }
   return energy;
+}
+
+inline double mass(const dynamics::Bodies& bodies) {
+  return std::accumulate(bodies.mass.begin(), bodies.mass.end(), 0.0);
 }
 
 inline geometry::Vector momentum(const dynamics::Bodies& bodies) {
@@ -104,6 +132,24 @@ inline std::vector<dynamics::BodyIndex> all_of(const dynamics::Bodies& bodies) {
   return all;
 }
 
+/// The contacts of bodies that are all awake.
+class ContactFinder {
+ public:
+  explicit ContactFinder(dynamics::Bodies& bodies) : finder_({}, 20) {
+    for (const dynamics::BodyIndex i : all_of(bodies)) finder_.add(bodies, i);
+    for (const dynamics::BodyIndex i : all_of(bodies)) finder_.wake(bodies, i);
+  }
+  std::vector<dynamics::Contact>& contacts(dynamics::Bodies& bodies, double time_step) {
+    finder_.update(bodies, all_of(bodies));
+    finder_.find_contacts(bodies, time_step, contacts_);
+    return contacts_;
+  }
+
+ private:
+  dynamics::BroadPhase finder_;
+  std::vector<dynamics::Contact> contacts_;
+};
+
 /// A contact over a line of `width` about a point, not limited by crushing.
 inline dynamics::Contact contact_at(dynamics::BodyIndex a, dynamics::BodyIndex b, geometry::Point middle,
                                     geometry::Vector normal, double width = 0, double friction = 0) {
@@ -124,6 +170,14 @@ inline double parting_speed(const dynamics::Bodies& bodies, const dynamics::Cont
   return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) -
                  velocity_at(bodies, c.a, at - bodies.position[c.a]),
              c.normal);
+}
+
+/// Speed of b along a contact's line, as a sees it [m/s].
+inline double slip_speed(const dynamics::Bodies& bodies, const dynamics::Contact& c) {
+  const geometry::Point at = c.middle();
+  return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) -
+                 velocity_at(bodies, c.a, at - bodies.position[c.a]),
+             perpendicular(c.normal));
 }
 
 }  // namespace polynya::scenery

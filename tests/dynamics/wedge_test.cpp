@@ -14,36 +14,34 @@ namespace {
 
 using namespace scenery;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using shapes::kDegree;
 
-TEST(WedgeAngles, OfASquaresCornerAreFortyFiveDegrees) {
-  const EdgeList edges = edge_list(rectangle(10, 10));
-  for (std::uint32_t corner = 0; corner < 4; ++corner) {
-    const Point tip = edges.from(corner);
-    const Vector inward = (Point{} - tip) / length(Point{} - tip);
-    const WedgeAngles angles = wedge_angles(edges, corner, tip, inward, 2.5);
-    EXPECT_NEAR(angles.front, 45 * kDegree, 1e-12) << corner;
-    EXPECT_NEAR(angles.back, 45 * kDegree, 1e-12) << corner;
-  }
+Point towards(double degrees, double distance) {
+  return {distance * std::cos(degrees * kDegree), distance * std::sin(degrees * kDegree)};
 }
 
-TEST(WedgeAngles, OfAStraightEdgeAreRightAngles) {
-  const EdgeList edges = edge_list(rectangle(10, 10));
-  const WedgeAngles angles = wedge_angles(edges, 0, {1, -5}, {0, 1}, 2.5);
-  EXPECT_NEAR(angles.front, 90 * kDegree, 1e-12);
-  EXPECT_NEAR(angles.back, 90 * kDegree, 1e-12);
-}
-
-TEST(WedgeAngles, AreMeasuredFromTheInwardDirection) {
+TEST(WedgeAngles, OfCornersAndEdgesAreMeasuredFromTheInwardDirection) {
+  const Polygon square = rectangle(10, 10);
   // A wedge of 60°, looked at 10° off its bisector: 40° and 20°, the boundary after the tip first.
-  const Polygon wedge{{{0, 0},
-                       {20 * std::cos(-30 * kDegree), 20 * std::sin(-30 * kDegree)},
-                       {20 * std::cos(30 * kDegree), 20 * std::sin(30 * kDegree)}},
-                      {}};
-  const Vector inward{std::cos(10 * kDegree), std::sin(10 * kDegree)};
-  const WedgeAngles angles = wedge_angles(edge_list(wedge), 0, {0, 0}, inward, 3);
-  EXPECT_NEAR(angles.front, 40 * kDegree, 1e-12);
-  EXPECT_NEAR(angles.back, 20 * kDegree, 1e-12);
+  const Polygon wedge{{{0, 0}, towards(-30, 20), towards(30, 20)}, {}};
+  struct Row {
+    Polygon floe;
+    std::uint32_t edge;
+    Point tip;
+    Vector inward;
+    double front, back;
+  };
+  std::vector<Row> rows{{square, 0, {1, -5}, {0, 1}, 90, 90},
+                        {wedge, 0, {0, 0}, towards(10, 1) - Point{}, 40, 20}};
+  for (std::uint32_t corner = 0; corner < 4; ++corner) {
+    const Point tip = square.outer[corner];
+    rows.push_back({square, corner, tip, (Point{} - tip) / length(Point{} - tip), 45, 45});
+  }
+  for (const auto& [floe, edge, tip, inward, front, back] : rows) {
+    const WedgeAngles angles = wedge_angles(edge_list(floe), edge, tip, inward, 2.5);
+    EXPECT_NEAR(angles.front, front * kDegree, 1e-12) << edge;
+    EXPECT_NEAR(angles.back, back * kDegree, 1e-12) << edge;
+  }
 }
 
 TEST(WedgeAngles, OfAJaggedEdgeAreThoseOfWhereItLeads) {
@@ -99,29 +97,43 @@ TEST(WedgeAngles, OfAFloeSmallerThanTheLengthAreFinite) {
   }
 }
 
-TEST(CrackPath, AcrossARectangleIsItsLength) {
+TEST(CrackPath, CountsTheIceAheadAndBeginsAndEndsBeyondTheEdges) {
   const Boundary boundary = make_outline(rectangle(110, 200));
-  const CrackPath path = crack_path(boundary, {-55, 20}, {1, 0}, 1e-3);
-  EXPECT_NEAR(path.length_in_ice, 110, 1e-12);
-  EXPECT_NEAR(distance(path.start, {-55 - 1e-3, 20}), 0, 1e-12);
-  EXPECT_NEAR(distance(path.end, {55 + 1e-3, 20}), 0, 1e-12);
-  const double slant = 0.3;
-  const CrackPath slanted = crack_path(boundary, {-55, 20}, {std::cos(slant), std::sin(slant)}, 1e-3);
-  EXPECT_NEAR(slanted.length_in_ice, 110 / std::cos(slant), 1e-10);
+  struct Row {
+    Point from;
+    double degrees;
+    CrackReach reach;
+    double length, start;
+  };
+  for (const auto& [from, degrees, reach, length, start] :
+       {Row{{-55, 20}, 0, CrackReach::kFarSide, 110, -55},
+        Row{{-55, 20}, 17, CrackReach::kFarSide, 110 / std::cos(17 * kDegree), -55},
+        Row{{-54, 20}, 0, CrackReach::kFarSide, 109, -55},     // from inside
+        Row{{-65, 20}, 0, CrackReach::kFirstEdge, 110, -55},   // from the water before the ice
+        Row{{-65, 20}, 0, CrackReach::kFarSide, 110, -65}}) {  // the paper's
+    const CrackPath path = crack_path(boundary, from, towards(degrees, 1) - Point{}, 1e-3, reach);
+    EXPECT_NEAR(path.length_in_ice, length, 1e-10);
+    if (degrees > 0) continue;
+    EXPECT_NEAR(distance(path.start, {start - 1e-3, 20}), 0, 1e-12);
+    EXPECT_NEAR(distance(path.end, {55 + 1e-3, 20}), 0, 1e-12);
+  }
 }
 
-TEST(CrackPath, FromInsideBeginsBehindThePointAndCountsOnlyWhatIsAhead) {
-  const Boundary boundary = make_outline(rectangle(110, 200));
-  const CrackPath path = crack_path(boundary, {-54, 20}, {1, 0}, 1e-3);
-  EXPECT_NEAR(path.length_in_ice, 109, 1e-12);
-  EXPECT_NEAR(distance(path.start, {-55 - 1e-3, 20}), 0, 1e-12);
-}
-
-TEST(CrackPath, CountsIceOnly) {
+/// A plate of 100 m with a hole of 20 m in its middle.
+Polygon holed_plate() {
   Polygon plate = rectangle(100, 100);
   plate.holes = {{{-10, -10}, {-10, 10}, {10, 10}, {10, -10}}};
-  EXPECT_NEAR(crack_path(make_outline(plate), {-50, 0}, {1, 0}, 1e-3).length_in_ice, 80, 1e-12);
-  EXPECT_NEAR(crack_path(make_outline(plate), {-50, 20}, {1, 0}, 1e-3).length_in_ice, 100, 1e-12);
+  return plate;
+}
+
+TEST(CrackPath, CountsIceOnlyAndOutOfAHolePartsNothing) {
+  const Boundary boundary = make_outline(holed_plate());
+  EXPECT_NEAR(crack_path(boundary, {-50, 0}, {1, 0}, 1e-3).length_in_ice, 80, 1e-12);
+  EXPECT_NEAR(crack_path(boundary, {-50, 20}, {1, 0}, 1e-3).length_in_ice, 100, 1e-12);
+  const CrackPath path = crack_path(boundary, {10.5, 0}, {1, 0}, 1e-3);
+  EXPECT_NEAR(path.length_in_ice, 39.5, 1e-12);
+  EXPECT_EQ(sides_of_crack(boundary, path).left, 0);
+  EXPECT_EQ(sides_of_crack(boundary, path).right, 0);
 }
 
 TEST(CrackPath, CutAlongItAFloeSeparatesWithoutLossOfArea) {
@@ -204,24 +216,6 @@ TEST(CrackPath, ItsWidthIsTwiceTheIceOnItsNarrowerSide) {
   const Boundary holed = make_outline(plate);
   EXPECT_NEAR(crack_width(holed, crack_path(holed, {-55, 0}, {1, 0}, 0), 0.15), 20, 1e-9)
       << "a hole beside it";
-}
-
-TEST(CrackPath, FromTheWaterBeforeTheIceItBeginsAtTheEdgeWhereItRunsToTheFirstEdge) {
-  const Boundary boundary = make_outline(rectangle(110, 200));
-  const CrackPath path = crack_path(boundary, {-65, 20}, {1, 0}, 1e-3, CrackReach::kFirstEdge);
-  EXPECT_NEAR(path.length_in_ice, 110, 1e-12);
-  EXPECT_NEAR(distance(path.start, {-55 - 1e-3, 20}), 0, 1e-12);
-  EXPECT_NEAR(crack_path(boundary, {-65, 20}, {1, 0}, 1e-3).start.x, -65 - 1e-3, 1e-12) << "the paper's";
-}
-
-TEST(CrackPath, OutOfAHolePartsNothing) {
-  Polygon plate = rectangle(100, 100);
-  plate.holes = {{{-10, -10}, {-10, 10}, {10, 10}, {10, -10}}};
-  const Boundary boundary = make_outline(plate);
-  const CrackPath path = crack_path(boundary, {10.5, 0}, {1, 0}, 1e-3);
-  EXPECT_NEAR(path.length_in_ice, 39.5, 1e-12);
-  EXPECT_EQ(sides_of_crack(boundary, path).left, 0);
-  EXPECT_EQ(sides_of_crack(boundary, path).right, 0);
 }
 
 }  // namespace

@@ -9,11 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/fracture/wedge_contact.hpp"
+#include "tests/shapes.hpp"
 
 namespace polynya::fracture {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+using shapes::kDegree;
 
 // The two branches as the paper prints them.
 double printed_area(double tangent_sum, double depth, double thickness, double hull_angle) {
@@ -31,16 +32,6 @@ TEST(CrushedArea, IsThePrintedEquation) {
             << "hull " << angle << " deg, h " << thickness << " m, depth " << depth << " m";
       }
     }
-  }
-}
-
-TEST(CrushedArea, IsTheDifferenceOfPlanOverlapsOverTheSine) {
-  // General form: A_c = [S(ξ) − S(ξ − h tan θ_s)] / sin θ_s, with S(ξ) = T ξ² / 2 for a wedge.
-  const auto overlap = [](double depth) { return depth > 0 ? 1.7 * depth * depth / 2 : 0; };
-  for (const double depth : {0.05, 0.2, 0.4, 0.9, 3.0}) {
-    const double reach = 0.5 * std::tan(38.2 * kDegree);
-    const double expected = (overlap(depth) - overlap(depth - reach)) / std::sin(38.2 * kDegree);
-    EXPECT_NEAR(crushed_area(1.7, depth, 0.5, 38.2 * kDegree), expected, 1e-12);
   }
 }
 
@@ -65,20 +56,6 @@ TEST(CrushedArea, ValueAndSlopeAreContinuousWhereTheBranchesMeet) {
       EXPECT_NEAR(below / expected_slope, 1, width) << degrees;
       EXPECT_NEAR(above / expected_slope, 1, width) << degrees;
     }
-  }
-}
-
-TEST(CrushedArea, TendsToTheVerticalWall) {
-  const double tangent_sum = 2;
-  const double depth = 0.3;
-  const double thickness = 0.5;
-  const double wall = tangent_sum * depth * thickness;
-  EXPECT_EQ(crushed_area(tangent_sum, depth, thickness, 0), wall);
-  // A_c = T h (2ξ − h tan θ) / 2 cos θ: off the wall's by T h² tan θ / 2 to first order.
-  for (double angle = 1e-2; angle > 1e-16; angle /= 10) {
-    const double expected_gap = tangent_sum * thickness * thickness * std::tan(angle) / 2;
-    EXPECT_NEAR(crushed_area(tangent_sum, depth, thickness, angle), wall, 1.01 * expected_gap + 1e-15)
-        << angle;
   }
 }
 
@@ -170,6 +147,98 @@ TEST(CrushingShares, AVerticalWallTakesAllFrictionAlongItself) {
 
 TEST(CrushingForce, IsStrengthTimesArea) {
   EXPECT_DOUBLE_EQ(crushing_force({}, 0.1), 0.28e6);
+}
+
+// ---- overlaps other than wedges, against closed forms
+
+TEST(CrushedOverlapArea, OfAStraightEdgeIsItsFlatForm) {
+  // S = w ξ: A_c = w [ξ − ⟨ξ − h tan θ⟩] / sin θ, the facet's own area once it spans the thickness.
+  for (const double angle : {0.01, 0.67, 1.2}) {
+    for (double depth = 1e-4; depth < 30; depth *= 2.3) {
+      const double reach = 0.5 * std::tan(angle);
+      const double expected = 4 * std::min(depth, reach) / std::sin(angle);
+      EXPECT_NEAR(crushed_overlap_area({4, depth, 4 * depth}, 0.5, angle) / expected, 1, 1e-9);
+      if (depth > reach) {
+        EXPECT_NEAR(expected, 4 * 0.5 / std::cos(angle), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(CrushedOverlapArea, TendsToThicknessTimesContactLineAtAVerticalWall) {
+  // h dS/dξ, reached without a jump: the distance to it shrinks in proportion to the angle, down to rounding.
+  for (const double power : {1.0, 1.5, 2.0, 3.0}) {
+    const double depth = 0.2;
+    const Overlap overlap{3, depth, 3 * depth / power};  // S = c ξ^p: dS/dξ = p S / ξ
+    const double wall = 0.5 * 3;
+    EXPECT_NEAR(crushed_overlap_area(overlap, 0.5, 0), wall, 1e-15);
+    for (double angle = 0.03; angle > 1e-14; angle /= 3) {
+      EXPECT_NEAR(crushed_overlap_area(overlap, 0.5, angle) / wall, 1, 3 * angle * 0.5 / depth + 1e-9)
+          << angle;
+    }
+  }
+}
+
+TEST(CrushedOverlapArea, IsContinuousInAngleDepthAndShape) {
+  for (double angle = 0; angle < 1.5; angle += 1e-3) {
+    for (const double power : {1.0, 1.7, 2.0}) {
+      for (const double depth : {0.01, 0.3, 2.0}) {
+        const auto area = [&](double d, double a) {
+          return crushed_overlap_area({2, d, 2 * d / power}, 0.5, a);
+        };
+        const double here = area(depth, angle);
+        EXPECT_NEAR(area(depth, angle + 1e-9) / here, 1, 1e-4);
+        EXPECT_NEAR(area(depth * (1 + 1e-9), angle) / here, 1, 1e-4);
+      }
+    }
+  }
+}
+
+TEST(CrushedReceding, OfAWedgeIsTheRootOfAQuadratic) {
+  // A_c = a ξ²: ξ + r a ξ² = d.
+  const double angle = 0.9;
+  const Overlap overlap{1.2, 0.3, 0.5 * 1.2 * 0.3};
+  const double a = 0.5 * (1.2 / 0.3) / std::sin(angle);
+  for (const double recession : {0.01, 1.0, 30.0}) {
+    const RecedingCrush found = crushed_receding(overlap, 0.3, 5, angle, recession);
+    const double root = (std::sqrt(1 + 4 * recession * a * 0.3) - 1) / (2 * recession * a);
+    EXPECT_NEAR(found.penetration / root, 1, 1e-9) << recession;
+    EXPECT_NEAR(found.crushed.area / (a * root * root), 1, 1e-9);
+    EXPECT_NEAR(found.crushed.slope / (2 * a * root / (1 + 2 * recession * a * root)), 1, 1e-9);
+  }
+}
+
+TEST(CrushedReceding, DividesTheDepthAlsoWhereTheFacetSpansTheThickness) {
+  for (const double power : {1.0, 1.5, 2.0, 3.0}) {
+    const Overlap overlap{2, 0.4, 2 * 0.4 / power};
+    for (const double angle : {0.2, 0.5, 1.0}) {
+      for (const double recession : {0.003, 0.2, 5.0}) {
+        const auto at = [&](double depth) { return crushed_receding(overlap, depth, 0.5, angle, recession); };
+        const RecedingCrush found = at(0.45);
+        EXPECT_NEAR(found.penetration + recession * found.crushed.area, 0.45, 1e-11);
+        EXPECT_LT(found.penetration, 0.45);
+        EXPECT_LE(found.crushed.area, crushed_overlap_at(overlap, 0.45, 0.5, angle).area * (1 + 1e-12));
+        const double step = 1e-5;
+        const double slope = (at(0.45 + step).crushed.area - at(0.45 - step).crushed.area) / (2 * step);
+        EXPECT_NEAR(found.crushed.slope, slope, 1e-4 * slope + 1e-9);
+      }
+    }
+  }
+}
+
+TEST(CrushedReceding, WithoutRecessionIsThePlainOverlap) {
+  const Overlap overlap{2, 0.4, 0.4};
+  const RecedingCrush found = crushed_receding(overlap, 0.5, 0.5, 0.6, 0);
+  const CrushedArea plain = crushed_overlap_at(overlap, 0.5, 0.5, 0.6);
+  EXPECT_EQ(found.penetration, 0.5);
+  EXPECT_EQ(found.crushed.area, plain.area);
+  EXPECT_EQ(found.crushed.slope, plain.slope);
+}
+
+TEST(CrushedOverlapArea, OfNothingIsNothing) {
+  EXPECT_EQ(crushed_overlap_area({0, 0, 0}, 0.5, 0.5), 0);
+  EXPECT_EQ(crushed_overlap_area({1, 0, 0}, 0.5, 0), 0);
+  EXPECT_EQ(crushed_overlap_area({1, 0.1, 0}, 0.5, 0), 0);
 }
 
 }  // namespace

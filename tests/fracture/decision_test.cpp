@@ -1,7 +1,12 @@
-// Section 8 of docs/theory.md as a truth table.
+// Section 8 of docs/theory.md as a truth table; and the lengths and loads that decide, by hand.
 #include "fracture/decision.hpp"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
+
+#include "fracture/characteristic_length.hpp"
+#include "fracture/tilting.hpp"
 
 namespace polynya::fracture {
 namespace {
@@ -54,6 +59,79 @@ TEST(Decision, IceThatIsNotPressedDownNeverBendsHoweverWeak) {
   criteria.vertical_force = 0;
   criteria.bending_capacity = 0;
   EXPECT_EQ(decide(criteria), Failure::kCrush);
+}
+
+// ---- the plate's length scale
+
+TEST(CharacteristicLength, IsTheFourthRootOfRigidityOverFoundation) {
+  const Ice ice;
+  const Water water;
+  const double l = characteristic_length(ice, water);
+  EXPECT_NEAR(l, 8.909, 5e-4);
+  EXPECT_NEAR(flexural_rigidity(ice) / (water.density * kGravity * std::pow(l, 4)), 1, 1e-14);
+}
+
+TEST(CharacteristicLength, AsPrintedIsItsSquare) {
+  EXPECT_NEAR(breakable_length(Ice{}, {}, CharacteristicLength::kAsPrinted), 79.4, 0.05);
+  EXPECT_NEAR(breakable_length(Ice{}, {}, CharacteristicLength::kFourthRoot), 8.909, 5e-4);
+}
+
+TEST(CharacteristicLength, GrowsWithThicknessToTheThreeQuarters) {
+  Ice thick;
+  thick.thickness *= 16;
+  EXPECT_NEAR(characteristic_length(thick, {}) / characteristic_length(Ice{}, {}), 8, 1e-12);
+  Ice stiff;
+  stiff.youngs_modulus *= 16;
+  EXPECT_NEAR(characteristic_length(stiff, {}) / characteristic_length(Ice{}, {}), 2, 1e-12);
+}
+
+// ---- a floe whose edge an inclined hull presses down
+
+constexpr double kArea = 225;  // of a floe of 15 m
+
+const TiltResistance kResistance = tilt_resistance({.thickness = 0.5}, {}, kArea, 1);
+
+TEST(Tilting, TheResistanceOfTheReferenceFloeIsAsDerivedByHand) {
+  EXPECT_NEAR(kResistance.capacity / (1000 * 9.81 * 0.5 * kArea), 0.0487, 5e-5);
+  EXPECT_NEAR(kResistance.mass, 227e3, 1e3);
+  EXPECT_NEAR(0.5 * std::numbers::pi / std::sqrt(kResistance.stiffness / kResistance.mass), 1.0, 0.02)
+      << "a quarter period of 1 s";
+}
+
+TEST(Tilting, AStaticLoadPressesTheEdgeDownByItsShareOfTheStiffness) {
+  const double load = 0.5 * kResistance.capacity;
+  EdgeMotion edge;
+  for (int i = 0; i < 40000; ++i) edge = tilted(kResistance, edge, load, 0.3, 0.005);
+  EXPECT_NEAR(edge.deflection, load / kResistance.stiffness, 1e-9);
+  EXPECT_NEAR(edge.rate, 0, 1e-9);
+  for (int i = 0; i < 40000; ++i) edge = tilted(kResistance, edge, 0, 0.3, 0.005);
+  EXPECT_NEAR(edge.deflection, 0, 1e-9) << "and without it the floe floats as before";
+}
+
+TEST(Tilting, ALoadAboveTheCapacityPressesItDownWithoutEnd) {
+  EdgeMotion edge;
+  for (int i = 0; i < 4000; ++i) edge = tilted(kResistance, edge, 1.1 * kResistance.capacity, 0.3, 0.005);
+  EXPECT_GT(edge.deflection, 0.9 * 0.5);
+}
+
+TEST(Tilting, WithoutDampingItSwingsAsAnOscillatorDoes) {
+  const double frequency = std::sqrt(kResistance.stiffness / kResistance.mass);
+  const double load = 0.2 * kResistance.capacity;
+  const double dt = 1e-4;
+  EdgeMotion edge;
+  for (int i = 1; i <= 10000; ++i) {
+    edge = tilted(kResistance, edge, load, 0, dt);
+    const double expected = load / kResistance.stiffness * (1 - std::cos(frequency * i * dt));
+    ASSERT_NEAR(edge.deflection, expected, 1e-3 * load / kResistance.stiffness) << i * dt;
+  }
+}
+
+TEST(Tilting, TheMostAContactTransmitsMakesTheEdgeAsFastAsTheHullSlidesIt) {
+  const EdgeMotion edge{0.1, 0.05};
+  const double most = most_vertical_force(kResistance, edge, 0.4, 0.005);
+  EXPECT_NEAR(tilted(kResistance, edge, most, 0, 0.005).rate, 0.4, 1e-12);
+  EXPECT_EQ(most_vertical_force(kResistance, {0.1, 0.5}, 0.4, 0.005), kResistance.at(0.1))
+      << "an edge that is faster than the hull presses it down is held by its weight alone";
 }
 
 }  // namespace

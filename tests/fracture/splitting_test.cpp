@@ -8,13 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "fracture/opening.hpp"
+#include "tests/shapes.hpp"
 
 namespace polynya::fracture {
 namespace {
 
 using geometry::Vector;
 
-constexpr double kDegree = std::numbers::pi / 180;
+using shapes::kDegree;
 
 TEST(Splitting, ThePapersPlateNeedsElevenMeganewtons) {
   EXPECT_NEAR(michel_splitting_force(Ice{}, 110, 0.25), 11e6, 1e-3);

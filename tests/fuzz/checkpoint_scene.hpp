@@ -13,7 +13,7 @@ inline simulation::Scene checkpoint_scene() {
   scene.fracture.cusp_fate = simulation::CuspFate::kUnderHull;
   scene.fracture.going_under.is_enabled = true;
   scene.fracture.resurface.is_enabled = true;
-  simulation::ShipSpec ship;
+  simulation::Ship ship;
   ship.name = "ship";
   ship.hull.waterline = simulation::wedge_bow_waterline(30, 8, 0.5);
   ship.hull.draught = 3;

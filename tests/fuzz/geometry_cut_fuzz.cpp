@@ -18,25 +18,20 @@ using namespace polynya::geometry;
 using trials::Dice;
 using trials::Knife;
 
-void require(const testing::AssertionResult& result, const Shape& shape, const Knife& knife) {
+template <class Knives>
+void require(const testing::AssertionResult& result, const Shape& shape, const Knives& knives) {
   if (result) return;
-  std::fprintf(stderr, "%s\n%s\n%s %s\n", result.message(), trials::to_code(shape.polygon).c_str(),
-               knife.is_ring ? "ring" : "crack", trials::to_code(knife.points).c_str());
+  std::fprintf(stderr, "%s\n%s%s\n", result.message(), trials::to_code(shape.polygon).c_str(),
+               trials::to_code(knives).c_str());
   std::abort();
 }
 
 CutOutcome cut_and_check(const Shape& shape, const Knife& knife) {
-  CutOutcome outcome =
-      knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
+  CutOutcome outcome = trials::cut(shape, knife);
   require(trials::is_sound(shape, outcome), shape, knife);
   const bool was_tried = outcome || outcome.error().reason == CutFailure::kMisses ||
                          outcome.error().reason == CutFailure::kDoesNotSeparate;
-  if (!was_tried) return outcome;
-  const exact::Polygon exact_shape = exact::exactly(shape.polygon);
-  require(
-      trials::are_equal(outcome, knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
-                                               : cut_along_generally(exact_shape, knife.points)),
-      shape, knife);
+  if (was_tried) require(trials::are_equal(outcome, trials::cut_generally(shape, knife)), shape, knife);
   return outcome;
 }
 
@@ -46,12 +41,8 @@ void cut_by_many_and_check(Dice& dice, const Shape& shape) {
   if (!knives.is_crack && knives.polygons.empty()) return;
   const CutOutcome outcome = trials::cut(shape, knives);
   if (!outcome && outcome.error().reason == CutFailure::kInvalidTool) return;
-  testing::AssertionResult held = trials::is_sound(shape, outcome);
-  if (held) held = trials::are_equal(outcome, trials::cut_generally(shape, knives));
-  if (held) return;
-  std::fprintf(stderr, "%s\n%s%s\n", held.message(), trials::to_code(shape.polygon).c_str(),
-               trials::to_code(knives).c_str());
-  std::abort();
+  require(trials::is_sound(shape, outcome), shape, knives);
+  require(trials::are_equal(outcome, trials::cut_generally(shape, knives)), shape, knives);
 }
 
 // A shape that is said to be valid and is not: any answer will do, but there must be one.

@@ -1,5 +1,8 @@
-// Every hazard that is known to break floe cutters, met on purpose.
+// Every hazard that is known to break floe cutters, met on purpose; and long trials. POLYNYA_ENDURANCE_CUTS
+// sets how many cuts follow each other, POLYNYA_LONG_OUTLINES makes outlines longer (ctest -L endurance).
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -8,24 +11,22 @@
 
 #include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/cut/repair.hpp"
+#include "geometry/exact/internal/predicates.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
-#include "tests/geometry/dice.hpp"
+#include "tests/dynamics/scenery.hpp"
 #include "tests/geometry/trials.hpp"
+#include "tests/shapes.hpp"
 
 namespace polynya::geometry {
 namespace {
 
+using trials::are_equal;
 using trials::exact_area;
 using trials::is_sound;
 
 const Ring kSquare{{0, 0}, {6, 0}, {6, 6}, {0, 6}};
-
-Ring moved(Ring ring, const Pose& pose) {
-  for (Point& p : ring) p = transform(pose, p);
-  return ring;
-}
 
 // 6250 second cuts on degenerate first results made 33 wrong areas and 5 crashes where invalid roundings were
 // trusted.
@@ -36,41 +37,33 @@ void cut_degenerate_floes_again(const Pose& pose, unsigned seed, int first_cuts)
     Ring ring;
     const int corners = 3 + static_cast<int>(random() % 3);
     for (int i = 0; i < corners; ++i) ring.push_back({coordinate(), coordinate()});
-    return moved(ring, pose);
+    return transform(pose, ring);
   };
   int cuts = 0;
-  int snap_rounded = 0;
   for (int i = 0; i < first_cuts && !testing::Test::HasFailure(); ++i) {
-    std::vector<Shape> generation{Shape{{moved(kSquare, pose), {}}}};
+    std::vector<Shape> generation{Shape{{transform(pose, kSquare), {}}}};
     for (int depth = 0; depth < 3; ++depth) {
       std::vector<Shape> next;
       for (const Shape& shape : generation) {
-        const Ring ring = knife();
-        const bool as_crack = random() % 2 == 0;
-        const CutOutcome outcome =
-            as_crack ? cut_along(shape, ring) : cut_by_polygon(shape, normalised({ring, {}}));
-        ASSERT_TRUE(is_sound(shape, outcome)) << trials::to_code(shape.polygon) << "\n"
-                                              << trials::to_code(ring);
+        trials::Knife by{random() % 2 == 0, knife()};
+        if (by.is_ring) by.points = normalised({by.points, {}}).outer;
+        const CutOutcome outcome = trials::cut(shape, by);
+        ASSERT_TRUE(is_sound(shape, outcome)) << trials::to_code(shape.polygon) << trials::to_code(by);
         if (!outcome) {
           next.push_back(shape);
           continue;
         }
         ++cuts;
-        snap_rounded += outcome->ledger.snap_rounded;
         for (const Piece& piece : outcome->pieces) next.push_back(piece.shape);
       }
       generation = std::move(next);
     }
   }
   EXPECT_GT(cuts, 2 * first_cuts);
-  testing::Test::RecordProperty("cuts", cuts);
-  testing::Test::RecordProperty("snap_rounded", snap_rounded);
 }
 
-TEST(Hazards, DegenerateCutsOnAGrid) {
+TEST(Hazards, DegenerateCutsOnAGridAndMovedRigidlyInDoubles) {
   cut_degenerate_floes_again({}, 21, 250);
-}
-TEST(Hazards, DegenerateCutsMovedRigidlyInDoubles) {
   cut_degenerate_floes_again({{11.3, -4.7}, Rotation::by(0.61)}, 22, 250);
 }
 
@@ -87,32 +80,11 @@ TEST(Hazards, PinchAtTheLeftmostVertex) {
   EXPECT_EQ(outcome->pieces.size(), 2u);
 }
 
-// A valid polygon whose hole touches the shell's interior fails CGAL's own test and can crash a release
-// build.
-TEST(Hazards, HoleTouchingTheShellsInterior) {
-  const Shape shape{{kSquare, {{{0, 3}, {2, 4}, {2, 2}}}}};
-  ASSERT_FALSE(find_defect(shape.polygon));
-  std::mt19937 random(23);
-  std::uniform_real_distribution<double> place(-1, 7);
-  for (int i = 0; i < 150; ++i) {
-    const Ring crack = i % 3 == 0 ? Ring{{-1, 3}, {7, static_cast<double>(i % 7)}}
-                                  : Ring{{place(random), place(random)}, {place(random), place(random)}};
-    ASSERT_TRUE(is_sound(shape, cut_along(shape, crack)));
-    const Point centre = i % 3 == 0 ? Point{0, 3} : Point{place(random), place(random)};
-    ASSERT_TRUE(is_sound(shape, cut_by_polygon(shape, {disc_polygon(centre, 1.3, 0.05), {}})));
-  }
-}
-
 // Lazy sums overflow the stack at 50 000 vertices: ours are rationals, summed in pairs.
 TEST(Hazards, FiftyThousandVerticesOnTheGeneralPath) {
-  Ring ring;
-  constexpr int kVertices = 50000;
-  for (int i = 0; i < kVertices; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kVertices;
-    const double radius = 100 + (i % 2);
-    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-  }
-  const Shape shape{{ring, {}}};
+  Shape shape{shapes::regular(50000, 100)};
+  for (std::size_t i = 1; i < 50000; i += 2)
+    shape.polygon.outer[i] = Point{} + 1.01 * (shape.polygon.outer[i] - Point{});
   ASSERT_FALSE(find_defect(shape.polygon));
   const CutOutcome outcome =
       cut_by_polygons_generally(exact::exactly(shape.polygon), {{disc_polygon({100, 3}, 5, 0.01), {}}});
@@ -124,7 +96,7 @@ TEST(Hazards, FiftyThousandVerticesOnTheGeneralPath) {
 TEST(Hazards, NearCollinearCracks) {
   std::mt19937 random(24);
   const Pose pose{{3, 1}, Rotation::by(0.3)};
-  const Shape shape{{moved(kSquare, pose), {}}};
+  const Shape shape{{transform(pose, kSquare), {}}};
   const Ring& ring = shape.polygon.outer;
   const auto nudge = [&](Point p) {
     const auto step = [&](double v) {
@@ -141,32 +113,6 @@ TEST(Hazards, NearCollinearCracks) {
     const double before = i % 3 == 0 ? 0 : 0.3;
     ASSERT_TRUE(is_sound(shape, cut_along(shape, {nudge(a - before * along), nudge(b + before * along)})));
   }
-}
-
-// Boost.Geometry drifts by 1e-2 m² in 1000 splits. Here the sum of all floes differs by what the ledgers say,
-// exactly.
-TEST(Hazards, AThousandSplitsDoNotDrift) {
-  std::mt19937 random(25);
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<Shape> floes{Shape{{{{0, 0}, {110, 0}, {110, 200}, {0, 200}}, {}}}};
-  double itemised = 0;
-  int splits = 0;
-  for (; splits < 1000;) {
-    const auto i = random() % floes.size();
-    const Measures m = measure(floes[i].polygon);
-    const double angle = std::numbers::pi * unit(random);
-    const Vector far{300 * std::cos(angle), 300 * std::sin(angle)};
-    const CutOutcome outcome = cut_along(floes[i], {m.centroid - far, m.centroid + far});
-    ASSERT_TRUE(outcome.has_value()) << outcome.error().detail;
-    itemised += outcome->ledger.rounding_defect - outcome->ledger.area_slivers;
-    floes[i] = outcome->pieces[0].shape;
-    for (std::size_t p = 1; p < outcome->pieces.size(); ++p) floes.push_back(outcome->pieces[p].shape);
-    ++splits;
-  }
-  exact::Rational sum = 0;
-  for (const Shape& floe : floes) sum += exact_area(floe);
-  EXPECT_NEAR(exact::Rational(sum - 22000).get_d(), itemised, 1e-24);
-  EXPECT_LT(std::abs(itemised), 1e-9);
 }
 
 // What CGAL or the arithmetic refuses is a value, whatever is fed past the checks.
@@ -199,6 +145,198 @@ TEST(Hazards, HugeCoordinatesAreRefusedByName) {
   const CutOutcome by_huge_tool = cut_along(Shape{{kSquare, {}}}, {{-1, 1}, {1e200, 1}});
   ASSERT_FALSE(by_huge_tool);
   EXPECT_EQ(by_huge_tool.error().reason, CutFailure::kInvalidTool);
+}
+
+// ---- floes as images of ice show them: outlines with bays, necks and ponds, thousands of vertices long
+
+/// The largest of what a crowd of discs covers, with its ponds, about its middle.
+Polygon ragged_floe(int size, unsigned seed) {
+  scenery::Random random(seed);
+  const double largest = 0.06 * std::sqrt(60.0 * size);
+  std::vector<Ring> discs;
+  for (int i = 0; i < 4 * size; ++i) {
+    const Point at = transform(scenery::random_pose(random, 0, 0.45 * size), Point{});
+    discs.push_back(disc_polygon(at, random.between(0.17, 1) * largest, largest / 300));
+  }
+  const std::vector<Shape> floes = repair(discs, FillRule::kNonZero)->shapes;
+  return std::ranges::max(floes, {}, [](const Shape& s) { return vertex_count(s.polygon); }).polygon;
+}
+
+class Outlines : public testing::TestWithParam<unsigned> {};
+
+// Cut after cut into the largest piece, by everything: straight and wandering cracks, discs, several discs at
+// once, and other floes.
+TEST_P(Outlines, AreCutSoundly) {
+  const unsigned seed = GetParam();
+  const bool is_long = std::getenv("POLYNYA_LONG_OUTLINES") != nullptr;
+  const int cells = is_long ? 200 + 100 * static_cast<int>(seed % 4) : 60 + 20 * static_cast<int>(seed % 3);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-0.45 * cells, 0.45 * cells);
+  const auto point = [&] { return Point{place(random), place(random)}; };
+  const Shape whole{ragged_floe(cells, seed)};
+  Shape shape = whole;
+  ASSERT_FALSE(find_defect(shape.polygon));
+  ASSERT_GT(vertex_count(shape.polygon), 500u);
+  ASSERT_GT(shape.polygon.holes.size(), 2u) << "ponds";
+  int cuts = 0;
+  const int rounds = is_long ? 60 : 18;
+  for (int i = 0; i < rounds && !HasFailure(); ++i) {
+    if (i % 6 == 0) shape = whole;
+    trials::ManyKnives knives;
+    switch ((i + i / 6) % 6) {
+      case 0:
+        knives.is_crack = true;
+        knives.crack = {{-cells * 1.0, place(random)}, {cells * 1.0, place(random)}};
+        break;
+      case 1:
+        knives.is_crack = true;
+        for (int k = 0; k < 30; ++k) knives.crack.push_back(point());
+        break;
+      case 2:
+        knives.polygons = {{disc_polygon(shape.polygon.outer.front(), 0.05 * cells, 0.001 * cells), {}}};
+        break;
+      case 3:
+        for (int k = 0; k < 6; ++k)
+          knives.polygons.push_back({disc_polygon(point(), 0.06 * cells, 0.002 * cells), {}});
+        break;
+      case 4:
+        knives.polygons = {ragged_floe(cells / 2, 1000 + seed + static_cast<unsigned>(i))};
+        break;
+      default: {  // a polygon over the floe's own vertices
+        const Ring& ring = shape.polygon.outer;
+        const auto vertex = [&] { return ring[random() % ring.size()]; };
+        Ring triangle{vertex(), vertex(), vertex()};
+        if (area_sign(triangle) < 0) std::reverse(triangle.begin(), triangle.end());
+        if (area_sign(triangle) == 0) continue;
+        knives.polygons = {{triangle, {}}};
+      }
+    }
+    const CutOutcome outcome = trials::cut(shape, knives);
+    ASSERT_TRUE(is_sound(shape, outcome)) << "round " << i;
+    if (i % 5 == 1) {
+      ASSERT_TRUE(are_equal(outcome, trials::cut_generally(shape, knives)));
+    }
+    if (!outcome) continue;
+    ++cuts;
+    const auto largest =
+        std::max_element(outcome->pieces.begin(), outcome->pieces.end(), [](const Piece& a, const Piece& b) {
+          return vertex_count(a.shape.polygon) < vertex_count(b.shape.polygon);
+        });
+    shape = largest->shape;
+  }
+  EXPECT_GT(2 * cuts, rounds);
+}
+
+INSTANTIATE_TEST_SUITE_P(Discs, Outlines, testing::Range(1u, 7u));
+
+// ---- many successive cuts on one plate's descendants
+
+constexpr double kBrash = 1e-7;  // pieces below this area leave the trial [m²]
+
+struct Floe {
+  Shape shape;
+  Pose world_from_body;
+};
+
+class Trial {
+ public:
+  explicit Trial(unsigned seed) : random_(seed) {
+    floes_.push_back({Shape{{{{0, 0}, {110, 0}, {110, 200}, {0, 200}}, {}}}, {}});
+    initial_ = exact_area(floes_.front().shape);
+  }
+
+  // One cut of one floe in a new pose, with all that must hold of it.
+  void step() {
+    const std::size_t i = pick();
+    Floe floe = floes_[i];
+    floe.world_from_body = {{1000 * unit(), 1000 * unit()}, Rotation::by(2 * std::numbers::pi * unit())};
+    const CutOutcome outcome = cut(floe);
+    ASSERT_TRUE(is_sound(floe.shape, outcome)) << trials::to_code(floe.shape.polygon);
+    if (!outcome) {
+      ++refused_;
+      return;
+    }
+    ++cuts_;
+    snap_rounded_ += outcome->ledger.snap_rounded;
+    itemised_ += exact::Rational(outcome->ledger.rounding_defect);
+    slivers_ += outcome->ledger.area_slivers;
+    floes_[i] = std::move(floes_.back());
+    floes_.pop_back();
+    for (const Piece& piece : outcome->pieces) {
+      if (measure(piece.shape.polygon).area < kBrash)
+        brash_ += exact_area(piece.shape);
+      else
+        floes_.push_back({piece.shape, floe.world_from_body});
+    }
+  }
+
+  void finish() const {
+    std::printf("%d cuts, %d refused, %zu floes, %d snap-rounded, slivers %.3g m²\n", cuts_, refused_,
+                floes_.size(), snap_rounded_, slivers_);
+    EXPECT_GT(cuts_, 1000);
+    exact::Rational sum = brash_ - initial_ - itemised_;
+    for (const Floe& floe : floes_) sum += exact_area(floe.shape);
+    // Each cut's defect is known to the nearest double of some 1e-15 m².
+    EXPECT_LT(std::abs(sum.get_d() + slivers_), 1e-28 * cuts_ + 1e-14 * slivers_);
+  }
+
+ private:
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+
+  // The largest of a few: floes stay worth cutting, and one keeps its edges of many generations.
+  std::size_t pick() {
+    std::size_t best = random_() % floes_.size();
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t other = random_() % floes_.size();
+      if (floes_[other].shape.polygon.outer.size() > floes_[best].shape.polygon.outer.size()) best = other;
+    }
+    return best;
+  }
+
+  Point to_body(const Floe& floe, Point in_world) {
+    return inverse_transform(floe.world_from_body, in_world);
+  }
+
+  CutOutcome cut(const Floe& floe) {
+    const Ring& ring = floe.shape.polygon.outer;
+    const Point vertex = ring[random_() % ring.size()];
+    const double size = std::sqrt(std::abs(signed_area(ring)));
+    const auto kind = random_() % 10;
+    if (kind == 0)
+      return cut_along(floe.shape, {vertex, ring[random_() % ring.size()]});  // in the body: vertex to vertex
+    if (kind == 1) return cut_by_polygon(floe.shape, {disc_polygon(vertex, 0.2 * size, 0.01 * size), {}});
+    const Point in_world = transform(floe.world_from_body, vertex);
+    const double angle = 2 * std::numbers::pi * unit();
+    const Vector direction{std::cos(angle), std::sin(angle)};
+    if (kind < 5) {
+      const double reach = 4 * size + 50 * unit();
+      const Point aim = in_world + 0.3 * size * direction;
+      return cut_along(floe.shape,
+                       {to_body(floe, aim - reach * direction), to_body(floe, aim + reach * direction)});
+    }
+    const Point centre = in_world + (0.1 * size * unit()) * direction;
+    Ring cusp = disc_polygon(centre, size * (0.02 + 0.25 * unit()), 0.004 * size);
+    for (Point& p : cusp) p = to_body(floe, p);
+    return cut_by_polygon(floe.shape, {cusp, {}});
+  }
+
+  std::mt19937 random_;
+  std::vector<Floe> floes_;
+  exact::Rational initial_ = 0;
+  exact::Rational brash_ = 0;
+  exact::Rational itemised_ = 0;
+  double slivers_ = 0;
+  int cuts_ = 0;
+  int refused_ = 0;
+  int snap_rounded_ = 0;
+};
+
+TEST(Endurance, EveryCutOfALongLineageIsSound) {
+  const char* wanted = std::getenv("POLYNYA_ENDURANCE_CUTS");
+  const int cuts = wanted != nullptr ? std::atoi(wanted) : 3000;
+  Trial trial(2026);
+  for (int i = 0; i < cuts && !HasFailure(); ++i) trial.step();
+  trial.finish();
 }
 
 }  // namespace

@@ -24,20 +24,6 @@ const bool kSeeded = [] {
   return true;
 }();
 
-CutOutcome cut(const Shape& shape, const Knife& knife) {
-  return knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
-}
-
-CutOutcome cut_generally(const Shape& shape, const Knife& knife) {
-  const exact::Polygon exact_shape = exact::exactly(shape.polygon);
-  return knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
-                       : cut_along_generally(exact_shape, knife.points);
-}
-
-std::string story(const Shape& shape, const Knife& knife) {
-  return to_code(shape.polygon) + (knife.is_ring ? "\nring " : "\ncrack ") + to_code(knife.points);
-}
-
 // Rolls a floe, perhaps cut before, so that knives also meet the vertices that earlier cuts made.
 Shape roll_shape(Dice& dice) {
   Shape shape{roll_floe(dice)};
@@ -51,20 +37,27 @@ Shape roll_shape(Dice& dice) {
   return shape;
 }
 
+/// Rolls the dice for a law as often as RapidCheck is asked to.
+template <typename Law>
+void check_dice(const char* name, int bytes, Law law) {
+  ASSERT_TRUE(kSeeded);
+  EXPECT_TRUE(rc::check(name, [&] {
+    law(Dice(*rc::gen::container<std::vector<std::uint8_t>>(bytes, rc::gen::arbitrary<std::uint8_t>())));
+  }));
+}
+
 template <typename Law>
 void check(const char* name, Law law) {
-  ASSERT_TRUE(kSeeded);
-  const bool held = rc::check(name, [&] {
-    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(120, rc::gen::arbitrary<std::uint8_t>()));
+  check_dice(name, 120, [&](Dice dice) {
     const Shape shape = roll_shape(dice);
     RC_PRE(!shape.polygon.outer.empty());
     law(shape, roll_knife(dice, shape.polygon));
   });
-  EXPECT_TRUE(held);
 }
 
-void require(const testing::AssertionResult& result, const Shape& shape, const Knife& knife) {
-  if (!result) RC_FAIL(std::string(result.message()) + "\n" + story(shape, knife));
+template <typename Knives>
+void require(const testing::AssertionResult& result, const Shape& shape, const Knives& knives) {
+  if (!result) RC_FAIL(std::string(result.message()) + "\n" + to_code(shape.polygon) + to_code(knives));
 }
 
 TEST(Laws, EveryCutIsSound) {
@@ -87,19 +80,16 @@ TEST(Laws, LocalEqualsGeneral) {
 }
 
 TEST(Laws, CutsByManyToolsEqualTheGeneral) {
-  ASSERT_TRUE(kSeeded);
-  EXPECT_TRUE(rc::check("several polygons with holes, cracks that cross themselves", [] {
-    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(150, rc::gen::arbitrary<std::uint8_t>()));
+  check_dice("several polygons with holes, cracks that cross themselves", 150, [](Dice dice) {
     const Shape shape{roll_floe(dice)};
     RC_PRE(!find_defect(shape.polygon));
     const ManyKnives knives = roll_knives(dice, shape.polygon);
     RC_PRE(knives.is_crack || !knives.polygons.empty());
-    const CutOutcome outcome = trials::cut(shape, knives);
+    const CutOutcome outcome = cut(shape, knives);
     RC_PRE(outcome || outcome.error().reason != CutFailure::kInvalidTool);
-    testing::AssertionResult held = is_sound(shape, outcome);
-    if (held) held = are_equal(outcome, trials::cut_generally(shape, knives));
-    if (!held) RC_FAIL(std::string(held.message()) + to_code(shape.polygon) + to_code(knives));
-  }));
+    require(is_sound(shape, outcome), shape, knives);
+    require(are_equal(outcome, cut_generally(shape, knives)), shape, knives);
+  });
 }
 
 // A quarter turn and a power of two are exact in doubles and commute with rounding: the result must follow to
@@ -139,9 +129,7 @@ TEST(Laws, QuarterTurnsAndPowersOfTwoCommuteWithTheCut) {
 
 // In any other frame rounding differs, but not by more than rounding.
 TEST(Laws, MotionLeavesGenericCutsCongruent) {
-  ASSERT_TRUE(kSeeded);
-  EXPECT_TRUE(rc::check("areas of the pieces in a moved frame", [] {
-    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(80, rc::gen::arbitrary<std::uint8_t>()));
+  check_dice("areas of the pieces in a moved frame", 80, [](Dice dice) {
     Ring floe = disc_polygon({0, 0}, 10, 0.05);
     for (Point& p : floe) p = Point{} + dice.between(0.6, 1.2) * (p - Point{});
     const Ring disc = disc_polygon({dice.between(-10, 10), dice.between(-10, 10)}, dice.between(1, 6), 0.03);
@@ -157,7 +145,7 @@ TEST(Laws, MotionLeavesGenericCutsCongruent) {
     RC_ASSERT(here->pieces.size() == there->pieces.size());
     RC_ASSERT(std::abs(here->ledger.area_outside - there->ledger.area_outside) < 1e-9);
     RC_ASSERT(std::abs(here->ledger.area_inside - there->ledger.area_inside) < 1e-9);
-  }));
+  });
 }
 
 // On a grid of quarters with axis-parallel and diagonal tools every crossing is a double: nothing is rounded,
@@ -171,9 +159,7 @@ Ring grid_tool(Dice& dice) {
 }
 
 TEST(Laws, PiecesPartitionTheirParentBeforeRounding) {
-  ASSERT_TRUE(kSeeded);
-  EXPECT_TRUE(rc::check("disjoint, inside the parent, and together all of it", [] {
-    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(60, rc::gen::arbitrary<std::uint8_t>()));
+  check_dice("disjoint, inside the parent, and together all of it", 60, [](Dice dice) {
     Shape shape{{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {}}};
     for (int i = 0; i < 3; ++i) {
       const Ring tool = grid_tool(dice);
@@ -194,14 +180,12 @@ TEST(Laws, PiecesPartitionTheirParentBeforeRounding) {
       RC_ASSERT(sum == exact_area(shape));
       shape = pieces[static_cast<std::size_t>(dice.below(static_cast<int>(pieces.size())))].shape;
     }
-  }));
+  });
 }
 
 // What two tools leave does not depend on which came first, and counting areas commutes with cutting.
 TEST(Laws, TheOrderOfTwoToolsDoesNotMatter) {
-  ASSERT_TRUE(kSeeded);
-  EXPECT_TRUE(rc::check("cut(A, B) = cut(B, A)", [] {
-    Dice dice(*rc::gen::container<std::vector<std::uint8_t>>(60, rc::gen::arbitrary<std::uint8_t>()));
+  check_dice("cut(A, B) = cut(B, A)", 60, [](Dice dice) {
     const Shape shape{{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {}}};
     const Ring one = grid_tool(dice);
     const Ring other = grid_tool(dice);
@@ -224,7 +208,7 @@ TEST(Laws, TheOrderOfTwoToolsDoesNotMatter) {
       return std::pair(left, pieces);
     };
     RC_ASSERT(left_by(one, other) == left_by(other, one));
-  }));
+  });
 }
 
 }  // namespace

@@ -55,13 +55,20 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   }
   const CutLedger& ledger = outcome->ledger;
   if (!ledger.exact_balance) return testing::AssertionFailure() << "no exact balance";
-  exact::Rational sum = 0;
+  exact::Rational sum = 0, of_part[2] = {0, 0};
   for (const Piece& piece : outcome->pieces) {
     sum += exact_area(piece.shape);
+    of_part[piece.part == Part::kOutside ? 0 : 1] += exact_area(piece.shape);
     if (exact_area(piece.shape) <= 0) return testing::AssertionFailure() << "a piece of no area";
     if (const auto found = find_defect(piece.shape.polygon)) {
       return testing::AssertionFailure() << name_of(found->defect) << ": " << to_code(piece.shape.polygon);
     }
+  }
+  for (const double apart : {exact::Rational(of_part[0] - exact::Rational(ledger.area_outside)).get_d(),
+                             exact::Rational(of_part[1] - exact::Rational(ledger.area_inside)).get_d()}) {
+    const double size = perimeter(shape.polygon);
+    if (std::abs(apart) > 1e-14 * (ledger.area_before + 1e-3 * size * size))
+      return testing::AssertionFailure() << "a part's area is off by " << apart << " m²";
   }
   // The pieces and what was removed are the parent, exactly, but for what the ledger names: two nearest
   // doubles.
@@ -118,14 +125,28 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
   return failure;
 }
 
+CutOutcome cut(const Shape& shape, const Knife& knife) {
+  return knife.is_ring ? cut_by_polygon(shape, {knife.points, {}}) : cut_along(shape, knife.points);
+}
+
 CutOutcome cut(const Shape& shape, const ManyKnives& knives) {
   return knives.is_crack ? cut_along(shape, knives.crack) : cut_by_polygons(shape, knives.polygons);
+}
+
+CutOutcome cut_generally(const Shape& shape, const Knife& knife) {
+  const exact::Polygon exact_shape = exact::exactly(shape.polygon);
+  return knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
+                       : cut_along_generally(exact_shape, knife.points);
 }
 
 CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives) {
   const exact::Polygon exact_shape = exact::exactly(shape.polygon);
   return knives.is_crack ? cut_along_generally(exact_shape, knives.crack)
                          : cut_by_polygons_generally(exact_shape, knives.polygons);
+}
+
+std::string to_code(const Knife& knife) {
+  return (knife.is_ring ? "\nring " : "\ncrack ") + to_code(knife.points);
 }
 
 std::string to_code(const ManyKnives& knives) {

@@ -22,12 +22,15 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
 testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& other);
 
 /// The same cut as the product makes it, and by CGAL's arrangement of the whole shape.
+CutOutcome cut(const Shape& shape, const Knife& knife);
 CutOutcome cut(const Shape& shape, const ManyKnives& knives);
+CutOutcome cut_generally(const Shape& shape, const Knife& knife);
 CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives);
 
 /// Vertices as C++ that can be pasted into a fixture.
 std::string to_code(const Polygon& polygon);
 std::string to_code(const Ring& ring);
+std::string to_code(const Knife& knife);
 std::string to_code(const ManyKnives& knives);
 
 }  // namespace polynya::geometry::trials

@@ -21,9 +21,9 @@ std::map<std::string_view, double> sums(const simulation::ShipSample& row) {
 
 TEST(ForceCauses, AddUpToTheForceOnTheShip) {
   simulation::ShipSample row;  // each number in it another power of two
-  row.surge_force = 1, row.sway_force = 2, row.yaw_moment = 4;
-  row.surge_from_ships = 8, row.sway_from_ships = 16, row.yaw_from_ships = 32;
-  row.surge_from_submerged = 64, row.yaw_from_submerged = 128;
+  row.from_ice.surge = 1, row.from_ice.sway = 2, row.from_ice.yaw = 4;
+  row.from_ships.surge = 8, row.from_ships.sway = 16, row.from_ships.yaw = 32;
+  row.from_submerged.surge = 64, row.from_submerged.yaw = 128;
   row.from_water = {256, 512, 1024};
   row.from_rudder = {2048, 4096, 8192};
   row.from_mooring = {16384, 32768, 65536};

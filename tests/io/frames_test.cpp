@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include <gtest/gtest.h>
+#include "expect_text.hpp"
 
 namespace polynya::io {
 namespace {
@@ -23,14 +23,12 @@ TEST(Frames, CarryOnFloesThatKeepTheirMotion) {
     const FloeMotion floe{3, carried_on(drifting, 2.0 * k)};
     bytes += encoded(encoder, 2.0 * k, {}, {&floe, 1});
   }
-  const auto frames = decode_frames(bytes);
-  ASSERT_TRUE(frames.has_value());
+  const auto frames = tests::checked(decode_frames(bytes));
   ASSERT_EQ(frames->size(), 101U);
   EXPECT_EQ((*frames)[0].floes.size(), 1U);
   for (std::size_t k = 1; k < frames->size(); ++k) EXPECT_TRUE((*frames)[k].floes.empty());
 }
 
-/// Whatever the motion, what frames tell is within the tolerances at every frame.
 TEST(Frames, TellEveryMotionWithinTheTolerances) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> kick(0, 3e-4);
@@ -50,8 +48,7 @@ TEST(Frames, TellEveryMotionWithinTheTolerances) {
     truth.push_back(floes);
     bytes += encoded(encoder, 0.5 * k, ships, floes);
   }
-  const auto frames = decode_frames(bytes);
-  ASSERT_TRUE(frames.has_value());
+  const auto frames = tests::checked(decode_frames(bytes));
   std::vector<std::pair<double, Motion>> told(2 * kFloes);
   std::size_t records = 0;
   for (std::size_t k = 0; k < frames->size(); ++k) {
@@ -79,8 +76,7 @@ TEST(Frames, LeaveOutALastFrameThatIsCutShort) {
   const std::string first = encoded(encoder, 0, {}, {&floe, 1});
   const std::string second = encoded(encoder, 9, {}, {&floe, 1});
   for (std::size_t length = 0; length <= second.size(); ++length) {
-    const auto frames = decode_frames(head + first + second.substr(0, length));
-    ASSERT_TRUE(frames.has_value());
+    const auto frames = tests::checked(decode_frames(head + first + second.substr(0, length)));
     EXPECT_EQ(frames->size(), length == second.size() ? 2U : 1U);
   }
   EXPECT_FALSE(decode_frames("PLYNYFRMxxxx").has_value());

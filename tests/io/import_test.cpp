@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
+#include "expect_text.hpp"
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
@@ -66,8 +66,7 @@ Point polar_stereographic(double latitude, double longitude) {
 }
 
 TEST(Projection, OfPolarStereographicIsItsClosedForm) {
-  const auto steps = Projection::between("OGC:CRS84", "EPSG:3413");
-  ASSERT_TRUE(steps) << steps.error();
+  const auto steps = tests::checked(Projection::between("OGC:CRS84", "EPSG:3413"));
   for (const auto& [latitude, longitude] :
        {std::pair{78.2, 15.6}, {70.0, -45.0}, {89.0, 170.0}, {65.0, -100.0}}) {
     std::vector<Point> points{{longitude, latitude}};
@@ -97,8 +96,7 @@ TEST(GeographicPlane, ThereAndBackIsTheSamePlace) {
 TEST(Crs, IsKnownByItsNames) {
   EXPECT_TRUE(find_crs("urn:ogc:def:crs:OGC:1.3:CRS84")->is_geographic);
   EXPECT_TRUE(find_crs("EPSG:4326")->is_geographic);
-  const auto polar = find_crs("urn:ogc:def:crs:EPSG::3413");
-  ASSERT_TRUE(polar);
+  const auto polar = tests::checked(find_crs("urn:ogc:def:crs:EPSG::3413"));
   EXPECT_TRUE(polar->is_projected && polar->is_metric && !polar->is_geographic);
   EXPECT_FALSE(find_crs("EPSG:2229")->is_metric);  // California, in feet
   for (const char* nothing : {"EPSG:1", "metres of the ice tank", ""}) EXPECT_FALSE(find_crs(nothing));
@@ -108,8 +106,7 @@ TEST(Plane, DegreesComeToMetresAboutTheOrigin) {
   // By the radii of curvature a thousandth of a degree of latitude is 111.6468 m at 78.2°, of
   // longitude 22.8378 m.
   std::vector<SourceFloe> floes{square(15.6, 78.2, 0.001)};
-  const auto report = bring(floes, "", about(78.2, 15.6));
-  ASSERT_TRUE(report) << report.error().words;
+  const auto report = tests::checked(bring(floes, "", about(78.2, 15.6)));
   EXPECT_EQ(report->system, "WGS 84 (CRS84)");
   const Polygon& floe = floes[0].polygon;
   EXPECT_NEAR(floe.outer[0].x, 0, 1e-6);
@@ -133,8 +130,7 @@ TEST(Plane, MetresOfThePlaneStayAsTheyAre) {
     EXPECT_EQ(floes[0].polygon, before[0].polygon);
   }
   std::vector<SourceFloe> floes = before;
-  const auto report = bring(floes, "EPSG:3413", plane());
-  ASSERT_TRUE(report) << report.error().words;
+  const auto report = tests::checked(bring(floes, "EPSG:3413", plane()));
   EXPECT_EQ(floes[0].polygon, before[0].polygon);
   EXPECT_EQ(report->target, "EPSG:3413");
 }
@@ -143,8 +139,7 @@ TEST(Plane, AShiftIsOfWholeMetres) {
   std::vector<SourceFloe> floes{square(1104312.5, -512345.25, 800)};
   PlaneSettings settings = plane();
   settings.is_shifted = true;
-  const auto report = bring(floes, "EPSG:3413", settings);
-  ASSERT_TRUE(report);
+  const auto report = tests::checked(bring(floes, "EPSG:3413", settings));
   EXPECT_EQ(report->shift, (geometry::Vector{-1104713, 511945}));
   EXPECT_EQ(floes[0].polygon.outer[0], (Point{-400.5, -400.25}));
 }
@@ -158,11 +153,10 @@ TEST(Plane, VelocitiesTurnWithTheAxes) {
   EXPECT_NEAR(*floes[0].properties.velocity_y, -0.3, 1e-6);
 }
 
-/// What is refused, with place, number and what would do.
 TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
   struct Case {
     SourceFloe floe;
-    const char* crs;
+    std::string crs;
     PlaneSettings settings;
     std::vector<std::string> parts;
   };
@@ -173,109 +167,75 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
   from_polar.source = "EPSG:3413";
   PlaneSettings of_command = about(78.2, 15.6);
   of_command.keeps_metres = false;
+  const SourceFloe arctic = square(15.6, 78.2, 0.01), metres = square(0, 0, 800);
+  const std::string degrees = "EPSG:4326";
   for (const Case& c : std::vector<Case>{
-           {square(15.6, 78.2, 0.01),
-            "",
-            plane(),
-            {"look like longitude and latitude", "0.0001 m²", "origin 78.20,15.60"}},
-           {square(15.6, 78.2, 0.01), "EPSG:4326", plane(), {"no origin", "origin 78.20"}},
+           {arctic, "", plane(), {"look like longitude and latitude", "0.0001 m²", "origin 78.20,15.60"}},
+           {arctic, degrees, plane(), {"no origin", "origin 78.20"}},
            {square(15.6, -75.1, 0.01),
-            "EPSG:4326",
+            degrees,
             about(78.2, 15.6),
             {"75.1° S, 15.6° E lies 17", "km from the origin at 78.2° N", "in the other hemisphere",
              "origin -75.1"}},
-           {square(78.2, 15.6, 0.01), "EPSG:4326", about(78.2, 15.6), {"exchanged", "[longitude, latitude]"}},
+           {square(78.2, 15.6, 0.01), degrees, about(78.2, 15.6), {"exchanged", "[longitude, latitude]"}},
            {square(15.6, 110, 0.01),
-            "EPSG:4326",
+            degrees,
             about(78.2, 15.6),
             {"[15.6, 110]", "-90 to 90", "latitude seems to come first"}},
-           {square(0, 0, 800), "", to_polar, {"names no coordinate system", "name it"}},
-           {square(15.6, 78.2, 0.01),
-            "EPSG:4326",
-            to_degrees,
-            {"EPSG:4326 (WGS 84) is not a plane in metres"}},
-           {square(15.6, 78.2, 0.01),
-            "EPSG:4326",
-            to_nowhere,
-            {"PROJ knows no coordinate system \"EPSG:99\""}},
-           {square(15.6, 78.2, 0.01),
-            "EPSG:4326",
-            from_polar,
-            {"names its own coordinate system, EPSG:4326"}},
+           {metres, "", to_polar, {"names no coordinate system", "name it"}},
+           {arctic, degrees, to_degrees, {"EPSG:4326 (WGS 84) is not a plane in metres"}},
+           {arctic, degrees, to_nowhere, {"PROJ knows no coordinate system \"EPSG:99\""}},
+           {arctic, degrees, from_polar, {"names its own coordinate system, EPSG:4326"}},
            {square(1.2e6, 0, 800),
             "EPSG:3413",
             plane(),
             {"found [1200000, 0]", "-1e+06 to 1e+06", "shift them"}},
-           {square(0, 0, 800),
+           {metres,
             "+proj=nonsense",
             plane(),
             {"no coordinate system \"+proj=nonsense\"", "allowed: EPSG:n", "has no crs"}},
-           {square(0, 0, 800), "EPSG:99999", plane(), {"no coordinate system \"EPSG:99999\""}},
-           {square(0, 0, 800), "metres of the ice tank", about(78.2, 15.6), {"\"metres of the ice tank\""}},
-           {square(0, 0, 800),
-            "",
-            of_command,
-            {"names no coordinate system", "name it", "where no origin is given"}},
+           {metres, "metres of the ice tank", about(78.2, 15.6), {"\"metres of the ice tank\""}},
+           {metres, "", of_command, {"names no coordinate system", "name it", "where no origin is given"}},
            {square(6e6, 2e6, 900), "EPSG:2229", plane(), {"not in metres"}}}) {
     std::vector<SourceFloe> floes{c.floe};
     const auto report = bring(floes, c.crs, c.settings);
     ASSERT_FALSE(report) << c.parts[0];
-    for (const std::string& part : c.parts)
-      EXPECT_NE(report.error().words.find(part), std::string::npos) << part << "\n" << report.error().words;
+    for (const std::string& part : c.parts) EXPECT_HAS(report.error().words, part);
   }
 }
 
-/// A chosen origin is the middle of the floes, wherever a wrong number has one of them.
 TEST(Plane, AWrongNumberDoesNotMoveTheOriginThatIsChosen) {
   PlaneSettings settings = plane();
   settings.chooses_origin = true;
   std::vector<SourceFloe> floes{square(15.6, 78.2, 0.01), square(15.62, 78.2, 0.01),
                                 square(78.2, 15.6, 0.01)};
   std::vector<std::string> refused(floes.size());
-  const auto report = bring_to_plane(floes, refused, "EPSG:4326", settings);
-  ASSERT_TRUE(report);
+  const auto report = tests::checked(bring_to_plane(floes, refused, "EPSG:4326", settings));
   EXPECT_NEAR(report->origin->latitude / kRad, 78.205, 0.001);
   EXPECT_NEAR(report->origin->longitude / kRad, 15.615, 0.001);
-  EXPECT_NE(refused[2].find("With latitude and longitude exchanged"), std::string::npos) << refused[2];
+  EXPECT_HAS(refused[2], "With latitude and longitude exchanged");
 }
 
-/// A wrong number: of one vertex, or of all of a floe.
-enum class Damage {
-  kLatitudeTimesTen,
-  kLatitudePlus180,
-  kNan,
-  kInfinity,
-  kLongitudeTimes1000,
-  kNoPoint,
-  kOtherHemisphere,
-  kExchanged
-};
-void damage(Point& p, Damage kind) {
+/// A wrong number: of one vertex, or (the last two) of all of a floe.
+constexpr int kDamages = 8, kOtherHemisphere = 6;
+Point damaged(Point p, int kind) {
   switch (kind) {
-    case Damage::kLatitudeTimesTen:
-      p.y *= 10;
-      return;
-    case Damage::kLatitudePlus180:
-      p.y += 180;
-      return;
-    case Damage::kNan:
-      p.x = std::nan("");
-      return;
-    case Damage::kInfinity:
-      p.y = std::numeric_limits<double>::infinity();
-      return;
-    case Damage::kLongitudeTimes1000:
-      p.x *= 1000;
-      return;
-    case Damage::kNoPoint:
-      p.y = std::round(1e4 * p.y);
-      return;
-    case Damage::kOtherHemisphere:
-      p.y = -p.y;
-      return;
-    case Damage::kExchanged:
-      std::swap(p.x, p.y);
-      return;
+    case 0:
+      return {p.x, 10 * p.y};
+    case 1:
+      return {p.x, p.y + 180};
+    case 2:
+      return {std::nan(""), p.y};
+    case 3:
+      return {p.x, std::numeric_limits<double>::infinity()};
+    case 4:
+      return {1000 * p.x, p.y};
+    case 5:
+      return {p.x, std::round(1e4 * p.y)};
+    case kOtherHemisphere:
+      return {p.x, -p.y};
+    default:
+      return {p.y, p.x};
   }
 }
 
@@ -303,34 +263,30 @@ TEST(FloeImport, WrongNumbersInDegreesRefuseTheirFloesAlone) {
   int refused_files = 0;
   for (int trial = 0; trial < 600; ++trial) {
     const std::size_t way = dice() % ways.size();
-    const auto kind = static_cast<Damage>(draw(8));
-    const int most = kind < Damage::kOtherHemisphere ? kFloes : 2;
-    const int damaged = draw(most + 1);
+    const int kind = draw(kDamages);
+    const int most = kind < kOtherHemisphere ? kFloes : 2;
+    const int wrong = draw(most + 1);
     const bool is_of_one_vertex = draw(2) == 0;
     std::vector<SourceFloe> floes = whole;
     for (int i = 0; i < kFloes; ++i) {
       const double turn = 360 * (draw(3) - 1);
       for (Point& p : floes[i].polygon.outer)
-        if (!is_of_one_vertex || &p == &floes[i].polygon.outer[2]) {
-          if (i < damaged)
-            damage(p, kind);
-          else
-            p.x += turn;
-        }
+        if (!is_of_one_vertex || &p == &floes[i].polygon.outer[2])
+          p = i < wrong ? damaged(p, kind) : Point{p.x + turn, p.y};
     }
-    SCOPED_TRACE(fmt::format("trial {}, way {}, damage {} of {} floes, one vertex {}", trial, way,
-                             static_cast<int>(kind), damaged, is_of_one_vertex));
+    SCOPED_TRACE(fmt::format("trial {}, way {}, damage {} of {} floes, one vertex {}", trial, way, kind,
+                             wrong, is_of_one_vertex));
     const auto outcome = import_floes(floes, {}, systems[way], ways[way]);
     if (!outcome) {
       ++refused_files;
-      EXPECT_GT(damaged, 2);
+      EXPECT_GT(wrong, 2);
       continue;
     }
-    EXPECT_EQ(outcome->totals.refused, static_cast<std::size_t>(damaged));
-    ASSERT_EQ(outcome->floes.size(), static_cast<std::size_t>(kFloes - damaged));
+    EXPECT_EQ(outcome->totals.refused, static_cast<std::size_t>(wrong));
+    ASSERT_EQ(outcome->floes.size(), static_cast<std::size_t>(kFloes - wrong));
     for (const ImportedFloe& floe : outcome->floes) {
       const double area = geometry::exact_area(expected[way].floes[floe.source].polygon);
-      EXPECT_GE(floe.source, static_cast<std::size_t>(damaged));
+      EXPECT_GE(floe.source, static_cast<std::size_t>(wrong));
       EXPECT_NEAR(geometry::exact_area(floe.polygon), area, 1e-6 * area);
     }
   }
@@ -391,7 +347,6 @@ TEST(FloeProperties, WrongTypesAndSignsAreRefusedWithWhatIsAllowed) {
     EXPECT_FALSE(add_property_name(wrong, names)) << wrong;
 }
 
-/// Areas of an import are sums computed exactly, and nothing is missing between them.
 TEST(FloeImport, EveryChangeIsItemisedAndTheAreasAddUp) {
   std::vector<SourceFloe> floes{square(0, 0, 100),
                                 square(90, 10, 30),
@@ -408,8 +363,7 @@ TEST(FloeImport, EveryChangeIsItemisedAndTheAreasAddUp) {
   settings.least_area = 4;
   settings.simplify = 0.2;
   std::vector<std::string> refused(floes.size());
-  const auto imported = import_floes(floes, refused, "", settings);
-  ASSERT_TRUE(imported);
+  const auto imported = tests::checked(import_floes(floes, refused, "", settings));
   const ImportTotals& totals = imported->totals;
   EXPECT_EQ(totals.read, 7U);
   EXPECT_EQ(totals.refused, 0U);
@@ -438,12 +392,11 @@ TEST(FloeImport, WithoutARuleCrossingOutlinesAreRefusedAndTheOthersKept) {
   floes[1].polygon.outer = {{600, 0}, {640, 30}, {640, 0}, {600, 30}};
   ImportSettings settings;
   settings.plane = plane();
-  const auto imported = import_floes(floes, {"", "", "property thickness_m: found -1", ""}, "", settings);
-  ASSERT_TRUE(imported);
+  const auto imported =
+      tests::checked(import_floes(floes, {"", "", "property thickness_m: found -1", ""}, "", settings));
   EXPECT_EQ(imported->totals.refused, 2U);
   EXPECT_EQ(imported->floes.size(), 2U);
-  EXPECT_NE(imported->items[0].refused.find("self-crossing at (620, 15)"), std::string::npos)
-      << imported->items[0].refused;
+  EXPECT_HAS(imported->items[0].refused, "self-crossing at (620, 15)");
   EXPECT_EQ(imported->items[1].refused, "property thickness_m: found -1");
   EXPECT_EQ(imported->totals.area_read, 200);
 }

@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include <gtest/gtest.h>
+#include "expect_text.hpp"
 
 #include "io/text/json_fault.hpp"
 #include "io/text/json_parser.hpp"
@@ -45,13 +45,7 @@ TEST(JsonParser, FindsEveryValueBehindCommentsBlanksAndUnicode) {
   expect_text_at(text, *root.find("é")->find("inner"), R"("\\")");
   EXPECT_EQ(text[root.members()[2].key_offset], '"');
   EXPECT_EQ(place(text, root.find("é")->find("inner")->offset).line, 5);
-}
-
-TEST(JsonParser, CountsColumnsInCharactersAndTabsAsOne) {
-  const std::string text = "{\"é\": 1,\t\"b\": 2}";
-  const JsonDocument document = parse_json(text);
-  EXPECT_EQ(place(text, document.root.find("b")->offset).column, 15);
-  EXPECT_EQ(place(text, document.root.find("b")->offset).line, 1);
+  EXPECT_EQ(place("{\"é\": 1,\t\"b\": 2}", 15).column, 15) << "characters, and a tab is one";
 }
 
 TEST(JsonParser, TellsASecondKeyAndKeepsTheFirst) {
@@ -75,55 +69,47 @@ TEST(JsonParser, BoundsNesting) {
   EXPECT_EQ(deep.faults[0].offset, static_cast<std::uint32_t>(kDeepestNesting));
 }
 
-TEST(JsonParser, TellsSyntaxErrorsWhereTheyAre) {
-  struct Case {
-    std::string text;
-    std::size_t offset;
-  };
-  for (const Case& c :
-       {Case{R"({"a": 1 "b": 2})", 8}, Case{R"({"a": })", 6}, Case{R"({"a": NaN})", 6}, Case{"[1, 2", 5},
-        Case{"", 0}, Case{R"({"a": 1e400})", 6}, Case{"{} x", 3}, Case{"[1,]", 2}, Case{"[1,,2]", 3},
-        Case{"[1 /*]*/ 2]", 9}, Case{"[\"a", 1}, Case{"// only this", 12}}) {
-    const JsonDocument document = parse_json(c.text);
-    ASSERT_EQ(document.faults.size(), 1U) << c.text;
-    EXPECT_EQ(document.faults[0].offset, c.offset) << c.text << document.faults[0].found;
+TEST(JsonParser, FaultsAreReportedInPlainWordsWhereTheyAre) {
+  const std::string value =
+      "allowed: an object, a list, text in double quotes, a number, true, false or null";
+  const std::string nothing = "found the end of the text, " + value;
+  for (const auto& [text, offset, message] :
+       std::initializer_list<std::tuple<std::string, std::size_t, std::string>>{
+           {R"({"a": 1 "b": 2})", 8, "a comma is missing before \"b\""},
+           {"{\n  \"a\": {\"c\": 1} // note\n  \"b\": 2\n}", 28,
+            "a comma is missing before \"b\", at the end of line 2"},
+           {"[[1, 2]\n [3, 4]]", 9, "a comma is missing before '[', at the end of line 1"},
+           {"[1 -2]", 3, "a comma is missing before '-2'"},
+           {"[1 /*]*/ 2]", 9, "a comma is missing before '2'"},
+           {"[1, 2,\n]", 5, "a comma too many: only ']' follows it"},
+           {R"({"a": 1, /* }] */ })", 7, "a comma too many: only '}' follows it"},
+           {"[1,,2]", 3, "a comma too many: nothing stands before it"},
+           {"[,1]", 1, "a comma too many: nothing stands before it"},
+           {"{\n\"a\": [1,\n2", 12,
+            "the text ends, but the list that begins on line 2 is not closed with ']'"},
+           {R"({"a": 1; "b": 2})", 7, "found ';', allowed: a comma, or '}'"},
+           {R"({name: 1})", 1, "found 'name', allowed: a key in double quotes"},
+           {R"({"a" = 1})", 5, "found '=', allowed: a colon between a key and its value"},
+           {R"({"a": , "b": 1})", 6, "found ',', " + value},
+           {R"({"a": })", 6, ""},
+           {R"({"a": NaN})", 6, ""},
+           {R"({"a": 1e400})", 6, ""},
+           {"{} x", 3, "found 'x', allowed: nothing behind the outermost value"},
+           {"", 0, nothing},
+           {"// only this", 12, nothing},
+           {"[\"a", 1, ""},
+           {"{\"a\": \"b\n\"}", 6,
+            "found \"b, allowed: text that ends with a double quote on the same line (\\n and \\t stand for "
+            "breaks "
+            "and tabs)"}}) {
+    const JsonDocument document = parse_json(text);
+    ASSERT_EQ(document.faults.size(), 1U) << text;
+    EXPECT_EQ(document.faults[0].offset, offset) << text;
+    EXPECT_BEGINS(message_of(document.faults[0]), message) << text;
     EXPECT_TRUE(document.faults[0].path.empty());
   }
   EXPECT_EQ(parse_json(std::string("{}\0{}", 5)).faults.size(), 1U);
   EXPECT_EQ(parse_json("\"\xff\"").faults.size(), 1U);
-}
-
-TEST(JsonParser, FaultsAreReportedInPlainWords) {
-  struct Case {
-    std::string text, message;
-  };
-  for (const Case& c :
-       {Case{R"({"a": 1 "b": 2})", "a comma is missing before \"b\""},
-        {"{\n  \"a\": {\"c\": 1} // note\n  \"b\": 2\n}",
-         "a comma is missing before \"b\", at the end of line 2"},
-        {"[[1, 2]\n [3, 4]]", "a comma is missing before '[', at the end of line 1"},
-        {"[1 -2]", "a comma is missing before '-2'"},
-        {"[1, 2,\n]", "a comma too many: only ']' follows it"},
-        {R"({"a": 1, /* }] */ })", "a comma too many: only '}' follows it"},
-        {"[1,,2]", "a comma too many: nothing stands before it"},
-        {"[,1]", "a comma too many: nothing stands before it"},
-        {"{\n\"a\": [1,\n2", "the text ends, but the list that begins on line 2 is not closed with ']'"},
-        {R"({"a": 1; "b": 2})", "found ';', allowed: a comma, or '}'"},
-        {R"({name: 1})", "found 'name', allowed: a key in double quotes"},
-        {R"({"a" = 1})", "found '=', allowed: a colon between a key and its value"},
-        {R"({"a": , "b": 1})",
-         "found ',', allowed: an object, a list, text in double quotes, a number, true, false or null"},
-        {"{} x", "found 'x', allowed: nothing behind the outermost value"},
-        {"",
-         "found the end of the text, allowed: an object, a list, text in double quotes, a number, true, "
-         "false or null"},
-        {"{\"a\": \"b\n\"}",
-         "found \"b, allowed: text that ends with a double quote on the same line (\\n and \\t stand "
-         "for breaks and tabs)"}}) {
-    const JsonDocument document = parse_json(c.text);
-    ASSERT_EQ(document.faults.size(), 1U) << c.text;
-    EXPECT_EQ(message_of(document.faults.front()), c.message) << c.text;
-  }
 }
 
 TEST(JsonWriter, NumbersReadBackToTheSameDouble) {

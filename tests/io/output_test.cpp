@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <csignal>
+#include <functional>
 #include <new>
 
+#include "expect_text.hpp"
 #include "temporary_folder.hpp"
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -17,26 +18,32 @@ using tests::read_file;
 using tests::TemporaryFolder;
 using tests::write_file;
 
-TEST(OutputFile, EndsWithAWholeRecordWhereTheDiskIsFull) {
-  const TemporaryFolder folder;
-  const auto path = folder / "lines.txt";
+/// Whether it holds in a process whose files may have 1000 bytes, which stands for a full disk.
+bool on_full_disk(const std::function<bool()>& holds) {
   const pid_t child = fork();
-  if (child == 0) {  // a size limit stands for a full disk; it holds for the child alone
+  if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{1000, 1000};
     setrlimit(RLIMIT_FSIZE, &limit);
+    _exit(holds() ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  return status == 0;
+}
+
+TEST(OutputFile, EndsWithAWholeRecordWhereTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const auto path = folder / "lines.txt";
+  EXPECT_TRUE(on_full_disk([&] {
     auto file = OutputFile::create(path);
     for (int i = 0; i < 100; ++i) {
       file->append("a line of 17 char\n");
       if (i % 7 == 0) file->flush();
     }
     file->flush();
-    const bool is_named = file->status().error().find("lines.txt: File too large") != std::string::npos;
-    _exit(is_named && !file->flush() ? 0 : 1);
-  }
-  int status = 1;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
+    return file->status().error().find("lines.txt: File too large") != std::string::npos && !file->flush();
+  }));
   const std::string text = read_file(path);
   EXPECT_EQ(text.size(), 990U);  // the most whole lines of 18 bytes in 1000
   EXPECT_EQ(text.back(), '\n');
@@ -74,10 +81,10 @@ TEST(OutputFile, FollowsLinksToAFileThatIsNotThereYet) {
 TEST(OutputFile, ReplacesNoPipeNoDeviceAndNoFolder) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-  EXPECT_NE(write_whole_file(folder / "pipe", "x").error().find("not a regular file"), std::string::npos);
+  EXPECT_HAS(write_whole_file(folder / "pipe", "x").error(), "not a regular file");
   EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
-  EXPECT_NE(write_whole_file(folder.path(), "x").error().find("a folder"), std::string::npos);
-  EXPECT_NE(write_named_file("/dev/full", "x").error().find("No space left"), std::string::npos);
+  EXPECT_HAS(write_whole_file(folder.path(), "x").error(), "a folder");
+  EXPECT_HAS(write_named_file("/dev/full", "x").error(), "No space left");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
@@ -88,14 +95,13 @@ TEST(OutputFile, WritesThroughNoLinkThatWasPutInItsWay) {
     std::filesystem::create_symlink("precious", folder / name);
   EXPECT_TRUE(write_whole_file(folder / "whole", "text").has_value());
   EXPECT_EQ(read_file(folder / "whole"), "text");
-  auto grown = OutputFile::create(folder / "grown");
-  ASSERT_TRUE(grown.has_value());
+  auto grown = tests::checked(OutputFile::create(folder / "grown"));
   grown->append("text\n");
   EXPECT_TRUE(grown->flush() && grown->is_in_place());
   EXPECT_EQ(read_file(folder / "grown"), "text\n");
   const auto cut = OutputFile::reopen(folder / "cut", 0);
   ASSERT_FALSE(cut.has_value());
-  EXPECT_NE(cut.error().find("cut: a link"), std::string::npos) << cut.error();
+  EXPECT_HAS(cut.error(), "cut: a link");
   EXPECT_EQ(read_file(folder / "precious"), "years of work");
 }
 
@@ -138,27 +144,19 @@ TEST(OutputFile, InPartsLeavesTheOldFileAndNoOtherWhereItsTextOrTheDiskFails) {
   EXPECT_EQ(read_file(folder / "file"), "old");
   EXPECT_EQ(names_in(folder), std::vector<std::string>{"file"});
 
-  const pid_t child = fork();
-  if (child == 0) {  // a size limit stands for a full disk
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{1000, 1000};
-    setrlimit(RLIMIT_FSIZE, &limit);
+  EXPECT_TRUE(on_full_disk([&] {
     const auto written = write_whole_file_in_parts(folder / "file", [](const WritePart& write) {
       for (int i = 0; i < 100; ++i) write("a line of 17 char\n");
     });
-    _exit(!written && written.error().find("file: File too large") != std::string::npos ? 0 : 1);
-  }
-  int status = 1;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
+    return !written && written.error().find("file: File too large") != std::string::npos;
+  }));
   EXPECT_EQ(read_file(folder / "file"), "old");
   EXPECT_EQ(names_in(folder), std::vector<std::string>{"file"});
 }
 
 TEST(OutputFile, KnowsWhetherItIsStillThere) {
   const TemporaryFolder folder;
-  auto file = OutputFile::create(folder / "file");
-  ASSERT_TRUE(file.has_value());
+  auto file = tests::checked(OutputFile::create(folder / "file"));
   EXPECT_TRUE(file->is_in_place());
   write_file(folder / "other", "");
   std::filesystem::rename(folder / "other", folder / "file");

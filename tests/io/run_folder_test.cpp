@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "expect_text.hpp"
 #include "temporary_folder.hpp"
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,8 +32,8 @@ TEST(RunFolder, RefusesWhatIsNotEmptyAndWritesNothingThere) {
   write_file(folder / "foreign/thesis.tex", "years of work");
   write_file(folder / "foreign/scene.json", "{}");
   for (const bool overwrite : {false, true}) {
-    EXPECT_NE(refusal(folder / "foreign", overwrite).find("not a run folder"), std::string::npos);
-    EXPECT_NE(refusal(folder / "foreign/thesis.tex", overwrite).find("not a folder"), std::string::npos);
+    EXPECT_HAS(refusal(folder / "foreign", overwrite), "not a run folder");
+    EXPECT_HAS(refusal(folder / "foreign/thesis.tex", overwrite), "not a folder");
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "foreign"), {}), 2);
   EXPECT_EQ(read_file(folder / "foreign/thesis.tex"), "years of work");
@@ -55,7 +55,7 @@ TEST(RunFolder, OverwritesOnlyWhatPolynyaWrites) {
     const TemporaryFolder folder;
     const fs::path run = folder / "run";
     write_run(run, is_marked);
-    EXPECT_NE(refusal(run, false).find("--overwrite"), std::string::npos);
+    EXPECT_HAS(refusal(run, false), "--overwrite");
     EXPECT_EQ(read_file(run / "forces.csv"), "old");
     const std::array foreign{"notes.txt",
                              "figure-mine.svg",
@@ -81,7 +81,7 @@ TEST(RunFolder, RemovesThroughNoLink) {
   write_file(folder / "elsewhere/000001.geojson", "precious");
   fs::remove_all(run / "rejected-cuts");
   fs::create_directory_symlink(folder / "elsewhere", run / "rejected-cuts");
-  EXPECT_NE(refusal(run, true).find("rejected-cuts: a link"), std::string::npos);
+  EXPECT_HAS(refusal(run, true), "rejected-cuts: a link");
   fs::remove(run / "rejected-cuts");
   fs::remove(run / "forces.csv");
   fs::create_symlink(folder / "elsewhere/000001.geojson", run / "forces.csv");
@@ -89,7 +89,6 @@ TEST(RunFolder, RemovesThroughNoLink) {
   EXPECT_EQ(read_file(folder / "elsewhere/000001.geojson"), "precious");
 }
 
-/// What a kill leaves before a run has its scene, or while --overwrite removes one.
 TEST(RunFolder, WhatAKillLeavesIsTakenAndNamed) {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
@@ -98,11 +97,11 @@ TEST(RunFolder, WhatAKillLeavesIsTakenAndNamed) {
   write_file(run / "scene.json.part", "{");
   EXPECT_EQ(refusal(run, false), "") << "nothing is lost";
   write_file(run / "forces.csv", "old");
-  EXPECT_NE(refusal(run, false).find("parts of a run in it, without its scene"), std::string::npos);
+  EXPECT_HAS(refusal(run, false), "parts of a run in it, without its scene");
   EXPECT_EQ(refusal(run, true), "");
   EXPECT_FALSE(fs::exists(run / "forces.csv"));
   write_file(run / "scene.json", "{}");
-  EXPECT_NE(refusal(run, false).find("continue it with: polynya resume"), std::string::npos);
+  EXPECT_HAS(refusal(run, false), "continue it with: polynya resume");
   EXPECT_EQ(refusal(run, true), "");
   EXPECT_FALSE(fs::exists(run / "scene.json"));
 }
@@ -143,10 +142,9 @@ TEST(RunFolder, HasOneOwner) {
 
 TEST(RunFolder, ALockIsNotFooledByAnotherFolderOfThatName) {
   const TemporaryFolder folder;
-  const auto lock = claim_run_folder(folder / "run", false);
-  ASSERT_TRUE(lock.has_value());
+  const auto lock = tests::checked(claim_run_folder(folder / "run", false));
   EXPECT_TRUE(lock->is_in_place());
-  EXPECT_NE(refusal(folder / "run", true).find("another polynya is writing this run"), std::string::npos);
+  EXPECT_HAS(refusal(folder / "run", true), "another polynya is writing this run");
   fs::rename(folder / "run", folder / "moved");
   EXPECT_FALSE(lock->is_in_place());
   EXPECT_EQ(refusal(folder / "run", false), "");
@@ -181,7 +179,6 @@ TEST(Checkpoints, AreWrittenInPartsAsTheyAreInMemory) {
   EXPECT_EQ(read_checkpoint_file(file, "")->state, checkpoint.state);
 }
 
-/// Whatever is there, the checkpoint that is written stays, and is the newest.
 TEST(Checkpoints, TheOneJustWrittenIsTheNewestThatIsKept) {
   const TemporaryFolder folder;
   std::int64_t before = -1;

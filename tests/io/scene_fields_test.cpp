@@ -1,87 +1,84 @@
 #include <functional>
 #include <set>
 
+#include "scene_text.hpp"
 #include "temporary_folder.hpp"
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "io/scene/scene_input.hpp"
-#include "io/scene/scene_reader.hpp"
 #include "io/scene/scene_schema.hpp"
-#include "io/text/json_parser.hpp"
-#include "io/text/json_writer.hpp"
 
 namespace polynya::io {
 namespace {
 
-// Between them these choose every alternative of the field table.
-const std::string kFirst = R"({
-  "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
-             "position_m": [-500, 0], "sway_speed_m_per_s": 0.1, "yaw_rate_deg_per_s": 0.2, "propulsion": {"thrust_N": 2e4}}],
-  "floes": [{"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}, "crushed_overlaps": true, "source_floe_id": 7}, {"rectangle": {"corner_m": [100, 0], "size_m": 10},
-             "ice": {"thickness_m": 0.7, "density_kg_per_m3": 890, "flexural_strength_Pa": 6e5, "compressive_strength_Pa": 2e6,
-                     "tensile_strength_Pa": {"mean": 7e5, "spread": 0.2}, "fracture_toughness_Pa_sqrt_m": 1.2e5, "seed": 4}}]
-})";
-const std::string kSecond = R"({
-  "origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30},
-  "ships": [{"hull": {"waterline_m": [[10, 0], [0, 4], [-10, 4], [-10, -4], [0, -4]], "angles_from_vertical_deg": [60, 38, 0, 0, 38], "draught_m": 3},
-             "mass_kg": 1e6, "moment_of_inertia_kg_m2": 5e8, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5}}],
-  "structures": [{"radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}],
-  "floes": [{"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]], "holes_m": [[[10, 10], [10, 20], [20, 20]]]}},
-            {"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83, "gap_m": 0.3,
-                       "most_corners": 6, "keep_clear_m": [[[-650, 420], [-600, 420], [-650, 440]]], "seed": 3}}]
-})";
-const std::string kThird = R"({
-  "structures": [{"waterline_m": [[10, 0], [0, 4], [-10, 0], [0, -4]], "position_m": [500, 500], "heading_deg": 10}],
-  "wind": {"velocity_m_per_s": [10, 2]},
-  "walls": [{"from_m": [-100, -200], "to_m": [300, -200], "velocity_m_per_s": [0, 0.1]},
-            {"from_m": [300, 300], "to_m": [-100, 300], "pressure": {"line_load_N_per_m": 5e4}}],
-  "floes": [{"field": {"outline_m": [[-10, 0], [200, 0], [120, 90], [5, 150]], "floe_size_m": 9, "concentration": 0.83, "gap_m": 0.3,
-                       "most_corners": 5}}]
-})";
+using namespace tests;
 
-const std::string kFourth = R"({
-  "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "draught_m": 6, "block_coefficient": 0.58},
-             "propulsion": {"engine": {"power_MW": 15, "propeller_diameter_m": 4, "propellers": 2, "nozzles": true, "open_water_speed_m_per_s": 8}},
-             "steering": {"rudder": {"area_m2": 12}}, "pilot": {"constant": {}}},
-            {"hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 27, "draught_m": 6}, "mass_kg": 7e6, "moment_of_inertia_kg_m2": 4e9,
-             "position_m": [0, 500], "propulsion": {"engine": {"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}},
-             "steering": {"azimuth": {"max_deg": 90}},
-             "pilot": {"route": {"waypoints": [{"position_m": [500, 500], "speed_m_per_s": 3}, {"position_m": [900, 400], "speed_m_per_s": 2}]}},
-             "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], "heading_deg": 1}}]
-})";
+// Between them these choose every alternative of the field table.
+const std::string kFirst = scene(
+    {list("ships",
+          {ship(R"("position_m": [-500, 0], "sway_speed_m_per_s": 0.1, "yaw_rate_deg_per_s": 0.2)")}),
+     list("floes",
+          {R"({"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}, "crushed_overlaps": true,
+       "source_floe_id": 7})",
+           square(100, 0, 10,
+                  R"("ice": {"thickness_m": 0.7, "density_kg_per_m3": 890, "flexural_strength_Pa": 6e5,
+       "compressive_strength_Pa": 2e6, "tensile_strength_Pa": {"mean": 7e5, "spread": 0.2},
+       "fracture_toughness_Pa_sqrt_m": 1.2e5, "seed": 4})")})});
+const std::string kSecond = scene(
+    {R"("origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30})",
+     list("ships",
+          {ship(R"("hull": {"length_m": null, "beam_m": null, "entrance_angle_deg": null, "draught_m": 3,
+       "waterline_m": [[10, 0], [0, 4], [-10, 4], [-10, -4], [0, -4]], "angles_from_vertical_deg": [60, 38, 0, 0, 38]},
+       "mass_kg": 1e6, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5})")}),
+     R"("structures": [{"radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}])",
+     list(
+         "floes",
+         {R"({"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]],
+       "holes_m": [[[10, 10], [10, 20], [20, 20]]]}})",
+          R"({"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83,
+       "gap_m": 0.3, "most_corners": 6, "keep_clear_m": [[[-650, 420], [-600, 420], [-650, 440]]], "seed": 3}})"})});
+const std::string kThird = scene(
+    {R"("structures": [{"waterline_m": [[10, 0], [0, 4], [-10, 0], [0, -4]], "position_m": [500, 500], "heading_deg": 10}],
+       "wind": {"velocity_m_per_s": [10, 2]},
+       "walls": [{"from_m": [-100, -200], "to_m": [300, -200], "velocity_m_per_s": [0, 0.1]},
+                 {"from_m": [300, 300], "to_m": [-100, 300], "pressure": {"line_load_N_per_m": 5e4}}])",
+     list("floes", {R"({"field": {"outline_m": [[-10, 0], [200, 0], [120, 90], [5, 150]], "floe_size_m": 9,
+       "concentration": 0.83, "gap_m": 0.3, "most_corners": 5}})"})});
+const std::string kFourth = scene({list(
+    "ships",
+    {sailing_ship(
+         R"("propulsion": {"engine": {"power_MW": 15, "propeller_diameter_m": 4, "propellers": 2, "nozzles": true,
+       "open_water_speed_m_per_s": 8}}, "steering": {"rudder": {"area_m2": 12}}, "pilot": {"constant": {}})"),
+     ship(
+         R"("hull": {"draught_m": 6}, "mass_kg": 7e6, "position_m": [0, 500], "steering": {"azimuth": {"max_deg": 90}},
+       "propulsion": {"engine": {"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}},
+       "pilot": {"route": {"waypoints": [{"position_m": [500, 500], "speed_m_per_s": 3},
+                                         {"position_m": [900, 400], "speed_m_per_s": 2}]}},
+       "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], "heading_deg": 1})")})});
 
 /// The fields of a law of sizes.
-const std::string kFifth = R"({
-  "floes": [{"field": {"corner_m": [0, 0], "extent_m": [200, 150], "concentration": 0.6, "gap_m": 0.3, "most_corners": 6, "least_corners": 5,
-                       "aspect": 1.5, "orientation_deg": 20, "packing": 0.8, "sizes": {"mean_m": 12, "spread": 0.3}}},
-            {"field": {"corner_m": [300, 0], "extent_m": [300, 300], "concentration": 0.7, "most_corners": 6, "least_corners": 5, "sizes": {"exponent": 1.5, "least_m": 10, "largest_m": 60}}},
-            {"field": {"centreline_m": [[-300, 0], [-200, 30]], "width_m": 40, "concentration": 0.7, "most_corners": 6, "least_corners": 5, "sizes": {"size_m": 5}}}]
-})";
+std::string field_of_law(const std::string& region, const std::string& law) {
+  return "{\"field\": {" + region + R"(, "most_corners": 6, "least_corners": 5, "sizes": )" + law + "}}";
+}
+const std::string kFifth = scene({list(
+    "floes", {field_of_law(R"("corner_m": [0, 0], "extent_m": [200, 150], "concentration": 0.6, "gap_m": 0.3,
+                "aspect": 1.5, "orientation_deg": 20, "packing": 0.8)",
+                           R"({"mean_m": 12, "spread": 0.3})"),
+              field_of_law(R"("corner_m": [300, 0], "extent_m": [300, 300], "concentration": 0.7)",
+                           R"({"exponent": 1.5, "least_m": 10, "largest_m": 60})"),
+              field_of_law(R"("centreline_m": [[-300, 0], [-200, 30]], "width_m": 40, "concentration": 0.7)",
+                           R"({"size_m": 5})")})});
 
 /// One ship for each other pilot.
 std::string fleet() {
-  std::string ships;
-  const std::vector<std::string> pilots{
-      R"("hold_speed": {"speed_m_per_s": 3, "heading_deg": 10})", R"("hold_heading": {"heading_deg": 20})",
-      R"("table": {"rows": [{"t_s": 0, "lever": 0.5}, {"t_s": 60, "lever": 1, "steering_deg": 5}]})",
-      R"("ram": {"heading_deg": 3, "back_m": 150})", R"("follow": {"ship": "ship-1", "distance_m": 100})"};
-  for (std::size_t i = 0; i < pilots.size(); ++i)
-    ships += fmt::format(
-        R"({}{{"hull": {{"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "draught_m": 6, "block_coefficient": 0.58}},
-        "propulsion": {{"engine": {{"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}}}}, "steering": {{"rudder": {{}}}},
-        "position_m": [0, {}], "pilot": {{{}}}}})",
-        i > 0 ? ", " : "", 500 * i, pilots[i]);
-  return "{\"ships\": [" + ships + "]}";
-}
-
-LoadedScene load(const std::string& text) {
-  auto loaded = read_scene(text, "base.json", ".");
-  if (loaded) return std::move(*loaded);
-  std::string problems;
-  for (const Problem& problem : loaded.error()) problems += to_string(problem) + "\n";
-  ADD_FAILURE() << problems << text;
-  return {};
+  std::vector<std::string> ships;
+  for (const char* pilot :
+       {R"("hold_speed": {"speed_m_per_s": 3, "heading_deg": 10})", R"("hold_heading": {"heading_deg": 20})",
+        R"("table": {"rows": [{"t_s": 0, "lever": 0.5}, {"t_s": 60, "lever": 1, "steering_deg": 5}]})",
+        R"("ram": {"heading_deg": 3, "back_m": 150})", R"("follow": {"ship": "ship-1", "distance_m": 100})"})
+    ships.push_back(
+        sailing_ship(fmt::format(R"("steering": {{"rudder": {{}}}}, "position_m": [0, {}], "pilot": {{{}}})",
+                                 500 * ships.size(), pilot)));
+  return fmt::format("{{\"ships\": [{}]}}", fmt::join(ships, ", "));
 }
 
 /// Another allowed value near the one at hand.
@@ -210,7 +207,6 @@ TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   EXPECT_EQ(seen, expected);
 }
 
-/// A scene without a setting is the one that the structs' own defaults make.
 TEST(SceneFields, DefaultsAreTheSimulations) {
   simulation::Scene settings = load(kFirst).scene;
   settings.ships.clear();
@@ -231,7 +227,6 @@ TEST(SceneFields, NumbersInTheUnitsOfTheirKeysAreWrittenAsTheyWereGiven) {
     }
 }
 
-/// Values outside each range, and of another type, are refused at their place.
 TEST(SceneFields, EveryRangeIsKept) {
   const LoadedScene base = load(kFirst);
   JsonValue tree = parse_json(base.resolved_text).root;
@@ -253,8 +248,8 @@ TEST(SceneFields, EveryRangeIsKept) {
       const auto outcome = read_scene(text, "base.json", ".");
       ASSERT_FALSE(outcome.has_value()) << path;
       const Problem& problem = outcome.error().front();
-      EXPECT_NE(path.find(std::string(field.key)), std::string::npos);
-      EXPECT_NE(problem.path.find(field.key), std::string::npos) << to_string(problem);
+      EXPECT_HAS(path, std::string(field.key));
+      EXPECT_HAS(problem.path, field.key) << to_string(problem);
       EXPECT_GT(problem.line, 1);
       ++tried;
     }
@@ -287,8 +282,7 @@ TEST(SceneSchema, NamesEveryFieldOnceWhereItBelongs) {
 
 TEST(SceneDocs, HoldTheTablesAsThePrintedOnes) {
   const std::string page = tests::read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/scene.md");
-  EXPECT_NE(page.find(scene_tables()), std::string::npos)
-      << "run: polynya schema --markdown, and put it into docs/scene.md";
+  EXPECT_HAS(page, scene_tables()) << "run: polynya schema --markdown, and put it into docs/scene.md";
 }
 
 }  // namespace

@@ -1,151 +1,21 @@
-#include <chrono>
+// What scenes read as: floes, files, fields, walls of ice, and values in place of the scene's own.
+#include <filesystem>
 
+#include "scene_text.hpp"
 #include "temporary_folder.hpp"
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "geometry/exact/measures.hpp"
-#include "io/scene/scene_reader.hpp"
 
 namespace polynya::io {
 namespace {
 
-using tests::TemporaryFolder;
-using tests::write_file;
-
-std::vector<Problem> problems_of(const std::string& text, const std::filesystem::path& folder = ".") {
-  auto outcome = read_scene(text, "scene.json", folder);
-  return outcome ? std::vector<Problem>{} : outcome.error();
-}
-
-std::string all_of(const std::vector<Problem>& problems) {
-  std::string text;
-  for (const Problem& problem : problems) text += to_string(problem) + "\n";
-  return text;
-}
-
-constexpr auto kShip =
-    R"({"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
-        "position_m": [-60, 0], "propulsion": {"thrust_N": 2e4}})";
-
-TEST(Scene, TenMistakesGiveTenPlacedMessages) {
-  const std::string text = R"(// ten mistakes
-{
-  "ice": {
-    "thicknes_m": 0.5,
-    "density_kg_per_m3": "900",
-    "poisson_ratio": 0.5
-  },
-	"water": {"drift_m_per_s": [1]},  // a tab
-  "fracture": {"bending": {"model": "nevle"}},
-  "ships": [
-    {"hull": {"length_m": 120, "entrance_angle_deg": 27}, "mass_kg": -1, "moment_of_inertia_kg_m2": 5e9,
-     "propulsion": {"thrust_N": 2e4, "constant_speed_m_per_s": 1}}
-  ],
-  "floes": [
-    {"polygon": {"outer_m": [[0, 0], [10, 10], [10, 0], [0, 10]]}},
-    {"rectangle": {"corner_m": [50, 0], "size_m": 10}},
-    {"rectangle": {"corner_m": [55, 0], "size_m": 10}}
-  ]
-})";
-  struct Expected {
-    int line, column;
-    std::string path, found;
-  };
-  const std::vector<Expected> expected{
-      {4, 5, "ice.thicknes_m", "an unknown key"},
-      {5, 26, "ice.density_kg_per_m3", "\"900\""},
-      {6, 22, "ice.poisson_ratio", "0.5"},
-      {8, 29, "water.drift_m_per_s", "a list of 1"},
-      {9, 37, "fracture.bending.model", "\"nevle\""},
-      {11, 14, "ships[0].hull.beam_m", "nothing"},
-      {11, 70, "ships[0].mass_kg", "-1"},
-      {12, 20, "ships[0].propulsion", "thrust and constant speed together"},
-      {15, 5, "floes[0]", "an invalid polygon: self-crossing at (5, 5), (0, 0), (10, 10)"},
-      {17, 5, "floes[2]", "an overlap with floes[1], 50 m² shared"}};
-  const auto problems = problems_of(text);
-  ASSERT_EQ(problems.size(), expected.size()) << all_of(problems);
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(problems[i].line, expected[i].line) << to_string(problems[i]);
-    EXPECT_EQ(problems[i].column, expected[i].column) << to_string(problems[i]);
-    EXPECT_EQ(problems[i].path, expected[i].path);
-    EXPECT_EQ(problems[i].found, expected[i].found);
-    EXPECT_FALSE(problems[i].allowed.empty());
-    EXPECT_EQ(problems[i].file, "scene.json");
-  }
-  EXPECT_EQ(problems[0].suggestion, "thickness_m");
-  EXPECT_EQ(problems[4].suggestion, "nevel");
-  EXPECT_EQ(to_string(problems[2]),
-            "scene.json:6:22: ice.poisson_ratio: found 0.5, allowed: a number ≥ 0, < 0.5");
-}
-
-TEST(Scene, WhatNoFieldAloneCanTell) {
-  struct Case {
-    std::string text, path, found;
-  };
-  const std::string ship = kShip;
-  for (
-      const Case& c : std::vector<Case>{
-          {R"({"ice": {"density_kg_per_m3": 1050}, "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 1}}]})",
-           "ice.density_kg_per_m3", "sinks"},
-          {R"({"time": {"step_s": 0.9}, "water": {"drift_m_per_s": [1, 1]}, "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 1}}]})",
-           "time.step_s", "1.27 m in one step"},
-          {R"({"water": {"shear": {"rate_per_s": 0.01}}, "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 1}}, {"polygon": {"outer_m": [[-60, -20], [-10, -20], [-10, 20], [-60, 999999]]}}]})",
-           "floes[1]", "a rim that moves at"},
-          {R"({"water": {"shear": {"rate_per_s": 0.01}}, "floes": [{"rectangle": {"corner_m": [0, 40000], "size_m": 1}}]})",
-           "time.step_s", "0.005: floes[0] moves 2 m in one step at 400 m/s"},
-          {R"({"floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 200}, "angular_velocity_deg_per_s": 100}]})",
-           "time.step_s", "0.005: floes[0] moves 1.23 m in one step at 247 m/s"},
-          {R"({"ice": {"thickness_m": 5e-324}, "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 1}}]})",
-           "ice.thickness_m", "5e-324"},
-          {R"({"time": {"step_s": 0.9}, "ships": [{"mass_kg": 1e3, "moment_of_inertia_kg_m2": 1e4, "propulsion": {"thrust_N": 2e3}, "hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27}}]})",
-           "time.step_s", "1.62 m in one step at 1.8 m/s"},
-          {R"({"time": {"step_s": 1e-5, "until_s": 1e6}, "ships": [)" + ship + "]}", "time.until_s",
-           "1e+11 steps"},
-          {R"({"time": {"until_s": 0.001}, "ships": [)" + ship + "]}", "time.until_s", "less than one step"},
-          {R"({"ships": [)" + ship + R"(], "floes": [{"rectangle": {"corner_m": [-70, 0], "size_m": 5}}]})",
-           "floes[0]", "an overlap with ships[0], 25 m² shared"},
-          {R"({"ships": [)" + ship + "," + ship + "]}", "ships[1]", "an overlap with ships[0]"},
-          {R"({"floes": [{"lattice": {"columns": 2, "rows": 2, "pitch_m": 10, "size_m": [10, 11]}}]})",
-           "floes[0].lattice.size_m", "more than the pitch"},
-          {R"({"floes": [{"lattice": {"columns": 100000, "rows": 100000, "pitch_m": 10, "size_m": 5}}]})",
-           "floes[0]", "floes in all"},
-          {"{}", "", "neither ships nor floes"},
-          {"[]", "", "a list of 0"},
-          {"{\"floes\": 3}", "floes", "3"},
-          {R"({"floes": [{"velocity_m_per_s": [0, 0]}]})", "floes[0]", "none of them"},
-          {R"({"floes": [{"polygon": {"outer_m": [[0, 0], [1, 1], [2, 2]]}}]})", "floes[0]", "zero-area"},
-          {R"({"floes": [{"polygon": {"outer_m": [[0, 0], [1e-4, 0], [0, 1e-4]]}}]})", "floes[0]",
-           "a floe of 5e-09 m²"},
-          {R"({"ice": {"thickness_m": 0}, "floes": []})", "ice.thickness_m", "0"},
-          {R"({"ice": {"thickness_m": 1e308}, "floes": []})", "ice.thickness_m", "1e+308"}}) {
-    const auto problems = problems_of(c.text);
-    ASSERT_FALSE(problems.empty()) << c.text;
-    EXPECT_EQ(problems.front().path, c.path) << all_of(problems);
-    EXPECT_NE(problems.front().found.find(c.found), std::string::npos) << all_of(problems);
-  }
-}
-
-TEST(Scene, ShipAtConstantSpeedStartsAtIt) {
-  std::string text = std::string("{\"ships\": [") + kShip + "]}";
-  const auto swap = [&](const std::string& from, const std::string& to) {
-    text.replace(text.find(from), from.size(), to);
-  };
-  swap(R"("thrust_N": 2e4)", R"("constant_speed_m_per_s": 1.5)");
-  const auto loaded = read_scene(text, "a.json", ".");
-  ASSERT_TRUE(loaded.has_value());
-  EXPECT_EQ(loaded->scene.ships[0].speed, 1.5);
-  EXPECT_EQ(loaded->scene.ships[0].name, "ship-1");
-  swap(R"("mass_kg")", R"("speed_m_per_s": 1, "mass_kg")");
-  EXPECT_EQ(problems_of(text).front().path, "ships[0].speed_m_per_s");
-}
+using namespace tests;
 
 TEST(Scene, RingsMayRunEitherWayAndBeClosed) {
   const auto area = [](const std::string& outer, const std::string& holes) {
-    const auto loaded =
-        read_scene(R"({"floes": [{"polygon": {"outer_m": )" + outer + R"(, "holes_m": )" + holes + "}}]}",
-                   "a.json", ".");
-    return loaded ? geometry::measure(loaded->scene.floes[0].polygon_in_world).area : -1;
+    const auto loaded = load(
+        scene({list("floes", {R"({"polygon": {"outer_m": )" + outer + R"(, "holes_m": )" + holes + "}}"})}));
+    return geometry::measure(loaded.scene.floes.at(0).polygon_in_world).area;
   };
   EXPECT_EQ(area("[[0,0],[10,0],[10,10],[0,10]]", "[[[2,2],[2,4],[4,4],[4,2]]]"), 96);
   EXPECT_EQ(area("[[0,10],[10,10],[10,0],[0,0],[0,10]]", "[[[2,2],[4,2],[4,4],[2,4],[2,2]]]"), 96);
@@ -159,111 +29,73 @@ TEST(Scene, FloesFromGeojsonStayInTheScenesFolder) {
   write_file(folder / "outside.geojson",
              R"({"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
   std::filesystem::create_symlink(folder / "outside.geojson", folder / "scenes/link.geojson");
-  const auto read = [&](const std::string& file) {
+  const auto read_floes = [&](const std::string& file) {
     write_file(folder / "scenes/s.json",
                R"({"floes": [{"file": ")" + file + R"(", "velocity_m_per_s": [0.1, 0]}]})");
     return read_scene_file(folder / "scenes/s.json");
   };
-  const auto loaded = read("floes/a.geojson");
-  ASSERT_TRUE(loaded.has_value()) << all_of(loaded.error());
+  const auto loaded = checked(read_floes("floes/a.geojson"));
   ASSERT_EQ(loaded->scene.floes.size(), 3U);
   EXPECT_EQ(loaded->scene.floes[1].velocity.x, 0.1);
   EXPECT_EQ(geometry::measure(loaded->scene.floes[1].polygon_in_world).area, 25);
-  // The resolved scene needs no other file.
-  const auto again = read_scene(loaded->resolved_text, "again.json", "/nowhere");
-  ASSERT_TRUE(again.has_value());
-  EXPECT_EQ(again->scene.floes[2].polygon_in_world, loaded->scene.floes[2].polygon_in_world);
+  expect_reads_back(*loaded);  // the resolved scene needs no other file
   for (const char* file : {"../outside.geojson", "link.geojson", "/etc/passwd", "floes", "missing.geojson",
                            "", "../scenes/../outside.geojson"}) {
-    const auto outcome = read(file);
+    const auto outcome = read_floes(file);
     ASSERT_FALSE(outcome.has_value()) << file;
-    EXPECT_EQ(outcome.error().front().path, "floes[0].file") << all_of(outcome.error());
+    EXPECT_EQ(outcome.error().front().path, "floes[0].file") << in_words(outcome.error());
   }
-}
-
-TEST(Scene, AWrongFloeInAFileIsToldInThatFile) {
-  const TemporaryFolder folder;
-  write_file(folder / "f.geojson",
-             "{\"type\": \"MultiPolygon\", \"coordinates\": [\n[[[0,0],[10,0],[10,10],[0,0]]],\n "
-             "[[[0,0],[10,10],[10,0],[0,10],[0,0]]]]}");
-  write_file(folder / "s.json", R"({"floes": [{"file": "f.geojson"}]})");
-  const auto outcome = read_scene_file(folder / "s.json");
-  ASSERT_FALSE(outcome.has_value());
-  EXPECT_EQ(outcome.error().front().file, (folder / "f.geojson").string());
-  EXPECT_EQ(outcome.error().front().line, 3);
-  EXPECT_EQ(outcome.error().front().column, 2);
-}
-
-TEST(Scene, AMissingFileIsAProblem) {
-  const auto outcome = read_scene_file("/no/such/scene.json");
-  ASSERT_FALSE(outcome.has_value());
-  EXPECT_EQ(to_string(outcome.error().front()).substr(0, 41), "/no/such/scene.json: found no such file, ");
 }
 
 TEST(Scene, OverridesTakeTheScenesPlace) {
   const auto loaded =
-      read_scene(R"({"time": {"until_s": 5}, "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 1}}]})",
-                 "a b é.json", ".", {.until = 7.5, .seed = 12});
-  ASSERT_TRUE(loaded.has_value());
+      checked(read_scene(scene({R"("time": {"until_s": 5})", list("floes", {square(0, 0, 1)})}), "a b é.json",
+                         ".", {.until = 7.5, .seed = 12}));
   EXPECT_EQ(loaded->scene.time.until, 7.5);
   EXPECT_EQ(loaded->scene.seed, 12U);
-  EXPECT_NE(loaded->resolved_text.find("\"until_s\": 7.5"), std::string::npos);
+  EXPECT_HAS(loaded->resolved_text, "\"until_s\": 7.5");
   EXPECT_EQ(loaded->scene.name, "a-b---");
 }
 
-/// The scene.json of a run is the resolved scene: whatever is read must fit into what can be read again.
-TEST(Scene, OneThatCouldNotBeReadBackIsRefused) {
-  const TemporaryFolder folder;
-  write_file(folder / "f.geojson",
-             R"({"type": "Polygon", "coordinates": [[[0,0],[1000,0],[0,1000],[0,0]]]})");
-  const std::string text = R"({"floes": [{"file": "f.geojson"}]})";
-  const auto resolved = read_scene(text, "s.json", folder.path());
-  ASSERT_TRUE(resolved.has_value());
-  const std::size_t length = resolved->resolved_text.size();
-  EXPECT_GT(length, text.size());
-  const auto fits = read_scene(text, "s.json", folder.path(), {}, length);
-  ASSERT_TRUE(fits.has_value());
-  EXPECT_TRUE(read_scene(fits->resolved_text, "scene.json", ".", {}, length).has_value());
-  const auto refused = read_scene(text, "s.json", folder.path(), {}, length - 1);
-  ASSERT_FALSE(refused.has_value());
-  EXPECT_EQ(to_string(refused.error().front()).find("s.json:1:1: found " + std::to_string(length) + " bytes"),
-            0U)
-      << to_string(refused.error().front());
-  EXPECT_GE(kLongestScene, 2 * kLongestFloesFile);
-}
-
 TEST(Scene, ALargeLatticeIsReadWhole) {
-  const auto loaded =
-      read_scene(R"({"floes": [{"lattice": {"columns": 400, "rows": 250, "pitch_m": 10, "size_m": 10}}]})",
-                 "a.json", ".");
-  ASSERT_TRUE(loaded.has_value());
-  EXPECT_EQ(loaded->scene.floes.size(), 100'000U);
+  const std::string lattice = R"({"lattice": {"columns": 400, "rows": 250, "pitch_m": 10, "size_m": 10}})";
+  EXPECT_EQ(load(scene({list("floes", {lattice})})).scene.floes.size(), 100'000U);
 }
 
-class ShippedScene : public testing::TestWithParam<std::string> {};
-
-TEST_P(ShippedScene, IsValid) {
-  const auto path = std::filesystem::path(POLYNYA_SOURCE_DIR) / "scenes" / (GetParam() + ".json");
-  const auto loaded = read_scene_file(path);
-  ASSERT_TRUE(loaded.has_value()) << all_of(loaded.error());
-  EXPECT_EQ(loaded->scene.name, GetParam());
+TEST(Scene, FastIceHoldsItsVelocityOverGround) {
+  const std::string moving = R"("velocity_m_per_s": [0.1, -0.2])";
+  const auto loaded = load(scene(
+      {R"("contact": {"law": "crush"})",
+       list("floes", {square(0, 0, 10, moving + R"(, "fast_ice": true)"), square(20, 0, 10, moving)})}));
+  ASSERT_EQ(loaded.scene.floes.size(), 2u);
+  EXPECT_TRUE(loaded.scene.floes[0].is_fast);
+  EXPECT_EQ(loaded.scene.floes[0].velocity, (geometry::Vector{0.1, -0.2}));
+  EXPECT_FALSE(loaded.scene.floes[1].is_fast);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn([] {
-                           std::vector<std::string> names;
-                           for (const auto& entry : std::filesystem::directory_iterator(
-                                    std::string(POLYNYA_SOURCE_DIR) + "/scenes")) {
-                             if (entry.path().extension() == ".json")
-                               names.push_back(entry.path().stem().string());
-                           }
-                           std::ranges::sort(names);
-                           return names;
-                         }()),
-                         [](const auto& scene) {
-                           std::string name = scene.param;
-                           std::ranges::replace(name, '-', '_');
-                           return name;
-                         });
+TEST(Scene, WindHasSkinDragOfItsOwnUnlessGiven) {
+  const auto windy = [](const std::string& members) {
+    return load(scene({list("floes", {square(0, 0, 10)}), "\"wind\": " + members}));
+  };
+  const std::string blowing = R"({"velocity_m_per_s": [0, 10]})";
+  EXPECT_EQ(windy(R"({"drag_coefficient": 0.003})").scene.water.skin_drag_coefficient, 0);
+  EXPECT_EQ(windy(blowing).scene.water.skin_drag_coefficient, 0.004);
+  const auto own = windy(blowing + R"(, "water": {"skin_drag_coefficient": 0.005})");
+  EXPECT_EQ(own.scene.water.skin_drag_coefficient, 0.005);
+  expect_reads_back(own);
+  const auto none = windy(blowing + R"(, "water": {"skin_drag_coefficient": 0})");
+  ASSERT_EQ(none.hints.size(), 1u);
+  EXPECT_EQ(none.hints.front().path, "water.skin_drag_coefficient");
+}
+
+TEST(ShippedScenes, AreValidAndHaveNoHints) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(POLYNYA_SOURCE_DIR) + "/scenes")) {
+    if (entry.path().extension() != ".json") continue;
+    const auto loaded = checked(read_scene_file(entry.path()));
+    EXPECT_EQ(loaded->scene.name, entry.path().stem());
+    EXPECT_EQ(in_words(loaded->hints), "");
+  }
+}
 
 /// The paper's counts and concentrations (docs/paper-comparison.md).
 TEST(PaperScenes, HoldThePapersIce) {
@@ -274,9 +106,8 @@ TEST(PaperScenes, HoldThePapersIce) {
   };
   for (const Case& c : {Case{"fig4a", 110, 15, 0.53, 0.005}, Case{"fig6a", 225, 10, 0.55, 0.005},
                         Case{"fig6b", 64, 20, 0.55, 0.005}}) {
-    const auto loaded =
-        read_scene_file(std::string(POLYNYA_SOURCE_DIR) + "/scenes/sawamura2017-" + c.name + ".json");
-    ASSERT_TRUE(loaded.has_value());
+    const auto loaded = checked(
+        read_scene_file(std::string(POLYNYA_SOURCE_DIR) + "/scenes/sawamura2017-" + c.name + ".json"));
     const auto& floes = loaded->scene.floes;
     ASSERT_EQ(floes.size(), c.small + 21 + 2);
     geometry::Box box = geometry::bounding_box(floes.front().polygon_in_world.outer);
@@ -301,117 +132,137 @@ TEST(PaperScenes, HoldThePapersIce) {
   }
 }
 
-TEST(Scene, AFieldTellsHowItCameOut) {
-  const auto loaded = read_scene(R"({
-    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7,
-               "moment_of_inertia_kg_m2": 5e9, "position_m": [100, 100], "propulsion": {"thrust_N": 2e4}}],
-    "structures": [{"radius_m": 20, "position_m": [300, 100]}],
-    "floes": [{"rectangle": {"corner_m": [-50, 0], "size_m": 10}},
-              {"field": {"corner_m": [0, 0], "extent_m": [400, 200], "floe_size_m": 10, "concentration": 0.8}}]
-  })",
-                                 "scene.json", ".");
-  ASSERT_TRUE(loaded) << all_of(
-      loaded.error());  // no floe in the ship or the structure, no two over one another
-  ASSERT_EQ(loaded->fields.size(), 1u);
-  EXPECT_EQ(loaded->fields[0].group, 1u);
-  const auto& outcome = loaded->fields[0].outcome;
-  EXPECT_EQ(static_cast<std::size_t>(outcome.count) + 1, loaded->scene.floes.size());
+LoadedScene with_field(const std::string& members, const std::string& more = "\"seed\": 1") {
+  return load(scene({more, list("floes", {"{\"field\": {" + members + "}}"})}));
+}
+const std::string kBox = R"("corner_m": [0, 0], "extent_m": 300, )";
+
+/// No floe is in the ship or the structure, and no two lie over one another.
+TEST(Field, ReportsHowItCameOut) {
+  const auto loaded =
+      load(scene({list("ships", {ship(R"("position_m": [100, 100])")}),
+                  list("structures", {R"({"radius_m": 20, "position_m":
+        [300, 100]})"}),
+                  list("floes", {square(-50, 0, 10), R"({"field": {"corner_m": [0, 0], "extent_m": [400, 200],
+        "floe_size_m": 10, "concentration": 0.8}})"})}));
+  ASSERT_EQ(loaded.fields.size(), 1u);
+  EXPECT_EQ(loaded.fields[0].group, 1u);
+  const auto& outcome = loaded.fields[0].outcome;
+  EXPECT_EQ(static_cast<std::size_t>(outcome.count) + 1, loaded.scene.floes.size());
   EXPECT_GT(outcome.left_out, 30);
   EXPECT_DOUBLE_EQ(outcome.region_area, 8e4);
   double area = 0;
-  for (std::size_t i = 1; i < loaded->scene.floes.size(); ++i)
-    area += geometry::measure(loaded->scene.floes[i].polygon_in_world).area;
+  for (std::size_t i = 1; i < loaded.scene.floes.size(); ++i)
+    area += geometry::measure(loaded.scene.floes[i].polygon_in_world).area;
   EXPECT_NEAR(area, outcome.floe_area, 1e-6);
 }
 
-TEST(Scene, AFieldFollowsTheScenesSeedAndItsOwn) {
+TEST(Field, FollowsTheScenesSeedAndItsOwn) {
   const auto first_corner = [](int scene_seed, int field_seed) {
-    const auto loaded = read_scene(fmt::format(R"({{"seed": {}, "floes": [{{"field": {{"corner_m": [0, 0],
-      "extent_m": 100, "floe_size_m": 10, "concentration": 0.5, "seed": {}}}}}]}})",
-                                               scene_seed, field_seed),
-                                   "s", ".");
-    return loaded->scene.floes.front().polygon_in_world.outer.front();
+    return with_field(
+               kBox + fmt::format(R"("floe_size_m": 10, "concentration": 0.5, "seed": {})", field_seed),
+               fmt::format("\"seed\": {}", scene_seed))
+        .scene.floes.front()
+        .polygon_in_world.outer.front();
   };
   EXPECT_EQ(first_corner(1, 0), first_corner(1, 0));
   EXPECT_NE(first_corner(1, 0), first_corner(2, 0));
   EXPECT_NE(first_corner(1, 0), first_corner(1, 1));
 }
 
-TEST(Scene, FieldsAndStructuresHaveTheirOwnMistakes) {
-  struct Case {
-    std::string text, path, found;
-  };
-  const auto field = [](const std::string& more) {
-    return R"({"floes": [{"field": {"corner_m": [0, 0], "extent_m": 100, "floe_size_m": 10, )" + more +
-           "}}]}";
-  };
-  for (
-      const Case& c : std::vector<Case>{
-          {field(R"("concentration": 0.95, "gap_m": 3)"), "floes[0].field.concentration", "0.95"},
-          {field(R"("concentration": 0.005)"), "floes[0].field", "less than one floe"},
-          {field(R"("concentration": 0)"), "floes[0].field.concentration", "0"},
-          {field(R"("concentration": 0.5, "most_corners": 2)"), "floes[0].field.most_corners", "2"},
-          {field(R"("concentration": 0.5, "keep_clear_m": [[[0, 0], [9, 9], [9, 0], [0, 9]]])"),
-           "floes[0].field.keep_clear_m[0]", "self-crossing"},
-          {R"({"floes": [{"field": {"corner_m": [0, 0], "extent_m": 1e6, "floe_size_m": 1, "concentration": 0.5}}]})",
-           "floes[0].field", "floes in all"},
-          {R"({"floes": [{"field": {"outline_m": [[0, 0], [90, 90], [90, 0], [0, 90]], "floe_size_m": 10,
-               "concentration": 0.5}}]})",
-           "floes[0].field.outline_m", "self-crossing"},
-          {R"({"structures": [{"radius_m": 5}], "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 9}}]})",
-           "floes[0]", "an overlap with structures[0]"},
-          {R"({"structures": [{"waterline_m": [[0, 0], [9, 9], [9, 0], [0, 9]]}]})",
-           "structures[0].waterline_m", "an invalid waterline"},
-          {R"({"structures": [{"radius_m": 5}, {"radius_m": 5, "position_m": [50, 0], "name": "structure-1"}]})",
-           "structures[1].name", "a second time"},
-          {R"({"structures": [{"radius_m": 5, "waterline_m": [[0, 0], [1, 0], [0, 1]]}]})", "structures[0]",
-           "together"},
-          {R"({"water": {"shear": {"rate_per_s": 0.5}}, "floes": [{"rectangle": {"corner_m": [0, 9000], "size_m": 9}}]})",
-           "floes[0]", "moves at 4504 m/s"}}) {
-    const auto problems = problems_of(c.text);
-    ASSERT_FALSE(problems.empty()) << c.text;
-    EXPECT_EQ(problems.front().path, c.path) << all_of(problems);
-    EXPECT_NE(problems.front().found.find(c.found), std::string::npos) << all_of(problems);
-    EXPECT_GT(problems.front().line, 0);
-  }
+TEST(Field, HasTheLawAndItsStatistics) {
+  const auto loaded = with_field(
+      kBox + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, "largest_m": 60})");
+  ASSERT_EQ(loaded.fields.size(), 1u);
+  const auto& outcome = loaded.fields[0].outcome;
+  EXPECT_EQ(outcome.count, static_cast<int>(loaded.scene.floes.size()));
+  EXPECT_NEAR(outcome.concentration(), 0.9, 1e-6);
+  ASSERT_TRUE(outcome.statistics.has_value());
+  EXPECT_LT(outcome.statistics->distance_to_law, 0.03);
+  expect_reads_back(loaded);
+  const std::string one_size = with_field(kBox + R"("concentration": 0.5, "floe_size_m": 15)").resolved_text;
+  EXPECT_HAS(one_size, "\"size_spread\": 0.25", "\"most_corners\": 8");
+  EXPECT_LACKS(one_size, "packing");
 }
 
-TEST(Scene, AMissingHullNamesTheKeysItNeedsAndThePresets) {
-  const std::string text = all_of(problems_of(R"({"ships": [{"propulsion": {"thrust_N": 1}}]})"));
-  for (const char* words :
-       {"length_m and beam_m and entrance_angle_deg, or waterline_m", "a preset", "reference"})
-    EXPECT_NE(text.find(words), std::string::npos) << text;
-}
-
-TEST(Scene, ALongKeyIsShortenedBetweenTwoCharacters) {
-  std::string key;
-  for (int i = 0; i < 50'000; ++i) key += "é";
-  const auto problems = problems_of("{\"" + key + "\": 1}");
-  ASSERT_FALSE(problems.empty());
-  EXPECT_LT(to_string(problems[0]).size(), 1000U);
-  EXPECT_LT(to_json_text({problems[0]}).size(), 1000U);
-  EXPECT_NE(to_string(problems[0]).find("éé…: found an unknown key"), std::string::npos);
-}
-
-/// A field of ice takes long to make: what is wrong without it is reported before, and what is wrong with the
-/// ice after that.
-TEST(Scene, WhatNeedsNoIceIsCheckedBeforeAFieldIsMade) {
-  const std::string field =
-      R"({"floes": [{"field": {"corner_m": [-100, -100], "extent_m": [200, 200],
-      "concentration": 0.7, "floe_size_m": 20}},
-      {"rectangle": {"corner_m": [0, 50], "size_m": 30}}], "ships": [)" +
-      std::string(kShip);
-  const std::string ice = all_of(problems_of(field + "]}"));
-  EXPECT_NE(ice.find("an overlap with floes[0]"), std::string::npos) << ice;
-  const std::string both = all_of(problems_of(field + R"(], "time": {"until_s": 0.001}})"));
-  EXPECT_NE(both.find("less than one step"), std::string::npos) << both;
-  EXPECT_EQ(both.find("an overlap"), std::string::npos) << both;
+TEST(Field, AChannelIsFilledAlongItsBends) {
+  const auto loaded =
+      with_field(R"("centreline_m": [[0, 0], [60, 0], [100, 40]], "width_m": 12, "concentration": 0.8,
+      "gap_m": 0.01, "sizes": {"exponent": 0, "least_m": 0.5, "largest_m": 2})");
+  const auto& outcome = loaded.fields.at(0).outcome;
+  EXPECT_NEAR(outcome.region_area, 12 * (60 + 40 * std::sqrt(2.0)), 1e-6)
+      << "mitres add on one side what they take on the other";
+  EXPECT_NEAR(outcome.concentration(), 0.8, 1e-6);
+  EXPECT_GT(outcome.count, 700);
+  EXPECT_LT(outcome.statistics->distance_to_law, 0.01);
 }
 
 TEST(Words, ANumberAgreesWithWhatItCounts) {
   EXPECT_EQ(counted(1, "split"), "1 split");
   EXPECT_EQ(counted(0U, "split"), "0 splits");
   EXPECT_EQ(counted(2, "push", "pushes"), "2 pushes");
+}
+
+/// Values in place of the scene's own, by their paths (polynya run --set, polynya validate --cases).
+const std::string kSet = "{\n  \"time\": {\"until_s\": 10}, \"ice\": {\"thickness_m\": 0.5}, " +
+                         list("floes", {square(0, 0, 10)}) + "}";
+
+SceneOutcome with_values(const std::vector<std::string>& words, const std::string& text = kSet) {
+  SceneOverrides overrides;
+  for (const std::string& each : words) overrides.assignments.push_back(parse_assignment(each).value());
+  return read_scene(text, "scene.json", ".", overrides);
+}
+
+TEST(SceneAssign, PutsValuesOfEveryKindWhereTheirPathsLead) {
+  const auto outcome = checked(
+      with_values({"ice.thickness_m=0.7", "floes[0].rectangle.corner_m[1]=5", "water.drift_m_per_s=[1,2]",
+                   "name=of-no-quotes", "fracture.bending.radial_cracks=\"ignored\"", "seed=7"}));
+  EXPECT_EQ(outcome->scene.ice.thickness, 0.7);
+  EXPECT_EQ(outcome->scene.floes.at(0).polygon_in_world.outer.front().y, 5);
+  EXPECT_EQ(outcome->scene.water.drift.y, 2);
+  EXPECT_EQ(outcome->scene.name, "of-no-quotes");
+  EXPECT_EQ(outcome->scene.seed, 7U);
+  const auto set = with_values({"ice.thickness_m=0.8"});
+  const LoadedScene written = load(with(kSet, R"("ice": {"thickness_m": 0.8})"));
+  EXPECT_EQ(set->resolved_text, written.resolved_text);
+  EXPECT_EQ(set->hash, written.hash);
+}
+
+TEST(SceneAssign, NamesTheOptionAndTheKeyOfWhatIsWrong) {
+  for (const auto& [words, message] :
+       {std::pair{"ice.thickness_m=-1", "ice.thickness_m: found -1, allowed: a number ≥ 0.001, ≤ 20 [m]"},
+        {"ice.thicknes_m=1", "ice.thicknes_m: found an unknown key"},
+        {"floes[1].rectangle.size_m=3", "floes[1]: found a list of 1, allowed: an index from 0 to 0"},
+        {"ships[0].mass_kg=3", "ships: found nothing, allowed: a list that the scene has"},
+        {"ice.thickness_m.x=3", "ice.thickness_m: found 0.5, allowed: an object, to have \"x\""},
+        {"a..b=1", ""},
+        {"a[=1", ""},
+        {"a[x]=1", ""},
+        {"[0]=1", ""},
+        {"a]=1", ""}}) {
+    const auto outcome = with_values({words});
+    ASSERT_FALSE(outcome) << words;
+    EXPECT_BEGINS(to_string(outcome.error().front()), std::string("--set ") + words + ": " + message);
+  }
+  EXPECT_HAS(in_words(with_values({"ice.thicknes_m=1"}).error()), "did you mean \"thickness_m\"?");
+  EXPECT_FALSE(parse_assignment("no-value"));
+  EXPECT_FALSE(parse_assignment("=3"));
+}
+
+/// Of two options, the problem of the second is the second's; what the scene itself has stays the scene's.
+TEST(SceneAssign, KeepsThePlacesOfSceneOptionsAndCasesApart) {
+  const auto outcome = with_values({"seed=1", "ice.friction=nine"}, "{\n  \"ice\": {\"thickness_m\": -1}\n}");
+  ASSERT_FALSE(outcome);
+  ASSERT_EQ(outcome.error().size(), 2U);
+  EXPECT_BEGINS(to_string(outcome.error()[0]), "scene.json:2:26: ice.thickness_m");
+  EXPECT_BEGINS(to_string(outcome.error()[1]), "--set ice.friction=nine: ice.friction");
+  SceneOverrides overrides;
+  overrides.assignments = parse_case(R"({"seed": 2, "ice.thickness_m": -1})", "cases.ndjson", 17).value();
+  EXPECT_BEGINS(to_string(read_scene(kSet, "scene.json", ".", overrides).error().front()),
+                "cases.ndjson:17:32: ice.thickness_m: found -1");
+  EXPECT_EQ(to_string(parse_case("[1]", "cases.ndjson", 3).error()),
+            "cases.ndjson:3:1: found a list of 1, allowed: an object of paths and values");
+  EXPECT_FALSE(parse_case("{\"a\": }", "cases.ndjson", 3));
 }
 
 }  // namespace

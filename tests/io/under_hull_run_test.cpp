@@ -1,6 +1,6 @@
 // A run whose ice goes under a hull, read back: what is under, what came up, and thinned frames.
+#include "scene_text.hpp"
 #include "temporary_folder.hpp"
-#include <gtest/gtest.h>
 
 #include "io/run/placed_floes.hpp"
 #include "io/run/run_loop.hpp"
@@ -15,17 +15,15 @@ class UnderHullRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = new tests::TemporaryFolder;
-    const auto scene = read_scene(R"({"name": "under", "time": {"step_s": 0.01, "until_s": 35},
-      "water": {"drift_m_per_s": [0, 0.1]}, "floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}],
-      "ships": [{"hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27, "draught_m": 2}, "mass_kg": 1e6,
-      "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0], "propulsion": {"constant_speed_m_per_s": 2}}]})",
-                                  "scene.json", ".");
-    ASSERT_TRUE(scene.has_value());
-    auto active = start_run(folder->path() / "run", *scene, true);
-    ASSERT_TRUE(active.has_value()) << active.error();
+    const LoadedScene loaded = tests::load(tests::scene(
+        {R"("time": {"step_s": 0.01, "until_s": 35}, "water": {"drift_m_per_s": [0, 0.1]})",
+         R"("floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}])",
+         tests::list("ships",
+                     {tests::ship(R"("hull": {"length_m": 40, "beam_m": 8, "draught_m": 2}, "mass_kg": 1e6,
+           "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0], "propulsion": {"constant_speed_m_per_s": 2})")})}));
+    auto active = tests::checked(start_run(folder->path() / "run", loaded, true));
     ASSERT_EQ(run_to_end(*active).end, RunEnd::kFinished);
-    auto read = read_run(folder->path() / "run");
-    ASSERT_TRUE(read.has_value()) << read.error();
+    auto read = tests::checked(read_run(folder->path() / "run"));
     run = new io::Run(std::move(*read));
   }
   static void TearDownTestSuite() {
@@ -40,8 +38,7 @@ TEST_F(UnderHullRun, BrashIsWhatCameUpAndWhatItBrokeInto) {
   std::size_t came_up = 0;
   for (const RunFloe& floe : run->floes) {
     const RunFloe* parent = run->floe(floe.birth.parent);
-    const bool rose =
-        parent && run->events.at(*parent->death_event).kind == simulation::EventKind::kResurface;
+    const bool rose = parent && run->events.at(*parent->death_event).is<simulation::Resurface>();
     EXPECT_EQ(floe.came_up, rose || (parent && parent->came_up)) << floe.birth.floe;
     came_up += floe.came_up;
   }
@@ -69,8 +66,7 @@ TEST_F(UnderHullRun, ThinnedFramesHaveWhatIsUnderWhereItIs) {
   std::size_t compared = 0;
   for (const Frame& frame : thin.frames) {
     for (const PlacedFloe& floe : floes_under_hulls_at(*run, all, frame.time)) {
-      const auto motion = some.floe_at(floe.birth->floe, frame.time);
-      ASSERT_TRUE(motion.has_value()) << floe.birth->floe;
+      const auto motion = tests::checked(some.floe_at(floe.birth->floe, frame.time));
       EXPECT_LT(distance(motion->position, floe.motion->position), 1e-9);
       ++compared;
     }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "geometry/cut/overlap.hpp"
 #include "tests/dynamics/scenery.hpp"
+#include "tests/simulation/scenes.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -15,6 +15,7 @@ using geometry::Pose;
 using geometry::Rotation;
 using scenery::Random;
 using simulation::Scene;
+using simulation::scenes::Build;
 
 constexpr double kRegion = 110;  ///< bodies are within half of it of the origin [m]
 
@@ -58,34 +59,6 @@ Polygon random_floe(Random& random) {
   }
 }
 
-simulation::ShipSpec random_ship(Random& random, int number) {
-  simulation::ShipSpec ship;
-  ship.name = "ship-" + std::to_string(number);
-  ship.mass = random.between(3e5, 8e6);
-  ship.heading = random.angle();
-  ship.position_in_world = {random.between(-0.4, 0.4) * kRegion, random.between(-0.4, 0.4) * kRegion};
-  const double length = random.between(25, 70);
-  ship.moment_of_inertia = ship.mass * length * length / 16;
-  ship.hull.waterline =
-      simulation::wedge_bow_waterline(length, length * random.between(0.15, 0.25), random.between(0.25, 0.8));
-  ship.hull.stem_angle = random.between(0.4, 1.2);
-  ship.speed = random.between(0.5, 5);
-  switch (random.below(3)) {
-    case 0:
-      ship.propulsion = simulation::ConstantThrust{random.between(5e4, 2e6)};
-      break;
-    case 1:
-      ship.propulsion = simulation::FixedInPlace{};
-      ship.speed = 0;
-      ship.hull.waterline = simulation::cylinder_waterline(random.between(1, 8));
-      ship.hull.stem_angle = 0.5 * std::numbers::pi;
-      break;
-    default:
-      ship.propulsion = simulation::ConstantSpeed{ship.speed};
-  }
-  return ship;
-}
-
 bool is_free(const std::vector<Polygon>& placed, const Polygon& polygon) {
   const auto shared = [&](const Polygon& other) {
     const auto area = geometry::shared_area(other, {}, polygon, {});
@@ -96,11 +69,39 @@ bool is_free(const std::vector<Polygon>& placed, const Polygon& polygon) {
   });
 }
 
+/// Gives the scene a ship or a structure where there is room.
+bool add_random_ship(Random& random, int number, std::vector<Polygon>& placed, Build& scene) {
+  simulation::Ship ship;
+  ship.name = "ship-" + std::to_string(number);
+  ship.mass = random.between(3e5, 8e6);
+  ship.heading = random.angle();
+  ship.position_in_world = {random.between(-0.4, 0.4) * kRegion, random.between(-0.4, 0.4) * kRegion};
+  const double length = random.between(25, 70);
+  ship.moment_of_inertia = ship.mass * length * length / 16;
+  ship.hull.waterline =
+      simulation::wedge_bow_waterline(length, length * random.between(0.15, 0.25), random.between(0.25, 0.8));
+  ship.hull.stem_angle = random.between(0.4, 1.2);
+  ship.speed = random.between(0.5, 5);
+  const int kind = random.below(3);
+  ship.propulsion = simulation::ConstantSpeed{ship.speed};
+  if (kind == 0) ship.propulsion = simulation::ConstantThrust{random.between(5e4, 2e6)};
+  if (kind == 1) ship.hull.waterline = simulation::cylinder_waterline(random.between(1, 8));
+  const Polygon hull =
+      transform(Pose{ship.position_in_world, Rotation::by(ship.heading)}, Polygon{ship.hull.waterline, {}});
+  if (!is_free(placed, hull)) return false;
+  placed.push_back(hull);
+  if (kind == 1)
+    scene.structure(ship.hull.waterline, ship.position_in_world);
+  else
+    scene.ship(ship);
+  return true;
+}
+
 }  // namespace
 
 Scene random_scene(std::uint64_t seed) {
   Random random(seed);
-  Scene scene;
+  Build scene;
   scene.name = "random " + std::to_string(seed);
   scene.time.step = random.below(2) == 0 ? 0.005 : 0.02;
   scene.time.until = 8;
@@ -113,14 +114,8 @@ Scene random_scene(std::uint64_t seed) {
   scene.ice.friction = random.below(3) == 0 ? 0 : 0.1;
   std::vector<Polygon> placed;
   const int ships = 1 + random.below(3);
-  for (int tries = 0; tries < 30 && static_cast<int>(scene.ships.size()) < ships; ++tries) {
-    simulation::ShipSpec ship = random_ship(random, tries);
-    const Polygon hull =
-        transform(Pose{ship.position_in_world, Rotation::by(ship.heading)}, Polygon{ship.hull.waterline, {}});
-    if (!is_free(placed, hull)) continue;
-    placed.push_back(hull);
-    scene.ships.push_back(ship);
-  }
+  for (int tries = 0, added = 0; tries < 30 && added < ships; ++tries)
+    added += add_random_ship(random, tries, placed, scene) ? 1 : 0;
   const int tries = 30 + random.below(120);
   for (int i = 0; i < tries; ++i) {
     const Pose pose{{random.between(-0.5, 0.5) * kRegion, random.between(-0.5, 0.5) * kRegion},
@@ -128,10 +123,9 @@ Scene random_scene(std::uint64_t seed) {
     const Polygon floe = transform(pose, random_floe(random));
     if (!is_free(placed, floe)) continue;
     placed.push_back(floe);
-    simulation::FloeSpec spec{floe, {}, 0};
-    if (random.below(3) == 0) spec.velocity = {random.between(-1, 1), random.between(-1, 1)};
-    if (random.below(6) == 0) spec.angular_velocity = random.between(-0.2, 0.2);
-    scene.floes.push_back(spec);
+    geometry::Vector velocity;
+    if (random.below(3) == 0) velocity = {random.between(-1, 1), random.between(-1, 1)};
+    scene.floe(floe, velocity, random.below(6) == 0 ? random.between(-0.2, 0.2) : 0);
   }
   return scene;
 }

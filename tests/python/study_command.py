@@ -1,6 +1,20 @@
-"""`polynya study` for the tests."""
+"""`polynya study` for the tests, and small studies."""
+import csv
+import json
 import subprocess
 import sys
+
+import pytest
+
+SHIP = '''{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
+  "position_m": [-61, 75], "propulsion": {"constant_speed_m_per_s": 1}}'''
+SCENE = (
+    '''// a ship and a plate
+{"time": {"until_s": 8, "step_s": 0.01}, "ships": [%s],
+ "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 150}}]}'''
+    % SHIP
+)
+OF_PYTHON = [sys.executable, "-m", "polynya.study"]
 
 
 def study(*words, code=0):
@@ -9,3 +23,36 @@ def study(*words, code=0):
     ran = subprocess.run(command, capture_output=True, text=True, check=False)
     assert ran.returncode == code, ran.stdout + ran.stderr
     return ran.stdout + ran.stderr
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "plate.json").write_text(SCENE)
+    return tmp_path
+
+
+def write_study(folder, name="s", **keys):
+    path = folder / f"{name}.json"
+    path.write_text(json.dumps({"scene": "plate.json", **keys}))
+    return path
+
+
+def planned(folder, name="s", *words, **keys):
+    """The folder of a study that is planned without a trial."""
+    study("plan", write_study(folder, name, **keys), *words, "--trial-seconds", 0)
+    return folder / "studies" / name
+
+
+def table(folder):
+    with open(folder / "table.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def files_of(case):
+    """What a case's run wrote, but for the times by the clock."""
+    found = {path.name: path.read_bytes() for path in (case / "run").iterdir()}
+    for name, content in (("summary.json", found["summary.json"]), ("case.json", (case / "case.json").read_bytes())):
+        members = json.loads(content).items()
+        found[name] = {k: v for k, v in members if k not in ("wall_time_s", "real_time_factor", "elapsed_s")}
+    return found

@@ -71,11 +71,14 @@ def test_an_episode_is_that_of_its_seed():
     assert drawn[0] == 7 and drawn[1] != drawn[2] and env.reset()[1]["scene_seed"] == drawn[1]
 
 
-def test_the_scene_is_that_of_the_command_line_with_the_same_seed():
+def test_the_scene_is_that_of_the_command_line_with_the_same_seed_or_made_of_it():
     env = agent()
     env.reset(seed=9)
-    plain = polynya.Simulation({**SCENE, "seed": 9})
-    numpy.testing.assert_array_equal(env.simulation.floes.poses, plain.floes.poses)
+    numpy.testing.assert_array_equal(env.simulation.floes.poses, polynya.Simulation({**SCENE, "seed": 9}).floes.poses)
+    env = agent(lambda seed: {**SCENE, "seed": seed, "ice": {"thickness_m": 0.1 * seed}})
+    for seed in (3, 6):
+        env.reset(seed=seed)
+        assert env.simulation.floes.thickness[0] == pytest.approx(0.1 * seed)
 
 
 def test_an_action_moves_lever_and_rudder():
@@ -102,26 +105,12 @@ def test_progress_reward_and_ends():
     assert [row[2] for row in rows[1:]].count(True) > 0 and rows[1][2] is False and rows[-1][2] is True
     for row in rows[1:]:
         assert row[1] == pytest.approx(row[4]["progress_m"] - 1e-6 * row[4]["ice_work_J"])
+    assert env.simulation.ships[1].forces["t_s"] == pytest.approx(rows[-1][4]["time_s"]), "the forces are those of the step"
     assert sum(row[4]["ice_work_J"] for row in rows[1:]) > 0 and any(row[4]["events"] for row in rows[1:])
     timed = agent(time_limit=1.0)
     assert [row[3] for row in episode(timed, 2, [(0, 0)] * 3)[1:]] == [False, True, True]
     along = agent(reward=lambda change: change.seconds)
     assert episode(along, 2, [(0, 0)])[1][1] == 0.5
-
-
-def test_the_work_of_the_ice_is_that_of_its_mean_force():
-    env = agent()
-    rows = episode(env, 2, [(1.0, 0.0)] * 16)
-    forces = env.simulation.ships[1].forces
-    assert forces["t_s"] == pytest.approx(rows[-1][4]["time_s"]), "the forces are those of the step"
-
-
-def test_a_scene_may_be_made_of_the_seed():
-    env = agent(lambda seed: {**SCENE, "seed": seed, "ice": {"thickness_m": 0.1 * seed}})
-    env.reset(seed=3)
-    assert env.simulation.floes.thickness[0] == pytest.approx(0.3)
-    env.reset(seed=6)
-    assert env.simulation.floes.thickness[0] == pytest.approx(0.6)
 
 
 def test_a_picture_of_what_the_agent_sees():

@@ -1,7 +1,6 @@
 """The scripts of examples/, in their short forms: each runs, prints and draws."""
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 
@@ -32,14 +31,3 @@ def test_each_example_begins_with_what_it_shows_and_its_command():
         lines = path.read_text().splitlines()
         assert lines[0] == "#!/usr/bin/python3" and lines[1].startswith('"""') and lines[1].endswith(".")
         assert lines[3].strip().startswith(f"python3 examples/{path.name} ") and os.access(path, os.X_OK)
-
-
-def test_the_film_is_a_film(tmp_path):
-    if shutil.which("ffmpeg") is None:
-        pytest.skip("ffmpeg is missing (./setup.sh python)")
-    code = ("import sys, pathlib; sys.path.insert(0, sys.argv[1]); import film as example\n"
-            "from polynya.movie import film, picture; import polynya\n"
-            "out = pathlib.Path(sys.argv[2]); run = polynya.Run(example.run_into(out, 4), pandas=False)\n"
-            "film.write(run, str(out / 'film.mp4'), film.chosen_times(run, speed=4), picture.Look(size=(320, 320), speed=4))\n")
-    subprocess.run([sys.executable, "-c", code, EXAMPLES, tmp_path], check=True, capture_output=True)
-    assert (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp"

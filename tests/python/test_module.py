@@ -169,11 +169,6 @@ def test_ships_are_found_by_index_and_by_name():
         ships["titanic"]
 
 
-def test_a_bowtie_is_refused_with_the_place_where_it_crosses_itself():
-    with pytest.raises(ValueError, match=r"self-crossing at \(5, 5\)"):
-        polynya.cut([[0, 0], [10, 10], [10, 0], [0, 10]], disc=(5, 5, 3))
-
-
 def test_the_version_is_the_programs_with_and_without_the_compiled_module():
     version = subprocess.run([PROGRAM, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
     assert polynya.__version__ == version
@@ -273,9 +268,11 @@ def test_a_pilot_reads_its_simulation_but_does_not_step_it():
     with pytest.raises(RuntimeError, match="being stepped"):
         simulation.step()
     assert positions[0][0] == positions[0][1]
-    simulation.set_pilot(0, lambda view: simulation.save())
-    with pytest.raises(RuntimeError, match="being stepped"):
-        simulation.step()
+    memory = simulation.floe_memory
+    for touch in (simulation.save, lambda: memory.centres):
+        simulation.set_pilot(0, lambda view: touch())
+        with pytest.raises(RuntimeError, match="being stepped"):
+            simulation.step()
 
 
 def test_progress_is_called_and_ends_the_run_where_it_raises():
@@ -443,16 +440,6 @@ def test_a_view_outlives_its_simulation():
     numpy.testing.assert_array_equal(shape, before[1])
 
 
-def test_a_pilot_gets_no_views():
-    simulation = polynya.Simulation(SEA)
-    memory = simulation.floe_memory
-    simulation.set_pilot(0, lambda view: memory.centres)
-    with pytest.raises(RuntimeError, match="being stepped"):
-        simulation.step()
-    simulation.set_pilot(0, None)
-    simulation.step()
-
-
 def covered(polygons, pose, shape, cell, ahead, lines=8):
     """The share of each cell that polygons cover: points of a fine grid in them."""
     from matplotlib.path import Path
@@ -570,16 +557,9 @@ def test_a_cut_takes_shapes_with_holes_and_refuses_what_is_none():
         assert sum(map(area_of, polynya.cut(shape, crack=(5, 5, 90)).pieces)) == pytest.approx(96)
     assert len(polynya.cut(SQUARE, disc=(10, 5, 3), keep="outside").pieces) == 1
     bow_tie = SQUARE[[0, 2, 1, 3]]
-    with pytest.raises(ValueError, match="self-crossing"):
+    with pytest.raises(ValueError, match=r"self-crossing at \(5, 5\)"):
         polynya.cut(bow_tie, crack=(5, 5, 0))
     assert polynya.cut(bow_tie, crack=(5, 0, 90), repair="even-odd").pieces
-    for wrong in (numpy.zeros((4, 1)), numpy.full((4, 2), numpy.nan), SQUARE[:2]):
-        with pytest.raises(ValueError):
-            polynya.cut(wrong, disc=(0, 0, 1))
-    with pytest.raises(ValueError):
-        polynya.cut(SQUARE, disc=(0, 0))
-    with pytest.raises(TypeError):
-        polynya.cut(SQUARE)
 
 
 def test_a_cut_of_shapelys_polygon():
@@ -594,6 +574,11 @@ def test_a_cut_of_shapelys_polygon():
 @pytest.mark.parametrize("wrong, error", [
     (lambda: polynya.cut(None, disc=(0, 0, 1)), TypeError),
     (lambda: polynya.cut("floe", disc=(0, 0, 1)), ValueError),
+    (lambda: polynya.cut(numpy.zeros((4, 1)), disc=(0, 0, 1)), ValueError),
+    (lambda: polynya.cut(numpy.full((4, 2), numpy.nan), disc=(0, 0, 1)), ValueError),
+    (lambda: polynya.cut(SQUARE[:2], disc=(0, 0, 1)), ValueError),
+    (lambda: polynya.cut(SQUARE), TypeError),
+    (lambda: polynya.cut(SQUARE, disc=(0, 0)), ValueError),
     (lambda: polynya.cut([], disc=(0, 0, 1)), ValueError),
     (lambda: polynya.cut(SQUARE, disc="abc"), ValueError),
     (lambda: polynya.cut(SQUARE, disc=(0, 0, -1)), ValueError),

@@ -19,27 +19,14 @@ PROGRAM = os.environ["POLYNYA_PROGRAM"]
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
 
 
-def lindqvist(speed, thickness=0.5, **ice):
-    return 1e-3 * sum(formulas.lindqvist(HULL, formulas.Ice(thickness, **ice), speed))
-
-
-@pytest.mark.parametrize("speed, resistance", [(0, 391.0), (0.5, 474.2), (1, 557.4), (2, 723.7)])
-def test_lindqvists_resistance_of_the_reference_ship(speed, resistance):
-    assert lindqvist(speed) == pytest.approx(resistance, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    "thickness, at_rest, at_1", [(0.3, 202, 293), (0.8, 751, 1044), (1.0, 1039, 1425), (1.2, 1365, 1850)]
-)
-def test_lindqvists_resistance_by_thickness(thickness, at_rest, at_1):
-    assert lindqvist(0, thickness) == pytest.approx(at_rest, rel=3e-3)
-    assert lindqvist(1, thickness) == pytest.approx(at_1, rel=3e-3)
-
-
-@pytest.mark.parametrize("friction, at_rest, at_1", [(0.05, 216, 316), (0.1, 273, 395)])
-def test_lindqvists_resistance_by_friction(friction, at_rest, at_1):
-    assert lindqvist(0, friction=friction) == pytest.approx(at_rest, rel=3e-3)
-    assert lindqvist(1, friction=friction) == pytest.approx(at_1, rel=3e-3)
+@pytest.mark.parametrize("resistance, speed, thickness, friction, tolerance", [
+    (391.0, 0, 0.5, None, 1e-3), (474.2, 0.5, 0.5, None, 1e-3), (557.4, 1, 0.5, None, 1e-3), (723.7, 2, 0.5, None, 1e-3),
+    (202, 0, 0.3, None, 3e-3), (751, 0, 0.8, None, 3e-3), (1039, 0, 1.0, None, 3e-3), (1365, 0, 1.2, None, 3e-3),
+    (293, 1, 0.3, None, 3e-3), (1044, 1, 0.8, None, 3e-3), (1425, 1, 1.0, None, 3e-3), (1850, 1, 1.2, None, 3e-3),
+    (216, 0, 0.5, 0.05, 3e-3), (316, 1, 0.5, 0.05, 3e-3), (273, 0, 0.5, 0.1, 3e-3), (395, 1, 0.5, 0.1, 3e-3)])
+def test_lindqvists_resistance_of_the_reference_ship(resistance, speed, thickness, friction, tolerance):
+    ice = formulas.Ice(thickness, **({} if friction is None else {"friction": friction}))
+    assert 1e-3 * sum(formulas.lindqvist(HULL, ice, speed)) == pytest.approx(resistance, rel=tolerance)
 
 
 def test_the_other_formulas():
@@ -84,22 +71,13 @@ SHIP = {
 }
 
 
-def test_a_steady_run_is_measured_where_the_hull_is_full(tmp_path):
-    entering = [5.0] * 88  # 220 m
-    write_run(tmp_path, entering + [2.0 + 0.02 * math.sin(0.1 * i) for i in range(1000)])
+def test_a_run_is_steady_slows_down_or_stops(tmp_path):
+    write_run(tmp_path, [5.0] * 88 + [2.0 + 0.02 * math.sin(0.1 * i) for i in range(1000)])  # 220 m until the hull is full
     measured = level_ice.Measured(tmp_path, SHIP)
-    assert measured.speed == pytest.approx(2, abs=0.02)
-    assert measured.is_within(0.03) and not measured.is_stuck
-    assert 1e-3 * measured.contact == pytest.approx(100)
-    assert 1e-3 * measured.submerged == pytest.approx(40)
-
-
-def test_a_run_that_slows_down_is_not_steady(tmp_path):
+    assert measured.speed == pytest.approx(2, abs=0.02) and measured.is_within(0.03) and not measured.is_stuck
+    assert (1e-3 * measured.contact, 1e-3 * measured.submerged) == (pytest.approx(100), pytest.approx(40))
     write_run(tmp_path, [5.0] * 100 + [3 - 0.002 * i for i in range(1000)])
     assert not level_ice.Measured(tmp_path, SHIP).is_within(0.03)
-
-
-def test_a_ship_that_stops_has_no_speed(tmp_path):
     write_run(tmp_path, [3.0] * 200 + [0.0] * 800)
     measured = level_ice.Measured(tmp_path, SHIP)
     assert measured.is_stuck and measured.speed == 0 and measured.is_within(0.03)
@@ -127,11 +105,11 @@ def test_options_have_the_ranges_of_the_scenes_keys(option, key, capsys):
         assert re.search(rf"{option}: found .*, allowed: a number ≥ {low:g}, ≤ {high:g}".replace("+", r"\+"), capsys.readouterr().err)
 
 
-@pytest.mark.parametrize("wrong", ["--error=0", "--error=1", "--error=nan", "--jobs=0", "--jobs=1.5", "--thickness=0.5,,1"])
-def test_other_options_have_ranges_too(wrong, capsys):
-    with pytest.raises(SystemExit):
-        command_line().parse_args(["ship", wrong])
-    assert "allowed: " in capsys.readouterr().err
+def test_other_options_have_ranges_too(capsys):
+    for wrong in ("--error=0", "--error=1", "--error=nan", "--jobs=0", "--jobs=1.5", "--thickness=0.5,,1"):
+        with pytest.raises(SystemExit):
+            command_line().parse_args(["ship", wrong])
+        assert "allowed: " in capsys.readouterr().err
 
 
 def changed(ship, chance):

@@ -23,28 +23,16 @@ def synthetic(folder, groups=3, of_group=40):
         for i in range(groups * of_group)
     ]
     write_cases(folder, [json.dumps({"scene": 0, "set": v}) + "\n" for v in values])
-    plan = {
-        "format": 1,
-        "name": "synthetic",
-        "cases": len(values),
-        "chunk": 1,
-        "archive": False,
-        "keep": "summary",
-        "set": {},
-        "source": "",
-        "scenes": ["scenes/0/a.json"],
-        "varied": ["ice.thickness_m", "ice.friction", "seed"],
-        "collect": {},
-        "report": {"group_by": "ice.thickness_m", "against": "ice.thickness_m"},
-    }
+    plan = {"format": 1, "name": "synthetic", "cases": len(values), "chunk": 1, "archive": False, "keep": "summary", "set": {},
+            "source": "", "scenes": ["scenes/0/a.json"], "varied": ["ice.thickness_m", "ice.friction", "seed"], "collect": {},
+            "report": {"group_by": "ice.thickness_m", "against": "ice.thickness_m"}}
     (folder / PLAN).write_text(json.dumps(plan))
     study = open_study(folder)
     for i, v in enumerate(values):
         case = study.case_folder(i)
         case.mkdir(parents=True)
         measures = {
-            "resistance_mean_N": rng.normal(1e5, 1e4),
-            "resistance_peak_N": rng.gumbel(1e6 * v["ice.thickness_m"], 5e4),
+            "resistance_mean_N": rng.normal(1e5, 1e4), "resistance_peak_N": rng.gumbel(1e6 * v["ice.thickness_m"], 5e4),
             "outcome": "bent" if v["ice.friction"] < 0.15 else "split",
         }
         (case / RESULT).write_text(json.dumps({"state": "finished", "case": i, "measures": measures}))
@@ -57,13 +45,15 @@ def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp
     page = (study.folder / "study.html").read_text()
     shown = re.findall(r"<img src='([^']+)'", page)
     assert {
-        "report/exceedance-resistance_peak_N.svg",
-        "report/means-resistance_mean_N.svg",
-        "report/outcomes.svg",
+        "report/exceedance-resistance_peak_N.svg", "report/means-resistance_mean_N.svg", "report/outcomes.svg"
     } <= set(shown)
     for name in shown:
         assert (study.folder / name).stat().st_size > 5000 and (study.folder / name).with_suffix(".png").exists()
     assert "http" not in page
+    assert "resistance peak [MN]" in page[page.index("<h2>Cases") :] and not re.search(r">[\d.]+e\+\d", page)
+    before = {p: p.read_bytes() for p in [study.folder / "study.html", *(study.folder / "report").iterdir()]}
+    study_command("report", study.folder)
+    assert before == {p: p.read_bytes() for p in before}, "the same study gives the same page"
     assert page.count("--keep all</code>") == 120  # thinned: the command that brings the run back
     with open(study.folder / "report/statistics.csv", newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["measure"] == "resistance_peak_N"]
@@ -74,25 +64,10 @@ def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp
         assert float(row["mean_low"]) < 1e6 * thickness + 0.5772 * 5e4 < float(row["mean_high"])
 
 
-def test_numbers_have_one_format_and_their_unit(tmp_path):
+def test_numbers_have_one_format_and_their_unit():
     assert [pictures.in_words(v) for v in (906693.0, 1.57945e6, 12345678, 0.35, 0.4000001)] == [
-        "906693", "1579450", "12345678", "0.35", "0.4"
-    ]  # fmt: skip
+        "906693", "1579450", "12345678", "0.35", "0.4"]
     assert [pictures.in_words(v, 4) for v in (1.57945e6, 0.906693, float("inf"))] == ["1579000", "0.9067", "∞"]
-    study = synthetic(tmp_path / "s")
-    study_command("report", study.folder)
-    page = (study.folder / "study.html").read_text()
-    assert "resistance peak [MN]" in page[page.index("<h2>Cases") :] and not re.search(r">[\d.]+e\+\d", page)
-
-
-def test_the_same_study_gives_the_same_page(tmp_path):
-    study = synthetic(tmp_path / "s")
-
-    def made():
-        study_command("report", study.folder)
-        return {p.name: p.read_bytes() for p in [study.folder / "study.html", *(study.folder / "report").iterdir()]}
-
-    assert made() == made()
 
 
 def test_a_page_of_a_part_of_the_study_says_so(tmp_path):
@@ -102,13 +77,10 @@ def test_a_page_of_a_part_of_the_study_says_so(tmp_path):
         study.case_folder(i).rmdir()
     study_command("report", study.folder, code=75)
     assert "This page shows a part of the study" in (study.folder / "study.html").read_text()
+    unfinished = synthetic(tmp_path / "one", 1, 1)
+    (unfinished.case_folder(0) / RESULT).unlink()
+    assert "no case is finished" in study_command("report", unfinished.folder, code=75)
     assert "--cases 0-29" in json.loads((study.folder / "gather.json").read_text())["repair"]["missing"]
-
-
-def test_a_study_without_a_finished_case_has_no_page(tmp_path):
-    study = synthetic(tmp_path / "s", 1, 1)
-    (study.case_folder(0) / RESULT).unlink()
-    assert "no case is finished" in study_command("report", study.folder, code=75)
 
 
 def test_a_kept_run_opens_in_the_player(tmp_path, monkeypatch):
@@ -117,8 +89,7 @@ def test_a_kept_run_opens_in_the_player(tmp_path, monkeypatch):
         json.dumps(
             {
                 "scene": os.path.join(os.path.abspath(os.environ["POLYNYA_SCENES"]), "level-plate.json"),
-                "set": {"time.until_s": 10},
-                "grid": {"ice.thickness_m": [0.4, 0.5]},
+                "set": {"time.until_s": 10}, "grid": {"ice.thickness_m": [0.4, 0.5]},
             }
         )
     )

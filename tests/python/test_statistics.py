@@ -39,9 +39,7 @@ def test_students_interval_is_that_of_scipys_t_test():
 
 
 def test_bootstrap_interval_covers_the_mean_of_skewed_samples():
-    part = covered(
-        lambda x: statistics.bootstrap_mean(x, count=400), 1, draw=lambda rng, n: rng.exponential(1, n), size=60
-    )
+    part = covered(lambda x: statistics.bootstrap_mean(x, count=400), 1, size=60, draw=lambda rng, n: rng.exponential(1, n))
     assert 0.88 < part < 0.98  # percentile intervals of skewed samples are a little short
 
 
@@ -54,27 +52,22 @@ def test_bootstrap_depends_on_its_seed_alone():
 @pytest.mark.parametrize("probability, size", [(0.5, 30), (0.9, 100)])
 def test_quantile_intervals_cover_at_least_as_often_as_stated(probability, size):
     truth = stats.expon.ppf(probability)
-    part = covered(
-        lambda x: statistics.quantile(x, probability), truth, draw=lambda rng, n: rng.exponential(1, n), size=size
-    )
+    part = covered(lambda x: statistics.quantile(x, probability), truth,
+                   draw=lambda rng, n: rng.exponential(1, n), size=size)
     assert part > 0.95 - 4 * math.sqrt(0.95 * 0.05 / TRIALS)
     assert part < 0.995
 
 
-def test_a_quantile_beyond_the_sample_has_no_upper_limit():
+def test_quantiles_and_exceedance_at_the_ends_of_a_sample():
     interval = statistics.quantile(range(10), 0.99)
     assert interval.high == math.inf and interval.low > 0
-
-
-def test_exceedance_is_that_of_plotting_positions():
-    values, above = statistics.exceedance([3, 1, 2])
+    values, above = statistics.exceedance([3, 1, 2])  # plotting positions
     assert values.tolist() == [1, 2, 3] and above.tolist() == pytest.approx([0.75, 0.5, 0.25])
 
 
 def test_wilsons_interval_covers_a_proportion():
-    part = covered(
-        lambda x: statistics.proportion(int(x.sum()), x.size), 0.2, draw=lambda rng, n: rng.random(n) < 0.2, size=80
-    )
+    part = covered(lambda x: statistics.proportion(int(x.sum()), x.size), 0.2,
+                   draw=lambda rng, n: rng.random(n) < 0.2, size=80)
     assert near(part, 0.95)
     assert statistics.proportion(0, 10).low == 0 and statistics.proportion(0, 10).high > 0.2
 
@@ -90,13 +83,8 @@ def test_fits_are_scipys(name, peer, seed):
     assert statistics.fit(name, x, count=50).values() == pytest.approx(peer(x), rel=2e-3)
 
 
-@pytest.mark.parametrize(
-    "name, truth, draw",
-    [
-        ("gumbel", (5, 2), lambda rng, n: rng.gumbel(5, 2, n)),
-        ("weibull", (1.6, 4), lambda rng, n: 4 * rng.weibull(1.6, n)),
-    ],
-)
+@pytest.mark.parametrize("name, truth, draw", [
+    ("gumbel", (5, 2), lambda rng, n: rng.gumbel(5, 2, n)), ("weibull", (1.6, 4), lambda rng, n: 4 * rng.weibull(1.6, n))])
 def test_fits_find_the_parameters_and_their_intervals_cover_them(name, truth, draw):
     rng = numpy.random.default_rng(11)
     large = statistics.fit(name, draw(rng, 20000), count=20)
@@ -120,24 +108,16 @@ def test_goodness_is_uniform_for_the_right_distribution_and_small_for_a_wrong_on
 
 
 def test_the_level_of_a_probability_is_exceeded_by_it():
-    for name, x in (
-        ("gumbel", numpy.random.default_rng(2).gumbel(1, 3, 50)),
-        ("weibull", numpy.random.default_rng(2).weibull(2, 50)),
-    ):
+    rng = numpy.random.default_rng(2)
+    for name, x in (("gumbel", rng.gumbel(1, 3, 50)), ("weibull", rng.weibull(2, 50))):
         fitted = statistics.fit(name, x, count=50)
         for p in (0.5, 0.01, 1e-6):
             assert float(fitted.exceedance(fitted.level_of(p))) == pytest.approx(p, rel=1e-9)
 
 
 def test_level_intervals_cover_the_level():
-    truth = 5 - 2 * math.log(-math.log1p(-0.01))
-    part = covered(
-        lambda x: statistics.level_interval("gumbel", x, 0.01, count=200),
-        truth,
-        trials=150,
-        size=80,
-        draw=lambda rng, n: rng.gumbel(5, 2, n),
-    )
+    part = covered(lambda x: statistics.level_interval("gumbel", x, 0.01, count=200), 5 - 2 * math.log(-math.log1p(-0.01)),
+                   trials=150, size=80, draw=lambda rng, n: rng.gumbel(5, 2, n))
     assert 0.86 < part < 0.99
 
 
@@ -150,19 +130,10 @@ def test_as_many_cases_as_are_needed_make_the_interval_narrow_enough():
     assert statistics.cases_needed([1, 1, 1], 0.1) == 2
 
 
-@pytest.mark.parametrize(
-    "call",
-    [
-        lambda: statistics.mean([1]),
-        lambda: statistics.mean([1, math.nan]),
-        lambda: statistics.mean([[1, 2], [3, 4]]),
-        lambda: statistics.fit("weibull", [1, 2, 3, 4, 0]),
-        lambda: statistics.fit("normal", [1, 2, 3, 4, 5]),
-        lambda: statistics.fit("gumbel", [2] * 8),
-        lambda: statistics.cases_needed([1, 2], 0),
-        lambda: statistics.proportion(3, 2),
-    ],
-)
+@pytest.mark.parametrize("call", [
+    lambda: statistics.mean([1]), lambda: statistics.mean([1, math.nan]), lambda: statistics.mean([[1, 2], [3, 4]]),
+    lambda: statistics.fit("weibull", [1, 2, 3, 4, 0]), lambda: statistics.fit("normal", [1, 2, 3, 4, 5]),
+    lambda: statistics.fit("gumbel", [2] * 8), lambda: statistics.cases_needed([1, 2], 0), lambda: statistics.proportion(3, 2)])
 def test_what_is_no_sample_is_refused_with_words(call):
     with pytest.raises(ValueError, match="found|sample"):
         call()

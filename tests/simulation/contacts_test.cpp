@@ -1,4 +1,5 @@
-// Recorded contacts explain the loads on ships and the motion of floes.
+// Contacts as they are recorded: with ice they explain the loads on ships and the motion of floes, with other
+// ships they are kept apart; and overlaps that no contact takes away are ground to brash.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -13,20 +14,16 @@ using geometry::Vector;
 
 /// A ship under thrust in drifting water, into loose floes and a plate behind them.
 Scene pack(RecordedContacts contacts) {
-  Scene scene = without_drag();
-  scene.water.drift = {0.2, -0.1};
+  Ship ship = icebreaker({0, 0}, ConstantThrust{2e6}, 2);
+  ship.heading = 0.1;
+  Scene scene = Build()
+                    .without_drag()
+                    .drift({0.2, -0.1})
+                    .ship(ship)
+                    .grid({2, -26}, 2, 5, 10, 10.5)
+                    .floe(rectangle(26, -60, 86, 60));
   scene.record.contacts = contacts;
   scene.record.forces_interval = scene.time.step;
-  scene.ships = {icebreaker({0, 0}, ConstantThrust{2e6}, 2)};
-  scene.ships[0].heading = 0.1;
-  for (int column = 0; column < 2; ++column) {
-    for (int row = 0; row < 5; ++row) {
-      const double x = 2 + 11.0 * column;
-      const double y = -26 + 10.5 * row;
-      scene.floes.push_back(floe(rectangle(x, y, x + 10, y + 10)));
-    }
-  }
-  scene.floes.push_back(floe(rectangle(26, -60, 86, 60)));
   return scene;
 }
 
@@ -36,8 +33,7 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
   int most = 0;
   bool has_crushed = false;
   while (simulation.time() < 25) {
-    const geometry::Pose before = simulation.ship_states()[0].world_from_ship;
-    const double heading = simulation.ship_states()[0].heading;
+    const ShipState before = simulation.ship_states()[0];
     simulation.step();
     const ShipSample sample = simulation.journal().samples.back();
     simulation.journal().clear();
@@ -49,14 +45,14 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
       ASSERT_EQ(contact.on.ship, 0);
       ASSERT_GE(contact.by.floe, 0);
       force += contact.force;
-      moment += cross(contact.point_in_world - before.position, contact.force);
+      moment += cross(contact.point_in_world - before.world_from_ship.position, contact.force);
       size += length(contact.force);
       has_crushed = has_crushed || contact.is_crushing;
     }
-    const Vector in_ship = rotate_back(geometry::Rotation::by(heading), force);
-    ASSERT_NEAR(in_ship.x, sample.surge_force, 1e-9 * size) << simulation.time();
-    ASSERT_NEAR(in_ship.y, sample.sway_force, 1e-9 * size);
-    ASSERT_NEAR(moment, sample.yaw_moment, 1e-7 * size);
+    const Vector in_ship = rotate_back(geometry::Rotation::by(before.heading), force);
+    ASSERT_NEAR(in_ship.x, sample.from_ice.surge, 1e-9 * size) << simulation.time();
+    ASSERT_NEAR(in_ship.y, sample.from_ice.sway, 1e-9 * size);
+    ASSERT_NEAR(moment, sample.from_ice.yaw, 1e-7 * size);
     ASSERT_EQ(static_cast<int>(contacts.size()), sample.contacts);
     pressed += size > 1e4;
     most = std::max(most, sample.contacts);
@@ -76,8 +72,7 @@ TEST(Contacts, BetweenFloesTooExplainHowEachFloeMoves) {
   for (int step = 0; step < 1000; ++step) {
     std::map<FloeId, Vector> gained;
     for (const FloeState& state : simulation.floe_states()) gained[state.floe] = -state.mass * state.velocity;
-    simulation.step();
-    simulation.journal().clear();
+    skip(simulation);
     for (const FloeState& state : simulation.floe_states()) gained[state.floe] += state.mass * state.velocity;
     double size = 1;
     for (const ContactState& contact : simulation.contact_states()) {
@@ -99,10 +94,7 @@ TEST(Contacts, AreThoseTheSceneAsksFor) {
   EXPECT_TRUE(all.contact_states().empty()) << "nothing was stepped yet";
   std::size_t others = 0;
   for (int step = 0; step < 1000; ++step) {
-    for (Simulation* simulation : {&all, &ships, &none}) {
-      simulation->step();
-      simulation->journal().clear();
-    }
+    for (Simulation* simulation : {&all, &ships, &none}) skip(*simulation);
     const auto of_ships = ships.contact_states();
     auto of_all = all.contact_states();
     others += std::erase_if(of_all, [](const ContactState& contact) { return contact.on.ship < 0; });
@@ -114,7 +106,178 @@ TEST(Contacts, AreThoseTheSceneAsksFor) {
     ASSERT_TRUE(none.contact_states().empty());
   }
   EXPECT_GT(others, 300U);
-  EXPECT_EQ(all.state_hash(), none.state_hash()) << "looking changes nothing";
+  EXPECT_EQ(all.state_hash(), none.state_hash()) << "recording changes nothing";
+}
+
+TEST(ShipContacts, AreNoIceLoadAndEndAsEq5Says) {
+  // Two equal barges bow to bow, steel on steel, no ice in the scene: restitution in one blow.
+  const Ship barge_ahead = barge({0, 0}, ConstantThrust{0}, 0.5);
+  Ship barge_back = barge_ahead;
+  barge_back.position_in_world = {60.55, 0};
+  barge_back.heading = std::numbers::pi;
+  const Scene scene = Build(Laws::kPaper).without_drag().ship(barge_ahead).ship(barge_back);
+  const auto [simulation, story] = run(scene, 1);
+  double surge = 0;
+  for (const ShipSample& sample : story.samples) {
+    EXPECT_EQ(sample.from_ice.surge, 0);
+    EXPECT_EQ(sample.from_ice_largest.surge, 0);
+    EXPECT_EQ(sample.collision.surge, 0);
+    EXPECT_EQ(sample.contacts, 0);
+    if (sample.ship == 0) surge += scene.record.forces_interval * sample.from_ships.surge;
+  }
+  EXPECT_NEAR(simulation.ship_states()[0].velocity.x, -0.05, 1e-6);
+  EXPECT_NEAR(simulation.ship_states()[1].velocity.x, 0.05, 1e-6);
+  EXPECT_NEAR(surge, 1e7 * (simulation.ship_states()[0].velocity.x - 0.5), 1e-3);
+  const std::vector<Event> met = story.of_kind<ShipContact>();
+  ASSERT_EQ(met.size(), 1U);
+  const auto& contact = std::get<ShipContact>(met[0].what);
+  EXPECT_NEAR(met[0].time, 0.55, 2 * scene.time.step + 1e-9);
+  EXPECT_EQ(met[0].ship, 0);
+  EXPECT_EQ(contact.other, 1);
+  EXPECT_NEAR(contact.closing_speed, 1, 1e-6);
+  EXPECT_NEAR(contact.relative_speed, 1, 1e-6);
+  EXPECT_NEAR(met[0].point_in_world.x, 0.275, 0.01);
+  EXPECT_FALSE(contact.is_prescribed);
+}
+
+TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
+  for (const Laws laws : kBothLaws) {
+    const auto [simulation, story] = run(Build(laws)
+                                             .without_drag()
+                                             .ship(barge({0, 0}, ConstantThrust{0}, 1))
+                                             .pile({25, 3}, 5)
+                                             .floe(rectangle(1, -8, 9, -2)),
+                                         40);
+    Vector by_ice, by_pile;
+    double turned_by_ice = 0, turned_by_pile = 0;
+    for (const ShipSample& sample : story.samples) {
+      if (sample.ship != 0) continue;
+      by_ice += 0.1 * Vector{sample.from_ice.surge, sample.from_ice.sway};
+      by_pile += 0.1 * Vector{sample.from_ships.surge, sample.from_ships.sway};
+      turned_by_ice += 0.1 * sample.from_ice.yaw;
+      turned_by_pile += 0.1 * sample.from_ships.yaw;
+    }
+    const ShipState end = simulation.ship_states()[0];
+    EXPECT_LT(by_ice.x, -1e4);
+    EXPECT_LT(by_pile.x, -1e6);
+    EXPECT_NEAR((turned_by_ice + turned_by_pile) / (5e9 * end.angular_velocity), 1, 1e-9);
+    // The heading turns by less than a degree while the pile is touched: m Δv along it, to that.
+    EXPECT_NEAR((by_ice.x + by_pile.x) / (1e7 * (end.velocity.x - 1)), 1, 1e-2);
+  }
+}
+
+TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
+  // The pile stands off the course by this much: every step length and place finds the touch, none beside it.
+  for (const double step : {0.005, 0.013, 0.05}) {
+    for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
+      const Story story =
+          run(Build().step(step).ship(barge({0, 0}, ConstantSpeed{2})).pile({25, off}, 5).pile({-150, 0}, 5),
+              30)
+              .story;
+      const std::vector<Event> met = story.of_kind<ShipContact>();
+      if (std::abs(off) > 17) {
+        EXPECT_TRUE(met.empty()) << off;
+        continue;
+      }
+      ASSERT_EQ(met.size(), 1U) << off << " in steps of " << step;
+      const auto& contact = std::get<ShipContact>(met[0].what);
+      // The side of the bow that meets the pile is 20 m from it at most, 25 m where it meets the very edge.
+      EXPECT_GE(met[0].time, 10 - 1e-9);
+      EXPECT_LE(met[0].time, (std::abs(off) < 11 ? 10 : 12.5) + 2 * step);
+      EXPECT_EQ(contact.relative_speed, 2);
+      EXPECT_GT(contact.closing_speed, 0);
+      EXPECT_TRUE(contact.is_prescribed);
+      EXPECT_EQ(largest(story, &ShipSample::from_ships), 0);
+    }
+  }
+}
+
+TEST(ShipContacts, AreRecordedOnceAlsoAfterAResume) {
+  const Scene scene = Build()
+                          .ship(barge({0, 0}, ConstantThrust{1e5}))
+                          .ship(barge({0, 100}, ConstantSpeed{1}))
+                          .pile({6, 0}, 5)
+                          .pile({6.5, 100}, 5);
+  EXPECT_EQ(run(scene, 3).story.of_kind<ShipContact>().size(), 2U);
+  EXPECT_EQ(run(scene, 6).story.of_kind<ShipContact>().size(), 2U);
+  EXPECT_TRUE(expect_resumes(scene, 3, 6).story.of_kind<ShipContact>().empty());
+}
+
+Trial after_one_step(const Scene& scene) {
+  return run(scene, scene.time.step);
+}
+
+TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
+  const auto [simulation, story] = after_one_step(
+      Build().structure(rectangle(-30, -1, 30, 1).outer).floe(rectangle(-2, -10, 2, 8), {0, 0.3}));
+  ASSERT_EQ(story.events.size(), 1U);
+  ASSERT_EQ(story.grinds().size(), 1U);
+  const auto event = story.grinds()[0];
+  EXPECT_EQ(event.ship, 0);
+  EXPECT_EQ(event.ice()->by_floe, kNoFloe);
+  EXPECT_EQ(event.ice()->children.size(), 2U);
+  EXPECT_NEAR(event.ice()->brash_area, 8, 1e-9);
+  EXPECT_NEAR(std::get<Grind>(event.what).criterion.overlap_area, 8, 1e-9);
+  EXPECT_LT(std::get<Grind>(event.what).criterion.width, 1e-9);
+  EXPECT_NEAR(std::get<Grind>(event.what).criterion.least_width, 0.25 * 8 / 4, 1e-9);
+  EXPECT_EQ(simulation.counts().ground, 1);
+  EXPECT_NEAR(simulation.area_ledger().brash_area, 8, 1e-9);
+  EXPECT_GT(simulation.audit().sums.energy.grinding, 0);
+  expect_closed(simulation);
+}
+
+TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
+  const auto [inside, story_inside] =
+      after_one_step(Build().structure(rectangle(-30, -10, 30, 10).outer).floe(rectangle(3, -2, 6, 2)));
+  ASSERT_EQ(story_inside.grinds().size(), 1U);
+  EXPECT_TRUE(story_inside.grinds()[0].ice()->children.empty());
+  EXPECT_EQ(story_inside.grinds()[0].ice()->brash_area, 12);
+  EXPECT_TRUE(inside.floe_states().empty());
+
+  const auto [around, story_around] =
+      after_one_step(Build().structure(rectangle(-1, -1, 1, 1).outer).floe(rectangle(-40, -40, 40, 40)));
+  ASSERT_EQ(story_around.grinds().size(), 1U);
+  ASSERT_EQ(around.floe_states().size(), 1U);
+  EXPECT_EQ(around.floe_states()[0].polygon_in_body->holes.size(), 1U);
+  EXPECT_EQ(story_around.grinds()[0].ice()->brash_area, 4);
+  EXPECT_EQ(std::get<Grind>(story_around.grinds()[0].what).criterion.overlap_area, 4)
+      << "the smaller of the two";
+}
+
+TEST(Grind, OfTwoFloesTheSmallerIsGround) {
+  const Trial done =
+      after_one_step(Build().floe(rectangle(-20, -1, 20, 1), {0.1, 0}).floe(rectangle(-1, -12, 1, 12)));
+  ASSERT_EQ(done.story.grinds().size(), 1U);
+  const auto event = done.story.grinds()[0];
+  EXPECT_EQ(event.ice()->floe, 1);
+  EXPECT_EQ(event.ice()->by_floe, 0);
+  EXPECT_EQ(event.ship, -1);
+  EXPECT_EQ(event.ice()->children.size(), 2U);
+}
+
+TEST(Grind, AWedgeIsPartedByItsContactInstead) {
+  const Trial done =
+      run(Build().structure({{5, 0}, {-25, 9}, {-25, -9}}).floe(rectangle(0, -10, 1.5, 10), {-0.3, 0}), 2);
+  EXPECT_TRUE(done.story.events.empty());
+  EXPECT_GT(done.simulation.counts().crush_contacts, 0);
+}
+
+/// Two floes that touch at a corner, to the last bit and a little more or less.
+TEST(Grind, WhatOnlyTouchesIsLeft) {
+  for (const double off : {-1e-9, -1e-16, 0.0, 1e-16, 1e-9}) {
+    const Trial done = after_one_step(Build()
+                                          .floe({{{0.1, 0.3}, {-20, 7}, {-20, -7}}, {}}, {1e-3, 0})
+                                          .floe({{{0.1 + off, 0.3}, {30, -20}, {30, 20}}, {}}));
+    EXPECT_TRUE(done.story.events.empty()) << off;
+  }
+}
+
+TEST(Grind, IsPartOfTheStateAndDoesNotDependOnThreads) {
+  const Scene scene = Build()
+                          .structure(rectangle(-30, -1, 30, 1).outer)
+                          .floe(rectangle(-2, -10, 2, 8), {0, 0.3})
+                          .floe(rectangle(4, -10, 6, 8), {0.2, 0.3});
+  EXPECT_EQ(expect_resumes(scene, 0.5, 1, 2).simulation.counts().ground, 2);
 }
 
 }  // namespace

@@ -10,116 +10,88 @@
 namespace polynya::simulation::scenes {
 namespace {
 
-/// Gives a floe of the scene ice of its own.
+/// The scene's ice but for what the change makes of it.
 template <class Change>
-void change_ice(Scene& scene, std::size_t floe, Change change) {
-  fracture::Ice ice = scene.ice;
+fracture::Ice changed(Change change) {
+  fracture::Ice ice;
   change(ice);
-  scene.floes[floe].own_ice = static_cast<std::int32_t>(scene.own_ice.size());
-  scene.own_ice.push_back(ice);
+  return ice;
 }
 
-/// A ship at constant speed that breaks a plate.
-Scene plate(double speed = 1) {
-  Scene scene;
-  scene.time.step = 0.01;
-  scene.ships = {icebreaker({-0.5, 0}, ConstantSpeed{speed}, speed)};
-  scene.floes = {floe(rectangle(0, -60, 120, 60))};
+/// A ship at constant speed, before ice that Kashtelyan's formula breaks.
+Build ship_in_ice(double speed = 1) {
+  Build scene = Build().step(0.01).ship(icebreaker({-0.5, 0}, ConstantSpeed{speed}, speed));
   scene.fracture.bending = BendingModelKind::kKashtelyan;
-  scene.fracture.splitting = fracture::SplittingModel::kMichel;
   return scene;
 }
 
-Event first_bend(const Scene& scene, double until = 20) {
-  Simulation simulation(scene);
-  for (const Event& event : run(simulation, until).events)
-    if (event.kind == EventKind::kBend) return event;
-  ADD_FAILURE() << "nothing bent";
-  return {};
+/// The same, and ice that goes under it, by the database.
+Build ship_over_ice(double speed, bool comes_up = true) {
+  Build scene = ship_in_ice(speed);
+  scene.fracture.bending = BendingModelKind::kFsiDatabase;
+  scene.fracture.cusp_fate = CuspFate::kUnderHull;
+  scene.fracture.going_under.is_enabled = true;
+  scene.fracture.resurface.is_enabled = comes_up;
+  scene.ships[0].hull.draught = 6;
+  return scene;
 }
 
-void expect_balanced(const Simulation& simulation) {
-  const MassLedger masses = simulation.mass_ledger();
-  EXPECT_GT(masses.initial_ice_mass, 0);
-  EXPECT_LT(std::abs(masses.imbalance), 1e-9 * masses.initial_ice_mass);
-  EXPECT_TRUE(simulation.audit().is_closed()) << simulation.audit().energy_imbalance;
-}
+const geometry::Polygon kPlate = rectangle(0, -60, 120, 60);
 
 TEST(FloeIce, BreaksAtTheLoadOfItsOwnStrengthAndThickness) {
-  const double as_scene = first_bend(plate()).criteria.bending_capacity;
-  Scene strong = plate();
-  change_ice(strong, 0, [](fracture::Ice& ice) { ice.flexural_strength *= 2; });
-  const Event bend = first_bend(strong);
-  EXPECT_NEAR(bend.criteria.bending_capacity / as_scene, 2, 1e-9);
-  EXPECT_GE(bend.criteria.vertical_force, bend.criteria.bending_capacity);
-  EXPECT_EQ(bend.criteria.flexural_strength, 2 * strong.ice.flexural_strength);
-  Scene thick = plate();
-  change_ice(thick, 0, [](fracture::Ice& ice) { ice.thickness *= 1.5; });
-  EXPECT_NEAR(first_bend(thick).criteria.bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
+  const double as_scene = first_bend(ship_in_ice().floe(kPlate)).criteria().bending_capacity;
+  const fracture::Ice strong = changed([](fracture::Ice& ice) { ice.flexural_strength *= 2; });
+  const auto bend = first_bend(ship_in_ice().floe(kPlate).of(strong));
+  EXPECT_NEAR(bend.criteria().bending_capacity / as_scene, 2, 1e-9);
+  EXPECT_GE(bend.criteria().vertical_force, bend.criteria().bending_capacity);
+  EXPECT_EQ(bend.criteria().flexural_strength, strong.flexural_strength);
+  const fracture::Ice thick = changed([](fracture::Ice& ice) { ice.thickness *= 1.5; });
+  const auto bend_of_thick = first_bend(ship_in_ice().floe(kPlate).of(thick));
+  EXPECT_NEAR(bend_of_thick.criteria().bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
+}
+
+/// One floe: to give it the ice is to give the scene that ice, to the bit.
+Trial expect_same(Build scene, const fracture::Ice& ice, double until) {
+  Scene own = Build(scene).of(ice);
+  scene.ice = ice;
+  Trial a = run(own, until), b = run(scene, until);
+  EXPECT_EQ(a.simulation.state_hash(), b.simulation.state_hash());
+  expect_closed(a.simulation);
+  return a;
 }
 
 TEST(FloeIce, IsWhatTheSceneWouldHaveByAllThatUsesIt) {
-  // One floe: to give it the ice is to give the scene that ice, to the bit.
-  Scene own = plate();
-  own.fracture.bending = BendingModelKind::kFsiDatabase;
-  own.fracture.splitting = fracture::SplittingModel::kLefm;
-  own.fracture.going_under.is_enabled = own.fracture.resurface.is_enabled = true;
-  own.fracture.cusp_fate = CuspFate::kUnderHull;
-  own.ships[0].hull.draught = 6;
-  Scene scene = own;
-  const auto change = [](fracture::Ice& ice) {
-    ice = {.thickness = 0.61,
-           .density = 880,
-           .flexural_strength = 6.3e5,
-           .compressive_strength = 2.1e6,
-           .tensile_strength = 5.5e5,
-           .fracture_toughness = 1.1e5};
-  };
-  change(scene.ice);
-  change_ice(own, 0, change);
-  Simulation a(own), b(scene);
-  run(a, 25);
-  run(b, 25);
-  EXPECT_EQ(a.state_hash(), b.state_hash());
-  EXPECT_GT(a.counts().bends, 10);
-  EXPECT_GT(a.counts().went_under, 10);
-  expect_balanced(a);
+  const fracture::Ice ice{.thickness = 0.61,
+                          .density = 880,
+                          .flexural_strength = 6.3e5,
+                          .compressive_strength = 2.1e6,
+                          .tensile_strength = 5.5e5,
+                          .fracture_toughness = 1.1e5};
+  const Counts counts = expect_same(ship_over_ice(1).floe(kPlate), ice, 25).simulation.counts();
+  EXPECT_GT(counts.bends, 10);
+  EXPECT_GT(counts.went_under, 10);
 }
 
 TEST(FloeIce, SplitsByItsOwnTensileStrengthAndToughness) {
+  const fracture::Ice weak = changed([](fracture::Ice& ice) {
+    ice.tensile_strength *= 0.01;
+    ice.fracture_toughness *= 0.2;
+  });
   for (const auto model : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {
-    Scene own = plate(2);
-    own.fracture.splitting = model;
-    own.floes = {floe(rectangle(0, -30, 60, 30))};
-    Scene scene = own;
-    const auto weaken = [](fracture::Ice& ice) {
-      ice.tensile_strength *= 0.01;
-      ice.fracture_toughness *= 0.2;
-    };
-    change_ice(own, 0, weaken);
-    weaken(scene.ice);
-    Simulation a(own), b(scene);
-    const Story story = run(a, 10);
-    run(b, 10);
-    EXPECT_GT(a.counts().splits, 0);
-    EXPECT_EQ(a.state_hash(), b.state_hash());
-    for (const Event& event : story.events) {
-      if (event.kind != EventKind::kSplit) continue;
-      EXPECT_EQ(event.criteria.fracture_toughness, own.own_ice[0].fracture_toughness);
-    }
+    Build scene = ship_in_ice(2).floe(rectangle(0, -30, 60, 30));
+    scene.fracture.splitting = model;
+    const Story story = expect_same(scene, weak, 10).story;
+    EXPECT_FALSE(story.splits().empty());
+    for (const auto& event : story.splits())
+      EXPECT_EQ(event.criteria().fracture_toughness, weak.fracture_toughness);
   }
 }
 
 TEST(FloeIce, PiecesInheritIt) {
-  Scene scene = plate(2);
-  scene.floes = {floe(rectangle(0, -40, 40, 40)), floe(rectangle(40.1, -40, 80, 40))};
-  change_ice(scene, 1, [](fracture::Ice& ice) {
-    ice.thickness = 0.3;
-    ice.density = 850;
-    ice.flexural_strength = 5e5;
-  });
-  Simulation simulation(scene);
-  run(simulation, 35);
+  const fracture::Ice own{.thickness = 0.3, .density = 850, .flexural_strength = 5e5};
+  const Simulation simulation =
+      run(ship_in_ice(2).floe(rectangle(0, -40, 40, 40)).floe(rectangle(40.1, -40, 80, 40)).of(own), 35)
+          .simulation;
   std::size_t of_second = 0;
   for (const FloeState& state : simulation.all_states()) {
     const bool is_second = state.ice == &simulation.scene().own_ice[0];
@@ -132,34 +104,18 @@ TEST(FloeIce, PiecesInheritIt) {
   }
   EXPECT_GT(of_second, 1u);
   EXPECT_GT(simulation.counts().bends, 10);
-  expect_balanced(simulation);
-}
-
-/// Ice that goes under a hull, of floes that each have their own.
-Scene mixed(bool comes_up) {
-  Scene scene = plate(4);
-  scene.fracture.bending = BendingModelKind::kFsiDatabase;
-  scene.fracture.cusp_fate = CuspFate::kUnderHull;
-  scene.fracture.going_under.is_enabled = true;
-  scene.fracture.resurface.is_enabled = comes_up;
-  scene.ships[0].hull.draught = 6;
-  scene.floes.clear();
-  for (int i = 0; i < 12; ++i) {
-    const int column = i / 4;
-    const double x = 25 * column, y = 25 * (i % 4) - 50;
-    scene.floes.push_back(floe(rectangle(x, y, x + 24.9, y + 24.9)));
-    change_ice(scene, scene.floes.size() - 1, [&](fracture::Ice& ice) {
-      ice.thickness = 0.3 + 0.02 * (i % 7);
-      ice.density = 860 + 10 * (i % 5);
-    });
-  }
-  return scene;
+  expect_closed(simulation);
 }
 
 TEST(FloeIce, TheLedgerInKilogramsBalancesWhereIceGoesUnderAndComesUp) {
   for (const bool comes_up : {false, true}) {
-    Simulation simulation(mixed(comes_up));
-    run(simulation, 38);
+    Build scene = ship_over_ice(4, comes_up);
+    for (int i = 0; i < 12; ++i) {
+      const int column = i / 4;
+      scene.floe(shapes::square({25.0 * column, 25.0 * (i % 4) - 50}, 24.9))
+          .of({.thickness = 0.3 + 0.02 * (i % 7), .density = 860.0 + 10 * (i % 5)});
+    }
+    const Simulation simulation = run(scene, 38).simulation;
     const MassLedger masses = simulation.mass_ledger();
     const AreaLedger areas = simulation.area_ledger();
     EXPECT_GT(simulation.counts().went_under, 0);
@@ -169,39 +125,34 @@ TEST(FloeIce, TheLedgerInKilogramsBalancesWhereIceGoesUnderAndComesUp) {
                            (areas.brash_area + areas.under_ice_area + areas.under_hull_area);
     EXPECT_GT(of_area, 0.3 * 860);
     EXPECT_LT(of_area, 0.42 * 900);
-    expect_balanced(simulation);
+    expect_closed(simulation);
   }
 }
 
 TEST(FloeIce, TheWeakerIceCrushesAsHighAsTheThinnerFloe) {
   const fracture::Ice thin_and_strong{.thickness = 0.3, .compressive_strength = 3e6};
   const fracture::Ice thick_and_weak{.thickness = 0.8, .compressive_strength = 1e6};
-  for (const bool is_swapped : {false, true}) {
-    const fracture::Ice crushed = is_swapped ? crushed_between(thick_and_weak, thin_and_strong)
-                                             : crushed_between(thin_and_strong, thick_and_weak);
-    EXPECT_EQ(crushed.thickness, 0.3);
-    EXPECT_EQ(crushed.compressive_strength, 1e6);
-  }
-  // Two floes, 20 m wide, one fast and driven into the other that a wall of fast ice holds.
-  for (const bool is_swapped : {false, true}) {
-    Scene scene;
-    scene.fracture.breakable_size_factor = 1e9;
-    scene.floes = {floe(rectangle(-20, -10, 0, 10), {0.1, 0}), floe(rectangle(0.001, -10, 20, 10))};
-    for (FloeSpec& one : scene.floes) one.is_fast = true;
-    scene.floes[1].is_fast = false;
-    scene.floes.push_back(floe(rectangle(20.001, -200, 420, 200)));
-    change_ice(scene, is_swapped ? 1 : 0, [&](fracture::Ice& ice) { ice = thin_and_strong; });
-    change_ice(scene, is_swapped ? 0 : 1, [&](fracture::Ice& ice) { ice = thick_and_weak; });
-    change_ice(scene, 2, [&](fracture::Ice& ice) { ice.compressive_strength = 1e8; });
+  for (const auto& [a, b] : {std::pair(thin_and_strong, thick_and_weak), {thick_and_weak, thin_and_strong}}) {
+    EXPECT_EQ(crushed_between(a, b).thickness, 0.3);
+    EXPECT_EQ(crushed_between(a, b).compressive_strength, 1e6);
+    // Two floes, 20 m wide, one fast and driven into the other that a plate of strong ice holds.
+    Scene scene = Build()
+                      .unbreakable()
+                      .floe(fast(rectangle(-20, -10, 0, 10), {0.1, 0}))
+                      .of(a)
+                      .floe(rectangle(0.001, -10, 20, 10))
+                      .of(b)
+                      .floe(rectangle(20.001, -200, 420, 200))
+                      .of({.compressive_strength = 1e8});
     scene.record.contacts = RecordedContacts::kAll;
     Simulation simulation(scene);
     double most = 0;
     for (int step = 0; step < 1000; ++step) {
-      simulation.step();
+      skip(simulation);
       for (const ContactState& contact : simulation.contact_states())
         if (contact.on.floe == 0) most = std::max(most, length(contact.force));
     }
-    EXPECT_NEAR(most / (1e6 * 0.3 * 20), 1, 0.02) << is_swapped;
+    EXPECT_NEAR(most / (1e6 * 0.3 * 20), 1, 0.02);
   }
 }
 
@@ -237,21 +188,18 @@ TEST(BendingScatter, DrawsFloesOneByOne) {
 }
 
 Scene scattering(std::uint64_t seed) {
-  Scene scene = plate(2);
+  Scene scene = ship_in_ice(2).floe(kPlate);
   scene.fracture.bending = BendingModelKind::kFsiDatabase;
   scene.fracture.bending_scatter = 0.2;
+  scene.fracture.splitting = fracture::SplittingModel::kNone;
   scene.seed = seed;
   return scene;
 }
 
 TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
-  Simulation simulation(scattering(5));
-  const Story story = run(simulation, 40);
   std::vector<double> factors;
-  for (const Event& event : story.events) {
-    if (event.kind == EventKind::kBend)
-      factors.push_back(event.criteria.flexural_strength / simulation.scene().ice.flexural_strength);
-  }
+  for (const auto& event : run(scattering(5), 40).story.bends())
+    factors.push_back(event.criteria().flexural_strength / fracture::Ice{}.flexural_strength);
   ASSERT_GT(factors.size(), 50u);
   const auto measures = fracture::measure({fracture::ScatterKind::kLogNormal, 1, 0.2}, factors);
   EXPECT_LT(measures.distance, 1.63 / std::sqrt(static_cast<double>(factors.size())));
@@ -259,28 +207,10 @@ TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
 }
 
 TEST(BendingScatter, TheSeedMeansSomethingInLevelIceAndThreadsAndResumeDoNot) {
-  Simulation one(scattering(5)), two(scattering(5)), other(scattering(6));
-  two.set_threads(2);
-  std::optional<Simulation> resumed;
-  for (int step = 0; step < 1500; ++step) {
-    for (Simulation* simulation : {&one, &two, &other}) {
-      simulation->step();
-      simulation->journal().clear();
-    }
-    if (step == 700) {
-      auto again = Simulation::resumed(scattering(5), one.state());
-      ASSERT_TRUE(again.has_value()) << again.error();
-      resumed.emplace(std::move(*again));
-    } else if (resumed) {
-      resumed->step();
-      resumed->journal().clear();
-    }
-  }
+  const Simulation one = expect_resumes(scattering(5), 7, 15, 2).simulation;
   EXPECT_GT(one.counts().bends, 20);
-  EXPECT_EQ(one.state_hash(), two.state_hash());
-  EXPECT_EQ(one.state_hash(), resumed->state_hash());
-  EXPECT_EQ(one.mass_ledger().brash_mass, resumed->mass_ledger().brash_mass);
-  EXPECT_NE(one.state_hash(), other.state_hash());
+  EXPECT_EQ(one.mass_ledger().brash_mass, run(scattering(5), 15).simulation.mass_ledger().brash_mass);
+  EXPECT_NE(one.state_hash(), run(scattering(6), 15).simulation.state_hash());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A ship in water: engine, rudder, mooring, and what the water does to its hull.
+// A ship in water: engine, rudder, mooring, what the water does to its hull, and who works lever and
+// steering.
 #include <algorithm>
 #include <cmath>
 
@@ -15,16 +16,21 @@ using namespace scenes;
 constexpr double kLength = 120;
 
 /// The reference ship in water, alone.
-Scene in_water(const Propulsion& propulsion, double speed, double step = 0.05) {
-  Scene scene;
-  scene.time.step = step;
-  ShipSpec ship = icebreaker({60, 0}, propulsion, speed);
+Build in_water(const Propulsion& propulsion, double speed, double step = 0.05) {
+  Ship ship = icebreaker({60, 0}, propulsion, speed);
   ship.hull.draught = 6;
   ship.water.acts = true;
   ship.water.block_coefficient = 0.579;
-  scene.ships = {ship};
+  Build scene = Build().step(step).ship(ship);
   scene.record.forces_interval = step;
   return scene;
+}
+
+/// What a run of that ship recorded, with its accounts closed.
+std::vector<ShipSample> sail(const Scene& scene, double until) {
+  const Trial done = run(scene, until);
+  EXPECT_TRUE(done.simulation.audit().is_closed());
+  return done.story.samples;
 }
 
 Engine engine(double pull = 1e6, double speed = 8) {
@@ -74,31 +80,27 @@ TEST(Sailing, NoEnergyComesFromNothing) {
 }
 
 TEST(Sailing, AShipWithoutAnEngineCoastsToAStop) {
-  Simulation simulation(in_water(ConstantThrust{0}, 6, 0.5));
-  const Story story = run(simulation, 3600);
+  const std::vector<ShipSample> samples = sail(in_water(ConstantThrust{0}, 6, 0.5), 3600);
   const double m = 1.05e7, d = 0.5 * 1000 * 0.004 * (1.7 * 120 * 6 + 0.579 * 120 * 24);
-  for (std::size_t i = 1; i < story.samples.size(); ++i)
-    ASSERT_LT(length(story.samples[i].velocity_in_world), length(story.samples[i - 1].velocity_in_world));
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    ASSERT_LT(length(samples[i].velocity_in_world), length(samples[i - 1].velocity_in_world));
   // m v̇ = −d v²
-  EXPECT_NEAR(length(story.samples.back().velocity_in_world), 6 / (1 + 6 * d / m * 3600), 0.01);
-  EXPECT_NEAR(story.samples.back().position_in_world.x, m / d * std::log(1 + 6 * d / m * 3600), 20);
-  EXPECT_TRUE(simulation.audit().is_closed());
+  EXPECT_NEAR(length(samples.back().velocity_in_world), 6 / (1 + 6 * d / m * 3600), 0.01);
+  EXPECT_NEAR(samples.back().position_in_world.x, m / d * std::log(1 + 6 * d / m * 3600), 20);
 }
 
 TEST(Sailing, AnEngineComesToItsOpenWaterSpeed) {
-  Simulation simulation(in_water(engine(), 0, 0.1));
-  const Story story = run(simulation, 900);
-  EXPECT_NEAR(story.samples.back().velocity_in_world.x, 8, 0.005 * 8);
-  EXPECT_NEAR(story.samples.back().thrust, 2 / 3.0 * 1e6, 0.005 * 1e6);
-  EXPECT_NEAR(story.samples.front().thrust, 1e6, 1e3);
-  EXPECT_TRUE(simulation.audit().is_closed());
+  const std::vector<ShipSample> samples = sail(in_water(engine(), 0, 0.1), 900);
+  EXPECT_NEAR(samples.back().velocity_in_world.x, 8, 0.005 * 8);
+  EXPECT_NEAR(samples.back().thrust, 2 / 3.0 * 1e6, 0.005 * 1e6);
+  EXPECT_NEAR(samples.front().thrust, 1e6, 1e3);
 }
 
 /// Σ of the forces on the ship by cause [N, N m], in the ship's axes.
 dynamics::Planar sum_of_causes(const ShipSample& s, bool has_engine) {
   dynamics::Planar sum = s.from_water + s.from_rudder + s.from_mooring;
-  sum += {s.surge_force + s.surge_from_ships + s.surge_from_submerged, s.sway_force + s.sway_from_ships,
-          s.yaw_moment + s.yaw_from_ships + s.yaw_from_submerged};
+  sum += {s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge, s.from_ice.sway + s.from_ships.sway,
+          s.from_ice.yaw + s.from_ships.yaw + s.from_submerged.yaw};
   return sum + (has_engine ? s.from_engine : dynamics::Planar{s.thrust, 0, 0});
 }
 
@@ -129,7 +131,7 @@ void expect_balance(const Scene& scene, double until) {
 }
 
 TEST(Sailing, ForcesByCauseBalanceMassTimesAcceleration) {
-  Scene scene = in_water(engine(1e6), 3, 0.01);
+  Scene scene = in_water(engine(1e6), 3, 0.01).drift({0.2, -0.1}).floe(rectangle(80, -60, 250, 80));
   scene.ships[0].steering = RudderSettings{.area = 13};
   scene.ships[0].heading = 0.3;
   scene.ships[0].mooring = MooringSettings{.position_in_world = {10, 3},
@@ -139,40 +141,26 @@ TEST(Sailing, ForcesByCauseBalanceMassTimesAcceleration) {
                                            .yaw_stiffness = 1e8,
                                            .surge_damping = 1e5,
                                            .break_load = 6e5};
-  scene.water.drift = {0.2, -0.1};
   scene.fracture.going_under.is_enabled = true;
-  scene.floes = {floe(rectangle(80, -60, 250, 80))};
   expect_balance(scene, 20);
-}
-
-TEST(Sailing, TheSumBalancesUnderPrescribedThrustToo) {
-  Scene scene = in_water(ConstantThrust{4e5}, 2, 0.01);
-  scene.floes = {floe(rectangle(61, -60, 250, 80))};
-  expect_balance(scene, 15);
+  expect_balance(in_water(ConstantThrust{4e5}, 2, 0.01).floe(rectangle(61, -60, 250, 80)), 15);
 }
 
 TEST(Sailing, ARunGoesOnFromItsStateAsIfItHadNotStopped) {
-  Scene scene = in_water(engine(), 2, 0.01);
+  Scene scene = in_water(engine(), 2, 0.01).floe(rectangle(61, -60, 250, 80));
   scene.record.forces_interval = 0.3;
-  scene.ships[0].mooring = MooringSettings{.position_in_world = {0, 0}, .break_load = 1e5};
-  scene.ships[0].mooring->surge_damping = 1e5;  // breaks at once
-  scene.floes = {floe(rectangle(61, -60, 250, 80))};
-  Simulation whole(scene);
-  run(whole, 5);
-  EXPECT_TRUE(whole.world().population.helms[0].is_adrift);
-  auto resumed = Simulation::resumed(scene, whole.state());
-  ASSERT_TRUE(resumed.has_value()) << resumed.error();
-  const Story one = run(whole, 8), other = run(*resumed, 8);
-  EXPECT_EQ(whole.state_hash(), resumed->state_hash());
-  ASSERT_EQ(one.samples.size(), other.samples.size());
-  EXPECT_EQ(one.samples.front().from_water, other.samples.front().from_water);
+  scene.ships[0].mooring =
+      MooringSettings{.position_in_world = {}, .surge_damping = 1e5, .break_load = 1e5};  // breaks at once
+  const Trial again = expect_resumes(scene, 5, 8);
+  EXPECT_TRUE(again.simulation.world().population.helms[0].is_adrift);
+  const std::vector<ShipSample> whole = sail(scene, 8), &resumed = again.story.samples;
+  ASSERT_GT(resumed.size(), 5u);
+  EXPECT_EQ(whole[whole.size() - resumed.size()].from_water, resumed.front().from_water);
 }
 
 /// A short blow from the side by a mass far smaller than the ship.
 TEST(Sailing, TheWaterSharesABlow) {
-  Scene scene = in_water(ConstantThrust{0}, 0, 0.005);
-  scene.floes = {floe(rectangle(-10, 12.1, 10, 32.1), {0, -1})};
-  World world(scene);
+  World world(in_water(ConstantThrust{0}, 0, 0.005).floe(rectangle(-10, 12.1, 10, 32.1), {0, -1}));
   while (world.clock.time() < 3) simulation::step(world);
   const dynamics::Bodies& b = world.population.bodies;
   const double given = b.mass[1] * (-1 - b.velocity[1].y);  // by the ship, and a little by the water
@@ -182,67 +170,44 @@ TEST(Sailing, TheWaterSharesABlow) {
 }
 
 TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
-  Scene scene = in_water(engine(), 2, 0.01);
-  ShipSpec other = in_water(ConstantThrust{0}, 0).ships[0];
+  Ship other = in_water(ConstantThrust{0}, 0).ships[0];
   other.name = "other";
   other.position_in_world = {125, 3};
-  scene.ships.push_back(other);
-  Simulation simulation(scene);
-  const Story story = run(simulation, 10);
-  ASSERT_EQ(story.ship_contacts.size(), 1U);
-  double by_ships = 0;
-  for (const ShipSample& s : story.samples) {
-    EXPECT_EQ(s.surge_force, 0);
+  const Trial done = run(in_water(engine(), 2, 0.01).ship(other), 10);
+  ASSERT_EQ(done.story.of_kind<ShipContact>().size(), 1U);
+  for (const ShipSample& s : done.story.samples) {
+    EXPECT_EQ(s.from_ice.surge, 0);
     EXPECT_EQ(s.friction_of_ice, dynamics::Planar{});
-    by_ships = std::max(by_ships, std::abs(s.surge_from_ships));
   }
-  EXPECT_GT(by_ships, 1e5);
-  EXPECT_TRUE(simulation.audit().is_closed());
+  EXPECT_GT(largest(done.story, &ShipSample::from_ships), 1e5);
+  expect_closed(done.simulation);
 }
 
-TEST(Sailing, EquilibriumOfAPrescribedResistanceIsTheClosedForm) {
-  // A mooring without stiffness is a linear resistance of 166.4 kN s/m; 391 kN are left out of T_B.
-  Scene scene = in_water(engine(1e6, 8), 1, 0.1);
-  scene.ships[0].mooring = MooringSettings{};
-  scene.ships[0].mooring->surge_damping = 166.4e3;
-  const double linear = 1e6 / 24 + 166.4e3, quadratic = 2 / 3.0 * 1e6 / 64;
-  const double expected = (-linear + std::sqrt(linear * linear + 4 * quadratic * 1e6)) / (2 * quadratic);
-  Simulation simulation(scene);
-  EXPECT_NEAR(run(simulation, 600).samples.back().velocity_in_world.x, expected, 0.005 * expected);
-}
-
-TEST(Sailing, ASideWindOfCurrentCarriesAShipAlong) {
-  Scene scene = in_water(ConstantThrust{0}, 0, 0.1);
-  scene.water.drift = {0, 0.5};
-  scene.ships[0].speed = 0;
-  Simulation simulation(scene);
-  const Story story = run(simulation, 1200);
-  EXPECT_NEAR(story.samples.back().velocity_in_world.y, 0.5, 0.05);
-  EXPECT_TRUE(simulation.audit().is_closed());
+TEST(Sailing, ACurrentFromTheSideCarriesAShipAlong) {
+  const Scene scene = in_water(ConstantThrust{0}, 0, 0.1).drift({0, 0.5});
+  EXPECT_NEAR(sail(scene, 1200).back().velocity_in_world.y, 0.5, 0.05);
 }
 
 TEST(Sailing, AMooringHoldsInACurrentAndBreaksAboveItsLoad) {
-  Scene scene = in_water(ConstantThrust{0}, 0, 0.1);
-  scene.water.drift = {0, 0.5};
-  MooringSettings mooring{.position_in_world = {0, 0},
-                          .surge_stiffness = 1e5,
-                          .sway_stiffness = 1e5,
-                          .yaw_stiffness = 1e9,
-                          .surge_damping = 1e5,
-                          .sway_damping = 5e5,
-                          .yaw_damping = 1e9};
-  scene.ships[0].mooring = mooring;
-  Simulation held(scene);
-  const ShipSample last = run(held, 600).samples.back();
+  Scene scene = in_water(ConstantThrust{0}, 0, 0.1).drift({0, 0.5});
+  scene.ships[0].mooring = MooringSettings{.position_in_world = {},
+                                           .surge_stiffness = 1e5,
+                                           .sway_stiffness = 1e5,
+                                           .yaw_stiffness = 1e9,
+                                           .surge_damping = 1e5,
+                                           .sway_damping = 5e5,
+                                           .yaw_damping = 1e9};
+  const auto [held, story_held] = run(scene, 600);
+  const ShipSample last = story_held.samples.back();
   const double drag = 0.5 * 1000 * 6 * 0.8 * 0.25 * kLength;  // ½ρ T C_d L v²
   EXPECT_NEAR(last.from_water.sway, drag, 0.01 * drag);
   EXPECT_NEAR(last.from_mooring.sway, -drag, 0.01 * drag);
   EXPECT_NEAR(last.position_in_world.y, drag / 1e5, 0.02);
-  EXPECT_TRUE(held.audit().is_closed());
+  expect_closed(held);
   EXPECT_FALSE(held.world().population.helms[0].is_adrift);
   scene.ships[0].mooring->break_load = 0.5 * drag;
-  Simulation broken(scene);
-  const ShipSample after = run(broken, 600).samples.back();
+  const auto [broken, story_broken] = run(scene, 600);
+  const ShipSample after = story_broken.samples.back();
   EXPECT_TRUE(broken.world().population.helms[0].is_adrift);
   EXPECT_EQ(after.from_mooring, dynamics::Planar{});
   EXPECT_GT(after.position_in_world.y, 100);
@@ -251,34 +216,32 @@ TEST(Sailing, AMooringHoldsInACurrentAndBreaksAboveItsLoad) {
 /// One event where it breaks, whose force is stiffness times offset, above what the mooring holds; none after
 /// a resume.
 TEST(Sailing, AMooringBreaksInOneEventWithItsForceAndItsOffset) {
-  Scene scene = in_water(ConstantThrust{2e5}, 0, 0.1);
-  scene.water.drift = {0, 0.5};
+  Scene scene = in_water(ConstantThrust{2e5}, 0, 0.1).drift({0, 0.5});
   const double heading = 30 * kDegree, along = 1e5, across = 2e5;
   scene.ships[0].mooring = MooringSettings{.position_in_world = scene.ships[0].position_in_world,
                                            .heading = heading,
                                            .surge_stiffness = along,
                                            .sway_stiffness = across,
                                            .break_load = 3e5};
-  Simulation simulation(scene);
-  const Story story = run(simulation, 200);
-  ASSERT_EQ(story.mooring_breaks.size(), 1U);
-  const MooringBreak& broken = story.mooring_breaks[0];
-  EXPECT_EQ(broken.ship, 0);
-  EXPECT_EQ(broken.time, simulation.world().population.helms[0].adrift_since);
+  const auto [simulation, story] = run(scene, 200);
+  const std::vector<Event> breaks = story.of_kind<MooringBreak>();
+  ASSERT_EQ(breaks.size(), 1U);
+  const auto& [time, ship, place, what] = breaks[0];
+  const auto& broken = std::get<MooringBreak>(what);
+  EXPECT_EQ(ship, 0);
+  EXPECT_EQ(time, simulation.world().population.helms[0].adrift_since);
   EXPECT_EQ(broken.break_load, 3e5);
   EXPECT_GT(broken.force, 3e5);
   EXPECT_LT(broken.force, 3.1e5) << "it breaks in the first step above its load";
   const geometry::Vector offset = broken.offset_in_moored_place;
   EXPECT_NEAR(broken.force, std::hypot(along * offset.x, across * offset.y), 1e-6 * broken.force);
   const geometry::Vector in_world = rotate(geometry::Rotation::by(heading), offset);
-  EXPECT_NEAR(distance(broken.point_in_world, scene.ships[0].position_in_world + in_world), 0, 1e-9);
+  EXPECT_NEAR(distance(place, scene.ships[0].position_in_world + in_world), 0, 1e-9);
   const auto row = std::ranges::find_if(
-      story.samples, [&](const ShipSample& s) { return s.time > broken.time - 0.5 * scene.time.step; });
+      story.samples, [&](const ShipSample& s) { return s.time > breaks[0].time - 0.5 * scene.time.step; });
   EXPECT_NEAR(std::hypot(row->from_mooring.surge, row->from_mooring.sway), broken.force, 1e-6 * broken.force);
-  EXPECT_NEAR(distance(row->position_in_world, broken.point_in_world), 0, 1e-9);
-  auto resumed = Simulation::resumed(scene, simulation.state());
-  ASSERT_TRUE(resumed.has_value()) << resumed.error();
-  EXPECT_TRUE(run(*resumed, 210).mooring_breaks.empty());
+  EXPECT_NEAR(distance(row->position_in_world, place), 0, 1e-9);
+  EXPECT_TRUE(expect_resumes(scene, 200, 210).story.of_kind<MooringBreak>().empty());
 }
 
 TEST(Sailing, AStiffMooringIsStableInALongStep) {
@@ -287,8 +250,7 @@ TEST(Sailing, AStiffMooringIsStableInALongStep) {
                                            .surge_stiffness = 1e10,
                                            .sway_stiffness = 1e10,
                                            .yaw_stiffness = 1e14};
-  Simulation simulation(scene);
-  EXPECT_LT(length(run(simulation, 60).samples.back().velocity_in_world), 1e-3);
+  EXPECT_LT(length(sail(scene, 60).back().velocity_in_world), 1e-3);
 }
 
 /// A turn of 540° at a rudder angle from 6 m/s, at the thrust that holds that speed.
@@ -301,8 +263,7 @@ struct TurningCircle {
 
 TurningCircle turn(double rudder_angle) {
   Scene scene = in_water(engine(314e3, 6), 6, 0.1);
-  RudderSettings rudder{.area = 0.018 * kLength * 6};
-  scene.ships[0].steering = rudder;
+  scene.ships[0].steering = RudderSettings{.area = 0.018 * kLength * 6};
   scene.ships[0].pilot = ConstantPilot{1, rudder_angle * kDegree};
   World world(scene);
   while (world.clock.time() < 2500) step(world);
@@ -337,6 +298,218 @@ TEST(Sailing, TurningCirclesAreThoseOfShips) {
   // What the IMO asks of ships (MSC.137(76)).
   EXPECT_LE(full.tactical_diameter, 5);
   EXPECT_LE(full.advance, 4.5);
+}
+
+// ---- pilots
+
+Build piloted(const PilotSettings& pilot, double speed = 4, const Steering& steering = RudderSettings{13}) {
+  Build scene = in_water(
+      Engine{.bollard_pull = 1e6, .open_water_speed = 8, .power = 12e6, .propeller_area = 25}, speed, 0.1);
+  scene.record.forces_interval = 1;
+  scene.ships[0].steering = steering;
+  scene.ships[0].pilot = pilot;
+  return scene;
+}
+
+double turned(const ShipSample& s) {
+  return s.heading / kDegree;
+}
+
+TEST(Pilot, LeverAndRudderMoveAtTheirRates) {
+  Scene scene = piloted(TablePilot{{{0, 0, 0}, {10, 0, 0}, {10.001, 1, 35 * kDegree}}});
+  std::get<Engine>(scene.ships[0].propulsion).lever_rate = 0.02;
+  const std::vector<ShipSample> samples = sail(scene, 80);
+  EXPECT_EQ(samples[8].lever, 0);
+  EXPECT_NEAR(samples[19].lever, 0.2, 0.01);                       // 10 s later
+  EXPECT_NEAR(samples[14].steering_angle, 15 * kDegree, kDegree);  // 5 s at 3 °/s
+  EXPECT_NEAR(samples.back().lever, 1, 1e-12);
+  EXPECT_NEAR(samples.back().steering_angle, 35 * kDegree, 1e-12);
+  EXPECT_NEAR(samples.back().delivered_power, 12e6, 1);
+}
+
+TEST(Pilot, ByTheClockItIsLinearBetweenRows) {
+  const auto samples = sail(piloted(TablePilot{{{0, -0.2, 0}, {100, 0.8, 10 * kDegree}}}), 120);
+  EXPECT_NEAR(samples[49].lever, 0.3, 0.01);
+  EXPECT_NEAR(samples[49].steering_angle, 5 * kDegree, 0.2 * kDegree);
+  EXPECT_NEAR(samples.back().lever, 0.8, 1e-12);
+}
+
+TEST(Pilot, HoldsASpeedAlsoAgainstAResistance) {
+  for (const double damping : {0.0, 1e5}) {
+    Scene scene = piloted(SpeedPilot{.speed = 3}, 0);
+    scene.ships[0].mooring = MooringSettings{.position_in_world = {}, .surge_damping = damping};
+    const std::vector<ShipSample> samples = sail(scene, 600);
+    EXPECT_NEAR(samples.back().velocity_in_world.x, 3, 0.01);
+    for (const ShipSample& s : samples) EXPECT_LT(s.velocity_in_world.x, 3.3);
+  }
+}
+
+TEST(Pilot, StopsAShipAstern) {
+  const std::vector<ShipSample> samples = sail(piloted(SpeedPilot{.speed = 0}, 6), 300);
+  EXPECT_LT(samples[20].lever, -0.1);
+  EXPECT_NEAR(length(samples.back().velocity_in_world), 0, 0.05);
+}
+
+TEST(Pilot, HoldsAHeadingByRudderAndByThrusters) {
+  for (const Steering& steering : {Steering{RudderSettings{13}}, Steering{AzimuthSettings{}}}) {
+    const auto samples = sail(piloted(HeadingPilot{.heading = 40 * kDegree, .lever = 0.5}, 4, steering), 500);
+    for (const ShipSample& s : samples) EXPECT_LT(turned(s), 45);
+    EXPECT_NEAR(turned(samples.back()), 40, 0.5);
+    EXPECT_NEAR(samples.back().yaw_rate, 0, 1e-4);
+  }
+}
+
+const RoutePilot kRoute{{{{800, 0}, 4}, {{1400, 600}, 3}, {{2400, 600}, 4}}};
+
+TEST(Pilot, FollowsARouteAndStops) {
+  const std::vector<ShipSample> samples = sail(piloted(kRoute), 1500);
+  for (const Waypoint& waypoint : kRoute.waypoints)
+    EXPECT_TRUE(std::ranges::any_of(samples, [&](const ShipSample& s) {
+      return distance(s.position_in_world, waypoint.position_in_world) < kLength;
+    }));
+  for (const ShipSample& s : samples)
+    if (s.position_in_world.x > 2000 && s.position_in_world.x < 2280) {
+      EXPECT_NEAR(s.position_in_world.y, 600, 0.1 * kLength);
+    }
+  EXPECT_LT(length(samples.back().velocity_in_world), 0.1);
+  EXPECT_LT(distance(samples.back().position_in_world, {2400, 600}), 4 * kLength);
+}
+
+TEST(Pilot, MakesGoodADriftAcrossItsRoute) {
+  double last = 0;
+  for (const ShipSample& s : sail(piloted(RoutePilot{{{{4000, 0}, 4}}}).drift({0, 0.5}), 900))
+    if (s.position_in_world.x < 3800) last = s.position_in_world.y;
+  EXPECT_NEAR(last, 0, 4);
+}
+
+TEST(Pilot, RamsThickIceAndCountsIt) {
+  Scene scene = piloted(RammingPilot{.stuck_time = 5, .back_distance = 60}, 3)
+                    .unbreakable()
+                    .step(0.02)
+                    .floe(rectangle(100, -800, 1500, 800));
+  scene.ice.thickness = 3;
+  const std::vector<ShipSample> samples = sail(scene, 500);
+  const ShipSample& last = samples.back();
+  EXPECT_GE(last.rams, 2);
+  EXPECT_GT(last.gained, 0);
+  double farthest = 0, first = 0;
+  for (const ShipSample& s : samples) {
+    farthest = std::max(farthest, s.position_in_world.x);
+    if (s.rams == 0) first = std::max(first, s.position_in_world.x);
+  }
+  EXPECT_NEAR(last.gained, farthest - first, 0.1);
+}
+
+TEST(Pilot, FollowsAShipAtADistance) {
+  Ship follower = piloted(FollowingPilot{"icebreaker", 0, 100}, 3).ships[0];
+  follower.name = "follower";
+  follower.position_in_world = {-400, 30};
+  const auto samples = sail(piloted(SpeedPilot{.speed = 3}, 3).ship(follower), 900);
+  const geometry::Point leader = samples[samples.size() - 2].position_in_world;
+  const geometry::Point behind = samples.back().position_in_world;
+  EXPECT_NEAR(leader.x - behind.x - kLength, 100, 5);
+  EXPECT_NEAR(behind.y, leader.y, 5);
+}
+
+TEST(Pilot, OneFromOutsideTakesThePlaceOfTheScenes) {
+  Simulation simulation(piloted(ConstantPilot{1, 0}));
+  std::vector<double> times;
+  simulation.set_pilot(0, [&](const PilotView& view) {
+    times.push_back(view.time);
+    return Command{2, -10};  // beyond the stops
+  });
+  const Story story = run(simulation, 60);
+  EXPECT_EQ(times.size(), 600U);
+  EXPECT_EQ(story.samples.back().lever, 1);
+  EXPECT_NEAR(story.samples.back().steering_angle, -35 * kDegree, 1e-12);
+  EXPECT_LT(story.samples.back().heading, -0.1);
+  simulation.set_pilot(0, {});
+  EXPECT_NEAR(run(simulation, 100).samples.back().steering_angle, 0, 1e-12);
+}
+
+/// 10° of rudder to either side, laid over whenever the heading has changed by 10°.
+struct ZigZag {
+  std::vector<double> overshoots;  ///< [°]
+  double first_turn = 0;           ///< way to the first 10° [L]
+};
+ZigZag zig_zag() {
+  Scene scene = piloted(ConstantPilot{}, 6);
+  scene.ships[0].propulsion = engine(314e3, 6);
+  Simulation simulation(scene);
+  ZigZag result;
+  double side = 1, most = 0;
+  simulation.set_pilot(0, [&](const PilotView& view) {
+    const double heading = view.own().heading / kDegree;
+    most = std::max(most, -side * heading);
+    if (side * heading >= 10) {
+      if (result.first_turn == 0)
+        result.first_turn = distance(view.own().position_in_world, {0, 0}) / kLength;
+      else
+        result.overshoots.push_back(most - 10);
+      side = -side;
+      most = 0;
+    }
+    return Command{1, side * 10 * kDegree};
+  });
+  run(simulation, 800);
+  return result;
+}
+
+TEST(Pilot, ZigZagsAsShipsDo) {
+  const ZigZag result = zig_zag();
+  ASSERT_GE(result.overshoots.size(), 3U);
+  // [IMO2002] at L/V = 20 s: overshoots of at most 15° and 32.5°, and 10° within 2.5 L.
+  EXPECT_GT(result.overshoots[0], 1);
+  EXPECT_LT(result.overshoots[0], 15);
+  EXPECT_LT(result.overshoots[1], 32.5);
+  EXPECT_LT(result.first_turn, 2.5);
+}
+
+TEST(Pilot, GoesOnFromItsState) {
+  const Simulation again = expect_resumes(piloted(kRoute), 250, 400).simulation;
+  EXPECT_GT(again.world().population.helms[0].memory.waypoint, 0);
+}
+
+// ---- prescribed speeds, and several ships
+
+TEST(ConstantSpeed, IsKeptExactlyAndTheForcesAreWhatItTakes) {
+  const Scene scene = Build()
+                          .unbreakable()
+                          .without_drag()
+                          .ship(icebreaker({0, 0}, ConstantSpeed{1.25}))
+                          .grid({1, -40}, 3, 6, 10, 13.5);
+  const auto [simulation, story] = run(scene, 20);
+  geometry::Vector impulse, given;
+  for (const ShipSample& sample : story.samples) {
+    ASSERT_EQ(sample.velocity_in_world, (geometry::Vector{1.25, 0}));
+    ASSERT_EQ(sample.heading, 0);
+    ASSERT_EQ(sample.yaw_rate, 0);
+    ASSERT_EQ(sample.thrust, -sample.from_ice.surge);
+    impulse += scene.record.forces_interval * geometry::Vector{sample.from_ice.surge, sample.from_ice.sway};
+  }
+  // Newton's third law: what the ice did to the ship is what the ship gave the floes.
+  for (const FloeState& state : simulation.floe_states()) given += state.mass * state.velocity;
+  EXPECT_GT(given.x, 1e4);
+  EXPECT_NEAR(impulse.x / given.x, -1, 1e-9);
+  EXPECT_NEAR(impulse.y, -given.y, 1e-9 * given.x);
+  EXPECT_NEAR(simulation.ship_states()[0].world_from_ship.position.x, -60 + 1.25 * simulation.time(), 1e-9);
+}
+
+TEST(Ships, SeveralDoNotDisturbOneAnother) {
+  // The same ship and ice, alone and with another ship at work 2 km away: the same numbers to the last bit.
+  Build scene = Build().ship(icebreaker({0, 0}, ConstantThrust{2e4})).floe(rectangle(0.5, -40, 40.5, 40));
+  const Story alone = run(scene, 8).story;
+  const Story both =
+      run(scene.ship(icebreaker({0, 2000}, ConstantSpeed{2})).floe(rectangle(1.5, 1960, 50, 2040)), 8).story;
+  ASSERT_EQ(both.samples.size(), 2 * alone.samples.size());
+  for (std::size_t i = 0; i < alone.samples.size(); ++i) {
+    ASSERT_EQ(both.samples[2 * i].ship, 0);
+    ASSERT_EQ(both.samples[2 * i].from_ice.surge, alone.samples[i].from_ice.surge) << i;
+    ASSERT_EQ(both.samples[2 * i].position_in_world, alone.samples[i].position_in_world) << i;
+    ASSERT_EQ(both.samples[2 * i].from_ice_largest.surge, alone.samples[i].from_ice_largest.surge) << i;
+  }
+  for (const int ship : {0, 1}) EXPECT_GT(largest(both, &ShipSample::from_ice, ship), 0);
+  EXPECT_TRUE(std::ranges::any_of(both.events, [](const Event& e) { return e.ship == 1; }));
 }
 
 }  // namespace

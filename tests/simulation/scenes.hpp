@@ -1,96 +1,153 @@
 #pragma once
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <type_traits>
+#include <vector>
 
-#include "geometry/exact/measures.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/world/world.hpp"
+#include "tests/shapes.hpp"
 
 namespace polynya::simulation::scenes {
 
-inline constexpr double kDegree = std::numbers::pi / 180;
+using shapes::kDegree;
+using shapes::rectangle;
 
-inline geometry::Polygon rectangle(double x0, double y0, double x1, double y1) {
-  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
-}
+enum class Laws {
+  kDefault,  ///< contacts crush, wedges are split by radial cracks, cracks by LEFM
+  kPaper,    ///< [Sawamura2017]'s: rigid impulses with restitution, j/τ_c, no radial cracks
+};
+
+inline constexpr Laws kBothLaws[] = {Laws::kDefault, Laws::kPaper};
 
 inline FloeSpec floe(const geometry::Polygon& polygon, geometry::Vector velocity = {},
                      double angular_velocity = 0) {
   return {polygon, velocity, angular_velocity};
 }
 
+/// A floe that is held at its velocity.
+FloeSpec fast(const geometry::Polygon& polygon, geometry::Vector velocity = {});
+
 /// The paper's ship, its stem at `stem`, heading along x.
-inline ShipSpec icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1) {
-  ShipSpec ship;
-  ship.name = "icebreaker";
-  ship.hull.waterline = wedge_bow_waterline(120, 24, 27 * kDegree);
-  ship.hull.stem_angle = 30 * kDegree;
-  ship.mass = 1e7;
-  ship.moment_of_inertia = 5e9;
-  ship.position_in_world = {stem.x - 60, stem.y};
-  ship.speed = speed;
-  ship.propulsion = propulsion;
-  return ship;
-}
+Ship icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1);
+
+/// The same with vertical walls: it crushes and splits ice, and does not bend it.
+Ship steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1);
 
 /// A box-shaped ship with vertical walls: it can only crush.
-inline ShipSpec barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1) {
-  ShipSpec ship = icebreaker(middle_of_bow, propulsion, speed);
-  ship.name = "barge";
-  ship.hull.waterline = rectangle(-60, -12, 60, 12).outer;
-  ship.hull.angles_from_vertical = {0, 0, 0, 0};
-  return ship;
-}
+Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1);
+
+/// Gives a whole hull one angle from the vertical [rad].
+void set_hull_angle(PlacedHull& ship, double angle);
+
+/// How a wall moves; one that stands by default.
+struct WallMotion {
+  geometry::Vector velocity;  ///< [m/s]
+  std::optional<WallPressure> pressure;
+};
+WallMotion pressing(double line_load);         ///< [N/m]
+WallMotion moving(geometry::Vector velocity);  ///< [m/s]
+
+/// A scene in two or three lines: each call adds something and gives the scene back. By the default laws.
+class Build : public Scene {
+ public:
+  Build() = default;
+  explicit Build(Laws laws);
+  Build& step(double seconds) { return set(time.step, seconds); }
+  Build& ship(const Ship& ship) { return add(ships, ship); }
+  /// A waterline that stands, about a point; its walls at an angle from the vertical [rad].
+  Build& structure(const geometry::Ring& waterline, geometry::Point at = {}, double wall_angle = 0);
+  Build& pile(geometry::Point at, double radius, double wall_angle = 0) {
+    return structure(cylinder_waterline(radius), at, wall_angle);
+  }
+  /// With the ice to its left, 5 m deep.
+  Build& wall(geometry::Point from, geometry::Point to, const WallMotion& motion = {});
+  Build& floe(const FloeSpec& spec) { return add(floes, spec); }
+  Build& floe(const geometry::Polygon& polygon, geometry::Vector velocity = {}, double spin = 0) {
+    return floe(scenes::floe(polygon, velocity, spin));
+  }
+  /// Square floes of a side, their lower left corners `pitch` apart from `low` on.
+  Build& grid(geometry::Point low, int columns, int rows, double side, double pitch);
+  /// The last floe has ice of its own.
+  Build& of(const fracture::Ice& own_ice);
+  /// Nothing but contacts changes a velocity.
+  Build& without_drag() { return set(water.drag_coefficient, 0); }
+  Build& unbreakable() { return set(fracture.breakable_size_factor, 1e9); }
+  Build& drift(geometry::Vector velocity) { return set(water.drift, velocity); }
+  Build& shear(double rate, double direction = 0, geometry::Point through = {}) {
+    return set(water.shear, {rate, direction, through});
+  }
+
+ private:
+  template <class T>
+  Build& set(T& member, const std::type_identity_t<T>& value) {
+    member = value;
+    return *this;
+  }
+  template <class T>
+  Build& add(std::vector<T>& list, const T& entry) {
+    list.push_back(entry);
+    return *this;
+  }
+};
 
 /// Everything a run recorded.
 struct Story {
+  std::vector<Event> bends() const { return of_kind<Bend>(); }
+  std::vector<Event> splits() const { return of_kind<Split>(); }
+  std::vector<Event> grinds() const { return of_kind<Grind>(); }
+  std::vector<Event> submerged() const { return of_kind<Submerge>(); }
+  std::vector<Event> resurfaced() const { return of_kind<Resurface>(); }
+  std::vector<Event> stayed_under() const { return of_kind<StayUnder>(); }
+  std::vector<Event> rejected_cuts() const { return of_kind<RejectedCut>(); }
+  template <class Kind>
+  std::vector<Event> of_kind() const {
+    std::vector<Event> found;
+    std::ranges::copy_if(events, std::back_inserter(found), &Event::is<Kind>);
+    return found;
+  }
+
   std::vector<Event> events;
   std::vector<Birth> births;
   std::vector<Death> deaths;
   std::vector<ShipSample> samples;
-  std::vector<ShipContact> ship_contacts;
-  std::vector<MooringBreak> mooring_breaks;
 };
 
-inline void listen(Simulation& simulation, Story& story) {
-  Journal& journal = simulation.journal();
-  story.events.insert(story.events.end(), journal.events.begin(), journal.events.end());
-  story.births.insert(story.births.end(), journal.births.begin(), journal.births.end());
-  story.deaths.insert(story.deaths.end(), journal.deaths.begin(), journal.deaths.end());
-  story.samples.insert(story.samples.end(), journal.samples.begin(), journal.samples.end());
-  story.ship_contacts.insert(story.ship_contacts.end(), journal.ship_contacts.begin(),
-                             journal.ship_contacts.end());
-  story.mooring_breaks.insert(story.mooring_breaks.end(), journal.mooring_breaks.begin(),
-                              journal.mooring_breaks.end());
-  journal.clear();
-}
-
-inline Story run(Simulation& simulation, double until) {
+/// A simulation and all that it has recorded.
+struct Trial {
+  Simulation simulation;
   Story story;
-  listen(simulation, story);
-  while (simulation.time() < until - 1e-9 && !simulation.numerical_failure()) {
-    simulation.step();
-    listen(simulation, story);
-  }
-  return story;
-}
+};
 
-/// A scene whose contacts and splits are the paper's: rigid impulses with restitution, j/τ_c.
-inline Scene paper_scene() {
-  Scene scene;
-  scene.contact.law = ContactLaw::kImpulse;
-  scene.fracture.radial_cracks = fracture::RadialCracks::kIgnored;
-  scene.fracture.splitting = fracture::SplittingModel::kMichel;
-  scene.contact.iterations = 30;
-  return scene;
-}
+/// Takes what the simulation has recorded since last time.
+void listen(Simulation& simulation, Story& story);
 
-/// Ice and water without drag, so that nothing but contacts changes a velocity.
-inline Scene without_drag() {
-  Scene scene = paper_scene();
-  scene.water.drag_coefficient = 0;
-  return scene;
-}
+Story run(Simulation& simulation, double until);
+Trial run(const Scene& scene, double until, Shortcuts shortcuts = {});
+
+/// Steps to the first event, or to a time.
+Trial run_to_first_event(const Scene& scene, double until);
+
+/// Steps and forgets what is recorded.
+void skip(Simulation& simulation, int steps = 1);
+
+/// The first bend of a run; fails where nothing bends.
+Event first_bend(const Scene& scene, double until = 20);
+
+/// The mean of a load over a ship's samples from a time on.
+double mean(const Story& story, dynamics::Planar ShipSample::*load, int ship = 0, double from = 0,
+            double dynamics::Planar::*direction = &dynamics::Planar::surge);
+/// Of its surge, by magnitude.
+double largest(const Story& story, dynamics::Planar ShipSample::*load, int ship = 0);
+
+/// All accounts close: areas, masses, energy and momentum.
+void expect_closed(const Simulation& simulation);
+
+/// A run that is saved at `from` and resumed ends at `until` in the state of one that was not, to the bit.
+/// Gives the resumed run, with what it recorded from there on.
+Trial expect_resumes(const Scene& scene, double from, double until, int threads = 1);
+Simulation resumed(const Scene& scene, const Simulation& simulation);
 
 }  // namespace polynya::simulation::scenes

@@ -1,27 +1,26 @@
-// A run that is interrupted and resumed continues as if it had not been.
-
+// What may not change a run: to interrupt and resume it, threads, culling, and, within what the rest speed
+// explains, sleep.
 #include "simulation/state/state.hpp"
 
 #include <bit>
 
 #include <gtest/gtest.h>
 
+#include "simulation/field/floe_field.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation::scenes {
 namespace {
 
 /// Bends, splits, sleeping and waking floes, pinched small ones.
-Scene broken_plate() {
-  Scene scene = paper_scene();
-  scene.time.step = 0.01;
-  scene.fracture.radial_cracks = fracture::RadialCracks::kSplitWedge;
-  scene.ships = {icebreaker({-0.5, 0}, ConstantThrust{5e5}, 2)};
-  scene.floes = {floe(rectangle(0, -40, 60, 40)), floe(rectangle(60.5, -40, 140, 40))};
-  for (int i = 0; i < 6; ++i)
-    scene.floes.push_back(floe(rectangle(2 + 16 * i, 41, 12 + 16 * i, 51), {0, -0.2}));
-  scene.floes.push_back(floe(rectangle(300, 0, 310, 10)));  // far from all others
-  return scene;
+Scene broken_plate(Laws laws = Laws::kDefault) {
+  Build scene = Build(laws)
+                    .step(0.01)
+                    .ship(icebreaker({-0.5, 0}, ConstantThrust{5e5}, 2))
+                    .floe(rectangle(0, -40, 60, 40))
+                    .floe(rectangle(60.5, -40, 140, 40));
+  for (int i = 0; i < 6; ++i) scene.floe(rectangle(2 + 16 * i, 41, 12 + 16 * i, 51), {0, -0.2});
+  return scene.floe(rectangle(300, 0, 310, 10));  // far from all others
 }
 
 void expect_same_bits(const Simulation& a, const Simulation& b) {
@@ -41,52 +40,39 @@ void expect_same_bits(const Simulation& a, const Simulation& b) {
 }
 
 TEST(State, AResumedRunContinuesBitByBitFromAnyStep) {
-  const Scene scene = broken_plate();
-  Simulation whole(scene);
-  std::vector<Simulation> resumed;
-  for (int step = 0; step < 2500; ++step) {
-    if (step % 250 == 37) {
-      auto again = Simulation::resumed(scene, whole.state());
-      ASSERT_TRUE(again.has_value()) << again.error();
-      resumed.push_back(std::move(*again));
-      // Not the bytes: read back, bodies' boxes are new, so that more pairs may be near each other.
-      ASSERT_EQ(resumed.back().state_hash(), whole.state_hash()) << "what is read back is what was written";
+  for (const Laws laws : kBothLaws) {
+    const Scene scene = broken_plate(laws);
+    Simulation whole(scene);
+    std::vector<Simulation> all;
+    for (int step = 0; step < 2500; ++step) {
+      if (step % 250 == 37) {
+        all.push_back(resumed(scene, whole));
+        // Not the bytes: read back, bodies' boxes are new, so that more pairs may be near each other.
+        ASSERT_EQ(all.back().state_hash(), whole.state_hash()) << "what is read back is what was written";
+      }
+      skip(whole);
+      for (Simulation& one : all) {
+        skip(one);
+        if (step % 50 == 0) expect_same_bits(whole, one);
+      }
     }
-    whole.step();
-    whole.journal().clear();
-    for (Simulation& one : resumed) {
-      one.step();
-      one.journal().clear();
-      if (step % 50 == 0) expect_same_bits(whole, one);
+    for (Simulation& one : all) {
+      expect_same_bits(whole, one);
+      EXPECT_EQ(one.counts().bends, whole.counts().bends);
+      EXPECT_EQ(one.counts().crush_contacts, whole.counts().crush_contacts);
+      EXPECT_EQ(one.area_ledger().imbalance, whole.area_ledger().imbalance);
     }
+    EXPECT_GT(whole.counts().bends, 20) << "the trial should have broken something";
+    EXPECT_LE(std::ssize(whole.world().population.awake), whole.counts().floes_final)
+        << "and some should sleep";
   }
-  for (Simulation& one : resumed) {
-    expect_same_bits(whole, one);
-    EXPECT_EQ(one.counts().bends, whole.counts().bends);
-    EXPECT_EQ(one.counts().crush_contacts, whole.counts().crush_contacts);
-    EXPECT_EQ(one.area_ledger().imbalance, whole.area_ledger().imbalance);
-  }
-  EXPECT_GT(whole.counts().bends, 20) << "the trial should have broken something";
-  EXPECT_GT(whole.counts().floes_final, static_cast<std::int64_t>(whole.world().population.awake.size()) - 1)
-      << "and something should sleep";
-}
-
-TEST(State, TheHashDiffersBetweenStates) {
-  Simulation a(broken_plate());
-  Simulation b(broken_plate());
-  EXPECT_EQ(a.state_hash(), b.state_hash());
-  a.step();
-  EXPECT_NE(a.state_hash(), b.state_hash());
-  b.step();
-  EXPECT_EQ(a.state_hash(), b.state_hash());
 }
 
 /// Every byte of a state is either refused when it is changed, or read as another state: never half believed.
 TEST(State, DamageIsRefusedOrIsAnotherState) {
   const Scene scene = broken_plate();
   Simulation whole(scene);
-  while (whole.counts().bends < 2) whole.step();
-  whole.journal().clear();
+  while (whole.counts().bends < 2) skip(whole);
   const std::string state = whole.state();
   for (std::size_t length = 0; length < state.size(); length += 1 + length / 50)
     EXPECT_FALSE(Simulation::resumed(scene, std::string_view(state).substr(0, length)).has_value()) << length;
@@ -104,40 +90,30 @@ TEST(State, DamageIsRefusedOrIsAnotherState) {
 }
 
 TEST(State, AStateOfAnotherSceneIsRefused) {
-  Simulation whole(broken_plate());
-  Scene other = broken_plate();
-  other.floes.resize(1);
-  EXPECT_FALSE(Simulation::resumed(other, whole.state()).has_value());
-  other = broken_plate();
-  for (geometry::Point& p : other.floes[1].polygon_in_world.outer) p.x *= 1.01;
-  EXPECT_FALSE(Simulation::resumed(other, whole.state()).has_value());
-  other = broken_plate();
-  other.ships.push_back(other.ships[0]);
-  EXPECT_FALSE(Simulation::resumed(other, whole.state()).has_value());
+  const Simulation whole(broken_plate());
+  Scene fewer = broken_plate(), larger = broken_plate(), accompanied = broken_plate();
+  fewer.floes.resize(1);
+  for (geometry::Point& p : larger.floes[1].polygon_in_world.outer) p.x *= 1.01;
+  accompanied.ships.push_back(accompanied.ships[0]);
+  for (const Scene& other : {fewer, larger, accompanied})
+    EXPECT_FALSE(Simulation::resumed(other, whole.state()).has_value());
 }
 
 /// On several threads, on more than there are cores, the same bits. The scene is large enough to share out:
 /// more than 1024 awake floes (dynamics::kBodiesPerChunk), some of them colliding.
 TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
-  Scene scene = paper_scene();
-  scene.time.step = 0.02;
-  scene.ships = {icebreaker({-1, 400}, ConstantSpeed{2}, 2)};
+  Build scene = Build().step(0.02).ship(icebreaker({-1, 400}, ConstantSpeed{2}, 2));
   for (int i = 0; i < 60; ++i) {
     for (int k = 0; k < 60; ++k) {
-      const double x = 14.0 * i;
-      const double y = 14.0 * k;
-      scene.floes.push_back(
-          floe(rectangle(x, y, x + 12, y + 13), {0.3 * std::sin(0.7 * i + k), 0.3 * std::cos(k)}));
+      const double x = 14.0 * i, y = 14.0 * k;
+      scene.floe(rectangle(x, y, x + 12, y + 13), {0.3 * std::sin(0.7 * i + k), 0.3 * std::cos(k)});
     }
   }
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 8}) {
     Simulation simulation(scene);
     simulation.set_threads(threads);
-    while (simulation.time() < 12) {
-      simulation.step();
-      simulation.journal().clear();
-    }
+    while (simulation.time() < 12) skip(simulation);
     EXPECT_GT(simulation.world().step.contacts.size(), 600U) << "too few to share out";
     EXPECT_GT(simulation.counts().peak_awake, 2048);
     EXPECT_GT(simulation.counts().bends, 0);
@@ -145,6 +121,119 @@ TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
   }
   EXPECT_EQ(hashes[1], hashes[0]);
   EXPECT_EQ(hashes[2], hashes[0]);
+}
+
+/// Everything a run recorded and where it ended, bit by bit.
+std::vector<std::uint64_t> record_of(const Trial& run) {
+  std::vector<std::uint64_t> record;
+  const auto add = [&](std::initializer_list<double> numbers) {
+    for (const double number : numbers) record.push_back(std::bit_cast<std::uint64_t>(number));
+  };
+  for (const ShipSample& s : run.story.samples) {
+    add({s.time, 1.0 * s.ship, s.from_ice.surge, s.from_ice.sway, s.from_ice.yaw, s.collision.surge,
+         s.collision.sway, s.collision.yaw, s.from_ice_largest.surge, s.from_ice_largest.sway,
+         s.from_ice_largest.yaw, s.heading, s.yaw_rate, s.thrust, 1.0 * s.contacts, s.position_in_world.x,
+         s.position_in_world.y, s.velocity_in_world.x, s.velocity_in_world.y});
+  }
+  for (const Event& e : run.story.events) {
+    const auto* bend = std::get_if<Bend>(&e.what);
+    add({e.time, static_cast<double>(e.what.index()), static_cast<double>(e.ice()->floe),
+         bend ? bend->cusp_radius : 0, e.ice()->penetration, e.ice()->submerged_area, e.ice()->brash_area,
+         e.criteria().collision_force, e.criteria().vertical_force, e.criteria().bending_capacity,
+         e.point_in_world.x, e.point_in_world.y, e.ice()->normal_in_world.x, e.ice()->normal_in_world.y});
+  }
+  for (const Birth& b : run.story.births) {
+    add({b.area});
+    for (const geometry::Point p : b.polygon_in_body.outer) add({p.x, p.y});
+  }
+  for (const FloeState& state : run.simulation.floe_states()) {
+    const geometry::Point p = state.world_from_body.position;
+    add({static_cast<double>(state.floe), p.x, p.y, state.velocity.x, state.velocity.y, state.angle,
+         state.angular_velocity});
+  }
+  return record;
+}
+
+void add_field(Build& scene, const geometry::Polygon& region, double concentration, double size,
+               const std::vector<geometry::Polygon>& kept_clear = {}) {
+  FloeField field;
+  field.region = region.outer;
+  field.floe_size = size;
+  field.concentration = concentration;
+  field.seed = 5;
+  field.kept_clear = kept_clear;
+  for (const auto& polygon : make_floe_field(field).floes) scene.floe(polygon);
+}
+
+/// A ship that breaks its way through a plate and pushes floes in a drift.
+Scene voyage() {
+  Build scene = Build(Laws::kPaper)
+                    .step(0.01)
+                    .drift({-0.1, 0.05})
+                    .ship(icebreaker({0, 0}, ConstantThrust{4e5}, 2))
+                    .floe(rectangle(5, -50, 45, 40));
+  add_field(scene, rectangle(47, -50, 100, 50), 0.6, 14);
+  add_field(scene, rectangle(47, 200, 80, 230), 0.6, 14);  // far off, never touched
+  return scene;
+}
+
+/// Floes that a sheared current carries past a pile: all awake, jammed and parting.
+Scene pile_in_shear() {
+  Build scene = Build().step(0.02).drift({0.6, 0}).shear(0.004).pile({40, 0}, 8);
+  add_field(scene, rectangle(-60, -40, 60, 40), 0.75, 12, {shapes::regular(64, 8, {40, 0})});
+  return scene;
+}
+
+TEST(Shortcuts, CullingChangesNoByte) {
+  for (const auto& [scene, until, bends] : {std::tuple(voyage(), 40.0, 3), {pile_in_shear(), 60.0, -1}}) {
+    const Trial with = run(scene, until);
+    const Trial without = run(scene, until, {.culls = false});
+    const Counts counts = with.simulation.counts();
+    EXPECT_GT(counts.peak_contacts, 10);
+    EXPECT_GT(counts.bends, bends) << "ice did break";
+    EXPECT_GT(record_of(with).size(), 5000u);
+    EXPECT_EQ(record_of(with), record_of(without));
+    EXPECT_EQ(counts.crush_contacts, without.simulation.counts().crush_contacts);
+    EXPECT_EQ(counts.bends, without.simulation.counts().bends);
+  }
+}
+
+TEST(Shortcuts, WhereNothingComesToRestSleepChangesNoByte) {
+  // In the shear no floe ever may sleep.
+  EXPECT_EQ(record_of(run(pile_in_shear(), 30)),
+            record_of(run(pile_in_shear(), 30, {.culls = false, .sleeps = false})));
+}
+
+TEST(Shortcuts, FloesComeToRestOnceASecondWhereIceCrushesAndInEachStepOfTheImpulseLaw) {
+  for (const Laws laws : kBothLaws) {
+    Simulation simulation(Build(laws).step(0.01).floe(rectangle(0, 0, 10, 10), {0.5 * kRestSpeed, 0}));
+    for (int i = 1; i <= (laws == Laws::kDefault ? 100 : 1); ++i) {
+      EXPECT_EQ(simulation.world().population.awake.size(), 1u) << i;
+      simulation.step();
+    }
+    EXPECT_TRUE(simulation.world().population.awake.empty());
+  }
+}
+
+TEST(Shortcuts, SleepMovesFloesByNoMoreThanTheRestSpeedDoes) {
+  // A floe put to rest would have gone on at less than the rest speed. While no collision has made something
+  // else of it, places differ by less than that speed's way, and every fracture is the same; later,
+  // collisions amplify any difference, and only means can be compared.
+  const Shortcuts all_awake{.culls = false, .sleeps = false};
+  const double before_chaos = 20;
+  const Trial with = run(voyage(), before_chaos), without = run(voyage(), before_chaos, all_awake);
+  EXPECT_LT(with.simulation.counts().peak_awake, without.simulation.counts().peak_awake / 2) << "most slept";
+  const auto p = with.simulation.floe_states(), q = without.simulation.floe_states();
+  for (std::size_t i = 0; i < std::min(p.size(), q.size()); ++i)
+    EXPECT_LT(distance(p[i].world_from_body.position, q[i].world_from_body.position),
+              kRestSpeed * before_chaos);
+  ASSERT_EQ(with.story.events.size(), without.story.events.size());
+  EXPECT_GT(with.story.events.size(), 10u);
+  for (std::size_t i = 0; i < with.story.events.size(); ++i)
+    EXPECT_EQ(with.story.events[i].time, without.story.events[i].time);
+  const auto mean_surge = [](const Trial& run) { return mean(run.story, &ShipSample::from_ice); };
+  EXPECT_NEAR(mean_surge(with) / mean_surge(without), 1, 1e-4);
+  EXPECT_NEAR(mean_surge(run(voyage(), 40)) / mean_surge(run(voyage(), 40, all_awake)), 1, 0.05);
 }
 
 }  // namespace

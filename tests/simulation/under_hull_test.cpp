@@ -1,7 +1,6 @@
 // Ice that goes under a hull: floes that tilt, submerged pieces that brake the ship, pieces that come up
 // behind it.
 #include <algorithm>
-#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -13,122 +12,91 @@ namespace {
 
 using namespace scenes;
 
-ShipSpec with_draught(ShipSpec ship) {
+Ship with_draught(Ship ship) {
   ship.hull.draught = 6;
   return ship;
 }
 
 /// The reference ship at constant speed, through ice that goes under it.
-Scene under(double speed = 1) {
-  Scene scene;
-  scene.ships = {with_draught(icebreaker({-0.5, 0}, ConstantSpeed{speed}, speed))};
+Build under(double speed = 1, geometry::Point stem = {-0.5, 0}) {
+  Build scene = Build().ship(with_draught(icebreaker(stem, ConstantSpeed{speed}, speed)));
   scene.fracture.cusp_fate = CuspFate::kUnderHull;
   scene.fracture.going_under.is_enabled = true;
   scene.fracture.resurface.is_enabled = true;
   return scene;
 }
 
-/// A floe of 12 m that lies on a plate too large to move, ahead of the stem.
-Scene pinned_floe() {
-  Scene scene = under();
+/// A floe that lies on a plate too large to move, ahead of the stem; nothing breaks.
+Build pinned(const geometry::Polygon& floe, const geometry::Polygon& plate) {
+  Build scene = under().floe(floe).floe(plate);
   scene.ice.thickness = 1;
-  scene.fracture.breakable_size_factor = 100;  // nothing breaks
-  scene.floes = {floe(rectangle(0, -6, 12, 6)), floe(rectangle(12.01, -150, 400, 150))};
+  scene.fracture.breakable_size_factor = 100;
   return scene;
 }
 
-std::vector<Event> of_kind(const Story& story, EventKind kind) {
-  std::vector<Event> events;
-  for (const Event& event : story.events)
-    if (event.kind == kind) events.push_back(event);
-  return events;
+Build pinned_floe() {
+  return pinned(rectangle(0, -6, 12, 6), rectangle(12.01, -150, 400, 150));
 }
 
-void expect_closed(const Simulation& simulation) {
-  const AreaLedger ledger = simulation.area_ledger();
-  EXPECT_LT(std::abs(ledger.imbalance), 1e-9 * ledger.initial_ice_area);
-  EXPECT_TRUE(simulation.audit().is_closed()) << simulation.audit().energy_imbalance;
+/// A small piece, of 16 m², to port of the centre line by y.
+Build one_tile(double y) {
+  Build scene = pinned(rectangle(0, y - 2, 4, y + 2), rectangle(4.01, -150, 100, 150));
+  scene.ships[0].hull.has_speed_factor = false;
+  return scene;
 }
 
 TEST(UnderHull, AFloeBetweenAnInclinedHullAndAPlateTiltsAndGoesUnder) {
-  Simulation simulation(pinned_floe());
-  const Story story = run(simulation, 20);
-  const std::vector<Event> under = of_kind(story, EventKind::kSubmerge);
+  const auto [simulation, story] = run(pinned_floe(), 20);
+  const auto under = story.submerged();
   ASSERT_FALSE(under.empty());
-  EXPECT_EQ(under[0].floe, 0);
-  EXPECT_GE(under[0].tilting.deflection, under[0].tilting.least_deflection);
-  EXPECT_NEAR(under[0].tilting.least_deflection, 0.9, 1e-12);
-  EXPECT_NEAR(under[0].under_hull_area, 144, 1e-9);
-  EXPECT_EQ(simulation.counts().tilted_under, static_cast<std::int64_t>(under.size()));
+  EXPECT_EQ(under[0].ice()->floe, 0);
+  EXPECT_GE(std::get<Submerge>(under[0].what).criterion.deflection,
+            std::get<Submerge>(under[0].what).criterion.least_deflection);
+  EXPECT_NEAR(std::get<Submerge>(under[0].what).criterion.least_deflection, 0.9, 1e-12);
+  EXPECT_NEAR(std::get<Submerge>(under[0].what).under_hull_area, 144, 1e-9);
+  EXPECT_EQ(simulation.counts().tilted_under, std::ssize(under));
   expect_closed(simulation);
 }
 
-TEST(UnderHull, ByVerticalWallsItNeverDoes) {
-  Scene scene = pinned_floe();
-  scene.ships[0].hull.angles_from_vertical.assign(scene.ships[0].hull.waterline.size(), 0);
-  Simulation simulation(scene);
-  EXPECT_TRUE(of_kind(run(simulation, 20), EventKind::kSubmerge).empty());
-  expect_closed(simulation);
+TEST(UnderHull, ByVerticalWallsOrWhereItIsFreeToMoveItNeverDoes) {
+  Scene steep = pinned_floe();
+  set_hull_angle(steep.ships[0], 0);
+  for (const Scene& scene : {steep, Scene(under(0.5).floe(rectangle(0, 4, 8, 12)))}) {
+    const auto [simulation, story] = run(scene, 40);
+    EXPECT_TRUE(story.submerged().empty());
+    expect_closed(simulation);
+  }
 }
 
 TEST(UnderHull, TiltingLimitsTheForceOfAFloeThatCannotGetAway) {
   Scene scene = pinned_floe();
-  const auto largest = [](const Scene& of) {
-    Simulation simulation(of);
-    double most = 0;
-    for (const ShipSample& sample : run(simulation, 12).samples)
-      most = std::max(most, std::abs(sample.surge_force));
-    return most;
-  };
-  const double tilting = largest(scene);
+  const double tilting = largest(run(scene, 12).story, &ShipSample::from_ice);
   scene.fracture.going_under.is_enabled = false;
-  EXPECT_GT(largest(scene), 5 * tilting);
-}
-
-TEST(UnderHull, AFloeThatIsFreeToMoveIsPushedAsideAndStaysUp) {
-  Scene scene = under(0.5);
-  scene.floes = {floe(rectangle(0, 4, 8, 12))};
-  Simulation simulation(scene);
-  EXPECT_TRUE(of_kind(run(simulation, 40), EventKind::kSubmerge).empty());
-}
-
-/// A small piece under the hull, and nothing else.
-Scene one_tile(double y) {
-  Scene scene = under();
-  scene.ice.thickness = 1;
-  scene.fracture.breakable_size_factor = 100;
-  scene.ships[0].hull.has_speed_factor = false;
-  scene.floes = {floe(rectangle(0, y - 2, 4, y + 2)), floe(rectangle(4.01, -150, 100, 150))};
-  return scene;
+  EXPECT_GT(largest(run(scene, 12).story, &ShipSample::from_ice), 5 * tilting);
 }
 
 TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
-  const Scene scene = one_tile(0);
-  Simulation simulation(scene);
-  const Story story = run(simulation, 100);
-  ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
+  const auto [simulation, story] = run(one_tile(0), 100);
+  ASSERT_EQ(story.submerged().size(), 1U);
   double work = 0;
-  for (const ShipSample& sample : story.samples) work -= sample.surge_from_submerged * 0.1;  // at 1 m/s
+  for (const ShipSample& sample : story.samples) work -= sample.from_submerged.surge * 0.1;  // at 1 m/s
   const double weight = 100 * 9.81 * 16;
   const dynamics::SubmersionPath& path = simulation.world().setup.underwater[0].path;
   EXPECT_NEAR(work, weight * (path.rise + 0.2 * path.sliding), 1e-9 * work);
 }
 
 TEST(UnderHull, IceOffTheCentreLineTurnsTheShipTowardsIt) {
-  Simulation simulation(one_tile(1));
-  const Story story = run(simulation, 40);
-  ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
-  double moment = 0;
-  for (const ShipSample& sample : story.samples) moment += sample.yaw_from_submerged;
-  EXPECT_GT(moment, 0) << "to port, where it is";
+  const Story story = run(one_tile(1), 40).story;
+  ASSERT_EQ(story.submerged().size(), 1U);
+  EXPECT_GT(mean(story, &ShipSample::from_submerged, 0, 0, &dynamics::Planar::yaw), 0)
+      << "to port, where it is";
 }
 
 TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
   Scene scene = one_tile(0);
   scene.ships[0].propulsion = ConstantThrust{0};
-  Simulation simulation(scene);
-  run(simulation, 20);
-  auto& world = const_cast<World&>(simulation.world());
+  Trial done = run(scene, 20);
+  auto& world = const_cast<World&>(done.simulation.world());
   ASSERT_EQ(world.population.submerged.size(), 1U);
   world.population.submerged[0].weight = 1e9;  // as if the whole hull were full of ice
   for (const double speed : {1e-3, 0.0, -1e-3}) {
@@ -142,15 +110,15 @@ TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
 }
 
 TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
-  Simulation simulation(one_tile(0));
-  Story story = run(simulation, 140);
-  const std::vector<Event> up = of_kind(story, EventKind::kResurface);
+  const auto [simulation, story] = run(one_tile(0), 140);
+  const auto up = story.resurfaced();
   ASSERT_EQ(up.size(), 1U);
-  EXPECT_EQ(up[0].floe, 0);
-  ASSERT_EQ(up[0].children.size(), 1U);
-  EXPECT_GE(up[0].resurfacing.path, up[0].resurfacing.least_path);
-  EXPECT_NEAR(up[0].brash_area, 0.05 * 16, 1e-9);
-  const auto born = std::ranges::find(story.births, up[0].children[0], &BirthRecord::floe);
+  EXPECT_EQ(up[0].ice()->floe, 0);
+  ASSERT_EQ(up[0].ice()->children.size(), 1U);
+  EXPECT_GE(std::get<Resurface>(up[0].what).criterion.path,
+            std::get<Resurface>(up[0].what).criterion.least_path);
+  EXPECT_NEAR(up[0].ice()->brash_area, 0.05 * 16, 1e-9);
+  const auto born = std::ranges::find(story.births, up[0].ice()->children[0], &BirthRecord::floe);
   ASSERT_NE(born, story.births.end());
   EXPECT_EQ(born->parent, 0);
   EXPECT_EQ(born->generation, 1);
@@ -160,98 +128,66 @@ TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
   expect_closed(simulation);
 }
 
-TEST(UnderHull, WithoutScatterItComesUpInItsPlace) {
-  Scene scene = one_tile(0);
-  scene.fracture.resurface.scatter = 0;
-  Simulation simulation(scene);
-  const Story story = run(simulation, 140);
-  const std::vector<Event> under = of_kind(story, EventKind::kSubmerge);
-  const std::vector<Event> up = of_kind(story, EventKind::kResurface);
-  ASSERT_EQ(up.size(), 1U);
-  const std::vector<FloeState> floes = simulation.floe_states();
-  const auto state = std::ranges::find(floes, up[0].children[0], &FloeState::floe);
-  ASSERT_NE(state, floes.end());
-  EXPECT_LT(distance(transform(state->world_from_body, {2, 0}), up[0].point_in_world), 1e-9);
+TEST(UnderHull, WithoutScatterItComesUpInItsPlaceWhichGoesWithACurrent) {
+  for (const double shear : {0.0, 0.001}) {
+    Scene scene = one_tile(0).shear(shear, 0.5 * std::numbers::pi);
+    scene.fracture.resurface.scatter = 0;
+    const auto [simulation, story] = run(scene, 160);
+    const auto up = story.resurfaced();
+    ASSERT_EQ(up.size(), 1U);
+    expect_closed(simulation);
+    if (shear > 0) {
+      EXPECT_GT(std::abs(up[0].point_in_world.y - story.submerged()[0].point_in_world.y), 0.05);
+      continue;
+    }
+    const std::vector<FloeState> floes = simulation.floe_states();
+    const auto state = std::ranges::find(floes, up[0].ice()->children[0], &FloeState::floe);
+    ASSERT_NE(state, floes.end());
+    EXPECT_LT(distance(transform(state->world_from_body, {2, 0}), up[0].point_in_world), 1e-9);
+  }
 }
 
 TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
-  Scene scene = one_tile(0);
+  // A floe as large as the hull and more lies where the piece would come up, as soon as the ship has gone.
+  Scene scene = one_tile(0).without_drag().floe(rectangle(-400, -60, -122, 60), {1.5, 0});
   scene.fracture.resurface.give_up = 10;
   scene.fracture.resurface.scatter = 0;
-  Simulation simulation(scene);
-  Story story = run(simulation, 30);
-  ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
-  // A floe as large as the hull and more lies where the piece would come up, as soon as the ship has gone.
-  scene.floes.push_back(floe(rectangle(-400, -60, -122, 60), {1.5, 0}));
-  scene.water.drag_coefficient = 0;
-  Simulation blocked(scene);
-  story = run(blocked, 220);
-  const std::vector<Event> stays = of_kind(story, EventKind::kStayUnder);
+  const auto [simulation, story] = run(scene, 220);
+  const auto stays = story.stayed_under();
   ASSERT_EQ(stays.size(), 1U);
-  EXPECT_GE(stays[0].resurfacing.waited, 10);
-  EXPECT_NEAR(stays[0].under_ice_area, 16, 1e-9);
-  EXPECT_NEAR(blocked.area_ledger().under_ice_area, 16, 1e-9);
-  EXPECT_EQ(blocked.counts().stayed_under, 1);
-  expect_closed(blocked);
+  EXPECT_GE(std::get<StayUnder>(stays[0].what).criterion.waited, 10);
+  EXPECT_NEAR(std::get<StayUnder>(stays[0].what).under_ice_area, 16, 1e-9);
+  EXPECT_NEAR(simulation.area_ledger().under_ice_area, 16, 1e-9);
+  EXPECT_EQ(simulation.counts().stayed_under, 1);
+  expect_closed(simulation);
 }
 
 TEST(UnderHull, AShipThatStopsKeepsItsIceAndOneThatBacksGivesItBack) {
   Scene scene = one_tile(0);
   scene.ships[0].propulsion = ConstantThrust{0};
-  scene.ships[0].speed = 1;
-  Simulation simulation(scene);
-  Story story = run(simulation, 20);
-  ASSERT_EQ(of_kind(story, EventKind::kSubmerge).size(), 1U);
-  auto& world = const_cast<World&>(simulation.world());
-  world.population.bodies.velocity[0] = {0, 0};
-  story = run(simulation, 60);
-  EXPECT_TRUE(of_kind(story, EventKind::kResurface).empty());
-  EXPECT_EQ(world.population.submerged.size(), 1U);
-  const double path = world.population.submerged[0].path;
-  world.population.bodies.velocity[0] = {-1, 0};
-  story = run(simulation, 60 + path + 30);
-  const std::vector<Event> up = of_kind(story, EventKind::kResurface);
+  auto [simulation, story] = run(scene, 20);
+  ASSERT_EQ(story.submerged().size(), 1U);
+  auto& population = const_cast<World&>(simulation.world()).population;
+  population.bodies.velocity[0] = {0, 0};
+  EXPECT_TRUE(run(simulation, 60).resurfaced().empty());
+  ASSERT_EQ(population.submerged.size(), 1U);
+  const double path = population.submerged[0].path;
+  population.bodies.velocity[0] = {-1, 0};
+  const auto up = run(simulation, 60 + path + 30).resurfaced();
   ASSERT_EQ(up.size(), 1U);
-  EXPECT_LT(up[0].resurfacing.path, 0);
-}
-
-TEST(UnderHull, IceUnderAHullGoesWithACurrent) {
-  Scene scene = one_tile(0);
-  scene.water.shear = {0.001, 0.5 * std::numbers::pi, {}};
-  scene.fracture.resurface.scatter = 0;
-  Simulation simulation(scene);
-  const Story story = run(simulation, 160);
-  const std::vector<Event> under = of_kind(story, EventKind::kSubmerge);
-  const std::vector<Event> up = of_kind(story, EventKind::kResurface);
-  ASSERT_EQ(up.size(), 1U);
-  EXPECT_GT(std::abs(up[0].point_in_world.y - under[0].point_in_world.y), 0.05);
-  expect_closed(simulation);
+  EXPECT_LT(std::get<Resurface>(up[0].what).criterion.path, 0);
 }
 
 TEST(UnderHull, AChannelFillsWithBrashAndAResumedRunGoesOnBitByBit) {
-  Scene scene = under(2);
-  scene.time.step = 0.01;
-  scene.floes = {floe(rectangle(0, -60, 300, 60))};
-  scene.ships.push_back(with_draught(icebreaker({-140, 0}, ConstantSpeed{2}, 2)));
-  scene.ships[1].name = "follower";
-  Simulation simulation(scene);
-  std::optional<Simulation> resumed;
-  while (simulation.time() < 110) {
-    if (simulation.steps() == 9000) {
-      auto again = Simulation::resumed(scene, simulation.state());
-      ASSERT_TRUE(again.has_value()) << again.error();
-      resumed = std::move(*again);
-    }
-    simulation.step();
-    simulation.journal().clear();
-    if (resumed) resumed->step();
-    if (simulation.steps() % 500 == 0) expect_closed(simulation);
-  }
+  Ship follower = with_draught(icebreaker({-140, 0}, ConstantSpeed{2}, 2));
+  follower.name = "follower";
+  const Scene scene = under(2).step(0.01).ship(follower).floe(rectangle(0, -60, 300, 60));
+  const Simulation simulation = expect_resumes(scene, 90, 110).simulation;
+  expect_closed(simulation);
   const Counts counts = simulation.counts();
   EXPECT_GT(counts.came_up, 50);
   EXPECT_GT(counts.went_under, counts.came_up);
   EXPECT_GT(simulation.world().population.submerged.size(), 50U);
-  EXPECT_EQ(simulation.state_hash(), resumed->state_hash());
 }
 
 }  // namespace

@@ -1,26 +1,15 @@
 // The controls, by mouse, keys and fingers, from a phone to a desk: what they cover, how large they are, what a drag and Space do.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage } = require("./runs.js");
 
 const sizes = [[360, 740], [390, 844], [768, 1024], [1440, 900]];
 const until = 300; // [s]; a mark for nearly each pixel from 216 s on
 
-let folder, browser, file, page;
+let file, page;
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   file = makePage(makeRun(folder, "sawamura2017-fig4b", "--set", `time.until_s=${until}`));
-  browser = await startBrowser();
-  page = await openPage(browser, file);
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
+  page = await open(file);
 });
 
 const played = () => page.evaluate(() => window.polynyaPlayer.state.isPlaying);
@@ -113,7 +102,7 @@ test("a control that keys have reached answers keys, and keeps the focus", async
 });
 
 test("for fingers targets have 40 px", async () => {
-  const phone = await openPage(browser, file, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+  const phone = await open(file, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
   const { controls, ...found } = await phone.evaluate(measureControls, 40);
   assert.deepEqual(found, { overMap: [], small: [], sideways: 0 });
   assert.ok(controls > 25);

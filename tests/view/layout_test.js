@@ -1,12 +1,7 @@
 // The page at many window sizes and in both themes, with a long description and two ships: by the boxes of its elements
 // nothing is cut off and nothing overlaps, the map keeps a useful height, and map and plot can be dragged.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage, smallScene, ship } = require("./runs.js");
 
 const sizes = [[360, 740], [390, 844], [721, 900], [768, 1024], [900, 700], [1024, 768], [1190, 800], [1280, 720], [1440, 900],
@@ -15,12 +10,10 @@ const description = "Two icebreakers at constant speed through nine floes of fif
   "of three hundred characters, because a line as long as this one once made the page wider than every window it was opened in, and its " +
   "controls could no longer be reached by anyone who opened it.";
 
-let folder, browser, page;
+let page;
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   const scene = smallScene("a-name-of-many-words-in-one", { description, ships: [ship("north", 60), ship("south", 10)] });
-  browser = await startBrowser();
-  page = await openPage(browser, makePage(makeRun(folder, scene)));
+  page = await open(makePage(makeRun(folder, scene)));
   await page.addScriptTag({ content: findProblems.toString() });
   await page.evaluate(() => {
     const { actions } = window.polynyaPlayer;
@@ -30,10 +23,6 @@ before(async () => {
     actions.toggleLayer("forces", true);
     actions.toggleLayer("velocities", true);
   });
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
 });
 
 /** In the page: what is cut off, reaches out of the window or overlaps, in words. */

@@ -1,33 +1,22 @@
 // What the picture means: the default colours by what became of a floe, and a ship that shows as one.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
+const { test, before, assert, fs, path, folder, open } = require("./bench.js");
 const vm = require("node:vm");
-const { startBrowser, openPage } = require("./browser.js");
 const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js");
 
-let folder, browser, page, run;
+let page, run;
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   run = makeRun(folder, smallScene("plate-and-floe", {
     time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } }, ships: [ship("a", 30)],
     floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } }, { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }],
   }));
-  browser = await startBrowser();
-  page = await openPage(browser, makePage(run));
+  page = await open(makePage(run));
   await page.evaluate(() => {
     const { actions } = window.polynyaPlayer;
     for (const layer of ["track", "channel", "startIce"]) actions.toggleLayer(layer, false);
     actions.goToEnd(true);
   });
   await page.waitForTimeout(100);
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
 });
 
 /** The scripts' own functions, without a page. */

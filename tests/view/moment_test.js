@@ -1,25 +1,15 @@
 // A link to an instant, pictures of map and plot, and the histogram of floe sizes.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const bench = require("./bench.js");
+const { test, before, assert, fs, folder, open } = bench;
 const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js");
 
-let folder, browser, page, run, file;
+let page, run, file;
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   run = makeRun(folder, smallScene("moments", { time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } }, ships: [ship("north", 60), ship("a b", 10)],
     floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } }, { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }] }));
   file = makePage(run);
-  browser = await startBrowser();
-  page = await openPage(browser, `${file}#t=12.5&floe=1&by=size&plot=yaw_Nm&follow=a%20b`);
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
+  page = await open(`${file}#t=12.5&floe=1&by=size&plot=yaw_Nm&follow=a%20b`);
 });
 
 const state = (of = page) => of.evaluate(() => {
@@ -27,7 +17,7 @@ const state = (of = page) => of.evaluate(() => {
   return { time, selected, colourBy, follow, sizes, quantity };
 });
 const act = (name, ...words) => page.evaluate(([action, list]) => window.polynyaPlayer.actions[action](...list), [name, words]);
-const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const drawn = () => bench.drawn(page);
 
 test("a link opens the page at its instant", async () => {
   assert.deepEqual(await state(), { time: 12.5, selected: 1, colourBy: "size", follow: 1, sizes: null, quantity: "yaw_Nm" });
@@ -46,7 +36,7 @@ test("the address follows the page, and a copy of it opens the same", async () =
   await page.waitForFunction(() => document.getElementById("toast").textContent === "link copied");
   const link = await page.evaluate(() => navigator.clipboard.readText());
   assert.equal(link, page.url());
-  const other = await openPage(browser, link.replace("file://", ""));
+  const other = await open(link.replace("file://", ""));
   assert.deepEqual(await state(other), await state());
   const viewOf = (of) => of.evaluate(() => { const { x, y, scale } = window.polynyaPlayer.view; return [x, y, scale]; });
   const [mine, its] = [await viewOf(page), await viewOf(other)];
@@ -70,7 +60,7 @@ test("while it plays the address stays; when it stops it is that instant's", asy
 });
 
 test("what a link has wrong is stated, the rest is done", async () => {
-  const other = await openPage(browser, `${file}#t=now&floe=100000&plot=toString&sizes=5-2&follow=west&by=speed&colour=red`);
+  const other = await open(`${file}#t=now&floe=100000&plot=toString&sizes=5-2&follow=west&by=speed&colour=red`);
   const words = await other.locator("#toast").textContent();
   for (const part of ["t=now", "floe=100000: floes go from 0 to ", "plot=toString", "sizes=5-2", "follow=west: no such ship", "colour=red: unknown"])
     assert.ok(words.includes(part), `${part} in ${words}`);

@@ -1,31 +1,21 @@
 // Two runs side by side: one file, one clock, one part of the map, one scale of the plots.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const bench = require("./bench.js");
+const { test, before, assert, fs, path, folder, open } = bench;
 const { makeRun, polynya, smallScene, ship } = require("./runs.js");
 
-let folder, browser, page, file;
+let page, file;
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   const run = (name, fields, ...options) => makeRun(folder, smallScene(name, { ships: [ship("a", 30)],
     floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } }], ...fields }), ...options);
   const fast = { ...ship("a", 30), propulsion: { constant_speed_m_per_s: 4 } };
   file = path.join(folder, "pair.html");
   polynya("view", run("slow", {}), run("fast and short", { ships: [fast] }, "--until", "6"), "--out", file);
-  browser = await startBrowser();
-  page = await openPage(browser, file, { viewport: { width: 1600, height: 900 } });
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
+  page = await open(file, { viewport: { width: 1600, height: 900 } });
 });
 
 const both = (read) => page.evaluate((text) => window.polynyaPair.players.map(new Function("player", `return (${text})(player)`)), read.toString());
-const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+const drawn = () => bench.drawn(page);
 const inFirst = (css) => page.frameLocator("iframe >> nth=0").locator(css);
 const inSecond = (css) => page.frameLocator("iframe >> nth=1").locator(css);
 
@@ -120,7 +110,7 @@ test("a link has the instant and a floe of each", async () => {
     players[1].actions.select(1);
   });
   await page.waitForFunction(() => /t=7.5&floe=0.*&floe2=1$/.test(location.hash));
-  const other = await openPage(browser, page.url().replace("file://", ""));
+  const other = await open(page.url().replace("file://", ""));
   assert.deepEqual(await other.evaluate(() => [window.polynyaPair.clock.time, ...window.polynyaPair.players.map(({ state }) => state.selected)]), [7.5, 0, 1]);
   assert.deepEqual(other.errors, []);
   await other.context().close();

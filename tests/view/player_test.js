@@ -1,31 +1,21 @@
 // The player in a real browser. Started by tests/view/run; POLYNYA_BINARY names the program under test.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const bench = require("./bench.js");
+const { test, before, assert, fs, path, folder, open } = bench;
 const { makeRun, makePage, readLines, readNdjson, inspectAt, polynya } = require("./runs.js");
 
-let folder, browser, run, file, page;
+let run, file, page;
 
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   run = makeRun(folder, "sawamura2017-fig4b");
   file = makePage(run);
-  browser = await startBrowser();
-  page = await openPage(browser, file);
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
+  page = await open(file);
 });
 
 const text = (id) => page.locator(`#${id}`).textContent();
 const timeShown = async () => parseFloat(await text("now"));
 /** Waits until the request is drawn. */
-const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const drawn = () => bench.drawn(page);
 const act = async (name, ...words) => {
   await page.evaluate(([action, list]) => window.polynyaPlayer.actions[action](...list), [name, words]);
   await drawn();

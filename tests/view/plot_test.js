@@ -1,15 +1,10 @@
 // The plot: true loads first and under their names, a scale that a spike does not flatten, zoom and read-out.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const { test, before, assert, fs, path, folder, open } = require("./bench.js");
 const { makeRun, makePage, readLines, smallScene, ship } = require("./runs.js");
 
 const spikeRow = 70; // of forces.csv
-let folder, browser, page, run, rows;
+let page, run, rows;
 
 /** A run whose forces.csv has been given known loads: a wave of 100 kN, in one row 9 MN. */
 function runWithSpike(name, fracture) {
@@ -29,15 +24,9 @@ function runWithSpike(name, fracture) {
 }
 
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   run = runWithSpike("spiked", { splitting: { model: "michel" } });
   rows = readLines(run, "forces.csv").slice(1).map((line) => line.split(",").map(Number));
-  browser = await startBrowser();
-  page = await openPage(browser, makePage(run), { viewport: { width: 1440, height: 900 } });
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
+  page = await open(makePage(run), { viewport: { width: 1440, height: 900 } });
 });
 
 const over = () => page.locator("#plot .u-over").boundingBox();
@@ -58,7 +47,7 @@ test("true loads lead: the interval's mean, then the step maximum, then the pape
 
 test("j/\u03c4c is shown by default where it decides splits, elsewhere on request", async () => {
   assert.ok(await page.locator("#curve-paper").isChecked());
-  const other = await openPage(browser, makePage(runWithSpike("true-only", { splitting: { model: "lefm" } })));
+  const other = await open(makePage(runWithSpike("true-only", { splitting: { model: "lefm" } })));
   assert.ok(!(await other.locator("#curve-paper").isChecked()));
   assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) => series.scale)), ["y", "y"]);
   await other.locator("#curve-paper").check();

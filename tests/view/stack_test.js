@@ -1,14 +1,9 @@
 // Forces by cause as stacked areas: each as high as its column of forces.csv, with the line of their sum.
 "use strict";
-const { test, before, after } = require("node:test");
-const assert = require("node:assert/strict");
-const fs = require("node:fs");
-const os = require("node:os");
-const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const { test, before, assert, fs, path, folder, open } = require("./bench.js");
 const { makeRun, makePage, readLines, smallScene, ship } = require("./runs.js");
 
-let folder, browser, page, rows;
+let page, rows;
 const causes = ["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring"]; // from 0 outwards, as the plot stacks them
 
 /** Loads that change their signs, in kN, of row k. */
@@ -44,16 +39,10 @@ function runWithLoads(name, interval) {
 }
 
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
   const made = runWithLoads("by-cause", 0.1);
   rows = made.rows;
-  browser = await startBrowser();
-  page = await openPage(browser, makePage(made.run), { viewport: { width: 1440, height: 900 } });
+  page = await open(makePage(made.run), { viewport: { width: 1440, height: 900 } });
   await page.selectOption("#quantity", "surge_by_cause");
-});
-after(async () => {
-  await browser?.close();
-  fs.rmSync(folder, { recursive: true, force: true });
 });
 
 /** The colours of the plot in the middle of each cause's area at a time, and whether each is that cause's. */
@@ -128,7 +117,7 @@ test("a cause that is ticked off leaves the stack, the sum stays that of all", a
 
 test("rows closer than the pixels are drawn as their means, which is stated; zoomed in each row stands for itself", async () => {
   const { run } = runWithLoads("by-cause-densely", 0.01);
-  const dense = await openPage(browser, makePage(run), { viewport: { width: 900, height: 700 } });
+  const dense = await open(makePage(run), { viewport: { width: 900, height: 700 } });
   await dense.selectOption("#quantity", "surge_by_cause");
   const words = () => dense.locator("#off-scale").textContent();
   const stated = /means over ([\d.]+) s/.exec(await words());

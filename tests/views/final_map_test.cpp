@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "../io/scene_text.hpp"
 #include "../io/temporary_folder.hpp"
-#include <gtest/gtest.h>
 
 #include "views/export/geojson_export.hpp"
 #include "views/export/vtk_export.hpp"
@@ -17,17 +17,16 @@ namespace {
 
 /// Two ships and a structure; the second ship breaks a floe.
 io::Run run_of_three(const std::string& name) {
-  const std::string hull = R"("hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27}, "mass_kg": 1e6,
-    "moment_of_inertia_kg_m2": 1e8, "propulsion": {"constant_speed_m_per_s": 1})";
-  auto scene =
-      io::read_scene(R"({"name": ")" + name + R"(", "ships": [{"name": "north", "position_m": [0, 50], )" +
-                         hull + R"(}, {"name": "south", )" + hull +
-                         R"(}], "structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}],
-    "floes": [{"rectangle": {"corner_m": [200, 0], "size_m": 10}}]})",
-                     "scene.json", ".");
-  EXPECT_TRUE(scene.has_value());
+  const auto named = [](const std::string& members) {
+    return tests::ship(
+        R"("hull": {"length_m": 40, "beam_m": 8}, "propulsion": {"constant_speed_m_per_s": 1}, )" + members);
+  };
   io::Run run;
-  run.scene = std::move(*scene);
+  run.scene = tests::load(
+      tests::scene({"\"name\": \"" + name + '"', tests::list("floes", {tests::square(200, 0, 10)}),
+                    tests::list("ships", {named(R"("name": "north", "position_m": [0, 50])"),
+                                          named(R"("name": "south", "position_m": [0, 0])")}),
+                    R"("structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}])"}));
   run.label = name;
   for (int ship = 0; ship < 3; ++ship) {
     simulation::ShipSample sample;
@@ -36,10 +35,7 @@ io::Run run_of_three(const std::string& name) {
     run.samples.push_back(sample);
   }
   run.frames = {{.time = 0, .ships = {}, .floes = {}}, {.time = 10, .ships = {}, .floes = {}}};
-  simulation::Event event;
-  event.time = 5;
-  event.ship = 1;
-  run.events = {event};
+  run.events = {{5, 1, {}, simulation::Bend()}};
   return run;
 }
 
@@ -73,14 +69,10 @@ io::Run run_with_ice_under_a_hull() {
   run.floes[1].went_under = 5;
   run.floes[2].came_up = true;
   run.floes[2].birth.generation = 2;
-  for (const auto kind : {simulation::EventKind::kSubmerge, simulation::EventKind::kSubmerge,
-                          simulation::EventKind::kResurface, simulation::EventKind::kStayUnder}) {
-    simulation::Event event;
-    event.time = 5;
-    event.ship = 1;
-    event.kind = kind;
-    run.events.push_back(event);
-  }
+  using namespace simulation;
+  for (const decltype(Event::what)& what :
+       std::initializer_list<decltype(Event::what)>{Submerge(), Submerge(), Resurface(), StayUnder()})
+    run.events.push_back({5, 1, {}, what});
   return run;
 }
 
@@ -116,12 +108,12 @@ TEST(FinalMap, AWallIsDrawnAsOneAndLeavesNoTrack) {
   Picture picture;
   picture.ships.push_back({{{0, 0}, {50, 0}, {50, 5}, {0, 5}}, {{25, 0}, {25, 9}}, true});
   const std::string walls = to_svg(picture);
-  EXPECT_NE(walls.find(">wall<"), std::string::npos);
-  EXPECT_EQ(walls.find("<polyline"), std::string::npos);
+  EXPECT_HAS(walls, ">wall<");
+  EXPECT_LACKS(walls, "<polyline");
   picture.ships.front().is_wall = false;
   const std::string ships = to_svg(picture);
-  EXPECT_EQ(ships.find(">wall<"), std::string::npos);
-  EXPECT_NE(ships.find("<polyline"), std::string::npos);
+  EXPECT_LACKS(ships, ">wall<");
+  EXPECT_HAS(ships, "<polyline");
 }
 
 TEST(FinalMap, IceUnderAHullIsNeitherFloatingIceNorAFracture) {

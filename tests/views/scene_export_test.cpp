@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../io/expect_text.hpp"
 #include "../io/temporary_folder.hpp"
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "io/run/motion_index.hpp"
 #include "io/run/run_loop.hpp"
@@ -97,8 +97,7 @@ TEST_F(SceneExport, ContinuingFromTheEndMovesAsAnUnbrokenRun) {
 
 TEST_F(SceneExport, AFrameIsAStartToo) {
   const io::Run whole = run("whole", load(crowd(12)));
-  const auto scene = views::continued_scene(whole, 8.6);
-  ASSERT_TRUE(scene);
+  const auto scene = checked(views::continued_scene(whole, 8.6));
   EXPECT_EQ(scene->time, 8);
   EXPECT_TRUE(scene->left_out.empty());
   const io::LoadedScene loaded = continued(whole, 8.6);
@@ -113,7 +112,7 @@ TEST_F(SceneExport, AShipGoesOnAsItWent) {
   const io::Run whole = run("whole", load(crowd(6)));
   const auto at = io::MotionIndex(whole).ship_at(0, 6);
   const io::LoadedScene loaded = continued(whole, 6);
-  const simulation::ShipSpec& ship = loaded.scene.ships[0];
+  const simulation::Ship& ship = loaded.scene.ships[0];
   EXPECT_EQ(ship.position_in_world, at->position);
   const geometry::Vector ahead{std::cos(at->angle), std::sin(at->angle)};
   EXPECT_NEAR(length(ship.speed * ahead + ship.sway_speed * perpendicular(ahead) - at->velocity), 0, 1e-12);

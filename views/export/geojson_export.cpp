@@ -1,8 +1,8 @@
 #include "views/export/geojson_export.hpp"
 
 #include <memory>
-#include <numbers>
 
+#include "geometry/shape/angle.hpp"
 #include "io/import/projection.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/run/records.hpp"
@@ -11,8 +11,6 @@
 
 namespace polynya::views {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 using io::GeojsonLayer;
 using io::Project;
@@ -42,14 +40,18 @@ std::string floes_layer(const io::Run& run, const std::vector<io::PlacedFloe>& f
 std::string fractures_layer(const io::Run& run, double time, const Project& project) {
   GeojsonLayer layer(time, project);
   for (const simulation::Event& event : run.events) {
-    if (event.time > time || !is_fracture(event.kind)) continue;
+    if (event.time > time || !event.is_fracture()) continue;
+    const fracture::FailureCriteria& criteria = event.criteria();
     io::JsonWriter& json = layer.start();
-    json.key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-    json.key("ship").value(io::ship_name(run.scene.scene, event.ship)).key("floe_id").value(event.floe);
-    json.key("contact_force_N").value(event.criteria.contact_force);
-    json.key("collision_force_N").value(event.criteria.collision_force);
-    json.key("vertical_force_N").value(event.criteria.vertical_force);
-    json.key("submerged_area_m2").value(event.submerged_area);
+    json.key("t_s").value(event.time).key("kind").value(name_of(event));
+    json.key("ship")
+        .value(io::ship_name(run.scene.scene, event.ship))
+        .key("floe_id")
+        .value(event.ice()->floe);
+    json.key("contact_force_N").value(criteria.contact_force);
+    json.key("collision_force_N").value(criteria.collision_force);
+    json.key("vertical_force_N").value(criteria.vertical_force);
+    json.key("submerged_area_m2").value(event.ice()->submerged_area);
     layer.end_with(event.point_in_world);
   }
   return layer.finish();
@@ -58,12 +60,12 @@ std::string fractures_layer(const io::Run& run, double time, const Project& proj
 std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, double time,
                          const Project& project) {
   GeojsonLayer layer(time, project);
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     geometry::Ring track;
     for (const double t : frame_times_until(run, time))
       track.push_back(ship_pose_at(run, motions, ship, t).position);
     if (track.size() < 2) continue;
-    layer.start().key("ship").value(run.scene.scene.ships[ship].name);
+    layer.start().key("ship").value(hull_of(run.scene.scene, ship).name);
     layer.end_with(track);
   }
   return layer.finish();
@@ -72,9 +74,9 @@ std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, dou
 std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, double time,
                         const Project& project) {
   GeojsonLayer layer(time, project);
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
-    layer.start().key("ship").value(run.scene.scene.ships[ship].name).key("t_s").value(time);
-    const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
+    layer.start().key("ship").value(hull_of(run.scene.scene, ship).name).key("t_s").value(time);
+    const auto& waterline = hull_of(run.scene.scene, ship).hull.waterline;
     layer.end_with(geometry::Polygon{transform(ship_pose_at(run, motions, ship, time), waterline), {}});
   }
   return layer.finish();
@@ -82,7 +84,7 @@ std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, doub
 
 std::string channel_layer(const io::Run& run, double time, const Project& project) {
   GeojsonLayer layer(time, project);
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     const auto channel =
         analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0});
     if (!channel) continue;
@@ -103,7 +105,8 @@ io::Result<Project> degrees_about(const simulation::GeographicOrigin& origin) {
   if (!made) return io::fail(made.error());
   return Project([plane = std::make_shared<io::GeographicPlane>(std::move(*made))](geometry::Point p) {
     const io::Geographic at = plane->geographic_of(p);
-    return geometry::Point{kDegrees * at.longitude, kDegrees * at.latitude};
+    return geometry::Point{geometry::kDegreesPerRadian * at.longitude,
+                           geometry::kDegreesPerRadian * at.latitude};
   });
 }
 

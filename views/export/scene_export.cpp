@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/shape/angle.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
@@ -20,7 +20,6 @@ using io::JsonMember;
 using io::JsonValue;
 using JsonKind = JsonValue::Kind;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kLongestFinal = std::size_t{1} << 31;  ///< [bytes]
 
 void put(JsonValue& object, std::string_view key, JsonValue value) {
@@ -39,10 +38,10 @@ std::vector<bool> fast_floes(const io::Run& run) {
   const auto& specs = run.scene.scene.floes;
   for (std::size_t i = 0; i < std::min(specs.size(), is_fast.size()); ++i) is_fast[i] = specs[i].is_fast;
   for (const simulation::Event& event : run.events) {
-    if (event.floe < 0 || static_cast<std::size_t>(event.floe) >= is_fast.size() || !is_fast[event.floe])
-      continue;
+    const simulation::IceEvent* ice = event.ice();
+    if (!ice || !is_fast[static_cast<std::size_t>(ice->floe)]) continue;
     const io::RunFloe* largest = nullptr;
-    for (const simulation::FloeId child : event.children) {
+    for (const simulation::FloeId child : ice->children) {
       const io::RunFloe* floe = run.floe(child);
       if (floe && (!largest || floe->birth.area > largest->birth.area)) largest = floe;
     }
@@ -82,12 +81,12 @@ std::string floes_text(const io::Run& run, const io::MotionIndex& motions, doubl
 void place_ship(JsonValue& ship, const io::Motion& motion) {
   const geometry::Vector ahead{std::cos(motion.angle), std::sin(motion.angle)};
   put(ship, "position_m", pair_of(motion.position.x, motion.position.y));
-  put(ship, "heading_deg", {std::remainder(kDegrees * motion.angle, 360)});
+  put(ship, "heading_deg", {std::remainder(geometry::kDegreesPerRadian * motion.angle, 360)});
   const JsonValue* propulsion = ship.find("propulsion");
   if (propulsion && propulsion->find("constant_speed_m_per_s")) return;
   put(ship, "speed_m_per_s", {dot(motion.velocity, ahead)});
   put(ship, "sway_speed_m_per_s", {dot(motion.velocity, perpendicular(ahead))});
-  put(ship, "yaw_rate_deg_per_s", {kDegrees * motion.angular_velocity});
+  put(ship, "yaw_rate_deg_per_s", {geometry::kDegreesPerRadian * motion.angular_velocity});
 }
 
 /// The clock starts again: rows of a table pilot that lie behind are cut off where it is now.
@@ -134,23 +133,21 @@ void note_memory(const JsonValue& ship, std::vector<std::string>& left_out) {
   if (ship.find("steering")) note("its rudder or thrusters start amidships");
 }
 
-/// Walls are behind ships and structures in the scene's list; those that moved are where they came to.
+/// Walls that moved are where they came to.
 void place_walls(JsonValue& scene, const io::Run& run, const io::MotionIndex& motions, double time,
                  std::vector<std::string>& left_out) {
-  JsonValue* walls = scene.find("walls");
-  const std::size_t count = walls ? walls->items().size() : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = run.scene.scene.ships.size() - count + i;
-    const simulation::ShipSpec& spec = run.scene.scene.ships.at(index);
-    const auto motion = motions.ship_at(index, time);
+  const std::vector<simulation::Wall>& walls = run.scene.scene.walls;
+  const std::size_t first = hull_count(run.scene.scene) - walls.size();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const auto motion = motions.ship_at(first + i, time);
     if (!motion) continue;
-    const geometry::Vector moved = motion->position - spec.position_in_world;
-    JsonValue& wall = walls->items()[i];
+    const geometry::Vector moved = motion->position - walls[i].position_in_world;
+    JsonValue& wall = scene.find("walls")->items().at(i);
     for (const char* key : {"from_m", "to_m"}) {
       const JsonValue::Array& end = wall.find(key)->items();
       put(wall, key, pair_of(end[0].number() + moved.x, end[1].number() + moved.y));
     }
-    if (wall.find("pressure")) left_out.push_back(spec.name + ": it starts to press from rest");
+    if (walls[i].pressure) left_out.push_back(walls[i].name + ": it starts to press from rest");
   }
 }
 
@@ -159,7 +156,7 @@ void place_ships(JsonValue& scene, const io::Run& run, const io::MotionIndex& mo
   JsonValue* ships = scene.find("ships");
   for (std::size_t i = 0; ships && i < ships->items().size(); ++i) {
     JsonValue& ship = ships->items()[i];
-    keep_heading(ship, kDegrees * run.scene.scene.ships.at(i).heading);
+    keep_heading(ship, geometry::kDegreesPerRadian * run.scene.scene.ships.at(i).heading);
     if (const auto motion = motions.ship_at(i, time)) place_ship(ship, *motion);
     note_memory(ship, left_out);
     JsonValue* pilot = ship.find("pilot");

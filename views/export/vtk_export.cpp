@@ -120,8 +120,8 @@ VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double 
   VtkPolyData data;
   data.time = time;
   data.cell_data = {{"ship", {}, 1, true}, {"velocity_m_per_s", {}, 3, false}, {"heading_deg", {}, 1, false}};
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
-    const auto& waterline = run.scene.scene.ships[ship].hull.waterline;
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
+    const auto& waterline = hull_of(run.scene.scene, ship).hull.waterline;
     const geometry::Pose pose = ship_pose_at(run, motions, ship, time);
     const auto first = static_cast<std::int64_t>(data.points.size());
     const geometry::Ring ring = transform(pose, waterline);
@@ -138,9 +138,9 @@ VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double 
 }
 
 /// The `kind` of a fracture in the loads; that of a ship is 0.
-int number_of(simulation::EventKind fracture) {
-  if (fracture == simulation::EventKind::kBend) return 1;
-  return fracture == simulation::EventKind::kSplit ? 2 : 3;
+int number_of(const simulation::Event& fracture) {
+  if (fracture.is<simulation::Bend>()) return 1;
+  return fracture.is<simulation::Split>() ? 2 : 3;
 }
 
 /// The ice loads of the interval that ends at the time, a vertex a ship at its centre; and the fractures
@@ -153,13 +153,13 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
                     {"force_N", {}, 3, false},       {"yaw_moment_Nm", {}, 1, false},
                     {"j_over_tau_c_N", {}, 3, false}};
   const auto add = [&](geometry::Point at, int kind, int ship, simulation::FloeId floe, double t,
-                       geometry::Vector force, double moment, geometry::Vector peak) {
+                       geometry::Vector force, double moment, geometry::Vector collision) {
     data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
     data.points.push_back(at);
     add_row(data.cell_data, {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe),
-                             t, force.x, force.y, 0.0, moment, peak.x, peak.y, 0.0});
+                             t, force.x, force.y, 0.0, moment, collision.x, collision.y, 0.0});
   };
-  std::vector<const simulation::ShipSample*> last(run.scene.scene.ships.size(), nullptr);
+  std::vector<const simulation::ShipSample*> last(hull_count(run.scene.scene), nullptr);
   const auto until = std::ranges::upper_bound(run.samples, time + 1e-9, {}, &simulation::ShipSample::time);
   for (auto sample = until; sample != run.samples.begin();) {
     --sample;
@@ -171,13 +171,13 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
     if (!s) continue;
     const auto world_from_ship = geometry::Rotation::by(s->heading);
     add(s->position_in_world, 0, s->ship, simulation::kNoFloe, s->time,
-        rotate(world_from_ship, {s->surge_force, s->sway_force}), s->yaw_moment,
-        rotate(world_from_ship, {s->surge_peak, s->sway_peak}));
+        rotate(world_from_ship, {s->from_ice.surge, s->from_ice.sway}), s->from_ice.yaw,
+        rotate(world_from_ship, {s->collision.surge, s->collision.sway}));
   }
   for (const simulation::Event& event : run.events) {
-    if (!(event.time > after && event.time <= time) || !is_fracture(event.kind)) continue;
-    add(event.point_in_world, number_of(event.kind), event.ship, event.floe, event.time, {kNan, kNan}, kNan,
-        event.criteria.collision_force * event.normal_in_world);
+    if (!(event.time > after && event.time <= time) || !event.is_fracture()) continue;
+    add(event.point_in_world, number_of(event), event.ship, event.ice()->floe, event.time, {kNan, kNan}, kNan,
+        event.criteria().collision_force * event.ice()->normal_in_world);
   }
   return data;
 }

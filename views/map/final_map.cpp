@@ -24,17 +24,21 @@ Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double ti
   });
   for (const io::PlacedFloe& floe : floes_under_hulls_at(run, motions, time))
     picture.ice_under_hulls.push_back(transform(floe.world_from_body, *floe.polygon_in_body));
-  for (std::size_t ship = 0; ship < scene.ships.size(); ++ship) {
-    Picture::Ship drawn{transform(ship_pose_at(run, motions, ship, time), scene.ships[ship].hull.waterline),
-                        {},
-                        std::holds_alternative<simulation::Wall>(scene.ships[ship].propulsion)};
+  for (std::size_t ship = 0; ship < hull_count(scene); ++ship) {
+    Picture::Ship drawn{
+        transform(ship_pose_at(run, motions, ship, time), hull_of(scene, ship).hull.waterline),
+        {},
+        kind_of_hull(scene, ship) == simulation::BodyKind::kWall};
     for (const double t : drawn.is_wall ? std::vector<double>{} : frame_times_until(run, time))
       drawn.track.push_back(ship_pose_at(run, motions, ship, t).position);
     picture.ships.push_back(std::move(drawn));
   }
   for (const simulation::Event& event : run.events) {
-    if (event.time <= time && is_fracture(event.kind))
-      picture.fractures.push_back({event.point_in_world, event.kind});
+    if (event.time > time || !event.is_fracture()) continue;
+    const FractureMark mark = event.is<simulation::Bend>()    ? FractureMark::kBend
+                              : event.is<simulation::Split>() ? FractureMark::kSplit
+                                                              : FractureMark::kGrind;
+    picture.fractures.push_back({event.point_in_world, mark});
   }
   return picture;
 }
@@ -44,20 +48,20 @@ namespace {
 constexpr std::size_t kLargestConverted = std::size_t{20}
                                           << 20;  ///< an SVG that a converter is given [bytes]
 
-std::ptrdiff_t count_of(const Picture& picture, simulation::EventKind kind) {
-  return std::ranges::count(picture.fractures, kind, &Picture::Fracture::kind);
+std::ptrdiff_t count_of(const Picture& picture, FractureMark mark) {
+  return std::ranges::count(picture.fractures, mark, &Picture::Fracture::mark);
 }
 
 /// How many pieces went under hulls and came up until a time; empty where none went under.
 std::string words_of_ice_under_hulls(const io::Run& run, double time) {
-  const auto count = [&](simulation::EventKind kind) {
+  const auto count = [&](bool (simulation::Event::*is_kind)() const) {
     return std::ranges::count_if(
-        run.events, [&](const simulation::Event& event) { return event.kind == kind && event.time <= time; });
+        run.events, [&](const simulation::Event& event) { return (event.*is_kind)() && event.time <= time; });
   };
-  const auto went = count(simulation::EventKind::kSubmerge);
+  const auto went = count(&simulation::Event::is<simulation::Submerge>);
   if (went == 0) return {};
   return fmt::format("; {} went under the hull, {} came up", io::counted(went, "piece"),
-                     count(simulation::EventKind::kResurface));
+                     count(&simulation::Event::is<simulation::Resurface>));
 }
 
 }  // namespace
@@ -66,8 +70,8 @@ Picture final_picture(const io::Run& run) {
   Picture picture = picture_at(run, io::MotionIndex(run), run.end_time());
   picture.title = fmt::format("{} at {:.6g} s", run.label, run.end_time());
   picture.caption = fmt::format("{} broken by bending, {}, {}, {} at the start{}",
-                                io::counted(count_of(picture, simulation::EventKind::kBend), "cusp"),
-                                io::counted(count_of(picture, simulation::EventKind::kSplit), "split"),
+                                io::counted(count_of(picture, FractureMark::kBend), "cusp"),
+                                io::counted(count_of(picture, FractureMark::kSplit), "split"),
                                 io::counted(static_cast<std::int64_t>(picture.floes.size()), "floe"),
                                 picture.ice_at_start.size(), words_of_ice_under_hulls(run, run.end_time()));
   return picture;

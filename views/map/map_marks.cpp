@@ -8,15 +8,15 @@ namespace polynya::views {
 
 using namespace map_colour;
 
-void draw_fracture_mark(SvgText& svg, simulation::EventKind kind, double x, double y, double size) {
-  if (kind == simulation::EventKind::kSplit)
+void draw_fracture_mark(SvgText& svg, FractureMark mark, double x, double y, double size) {
+  if (mark == FractureMark::kSplit)
     svg.add(
         "<path d='M{0:.2f} {1:.2f}l{2:.2f} {3:.2f}h{4:.2f}Z' fill='{5}' stroke='#ffffff' "
         "stroke-width='1.5'/>\n",
         x, y - 9 * size, 8 * size, 14 * size, -16 * size, kSplit);
   else
     svg.add("<circle cx='{:.2f}' cy='{:.2f}' r='{:.2f}' fill='{}' stroke='#ffffff' stroke-width='0.5'/>\n", x,
-            y, 2.8 * size, kind == simulation::EventKind::kGrind ? kGrind : kBend, size < 0.8 ? "0" : "0.5");
+            y, 2.8 * size, mark == FractureMark::kGrind ? kGrind : kBend, size < 0.8 ? "0" : "0.5");
 }
 
 std::string ice_under_hull_style() {
@@ -35,9 +35,9 @@ MapKey area_key(const char* colour, const char* edge, const char* words) {
           }};
 }
 
-MapKey mark_key(simulation::EventKind kind, const char* words) {
+MapKey mark_key(FractureMark mark, const char* words) {
   return {{words, 18},
-          [=](SvgText& svg, geometry::Point at) { draw_fracture_mark(svg, kind, at.x + 9, at.y - 6, 1); }};
+          [=](SvgText& svg, geometry::Point at) { draw_fracture_mark(svg, mark, at.x + 9, at.y - 6, 1); }};
 }
 
 MapKey scale_bar(double scale, double room_on_page) {
@@ -73,8 +73,8 @@ std::vector<MapKey> map_keys(double scale, double room, const MapContents& conte
                         "<path d='M{:.2f} {:.2f}h30' stroke='{}' stroke-width='2' stroke-dasharray='8 4'/>\n",
                         at.x, at.y - 5, kTrack);
                   }});
-  keys.push_back(mark_key(simulation::EventKind::kBend, "cusp broken by bending"));
-  keys.push_back(mark_key(simulation::EventKind::kSplit, "floe split"));
+  keys.push_back(mark_key(FractureMark::kBend, "cusp broken by bending"));
+  keys.push_back(mark_key(FractureMark::kSplit, "floe split"));
   return keys;
 }
 

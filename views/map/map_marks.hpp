@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "simulation/world/journal.hpp"
 #include "views/map/svg_layout.hpp"
 
 namespace polynya::views {
@@ -26,8 +25,10 @@ inline constexpr auto kSplit = "#d55e00";
 inline constexpr auto kGrind = "#7a5c2e";
 }  // namespace map_colour
 
-/// The mark of a fracture; `size` of the one in the legend is 1.
-void draw_fracture_mark(SvgText& svg, simulation::EventKind kind, double x, double y, double size);
+enum class FractureMark { kBend, kSplit, kGrind };
+
+/// `size` of the mark in the legend is 1.
+void draw_fracture_mark(SvgText& svg, FractureMark mark, double x, double y, double size);
 
 /// Attributes of ice under a hull: dashed, pale, so that the hull shows through it.
 std::string ice_under_hull_style();

@@ -68,12 +68,12 @@ class SvgMap {
     draw_ice([](const Picture::Floe& floe) { return floe.generation == 0; }, map_colour::kIce);
     draw_ice([](const Picture::Floe& floe) { return floe.generation > 0 && !floe.came_up; },
              map_colour::kBrokenIce);
-    draw_fractures(simulation::EventKind::kBend);
-    draw_fractures(simulation::EventKind::kGrind);
+    draw_fractures(FractureMark::kBend);
+    draw_fractures(FractureMark::kGrind);
     draw_ice(std::mem_fn(&Picture::Floe::came_up), map_colour::kIceCameUp);
     draw_ships();
     draw_ice_under_hulls();
-    draw_fractures(simulation::EventKind::kSplit);
+    draw_fractures(FractureMark::kSplit);
     svg_.add("</g>\n");
   }
 
@@ -135,12 +135,12 @@ class SvgMap {
     svg_.add("'/>\n");
   }
 
-  void draw_fractures(simulation::EventKind kind) {
+  void draw_fractures(FractureMark mark) {
     const double share = std::clamp(frame_.width() / kFullMarks, 0.45, 1.0);
-    const bool is_crowded = kind == simulation::EventKind::kBend && picture_.fractures.size() > 400;
+    const bool is_crowded = mark == FractureMark::kBend && picture_.fractures.size() > 400;
     for (const auto& fracture : picture_.fractures) {
-      if (fracture.kind == kind)
-        draw_fracture_mark(svg_, kind, frame_.x(fracture.point_in_world), frame_.y(fracture.point_in_world),
+      if (fracture.mark == mark)
+        draw_fracture_mark(svg_, mark, frame_.x(fracture.point_in_world), frame_.y(fracture.point_in_world),
                            share * (is_crowded ? 0.65 : 1));
     }
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "simulation/world/journal.hpp"
+#include "views/map/map_marks.hpp"
 
 namespace polynya::views {
 
@@ -22,7 +22,7 @@ struct Picture {
   };
   struct Fracture {
     geometry::Point point_in_world;  ///< [m]
-    simulation::EventKind kind = simulation::EventKind::kBend;
+    FractureMark mark = FractureMark::kBend;
   };
   std::string title;
   std::string caption;

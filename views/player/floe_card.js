@@ -113,7 +113,7 @@ function lineageList(run, id, actions) {
     item.append(button(`floe ${floe}`, () => actions.visit(floe)));
     if (breaks.has(floe)) {
       const event = info.events[breaks.get(floe)];
-      item.append(" ", button(`${kindWords[event.kind]} ${event.t_s.toFixed(1)} s`, () => actions.goToEvent(breaks.get(floe))));
+      item.append(" ", button(`${kindWords(event.kind)} ${event.t_s.toFixed(1)} s`, () => actions.goToEvent(breaks.get(floe))));
     }
     list.append(item);
   });
@@ -132,33 +132,23 @@ function button(words, onClick) {
   return element;
 }
 
-/** Of a split: its crack, and the true forces at it beside what decided. */
-function crackRows(event, inUnit) {
-  if (!("crack_width_m" in event)) return {};
-  const rows = {
-    crack: `L ${shortNumber(event.crack_length_m)} m, W ${shortNumber(event.crack_width_m)} m`,
-    "contact force": inUnit(event.contact_force_N),
-    flanks: event.flank_forces_N.map(inUnit).join(" and "),
-  };
-  if (event.load_name !== "opening force") rows["opening force"] = `${inUnit(event.opening_force_N)} of ${inUnit(event.opening_capacity_N)}`;
-  rows["K_IC"] = `${shortNumber(event.fracture_toughness_Pa_sqrt_m / 1e3)} kPa \u221am`;
-  return rows;
+/** A field of an event as its card shows it. */
+function eventValue(key, value, unit) {
+  if (key === "kind") return kindWords(value);
+  if (key === "children") return value.join(", ") || "\u2013";
+  if (Array.isArray(value)) return `(${value.map((v) => minus(v.toFixed(1))).join(", ")}) ${unit}`;
+  if (unit === "s") return `${value.toFixed(3)} s`;
+  return unit ? valueWords(value, unit) : String(value) || "\u2013";
 }
 
-/** Of a broken mooring: what it held, and how far the ship was off its place. */
-function mooringRows({ force_N: force, break_load_N: most, offset_m: [along, across] }) {
-  return { force: valueWords(force, "N"), "breaks above": valueWords(most, "N"),
-    "off its place": `${shortNumber(Math.hypot(along, across))} m: ${minus(shortNumber(along))} m along, ${minus(shortNumber(across))} m across` };
-}
-
-/** Of what happens to ice: what decided it. */
-function iceRows(event) {
-  const unit = loadUnit(Math.max(event.load_N ?? 0, event.capacity_N ?? 0), "N");
-  const inUnit = (value) => ((value ?? null) === null ? "\u2013" : `${shortNumber(value * unit.factor)} ${unit.name}`);
-  if (event.kind === "grind") return { "overlap ground": `${shortNumber(event.overlap_area_m2)} m\u00b2` };
-  if ("path_m" in event) return pathRows(event);
-  if (!("load_name" in event)) return { load: inUnit(event.load_N), capacity: inUnit(event.capacity_N), ...tiltRows(event) };
-  return { [event.load_name]: inUnit(event.load_N), [event.capacity_name]: inUnit(event.capacity_N), ...crackRows(event, inUnit) };
+/** The fields of an event that have labels, also those of what decided it: a load and its capacity by the names that its rule has. */
+function eventRows({ event_labels: labels }, { criterion = {}, ...event }) {
+  const { kind: rule = "", ...sides } = criterion;
+  const [, load, capacity] = /^(.+) >=? (.+)$/.exec(rule) ?? [];
+  return Object.entries({ ...event, ...sides }).flatMap(([key, value]) => {
+    if (!(key in labels)) return [];
+    return [[{ load_N: load, capacity_N: capacity }[key] ?? labels[key].label, eventValue(key, value, labels[key].unit)]];
+  });
 }
 
 function showEventCard(host, run, event) {
@@ -167,17 +157,8 @@ function showEventCard(host, run, event) {
       ? "Click a mark on the timeline." : "Nothing broke in this run."));
     return;
   }
-  const ship = run.info.ships[event.ship];
-  const rows = {
-    event: kindWords[event.kind], time: `${event.t_s.toFixed(3)} s`,
-    ...("by_floe" in event ? { by: `floe ${event.by_floe}` } : { ship: ship ? ship.name : "\u2013" }),
-    ...("floe" in event && { floe: String(event.floe), pieces: event.children.join(", ") || "\u2013" }),
-    at: `(${event.point_m.map((v) => minus(v.toFixed(1))).join(", ")}) m`,
-    ...(event.kind === "mooring_break" ? mooringRows(event) : iceRows(event)),
-  };
-  if (event.reason) rows.reason = event.reason;
   const list = make("dl");
-  for (const [name, words] of Object.entries(rows)) list.append(make("dt", {}, name), make("dd", {}, words));
+  for (const [name, words] of eventRows(run.info, event)) list.append(make("dt", {}, name), make("dd", {}, words));
   host.replaceChildren(list);
 }
 

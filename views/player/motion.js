@@ -170,12 +170,3 @@ function lastFacts({ floes, info, breakOf }, id) {
   if (last?.kind === "stay_under") return { ...facts, stayed: [`under the ice, at ${seconds(last.t_s)}`, last.t_s] };
   return { ...facts, broke: [Number.isFinite(floes.died[id]) ? seconds(floes.died[id]) : "not in this run", floes.died[id]] };
 }
-
-/** Rows of the event card. */
-function pathRows({ path_m: path, waited_s: waited }) {
-  return { "ship came over it": `${shortNumber(path)} m`, "waited for room": `${shortNumber(waited)} s` };
-}
-
-function tiltRows({ deflection_m: deflection, least_deflection_m: least }) {
-  return least > 0 ? { deflection: `${shortNumber(deflection)} m of at least ${shortNumber(least)} m` } : {};
-}

@@ -4,19 +4,18 @@
 
 /** The panel with the numbers of the whole run. */
 function fillFacts({ run: { info, floes }, name }) {
-  const counts = { bend: 0, split: 0, grind: 0, rejected_cut: 0, submerge: 0, resurface: 0, stay_under: 0, mooring_break: 0 };
-  for (const event of info.events) ++counts[event.kind];
+  const count = (kind) => info.events.filter((event) => event.kind === kind).length;
   const facts = {
     "floes in all": info.floes === floes.count ? floes.count : `${info.floes} of ${floes.count}`,
-    ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }), bends: counts.bend, splits: counts.split, ...(counts.grind && { ground: counts.grind }), "rejected cuts": counts.rejected_cut,
-    ...(counts.submerge && { "went under": counts.submerge, "came up": counts.resurface, ...(counts.stay_under && { "stayed under": counts.stay_under }) }),
-    ...(counts.mooring_break && { "moorings broken": counts.mooring_break }),
+    ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }), bends: count("bend"), splits: count("split"), ...(count("grind") && { ground: count("grind") }), "rejected cuts": count("rejected_cut"),
+    ...(count("submerge") && { "went under": count("submerge"), "came up": count("resurface"), ...(count("stay_under") && { "stayed under": count("stay_under") }) }),
+    ...(count("mooring_break") && { "moorings broken": count("mooring_break") }),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
     frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}`,
     ...(name !== info.scene && { "scene's name": info.scene }), seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
   };
   byId("facts").replaceChildren(...Object.entries(facts).flatMap(([fact, value]) => [make("dt", {}, fact), make("dd", {}, String(value))]));
-  if (counts.submerge) byId("facts").prepend(...rowsUnderHulls());
+  if (count("submerge")) byId("facts").prepend(...rowsUnderHulls());
 }
 
 /** What the plot can show, forces by cause apart. */
@@ -138,7 +137,7 @@ function readPlayedRun() {
   const run = readRun();
   run.breakOf = new Map();
   run.info.events.forEach((event, index) => {
-    if (!["rejected_cut", "submerge", "mooring_break"].includes(event.kind)) run.breakOf.set(event.floe, index);
+    if ("floe" in event && !["rejected_cut", "submerge"].includes(event.kind)) run.breakOf.set(event.floe, index);
   });
   run.under = readIceUnderHulls(run.info.events);
   run.carry = makeCarrier(run.info.water);

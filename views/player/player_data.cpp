@@ -4,8 +4,10 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <set>
 
 #include "analysis/channel.hpp"
+#include "io/run/event_records.hpp"
 #include "io/run/force_causes.hpp"
 #include "io/run/force_columns.hpp"
 #include "io/run/records.hpp"
@@ -72,7 +74,7 @@ void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<i
     instants.push_back(frames[(i + 1) * frames.size() / count - 1].time);
   std::vector<Row> rows;
   const io::MotionIndex motions(run);
-  for (std::size_t ship = 0; ship < run.scene.scene.ships.size(); ++ship) {
+  for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     for (const double time : instants) {
       const auto stations = analysis::measure_stations(run, motions, {.ship = ship, .time = time});
       if (!stations) continue;
@@ -105,14 +107,14 @@ void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelect
   columns.add("force_ship", rows, &simulation::ShipSample::ship);
   columns.add("force_t_s", rows, &simulation::ShipSample::time);
   for (const io::ForceColumn* column : io::plotted_columns(run.scene.scene))
-    columns.add(std::string(column->name), rows, column->read);
+    columns.add(column->name, rows, column->read);
 }
 
 void write_force_columns(io::JsonWriter& json, const simulation::Scene& scene) {
   json.key("force_columns").open('[');
   for (const io::ForceColumn* column : io::plotted_columns(scene)) {
     json.open('{').key("name").value(column->name).key("unit").value(column->unit);
-    json.key("plot").value(column->plot).key("curve").value(name_of(column->curve));
+    json.key("plot").value(column->plot).key("curve").value(column->curve);
     json.key("is_optional").value(column->is_optional).close('}');
   }
   json.close(']');
@@ -129,70 +131,27 @@ void write_force_causes(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
-void write_criterion(io::JsonWriter& json, const simulation::Event& event) {
-  using enum simulation::EventKind;
-  const auto& c = event.criteria;
-  if (event.kind == kSubmerge) {
-    json.key("load_N").value(event.tilting.vertical_force).key("capacity_N").value(event.tilting.capacity);
-    json.key("deflection_m").value(event.tilting.deflection);
-    json.key("least_deflection_m").value(event.tilting.least_deflection);
-  } else if (event.kind == kResurface || event.kind == kStayUnder) {
-    json.key("path_m").value(event.resurfacing.path).key("waited_s").value(event.resurfacing.waited);
-  } else if (event.grinding.least_width > 0) {
-    json.key("overlap_area_m2").value(event.grinding.overlap_area);
-  } else {
-    const simulation::DecidingLoad deciding = simulation::deciding_load(event);
-    json.key("load_name").value(deciding.name).key("load_N").value(deciding.load);
-    json.key("capacity_name").value(deciding.capacity_name).key("capacity_N").value(deciding.capacity);
-    if (event.kind != kSplit || c.crack_width == 0) return;
-    json.key("crack_length_m").value(c.crack_length).key("crack_width_m").value(c.crack_width);
-    json.key("contact_force_N").value(c.contact_force);
-    json.key("opening_force_N").value(c.opening_force).key("opening_capacity_N").value(c.opening_capacity);
-    json.key("flank_forces_N").list(c.flank_forces);
-    json.key("fracture_toughness_Pa_sqrt_m").value(c.fracture_toughness);
-  }
-}
-
-void write_event(io::JsonWriter& json, const simulation::Event& event) {
-  json.open('{').key("t_s").value(event.time).key("kind").value(name_of(event.kind));
-  json.key("ship").value(event.ship);
-  if (event.by_floe != simulation::kNoFloe) json.key("by_floe").value(event.by_floe);
-  json.key("floe").value(event.floe).key("children").list(event.children);
-  json.key("point_m").value(event.point_in_world);
-  write_criterion(json, event);
-  if (!event.reason.empty()) json.key("reason").value(event.reason);
-  json.close('}');
-}
-
-void write_mooring_break(io::JsonWriter& json, const simulation::MooringBreak& broken) {
-  json.open('{').key("t_s").value(broken.time).key("kind").value(io::kMooringBreakKind);
-  json.key("ship").value(broken.ship).key("point_m").value(broken.point_in_world);
-  json.key("force_N").value(broken.force).key("break_load_N").value(broken.break_load);
-  json.key("offset_m")
-      .value(geometry::Point{broken.offset_in_moored_place.x, broken.offset_in_moored_place.y});
-  json.close('}');
-}
-
-/// Of ice and of moorings, as time goes.
 void write_events(io::JsonWriter& json, const io::Run& run, const HeldFloes& held) {
-  json.key("events").open('[');
-  auto broken = run.mooring_breaks.begin();
-  for (const simulation::Event& event : run.events) {
-    if (!held.has(event.floe)) continue;
-    for (; broken != run.mooring_breaks.end() && broken->time < event.time; ++broken)
-      write_mooring_break(json, *broken);
-    write_event(json, event);
+  json.key("event_labels").open('{');
+  std::set<std::string_view> keys;
+  for (const io::EventField& field : io::event_fields()) {
+    if (field.meaning.label.empty() || !keys.insert(field.key).second) continue;
+    json.key(field.key).open('{').key("label").value(field.meaning.label);
+    json.key("unit").value(field.meaning.unit).close('}');
   }
-  for (; broken != run.mooring_breaks.end(); ++broken) write_mooring_break(json, *broken);
+  json.close('}').key("events").open('[');
+  for (const simulation::Event& event : run.events) {
+    if (!event.ice() || held.has(event.ice()->floe)) write_shown_event(json, event, run.scene.scene);
+  }
   json.close(']');
 }
 
 void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
   json.key("ships").open('[');
-  for (const simulation::ShipSpec& ship : scene.ships) {
-    json.open('{').key("name").value(ship.name);
-    json.key("waterline_m").value(ship.hull.waterline);
-    json.key("is_fixed").value(is_grounded(ship)).close('}');
+  for (std::size_t i = 0; i < hull_count(scene); ++i) {
+    json.open('{').key("name").value(hull_of(scene, i).name);
+    json.key("waterline_m").value(hull_of(scene, i).hull.waterline);
+    json.key("is_fixed").value(is_grounded(kind_of_hull(scene, i))).close('}');
   }
   json.close(']');
 }

@@ -134,7 +134,7 @@ const isLoad = (curve) => curve.base.startsWith("N");
 
 /** A value with the unit that suits it. */
 function valueWords(value, base) {
-  const unit = base.startsWith("N") ? loadUnit(Math.abs(value), base) : { factor: 1, name: base };
+  const unit = /^(N|Pa)/.test(base) ? loadUnit(Math.abs(value), base) : { factor: 1, name: base };
   const digits = value === 0 ? "0" : Number.isInteger(value) && unit.factor === 1 ? String(value) : (value * unit.factor).toPrecision(4);
   return minus(`${digits} ${unit.name}`.trim());
 }

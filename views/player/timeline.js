@@ -104,7 +104,7 @@ function watchTimeline(track, timeline, run, actions) {
     const found = eventAt(events, timeline, px, py);
     tip.hidden = found === null || pointer.pointerType === "touch";
     if (tip.hidden) return;
-    tip.textContent = eventWords(run, events[found]);
+    tip.textContent = eventWords(events[found]);
     tip.style.left = `${Math.min(timeline.left + px, Math.max(0, track.parentElement.clientWidth - tip.offsetWidth - 8))}px`;
   });
   track.addEventListener("pointerleave", () => { tip.hidden = true; });
@@ -115,10 +115,8 @@ function watchTimeline(track, timeline, run, actions) {
   track.addEventListener("pointercancel", () => { press = null; });
 }
 
-const kindWords = { bend: "bend", split: "split", grind: "grinding", rejected_cut: "rejected cut", submerge: "going under", resurface: "coming up",
-  stay_under: "staying under", mooring_break: "mooring broken" };
+const kindWords = (kind) => kind.replaceAll("_", " ");
 
-function eventWords(run, event) {
-  const of = event.kind === "mooring_break" ? run.info.ships[event.ship].name : `floe ${event.floe}`;
-  return `${event.t_s.toFixed(2)} s: ${kindWords[event.kind]} of ${of}`;
+function eventWords(event) {
+  return `${event.t_s.toFixed(2)} s: ${kindWords(event.kind)} of ${"floe" in event ? `floe ${event.floe}` : event.ship}`;
 }

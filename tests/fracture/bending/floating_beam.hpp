@@ -1,5 +1,9 @@
 #pragma once
 
+#include <initializer_list>
+
+#include <gtest/gtest.h>
+
 namespace polynya::fracture {
 
 /// How the width of a floating beam grows from its free tip: b(x) = b (a beam) or b(x) = b0 x (a narrow
@@ -20,5 +24,17 @@ struct BeamResponse {
 /// discretisation error falls as elements⁻⁴ while round-off grows as the shortest element⁻⁴: 100 elements are
 /// best, and patches below about 0.01 l need a wider arithmetic.
 BeamResponse solve_floating_beam(BeamShape shape, double patch_length, int elements);
+
+/// An error falls at least by a factor from each refinement to the next, the first from 1. Gives the last.
+template <class Refinement, class Error>
+double expect_falls(std::initializer_list<Refinement> refinements, double factor, Error error_of) {
+  double previous = 1;
+  for (const Refinement refinement : refinements) {
+    const double error = error_of(refinement);
+    EXPECT_LT(error, factor * previous) << refinement;
+    previous = error;
+  }
+  return previous;
+}
 
 }  // namespace polynya::fracture

@@ -1,0 +1,178 @@
+// Wrong words on the command line: each ends with 2, prints nothing to stdout and names what is wrong.
+#include "program.hpp"
+#include "tiny_scene.hpp"
+
+namespace polynya::tests {
+namespace {
+
+class Usage : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    write_file(*folder / "tiny.json", kTinyScene);
+    ASSERT_EQ(polynya("run tiny.json --out run --no-map", *folder).code, 0);
+    ASSERT_EQ(polynya("run scenes/two-floes.json --until 1 --out shipless --no-map", *folder).code, 0);
+    write_file(*folder / "ops.json", R"([{"disk": [1,2,3]}])");
+    write_file(*folder / "floes.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10))\n");
+  }
+  static void TearDownTestSuite() { delete folder; }
+  static inline TemporaryFolder* folder = nullptr;
+};
+
+TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
+  const Words query = "database query --thickness 1 --speed 1 --hull-angle 60";
+  const std::string commands =
+      "commands: run, resume, validate, schema, ships, performance, init, view, channel, figures, movie, "
+      "export, "
+      "inspect, cut, import, database, study\n";
+  const std::string tools = "one of --disc, --crack, --line, --polygon, --ops is needed, ";
+  const std::vector<Refusal> rows{
+      {"", 2, "polynya: a command is missing\n" + commands},
+      {"veiw x", 2, "polynya: no such command: veiw; did you mean view?\n" + commands},
+      {"run", 2, "polynya run: SCENE is missing"},
+      {"run a --until", 2, "polynya run: --until needs a value\n"},
+      {"run a --until -1", 2, "--until: "},
+      {"run a --until soon", 2, "--until: "},
+      {"run a --threads 0", 2, "--threads: "},
+      {"run a --seed -3", 2, "--seed: "},
+      {"run scenes/two-floes.json --set seed", 2, "seed"},
+      {"run a --unitl 3 b", 2,
+       "polynya run: not expected: --unitl 3 b; did you mean --until?\npolynya run --help explains its "
+       "options\n"},
+      {"run x --progress loud", 2, "--progress: \"loud\" is not one of: auto, bar, json, none\n"},
+      {"validate", 2, "SCENE is missing"},
+      {"validate tiny.json --json --resolved", 2},
+      {"cut floes.wkt", 2, tools + "none is given\n"},
+      {"cut x --disc 0,0,1 --crack 0,0,1", 2, tools + "2 are given\n"},
+      {"cut x --disc 0,0,1 --keep all", 2,
+       "polynya cut: --keep: \"all\" is not one of: outside, inside, both\n"},
+      {"cut x --disc 0,0,1 --keep 1", 2, "polynya cut: --keep: \"1\" is not one of: outside, inside, both\n"},
+      {"cut floes.wkt --disc 0,0", 2, "--disc"},
+      {"cut floes.wkt --disc 0,0,-1", 2, "--disc"},
+      {"cut floes.wkt --disc 0,0,x", 2, "--disc"},
+      {"cut floes.wkt --crack 0,0,nan", 2, "--crack"},
+      {"cut floes.wkt --line 1,1,1,1", 2, "--line"},
+      {"cut floes.wkt --ops ops.json", 2, "ops.json"},
+      {"cut floes.wkt --disc 0,0,1 --sagitta -1", 2, "--sagitta: "},
+      {"cut floes.wkt --disc 0,0,1 --repair please", 2, "--repair: "},
+      {"cut floes.wkt --disc 0,0,1 --out - --ledger -", 2, "--ledger"},
+      {"cut floes.wkt --disc 0,0,1 more", 2, "more"},
+      {"cut - --polygon -", 2},
+      {"channel x --format jsn", 2,
+       "--format: \"jsn\" is not one of: table, csv, json; did you mean json?\n"},
+      {"channel shipless", 2},
+      {"export shipless", 2},
+      {"export shipless --geojson g --at 7", 2},
+      {"figures x --load most", 2, "--load: \"most\" is not one of: true, mean, max, ships, j-over-tau-c\n"},
+      {"inspect", 2, "RUN is missing"},
+      {"inspect x --floe 1 --format dxf", 2, "--format: \"dxf\" is not one of: wkt, geojson, svg\n"},
+      {"inspect run --floe 99999", 2, "99999"},
+      {"inspect run --floe -1", 2, "there is no floe -1; they go from 0 to "},
+      {"inspect run --lineage 99999", 2, "99999"},
+      {"inspect run --at 1e9", 2, "--at"},
+      {"inspect run --at -1", 2, "--at"},
+      {"inspect run --at soon", 2, "--at: "},
+      {"inspect run --format svg", 2, "--format"},
+      {"inspect run --floe 1 --check", 2},
+      {"inspect run --check --fsd", 2},
+      {"inspect run --events --check", 2},
+      {"inspect run --floe 1 --lineage 1", 2},
+      {"inspect run --floe 3 --json", 2},
+      {"inspect run --floe 0 --at 1", 2, "floe 0"},
+      {"view", 2, "RUN is missing"},
+      {"view run --every 0", 2, "--every: "},
+      {"view run --every x", 2, "--every: "},
+      {"view run --from 1000", 2, "no frame of run is in that part; they go from 0 to 1 s"},
+      {"view run --from 0.9 --until 0.5", 2, "no frame of run is in that part"},
+      {"view run --area 9,9,5,5", 2, "--area"},
+      {"view run --area -900,-900,-800,-800", 2, "--area"},
+      {"view run run", 2, "--out"},
+      {"view run run run --out x.html", 2},
+      {"view run --label a,b", 2, "--label"},
+      {"view run run --label a --out x.html", 2, "--label"},
+      {"database", 2, "polynya database: a command is missing\n"},
+      {"database biuld", 2,
+       "polynya database: no such command: biuld; did you mean build?\ncommands: build, show, "
+       "query, study\n"},
+      {"database build --fluid 0", 2,
+       "--fluid: \"0\" is not one of: winkler, local-mass, potential, free-surface\n"},
+      {"database build --wedge-angles 30", 2, "--wedge-angles"},
+      {"database build --wedge-angles 60,30", 2, "--wedge-angles"},
+      {"database build --wedge-angles 30,190", 2, "--wedge-angles"},
+      {"database build --wedge-angles 30,nan", 2, "--wedge-angles"},
+      {"database build --threads 0", 2, "--threads: "},
+      {"database build --threads 1.5", 2, "--threads: 1.5 is not a whole number from 1 to 1024"},
+      {{"database", "build", "--out", ""}, 2, "--out: the name is empty"},
+      {"database show --hull-angle 5", 2, "a hull 5 deg from the vertical only crushes ice of friction 0.2"},
+      {{"database", "show", "--svg", ""}, 2, "--svg: the name is empty"},
+      {"database study", 2, "is missing"},
+      {"database study fluids", 2,
+       "\"fluids\" is not one of: fluid, couple, accuracy; did you mean fluid?\n"},
+      {"database study accuracy --points 0", 2, "--points: "},
+      {"database study accuracy --points x", 2, "--points: x is not a whole number from 1 to 100000"},
+      {"database study accuracy --seed -1", 2, "--seed: "},
+      {"database study accuracy --seed 1.5", 2,
+       "--seed: 1.5 is not a whole number from 0 to 9007199254740991"},
+      {"database study accuracy --inner-radius 0", 2, "--inner-radius: "},
+      {"database study accuracy --inner-radius 1", 2, "--inner-radius: 1 is not a number from 1e-06 to 0.1"},
+      {"database study accuracy --elements 3", 2, "--elements: "},
+      {{"database", "study", "accuracy", "--database", ""}, 2, "--database: the name is empty"},
+      {"database query --speed 1 --hull-angle 60 --wedge-angle 90", 2, "--thickness"},
+      {query, 2},
+      {query + "--wedge-angle 0", 2, "--wedge-angle"},
+      {query + "--wedge-angle nan", 2, "--wedge-angle"},
+      {query + "--front-angle 30", 2, "--back-angle"},
+      {query + "--front-angle 0 --back-angle 0", 2},
+      {query + "--wedge-angle 90 --front-angle 30 --back-angle 60", 2},
+      {query + "--wedge-angle 90 --density 1100", 2,
+       "ice of 1100 kg/m3 does not float in water of 1000 kg/m3"}};
+  expect_refusals(rows, {folder->path()});
+  for (const char* name : {"x.html", "runs"}) EXPECT_FALSE(std::filesystem::exists(*folder / name)) << name;
+}
+
+/// CLI11's range accepts nan, and a checkpoint every nan seconds is none.
+TEST_F(Usage, EveryNumberMustBeFinite) {
+  for (const Words& row :
+       std::initializer_list<Words>{"run --until --checkpoint-every --checkpoint-every-wall",
+                                    "resume --checkpoint-every --checkpoint-every-wall",
+                                    "view --from --until --limit", "channel --at --spacing --reach",
+                                    "figures --at", "export --at", "inspect --at", "cut --sagitta"}) {
+    for (std::size_t i = 1; i < row.size(); ++i)
+      for (const char* word : {"nan", "-inf"})
+        expect_refusals({{{row[0], "nowhere", row[i], word}, 2, row[i] + ": "}}, {folder->path()});
+  }
+}
+
+TEST_F(Usage, WhatIsNotThereOrCannotBeWrittenIsFive) {
+  write_file(*folder / "empty/notes.txt", "");
+  std::vector<Refusal> rows{{"validate missing.json", 5, "missing.json: "},
+                            {"run missing.json", 5, "missing.json: "},
+                            {{"run", folder->path()}, 5, folder->path().string() + ": "},
+                            {"validate /dev/zero", 5, "/dev/zero: "},
+                            {"run scenes/two-floes.json --out tiny.json", 5, "tiny.json"},
+                            {"run scenes/two-floes.json --out tiny.json/run", 5, "tiny.json"},
+                            {"view run --out no/such/folder/page.html", 5, "no/such/folder/page.html"},
+                            {"view run none --out x.html", 5, "none"},
+                            {"export nothing --vtk v", 5, "nothing"},
+                            {"resume nowhere", 5, "nowhere"},
+                            {"resume empty", 5, "no run to resume"},
+                            {"init tiny.json", 5, "tiny.json"}};
+  for (const auto& [path, words] : {std::pair{"empty", "not a run folder: empty has no scene.json"},
+                                    {"nowhere", "not a run folder: nowhere does not exist"},
+                                    {"empty/notes.txt", "not a run folder: empty/notes.txt is a file"}}) {
+    for (const char* command : {"view", "inspect", "channel"}) rows.push_back({{command, path}, 5, words});
+  }
+  expect_refusals(rows, {folder->path()});
+  EXPECT_FALSE(std::filesystem::exists(*folder / "runs"));
+}
+
+TEST_F(Usage, AMissingPythonIsNamed) {
+  Start start{folder->path()};
+  start.arrange_streams = [] { setenv("POLYNYA_PYTHON", "/no/such/python3", 1); };
+  const char* const message =
+      "/no/such/python3: No such file or directory; this command needs Python: ./setup.sh python";
+  expect_refusals({{"study gather x", 5, message}}, start);
+}
+
+}  // namespace
+}  // namespace polynya::tests

@@ -1,0 +1,461 @@
+// What water does: Eq. (6) of [Sawamura2017], relative to the water, against closed forms; and to ships.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/ship/manoeuvring.hpp"
+#include "dynamics/ship/propulsion.hpp"
+#include "dynamics/ship/rudder.hpp"
+#include "dynamics/water/submerged_ice.hpp"
+#include "dynamics/water/water_drag.hpp"
+#include "tests/dynamics/scenery.hpp"
+#include "tests/shapes.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+using namespace scenery;
+
+constexpr double kDrag = 0.5;
+constexpr double kWater = 1000;
+constexpr double kThickness = 0.5;
+
+Bodies one_floe(const geometry::Polygon& polygon, double angle = 0) {
+  Bodies bodies;
+  add_body(bodies, floe_body(polygon, {3, -2}, angle));
+  return bodies;
+}
+
+/// Lets the water brake the first body.
+WaterWork brake(Bodies& bodies, double time_step, DragArea area = DragArea::kEdge) {
+  return apply_water_drag(bodies, {0}, {kDrag, kWater, {}, area}, time_step);
+}
+
+TEST(WaterDrag, AFloeThatMovesWithTheWaterFeelsNothing) {
+  // Velocities are relative to the water, so a drifting floe has none: nothing changes, to the last bit.
+  Bodies bodies = one_floe(rectangle(10, 6), 0.7);
+  EXPECT_EQ(brake(bodies, 100).lost, 0);
+  EXPECT_EQ(bodies.velocity[0], Vector{});
+  EXPECT_EQ(bodies.angular_velocity[0], 0);
+}
+
+TEST(WaterDrag, AFreeFloeSlowsAsTheClosedForm) {
+  // m v' = −½ C_D ρ_w h w v²  ⇒  v(t) = v0 / (1 + k v0 t), k = C_D ρ_w h w / 2m, for any step length.
+  for (const double dt : {0.005, 0.5, 50.0}) {
+    Bodies bodies = one_floe(rectangle(10, 6));
+    bodies.velocity[0] = {1.5, 0};
+    const double k = kDrag * kWater * kThickness * 6 / (2 * bodies.mass[0]);
+    for (int step = 0; step < 2000; ++step) brake(bodies, dt);
+    EXPECT_NEAR(bodies.velocity[0].x * (1 + k * 1.5 * 2000 * dt) / 1.5, 1, 1e-11) << dt;
+    EXPECT_EQ(bodies.velocity[0].y, 0);
+    EXPECT_EQ(bodies.angular_velocity[0], 0);
+  }
+}
+
+TEST(WaterDrag, AShapeIsAsWideAsItsFarthestCornersInAllDirections) {
+  Random random(17);
+  for (int i = 0; i < 200; ++i) {
+    const geometry::Polygon star = random_star(random, 3 + random.below(200), 3, 8);
+    const DragShape shape = make_drag_shape(star, {});
+    for (int k = 0; k < DragShape::kDirections; ++k) {
+      const geometry::Vector across = perpendicular(drag_direction(k)) / length(drag_direction(k));
+      double low = 0;
+      double high = 0;
+      for (const geometry::Point p : star.outer) {
+        low = std::min(low, dot(p - geometry::Point{}, across));
+        high = std::max(high, dot(p - geometry::Point{}, across));
+      }
+      ASSERT_NEAR(shape.width[k], high - low, 1e-13);
+      const auto found = widths_of_outline(star.outer, {}, k);
+      ASSERT_EQ(found[0], shape.width[k]) << "star " << i << ", direction " << k;
+      ASSERT_EQ(found[1], shape.width[k + 1]) << "star " << i << ", direction " << k;
+    }
+  }
+}
+
+TEST(WaterDrag, AFloeWithoutATableOfWidthsMovesAsOneWithItToTheBit) {
+  Random random(18);
+  for (int i = 0; i < 50; ++i) {
+    const geometry::Polygon star = random_star(random, 3 + random.below(60), 3, 8);
+    Bodies with = one_floe(star, random.angle());
+    Bodies without = with;
+    const Point centroid = with.centroid[0];
+    with.drag[0] = std::make_shared<DragShape>(make_drag_shape(star, centroid));
+    without.drag[0] = std::make_shared<DragShape>(make_small_drag_shape(star, centroid));
+    EXPECT_EQ(without.drag[0]->width.empty(), star.outer.size() <= 32);
+    for (int step = 0; step < 100; ++step) {
+      for (Bodies* bodies : {&with, &without}) {
+        bodies->velocity[0] += geometry::Vector{0.1 * std::cos(0.2 * step), 0.1 * std::sin(0.2 * step)};
+        brake(*bodies, 0.1);
+        integrate(*bodies, {0}, 0.1);
+      }
+      ASSERT_EQ(with.velocity[0], without.velocity[0]);
+      ASSERT_EQ(with.angular_velocity[0], without.angular_velocity[0]);
+    }
+  }
+}
+
+TEST(WaterDrag, TheRotationalIntegralIsThatOfDiscAndSquare) {
+  // K = mean over directions of ∫|s|³ ds: R⁴/2 for a disc; (a/2)⁴ (3/2 + 4/π) / 2 for a square of side a.
+  EXPECT_NEAR(make_drag_shape(shapes::regular(512, 7), {}).rotational / (std::pow(7, 4) / 2), 1, 1e-3);
+  const double square = std::pow(4.0, 4) * (1.5 + 4 / std::numbers::pi) / 2;
+  EXPECT_NEAR(make_drag_shape(rectangle(8, 8), {}).rotational / square, 1, 2e-3);
+}
+
+TEST(WaterDrag, AFreeSpinSlowsAsTheClosedForm) {
+  // I ω' = −½ C_D ρ_w h K ω²
+  for (const double omega : {0.3, -0.3}) {
+    Bodies bodies = one_floe(shapes::regular(64, 9));
+    bodies.angular_velocity[0] = omega;
+    const double k = kDrag * kWater * kThickness * bodies.drag[0]->rotational / (2 * bodies.moment[0]);
+    for (int step = 0; step < 3000; ++step) brake(bodies, 0.02);
+    EXPECT_NEAR(bodies.angular_velocity[0] * (1 + k * 0.3 * 60) / omega, 1, 1e-11);
+    EXPECT_EQ(bodies.velocity[0], Vector{});
+  }
+}
+
+TEST(WaterDrag, ActsAgainstTheVelocityAndTakesTheEnergyItReports) {
+  Random random(11);
+  for (int i = 0; i < 2000; ++i) {
+    Bodies bodies = one_floe(random_star(random, 5 + random.below(12), 1, 15), random.angle());
+    bodies.velocity[0] = {random.between(-4, 4), random.between(-4, 4)};
+    bodies.angular_velocity[0] = random.between(-1, 1);
+    const Vector v = bodies.velocity[0];
+    const double before = kinetic_energy(bodies);
+    const double work = apply_water_drag(bodies, {0}, {random.between(0, 2), kWater, {}},
+                                         std::pow(10.0, random.between(-4, 4)))
+                            .lost;
+    const double after = kinetic_energy(bodies);
+    ASSERT_LE(after, before);
+    ASSERT_NEAR((before - after) / before, work / before, 1e-12);
+    ASSERT_NEAR(cross(v, bodies.velocity[0]), 0, 1e-13) << "drag turns nothing";
+    ASSERT_GE(dot(v, bodies.velocity[0]), 0) << "and never reverses";
+  }
+}
+
+TEST(WaterDrag, WidthOfASquareIsWithinItsStatedError) {
+  const DragShape square = make_drag_shape(rectangle(10, 10), {});
+  double worst = 0;
+  for (int i = 0; i <= 100000; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 100000;
+    const double exact = 10 * (std::abs(std::cos(angle)) + std::abs(std::sin(angle)));
+    const double relative = width_across(square, {std::cos(angle), std::sin(angle)}) / exact - 1;
+    worst = std::max(worst, std::abs(relative));
+  }
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_GT(worst, 1e-5) << "interpolation has some error: the bound is tested by something";
+}
+
+TEST(WaterDrag, ATurnedFloeWithATurnedVelocityFeelsTheSameDragTurned) {
+  Random random(12);
+  for (int i = 0; i < 1000; ++i) {
+    const double along = random.between(5, 20), across = random.between(5, 20);
+    const geometry::Polygon polygon = rectangle(along, across);
+    const double course = random.angle(), angle = random.angle();
+    const geometry::Rotation turn = geometry::Rotation::by(angle);
+    const Vector velocity{2 * std::cos(course), 2 * std::sin(course)};
+    // The same floe placed turned, and drawn with its corners turned: then other directions are its known
+    // ones.
+    Bodies straight = one_floe(polygon), placed = one_floe(polygon, angle);
+    Bodies drawn = one_floe(transform(geometry::Pose{{}, turn}, polygon));
+    straight.velocity[0] = velocity;
+    placed.velocity[0] = drawn.velocity[0] = rotate(turn, velocity);
+    for (Bodies* bodies : {&straight, &placed, &drawn}) brake(*bodies, 5);
+    ASSERT_NEAR(length(rotate_back(turn, placed.velocity[0]) - straight.velocity[0]), 0, 1e-13);
+
+    const auto resistance = [](const Bodies& bodies) { return 1 / length(bodies.velocity[0]) - 0.5; };  // k t
+    const double off = std::abs(resistance(drawn) / resistance(placed) - 1);
+    // A floe's width has a kink where it moves along an edge, and interpolation cuts it: by at most half the
+    // spacing of the known directions (1/16 rad) times the floe's aspect ratio.
+    const double aspect = std::max(along, across) / std::min(along, across);
+    ASSERT_LT(off, aspect / 32 + 1e-3) << aspect;
+  }
+}
+
+TEST(WaterDrag, BodiesOfPrescribedMotionKeepTheirVelocity) {
+  Bodies bodies;
+  add_held(bodies, rectangle(10, 6), {}, {1, 0}, 0.1);
+  brake(bodies, 10);
+  EXPECT_EQ(bodies.velocity[0], (Vector{1, 0}));
+  EXPECT_EQ(bodies.angular_velocity[0], 0.1);
+}
+
+/// ∫ r³ dA over a rectangle about a point, by Gauss's rule of 3 × 3 points in many cells.
+double third_moment_of_rectangle(Point low, Point high, Point about) {
+  constexpr int kCells = 200;
+  const double x[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
+  const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  const double dx = (high.x - low.x) / kCells;
+  const double dy = (high.y - low.y) / kCells;
+  double sum = 0;
+  for (int i = 0; i < kCells * 3; ++i) {
+    for (int j = 0; j < kCells * 3; ++j) {
+      const int column = i / 3;
+      const int row = j / 3;
+      const Point p{low.x + (column + x[i % 3]) * dx, low.y + (row + x[j % 3]) * dy};
+      sum += weight[i % 3] * weight[j % 3] * std::pow(distance(p, about), 3) * dx * dy;
+    }
+  }
+  return sum;
+}
+
+TEST(PlanDrag, TheRotationalIntegralIsExactForDiscRingAndRectangles) {
+  const auto moment = [](const geometry::Polygon& polygon, Point about) {
+    return make_drag_shape(polygon, about, DragArea::kPlan).rotational;
+  };
+  const auto of_disc = [](double radius) { return 2 * std::numbers::pi * std::pow(radius, 5) / 5; };
+  geometry::Polygon ring = shapes::regular(4096, 7);
+  EXPECT_NEAR(moment(ring, {}) / of_disc(7), 1, 3e-6);
+  ring.holes = {shapes::regular(4096, 5).outer};
+  std::ranges::reverse(ring.holes[0]);
+  EXPECT_NEAR(moment(ring, {}) / (of_disc(7) - of_disc(5)), 1, 5e-6);
+  for (const Point about : {Point{}, Point{0.3, 1}, Point{5, 3}, Point{20, -7}})  // inside, on a corner, out
+    EXPECT_NEAR(moment(rectangle(10, 6), about) / third_moment_of_rectangle({-5, -3}, {5, 3}, about), 1,
+                1e-9);
+}
+
+TEST(PlanDrag, AFreeFloeSlowsAsTheClosedFormWhateverItsCourseAndThickness) {
+  // m v' = −½ C_D ρ_w A v², A = 60 m² in plan, and I ω' = −½ C_D ρ_w ∫r³dA ω².
+  Random random(4);
+  for (const double dt : {0.005, 0.5, 50.0}) {
+    Bodies bodies = one_floe(rectangle(10, 6), random.angle());
+    bodies.drag[0] = std::make_shared<DragShape>(make_drag_shape(rectangle(10, 6), {}, DragArea::kPlan));
+    const double course = random.angle();
+    bodies.velocity[0] = 1.5 * Vector{std::cos(course), std::sin(course)};
+    bodies.angular_velocity[0] = -0.2;
+    bodies.thickness[0] = random.between(0.1, 3);
+    const double braking = kDrag * kWater * 60 / (2 * bodies.mass[0]);
+    const double turning =
+        kDrag * kWater * third_moment_of_rectangle({-5, -3}, {5, 3}, {}) / (2 * bodies.moment[0]);
+    for (int step = 0; step < 2000; ++step) brake(bodies, dt, DragArea::kPlan);
+    const double time = 2000 * dt;
+    EXPECT_NEAR(length(bodies.velocity[0]) * (1 + braking * 1.5 * time) / 1.5, 1, 1e-9) << dt;
+    EXPECT_NEAR(-bodies.angular_velocity[0] * (1 + turning * 0.2 * time) / 0.2, 1, 1e-9) << dt;
+  }
+}
+
+// ---- the water around a hull, propellers, rudders
+
+/// The reference ship of the project's physics notes.
+constexpr MainDimensions kShip{120, 24, 6, 0.579};
+
+HullInWater hull(double cross_flow_drag = 0.8) {
+  HullInWater hull;
+  hull.length = kShip.length;
+  hull.draught = kShip.draught;
+  hull.aft = -60;
+  hull.fore = 60;
+  hull.cross_flow_drag = cross_flow_drag;
+  hull.quadratic_resistance = 0.5 * 1000 * 0.004 * wetted_surface(kShip);
+  hull.derivatives = clarke_derivatives(kShip);
+  hull.added_mass = added_mass_of(hull.derivatives, kShip.length, 1000, 5e5);
+  return hull;
+}
+
+TEST(Manoeuvring, ClarkesDerivativesOfTheReferenceShip) {
+  const ManoeuvringDerivatives d = clarke_derivatives(kShip);
+  EXPECT_NEAR(1e3 * d.y_v_dot, -9.162, 5e-4);
+  EXPECT_NEAR(1e3 * d.y_r_dot, -0.638, 5e-4);
+  EXPECT_NEAR(1e3 * d.n_v_dot, -0.440, 5e-4);
+  EXPECT_NEAR(1e3 * d.n_r_dot, -0.4454, 5e-5);
+  EXPECT_NEAR(1e3 * d.y_v, -15.130, 5e-4);
+  EXPECT_NEAR(1e3 * d.y_r, 2.985, 5e-4);
+  EXPECT_NEAR(1e3 * d.n_v, -4.869, 5e-4);
+  EXPECT_NEAR(1e3 * d.n_r, -2.309, 5e-4);
+  EXPECT_TRUE(d.are_physical());
+}
+
+TEST(Manoeuvring, DerivativesThatGiveEnergyAreNotPhysical) {
+  ManoeuvringDerivatives d = clarke_derivatives(kShip);
+  d.n_v = -0.05;  // a coupling that the damping does not outweigh
+  EXPECT_FALSE(d.are_physical());
+  EXPECT_FALSE(clarke_derivatives({30, 20, 6, 0.6}).are_physical()) << "a raft has no added mass by this";
+}
+
+TEST(Manoeuvring, AddedMassHasNoNegativeEnergy) {
+  for (const MainDimensions& d :
+       {kShip, MainDimensions{95, 29.4, 8, 0.6}, MainDimensions{200, 30, 12, 0.8}}) {
+    const PlanarMatrix a = added_mass_of(clarke_derivatives(d), d.length, 1000, 1e6);
+    EXPECT_EQ(a.rows[1].yaw, a.rows[2].sway);
+    EXPECT_GT(a.rows[1].sway * a.rows[2].yaw, a.rows[1].yaw * a.rows[2].sway);
+    EXPECT_GT(a.rows[1].sway, 0);
+  }
+}
+
+TEST(Manoeuvring, TheWaterTakesEnergyFromEveryMotion) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> in(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const Planar at{8 * in(random), 3 * in(random), 0.1 * in(random)};
+    const Planar velocity{8 * in(random), 3 * in(random), 0.1 * in(random)};
+    EXPECT_GE(dot(velocity, water_damping(hull(), at) * velocity), 0);
+  }
+}
+
+/// To port and starboard, and ahead and astern.
+TEST(Manoeuvring, MirroredMotionsHaveMirroredForces) {
+  const auto force = [](const Planar& at) { return water_damping(hull(), at) * at; };
+  const auto expect_equal = [](const Planar& p, const Planar& q) {
+    EXPECT_DOUBLE_EQ(p.surge, q.surge);
+    EXPECT_DOUBLE_EQ(p.sway, q.sway);
+    EXPECT_DOUBLE_EQ(p.yaw, q.yaw);
+  };
+  const Planar here = force({4, 0.7, 0.02});
+  expect_equal(force({4, -0.7, -0.02}), {here.surge, -here.sway, -here.yaw});
+  expect_equal(force({-4, 0.7, -0.02}), {-here.surge, here.sway, -here.yaw});
+}
+
+TEST(Manoeuvring, CrossFlowIsTheIntegralOverTheHull) {
+  HullInWater only_cross = hull(0.9);
+  only_cross.derivatives = {};
+  only_cross.aft = -70;
+  only_cross.fore = 50;
+  for (const auto& [v, r] : {std::pair{0.5, 0.0}, {0.5, 0.02}, {-0.3, 0.03}, {0.0, -0.01}, {2.0, 0.01}}) {
+    double y = 0, n = 0;
+    constexpr int kParts = 100000;
+    for (int i = 0; i < kParts; ++i) {
+      const double x = -70 + (i + 0.5) * 120 / kParts;
+      const double s = v + x * r;
+      y += std::abs(s) * s * 120 / kParts;
+      n += x * std::abs(s) * s * 120 / kParts;
+    }
+    const Planar force = water_damping(only_cross, {0, v, r}) * Planar{0, v, r};
+    const double q = 0.5 * 1000 * 6 * 0.9;
+    EXPECT_NEAR(force.sway, q * y, 1e-6 * q * 3600);
+    EXPECT_NEAR(force.yaw, q * n, 1e-6 * q * 3600 * 60);
+  }
+}
+
+TEST(Propulsion, BollardPullFollowsFromPowerDiameterAndPropellers) {
+  EXPECT_NEAR(bollard_pull(1e6, 1, 1), 78e3, 1e-6);  // 1000 kW to the power of ⅔ are 100
+  EXPECT_NEAR(bollard_pull(1e6, 1, 2), 98e3, 1e-6);
+  EXPECT_NEAR(bollard_pull(1e6, 1, 3), 112e3, 1e-6);
+  EXPECT_NEAR(bollard_pull(1e6, 1, 2, true), 1.4 * 98e3, 1e-6);
+  // The ice class rules have the same coefficient for a channel: K_e = (.8 K)^−1.5.
+  EXPECT_NEAR(std::pow(0.8 * 0.78, -1.5), 2.03, 5e-3);
+  EXPECT_NEAR(std::pow(0.8 * 0.98, -1.5), 1.44, 5e-3);
+  EXPECT_NEAR(std::pow(0.8 * 1.12, -1.5), 1.18, 5e-3);
+}
+
+TEST(Propulsion, NetThrustEndsAtTheOpenWaterSpeed) {
+  const Engine engine{.bollard_pull = 1e6, .open_water_speed = 8};
+  EXPECT_DOUBLE_EQ(net_thrust(engine, 1, 0), 1e6);
+  EXPECT_NEAR(net_thrust(engine, 1, 8), 0, 1e-9);
+  EXPECT_NEAR(net_thrust(engine, 1, 4), 1e6 * (1 - 1 / 6.0 - 1 / 6.0), 1e-6);
+  EXPECT_NEAR(net_thrust(engine, 0.125, 0), 0.25e6, 1e-6);
+  EXPECT_NEAR(net_thrust(engine, -1, 0), -0.65e6, 1e-6);
+  EXPECT_LT(net_thrust(engine, 0, 3), 0);
+  EXPECT_GT(net_thrust(engine, 0, -3), 0);
+}
+
+TEST(Propulsion, ASettingGoesToTheWantedOneAtItsRate) {
+  EXPECT_DOUBLE_EQ(approach(0, 1, 0.05, 2), 0.1);
+  EXPECT_DOUBLE_EQ(approach(0, -1, 0.05, 2), -0.1);
+  EXPECT_DOUBLE_EQ(approach(0.95, 1, 0.05, 2), 1);
+}
+
+TEST(Rudder, TurnsAShipToTheSideItIsLaidTo) {
+  const Rudder rudder{.area = 13, .position = -60};
+  const Planar to_port = rudder_force(rudder, 0.3, {6, 0, 0}, 0, 1000);
+  EXPECT_LT(to_port.surge, 0);
+  EXPECT_LT(to_port.sway, 0) << "the stern goes to starboard";
+  EXPECT_GT(to_port.yaw, 0);
+  const Planar to_starboard = rudder_force(rudder, -0.3, {6, 0, 0}, 0, 1000);
+  EXPECT_DOUBLE_EQ(to_starboard.yaw, -to_port.yaw);
+  EXPECT_LT(rudder_force(rudder, 0.3, {-2, 0, 0}, 0, 1000).yaw, 0) << "astern it turns her the other way";
+}
+
+TEST(Rudder, HasTheNormalForceOfAFoil) {
+  const Rudder rudder{.area = 10, .aspect_ratio = 2, .position = -60, .wake_fraction = 0, .hull_factor = 0};
+  const double normal = 0.5 * 1000 * 10 * 6.13 * 2 / 4.25 * 25 * std::sin(0.2);
+  const Planar force = rudder_force(rudder, 0.2, {5, 0, 0}, 0, 1000);
+  EXPECT_NEAR(force.surge, -normal * std::sin(0.2), 1e-6);
+  EXPECT_NEAR(force.sway, -normal * std::cos(0.2), 1e-6);
+}
+
+TEST(Rudder, TheRaceTurnsAShipAtRest) {
+  Rudder rudder{.area = 13, .position = -60};
+  EXPECT_EQ(rudder_force(rudder, 0.5, {}, 5e5, 1000).yaw, 0);
+  rudder.race_area = 15;
+  EXPECT_GT(rudder_force(rudder, 0.5, {}, 5e5, 1000).yaw, 1e6);
+  EXPECT_EQ(rudder_force(rudder, 0.5, {}, -5e5, 1000).yaw, 0) << "the race of a propeller astern goes ahead";
+}
+
+TEST(Rudder, AmidshipsItDampsTheTurn) {
+  const Rudder rudder{.area = 13, .position = -60, .race_area = 15};
+  const Planar turning{4, 0.1, 0.02};
+  EXPECT_LT(dot(turning, rudder_force(rudder, 0, turning, 3e5, 1000)), 0);
+  EXPECT_LT(rudder_force(rudder, 0, {4, 0, 0.02}, 3e5, 1000).yaw, 0);
+}
+
+TEST(Rudder, ThrustersTurnTheirThrust) {
+  const Planar ahead = turned_thrust(1e6, 0, -50), port = turned_thrust(1e6, M_PI / 2, -50);
+  EXPECT_EQ(ahead, (Planar{1e6, 0, 0}));
+  EXPECT_NEAR(port.surge, 0, 1e-9);
+  EXPECT_NEAR(port.sway, -1e6, 1e-6);
+  EXPECT_NEAR(port.yaw, 5e7, 1e-4);
+}
+
+TEST(Planar, SolvesThreeEquations) {
+  const PlanarMatrix a{{{{4, 1, -2}, {0.5, 3, 1}, {1, -1, 5}}}};
+  const Planar x{1.5, -2, 0.25}, found = solve(a, a * x);
+  EXPECT_NEAR(found.surge, x.surge, 1e-15);
+  EXPECT_NEAR(found.sway, x.sway, 1e-15);
+  EXPECT_NEAR(found.yaw, x.yaw, 1e-15);
+}
+
+// ---- ice under the hull, against Lindqvist's resistance
+
+constexpr HullForm kReference{.length = 120,
+                              .beam = 24,
+                              .draught = 6,
+                              .stem_angle = 30 * shapes::kDegree,
+                              .entrance_angle = 27 * shapes::kDegree};
+
+TEST(SubmergedIce, ThePathOfTheReferenceShipIsLindqvists) {
+  const SubmersionPath path = submersion_path(kReference);
+  EXPECT_NEAR(path.rise, 5.0, 5e-4);
+  EXPECT_NEAR(path.sliding, 70.83, 5e-3);
+  EXPECT_NEAR(path.bow, 6 / std::tan(30 * shapes::kDegree), 1e-12);
+  // R_s = δρ g h B (z̄ + μ s̄): 58.9 kN potential, 166.8 kN friction.
+  const double weight = 100 * 9.81 * 0.5 * 24;  // per metre of way [N/m]
+  EXPECT_NEAR(weight * path.rise, 58.9e3, 50);
+  EXPECT_NEAR(weight * 0.2 * path.sliding, 166.8e3, 50);
+}
+
+TEST(SubmergedIce, APieceHasRisenAndSlidAllTheWayHoweverItIsCutIntoSteps) {
+  const SubmersionPath path = submersion_path(kReference);
+  double risen = 0, slid = 0;
+  for (double s = -0.3; s < 130;) {
+    const double to = s + 0.0137;
+    risen += path.risen_over(s, to);
+    slid += path.slid_over(s, to);
+    s = to;
+  }
+  EXPECT_NEAR(risen, path.rise, 1e-12);
+  EXPECT_NEAR(slid, path.sliding, 1e-11);
+}
+
+TEST(SubmergedIce, AHullCoveredWithIcePaysLindqvistsResistance) {
+  const SubmersionPath path = submersion_path(kReference);
+  const double mu = 0.2, speed = 1, dt = 0.01, piece = 0.5;  // a piece every half metre
+  const double weight = 100 * 9.81 * 0.5 * 24 * piece;       // of each [N]
+  double work = 0;
+  for (int step = 0; step < 50; ++step) {  // over one spacing of the pieces
+    for (double s = step * dt * speed; s < 120; s += piece)
+      work += weight * (path.risen_over(s, s + speed * dt) + mu * path.slid_over(s, s + speed * dt));
+  }
+  EXPECT_NEAR(work / (50 * dt * speed), 225.6e3, 0.01 * 225.6e3);
+}
+
+TEST(SubmergedIce, TheSpeedFactorIsLindqvists) {
+  EXPECT_EQ(submersion_speed_factor(0, 120), 1);
+  EXPECT_NEAR(submersion_speed_factor(1, 120), 1 + 9.4 / std::sqrt(9.81 * 120), 1e-12);
+}
+
+}  // namespace
+}  // namespace polynya::dynamics

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+namespace polynya::tests {
+
+/// Whether all of the parts, or none of them, stand in a text.
+inline testing::AssertionResult has_parts(std::string_view text,
+                                          std::initializer_list<std::string_view> parts, bool are_wanted) {
+  for (const std::string_view part : parts) {
+    if ((text.find(part) != std::string_view::npos) != are_wanted)
+      return testing::AssertionFailure() << '"' << part << (are_wanted ? "\" is not" : "\" is") << " in\n"
+                                         << text;
+  }
+  return testing::AssertionSuccess();
+}
+
+inline testing::AssertionResult begins_with(std::string_view text, std::string_view part) {
+  if (text.starts_with(part)) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << '"' << part << "\" does not begin\n" << text;
+}
+
+/// What was expected; ends the test with the reason where it is refused.
+template <class Expected>
+Expected checked(Expected outcome) {
+  if (outcome) return outcome;
+  if constexpr (requires { std::string(outcome.error()); })
+    throw std::runtime_error(std::string(outcome.error()));
+  else if constexpr (requires { to_string(outcome.error().front()); })
+    throw std::runtime_error(to_string(outcome.error().front()));
+  else
+    throw std::runtime_error("refused");
+}
+
+/// Replaces the one place of a text.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+}  // namespace polynya::tests
+
+/// EXPECT_HAS(text, part...): each part stands in the text. EXPECT_LACKS: none does.
+#define EXPECT_HAS(text, ...) EXPECT_TRUE(::polynya::tests::has_parts(text, {__VA_ARGS__}, true))
+#define EXPECT_LACKS(text, ...) EXPECT_TRUE(::polynya::tests::has_parts(text, {__VA_ARGS__}, false))
+#define EXPECT_BEGINS(text, part) EXPECT_TRUE(::polynya::tests::begins_with(text, part))

@@ -1,0 +1,356 @@
+// What is wrong with scenes: each problem at its place, with what was found and what would do.
+#include "scene_text.hpp"
+#include "temporary_folder.hpp"
+
+namespace polynya::io {
+namespace {
+
+using namespace tests;
+
+TEST(SceneProblems, TenMistakesGiveTenPlacedMessages) {
+  const std::string text = R"(// ten mistakes
+{
+  "ice": {
+    "thicknes_m": 0.5,
+    "density_kg_per_m3": "900",
+    "poisson_ratio": 0.5
+  },
+	"water": {"drift_m_per_s": [1]},  // a tab
+  "fracture": {"bending": {"model": "nevle"}},
+  "ships": [
+    {"hull": {"length_m": 120, "entrance_angle_deg": 27}, "mass_kg": -1, "moment_of_inertia_kg_m2": 5e9,
+     "propulsion": {"thrust_N": 2e4, "constant_speed_m_per_s": 1}}
+  ],
+  "floes": [
+    {"polygon": {"outer_m": [[0, 0], [10, 10], [10, 0], [0, 10]]}},
+    {"rectangle": {"corner_m": [50, 0], "size_m": 10}},
+    {"rectangle": {"corner_m": [55, 0], "size_m": 10}}
+  ]
+})";
+  const std::vector<std::string> expected{
+      "4:5: ice.thicknes_m: found an unknown key",
+      "5:26: ice.density_kg_per_m3: found \"900\"",
+      "6:22: ice.poisson_ratio: found 0.5, allowed: a number ≥ 0, < 0.5",
+      "8:29: water.drift_m_per_s: found a list of 1",
+      "9:37: fracture.bending.model: found \"nevle\"",
+      "11:14: ships[0].hull.beam_m: found nothing",
+      "11:70: ships[0].mass_kg: found -1",
+      "12:20: ships[0].propulsion: found thrust and constant speed together",
+      "15:5: floes[0]: found an invalid polygon: self-crossing at (5, 5), (0, 0), (10, 10)",
+      "17:5: floes[2]: found an overlap with floes[1], 50 m² shared"};
+  const auto outcome = read(text);
+  ASSERT_FALSE(outcome.has_value());
+  const auto& problems = outcome.error();
+  ASSERT_EQ(problems.size(), expected.size()) << in_words(problems);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_BEGINS(to_string(problems[i]), "scene.json:" + expected[i]);
+    EXPECT_FALSE(problems[i].allowed.empty());
+  }
+  EXPECT_EQ(problems[0].suggestion, "thickness_m");
+  EXPECT_EQ(problems[4].suggestion, "nevel");
+}
+
+TEST(SceneProblems, WhatNoFieldAloneCanTell) {
+  const std::string one = list("floes", {square(0, 0, 1)});
+  const std::string shear = R"("water": {"shear": {"rate_per_s": 0.01}})";
+  const std::string no_floes = R"("floes": [])";
+  const std::string lattice =
+      R"({{"lattice": {{"columns": {0}, "rows": {0}, "pitch_m": 10, "size_m": {1}}}}})";
+  const std::string small_ship =
+      ship(R"("hull": {"length_m": 40, "beam_m": 8}, "mass_kg": 1e3, "moment_of_inertia_kg_m2": 1e4,
+        "position_m": null, "propulsion": {"thrust_N": 2e3})");
+  expect_problems(
+      {{scene({R"("ice": {"density_kg_per_m3": 1050})", one}), "ice.density_kg_per_m3", "sinks"},
+       {scene({R"("time": {"step_s": 0.9}, "water": {"drift_m_per_s": [1, 1]})", one}), "time.step_s",
+        "1.27 m in one step"},
+       {scene({shear, list("floes", {square(0, 0, 1), R"({"polygon": {"outer_m":
+          [[-60, -20], [-10, -20], [-10, 20], [-60, 999999]]}})"})}),
+        "floes[1]", "a rim that moves at"},
+       {scene({shear, list("floes", {square(0, 40000, 1)})}), "time.step_s",
+        "0.005: floes[0] moves 2 m in one step at 400 m/s"},
+       {scene({R"("water": {"shear": {"rate_per_s": 0.5}})", list("floes", {square(0, 9000, 9)})}),
+        "floes[0]", "moves at 4504 m/s"},
+       {scene({list("floes", {square(0, 0, 200, R"("angular_velocity_deg_per_s": 100)")})}), "time.step_s",
+        "0.005: floes[0] moves 1.23 m in one step at 247 m/s"},
+       {scene({R"("ice": {"thickness_m": 5e-324})", one}), "ice.thickness_m", "found 5e-324"},
+       {scene({R"("ice": {"thickness_m": 0})", no_floes}), "ice.thickness_m", "found 0,"},
+       {scene({R"("ice": {"thickness_m": 1e308})", no_floes}), "ice.thickness_m", "found 1e+308"},
+       {scene({R"("time": {"step_s": 0.9})", list("ships", {small_ship})}), "time.step_s",
+        "1.62 m in one step at 1.8 m/s"},
+       {scene({R"("time": {"step_s": 1e-5, "until_s": 1e6})", list("ships", {ship()})}), "time.until_s",
+        "1e+11 steps"},
+       {scene({R"("time": {"until_s": 0.001})", list("ships", {ship()})}), "time.until_s",
+        "less than one step"},
+       {scene({list("ships", {ship()}), list("floes", {square(-70, 0, 5)})}), "floes[0]",
+        "an overlap with ships[0], 25 m² shared"},
+       {scene({list("ships", {ship(), ship()})}), "ships[1]", "an overlap with ships[0]"},
+       {scene({list("floes", {fmt::format(fmt::runtime(lattice), 2, "[10, 11]")})}),
+        "floes[0].lattice.size_m", "more than the pitch"},
+       {scene({list("floes", {fmt::format(fmt::runtime(lattice), 100000, 5)})}), "floes[0]", "floes in all"},
+       {"{}", "", "neither ships nor floes"},
+       {"[]", "", "a list of 0"},
+       {"{\"floes\": 3}", "floes", "found 3"},
+       {scene({list("floes", {R"({"velocity_m_per_s": [0, 0]})"})}), "floes[0]", "none of them"},
+       {scene({list("floes", {R"({"polygon": {"outer_m": [[0, 0], [1, 1], [2, 2]]}})"})}), "floes[0]",
+        "zero-area"},
+       {scene({list("floes", {R"({"polygon": {"outer_m": [[0, 0], [1e-4, 0], [0, 1e-4]]}})"})}), "floes[0]",
+        "a floe of 5e-09 m²"},
+       {scene_of_ship(R"({"propulsion": {"thrust_N": 1}})"), "ships[0].hull",
+        R"(length_m and beam_m and entrance_angle_deg, or waterline_m; or "ship": a preset's name, as "reference")"},
+       {scene_of_ship(R"({"ship": "polarys"})"), "ships[0].ship", "polaris"},
+       {scene_of_ship(ship(R"("propulsion": {"constant_speed_m_per_s": 1.5}, "speed_m_per_s": 1)")),
+        "ships[0].speed_m_per_s", "found 1"},
+       {scene({list("structures", {R"({"radius_m": 5})"}), list("floes", {square(0, 0, 9)})}), "floes[0]",
+        "an overlap with structures[0]"},
+       {scene({list("structures", {R"({"waterline_m": [[0, 0], [9, 9], [9, 0], [0, 9]]})"})}),
+        "structures[0].waterline_m", "an invalid waterline"},
+       {scene({list("structures", {R"({"radius_m": 5})", R"({"radius_m": 5, "position_m": [50, 0], "name":
+          "structure-1"})"})}),
+        "structures[1].name", "a second time"},
+       {scene({list("structures", {R"({"radius_m": 5, "waterline_m": [[0, 0], [1, 0], [0, 1]]})"})}),
+        "structures[0]", "together"}});
+}
+
+std::string field(const std::string& members) {
+  return scene({list("floes", {"{\"field\": {" + members + "}}"})});
+}
+
+TEST(SceneProblems, OfFields) {
+  const std::string one_size = R"("corner_m": [0, 0], "extent_m": 100, "floe_size_m": 10, )";
+  const std::string box = R"("corner_m": [0, 0], "extent_m": 300, )";
+  const std::string power =
+      box + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, "largest_m": )";
+  const std::string equal = box + R"("sizes": {"size_m": 15}, "concentration": 0.8, )";
+  const std::string dense = box + R"("sizes": {"size_m": 15}, "concentration": 0.98, )";
+  const std::string channel =
+      R"("width_m": 12, "concentration": 0.8, "sizes": {"size_m": 15}, "centreline_m": [[0, 0], )";
+  const std::string at = "floes[0].field";
+  expect_problems(
+      {{field(one_size + R"("concentration": 0.95, "gap_m": 3)"), at + ".concentration", "0.95"},
+       {field(one_size + R"("concentration": 0.005)"), at, "less than one floe"},
+       {field(one_size + R"("concentration": 0)"), at + ".concentration", "found 0"},
+       {field(one_size + R"("concentration": 0.5, "most_corners": 2)"), at + ".most_corners", "found 2"},
+       {field(one_size + R"("concentration": 0.5, "keep_clear_m": [[[0, 0], [9, 9], [9, 0], [0, 9]]])"),
+        at + ".keep_clear_m[0]", "self-crossing"},
+       {field(R"("corner_m": [0, 0], "extent_m": 1e6, "floe_size_m": 1, "concentration": 0.5)"), at,
+        "floes in all"},
+       {field(
+            R"("outline_m": [[0, 0], [90, 90], [90, 0], [0, 90]], "floe_size_m": 10, "concentration": 0.5)"),
+        at + ".outline_m", "self-crossing"},
+       {field(power + "5}"), at + ".sizes.least_m", "less than 5"},
+       {field(power + "4000}"), at + ".sizes.largest_m", "at most 300, or a wider region"},
+       {field(dense + R"("gap_m": 0.5)"), at + ".concentration", "or a gap_m of at most"},
+       {field(dense + R"("most_corners": 4)"), at + ".concentration", "or most_corners above 4"},
+       {field(equal + R"("packing": 0.5)"), at + ".packing", "at least 0.8"},
+       {field(equal + R"("least_corners": 20)"), at + ".least_corners", "at most 16"},
+       {field(equal + R"("orientation_deg": 20)"), at + ".orientation_deg", "without aspect"},
+       {field(equal + R"("size_spread": 0.1)"), at + ".size_spread", "mean_m and spread"},
+       {field(equal + R"("floe_size_m": 10)"), at + ".sizes", "beside floe_size_m"},
+       {field(equal + R"("keep_clear_m": [[[-9, -9], [400, -9], [400, 400], [-9, 400]]])"), at,
+        "all of the region is kept clear"},
+       {field(box + R"("concentration": 0.8)"), at, "neither sizes nor floe_size_m"},
+       {field(box + R"("concentration": 0.8, "floe_size_m": 10, "aspect": 2)"), at + ".aspect",
+        "sizes instead"},
+       {field(box + R"("concentration": 0.005, "sizes": {"size_m": 100})"), at, "less than one floe"},
+       {field(channel + "[60, 0], [0, 9]]"), at + ".centreline_m", "too sharp"},
+       {field(channel + "[0, 0]]"), at + ".centreline_m", "a second time"},
+       {field(channel + "[900, 0]]"), at + ".sizes", "12 m across"}});
+}
+
+TEST(SceneProblems, OfWallsAndFastIce) {
+  const auto walled = [](const std::string& more) {
+    return scene({list("floes", {square(0, 0, 10)}), more});
+  };
+  const auto wall = [&](const std::string& more, const std::string& law = "crush") {
+    return walled(R"("contact": {"law": ")" + law +
+                  R"("}, "walls": [{"from_m": [-50, -1], "to_m": [50, -1], )" + more + "}]");
+  };
+  const std::string load = R"("pressure": {"line_load_N_per_m": 5e4})";
+  const std::string fast = R"("fast_ice": true)";
+  expect_problems(
+      {{wall(R"("velocity_m_per_s": [0, 1], )" + load), "walls[0].velocity_m_per_s", ""},
+       {wall(load, "impulse"), "walls[0].pressure", ""},
+       {wall(R"("pressure": {"line_load_N_per_m": 2e6})"), "walls[0].pressure.line_load_N_per_m", "1.4e+06"},
+       {wall(R"("pressure": {"line_load_N_per_m": 1e5, "mass_kg_per_m": 4e3})"),
+        "walls[0].pressure.mass_kg_per_m", "at least 5000"},
+       {walled(R"("walls": [{"from_m": [50, 50], "to_m": [50, 50.01]}])"), "walls[0].to_m", ""},
+       {walled(R"("walls": [{"from_m": [-50, 2], "to_m": [50, 2]}])"), "floes[0]",
+        "found an overlap with walls[0], 20 m² shared, allowed: floes in front of the wall"},
+       {scene({list("ships", {ship(R"("position_m": [0, 100])")}),
+               R"("walls": [{"from_m": [-90, 95], "to_m": [90, 95]}])"}),
+        "walls[0]", "found an overlap with ships[0]"},
+       {scene({R"("contact": {"law": "crush"})",
+               list("floes", {square(0, 0, 10, fast + R"(, "angular_velocity_deg_per_s": 3)")})}),
+        "floes[0].angular_velocity_deg_per_s", "does not turn"},
+       {scene({R"("contact": {"law": "impulse"})", list("floes", {square(0, 0, 10, fast)})}),
+        "floes[0].fast_ice", ""}});
+}
+
+TEST(SceneProblems, OfShipsThatSail) {
+  const auto changed = [](const std::string& members) { return scene_of_ship(sailing_ship(members)); };
+  const auto engine = [&](const std::string& members) {
+    return changed(R"("propulsion": {"engine": {)" + members + "}}");
+  };
+  const auto piloted = [&](const std::string& pilot) {
+    return changed(R"("steering": {"rudder": {}}, "pilot": {)" + pilot + "}");
+  };
+  const auto led = [](const std::string& name, const std::string& leader, int y) {
+    return sailing_ship(fmt::format(R"("name": "{}", "position_m": [0, {}], "steering": {{"rudder": {{}}}},
+      "pilot": {{"follow": {{"distance_m": 100, "ship": "{}"}}}})",
+                                    name, y, leader));
+  };
+  const auto route = [&](const std::string& waypoints) {
+    return scene(
+        {list("ships", {sailing_ship(R"("steering": {"rudder": {}}, "pilot": {"route": {"waypoints": [)" +
+                                     waypoints + "]}}")}),
+         R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
+  };
+  const std::string bare = R"("hull": {"draught_m": null, "block_coefficient": null})";
+  const std::string thrust = R"("propulsion": {"thrust_N": 1e5})";
+  const std::string weighed = R"("moment_of_inertia_kg_m2": 5e9, "mass_kg": )";
+  const std::string drawn = R"("hull": {"block_coefficient": null}, )";
+  const std::string at = "ships[0]";
+  expect_problems(
+      {{changed(bare + R"(, "moment_of_inertia_kg_m2": 5e9, )" + thrust), at + ".mass_kg", "found nothing"},
+       {changed(drawn + R"("mass_kg": 1e7, )" + thrust), at + ".moment_of_inertia_kg_m2", "found nothing"},
+       {changed(bare + ", " + weighed + "1e7"), at + ".hull.draught_m", "water acts on the hull"},
+       {changed(drawn + weighed + "1e8"), at + ".mass_kg", "a block coefficient of 5.79"},
+       {changed(
+            R"("hull": {"length_m": 40, "beam_m": 30, "entrance_angle_deg": 60, "block_coefficient": 0.6})"),
+        at + ".water.model", "no meaning for a hull of 40 × 30 × 6 m"},
+       {engine(R"("open_water_speed_m_per_s": 8)"), at + ".propulsion.engine",
+        "neither bollard_pull_kN nor power_MW"},
+       {engine(R"("open_water_speed_m_per_s": 8, "power_MW": 5)"), at + ".propulsion.engine",
+        "neither bollard_pull_kN nor power_MW"},
+       {engine(R"("open_water_speed_m_per_s": 12, "bollard_pull_kN": 500)"),
+        at + ".propulsion.engine.open_water_speed_m_per_s", "the bollard pull 500 kN"},
+       {engine(R"("open_water_speed_m_per_s": 9, "bollard_pull_kN": 900, "power_MW": 3)"),
+        at + ".propulsion.engine.open_water_speed_m_per_s", "MW of 3"},
+       {changed(thrust + R"(, "steering": {"rudder": {}})"), at + ".steering", "without an engine"},
+       {scene_of_ship(
+            R"({"ship": "oden", "propulsion": {"constant_speed_m_per_s": 2}, "steering": {"azimuth": {}}})"),
+        at + ".steering", "without an engine"},
+       {changed(
+            thrust +
+            R"(, "mooring": {"sway_stiffness_N_per_m": 1e5, "position_m": [0, 30], "break_load_N": 2e6})"),
+        at + ".mooring.break_load_N", "it pulls with 3e+06 N"},
+       {changed(R"("steering": {"rudder": {"area_m2": 150}})"), at + ".steering.rudder.area_m2", "found 150"},
+       {changed(R"("propulsion": {"constant_speed_m_per_s": 1}, "mooring": {})"), at + ".mooring",
+        "speed is prescribed"},
+       {changed(thrust + R"(, "pilot": {"constant": {}})"), at + ".pilot", "without an engine"},
+       {changed(R"("pilot": {"hold_heading": {}})"), at + ".pilot.hold_heading", "nothing to steer with"},
+       {piloted(R"("constant": {"steering_deg": 40})"), at + ".pilot.constant.steering_deg", "40°"},
+       {piloted(R"("table": {"rows": [{"t_s": 5, "lever": 1}, {"t_s": 5, "lever": 0}]})"),
+        at + ".pilot.table.rows[1].t_s", "found 5"},
+       {piloted(R"("route": {"waypoints": [{"position_m": [-500, 0], "speed_m_per_s": 3}]})"),
+        at + ".pilot.route.waypoints[0].position_m", "500 m behind the ship"},
+       {piloted(R"("constant": {}, "hold_heading": {})"), at + ".pilot",
+        "constant and hold_heading together"},
+       {piloted(R"("follow": {"ship": "ship-1", "distance_m": 100})"), at + ".pilot.follow.ship",
+        "cannot follow itself"},
+       {piloted(R"("follow": {"ship": "Fram", "distance_m": 100})"), at + ".pilot.follow.ship",
+        "the name of no ship"},
+       {route(R"({"position_m": [1000, 0], "speed_m_per_s": 3})"),
+        at + ".pilot.route.waypoints[0].position_m", "leads through tower"},
+       {route(R"({"position_m": [600, 31], "speed_m_per_s": 3})"),  // nearer than half a beam
+        at + ".pilot.route.waypoints[0].position_m", ""},
+       {scene({list("ships", {led("a", "b", 0), led("b", "c", 200), led("c", "a", 400)})}),
+        at + ".pilot.follow.ship", "which follows this ship", 3}});
+  load(route(
+      R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"));
+}
+
+TEST(SceneProblems, OfIceUnderHulls) {
+  const auto under = [](const std::string& hull, const std::string& fracture) {
+    return scene({list("ships", {ship(R"("hull": {)" + hull + "}")}), "\"fracture\": {" + fracture + "}"});
+  };
+  const std::string draught = R"("draught_m": 6)", at = "ships[0].hull.draught_m";
+  expect_problems(
+      {{under(R"("draught_m": -1)", ""), at, "found -1"},
+       {under(R"("draught_m": 0)", ""), at, "found 0"},
+       {under(R"("draught_m": 121)", ""), at, "found 121"},
+       {under("", R"("cusp_fate": "under_hull")"), "fracture.cusp_fate", "under_hull without a hull"},
+       {under("", R"("going_under": {"enabled": true})"), "fracture.going_under.enabled", "true without"},
+       {under("", R"("resurface": {"enabled": true})"), "fracture.resurface.enabled", "no ice goes under"},
+       {under(draught,
+              R"("cusp_fate": "float", "going_under": {"enabled": false}, "resurface": {"enabled": true})"),
+        "fracture.resurface.enabled", "no ice goes under"},
+       {under(draught, R"("resurface": {"rim_loss": 1})"), "fracture.resurface.rim_loss", "found 1"},
+       {under(draught, R"("going_under": {"enabled": "yes"})"), "fracture.going_under.enabled", "\"yes\""},
+       {under(R"("submersion_speed_factor": "riska")", ""), "ships[0].hull.submersion_speed_factor",
+        "riska"}});
+}
+
+TEST(SceneProblems, OfTheIceOfFloes) {
+  const auto ice = [](const std::string& members) {
+    return scene({list("floes", {square(0, 0, 10, R"("ice": {)" + members + "}")})});
+  };
+  const auto law = [&](const std::string& members) { return ice(R"("thickness_m": {)" + members + "}"); };
+  const std::string at = "floes[0].ice.thickness_m";
+  expect_problems(
+      {{ice(R"("thickness_m": -1)"), at, "a number ≥ 0.001"},
+       {ice(R"("thickness_m": "thin")"), at, "or a law"},
+       {ice(R"("thicknes_m": 1)"), "floes[0].ice.thicknes_m", "thickness_m"},
+       {law(R"("mean": 30, "spread": 0.1)"), at + ".mean", "≤ 20"},
+       {law(R"("mean": 0.5)"), at + ".spread", "law log_normal needs it"},
+       {law(R"("law": "gamma", "spread": 0.1)"), at + ".law", "log_normal"},
+       {law(R"("law": "uniform", "mean": 0.5, "least": 0.4, "most": 0.6)"), at + ".mean",
+        "law uniform has none"},
+       {law(R"("spread": 0.1, "least": 0.6, "most": 0.4)"), at + ".least", "at most"},
+       {law(R"("spread": 0.1, "least": 0.9)"), at, "bounds around the mean"},
+       {ice(R"("density_kg_per_m3": 1050)"), "floes[0]: ice.density_kg_per_m3", "the water's density"},
+       {ice(R"("seed": -1)"), "floes[0].ice.seed", "an integer"}});
+}
+
+/// A field of ice takes long to make: what is wrong without it is reported before, and what is wrong with the
+/// ice after that.
+TEST(SceneProblems, WhatNeedsNoIceIsFoundBeforeAFieldIsMade) {
+  const std::string ice = list("floes", {R"({"field": {"corner_m": [-100, -100], "extent_m": [200, 200],
+      "concentration": 0.7, "floe_size_m": 20}})",
+                                         square(0, 50, 30)});
+  const std::string ships = list("ships", {ship()});
+  EXPECT_HAS(in_words(read(scene({ice, ships})).error()), "an overlap with floes[0]");
+  const std::string both = in_words(read(scene({ice, ships, R"("time": {"until_s": 0.001})"})).error());
+  EXPECT_HAS(both, "less than one step");
+  EXPECT_LACKS(both, "an overlap");
+}
+
+TEST(SceneProblems, OfFilesAreNamedWithThem) {
+  const TemporaryFolder folder;
+  write_file(folder / "f.geojson",
+             "{\"type\": \"MultiPolygon\", \"coordinates\": [\n[[[0,0],[10,0],[10,10],[0,0]]],\n "
+             "[[[0,0],[10,10],[10,0],[0,10],[0,0]]]]}");
+  write_file(folder / "s.json", R"({"floes": [{"file": "f.geojson"}]})");
+  EXPECT_BEGINS(to_string(read_scene_file(folder / "s.json").error().front()),
+                (folder / "f.geojson").string() + ":3:2: ");
+  EXPECT_BEGINS(to_string(read_scene_file("/no/such/scene.json").error().front()),
+                "/no/such/scene.json: found no such file, ");
+}
+
+TEST(SceneProblems, ALongKeyIsShortenedBetweenTwoCharacters) {
+  std::string key;
+  for (int i = 0; i < 50'000; ++i) key += "é";
+  const auto problems = read("{\"" + key + "\": 1}").error();
+  EXPECT_LT(to_string(problems[0]).size(), 1000U);
+  EXPECT_LT(to_json_text({problems[0]}).size(), 1000U);
+  EXPECT_HAS(to_string(problems[0]), "éé…: found an unknown key");
+}
+
+/// The scene.json of a run is the resolved scene: whatever is read must fit into what can be read again.
+TEST(SceneProblems, ASceneThatCouldNotBeReadBackIsRefused) {
+  const TemporaryFolder folder;
+  write_file(folder / "f.geojson",
+             R"({"type": "Polygon", "coordinates": [[[0,0],[1000,0],[0,1000],[0,0]]]})");
+  const std::string text = R"({"floes": [{"file": "f.geojson"}]})";
+  const std::size_t length = load(text, folder.path(), "s.json").resolved_text.size();
+  EXPECT_GT(length, text.size());
+  const auto fits = checked(read_scene(text, "s.json", folder.path(), {}, length));
+  EXPECT_TRUE(read_scene(fits->resolved_text, "scene.json", ".", {}, length).has_value());
+  const auto refused = read_scene(text, "s.json", folder.path(), {}, length - 1);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_BEGINS(to_string(refused.error().front()), fmt::format("s.json:1:1: found {} bytes", length));
+  EXPECT_GE(kLongestScene, 2 * kLongestFloesFile);
+}
+
+}  // namespace
+}  // namespace polynya::io

@@ -1,0 +1,192 @@
+#include "tests/simulation/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace polynya::simulation::scenes {
+FloeSpec fast(const geometry::Polygon& polygon, geometry::Vector velocity) {
+  FloeSpec spec = floe(polygon, velocity);
+  spec.is_fast = true;
+  return spec;
+}
+
+Ship icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed) {
+  Ship ship;
+  ship.name = "icebreaker";
+  ship.hull.waterline = wedge_bow_waterline(120, 24, 27 * kDegree);
+  ship.hull.stem_angle = 30 * kDegree;
+  ship.mass = 1e7;
+  ship.moment_of_inertia = 5e9;
+  ship.position_in_world = {stem.x - 60, stem.y};
+  ship.speed = speed;
+  ship.propulsion = propulsion;
+  return ship;
+}
+
+Ship steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed) {
+  Ship ship = icebreaker(stem, propulsion, speed);
+  set_hull_angle(ship, 0);
+  return ship;
+}
+
+Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed) {
+  Ship ship = icebreaker(middle_of_bow, propulsion, speed);
+  ship.name = "barge";
+  ship.hull.waterline = rectangle(-60, -12, 60, 12).outer;
+  set_hull_angle(ship, 0);
+  return ship;
+}
+
+void set_hull_angle(PlacedHull& ship, double angle) {
+  ship.hull.angles_from_vertical.assign(ship.hull.waterline.size(), angle);
+}
+
+WallMotion pressing(double line_load) {
+  return {{}, WallPressure{.line_load = line_load}};
+}
+
+WallMotion moving(geometry::Vector velocity) {
+  return {velocity, {}};
+}
+
+Build::Build(Laws laws) {
+  if (laws == Laws::kDefault) return;
+  contact.law = ContactLaw::kImpulse;
+  contact.iterations = 30;
+  fracture.radial_cracks = fracture::RadialCracks::kIgnored;
+  fracture.splitting = fracture::SplittingModel::kMichel;
+}
+
+Build& Build::structure(const geometry::Ring& waterline, geometry::Point at, double wall_angle) {
+  Structure structure;
+  structure.name = "structure";
+  structure.hull.waterline = waterline;
+  set_hull_angle(structure, wall_angle);
+  structure.position_in_world = at;
+  structures.push_back(structure);
+  return *this;
+}
+
+Build& Build::wall(geometry::Point from, geometry::Point to, const WallMotion& motion) {
+  walls.push_back(wall_between(from, to, 5));
+  walls.back().velocity = motion.velocity;
+  walls.back().pressure = motion.pressure;
+  return *this;
+}
+
+Build& Build::grid(geometry::Point low, int columns, int rows, double side, double pitch) {
+  for (int column = 0; column < columns; ++column)
+    for (int row = 0; row < rows; ++row)
+      floe(shapes::square({low.x + pitch * column, low.y + pitch * row}, side));
+  return *this;
+}
+
+Build& Build::of(const fracture::Ice& its_own) {
+  floes.back().own_ice = static_cast<std::int32_t>(own_ice.size());
+  own_ice.push_back(its_own);
+  return *this;
+}
+
+void listen(Simulation& simulation, Story& story) {
+  Journal& journal = simulation.journal();
+  const auto take = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  take(story.events, journal.events);
+  take(story.births, journal.births);
+  take(story.deaths, journal.deaths);
+  take(story.samples, journal.samples);
+  journal.clear();
+}
+
+Story run(Simulation& simulation, double until) {
+  Story story;
+  listen(simulation, story);
+  while (simulation.time() < until - 1e-9 && !simulation.numerical_failure()) {
+    simulation.step();
+    listen(simulation, story);
+  }
+  return story;
+}
+
+Trial run(const Scene& scene, double until, Shortcuts shortcuts) {
+  Trial run{Simulation(scene, shortcuts), {}};
+  run.story = scenes::run(run.simulation, until);
+  return run;
+}
+
+Trial run_to_first_event(const Scene& scene, double until) {
+  Trial run{Simulation(scene), {}};
+  while (run.story.events.empty() && run.simulation.time() < until - 1e-9) {
+    run.simulation.step();
+    listen(run.simulation, run.story);
+  }
+  return run;
+}
+
+void skip(Simulation& simulation, int steps) {
+  for (int i = 0; i < steps; ++i) {
+    simulation.step();
+    simulation.journal().clear();
+  }
+}
+
+Event first_bend(const Scene& scene, double until) {
+  Trial run{Simulation(scene), {}};
+  while (run.story.bends().empty() && run.simulation.time() < until) {
+    run.simulation.step();
+    run.story = {};
+    listen(run.simulation, run.story);
+  }
+  const std::vector<Event> found = run.story.bends();
+  EXPECT_FALSE(found.empty()) << "nothing bent";
+  return found.empty() ? Event{} : found.front();
+}
+
+double mean(const Story& story, dynamics::Planar ShipSample::*load, int ship, double from,
+            double dynamics::Planar::*direction) {
+  double sum = 0;
+  int count = 0;
+  for (const ShipSample& sample : story.samples) {
+    if (sample.ship != ship || sample.time < from) continue;
+    sum += (sample.*load).*direction;
+    ++count;
+  }
+  return sum / count;
+}
+
+double largest(const Story& story, dynamics::Planar ShipSample::*load, int ship) {
+  double most = 0;
+  for (const ShipSample& sample : story.samples)
+    if (sample.ship == ship) most = std::max(most, std::abs((sample.*load).surge));
+  return most;
+}
+
+void expect_closed(const Simulation& simulation) {
+  constexpr double kClosed = 1e-11;  // share of the turnover: what rounding leaves
+  const Audit audit = simulation.audit();
+  EXPECT_LE(std::abs(audit.energy_imbalance), kClosed * audit.turnover);
+  EXPECT_LE(length(audit.momentum_imbalance), kClosed * audit.momentum_turnover);
+  EXPECT_TRUE(audit.is_closed());
+  const AreaLedger areas = simulation.area_ledger();
+  EXPECT_LE(std::abs(areas.imbalance), 1e-9 * areas.initial_ice_area);
+  const MassLedger masses = simulation.mass_ledger();
+  EXPECT_LE(std::abs(masses.imbalance), 1e-9 * masses.initial_ice_mass);
+}
+
+Simulation resumed(const Scene& scene, const Simulation& simulation) {
+  auto again = Simulation::resumed(scene, simulation.state());
+  EXPECT_TRUE(again.has_value()) << again.error();
+  return std::move(*again);
+}
+
+Trial expect_resumes(const Scene& scene, double from, double until, int threads) {
+  Simulation whole(scene);
+  run(whole, from);
+  Trial again{resumed(scene, whole), {}};
+  EXPECT_EQ(again.simulation.state_hash(), whole.state_hash()) << "what is read back is what was written";
+  again.simulation.set_threads(threads);
+  run(whole, until);
+  again.story = run(again.simulation, until);
+  EXPECT_EQ(again.simulation.state_hash(), whole.state_hash());
+  return again;
+}
+
+}  // namespace polynya::simulation::scenes
