@@ -66,8 +66,7 @@ void reject(const Setup& setup, const Clock& clock, const PendingFracture& pendi
   rejected.reason = std::string(name_of(error.reason)) + ": " + error.detail;
   rejected.input = {++counts.rejected_cuts, shape.polygon, {}, {}};
   if (pending.failure == fracture::Failure::kBend) rejected.input.cusp_in_body = cusp_of(setup, pending);
-  rejected.input.crack_in_body[0] = pending.crack_in_body.start;
-  rejected.input.crack_in_body[1] = pending.crack_in_body.end;
+  rejected.input.crack_in_body = pending.crack_in_body.points();
   journal.events.push_back(std::move(event));
   pending.record->was_refused = true;
 }
