@@ -131,13 +131,13 @@ TEST(Opening, IsThatOfTheWeakerSideAndNoneWhereASideIsPushedAgainstTheOther) {
   EXPECT_EQ(opening_of(flat, {}, {1, 0}).force(), 0) << "a flat push";
 }
 
-TEST(Opening, AFaceThatLeavesTheIceDoesNotPress) {
+TEST(Opening, ASternsFaceThatLeavesTheIceDoesNotPress) {
   // A stern's corner: its side presses to the left, its transom leaves the ice behind it.
-  std::array<Face, 2> stern{{{{5, 0}, {0, 1}, 2, 0.3}, {{0, -5}, {-1, 0}, 0.3, 0}}};
+  std::array<Face, 2> stern{{{{5, 0}, {0, 1}, 2, 0}, {{0, -5}, {-1, 0}, 0.3, 0}}};
   EXPECT_TRUE(wedge_pushes({-1, 1}, stern, 0.1)) << "at rest along its heading";
-  stern[1].approach = -2;
+  stern[1].leaving = 2;
   EXPECT_FALSE(wedge_pushes({-1, 1}, stern, 0.1)) << "under way";
-  stern[1].approach = 2;
+  stern[1].leaving = -2;
   EXPECT_TRUE(wedge_pushes({-1, 1}, stern, 0.1)) << "astern";
 }
 
