@@ -80,6 +80,14 @@ TEST(Splitting, ACrackThroughAHoleBreaksEachStretchByACriterionOfItsOwn) {
   EXPECT_EQ(event.ice()->children.size(), 2u);
 }
 
+TEST(Splitting, CracksBeginOutsideOfThePileThatOpensThem) {
+  const Story story =
+      run(Build().step(0.01).pile({0, 0}, 5).floe(rectangle(5.01, -60, 125, 60), {-1.5, 0}), 30).story;
+  ASSERT_GT(story.splits().size(), 0u);
+  for (const auto& event : story.splits())
+    EXPECT_GT(std::hypot(event.point_in_world.x, event.point_in_world.y), 4.9) << "at " << event.time;
+}
+
 TEST(Splitting, ASternsCornerOpensNoCrackWhileItsTransomLeavesTheIce) {
   // A box's rear corner lies on an edge that rises by a tenth along its side; the floe drifts onto it. Under
   // way the side bears.
