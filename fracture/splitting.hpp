@@ -41,13 +41,13 @@ inline bool leaves_strip(double length, double left_area, double right_area) {
 
 /// How a crack turns that begins beside a free edge, at a distance b from it: by the largest hoop stress, in
 /// finite elements (tools/crack_plate.py, docs/theory.md, "Splitting"). Two straight legs stand for its path:
-/// end and area are right within 1 %, and nowhere is it more than 0.11 b off.
+/// end and area are right within 1 %, and nowhere is it more than 0.1 b off.
 struct TurningCrack {
-  double peak = 0.36;     ///< its length where the force is largest, of b [-]
-  double straight = 0.8;  ///< the first leg, along the free edge, of b [-]
-  double turn = 1.148;    ///< of the second leg, towards the free edge: it ends 1.25 b on [rad]
-  double most_on = 2.2;   ///< longest second leg, of b: twice that to an edge along the first [-]
-  double force = 0.297;   ///< F_max / (h K_IC √b) [-]
+  double peak = 0.35;      ///< its length where the force is largest, of b [-]
+  double straight = 0.63;  ///< the first leg, along the free edge, of b [-]
+  double turn = 1.1817;    ///< of the second leg, towards the free edge: it ends 1.04 b on [rad]
+  double most_on = 2.2;    ///< longest second leg, of b: twice that to an edge along the first [-]
+  double force = 0.293;    ///< F_max / (h K_IC √b) [-]
 };
 inline constexpr TurningCrack kTurningCrack;
 

@@ -230,32 +230,35 @@ def study_arms():
               f"{1 + 0.64 * ratio:.3f} | {math.degrees(kink(k)):.1f}° |")
 
 
-def path_of(side, step=0.12, nearest=0.12):
+def path_of(side, step, nearest=0.12):
     """The path of a crack from (0, 1) in a square plate, by steps along the largest hoop stress; F/(h K √b) at each."""
-    crack, angle, forces = [np.array([0, 1.0]), np.array([step, 1.0])], 0.0, []
+    crack, angle, tangent, forces = [np.array([0, 1.0]), np.array([step, 1.0])], 0.0, 0.0, []
     while True:
         k = intensities((side, side), crack, 0.9 * step, 0.35)
         forces.append(1 / drive(k))
-        angle += kink(k)
+        before, tangent = tangent, angle + kink(k)
+        angle = tangent + (tangent - before) / 2  # in the middle of the next step
         ahead = np.array([math.cos(angle), math.sin(angle)])
         if crack[-1][1] + step * ahead[1] < nearest:
             return np.vstack(crack + [crack[-1] - crack[-1][1] / ahead[1] * ahead]), forces
         crack.append(crack[-1] + step * ahead)
 
 
-def study_paths(straight=0.8, end=1.25):
-    print("| b/L | F_max/(h K √b) | at a/b | ends at x/b | piece/b² | mean width/b | two legs: piece/b² "
-          "| farthest off/b |\n"
-          "|---|---|---|---|---|---|---|---|")
-    for ratio in (0.02, 0.05, 0.1, 0.25):
-        path, forces = path_of(1 / ratio)
-        piece = ((path[1:, 0] - path[:-1, 0]) * (path[1:, 1] + path[:-1, 1])).sum() / 2
-        length = np.hypot(*(path[1:] - path[:-1]).T).sum()
-        legs = np.array([[0, 1], [straight, 1], [end, 0]])
-        at = 0.12 * (1 + int(np.argmax(forces)))
-        print(f"| {ratio} | {max(forces):.3f} | {at:.2f} | {path[-1, 0]:.2f} | {piece:.2f} | "
-              f"{piece / length:.2f} | {(straight + end) / 2:.2f} | {polyline_distance(path, legs).max():.2f} |")
-    print("\npath at b/L 0.25: " + ", ".join(f"({x:.2f}, {y:.2f})" for x, y in path[::2]))
+def study_paths(straight=0.63, end=1.04, step=0.05):
+    legs = np.array([[0, 1], [straight, 1], [end, 0]])
+    print("| b/L | F_max/(h K √b) at two steps, at 0 | at a/b | ends at x/b | piece/b² | path off two legs/b |\n"
+          "|---|---|---|---|---|---|")
+    for ratio in (0.02, 0.1, 0.25):
+        found = []
+        for at_step in (2 * step, step):
+            path, forces = path_of(1 / ratio, at_step)
+            piece = ((path[1:, 0] - path[:-1, 0]) * (path[1:, 1] + path[:-1, 1])).sum() / 2
+            found.append(np.array([max(forces), path[-1, 0], piece]))
+        cells = [f"{a:.3f}, {b:.3f}, {2 * b - a:.3f}" for a, b in zip(*found)]
+        print(f"| {ratio} | {cells[0]} | {step * (1 + int(np.argmax(forces))):.2f} | {cells[1]} | {cells[2]} | "
+              f"{polyline_distance(path, legs).max():.2f} |")
+    print(f"\ntwo legs: piece {(straight + end) / 2:.2f} b²; path at b/L {ratio}: "
+          + ", ".join(f"({x:.2f}, {y:.2f})" for x, y in path[::3]))
 
 
 STUDIES = {"square": study_square, "arms": study_arms, "paths": study_paths}

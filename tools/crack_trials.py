@@ -123,7 +123,7 @@ def judge(arguments, name, one):
         share = event["opening_force_N"] / event["opening_capacity_N"]
         found["most"] = max(found["most"], share)
         ice = one["ice"]["thickness_m"] * event["fracture_toughness_Pa_sqrt_m"]
-        found["turned"] += abs(event["opening_capacity_N"] - 0.297 * ice * (width / 2) ** 0.5) < 1
+        found["turned"] += abs(event["opening_capacity_N"] - 0.293 * ice * (width / 2) ** 0.5) < 1
         frame, begins_at = run.frame(event["t_s"]), np.array([event["x_m"], event["y_m"]])
         way = samples(crack_of(run, frame, event["children"], begins_at), begins_at)
         depth = max(depth_in(np.asarray(hull), way[:1])[0] for hull in frame.hulls.values())
