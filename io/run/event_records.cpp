@@ -229,8 +229,7 @@ std::string ops_text(const simulation::CutInput& cut) {
   JsonWriter json(text);
   json.open('[').open('{');
   if (cut.cusp_in_body.empty()) {
-    json.key("line").open('[').value(cut.crack_in_body[0].x).value(cut.crack_in_body[0].y);
-    json.value(cut.crack_in_body[1].x).value(cut.crack_in_body[1].y).close(']');
+    json.key("line").value(cut.crack_in_body);
   } else {
     json.key("polygon").polygon({cut.cusp_in_body, {}}).key("keep").value("both");
   }

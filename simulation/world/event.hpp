@@ -76,10 +76,10 @@ struct Grind : IceEvent {
 
 /// What a cut that geometry refused was asked to do. Written as an input of `polynya cut`.
 struct CutInput {
-  std::int64_t number = 0;            ///< of the run's rejected cuts, from 1
-  geometry::Polygon polygon_in_body;  ///< of the floe
-  geometry::Ring cusp_in_body;        ///< of a bend; empty of a split [m]
-  geometry::Point crack_in_body[2];   ///< of a split: its ends [m]
+  std::int64_t number = 0;                     ///< of the run's rejected cuts, from 1
+  geometry::Polygon polygon_in_body;           ///< of the floe
+  geometry::Ring cusp_in_body;                 ///< of a bend; empty of a split [m]
+  std::vector<geometry::Point> crack_in_body;  ///< of a split [m]
 };
 
 /// A cut that geometry refused: the floe is as it was.
