@@ -132,7 +132,10 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
   const dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
   ShipContactLoad load = load_of(setup, population, c);
-  if (is_crush_law(setup)) limit_prescribed(setup, population, load);
+  if (is_crush_law(setup)) {
+    press_prescribed(setup, population, load);
+    close_prescribed_gap(setup, bodies, c);
+  }
   add_collision(setup, bodies, load, step.loads[c.a]);
   const double horizontal = load.shares.horizontal;
   if (is_crush_law(setup))

@@ -14,8 +14,8 @@ using dynamics::Contact;
 using geometry::Pose;
 
 /// A hull is carved out of the ice each time it has come on by this share of its radius, or so far. Greater:
-/// the contact line of a round hull is shorter than the hull is wide (at x times its radius by x²/8); smaller:
-/// more cuts.
+/// the contact line of a round hull is shorter than the hull is wide (at x times its radius by x²/8);
+/// smaller: more cuts.
 constexpr double kShareOfRadius = 0.05;
 constexpr double kFarthest = 0.25;  // [m]
 
@@ -27,6 +27,13 @@ constexpr double kClearance = 1e-6;
 /// once that; a pierced body has several contact lines in one.
 constexpr double kOverload = 4;
 
+/// From here on a hull is inclined [rad].
+constexpr double kVertical = 1e-6;
+
+/// Of d w / S: an overlap of more is a crescent, whose depth along the normal is not its thickness (the power
+/// law of overlaps ends there).
+constexpr double kCrescent = 3;
+
 double tangent_of(const StepData& step, std::size_t i) {
   return i < step.slopes.size() ? std::max(0.0, step.slopes[i].tangent) : 0;
 }
@@ -35,8 +42,8 @@ double tangent_of(const StepData& step, std::size_t i) {
 struct Carving {
   FloeId floe = 0;
   const Contact* contact = nullptr;
-  geometry::Polygon tool;       ///< in the floe's frame
-  GrindCriterion criterion;     ///< without the area
+  geometry::Polygon tool;  ///< in the floe's frame
+  GrindCriterion criterion;
 };
 
 /// Where a body was some time ago.
@@ -68,13 +75,14 @@ std::vector<Carving> due_carvings(const Setup& setup, const Population& populati
     if (c.total_normal_impulse() <= 0 || c.approach_speed <= 0 || !bodies.is_alive[c.b]) continue;
     const double facet = ice_of_body(setup, population, c.b).thickness * tangent_of(step, i);
     const double least = std::min(kFarthest, kShareOfRadius * bodies.bounding_radius[c.a]);
-    if (c.depth < facet + least) continue;
+    const double least_area = c.width * (facet + least);
+    if (c.area < least_area) continue;
     if (!due.empty() && due.back().contact->a == c.a && due.back().contact->b == c.b) continue;
     const std::pair<std::int64_t, std::int64_t> both{c.a, c.b};
     if (std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end()) continue;
     const double time_ago = setup.scene.time.step + facet / c.approach_speed;
-    due.push_back({population.floe_of(c.b), &c, tool_of(setup, bodies, c, time_ago),
-                   {0, least * c.width, c.width, 0}});
+    due.push_back(
+        {population.floe_of(c.b), &c, tool_of(setup, bodies, c, time_ago), {c.area, least_area, c.width, 0}});
   }
   std::ranges::stable_sort(due, {}, &Carving::floe);
   return due;
@@ -95,25 +103,40 @@ double most_that_ice_bears(const Setup& setup, const Population& population, con
                            double slope_tangent) {
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Ice& of_b = ice_of_body(setup, population, c.b);
-  const fracture::Ice ice = population.is_hull(c.a)
-                                ? of_b
-                                : fracture::crushed_between(ice_of_body(setup, population, c.a), of_b);
+  const fracture::Ice ice =
+      population.is_hull(c.a) ? of_b : fracture::crushed_between(ice_of_body(setup, population, c.a), of_b);
   const double across = 2 * std::min(bodies.bounding_radius[c.a], bodies.bounding_radius[c.b]);
   return fracture::crushing_force(ice, ice.thickness * across) * (1 + ice.friction * slope_tangent);
 }
 
-void limit_prescribed(const Setup& setup, const Population& population, ShipContactLoad& load) {
+void press_prescribed(const Setup& setup, const Population& population, ShipContactLoad& load) {
   const Contact& c = load.contact;
   if (!is_prescribed(population.bodies, c)) return;
-  const double cosine = std::cos(load.hull_angle);
-  const double by_line = fracture::crushing_force(load.ice, load.ice.thickness * c.width / cosine);
-  load.normal_force = std::min(load.normal_force, by_line);
-  load.vertical_force = load.shares.vertical * load.normal_force;
+  const double line = load.ice.thickness * c.width / std::cos(load.hull_angle);
+  fracture::CrushedArea crushed{line, 0};
+  if (load.hull_angle > kVertical) {
+    crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);
+    crushed.slope = load.stiffness / load.ice.compressive_strength;
+    if (c.depth * c.width > kCrescent * c.area) {
+      const double thickness = c.area / c.width;
+      crushed = fracture::crushed_overlap_at({c.width, thickness, c.area}, thickness, load.ice.thickness,
+                                             load.hull_angle);
+    }
+  }
   const double most =
       most_that_ice_bears(setup, population, c, std::tan(load.hull_angle)) / load.shares.horizontal;
+  load.normal_force = std::min(fracture::crushing_force(load.ice, crushed.area), most);
+  load.vertical_force = load.shares.vertical * load.normal_force;
+  load.stiffness = fracture::crushing_force(load.ice, crushed.slope);
   const double way = setup.scene.time.step * std::max(0.0, c.approach_speed);
-  if (way * load.stiffness > most - load.normal_force)
-    load.stiffness = std::max(0.0, most - load.normal_force) / way;
+  if (way * load.stiffness > most - load.normal_force) load.stiffness = (most - load.normal_force) / way;
+}
+
+void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
+  if (!is_prescribed(bodies, c) || c.approach_speed <= 0) return;
+  const double half_a_step = 0.5 * c.width * c.approach_speed * setup.scene.time.step;  // of area
+  if (c.area + half_a_step >= c.record->loaded_area)
+    c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
 }
 
 void carve_channels(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
@@ -126,16 +149,14 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
     for (; next != due.end() && next->floe == first->floe; ++next) tools.push_back(next->tool);
     const geometry::Shape& shape = population.floes[first->floe].shape;
     const geometry::CutOutcome outcome = geometry::cut_by_polygons(shape, tools);
-    GrindCriterion criterion = first->criterion;
     if (outcome) {
-      criterion.overlap_area = outcome->ledger.area_inside;
-      Event event = event_of_carving(clock, *first, Grind{.criterion = criterion});
+      Event event = event_of_carving(clock, *first, Grind{.criterion = first->criterion});
       replace_by_pieces(setup, clock,
                         {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                         *outcome, population, accounts, journal);
     } else if (outcome.error().reason != geometry::CutFailure::kMisses) {
       RejectedCut rejected;
-      rejected.criterion = criterion;
+      rejected.criterion = first->criterion;
       rejected.reason = std::string(name_of(outcome.error().reason)) + ": " + outcome.error().detail;
       rejected.input = {++accounts.counts.rejected_cuts, shape.polygon, tools.front().outer, {}};
       journal.events.push_back(event_of_carving(clock, *first, std::move(rejected)));

@@ -14,9 +14,13 @@ inline bool is_prescribed(const dynamics::Bodies& bodies, const dynamics::Contac
 double most_that_ice_bears(const Setup& setup, const Population& population, const dynamics::Contact& c,
                            double slope_tangent);
 
-/// How fast the force of a contact between prescribed bodies may grow, so that at the end of the step it is no
-/// more than ice bears. Nothing gives way there: the growth that a shallow overlap shows would act all step.
-/// `load`: its normal force and stiffness are limited.
-void limit_prescribed(const Setup& setup, const Population& population, ShipContactLoad& load);
+/// Enters the load of a hull in fast ice where the motion of both is prescribed: as the overlap's area grows
+/// by w per metre, so much ice crushes, whatever the overlap has become; never more than a line as long as
+/// the hull is wide bears, since nothing gives way there. Else the load is as it was.
+void press_prescribed(const Setup& setup, const Population& population, ShipContactLoad& load);
+
+/// Closes the gap to what has pressed in a contact of prescribed bodies whose overlap is at least as large:
+/// its depth does not show it where ice was carved out.
+void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const dynamics::Contact& c);
 
 }  // namespace polynya::simulation

@@ -156,7 +156,8 @@ class Instants {
     double before = 0, now = 0;
     for (const Stopped& stopped : met.stopped) {
       before += stopped.force;
-      now += std::min(normal_force(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
+      now +=
+          std::min(normal_force(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
     }
     return now / before;
   }

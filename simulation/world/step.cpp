@@ -86,8 +86,7 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
   if (step.contacts.empty()) return;
   dynamics::SolverSettings settings = setup.solver;
   settings.threads = threads;
-  const dynamics::SolverResult result =
-      solve_to_splits(setup, settings, population, step, accounts.counts);
+  const dynamics::SolverResult result = solve_to_splits(setup, settings, population, step, accounts.counts);
   if (!result.is_converged()) ++accounts.counts.unconverged_steps;
   accounts.counts.largest_residual = std::max(accounts.counts.largest_residual, result.residual);
   enter_contacts(population.bodies, step.contacts, accounts);
