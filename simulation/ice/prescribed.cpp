@@ -114,14 +114,12 @@ void press_prescribed(const Setup& setup, const Population& population, ShipCont
   if (!is_prescribed(population.bodies, c)) return;
   const double line = load.ice.thickness * c.width / std::cos(load.hull_angle);
   fracture::CrushedArea crushed{line, 0};
-  if (load.hull_angle > kVertical) {
+  const bool is_crescent = c.depth * c.width > kCrescent * c.area;
+  const double facet = load.ice.thickness * std::tan(load.hull_angle);
+  const bool spans_facet = is_crescent && c.area >= c.width * facet;  // as where ice was carved out
+  if (load.hull_angle > kVertical && !spans_facet) {
     crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);
     crushed.slope = load.stiffness / load.ice.compressive_strength;
-    if (c.depth * c.width > kCrescent * c.area) {
-      const double thickness = c.area / c.width;
-      crushed = fracture::crushed_overlap_at({c.width, thickness, c.area}, thickness, load.ice.thickness,
-                                             load.hull_angle);
-    }
   }
   const double most =
       most_that_ice_bears(setup, population, c, std::tan(load.hull_angle)) / load.shares.horizontal;
