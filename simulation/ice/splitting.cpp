@@ -7,6 +7,7 @@
 #include <span>
 
 #include "simulation/ice/crack_candidate.hpp"
+#include "simulation/ice/split_instant.hpp"
 #include "simulation/ship/pressing.hpp"
 #include "simulation/ship/ship_contact_load.hpp"
 #include "simulation/world/step.hpp"
@@ -112,14 +113,13 @@ void enter_true_forces(const Setup& setup, const Population& population, const s
 
 }  // namespace
 
-void find_splits(const Setup& setup, const Population& population, StepData& step) {
-  for (PendingFracture& pending : step.fractures)
-    enter_true_forces(setup, population, step.contacts, pending);
+void find_splits(const Setup& setup, const Population& population, const std::vector<Contact>& all,
+                 std::vector<PendingFracture>& splits) {
+  splits.clear();
   if (setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) return;
-  std::vector<PendingFracture> splits;
   PressedFloe pressed;  // its memory serves all pairs
-  for (std::size_t i = 0; i < step.contacts.size();) {
-    const std::span<const Contact> contacts = contacts_beside(step.contacts, step.contacts[i]);
+  for (std::size_t i = 0; i < all.size();) {
+    const std::span<const Contact> contacts = contacts_beside(all, all[i]);
     i += contacts.size();
     const double bound = opening_bound(setup, contacts);
     for (const BodyIndex body : {contacts.front().a, contacts.front().b}) {
@@ -128,8 +128,13 @@ void find_splits(const Setup& setup, const Population& population, StepData& ste
       if (auto split = split_of(setup, population, contacts, body, pressed)) splits.push_back(*split);
     }
   }
+}
+
+void enter_splits(const Setup& setup, const Population& population, StepData& step) {
+  for (PendingFracture& pending : step.fractures)
+    enter_true_forces(setup, population, step.contacts, pending);
   // Before the bends: a bend stops the force at V_b, so what splits at it has split before.
-  step.fractures.insert(step.fractures.begin(), splits.begin(), splits.end());
+  step.fractures.insert(step.fractures.begin(), step.splits.begin(), step.splits.end());
 }
 
 }  // namespace polynya::simulation
