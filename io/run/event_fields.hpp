@@ -74,9 +74,13 @@ void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool come
 
 template <class Line>
 void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
-  line("kind", std::string_view("overlap width < least width"), kRule);
+  line("kind",
+       std::string_view(c.least_width > 0 ? "overlap width < least width"
+                                          : "crushed by prescribed motion, overlap area >= least area"),
+       kRule);
   line("width_m", c.width, {"m", "by which the overlap's area falls per metre of motion"});
-  line("least_width_m", c.least_width, {"m", "from which a contact parts the overlap", {}, 0});
+  line("least_width_m", c.least_width,
+       {"m", "from which a contact parts the overlap; 0 between prescribed motions", {}, 0});
   line("overlap_area_m2", c.overlap_area, {"m²", "of the overlap, exactly", "overlap ground", 0});
   line("least_area_m2", c.least_area, {"m²", "a smaller overlap is left", {}, 0});
 }

@@ -97,6 +97,16 @@ Event event_of_carving(const Clock& clock, const Carving& carving, Kind kind) {
   return {clock.time(), c.a, c.middle() + clock.drift(), std::move(kind)};
 }
 
+/// The share of friction that a contact of prescribed bodies has. Nothing stops their slip: friction that is
+/// all there at any would turn with its sign in rounding. It grows as crushing does from rest; along the
+/// chord of a crescent, whose two flanks slip apart, as the slip is of the motion.
+double share_of_friction(const Contact& c, bool is_crescent) {
+  const double slip = std::abs(c.slip_speed);
+  if (slip == 0) return 0;
+  return is_crescent ? slip / std::hypot(slip, c.approach_speed)
+                     : std::min(1.0, slip / dynamics::kCreepSpeed);
+}
+
 }  // namespace
 
 double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c,
@@ -125,6 +135,7 @@ void press_prescribed(const Setup& setup, const Population& population, ShipCont
       most_that_ice_bears(setup, population, c, std::tan(load.hull_angle)) / load.shares.horizontal;
   load.normal_force = std::min(fracture::crushing_force(load.ice, crushed.area), most);
   load.vertical_force = load.shares.vertical * load.normal_force;
+  load.shares.tangential *= share_of_friction(c, spans_facet);
   load.stiffness = fracture::crushing_force(load.ice, crushed.slope);
   const double way = setup.scene.time.step * std::max(0.0, c.approach_speed);
   if (way * load.stiffness > most - load.normal_force) load.stiffness = (most - load.normal_force) / way;

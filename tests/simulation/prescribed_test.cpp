@@ -90,6 +90,19 @@ TEST(Prescribed, AShipThatKeepsItsSpeedInFastIceDoesAsTheIceThatDriftsOntoIt) {
   EXPECT_NEAR(done.simulation.audit().sums.energy.crushing / (kLineLoad * beam * kWay), 1, 0.02);
 }
 
+/// Askew, nothing but the direction changes: the chord of the channel's head is across the motion, up to half
+/// of an edge of the polygon that stands for the cylinder.
+TEST(Prescribed, ACylinderIsPushedAlongTheMotionOfTheIce) {
+  Scene scene = drifting_onto(cylinder_waterline(kRadius), -kRadius, {0.5, 0.05});
+  scene.floes[0].velocity = {0.5, 0.2};
+  const Trial done = run(scene, 150);
+  const double speed = std::hypot(0.5, 0.2);
+  const dynamics::Planar force = done.story.samples.back().from_ice;
+  EXPECT_NEAR((0.5 * force.surge + 0.2 * force.sway) / speed / (kLineLoad * 2 * kRadius), 1, 0.02);
+  const double half_edge = std::numbers::pi / static_cast<double>(cylinder_waterline(kRadius).size());
+  EXPECT_NEAR(std::atan2(force.sway, force.surge), std::atan2(0.2, 0.5), half_edge + 0.01);
+}
+
 /// Across all of its plate: where the cylinder has come out, there are two floes, and the smaller is free.
 TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
   Scene scene =
