@@ -120,8 +120,8 @@ void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
     if (other == body) return;
     if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
     if (!can_press(bodies, body, other, rule_.presses_prescribed)) return;
-    const auto& smaller = entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs
-                                                                                     : entries_[other].pairs;
+    const auto& smaller =
+        entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs : entries_[other].pairs;
     const BodyIndex a = std::min(body, other);
     const BodyIndex b = std::max(body, other);
     for (const std::uint32_t pair : smaller) {
@@ -261,8 +261,8 @@ void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, Pa
   active.separation_bound = travelled + std::max(0.0, clearance - kRounding);
 }
 
-void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt,
-                               Share& share, std::vector<Contact>& contacts) {
+void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt, Share& share,
+                               std::vector<Contact>& contacts) {
   constexpr std::size_t kAhead = 8;  // pairs whose memory is fetched ahead of their turn
   const std::size_t count = find_pending(bodies, begin, end, share.pending);
   share.scratch.keeps_distant_edges = static_cast<double>(active_.size()) <= rule_.most_pairs_with_edges;

@@ -13,13 +13,12 @@ namespace polynya::dynamics {
 /// becomes several (as far as each reaches).
 class ContactTracker {
  public:
-  ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch,
-                 double circle_radius, double dt)
+  ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch, double circle_radius,
+                 double dt)
       : records_(records), updated_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
 
   /// `manifolds` are those of the contacts, one each.
-  void update(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
-              const Bodies& bodies);
+  void update(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds, const Bodies& bodies);
 
  private:
   struct Patch {             ///< a contact's, in b's frame
@@ -29,15 +28,13 @@ class ContactTracker {
     bool is_pierced;
     bool holds(geometry::Point point_in_b) const;
   };
-  static Patch patch_of(const Contact& contact, const geometry::ContactManifold& manifold,
-                        const Bodies& bodies);
+  static Patch patch_of(const Contact& contact, const geometry::ContactManifold& manifold, const Bodies& bodies);
   double reach_of(const PersistentContact& record, const Patch& patch) const;
   PersistentContact record_of(const Contact& contact, const Patch& patch, const Bodies& bodies);
   void keep_what_pressed(const Contact& contact, const Patch& patch, PersistentContact& record) const;
   void join_left_over(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
                       const Bodies& bodies);
-  void advance(PersistentContact& record, const Contact& contact, const Patch& patch,
-               const Bodies& bodies) const;
+  void advance(PersistentContact& record, const Contact& contact, const Patch& patch, const Bodies& bodies) const;
 
   std::vector<PersistentContact>& records_;
   std::vector<PersistentContact>& updated_;

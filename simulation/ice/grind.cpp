@@ -47,8 +47,8 @@ GrindCriterion criterion_of(const Population& population, const BlindOverlap& ov
 
 /// A kind of event with what all that happens to overlaps has.
 template <class Kind>
-Event event_of(const Population& population, const Clock& clock, const BlindOverlap& overlap,
-               BodyIndex ground, Kind kind) {
+Event event_of(const Population& population, const Clock& clock, const BlindOverlap& overlap, BodyIndex ground,
+               Kind kind) {
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
   const bool is_by_hull = population.is_hull(by);
   kind.floe = population.floe_of(ground);
@@ -89,12 +89,11 @@ void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vec
       criterion.overlap_area = outcome->ledger.area_inside;
       if (criterion.overlap_area < criterion.least_area) continue;
       Event event = event_of(population, clock, overlap, ground, Grind{.criterion = criterion});
-      replace_by_pieces(setup, clock,
-                        {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
+      replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                         *outcome, population, accounts, journal);
     } else if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
-      RejectedCut rejected = rejected_cut(criterion, shape.polygon, tool.outer, outcome.error(),
-                                          ++accounts.counts.rejected_cuts);
+      RejectedCut rejected =
+          rejected_cut(criterion, shape.polygon, tool.outer, outcome.error(), ++accounts.counts.rejected_cuts);
       journal.events.push_back(event_of(population, clock, overlap, ground, std::move(rejected)));
       accounts.refused_grinds.push_back(both);
     }
