@@ -12,7 +12,6 @@
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/box_tree.hpp"
 #include "io/run/motion_index.hpp"
-#include "io/run/placed_floes.hpp"
 
 namespace polynya::analysis {
 namespace {
