@@ -17,7 +17,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/run/placed_floes.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/text/csv_row.hpp"
 #include "io/text/geojson_layer.hpp"
 
