@@ -195,7 +195,11 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
       find_near(bodies, pair, pose, rule, scratch);
     pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
   }
+  const auto tracker_of = [&](std::vector<PersistentContact>& records) {
+    return ContactTracker(records, scratch.records, scratch.parted, rule.circle_radius, dt);
+  };
   if (!pair.has_near_edges()) {
+    if (pair.parts != nullptr) tracker_of(pair.parts->records).end(pair.a, pair.b, bodies);
     take_inside(bodies, pair, pose, rule, scratch);
     pair.parts.reset();
     pair.apart = pair.near;
@@ -204,15 +208,14 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
   const std::size_t first = contacts.size();
   const bool is_apart = collect(bodies, pair, pose, rule, scratch, contacts);
   if (!is_apart) {
-    ContactTracker(pair.parts->records, scratch.records, rule.circle_radius, dt)
-        .update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
+    tracker_of(pair.parts->records).update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
     pair.apart.distance = -1;
     pair.is_outside = false;
     return -1;
   }
   // Circles lie inside the ice: no two can overlap while the boundaries are apart.
   const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.parts->edges);
-  pair.parts->records.clear();
+  tracker_of(pair.parts->records).end(pair.a, pair.b, bodies);
   pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};
   if (!scratch.keeps_distant_edges && gap > rule.kept_gap) forget_near(pair);
   return pair.apart.distance;

@@ -106,6 +106,7 @@ struct PairScratch {
   geometry::ManifoldScratch crossings;
   std::vector<PersistentContact> records;  ///< of the pair at hand, being updated
   std::vector<BlindOverlap> blind;         ///< found so far
+  std::vector<PartedContact> parted;       ///< found so far
   std::int64_t unpaired = 0;               ///< contact stretches whose crossings did not pair up, counted on
 };
 

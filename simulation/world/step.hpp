@@ -79,6 +79,11 @@ void grind_blind_overlaps(const Setup& setup, const Clock& clock,
                           const std::vector<dynamics::BlindOverlap>& overlaps, Population& population,
                           Accounts& accounts, Journal& journal);
 
+/// By the law of crushing ice: cuts off what contacts crushed that have parted, or that crushed much, and
+/// makes it brash, in the order of the pairs.
+void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                      Accounts& accounts, Journal& journal);
+
 /// Puts floes that tilted far enough under the hulls.
 void apply_submersions(const Setup& setup, const Clock& clock, const std::vector<PendingSubmersion>& pending,
                        Population& population, Accounts& accounts, Journal& journal);
@@ -104,7 +109,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 25> kStages;
+extern const std::array<Stage, 26> kStages;
 
 /// One time step: all stages.
 void step(World& world);

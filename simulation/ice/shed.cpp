@@ -1,0 +1,108 @@
+#include <algorithm>
+
+#include "simulation/ice/cut_overlap.hpp"
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+
+/// What a contact has crushed is cut off when it has parted from this share of the smaller body on, or from
+/// this share of h²; while the two still touch, from twice that on. Smaller, floes become new ones at every
+/// touch.
+constexpr double kLeastShareOfBody = 0.005;
+constexpr double kLeastShareOfThickness = 1;
+
+/// From which area on what is crushed is cut off [m²].
+double least_crushed(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
+  const double smaller = std::min(population.bodies.area[a], population.bodies.area[b]);
+  const double h = ice_of_body(setup, population, ground_of(setup, population, a, b)).thickness;
+  return std::min(kLeastShareOfBody * smaller, kLeastShareOfThickness * h * h);
+}
+
+/// All contacts of a pair.
+struct Touching {
+  std::span<const Contact> contacts;
+  std::span<const HullSlope> slopes;  ///< none of two floes
+
+  bool is_pressing() const {
+    return std::ranges::any_of(contacts, [](const Contact& c) { return c.total_normal_impulse() > 0; });
+  }
+  /// Against vertical walls the force depends on the contact's width alone. A hull that leans crushes a
+  /// wedge: a new edge would take it from the start.
+  bool is_vertical() const {
+    return std::ranges::all_of(slopes, [](const HullSlope& slope) { return slope.tangent == 0; });
+  }
+  double crushed_area() const {  ///< of the overlap now [m²]
+    double area = 0;
+    for (const Contact& c : contacts)
+      area += c.record->crushed.area > 0 ? std::min(c.area, c.record->loaded_area) : 0;
+    return area;
+  }
+  const Contact& largest() const {
+    return *std::ranges::max_element(contacts, {}, [](const Contact& c) { return c.record->crushed.area; });
+  }
+};
+
+/// Calls use(touching) for each pair that touched in the step.
+template <class Use>
+void for_touching(const StepData& step, Use use) {
+  const std::span<const Contact> all(step.contacts);
+  for (std::size_t first = 0; first < all.size();) {
+    std::size_t end = first + 1;
+    while (end < all.size() && all[end].a == all[first].a && all[end].b == all[first].b) ++end;
+    const bool has_slopes = first < step.slopes.size();
+    use(Touching{all.subspan(first, end - first), has_slopes
+                                                      ? std::span(step.slopes).subspan(first, end - first)
+                                                      : std::span<const HullSlope>()});
+    first = end;
+  }
+}
+
+/// Where what a pair crushed is cut off: where the most of it pressed, and where they are, unless they press:
+/// then what they come to share in the step goes on being their contact.
+std::vector<geometry::Pose> poses_of(const dynamics::Bodies& bodies, const Touching& touching) {
+  const Contact& c = touching.largest();
+  std::vector<geometry::Pose> poses{c.record->crushed.a_from_b};
+  if (!touching.is_pressing())
+    poses.push_back(
+        relative_pose(dynamics::water_from_body(bodies, c.a), dynamics::water_from_body(bodies, c.b)));
+  return poses;
+}
+
+bool is_tilted(const Population& population, BodyIndex ship, BodyIndex floe) {
+  return std::ranges::any_of(population.tilted, [&](const TiltedFloe& tilted) {
+    return tilted.ship == ship && population.body_of(tilted.floe) == floe;
+  });
+}
+
+}  // namespace
+
+void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                      Accounts& accounts, Journal& journal) {
+  if (!is_crush_law(setup)) return;
+  for (const dynamics::PartedContact& parted : step.parted) {
+    if (!can_cut(population, accounts, parted.a, parted.b)) continue;
+    const double least = least_crushed(setup, population, parted.a, parted.b);
+    if (parted.crushed.area < least) continue;
+    cut_overlap(setup, clock,
+                {parted.a, parted.b, {parted.crushed.a_from_b}, parted.middle, {parted.crushed.area, least}},
+                population, accounts, journal);
+  }
+  for_touching(step, [&](const Touching& touching) {
+    const Contact& c = touching.contacts.front();
+    const double crushed = touching.crushed_area();
+    if (crushed == 0 || !can_cut(population, accounts, c.a, c.b)) return;
+    const double least = 2 * least_crushed(setup, population, c.a, c.b);
+    if (crushed < least || (touching.is_pressing() && !touching.is_vertical())) return;
+    if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
+    const OverlapCut cut{
+        c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
+    for (const Contact& contact : touching.contacts)
+      contact.record->crushed = {};  // the pieces have none of it
+    cut_overlap(setup, clock, cut, population, accounts, journal);
+  });
+}
+
+}  // namespace polynya::simulation
