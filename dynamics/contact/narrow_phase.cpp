@@ -18,6 +18,10 @@ constexpr double kNearMargin = 0.75;
 /// A body's neighbours in a field, and some of the next one's. Fewer: covers are made again more often.
 constexpr std::size_t kSecond = 32;
 
+/// Of the power law of an overlap, d w / S. A hull in the notch that it crushed has all of its notch in the
+/// extent of a thin overlap.
+constexpr double kMostPower = 3;
+
 geometry::CircleRule circle_rule(const ContactRule& rule) {
   return {rule.circle_radius, rule.is_circle_centres};
 }
@@ -127,6 +131,7 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
     c.width = manifold.width;
     c.depth = manifold.depth;
     c.area = manifold.area;
+    if (rule.is_depth_bounded && c.width > 0) c.depth = std::min(c.depth, kMostPower * c.area / c.width);
     c.tip_edge_of_b = manifold.tip_edge_of_b;
     c.place = number++;
     const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -

@@ -8,17 +8,21 @@ namespace {
 
 using dynamics::Contact;
 
-/// What a contact has crushed is cut off when it has parted from this share of the smaller body on, or from
-/// this share of h²; while the two still touch, from twice that on. Smaller, floes become new ones at every
-/// touch.
-constexpr double kLeastShareOfBody = 0.005;
-constexpr double kLeastShareOfThickness = 1;
+/// What a contact crushed is cut off when it has parted: from this share of the smaller body on, or from h² on.
+/// Smaller, floes become new ones at every touch.
+constexpr double kLeastPartedShare = 0.005;
+/// While the two touch: from this share on. Smaller, large ice is cut more often than the ledger needs; greater,
+/// bodies stay in each other.
+constexpr double kLeastTouchingShare = 0.01;
 
-/// From which area on what is crushed is cut off [m²].
-double least_crushed(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
-  const double smaller = std::min(population.bodies.area[a], population.bodies.area[b]);
+double smaller_area(const Population& population, BodyIndex a, BodyIndex b) {
+  return std::min(population.bodies.area[a], population.bodies.area[b]);
+}
+
+/// From which area on what a contact crushed that has parted is cut off [m²].
+double least_parted(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
   const double h = ice_of_body(setup, population, ground_of(setup, population, a, b)).thickness;
-  return std::min(kLeastShareOfBody * smaller, kLeastShareOfThickness * h * h);
+  return std::min(kLeastPartedShare * smaller_area(population, a, b), h * h);
 }
 
 /// All contacts of a pair.
@@ -84,7 +88,7 @@ void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& st
   if (!is_crush_law(setup)) return;
   for (const dynamics::PartedContact& parted : step.parted) {
     if (!can_cut(population, accounts, parted.a, parted.b)) continue;
-    const double least = least_crushed(setup, population, parted.a, parted.b);
+    const double least = least_parted(setup, population, parted.a, parted.b);
     if (parted.crushed.area < least) continue;
     cut_overlap(setup, clock,
                 {parted.a, parted.b, {parted.crushed.a_from_b}, parted.middle, {parted.crushed.area, least}},
@@ -94,7 +98,7 @@ void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& st
     const Contact& c = touching.contacts.front();
     const double crushed = touching.crushed_area();
     if (crushed == 0 || !can_cut(population, accounts, c.a, c.b)) return;
-    const double least = 2 * least_crushed(setup, population, c.a, c.b);
+    const double least = kLeastTouchingShare * smaller_area(population, c.a, c.b);
     if (crushed < least || (touching.is_pressing() && !touching.is_vertical())) return;
     if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
     const OverlapCut cut{
