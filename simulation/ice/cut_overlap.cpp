@@ -57,7 +57,7 @@ BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex 
   return population.bodies.area[a] < population.bodies.area[b] ? a : b;
 }
 
-void cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overlap, Population& population,
+bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overlap, Population& population,
                  Accounts& accounts, Journal& journal) {
   const BodyIndex ground = ground_of(setup, population, overlap.a, overlap.b);
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
@@ -71,17 +71,20 @@ void cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overl
   GrindCriterion criterion = overlap.criterion;
   if (outcome) {
     criterion.overlap_area = outcome->ledger.area_inside;
-    if (criterion.overlap_area < criterion.least_area) return;
+    if (criterion.overlap_area < criterion.least_area) return false;
     Event event = event_of(population, clock, overlap, ground, Grind{.criterion = criterion});
     replace_by_pieces(setup, clock,
                       {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                       *outcome, population, accounts, journal);
-  } else if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
+    return true;
+  }
+  if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
     RejectedCut rejected = rejected_cut(criterion, shape.polygon, tools.front().outer, outcome.error(),
                                         ++accounts.counts.rejected_cuts);
     journal.events.push_back(event_of(population, clock, overlap, ground, std::move(rejected)));
     accounts.refused_grinds.emplace_back(overlap.a, overlap.b);
   }
+  return false;
 }
 
 }  // namespace polynya::simulation

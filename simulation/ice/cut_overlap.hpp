@@ -22,8 +22,8 @@ bool can_cut(const Population& population, const Accounts& accounts, BodyIndex a
 BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b);
 
 /// Cuts what the two share from the floe that is ground, by the other's outline, and makes it brash: event
-/// `grind`. Nothing where that is less than the criterion's least area.
-void cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overlap, Population& population,
+/// `grind`. Nothing where that is less than the criterion's least area: returns whether it was cut.
+bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overlap, Population& population,
                  Accounts& accounts, Journal& journal);
 
 }  // namespace polynya::simulation

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "simulation/ice/cut_overlap.hpp"
 #include "simulation/world/step.hpp"
@@ -8,12 +9,12 @@ namespace {
 
 using dynamics::Contact;
 
-/// What a contact crushed is cut off when it has parted: from this share of the smaller body on, or from h² on.
-/// Smaller, floes become new ones at every touch.
+/// What a contact crushed is cut off when it has parted: from this share of the smaller body on, or from h²
+/// on. Smaller, floes become new ones at every touch.
 constexpr double kLeastPartedShare = 0.005;
-/// While the two touch: from this share on. Smaller, large ice is cut more often than the ledger needs; greater,
-/// bodies stay in each other.
-constexpr double kLeastTouchingShare = 0.01;
+/// While the two touch: from this share on. Smaller, ice is cut more often; greater, bodies share more than 1
+/// % of the smaller when they part, since some of that has not pressed.
+constexpr double kLeastTouchingShare = 0.008;
 
 double smaller_area(const Population& population, BodyIndex a, BodyIndex b) {
   return std::min(population.bodies.area[a], population.bodies.area[b]);
@@ -81,31 +82,67 @@ bool is_tilted(const Population& population, BodyIndex ship, BodyIndex floe) {
   });
 }
 
+/// A body, or what it broke into in this step: its pieces have its frame.
+std::vector<BodyIndex> left_of(const Population& population, const Clock& clock, BodyIndex body) {
+  if (population.bodies.is_alive[body]) return {body};
+  const FloeId first = population.floe_of(body);
+  std::vector<BodyIndex> left;
+  for (FloeId id = population.floe_count() - 1; id > first && population.floes[id].born == clock.time();
+       --id) {
+    FloeId ancestor = population.floes[id].parent;
+    while (ancestor > first) ancestor = population.floes[ancestor].parent;
+    if (ancestor == first && population.is_alive(id)) left.push_back(population.body_of(id));
+  }
+  std::ranges::sort(left);
+  return left;
+}
+
+/// Cuts off what a contact crushed that has parted.
+void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedContact& parted,
+                 Population& population, Accounts& accounts, Journal& journal) {
+  for (const BodyIndex a : left_of(population, clock, parted.a)) {
+    for (const BodyIndex b : left_of(population, clock, parted.b)) {
+      const bool is_in_order = a < b;  // pieces have numbers of their own
+      const BodyIndex low = is_in_order ? a : b;
+      const BodyIndex high = is_in_order ? b : a;
+      if (!can_cut(population, accounts, low, high)) continue;
+      const double least = least_parted(setup, population, low, high);
+      if (parted.crushed.area < least) continue;
+      const geometry::Pose pose = parted.crushed.a_from_b;
+      cut_overlap(
+          setup, clock,
+          {low, high, {is_in_order ? pose : inverse(pose)}, parted.middle, {parted.crushed.area, least}},
+          population, accounts, journal);
+    }
+  }
+}
+
+/// Cuts off what contacts crushed that last, where it is much.
+void shed_touching(const Setup& setup, const Clock& clock, const Touching& touching, Population& population,
+                   Accounts& accounts, Journal& journal) {
+  const Contact& c = touching.contacts.front();
+  const double crushed = touching.crushed_area();
+  if (crushed == 0 || !can_cut(population, accounts, c.a, c.b)) return;
+  const double least = kLeastTouchingShare * smaller_area(population, c.a, c.b);
+  if (crushed < least || (touching.is_pressing() && !touching.is_vertical())) return;
+  if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
+  const OverlapCut cut{
+      c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
+  std::vector<dynamics::CrushedIce> kept;  // the pieces inherit none of it
+  for (const Contact& contact : touching.contacts) kept.push_back(std::exchange(contact.record->crushed, {}));
+  if (cut_overlap(setup, clock, cut, population, accounts, journal)) return;
+  for (std::size_t i = 0; i < kept.size(); ++i) touching.contacts[i].record->crushed = kept[i];
+}
+
 }  // namespace
 
 void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
                       Accounts& accounts, Journal& journal) {
   if (!is_crush_law(setup)) return;
-  for (const dynamics::PartedContact& parted : step.parted) {
-    if (!can_cut(population, accounts, parted.a, parted.b)) continue;
-    const double least = least_parted(setup, population, parted.a, parted.b);
-    if (parted.crushed.area < least) continue;
-    cut_overlap(setup, clock,
-                {parted.a, parted.b, {parted.crushed.a_from_b}, parted.middle, {parted.crushed.area, least}},
-                population, accounts, journal);
-  }
+  for (const dynamics::PartedContact& parted : step.parted)
+    shed_parted(setup, clock, parted, population, accounts, journal);
   for_touching(step, [&](const Touching& touching) {
-    const Contact& c = touching.contacts.front();
-    const double crushed = touching.crushed_area();
-    if (crushed == 0 || !can_cut(population, accounts, c.a, c.b)) return;
-    const double least = kLeastTouchingShare * smaller_area(population, c.a, c.b);
-    if (crushed < least || (touching.is_pressing() && !touching.is_vertical())) return;
-    if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
-    const OverlapCut cut{
-        c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
-    for (const Contact& contact : touching.contacts)
-      contact.record->crushed = {};  // the pieces have none of it
-    cut_overlap(setup, clock, cut, population, accounts, journal);
+    shed_touching(setup, clock, touching, population, accounts, journal);
   });
 }
 
