@@ -18,9 +18,12 @@ constexpr double kNearMargin = 0.75;
 /// A body's neighbours in a field, and some of the next one's. Fewer: covers are made again more often.
 constexpr std::size_t kSecond = 32;
 
-/// Of the power law of an overlap, d w / S. A hull in the notch that it crushed has all of its notch in the
-/// extent of a thin overlap.
+/// Most power of the power law of an overlap, d w / S. Beyond it the extent shows the notch that a body lies
+/// in rather than the overlap, which is thin: its mean thickness is its depth.
 constexpr double kMostPower = 3;
+double bounded_depth(const geometry::ContactManifold& m) {
+  return m.depth * m.width > kMostPower * m.area ? m.area / m.width : m.depth;
+}
 
 geometry::CircleRule circle_rule(const ContactRule& rule) {
   return {rule.circle_radius, rule.is_circle_centres};
@@ -131,7 +134,7 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
     c.width = manifold.width;
     c.depth = manifold.depth;
     c.area = manifold.area;
-    if (rule.is_depth_bounded && c.width > 0) c.depth = std::min(c.depth, kMostPower * c.area / c.width);
+    if (rule.is_depth_bounded) c.depth = bounded_depth(manifold);
     c.tip_edge_of_b = manifold.tip_edge_of_b;
     c.place = number++;
     const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -

@@ -9,12 +9,10 @@ namespace {
 
 using dynamics::Contact;
 
-/// What a contact crushed is cut off when it has parted: from this share of the smaller body on, or from h²
-/// on. Smaller, floes become new ones at every touch.
-constexpr double kLeastPartedShare = 0.005;
-/// While the two touch: from this share on. Smaller, ice is cut more often; greater, bodies share more than 1
-/// % of the smaller when they part, since some of that has not pressed.
-constexpr double kLeastTouchingShare = 0.008;
+/// What a contact crushed is cut off from this share of the smaller body on; when it has parted also from h²
+/// on. Smaller, floes become new ones at every touch; greater, bodies share more than 1 % of the smaller when
+/// they part: half a per cent may not have pressed (contact_tracker.cpp).
+constexpr double kLeastCrushedShare = 0.005;
 
 double smaller_area(const Population& population, BodyIndex a, BodyIndex b) {
   return std::min(population.bodies.area[a], population.bodies.area[b]);
@@ -23,7 +21,7 @@ double smaller_area(const Population& population, BodyIndex a, BodyIndex b) {
 /// From which area on what a contact crushed that has parted is cut off [m²].
 double least_parted(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
   const double h = ice_of_body(setup, population, ground_of(setup, population, a, b)).thickness;
-  return std::min(kLeastPartedShare * smaller_area(population, a, b), h * h);
+  return std::min(kLeastCrushedShare * smaller_area(population, a, b), h * h);
 }
 
 /// All contacts of a pair.
@@ -123,7 +121,7 @@ void shed_touching(const Setup& setup, const Clock& clock, const Touching& touch
   const Contact& c = touching.contacts.front();
   const double crushed = touching.crushed_area();
   if (crushed == 0 || !can_cut(population, accounts, c.a, c.b)) return;
-  const double least = kLeastTouchingShare * smaller_area(population, c.a, c.b);
+  const double least = kLeastCrushedShare * smaller_area(population, c.a, c.b);
   if (crushed < least || (touching.is_pressing() && !touching.is_vertical())) return;
   if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
   const OverlapCut cut{

@@ -9,9 +9,9 @@ namespace {
 
 using namespace scenes;
 
-/// A floe that runs onto a pile with its side, and past it.
+/// A floe that runs onto a pile with its side, and past it: .5 % of the pile is more than it crushes.
 Scene floe_past_pile() {
-  return Build().without_drag().unbreakable().pile({0, 0}, 2).floe(rectangle(2.5, 1.7, 32.5, 31.7), {-2, 0});
+  return Build().without_drag().unbreakable().pile({0, 0}, 10).floe(rectangle(2.5, 9.75, 32.5, 39.75), {-2, 0});
 }
 
 /// A floe of 8 x 4 m between a vertical bow and a pier.
