@@ -202,7 +202,10 @@ TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
     factors.push_back(event.criteria().flexural_strength / fracture::Ice{}.flexural_strength);
   ASSERT_GT(factors.size(), 50u);
   const auto measures = fracture::measure({fracture::ScatterKind::kLogNormal, 1, 0.2}, factors);
-  EXPECT_LT(measures.distance, 1.63 / std::sqrt(static_cast<double>(factors.size())));
+  // Of places that touch at once the weakest breaks first: the mean of eight seeds is .93 to .97, the
+  // distance up to 3.2/√n, twice the 1.63/√n that strengths drawn without regard to that have.
+  EXPECT_LT(measures.distance, 3.5 / std::sqrt(static_cast<double>(factors.size())));
+  EXPECT_NEAR(measures.mean, 0.96, 0.04);
   EXPECT_NEAR(measures.spread, 0.2, 0.08);
 }
 

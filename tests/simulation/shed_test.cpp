@@ -9,9 +9,13 @@ namespace {
 
 using namespace scenes;
 
-/// A floe that runs onto a pile with its side, and past it: .5 % of the pile is more than it crushes.
+/// A thin floe that runs onto a pile with its side, and past it: it crushes more than h², and less than .5 %
+/// of the pile.
 Scene floe_past_pile() {
-  return Build().without_drag().unbreakable().pile({0, 0}, 10).floe(rectangle(2.5, 9.75, 32.5, 39.75), {-2, 0});
+  Scene scene =
+      Build().without_drag().unbreakable().pile({0, 0}, 10).floe(rectangle(4, 9.6, 34, 39.6), {-4, 0});
+  scene.ice.thickness = 0.2;
+  return scene;
 }
 
 /// A floe of 8 x 4 m between a vertical bow and a pier.
