@@ -6,12 +6,12 @@
 
 #include <tl/expected.hpp>
 
+#include "analysis/placed_ice.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
 
 namespace polynya::analysis {
-
 /// The channel behind a ship at an instant of its run (docs/channel.md). The ship's track and the band its
 /// hull swept are carried with the water to that instant; floes are where the run has them.
 
@@ -99,5 +99,24 @@ tl::expected<Channel, std::string> measure_channel(const io::Run& run, const Cha
 tl::expected<std::vector<ChannelStation>, std::string> measure_stations(const io::Run& run,
                                                                         const io::MotionIndex& motions,
                                                                         const ChannelOptions& options);
+
+/// How much of each floe that reaches into polygons lies in them, the largest floe first. Fails with words
+/// where geometry refuses.
+tl::expected<std::vector<ChannelFloe>, std::string> floes_in(const std::vector<geometry::Polygon>& polygons,
+                                                             const std::vector<PlacedIce>& ice);
+
+/// Measures the brash in a channel from ice to ice, in the cells of its stations and piece by piece. Fails
+/// with words where geometry refuses.
+tl::expected<void, std::string> measure_brash(Channel& channel, const std::vector<geometry::Polygon>& cells,
+                                              const std::vector<PlacedIce>& brash);
+
+/// A channel for people: stations, widths, what is left in the band, with units in the heads.
+std::string to_table(const Channel& channel);
+/// One row a station.
+std::string to_csv(const Channel& channel);
+/// Everything but the shapes, one object.
+std::string to_json_text(const Channel& channel);
+/// Open water, swept band, track and stations as a FeatureCollection in metres of the scene's plane.
+std::string to_geojson(const Channel& channel);
 
 }  // namespace polynya::analysis

@@ -47,8 +47,8 @@ RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thic
   if (recession <= 0 || depth <= 0) return result;
   // ξ + r A_c(ξ) grows, and is convex but where the facet comes to span the thickness: Newton's method,
   // within a bracket.
-  constexpr int kMostTries = 60;
-  constexpr double kTolerance = 1e-12;
+  constexpr int kMostTries = 60;        // bisection alone comes to the last bit in 53
+  constexpr double kTolerance = 1e-12;  // of the depth: coarser, and the law's force steps between two depths
   double shallow = 0, deep = depth;
   for (int i = 0; i < kMostTries; ++i) {
     const double excess = result.penetration + recession * result.crushed.area - depth;

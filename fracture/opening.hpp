@@ -13,6 +13,7 @@ struct Face {
   geometry::Point middle;   ///< [m]
   geometry::Vector normal;  ///< unit, into the ice
   double slip = 0;          ///< of the body relative to the ice, along perpendicular(normal) [m/s]
+  double leaving = 0;       ///< speed at which a stern's face moves away from the ice; 0 of others [m/s]
 };
 
 /// What a face does to the ice.
@@ -26,9 +27,9 @@ struct Push {
 inline constexpr double kFullSlip = 5e-3;
 
 /// The force of a wedge on ice, resolved into those of its two faces: each presses along its normal and drags
-/// the ice along with μ of that, F = Σ N_i (n_i + μ t_i). None where one of them would have to pull: then the
-/// body bears on the other alone. For a stem of half-angle α that sails ahead each face pushes sideways with
-/// F (1 − μ tan α) / [2 (tan α + μ)].
+/// the ice along with μ of that, F = Σ N_i (n_i + μ t_i). None where one of them would have to pull, or is a
+/// stern's that leaves the ice faster than kFullSlip: then the body bears on the other alone. For a stem of
+/// half-angle α that sails ahead each face pushes sideways with F (1 − μ tan α) / [2 (tan α + μ)].
 std::optional<std::array<Push, 2>> wedge_pushes(geometry::Vector force, const std::array<Face, 2>& faces,
                                                 double friction);
 

@@ -10,6 +10,7 @@ namespace {
 
 using boost::math::normal;
 
+/// The largest double below 1: the quantile of 1 is infinite.
 constexpr double kAlmostOne = 1 - 0x1p-53;
 
 /// Of log-normal laws, the logarithm's.

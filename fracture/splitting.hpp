@@ -29,6 +29,34 @@ inline double lefm_splitting_force(const Ice& ice, double length, double width) 
          std::min(0.187 * std::sqrt(width), 0.2105 * std::sqrt(length));
 }
 
+/// W/L down to which that was fitted. Cracks with less ice beside them do not run straight: they turn to the
+/// free edge there.
+inline constexpr double kLeastWidthOverLength = 0.25;
+
+/// Whether a straight crack of that length [m] leaves a strip, with the areas beside it [m²]. W is twice the
+/// mean width of its narrower side.
+inline bool leaves_strip(double length, double left_area, double right_area) {
+  return 2 * std::min(left_area, right_area) < kLeastWidthOverLength * length * length;
+}
+
+/// How a crack turns that begins beside a free edge, at a distance b from it: by the largest hoop stress, in
+/// finite elements (tools/crack_plate.py, docs/theory.md, "Splitting"). Two straight legs stand for its path:
+/// end and area are right within 1 %, and nowhere is it more than 0.1 b off.
+struct TurningCrack {
+  double peak = 0.35;      ///< its length where the force is largest, of b [-]
+  double straight = 0.63;  ///< the first leg, along the free edge, of b [-]
+  double turn = 1.1817;    ///< of the second leg, towards the free edge: it ends 1.04 b on [rad]
+  double most_on = 2.2;    ///< longest second leg, of b: twice that to an edge along the first [-]
+  double force = 0.293;    ///< F_max / (h K_IC √b) [-]
+};
+inline constexpr TurningCrack kTurningCrack;
+
+/// The pair of opposite forces at its mouth that drives a crack to the free edge at the distance b [m] beside
+/// it, where the plate is much larger than b [N]. By the same finite elements, b/L from 0.02 to 0.25.
+inline double turning_crack_force(const Ice& ice, double b) {
+  return kTurningCrack.force * ice.thickness * ice.fracture_toughness * std::sqrt(b);
+}
+
 /// The least ice that a crack leaves on either side, else it would pare the floe's edge: such ice breaks off
 /// by bending, in pieces of the size of l. By the characteristic length l = (D / ρ_w g)^¼, however Eq. (7) is
 /// read: half of the least floe that breaks, a square of side l.

@@ -6,6 +6,7 @@
 Sizes have two digits, so that the picture is not new with every line. An arrow goes from a room to one whose headers it
 includes; arrows that follow from others (a room below a room below) are left out.
 """
+import argparse
 import pathlib
 import re
 import sys
@@ -133,8 +134,10 @@ def picture():
 
 
 def main(words):
-    made = picture()
-    if words == ["--check"]:
+    parser = argparse.ArgumentParser(description="Draws docs/images/rooms.svg from the tree.")
+    parser.add_argument("--check", action="store_true", help="fail where it is not what the tree gives")
+    made, options = picture(), parser.parse_args(words)
+    if options.check:
         if PICTURE.exists() and PICTURE.read_text() == made:
             return 0
         print(f"{PICTURE.relative_to(ROOT)} is not what the tree gives: python3 tools/rooms.py")

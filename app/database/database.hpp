@@ -8,7 +8,7 @@
 #include <tl/expected.hpp>
 
 #include "app/command_line/command_line.hpp"
-#include "app/command_line/exit_code.hpp"
+#include "app/command_line/console.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/bending/database.hpp"
 #include "fracture/materials.hpp"

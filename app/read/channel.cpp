@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "analysis/channel_text.hpp"
 #include "app/command_line/commands.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"

@@ -5,7 +5,7 @@
 
 #include <tl/expected.hpp>
 
-#include "app/command_line/exit_code.hpp"
+#include "app/command_line/console.hpp"
 #include "app/command_line/progress.hpp"
 #include "io/scene/scene_reader.hpp"
 

@@ -89,7 +89,7 @@ void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
   print_out("fractures   {} broken by bending, {}, {}\n", counted(counts.bends, "cusp"),
             counted(counts.splits, "split"), counted(counts.rejected_cuts, "rejected cut"));
   if (counts.ground > 0)
-    print_out("ground      {} that no contact could part, to brash\n", counted(counts.ground, "overlap"));
+    print_out("ground      {} that contacts did not part, to brash\n", counted(counts.ground, "overlap"));
   print_under_hull(counts, ledger);
   print_out("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
   const double submerged = ledger.submerged_area + ledger.under_hull_area + ledger.under_ice_area;

@@ -38,6 +38,7 @@ namespace {
 /// Some bodies side by side, for loops that the compiler turns into vector instructions. Plain arrays: it
 /// does not of those that check their indices.
 struct Lanes {
+  // So many that the arrays stay in the first cache. No result changes.
   static constexpr std::size_t kMost = 32;
   BodyIndex body[kMost];
   // The motion through the water, and what changes it.

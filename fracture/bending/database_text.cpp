@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kTitle = "polynya-bending-database 1";
 constexpr std::string_view kColumns = "columns force radius crack";
-constexpr std::size_t kMostGridValues = 64;
+constexpr std::size_t kMostGridValues = 64;  ///< of an axis: a damaged count must not reserve memory
 
 struct FluidName {
   FluidModel fluid;

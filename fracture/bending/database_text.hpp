@@ -29,6 +29,7 @@ std::string write_database(const BendingDatabase& database);
 /// bytes.
 tl::expected<BendingDatabase, DatabaseError> parse_database(std::string_view text);
 
+// A damaged file must not take memory without bound; the shipped one has 13 500 lines in 0.35 MB.
 inline constexpr std::size_t kMostEntries = 200'000;
 inline constexpr std::size_t kLargestFile = 16'000'000;
 

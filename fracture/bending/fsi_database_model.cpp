@@ -45,7 +45,7 @@ BendingCapacity to_capacity(const DatabaseAnswer& answer, const ScaledLoad& load
 /// the bisector of a part where its bottom fibre fails before its top fibre does. The parts bear V in equal
 /// shares; where they bear less than the load that opened the last crack, they break under that one.
 DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGroups& whole) {
-  constexpr int kMostParts = 16;
+  constexpr int kMostParts = 16;  // of a half plane: 11° each, narrower than the table's least wedge
   const double crack_ratio = database.look_up(whole).crack_ratio;
   double at_crack = 0;
   for (int parts = 1;; parts *= 2) {
@@ -65,7 +65,7 @@ DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGr
 }
 
 bool has_poisson_ratio_of(const BendingDatabase& database, const BendingLoad& load) {
-  constexpr double kTolerance = 1e-9;
+  constexpr double kTolerance = 1e-9;  // of rounding: exact equality would count every other load as outside
   return std::abs(load.ice.poisson_ratio - database.settings().poisson_ratio) <= kTolerance;
 }
 

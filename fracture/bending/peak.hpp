@@ -20,6 +20,7 @@ Peak find_peak(std::span<const double> places, std::span<const double> values);
 /// maximum inside its reach.
 double find_flat_peak(std::span<const double> places, std::span<const double> values);
 
+/// Narrower, and the unevenness of samples moves the place; wider, and a quartic no longer fits the maximum.
 inline constexpr double kFlatPeakReach = 2.5;
 
 }  // namespace polynya::fracture

@@ -16,8 +16,7 @@ set(POLYNYA_BENDING_SOURCES
   bending/internal/march.cpp
   bending/internal/modes.cpp
   bending/internal/plate.cpp
-  bending/kashtelyan.cpp
-  bending/nevel.cpp
+  bending/published_forms.cpp
   bending/peak.cpp
   bending/scaled_load.cpp
   bending/solver_settings.cpp

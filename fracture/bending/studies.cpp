@@ -6,8 +6,7 @@
 #include <random>
 
 #include "fracture/bending/internal/for_each_index.hpp"
-#include "fracture/bending/kashtelyan.hpp"
-#include "fracture/bending/nevel.hpp"
+#include "fracture/bending/published_forms.hpp"
 
 namespace polynya::fracture {
 namespace {

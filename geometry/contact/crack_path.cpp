@@ -25,10 +25,15 @@ std::vector<LineCrossing> crossings_of_line(const Boundary& boundary, Point poin
   return crossings;
 }
 
+std::vector<Point> CrackPath::points() const {
+  if (knee) return {start, *knee, end};
+  return {start, end};
+}
+
 CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin,
                      CrackReach reach) {
   const std::vector<LineCrossing> crossings = crossings_of_line(boundary, point, direction);
-  CrackPath path{point - margin * direction, point + margin * direction, 0, 0, 0};
+  CrackPath path{point - margin * direction, point + margin * direction};
   // The line is in ice between crossings 0–1, 2–3, …: an even count, since every ring is closed.
   double start = -margin;
   for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
@@ -39,6 +44,7 @@ CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, do
     if (enter <= 0 || (reach == CrackReach::kFirstEdge && path.length_in_ice == 0)) start = enter - margin;
     if (path.length_in_ice == 0) path.first_edge = first_edge;
     path.last_edge = last_edge;
+    ++path.stretches;
     path.length_in_ice += leave - std::max(0.0, enter);
     path.end = point + (leave + margin) * direction;
     if (reach == CrackReach::kFirstEdge && boundary.edges.ring[last_edge] == 0) break;
@@ -47,18 +53,48 @@ CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, do
   return path;
 }
 
+std::vector<CrackPath> ligaments_of(const Boundary& boundary, Point point, Vector direction, double margin,
+                                    const CrackPath& path) {
+  const std::vector<LineCrossing> crossings = crossings_of_line(boundary, point, direction);
+  const double end = dot(path.end - point, direction);
+  std::vector<CrackPath> ligaments;
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+    const auto [enter, first_edge] = crossings[i];
+    const auto [leave, last_edge] = crossings[i + 1];
+    if (leave <= 0) continue;
+    if (enter >= end) break;
+    const Point start = ligaments.empty() ? path.start : point + (enter - margin) * direction;
+    ligaments.push_back({start, point + (leave + margin) * direction, leave - std::max(0.0, enter),
+                         first_edge, last_edge, 1});
+  }
+  return ligaments;
+}
+
+std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice,
+                                     Point knee, Vector onward, double margin) {
+  if (straight.stretches != 1 || distance(first_ice, knee) >= straight.length_in_ice) return std::nullopt;
+  const CrackPath last_leg = crack_path(boundary, knee, onward, margin, CrackReach::kFirstEdge);
+  if (last_leg.stretches != 1) return std::nullopt;
+  CrackPath path = straight;
+  path.end = last_leg.end;
+  path.last_edge = last_leg.last_edge;
+  path.length_in_ice = distance(first_ice, knee) + last_leg.length_in_ice;
+  path.knee = knee;
+  return path;
+}
+
 CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
   const EdgeList& edges = boundary.edges;
   if (path.length_in_ice <= 0 || edges.ring[path.first_edge] != 0 || edges.ring[path.last_edge] != 0)
     return {};
-  const Vector crack = path.end - path.start;
-  const auto crossing = [&](std::uint32_t edge) {
+  const auto crossing = [&](std::uint32_t edge, Point leg_from, Point leg_to) {
+    const Vector leg = leg_to - leg_from;
     const Point from = edges.from(edge);
     const Vector along = edges.to(edge) - from;
-    return from + (cross(crack, path.start - from) / cross(crack, along)) * along;
+    return from + (cross(leg, leg_from - from) / cross(leg, along)) * along;
   };
-  const Point start = crossing(path.first_edge);
-  const Point end = crossing(path.last_edge);
+  const Point start = crossing(path.first_edge, path.start, path.knee.value_or(path.end));
+  const Point end = crossing(path.last_edge, path.knee.value_or(path.start), path.end);
   const auto doubled = [&](Point p, Point q) { return cross(p - end, q - end); };
   double all = 0;
   for (std::uint32_t e = 0; e < edges.size() && edges.ring[e] == 0; ++e)
@@ -68,7 +104,47 @@ CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
   for (std::uint32_t e = edges.next[path.last_edge]; e != path.first_edge; e = edges.next[e])
     left += doubled(edges.from(e), edges.to(e));
   left += doubled(edges.from(path.first_edge), start);
+  if (path.knee) left += doubled(start, *path.knee);
   return {0.5 * left, 0.5 * (all - left)};
+}
+
+std::optional<Arm> arm_beside(const Boundary& boundary, Point first_ice, Vector direction, double share) {
+  constexpr int kMostSteps = 20;      // each makes the width right to some tenth where the edge is not even
+  constexpr double kAccuracy = 1e-3;  // of the width
+  const Vector across = perpendicular(direction);
+  const auto nearest_at = [&](double along) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const LineCrossing& crossing : crossings_of_line(boundary, first_ice + along * direction, across))
+      if (std::abs(crossing.at) < std::abs(nearest)) nearest = crossing.at;
+    return nearest;
+  };
+  double along = 1e-3;  // within the ice
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double nearest = nearest_at(along);
+    if (!std::isfinite(nearest)) return std::nullopt;
+    const double width = std::abs(nearest);
+    if (std::abs(share * width - along) <= kAccuracy * width) return Arm{width, nearest > 0};
+    along = share * width;
+  }
+  return std::nullopt;
+}
+
+Passage passage_through(const Boundary& body, Point point, Vector direction) {
+  constexpr double kRounding = 1e-6;  // of where two boundaries cross [m]
+  Passage passage{0, 0, std::numeric_limits<double>::infinity()};
+  const std::vector<LineCrossing> crossings = crossings_of_line(body, point, direction);
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+    const double enter = crossings[i].at;
+    const double leave = crossings[i + 1].at;
+    if (leave <= kRounding || leave - enter <= kRounding) continue;
+    if (enter > passage.ahead + kRounding) {
+      passage.again = enter;
+      break;
+    }
+    if (passage.ahead == 0) passage.behind = std::min(0.0, enter);
+    passage.ahead = leave;
+  }
+  return passage;
 }
 
 double crack_width(const Boundary& boundary, const CrackPath& path, double share_of_way) {

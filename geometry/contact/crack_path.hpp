@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "geometry/contact/boundary.hpp"
 
 namespace polynya::geometry {
@@ -14,13 +17,17 @@ struct LineCrossing {
 /// closed. In doubles; tests only edges near the line where the boundary is ready.
 std::vector<LineCrossing> crossings_of_line(const Boundary& boundary, Point point, Vector direction);
 
-/// A straight path through a floe, from a point on or near its boundary to its far side.
+/// A path through a floe, from a point on or near its boundary to its far side: straight, or of two legs.
 struct CrackPath {
   Point start;                   ///< just outside the ice behind the point [m]
   Point end;                     ///< just outside the ice at its far end [m]
   double length_in_ice = 0;      ///< [m]
   std::uint32_t first_edge = 0;  ///< of the boundary, that it starts at; of use where length_in_ice > 0
   std::uint32_t last_edge = 0;   ///< that it ends at
+  int stretches = 0;             ///< of ice: more than one where it crosses holes or other water
+  std::optional<Point> knee = std::nullopt;  ///< where it turns [m]
+
+  std::vector<Point> points() const;
 };
 
 /// How far a crack runs.
@@ -35,6 +42,16 @@ enum class CrackReach {
 CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin,
                      CrackReach reach = CrackReach::kFarSide);
 
+/// The stretches of ice of a straight crack_path, each as a path of its own: more than one where it crosses
+/// holes. Of the same arguments.
+std::vector<CrackPath> ligaments_of(const Boundary& boundary, Point point, Vector direction, double margin,
+                                    const CrackPath& path);
+
+/// The path that follows a straight one from its first ice on to `knee`, and from there the unit direction
+/// `onward` to the edge of the floe. None where it would cross water on its way.
+std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice,
+                                     Point knee, Vector onward, double margin);
+
 /// The ice on the two sides of a crack, holes counted as ice [m²].
 struct CrackSides {
   double left = 0;
@@ -44,6 +61,25 @@ struct CrackSides {
 /// What a crack would part, by the outer boundary between its ends. Both 0 where it parts nothing: where it
 /// starts or ends in a hole.
 CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path);
+
+/// The ice between a straight crack and the boundary beside it, on the side where that is nearer.
+struct Arm {
+  double width = 0;      ///< across the crack [m]
+  bool is_left = false;  ///< of the crack
+};
+
+/// The arm beside a crack that begins at `first_ice`, where the crack is `share` as long as the arm is wide.
+/// None where no boundary is beside it.
+std::optional<Arm> arm_beside(const Boundary& boundary, Point first_ice, Vector direction, double share);
+
+/// Where a line through a point of a body leaves that body: behind the point (≤ 0) and ahead of it (≥ 0),
+/// both 0 where the point is not inside [m].
+struct Passage {
+  double behind = 0;
+  double ahead = 0;
+  double again = 0;  ///< where the line ahead enters the body once more; infinite where it does not
+};
+Passage passage_through(const Boundary& body, Point point, Vector direction);
 
 /// Twice the ice on a crack's narrower side, measured across it from a share of its way to the nearest
 /// boundary on either side, holes included [m].

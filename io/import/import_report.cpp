@@ -9,7 +9,6 @@
 #include "geometry/shape/angle.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/lenient_json.hpp"
 #include "io/text/problem.hpp"
 
 namespace polynya::io {

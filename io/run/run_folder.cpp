@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "io/run/checkpoint.hpp"
-#include "io/run/rejected_cut.hpp"
+#include "io/run/event_records.hpp"
 #include "io/run/summary.hpp"
 #include "io/text/output_file.hpp"
 

@@ -10,7 +10,7 @@
 #include "io/run/record_reader.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
-#include "io/text/json_fault.hpp"
+#include "io/text/json_parser.hpp"
 #include "io/text/source_text.hpp"
 
 namespace polynya::io {

@@ -12,7 +12,6 @@
 #include "io/run/checkpoint.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
-#include "io/run/rejected_cut.hpp"
 
 namespace polynya::io {
 namespace {

@@ -113,6 +113,7 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
   json.key("snap_rounded").value(counts.snap_rounded);
+  json.key("unresolved_splits").value(counts.unresolved_splits);
   json.key("unconverged_steps").value(counts.unconverged_steps);
   json.key("largest_left_over_m_per_s").value(counts.largest_residual);
   json.key("energy_created_J").value(counts.energy_created);
@@ -164,6 +165,8 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
     if (count > 0) warnings.push_back(fmt::format("{} {}", counted(count, noun), words));
   };
   warn(counts.rejected_cuts, "rejected cut", "in events.ndjson, each with its reason");
+  warn(counts.unresolved_splits, "split",
+       "did not run: their contacts could not be stopped at the force that splits (unresolved_splits)");
   warn(counts.unconverged_steps, "step", "used all sweeps of the contact solver (contact.iterations)");
   warn(counts.database_out_of_range, "bending load",
        simulation.scene().fracture.bending == simulation::BendingModelKind::kFsiDatabase

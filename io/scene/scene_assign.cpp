@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "io/scene/record.hpp"
-#include "io/text/json_fault.hpp"
 #include "io/text/json_parser.hpp"
 
 namespace polynya::io {

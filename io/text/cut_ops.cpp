@@ -10,7 +10,7 @@
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/text/floe_text.hpp"
-#include "io/text/lenient_json.hpp"
+#include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
 
 namespace polynya::io {

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "io/text/birth_shapes.hpp"
-#include "io/text/geojson_entries.hpp"
-#include "io/text/lenient_json.hpp"
+#include "io/text/geojson_layer.hpp"
+#include "io/text/json_parser.hpp"
 #include "io/text/text_kind.hpp"
 #include "io/text/wkt.hpp"
 

@@ -2,7 +2,7 @@
 (app/command_line/python.cpp does).
 
 How a command may end is decided here, once for all of them: by the exit codes of
-app/command_line/exit_code.hpp, with messages in sentences. A traceback goes into a file.
+app/command_line/console.hpp, with messages in sentences. A traceback goes into a file.
 """
 import importlib
 import io

@@ -41,7 +41,7 @@ class SceneError(ValueError):
 
 class InputError(Exception):
     """What a command was given is wrong: `problems`, a line each, and the `code` to exit with
-    (app/command_line/exit_code.hpp)."""
+    (app/command_line/console.hpp)."""
 
     def __init__(self, problems, code=3):
         self.problems = list(problems) if isinstance(problems, (list, tuple)) else [problems]

@@ -8,9 +8,6 @@
 namespace polynya::simulation {
 namespace {
 
-/// A crack starts and ends this far outside the ice, so that it separates [m].
-constexpr double kCrackMargin = 1e-3;
-
 /// The force that a crack takes is largest here on its way: at 0.05–0.175 of it, 0.15 of a square's. Beyond,
 /// it runs whatever is there.
 constexpr double kPeak = 0.15;
@@ -30,8 +27,8 @@ void measure_crack(const dynamics::Bodies& bodies, BodyIndex floe, const geometr
   criteria.crack_width = geometry::crack_width(*bodies.boundary[floe], path, kPeak);
 }
 
-void measure_sides(const Setup& setup, const Population& population, BodyIndex floe,
-                   const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
+geometry::CrackSides measure_sides(const Setup& setup, const Population& population, BodyIndex floe,
+                                   const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
   const geometry::CrackSides sides = sides_of_crack(*population.bodies.boundary[floe], path);
   const double l =
       fracture::characteristic_length(ice_of_body(setup, population, floe), setup.scene.water.water);
@@ -39,6 +36,7 @@ void measure_sides(const Setup& setup, const Population& population, BodyIndex f
   criteria.crack_width = std::max(criteria.crack_width, mean_width);
   criteria.pares =
       fracture::pares(setup.scene.fracture.least_piece, l, path.length_in_ice, sides.left, sides.right);
+  return sides;
 }
 
 void measure_crack_and_sides(const Setup& setup, const Population& population, BodyIndex floe,

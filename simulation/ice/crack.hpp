@@ -8,6 +8,9 @@
 
 namespace polynya::simulation {
 
+/// A crack starts and ends this far outside the ice, so that it separates [m].
+inline constexpr double kCrackMargin = 1e-3;
+
 /// The crack through a floe from a point along a unit direction, both in the water frame.
 geometry::CrackPath crack_through(const dynamics::Bodies& bodies, BodyIndex floe, geometry::Point point,
                                   geometry::Vector direction, geometry::CrackReach reach);
@@ -19,9 +22,9 @@ void measure_crack(const dynamics::Bodies& bodies, BodyIndex floe, const geometr
 
 /// Enters whether the crack would pare the floe's edge, and its width: at least twice the mean one of the ice
 /// on the narrower side, since a crack that leaves an edge at a slant has that edge beside it. Takes a walk
-/// around the floe; after measure_crack.
-void measure_sides(const Setup& setup, const Population& population, BodyIndex floe,
-                   const geometry::CrackPath& path, fracture::FailureCriteria& criteria);
+/// around the floe; after measure_crack. Returns the ice on the two sides.
+geometry::CrackSides measure_sides(const Setup& setup, const Population& population, BodyIndex floe,
+                                   const geometry::CrackPath& path, fracture::FailureCriteria& criteria);
 
 /// Both, one after the other.
 void measure_crack_and_sides(const Setup& setup, const Population& population, BodyIndex floe,

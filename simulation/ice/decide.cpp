@@ -3,7 +3,9 @@
 
 #include "dynamics/chunks.hpp"
 #include "fracture/splitting.hpp"
+#include "simulation/ice/breaking.hpp"
 #include "simulation/ice/crack.hpp"
+#include "simulation/ice/prescribed.hpp"
 #include "simulation/ship/ship_contact_load.hpp"
 #include "simulation/world/step.hpp"
 
@@ -35,16 +37,6 @@ void set_crushing(Contact& c, CrushingForce crushing, double dt, bool is_just_bo
   if (!is_new || is_just_born || crushing.force <= 0 || c.approach_speed <= 0) return;
   const double exponent = crushing.stiffness * c.depth / crushing.force;
   c.missed_impulse = std::min(dt, c.depth / c.approach_speed) * crushing.force / (1 + exponent);
-}
-
-/// The force at which a contact's ice breaks. One found deeper than that broke on the way, at the share
-/// (F_b/F)^(1/n) of its depth.
-void set_breaking(Contact& c, double force) {
-  c.breaking_force = force;
-  if (c.missed_impulse == 0 || c.crushing_force <= force) return;
-  const double exponent = c.crushing_stiffness * c.depth / c.crushing_force;
-  const double share_of_force = force / c.crushing_force;
-  c.missed_impulse *= share_of_force * (exponent > 0 ? std::pow(share_of_force, 1 / exponent) : 1);
 }
 
 /// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
@@ -139,7 +131,11 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
                     StepData& step, Counts& counts) {
   const dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
-  const ShipContactLoad load = load_of(setup, population, c);
+  ShipContactLoad load = load_of(setup, population, c);
+  if (is_crush_law(setup)) {
+    press_prescribed(setup, population, load);
+    close_prescribed_gap(setup, bodies, c);
+  }
   add_collision(setup, bodies, load, step.loads[c.a]);
   const double horizontal = load.shares.horizontal;
   if (is_crush_law(setup))
@@ -154,7 +150,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
       pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
   if (!breaks || c.record->was_refused) return;
   if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
-    set_breaking(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
+    break_at(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
   step.fractures.push_back(pending);
 }
 

@@ -15,7 +15,7 @@ geometry::Ring cusp_of(const Setup& setup, const PendingFracture& pending) {
 geometry::CutOutcome cut(const Setup& setup, const geometry::Shape& shape, const PendingFracture& pending) {
   if (pending.failure == fracture::Failure::kBend)
     return geometry::cut_by_polygon(shape, {cusp_of(setup, pending), {}});
-  return geometry::cut_along(shape, {pending.crack_in_body.start, pending.crack_in_body.end});
+  return geometry::cut_along(shape, pending.crack_in_body.points());
 }
 
 /// Whether the ice where the hull first touched has broken off with other cusps since: a fast ship goes
@@ -66,8 +66,7 @@ void reject(const Setup& setup, const Clock& clock, const PendingFracture& pendi
   rejected.reason = std::string(name_of(error.reason)) + ": " + error.detail;
   rejected.input = {++counts.rejected_cuts, shape.polygon, {}, {}};
   if (pending.failure == fracture::Failure::kBend) rejected.input.cusp_in_body = cusp_of(setup, pending);
-  rejected.input.crack_in_body[0] = pending.crack_in_body.start;
-  rejected.input.crack_in_body[1] = pending.crack_in_body.end;
+  rejected.input.crack_in_body = pending.crack_in_body.points();
   journal.events.push_back(std::move(event));
   pending.record->was_refused = true;
 }

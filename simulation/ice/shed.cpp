@@ -48,6 +48,11 @@ struct Touching {
   }
 };
 
+/// Whether carve_channels() takes what two bodies crush: their motion is prescribed.
+bool is_carved(const dynamics::Bodies& bodies, BodyIndex a, BodyIndex b) {
+  return bodies.inverse_mass[a] == 0 && bodies.inverse_mass[b] == 0;
+}
+
 /// Calls use(touching) for each pair that touched in the step.
 template <class Use>
 void for_touching(const StepData& step, Use use) {
@@ -103,7 +108,7 @@ void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedC
       const bool is_in_order = a < b;  // pieces have numbers of their own
       const BodyIndex low = is_in_order ? a : b;
       const BodyIndex high = is_in_order ? b : a;
-      if (!can_cut(population, accounts, low, high)) continue;
+      if (is_carved(population.bodies, low, high) || !can_cut(population, accounts, low, high)) continue;
       const double least = least_parted(setup, population, low, high);
       if (parted.crushed.area < least) continue;
       const geometry::Pose pose = parted.crushed.a_from_b;
@@ -120,7 +125,8 @@ void shed_touching(const Setup& setup, const Clock& clock, const Touching& touch
                    Accounts& accounts, Journal& journal) {
   const Contact& c = touching.contacts.front();
   const double crushed = touching.crushed_area();
-  if (crushed == 0 || !can_cut(population, accounts, c.a, c.b)) return;
+  if (crushed == 0 || is_carved(population.bodies, c.a, c.b)) return;
+  if (!can_cut(population, accounts, c.a, c.b)) return;
   const double least = kLeastCrushedShare * smaller_area(population, c.a, c.b);
   if (crushed < least || (touching.is_pressing() && !touching.is_vertical())) return;
   if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;

@@ -6,7 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "simulation/ice/crack.hpp"
+#include "simulation/ice/crack_candidate.hpp"
+#include "simulation/ice/split_instant.hpp"
 #include "simulation/ship/pressing.hpp"
 #include "simulation/ship/ship_contact_load.hpp"
 #include "simulation/world/step.hpp"
@@ -21,55 +22,10 @@ using geometry::Vector;
 constexpr int kDirectionsASide = 5;
 constexpr double kBetweenDirections = std::numbers::pi / 12;  // [rad]
 
-/// A crack that a body may open in a floe.
-struct Candidate {
-  Mouth mouth;
-  geometry::CrackPath path_in_body;
-  fracture::FailureCriteria criteria;
-  double share() const { return criteria.opening_force / criteria.opening_capacity; }
-};
-
-/// The opening of a crack, and F_max by the length and width measured so far.
-void enter_opening(const fracture::Opening& opening, const fracture::Ice& ice,
-                   fracture::FailureCriteria& criteria) {
-  criteria.flank_forces[0] = opening.left;
-  criteria.flank_forces[1] = opening.right;
-  criteria.opening_force = opening.force();
-  criteria.opening_capacity =
-      fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
-}
-
-/// The crack from a mouth along a direction, where it can run: it does not pare, and it is no less than a
-/// share of its way to F_max.
-std::optional<Candidate> candidate_of(const Setup& setup, const Population& population, BodyIndex floe,
-                                      const PressedFloe& pressed, const Mouth& mouth, Vector direction,
-                                      double least_share) {
-  const dynamics::Bodies& bodies = population.bodies;
-  const fracture::Opening opening = fracture::opening_of(pressed.pushes, mouth.point, direction);
-  const fracture::Ice& ice = ice_of_body(setup, population, floe);
-  const double least_force = limits_of_body(setup, population, floe).least_splitting_force;
-  if (opening.force() <= 0 || opening.force() < least_share * least_force) return std::nullopt;
-  Candidate candidate;
-  candidate.mouth = mouth;
-  fracture::FailureCriteria& criteria = candidate.criteria;
-  candidate.path_in_body =
-      crack_through(bodies, floe, mouth.point, direction, geometry::CrackReach::kFirstEdge);
-  if (candidate.path_in_body.length_in_ice <= 0) return std::nullopt;
-  measure_crack(bodies, floe, candidate.path_in_body, criteria);
-  enter_opening(opening, ice, criteria);
-  criteria.fracture_toughness = ice.fracture_toughness;
-  if (!(candidate.share() >= least_share)) return std::nullopt;
-  measure_sides(setup, population, floe, candidate.path_in_body, criteria);
-  criteria.opening_capacity =
-      fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
-  if (criteria.pares || !(candidate.share() >= least_share)) return std::nullopt;
-  return candidate;
-}
-
 /// The crack that is nearest to running.
-std::optional<Candidate> first_to_run(const Setup& setup, const Population& population, BodyIndex floe,
-                                      const PressedFloe& pressed, double least_share) {
-  std::optional<Candidate> best;
+std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population& population, BodyIndex floe,
+                                           const PressedFloe& pressed, double least_share) {
+  std::optional<CrackCandidate> best;
   for (const Mouth& mouth : pressed.mouths) {
     if (mouth.contact->record->was_refused) continue;
     for (int k = 0; k <= 2 * kDirectionsASide; ++k) {  // 0, 15°, −15°, 30°, …
@@ -77,7 +33,7 @@ std::optional<Candidate> first_to_run(const Setup& setup, const Population& popu
       const double turn = from_normal * (k % 2 == 0 ? -kBetweenDirections : kBetweenDirections);
       const Vector direction = rotate(geometry::Rotation::by(turn), mouth.direction);
       const double share = best ? std::max(least_share, best->share()) : least_share;
-      auto candidate = candidate_of(setup, population, floe, pressed, mouth, direction, share);
+      auto candidate = crack_candidate(setup, population, floe, pressed, mouth, direction, share);
       if (candidate && (!best || candidate->share() > best->share())) best = candidate;
     }
   }
@@ -105,7 +61,7 @@ std::optional<PendingFracture> split_of(const Setup& setup, const Population& po
   split.ship = population.is_hull(by) ? by : -1;
   split.by_floe = population.is_hull(by) ? kNoFloe : population.floe_of(by);
   split.floe = population.floe_of(floe);
-  split.point_in_water = crack->mouth.point;
+  split.point_in_water = crack->begins_at;
   split.normal = into_floe(c, floe);
   split.penetration = c.depth;
   split.crack_in_body = crack->path_in_body;
@@ -157,14 +113,13 @@ void enter_true_forces(const Setup& setup, const Population& population, const s
 
 }  // namespace
 
-void find_splits(const Setup& setup, const Population& population, StepData& step) {
-  for (PendingFracture& pending : step.fractures)
-    enter_true_forces(setup, population, step.contacts, pending);
+void find_splits(const Setup& setup, const Population& population, const std::vector<Contact>& all,
+                 std::vector<PendingFracture>& splits) {
+  splits.clear();
   if (setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) return;
-  std::vector<PendingFracture> splits;
   PressedFloe pressed;  // its memory serves all pairs
-  for (std::size_t i = 0; i < step.contacts.size();) {
-    const std::span<const Contact> contacts = contacts_beside(step.contacts, step.contacts[i]);
+  for (std::size_t i = 0; i < all.size();) {
+    const std::span<const Contact> contacts = contacts_beside(all, all[i]);
     i += contacts.size();
     const double bound = opening_bound(setup, contacts);
     for (const BodyIndex body : {contacts.front().a, contacts.front().b}) {
@@ -173,8 +128,13 @@ void find_splits(const Setup& setup, const Population& population, StepData& ste
       if (auto split = split_of(setup, population, contacts, body, pressed)) splits.push_back(*split);
     }
   }
+}
+
+void enter_splits(const Setup& setup, const Population& population, StepData& step) {
+  for (PendingFracture& pending : step.fractures)
+    enter_true_forces(setup, population, step.contacts, pending);
   // Before the bends: a bend stops the force at V_b, so what splits at it has split before.
-  step.fractures.insert(step.fractures.begin(), splits.begin(), splits.end());
+  step.fractures.insert(step.fractures.begin(), step.splits.begin(), step.splits.end());
 }
 
 }  // namespace polynya::simulation

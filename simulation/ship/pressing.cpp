@@ -19,6 +19,12 @@ namespace {
 /// Faces shorter than this, and tips nearer to the contact line, are none [m].
 constexpr double kLeastFace = 1e-9;
 
+/// Whether a face of a body belongs to a ship's stern: its normal is within 60° of straight aft.
+bool is_aft(const dynamics::Bodies& bodies, BodyIndex by, Vector normal) {
+  return bodies.kind[by] == dynamics::BodyKind::kShip &&
+         dot(normal, rotate(bodies.rotation[by], {1, 0})) < -0.5;
+}
+
 fracture::Face face_of(const dynamics::Bodies& bodies, const Contact& c, BodyIndex floe, Point end,
                        Point tip) {
   const BodyIndex by = other_of(c, floe);
@@ -27,7 +33,8 @@ fracture::Face face_of(const dynamics::Bodies& bodies, const Contact& c, BodyInd
   if (dot(normal, into_floe(c, floe)) < 0) normal = -normal;
   const Vector relative = velocity_at(bodies, by, middle - bodies.position[by]) -
                           velocity_at(bodies, floe, middle - bodies.position[floe]);
-  return {middle, normal, dot(relative, perpendicular(normal))};
+  const double leaving = is_aft(bodies, by, normal) ? -dot(relative, normal) : 0;
+  return {middle, normal, dot(relative, perpendicular(normal)), leaving};
 }
 
 /// The pushes of a contact where the other body's corner is in the floe.

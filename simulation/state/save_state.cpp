@@ -53,7 +53,7 @@ std::string save_state(const World& world) {
   for (const dynamics::PairState& pair : pairs) separation_bound.push_back(pair.separation_bound);
   ByteWriter archive;
   write(archive, world, pairs);
-  archive(separation_bound, world.accounts.masses);
+  archive(separation_bound, world.accounts.masses, world.accounts.counts.unresolved_splits);
   return archive.take();
 }
 

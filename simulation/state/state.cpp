@@ -58,7 +58,7 @@ class StateLoader {
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_ice_at_hulls();
     if (bytes_.is_well()) load_pairs();
-    bytes_(world_.accounts.masses);
+    bytes_(world_.accounts.masses, world_.accounts.counts.unresolved_splits);
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
     if (bytes_.is_well()) {
       if (auto defect = validate_world(world_)) bytes_.fail(*std::move(defect));
@@ -67,7 +67,7 @@ class StateLoader {
   }
 
  private:
-  static constexpr std::int64_t kMostSteps = 1'000'000'000;
+  static constexpr std::int64_t kMostSteps = 1'000'000'000;  // 58 days of the default step: more is damage
   static constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
 
   void load_accounts() {

@@ -18,8 +18,8 @@ namespace polynya::simulation {
 using FloeId = std::int64_t;
 inline constexpr FloeId kNoFloe = -1;
 
-/// What decides that an overlap becomes brash: it is large, and no motion of the bodies reduces it (the
-/// gradient of its area is small), or it was crushed (docs/theory.md, "Contact").
+/// What decides that an overlap becomes brash: it is large, and no motion of the bodies reduces it, since the
+/// gradient of its area is small or nothing moves the two, or it was crushed (docs/theory.md, "Contact").
 struct GrindCriterion {
   double overlap_area = 0;  ///< [m²]
   double least_area = 0;    ///< a smaller overlap is left [m²]
@@ -68,7 +68,7 @@ struct Split : IceEvent {
   fracture::FailureCriteria criterion = {};
 };
 
-/// An overlap that no contact could part was ground to brash, or one that a contact crushed was cut off.
+/// An overlap that no contact could part was ground to brash, or one that was crushed was cut off.
 struct Grind : IceEvent {
   static constexpr std::string_view kName = "grind";
   GrindCriterion criterion = {};
@@ -76,10 +76,10 @@ struct Grind : IceEvent {
 
 /// What a cut that geometry refused was asked to do. Written as an input of `polynya cut`.
 struct CutInput {
-  std::int64_t number = 0;            ///< of the run's rejected cuts, from 1
-  geometry::Polygon polygon_in_body;  ///< of the floe
-  geometry::Ring cusp_in_body;        ///< of a bend; empty of a split [m]
-  geometry::Point crack_in_body[2];   ///< of a split: its ends [m]
+  std::int64_t number = 0;                     ///< of the run's rejected cuts, from 1
+  geometry::Polygon polygon_in_body;           ///< of the floe
+  geometry::Ring cusp_in_body;                 ///< of a bend; empty of a split [m]
+  std::vector<geometry::Point> crack_in_body;  ///< of a split [m]
 };
 
 /// A cut that geometry refused: the floe is as it was.

@@ -68,7 +68,7 @@ struct ShipSample {
 /// What happened since the caller last cleared it; the vectors keep their capacity, but for the births of the
 /// scene's many floes.
 struct Journal {
-  static constexpr std::size_t kManyBirths = 1000;
+  static constexpr std::size_t kManyBirths = 1000;  ///< of a scene; what breaks in a step stays below
   std::vector<Event> events;
   std::vector<Birth> births;
   std::vector<Death> deaths;
@@ -123,6 +123,7 @@ struct Counts {
   std::int64_t brash_pieces = 0;
   std::int64_t snap_rounded = 0;  ///< pieces whose nearest doubles were not a valid polygon
   std::int64_t database_out_of_range = 0;
+  std::int64_t unresolved_splits = 0;  ///< whose force could not be stopped where they run: they did not
   std::int64_t unconverged_steps = 0;  ///< steps in which the contact solver used all its sweeps
   double largest_residual = 0;  ///< by how much a contact missed its law after a step's last sweep [m/s]
   double energy_created = 0;    ///< by steps whose contacts gave more than they took [J]

@@ -13,7 +13,7 @@ using geometry::Ring;
 
 /// Size of a heap block [bytes].
 double block(double bytes) {
-  constexpr double kHeader = 8;
+  constexpr double kHeader = 8;  // of glibc's allocator
   return bytes > 0 ? bytes + kHeader : 0;
 }
 
@@ -53,8 +53,8 @@ double at_rest(const FloeSpec& floe) {
 /// What a floe that moves has beside: its drag, and half of the pairs with its neighbours, of which each
 /// knows some edges that are near each other.
 double moving() {
-  constexpr double kPairs = 4;
-  constexpr double kNearEdges = 4;
+  constexpr double kPairs = 4;      // half of a floe's eight neighbours
+  constexpr double kNearEdges = 4;  // of a pair that touches
   constexpr double kEnds = 8 * sizeof(double);
   const double near = block(sizeof(dynamics::NearParts)) + block(kNearEdges * sizeof(geometry::NearPair)) +
                       block(kNearEdges * kEnds);

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "fracture/bending/fsi_database_model.hpp"
-#include "fracture/bending/kashtelyan.hpp"
-#include "fracture/bending/nevel.hpp"
+#include "fracture/bending/published_forms.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/splitting.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/ice/split_instant.hpp"
 #include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {
@@ -82,11 +83,11 @@ void find_contacts(const Setup& setup, int threads, Population& population,
 
 void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
                     Accounts& accounts) {
+  step.splits.clear();
   if (step.contacts.empty()) return;
   dynamics::SolverSettings settings = setup.solver;
   settings.threads = threads;
-  const dynamics::SolverResult result =
-      step.solver.solve(population.bodies, step.contacts, setup.law, settings);
+  const dynamics::SolverResult result = solve_to_splits(setup, settings, population, step, accounts.counts);
   if (!result.is_converged()) ++accounts.counts.unconverged_steps;
   accounts.counts.largest_residual = std::max(accounts.counts.largest_residual, result.residual);
   enter_contacts(setup, population.bodies, step.contacts, accounts);
@@ -146,7 +147,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 26> kStages = {{
+const std::array<Stage, 28> kStages = {{
     {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
     {"press walls", [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
@@ -164,7 +165,12 @@ const std::array<Stage, 26> kStages = {{
      [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
     {"hold walls", [](World& w) { hold_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"drop unbroken", [](World& w) { drop_unbroken(w.setup, w.step); }},
-    {"find splits", [](World& w) { find_splits(w.setup, w.population, w.step); }},
+    {"enter splits", [](World& w) { enter_splits(w.setup, w.population, w.step); }},
+    {"overload",
+     [](World& w) {
+       auto failure = overload_of(w.setup, w.clock, w.population, w.step);
+       if (failure && !w.failure) w.failure = std::move(failure);
+     }},
     {"tilt floes", [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
     {"tally loads", [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
@@ -185,6 +191,8 @@ const std::array<Stage, 26> kStages = {{
      [](World& w) {
        grind_blind_overlaps(w.setup, w.clock, w.step.blind_overlaps, w.population, w.accounts, w.journal);
      }},
+    {"carve channels",
+     [](World& w) { carve_channels(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"shed crushed ice",
      [](World& w) { shed_crushed_ice(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"go under",

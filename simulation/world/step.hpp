@@ -38,14 +38,16 @@ void decide(const Setup& setup, const Clock& clock, int threads, const Populatio
 /// Limits what contacts carry by what the floes that they press down resist.
 void limit_by_tilt(const Setup& setup, const Population& population, StepData& step);
 
+/// Finds the impulses of all contacts, and with them what floes split: where contacts would come to more than
+/// a split takes, they are stopped there and the step is solved again (ice/split_instant.hpp).
 void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
                     Accounts& accounts);
 
 /// By the law of crushing ice: drops the bends whose contacts were not loaded up to V_b.
 void drop_unbroken(const Setup& setup, StepData& step);
 
-/// By true forces: the floes that their contacts split. Enters the true forces into what breaks otherwise.
-void find_splits(const Setup& setup, const Population& population, StepData& step);
+/// Enters the splits by true forces among what breaks, and the true forces into what breaks otherwise.
+void enter_splits(const Setup& setup, const Population& population, StepData& step);
 
 /// Tilts the floes that hulls press down, by the impulses found; those pressed down far enough are to go
 /// under.
@@ -79,6 +81,15 @@ void grind_blind_overlaps(const Setup& setup, const Clock& clock,
                           const std::vector<dynamics::BlindOverlap>& overlaps, Population& population,
                           Accounts& accounts, Journal& journal);
 
+/// Cuts the ice that hulls of prescribed motion have crushed out of fast ice, and makes it brash: their
+/// channels are open.
+void carve_channels(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                    Accounts& accounts, Journal& journal);
+
+/// Why the step's loads cannot be trusted, where one is above all that its ice can bear.
+std::optional<std::string> overload_of(const Setup& setup, const Clock& clock, const Population& population,
+                                       const StepData& step);
+
 /// By the law of crushing ice: cuts off what contacts crushed that have parted, or that crushed much, and
 /// makes it brash, in the order of the pairs.
 void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
@@ -109,7 +120,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 26> kStages;
+extern const std::array<Stage, 28> kStages;
 
 /// One time step: all stages.
 void step(World& world);

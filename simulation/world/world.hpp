@@ -93,6 +93,7 @@ struct StepData {
   std::vector<dynamics::PartedContact> parted;
   std::vector<HullSlope> slopes;  ///< of the contacts of hulls, which come first
   std::vector<PendingFracture> fractures;
+  std::vector<PendingFracture> splits;  ///< by the true forces of the step
   std::vector<PendingSubmersion> submersions;
   std::vector<Event> mooring_breaks;          ///< to be recorded after what happens to ice
   std::vector<ShipLoads> loads;               ///< per hull

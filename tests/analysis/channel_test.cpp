@@ -4,7 +4,6 @@
 
 #include "../io/expect_text.hpp"
 
-#include "analysis/channel_text.hpp"
 #include "analysis/swept_band.hpp"
 #include "geometry/exact/measures.hpp"
 

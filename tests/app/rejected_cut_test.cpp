@@ -1,11 +1,10 @@
 // Every cut that geometry refuses is written as an input of polynya cut, which refuses it for the same
 // reason.
 
-#include "io/run/rejected_cut.hpp"
-
 #include "program.hpp"
 #include <gtest/gtest.h>
 
+#include "io/run/event_records.hpp"
 #include "io/text/json_parser.hpp"
 #include "simulation/world/step.hpp"
 #include "tests/simulation/scenes.hpp"

@@ -7,7 +7,6 @@
 
 #include "dynamics/ship/manoeuvring.hpp"
 #include "dynamics/ship/propulsion.hpp"
-#include "dynamics/ship/rudder.hpp"
 #include "dynamics/water/submerged_ice.hpp"
 #include "dynamics/water/water_drag.hpp"
 #include "tests/dynamics/scenery.hpp"

@@ -218,5 +218,74 @@ TEST(CrackPath, ItsWidthIsTwiceTheIceOnItsNarrowerSide) {
       << "a hole beside it";
 }
 
+TEST(CrackPath, OfTwoLegsHasTheAreasOfTheTwoPiecesThatItLeaves) {
+  // From the left side, 6 m above the lower edge, along it and then down to it; and likewise at the upper
+  // edge.
+  const Polygon plate = rectangle(100, 40);
+  const Boundary boundary = make_outline(plate);
+  for (const double side : {-1.0, 1.0}) {
+    const Point mouth{-50, side * 14};
+    const CrackPath straight = crack_path(boundary, mouth, {1, 0}, 1e-3, CrackReach::kFirstEdge);
+    const auto arm = arm_beside(boundary, mouth, {1, 0}, 0.36);
+    ASSERT_TRUE(arm);
+    EXPECT_NEAR(arm->width, 6, 1e-9);
+    EXPECT_EQ(arm->is_left, side > 0);
+    const Vector onward{3.0 / 5, side * 4.0 / 5};
+    const auto path = turned_path(boundary, straight, mouth, {-45, side * 14}, onward, 1e-3);
+    ASSERT_TRUE(path);
+    EXPECT_NEAR(path->length_in_ice, 5 + 6 / 0.8, 1e-9);
+    const CrackSides sides = sides_of_crack(boundary, *path);
+    EXPECT_NEAR(side > 0 ? sides.left : sides.right, 5 * 6 + 0.5 * 6 * 4.5, 1e-9);
+    EXPECT_NEAR(sides.left + sides.right, 4000, 1e-9);
+    const CutOutcome outcome = cut_along({plate}, path->points());
+    ASSERT_TRUE(outcome);
+    ASSERT_EQ(outcome->pieces.size(), 2u);
+    const double first = measure(outcome->pieces[0].shape.polygon).area;
+    EXPECT_NEAR(std::min(first, 4000 - first), std::min(sides.left, sides.right), 1e-2)
+        << "its margins are outside";
+  }
+}
+
+TEST(CrackPath, DoesNotTurnAcrossWaterOrBeyondItsOwnEnd) {
+  Polygon plate = rectangle(100, 40);
+  plate.holes = {{{-44, -18}, {-44, -16}, {-38, -16}, {-38, -18}}};
+  const Boundary boundary = make_outline(plate);
+  const CrackPath straight = crack_path(boundary, {-50, -14}, {1, 0}, 1e-3, CrackReach::kFirstEdge);
+  EXPECT_FALSE(turned_path(boundary, straight, {-50, -14}, {-45, -14}, {0.6, -0.8}, 1e-3)) << "a hole";
+  EXPECT_TRUE(turned_path(boundary, straight, {-50, -14}, {-35, -14}, {0.6, -0.8}, 1e-3));
+  EXPECT_FALSE(turned_path(boundary, straight, {-50, -14}, {51, -14}, {0.6, -0.8}, 1e-3));
+}
+
+TEST(CrackPath, HasALigamentOnEitherSideOfEachHole) {
+  Polygon plate = rectangle(100, 40);
+  plate.holes = {{{-30, -5}, {-30, 5}, {-20, 5}, {-20, -5}}, {{10, -5}, {10, 5}, {40, 5}, {40, -5}}};
+  const Boundary boundary = make_outline(plate);
+  const CrackPath path = crack_path(boundary, {-49, 1}, {1, 0}, 1e-3, CrackReach::kFirstEdge);
+  EXPECT_EQ(path.stretches, 3);
+  const auto ligaments = ligaments_of(boundary, {-49, 1}, {1, 0}, 1e-3, path);
+  ASSERT_EQ(ligaments.size(), 3u);
+  EXPECT_NEAR(ligaments[0].length_in_ice, 19, 1e-12) << "from the mouth on";
+  EXPECT_NEAR(ligaments[1].length_in_ice, 30, 1e-12);
+  EXPECT_NEAR(ligaments[2].length_in_ice, 10, 1e-12);
+  EXPECT_NEAR(ligaments[1].start.x, -20 - 1e-3, 1e-12);
+  EXPECT_NEAR(ligaments[2].end.x, 50 + 1e-3, 1e-12);
+}
+
+TEST(Passage, IsTheStretchOfALineInABodyAndWhereItMeetsTheBodyAgain) {
+  // A U that opens to the right.
+  const Boundary u =
+      make_outline(Polygon{{{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 8}, {10, 8}, {10, 10}, {0, 10}}, {}});
+  const Passage up = passage_through(u, {5, 1}, {0, 1});
+  EXPECT_NEAR(up.behind, -1, 1e-12);
+  EXPECT_NEAR(up.ahead, 1, 1e-12);
+  EXPECT_NEAR(up.again, 7, 1e-12);
+  const Passage from_water = passage_through(u, {5, 5}, {-1, 0});
+  EXPECT_EQ(from_water.ahead, 0);
+  EXPECT_NEAR(from_water.again, 3, 1e-12);
+  const Passage away = passage_through(u, {10, 1}, {1, 0});
+  EXPECT_EQ(away.ahead, 0) << "from its boundary outwards";
+  EXPECT_TRUE(std::isinf(away.again));
+}
+
 }  // namespace
 }  // namespace polynya::geometry

@@ -46,6 +46,23 @@ TEST(Splitting, PiecesNarrowerOrSmallerThanTheLeastAreSlivers) {
   EXPECT_FALSE(pares({0, 0}, 10, 20, 1e-3, 300));
 }
 
+TEST(Splitting, OfAnArmBesideAFreeEdgeJoinsTheTableWithinWhatOneArmIsStiffer) {
+  // tools/crack_plate.py paths: 0.293 h K √b; the table's rule has 0.187 √(2b), of two arms.
+  const Ice ice;
+  for (const double b : {1.0, 20.0, 300.0}) {
+    const double force = turning_crack_force(ice, b);
+    EXPECT_NEAR(force / (ice.thickness * ice.fracture_toughness * std::sqrt(b)), 0.293, 1e-12);
+    EXPECT_NEAR(force / lefm_splitting_force(ice, 100 * b, 2 * b), 1.108, 0.001);
+  }
+  EXPECT_NEAR(kTurningCrack.straight + 1 / std::tan(kTurningCrack.turn), 1.04, 1e-3) << "where it ends";
+}
+
+TEST(Splitting, AStripIsLongerThanEightTimesItsWidth) {
+  EXPECT_TRUE(leaves_strip(100, 12.4 * 100, 1e4));
+  EXPECT_TRUE(leaves_strip(100, 1e4, 12.4 * 100));
+  EXPECT_FALSE(leaves_strip(100, 12.6 * 100, 1e4));
+}
+
 /// The faces of a wedge of that half-angle whose tip is at the origin and points along `direction`.
 std::array<Face, 2> wedge(double half_angle, double direction, Vector velocity) {
   std::array<Face, 2> faces;
@@ -112,6 +129,16 @@ TEST(Opening, IsThatOfTheWeakerSideAndNoneWhereASideIsPushedAgainstTheOther) {
   EXPECT_EQ(opening_of(one_sided, {}, {1, 0}).force(), 0);
   const std::vector<Push> flat{{{-1, 1}, {50, 0}}, {{-1, -1}, {50, 0}}};
   EXPECT_EQ(opening_of(flat, {}, {1, 0}).force(), 0) << "a flat push";
+}
+
+TEST(Opening, ASternsFaceThatLeavesTheIceDoesNotPress) {
+  // A stern's corner: its side presses to the left, its transom leaves the ice behind it.
+  std::array<Face, 2> stern{{{{5, 0}, {0, 1}, 2, 0}, {{0, -5}, {-1, 0}, 0.3, 0}}};
+  EXPECT_TRUE(wedge_pushes({-1, 1}, stern, 0.1)) << "at rest along its heading";
+  stern[1].leaving = 2;
+  EXPECT_FALSE(wedge_pushes({-1, 1}, stern, 0.1)) << "under way";
+  stern[1].leaving = -2;
+  EXPECT_TRUE(wedge_pushes({-1, 1}, stern, 0.1)) << "astern";
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 
 #include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -39,6 +40,17 @@ std::map<std::string, Golden> read_goldens() {
   return goldens;
 }
 
+/// No crack runs under more than it takes (splits_test.cpp): by the default laws.
+void expect_met_in_time(simulation::Simulation& simulation, const std::filesystem::path& scene) {
+  if (!is_crush_law(simulation.world().setup)) return;
+  if (simulation.scene().fracture.splitting != fracture::SplittingModel::kLefm) return;
+  for (const simulation::Event& event : simulation.journal().events) {
+    if (!event.is<simulation::Split>()) continue;
+    EXPECT_LE(event.criteria().opening_force, 1.05 * event.criteria().opening_capacity)
+        << scene << " at " << event.time << " s";
+  }
+}
+
 Golden run(const std::filesystem::path& scene, double until) {
   auto loaded = io::read_scene_file(scene);
   EXPECT_TRUE(loaded.has_value()) << scene;
@@ -46,6 +58,7 @@ Golden run(const std::filesystem::path& scene, double until) {
   if (const char* threads = std::getenv("POLYNYA_GOLDEN_THREADS")) simulation.set_threads(std::atoi(threads));
   while (simulation.time() < until - 1e-9 && !simulation.numerical_failure()) {
     simulation.step();
+    expect_met_in_time(simulation, scene);
     simulation.journal().clear();
   }
   EXPECT_FALSE(simulation.numerical_failure().has_value());

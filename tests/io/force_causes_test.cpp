@@ -1,6 +1,4 @@
 // The table of what causes the forces on a ship, against the table of forces.csv.
-#include "io/run/force_causes.hpp"
-
 #include <algorithm>
 #include <map>
 

@@ -5,7 +5,6 @@
 
 #include "expect_text.hpp"
 
-#include "io/text/json_fault.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"

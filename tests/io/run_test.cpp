@@ -216,12 +216,19 @@ TEST(ForceColumns, NameTheirUnitsOnceAndAreDocumented) {
   }
 }
 
+template <class... Kinds>
+constexpr std::size_t count_kinds_of_ice(const std::variant<Kinds...>*) {
+  return (std::size_t{std::is_base_of_v<simulation::IceEvent, Kinds>} + ...);
+}
+
 TEST(EventFields, AreDocumented) {
   const std::string page = read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/run-folder.md");
-  const auto kinds = std::variant_size_v<decltype(simulation::Event::what)>;
+  using Kinds = decltype(simulation::Event::what);
+  constexpr std::size_t kKinds = std::variant_size_v<Kinds>;
+  constexpr std::size_t kOfIce = count_kinds_of_ice(static_cast<const Kinds*>(nullptr));
   for (const EventField& field : event_fields()) {
-    const std::string of = field.kinds.size() == kinds ? "all"
-                           : field.kinds.size() == kinds - 2
+    const std::string of = field.kinds.size() == kKinds ? "all"
+                           : field.kinds.size() == kOfIce
                                ? "all of ice"
                                : fmt::format("`{}`", fmt::join(field.kinds, "`, `"));
     const std::string unit = field.meaning.unit.empty() ? "" : fmt::format(" [{}]", field.meaning.unit);

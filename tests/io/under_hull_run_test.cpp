@@ -2,10 +2,10 @@
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 
+#include "io/run/motion_index.hpp"
 #include "io/run/placed_floes.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
-#include "io/run/thinned_frames.hpp"
 
 namespace polynya::io {
 namespace {

@@ -1,7 +1,7 @@
 // Floes whose thickness, density and strengths are their own.
 #include <gtest/gtest.h>
 
-#include "fracture/bending/kashtelyan.hpp"
+#include "fracture/bending/published_forms.hpp"
 #include "fracture/crushing.hpp"
 #include "simulation/field/random.hpp"
 #include "simulation/ice/ice_scatter.hpp"

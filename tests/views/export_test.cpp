@@ -8,7 +8,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/outline.hpp"
 #include "io/import/projection.hpp"
-#include "io/text/base64.hpp"
+#include "io/text/encoding.hpp"
 #include "views/export/vtk_file.hpp"
 
 namespace polynya::tests {

@@ -6,8 +6,8 @@
 
 #include <tl/expected.hpp>
 
+#include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
-#include "io/run/thinned_frames.hpp"
 
 namespace polynya::views {
 

@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "io/text/base64.hpp"
+#include "io/text/encoding.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/xml_text.hpp"
 #include "simulation/state/archive.hpp"
 
 namespace polynya::views {

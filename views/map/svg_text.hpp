@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "io/text/xml_text.hpp"
+#include "io/text/encoding.hpp"
 
 namespace polynya::views {
 

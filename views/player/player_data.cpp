@@ -8,7 +8,6 @@
 
 #include "analysis/channel.hpp"
 #include "io/run/event_records.hpp"
-#include "io/run/force_causes.hpp"
 #include "io/run/force_columns.hpp"
 #include "io/run/records.hpp"
 #include "io/text/json_writer.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "geometry/shape/point.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
-#include "io/run/thinned_frames.hpp"
 #include "views/player/player_shapes.hpp"
 
 namespace polynya::views {

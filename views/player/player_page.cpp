@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "io/text/base64.hpp"
+#include "io/text/encoding.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/xml_text.hpp"
 
 namespace polynya::views {
 namespace {

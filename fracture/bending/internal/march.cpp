@@ -37,7 +37,7 @@ class ModalStep {
   }
 
  private:
-  static constexpr double kMassless = 1e-9;
+  static constexpr double kMassless = 1e-9;  // of a period in steps: a faster mode follows its load at once
   double step_;
   Eigen::ArrayXd period_, cosine_, sine_;
 };

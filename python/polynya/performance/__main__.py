@@ -14,7 +14,7 @@ from ..study.case import DONE, FAILED, STOPPED
 from .curve import OUTSIDE, Curve, RunFailed
 from .options import command_line
 
-INPUT_OUTPUT = 5  # app/command_line/exit_code.hpp
+INPUT_OUTPUT = 5  # app/command_line/console.hpp
 
 
 def fail(code, message):

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/bending/kashtelyan.hpp"
-#include "fracture/bending/nevel.hpp"
+#include "fracture/bending/published_forms.hpp"
 #include "fracture/bending/wedge_solver.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "tests/fracture/bending/floating_beam.hpp"

@@ -1,8 +1,9 @@
-#include "fracture/bending/nevel.hpp"
+#include "fracture/bending/published_forms.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 
@@ -45,6 +46,28 @@ BendingCapacity NevelModel::capacity(const BendingLoad& load) const {
   result.vertical_force = nevel_force(opening_angle, load_length, load.ice);
   result.cusp_radius = nevel_cusp_radius_over_l(load_length) * l;
   result.is_in_range = load_length <= kLargestNevelLoadLength && opening_angle <= kWidestNevelWedge;
+  return result;
+}
+
+double kashtelyan_force(double opening_angle, const Ice& ice, const KashtelyanCoefficients& coefficients) {
+  const double share = opening_angle / std::numbers::pi;
+  return coefficients.force * share * share * ice.flexural_strength * ice.thickness * ice.thickness;
+}
+
+double kashtelyan_radius(double characteristic_length, double approach_speed,
+                         const KashtelyanCoefficients& coefficients) {
+  const double factor = 1 + coefficients.radius_speed * approach_speed;
+  return coefficients.radius * characteristic_length * std::max(factor, kSmallestKashtelyanRadiusFactor);
+}
+
+BendingCapacity KashtelyanModel::capacity(const BendingLoad& load) const {
+  BendingCapacity result;
+  result.vertical_force =
+      kashtelyan_force(load.front_half_angle + load.back_half_angle, load.ice, coefficients_);
+  result.cusp_radius =
+      kashtelyan_radius(characteristic_length(load.ice, load.water), load.mean_approach_speed, coefficients_);
+  result.is_in_range =
+      1 + coefficients_.radius_speed * load.mean_approach_speed >= kSmallestKashtelyanRadiusFactor;
   return result;
 }
 

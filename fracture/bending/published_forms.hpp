@@ -5,7 +5,6 @@
 #include "fracture/bending/bending_model.hpp"
 
 namespace polynya::fracture {
-
 /// Greatest load length a / l of Nevel's wedge here [-]: at 1 its force form is 4 % below the beam it
 /// approximates.
 inline constexpr double kLargestNevelLoadLength = 1;
@@ -34,6 +33,38 @@ class NevelModel final : public BendingModel {
  public:
   /// Out of range where a / l exceeds kLargestNevelLoadLength or 2α exceeds kWidestNevelWedge.
   BendingCapacity capacity(const BendingLoad& load) const override;
+};
+
+/// The coefficients of Kashtelyan's semi-empirical wedge (*recall*: after [Kashtelyan1968] as used in
+/// [Lubbad2011]; the source could not be looked up here).
+struct KashtelyanCoefficients {
+  double force = 3.1;            ///< C_f [-]
+  double radius = 0.32;          ///< C_l [-]
+  double radius_speed = -0.144;  ///< C_v [s/m]
+};
+
+inline constexpr double kSmallestKashtelyanRadiusFactor =
+    0.2;  ///< floor of 1 + C_v v: reached at v = 5.6 m/s [-]
+
+/// Force that breaks a wedge of opening angle θ, P = C_f (θ/π)² σ_f h² [N].
+/// θ the whole opening angle 2α [rad], σ_f flexural strength [Pa], h thickness [m].
+double kashtelyan_force(double opening_angle, const Ice& ice,
+                        const KashtelyanCoefficients& coefficients = {});
+
+/// Cusp radius R = C_l l (1 + C_v v) [m]; the factor is clamped to its floor beyond its range of speed.
+/// l characteristic length [m], v normal approach speed [m/s].
+double kashtelyan_radius(double characteristic_length, double approach_speed,
+                         const KashtelyanCoefficients& coefficients = {});
+
+/// Kashtelyan's wedge under the simulation's load: θ = θ_wf + θ_wb.
+class KashtelyanModel final : public BendingModel {
+ public:
+  explicit KashtelyanModel(const KashtelyanCoefficients& coefficients = {}) : coefficients_(coefficients) {}
+  /// Out of range where the speed has driven the radius to its floor.
+  BendingCapacity capacity(const BendingLoad& load) const override;
+
+ private:
+  KashtelyanCoefficients coefficients_;
 };
 
 }  // namespace polynya::fracture

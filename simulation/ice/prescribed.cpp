@@ -1,0 +1,196 @@
+#include "simulation/ice/prescribed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/cut/cut.hpp"
+#include "simulation/ice/pieces.hpp"
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+using geometry::Pose;
+
+/// A hull is carved out of the ice each time it has come on by this share of its radius, or so far. Greater:
+/// the contact line of a round hull is shorter than the hull is wide (at x times its radius by x²/8);
+/// smaller: more cuts.
+constexpr double kShareOfRadius = 0.05;
+constexpr double kFarthest = 0.25;  // [m]
+
+/// The outline that carves is wider than the hull by this share: far more than what cuts round, so that the
+/// sides of a channel do not touch the hull that made it; far less than any overlap matters.
+constexpr double kClearance = 1e-6;
+
+/// A load is a numerical failure from this many times what ice bears on. Loads of crushing ice stay below
+/// once that; a pierced body has several contact lines in one.
+constexpr double kOverload = 4;
+
+/// From here on a hull is inclined [rad].
+constexpr double kVertical = 1e-6;
+
+/// Of d w / S: an overlap of more is a crescent, whose depth along the normal is not its thickness (the power
+/// law of overlaps ends there).
+constexpr double kCrescent = 3;
+
+double tangent_of(const StepData& step, std::size_t i) {
+  return i < step.slopes.size() ? std::max(0.0, step.slopes[i].tangent) : 0;
+}
+
+/// A hull that is due to be carved out of a floe.
+struct Carving {
+  FloeId floe = 0;
+  const Contact* contact = nullptr;
+  geometry::Polygon tool;  ///< in the floe's frame
+  GrindCriterion criterion;
+};
+
+/// Where a body was some time ago.
+Pose pose_ago(const dynamics::Bodies& bodies, BodyIndex i, double time) {
+  const geometry::Rotation rotation =
+      geometry::Rotation::by(bodies.angle[i] - time * bodies.angular_velocity[i]);
+  const geometry::Point centre = bodies.position[i] - time * bodies.velocity[i];
+  return {centre - rotate(rotation, bodies.centroid[i] - geometry::Point{}), rotation};
+}
+
+geometry::Polygon tool_of(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c,
+                          double time_ago) {
+  geometry::Ring outline = hull_of(setup.scene, c.a).hull.waterline;
+  for (geometry::Point& p : outline) p = {(1 + kClearance) * p.x, (1 + kClearance) * p.y};
+  const Pose floe_from_hull = relative_pose(pose_ago(bodies, c.b, time_ago), pose_ago(bodies, c.a, time_ago));
+  return transform(floe_from_hull, geometry::Polygon{std::move(outline), {}});
+}
+
+/// The hulls that have come on far enough, one by one. What is left of an overlap is the step's own way and,
+/// under an inclined hull, all that it crushes below the waterline.
+std::vector<Carving> due_carvings(const Setup& setup, const Population& population, const StepData& step,
+                                  const Accounts& accounts) {
+  const dynamics::Bodies& bodies = population.bodies;
+  std::vector<Carving> due;
+  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
+    const Contact& c = step.contacts[i];
+    if (!population.is_hull(c.a)) break;
+    if (population.is_hull(c.b) || !is_prescribed(bodies, c)) continue;
+    if (c.total_normal_impulse() <= 0 || c.approach_speed <= 0 || !bodies.is_alive[c.b]) continue;
+    const double facet = ice_of_body(setup, population, c.b).thickness * tangent_of(step, i);
+    const double least = std::min(kFarthest, kShareOfRadius * bodies.bounding_radius[c.a]);
+    const double least_area = c.width * (facet + least);
+    if (c.area < least_area) continue;
+    if (!due.empty() && due.back().contact->a == c.a && due.back().contact->b == c.b) continue;
+    const std::pair<std::int64_t, std::int64_t> both{c.a, c.b};
+    if (std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end()) continue;
+    const double time_ago = setup.scene.time.step + facet / c.approach_speed;
+    due.push_back(
+        {population.floe_of(c.b), &c, tool_of(setup, bodies, c, time_ago), {c.area, least_area, c.width, 0}});
+  }
+  std::ranges::stable_sort(due, {}, &Carving::floe);
+  return due;
+}
+
+template <class Kind>
+Event event_of_carving(const Clock& clock, const Carving& carving, Kind kind) {
+  const Contact& c = *carving.contact;
+  kind.floe = carving.floe;
+  kind.normal_in_world = c.normal;
+  kind.penetration = c.depth;
+  return {clock.time(), c.a, c.middle() + clock.drift(), std::move(kind)};
+}
+
+/// The share of friction that a contact of prescribed bodies has. Nothing stops their slip: friction that is
+/// all there at any would turn with its sign in rounding. It grows as crushing does from rest; along the
+/// chord of a crescent, whose two flanks slip apart, as the slip is of the motion.
+double share_of_friction(const Contact& c, bool is_crescent) {
+  const double slip = std::abs(c.slip_speed);
+  if (slip == 0) return 0;
+  return is_crescent ? slip / std::hypot(slip, c.approach_speed)
+                     : std::min(1.0, slip / dynamics::kCreepSpeed);
+}
+
+}  // namespace
+
+double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c,
+                           double slope_tangent) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const fracture::Ice& of_b = ice_of_body(setup, population, c.b);
+  const fracture::Ice ice =
+      population.is_hull(c.a) ? of_b : fracture::crushed_between(ice_of_body(setup, population, c.a), of_b);
+  const double across = 2 * std::min(bodies.bounding_radius[c.a], bodies.bounding_radius[c.b]);
+  return fracture::crushing_force(ice, ice.thickness * across) * (1 + ice.friction * slope_tangent);
+}
+
+void press_prescribed(const Setup& setup, const Population& population, ShipContactLoad& load) {
+  const Contact& c = load.contact;
+  if (!is_prescribed(population.bodies, c)) return;
+  const double line = load.ice.thickness * c.width / std::cos(load.hull_angle);
+  fracture::CrushedArea crushed{line, 0};
+  const bool is_crescent = c.depth * c.width > kCrescent * c.area;
+  const double facet = load.ice.thickness * std::tan(load.hull_angle);
+  const bool spans_facet = is_crescent && c.area >= c.width * facet;  // as where ice was carved out
+  if (load.hull_angle > kVertical && !spans_facet) {
+    crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);
+    crushed.slope = load.stiffness / load.ice.compressive_strength;
+  }
+  const double most =
+      most_that_ice_bears(setup, population, c, std::tan(load.hull_angle)) / load.shares.horizontal;
+  load.normal_force = std::min(fracture::crushing_force(load.ice, crushed.area), most);
+  load.vertical_force = load.shares.vertical * load.normal_force;
+  load.shares.tangential *= share_of_friction(c, spans_facet);
+  load.stiffness = fracture::crushing_force(load.ice, crushed.slope);
+  const double way = setup.scene.time.step * std::max(0.0, c.approach_speed);
+  if (way * load.stiffness > most - load.normal_force) load.stiffness = (most - load.normal_force) / way;
+}
+
+void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
+  if (!is_prescribed(bodies, c) || c.approach_speed <= 0) return;
+  const double half_a_step = 0.5 * c.width * c.approach_speed * setup.scene.time.step;  // of area
+  if (c.area + half_a_step >= c.record->loaded_area)
+    c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
+}
+
+void carve_channels(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                    Accounts& accounts, Journal& journal) {
+  if (!is_crush_law(setup)) return;
+  const std::vector<Carving> due = due_carvings(setup, population, step, accounts);
+  for (auto first = due.begin(); first != due.end();) {
+    std::vector<geometry::Polygon> tools;
+    auto next = first;
+    for (; next != due.end() && next->floe == first->floe; ++next) tools.push_back(next->tool);
+    const geometry::Shape& shape = population.floes[first->floe].shape;
+    const geometry::CutOutcome outcome = geometry::cut_by_polygons(shape, tools);
+    if (outcome) {
+      Event event = event_of_carving(clock, *first, Grind{.criterion = first->criterion});
+      replace_by_pieces(setup, clock,
+                        {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
+                        *outcome, population, accounts, journal);
+    } else if (outcome.error().reason != geometry::CutFailure::kMisses) {
+      RejectedCut rejected;
+      rejected.criterion = first->criterion;
+      rejected.reason = std::string(name_of(outcome.error().reason)) + ": " + outcome.error().detail;
+      rejected.input = {++accounts.counts.rejected_cuts, shape.polygon, tools.front().outer, {}};
+      journal.events.push_back(event_of_carving(clock, *first, std::move(rejected)));
+      for (auto refused = first; refused != next; ++refused)
+        accounts.refused_grinds.emplace_back(refused->contact->a, refused->contact->b);
+    }
+    first = next;
+  }
+}
+
+std::optional<std::string> overload_of(const Setup& setup, const Clock& clock, const Population& population,
+                                       const StepData& step) {
+  if (!is_crush_law(setup)) return std::nullopt;
+  const double dt = setup.scene.time.step;
+  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
+    const Contact& c = step.contacts[i];
+    if (c.is_rigid()) continue;
+    const double force = c.steady_share * c.total_normal_impulse() / dt;
+    const double most = most_that_ice_bears(setup, population, c, tangent_of(step, i));
+    if (!(force > kOverload * most)) continue;
+    return "bodies " + std::to_string(c.a) + " and " + std::to_string(c.b) + " press each other with " +
+           std::to_string(1e-6 * force) + " MN, their ice bears " + std::to_string(1e-6 * most) +
+           " MN, at t = " + std::to_string(clock.time()) + " s";
+  }
+  return std::nullopt;
+}
+
+}  // namespace polynya::simulation

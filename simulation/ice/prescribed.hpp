@@ -1,0 +1,26 @@
+#pragma once
+
+#include "simulation/ship/ship_contact_load.hpp"
+
+namespace polynya::simulation {
+
+/// Whether nothing moves the two bodies of a contact: a hull in fast ice.
+inline bool is_prescribed(const dynamics::Bodies& bodies, const dynamics::Contact& c) {
+  return bodies.inverse_mass[c.a] == 0 && bodies.inverse_mass[c.b] == 0;
+}
+
+/// The most that ice can bear along a contact line as long as the smaller of its two bodies is wide,
+/// σ_c h 2R (1 + μ tan θ_s) [N].
+double most_that_ice_bears(const Setup& setup, const Population& population, const dynamics::Contact& c,
+                           double slope_tangent);
+
+/// Enters the load of a hull in fast ice where the motion of both is prescribed: as the overlap's area grows
+/// by w per metre, so much ice crushes, whatever the overlap has become; never more than a line as long as
+/// the hull is wide bears, since nothing gives way there. Else the load is as it was.
+void press_prescribed(const Setup& setup, const Population& population, ShipContactLoad& load);
+
+/// Closes the gap to what has pressed in a contact of prescribed bodies whose overlap is at least as large:
+/// its depth does not show it where ice was carved out.
+void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const dynamics::Contact& c);
+
+}  // namespace polynya::simulation

@@ -1,0 +1,202 @@
+#include "simulation/ice/split_instant.hpp"
+
+#include <algorithm>
+
+#include "simulation/ice/breaking.hpp"
+#include "simulation/ship/pressing.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+
+/// Of F_max: a split with no more is as the solver found it.
+constexpr double kMostShare = 1.05;
+/// Of F_max: where the contacts of one that has more are stopped. A little more than 1, so that the split has
+/// what it takes where one of several contacts falls short by rounding.
+constexpr double kAimedShare = 1.01;
+/// Stopping the contacts of two bodies changes the forces of others, which may then split: solved again so
+/// often at most.
+constexpr int kMostRounds = 8;
+
+/// The motion and memory that solving changes, of the bodies of one contact.
+struct Before {
+  geometry::Vector velocity[2];
+  double angular_velocity[2];
+  double last_impulse[2];
+  double loaded_depth;
+};
+
+std::vector<Before> keep_before(const dynamics::Bodies& bodies, const std::vector<Contact>& contacts) {
+  std::vector<Before> kept;
+  kept.reserve(contacts.size());
+  for (const Contact& c : contacts)
+    kept.push_back({{bodies.velocity[c.a], bodies.velocity[c.b]},
+                    {bodies.angular_velocity[c.a], bodies.angular_velocity[c.b]},
+                    {c.record->last_impulse[0], c.record->last_impulse[1]},
+                    c.record->loaded_depth});
+  return kept;
+}
+
+void go_back(const std::vector<Before>& kept, const std::vector<Contact>& contacts,
+             dynamics::Bodies& bodies) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& c = contacts[i];
+    const BodyIndex both[] = {c.a, c.b};
+    for (int k = 0; k < 2; ++k) {
+      bodies.velocity[both[k]] = kept[i].velocity[k];
+      bodies.angular_velocity[both[k]] = kept[i].angular_velocity[k];
+      c.record->last_impulse[k] = kept[i].last_impulse[k];
+    }
+    c.record->loaded_depth = kept[i].loaded_depth;
+  }
+}
+
+double share_of(const PendingFracture& split) {
+  return split.criteria.opening_force / split.criteria.opening_capacity;
+}
+
+/// A contact of two bodies that was to be stopped.
+struct Stopped {
+  std::size_t contact = 0;
+  double force = 0;  ///< normal, before it was stopped [N]
+};
+
+/// A split whose force overshot: the step is solved with its contacts stopped.
+struct MetSplit {
+  PendingFracture split;  ///< with the forces that overshot
+  std::vector<Stopped> stopped;
+};
+
+double normal_force(const Contact& c, double dt) {
+  return c.is_broken ? c.breaking_force : c.steady_share / dt * c.total_normal_impulse();
+}
+
+/// The contacts of a solved step that splits stop.
+class Instants {
+ public:
+  Instants(std::vector<Contact>& contacts, double dt) : contacts_(contacts), dt_(dt) {}
+
+  /// Stops the contacts of those of the splits that overshoot. Returns whether any does.
+  bool stop(const std::vector<PendingFracture>& splits) {
+    const std::size_t before = met_.size();
+    for (const PendingFracture& split : splits) {
+      if (share_of(split) <= kMostShare) continue;
+      const Contact& at = contact_of(split);
+      MetSplit* const same = met_at(at);  // both bodies of a pair may split: the one whose crack runs first
+      if (same == nullptr)
+        met_.push_back({split, {}});
+      else if (same >= met_.data() + before && share_of(split) > share_of(same->split))
+        same->split = split;
+    }
+    for (std::size_t k = before; k < met_.size(); ++k) stop_contacts(met_[k]);
+    return met_.size() > before;
+  }
+
+  bool any() const { return !met_.empty(); }
+
+  /// Replaces the splits of stopped contacts by those that came about, each with the forces at its instant.
+  void enter(std::vector<PendingFracture>& splits, Counts& counts) {
+    std::erase_if(splits, [&](const PendingFracture& split) {
+      if (met_at(contact_of(split)) != nullptr) return true;
+      const bool overshoots = share_of(split) > kMostShare;  // the rounds were used up
+      counts.unresolved_splits += overshoots ? 1 : 0;
+      return overshoots;
+    });
+    for (const MetSplit& met : met_) {
+      PendingFracture split = met.split;
+      const double scale = reached(met);
+      fracture::FailureCriteria& c = split.criteria;
+      for (double* force : {&c.contact_force, &c.flank_forces[0], &c.flank_forces[1], &c.opening_force})
+        *force *= scale;
+      if (share_of(split) >= 1)
+        splits.push_back(split);
+      else
+        counts.unresolved_splits += is_any_broken(met) ? 1 : 0;  // else the force did not come so far
+    }
+    std::ranges::stable_sort(splits, {}, [&](const PendingFracture& split) { return index_of(split); });
+  }
+
+  /// Whether a contact's force stayed below that at which its ice bends, since a split stopped it.
+  bool stops(const dynamics::PersistentContact* record) const {
+    return std::ranges::any_of(met_, [&](const MetSplit& met) {
+      return std::ranges::any_of(met.stopped,
+                                 [&](const Stopped& s) { return contacts_[s.contact].record == record; });
+    });
+  }
+
+ private:
+  std::size_t index_of(const PendingFracture& split) const {
+    return static_cast<std::size_t>(std::ranges::find(contacts_, split.record, &Contact::record) -
+                                    contacts_.begin());
+  }
+  const Contact& contact_of(const PendingFracture& split) const { return contacts_[index_of(split)]; }
+
+  MetSplit* met_at(const Contact& at) {
+    const auto met = std::ranges::find_if(met_, [&](const MetSplit& m) {
+      const Contact& c = contact_of(m.split);
+      return c.a == at.a && c.b == at.b;
+    });
+    return met == met_.end() ? nullptr : &*met;
+  }
+
+  void stop_contacts(MetSplit& met) {
+    const Contact& at = contact_of(met.split);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      Contact& c = contacts_[i];
+      const double force = normal_force(c, dt_);
+      if (c.a != at.a || c.b != at.b || !(force > 0)) continue;
+      met.stopped.push_back({i, force});
+      break_at(c, kAimedShare / share_of(met.split) * force);
+    }
+  }
+
+  /// The share of the forces that overshot to which they came now.
+  double reached(const MetSplit& met) const {
+    double before = 0, now = 0;
+    for (const Stopped& stopped : met.stopped) {
+      before += stopped.force;
+      now +=
+          std::min(normal_force(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
+    }
+    return now / before;
+  }
+
+  bool is_any_broken(const MetSplit& met) const {
+    return std::ranges::any_of(met.stopped, [&](const Stopped& s) { return contacts_[s.contact].is_broken; });
+  }
+
+  std::vector<Contact>& contacts_;
+  double dt_;
+  std::vector<MetSplit> met_;
+};
+
+}  // namespace
+
+dynamics::SolverResult solve_to_splits(const Setup& setup, const dynamics::SolverSettings& settings,
+                                       Population& population, StepData& step, Counts& counts) {
+  dynamics::Bodies& bodies = population.bodies;
+  const auto solve = [&] { return step.solver.solve(bodies, step.contacts, setup.law, settings); };
+  if (!is_crush_law(setup) || setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) {
+    const dynamics::SolverResult result = solve();
+    find_splits(setup, population, step.contacts, step.splits);
+    return result;
+  }
+  const std::vector<Before> before = keep_before(bodies, step.contacts);
+  Instants instants(step.contacts, setup.scene.time.step);
+  dynamics::SolverResult result = solve();
+  find_splits(setup, population, step.contacts, step.splits);
+  for (int round = 0; round < kMostRounds && instants.stop(step.splits); ++round) {
+    go_back(before, step.contacts, bodies);
+    result = solve();
+    find_splits(setup, population, step.contacts, step.splits);
+  }
+  if (!instants.any()) return result;
+  instants.enter(step.splits, counts);
+  std::erase_if(step.fractures, [&](const PendingFracture& pending) {
+    return pending.failure == fracture::Failure::kBend && instants.stops(pending.record);
+  });
+  return result;
+}
+
+}  // namespace polynya::simulation

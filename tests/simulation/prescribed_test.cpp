@@ -1,0 +1,132 @@
+// Hulls in fast ice, where nothing gives way: fast ice that drifts, or a ship that keeps its speed.
+#include "simulation/ice/prescribed.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "simulation/world/step.hpp"
+#include "simulation/world/world.hpp"
+#include "tests/simulation/scenes.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using namespace scenes;
+
+constexpr double kLineLoad = 2.8e6 * 0.5;  // σ_c h [N/m]
+constexpr double kRadius = 5;              // [m]
+constexpr double kWay = 100;               // [m]
+
+struct Drift {
+  double speed = 0;  ///< of the ice against the hull [m/s]
+  double step = 0;   ///< [s]
+};
+constexpr Drift kDrifts[] = {{0.2, 0.05}, {0.2, 0.02}, {1, 0.05}, {1, 0.02}};
+
+Scene without_bending(Build scene) {
+  scene.fracture.splitting = fracture::SplittingModel::kNone;  // it stands for ice without end
+  return scene;
+}
+
+/// A plate that comes to a structure about the origin, its edge at `edge`.
+Scene drifting_onto(const geometry::Ring& hull, double edge, Drift drift) {
+  return without_bending(Build()
+                             .step(drift.step)
+                             .structure(hull)
+                             .floe(fast(rectangle(edge - 200, -40, edge, 40), {drift.speed, 0})));
+}
+
+/// What a run over the way gave, and whether no step pressed with more than `most` [N].
+Trial over_the_way(const Scene& scene, double speed, double most) {
+  Simulation simulation(scene);
+  Story story;
+  while (simulation.time() < kWay / speed - 1e-9) {
+    simulation.step();
+    listen(simulation, story);
+    geometry::Vector force{};
+    for (const dynamics::Contact& c : simulation.world().step.contacts)
+      force += (c.steady_share / scene.time.step) * c.impulse_on_b();
+    EXPECT_LT(length(force), 1.005 * most) << simulation.time();
+  }
+  EXPECT_FALSE(simulation.numerical_failure().has_value());
+  expect_closed(simulation);
+  return {std::move(simulation), std::move(story)};
+}
+
+/// The load is σ_c h 2r where all of the front half is in the ice, so that the work is σ_c h times the area
+/// of the channel: 2r (s − r) + ½ π r².
+TEST(Prescribed, ACylinderCrushesTheChannelThatItLeaves) {
+  const double area = 2 * kRadius * (kWay - kRadius) + 0.5 * std::numbers::pi * kRadius * kRadius;
+  const double load = kLineLoad * 2 * kRadius;
+  for (const Drift drift : kDrifts) {
+    const Trial done =
+        over_the_way(drifting_onto(cylinder_waterline(kRadius), -kRadius, drift), drift.speed, load);
+    const Audit audit = done.simulation.audit();
+    EXPECT_NEAR(audit.sums.energy.crushing / (kLineLoad * area), 1, 0.02) << drift.speed << ' ' << drift.step;
+    EXPECT_NEAR(done.simulation.area_ledger().brash_area / area, 1, 0.02) << "the channel is open";
+    EXPECT_NEAR(-mean(done.story, &ShipSample::from_ice, 0, 10 / drift.speed) / -load, 1, 0.02);
+    EXPECT_EQ(done.simulation.floe_states().size(), 1u);
+  }
+}
+
+/// σ_c h B from the first touch on, whatever is behind.
+TEST(Prescribed, AFlatFaceCrushesAChannelOfItsWidth) {
+  for (const Drift drift : kDrifts) {
+    const Trial done =
+        over_the_way(drifting_onto(rectangle(-6, -5, 6, 5).outer, -6, drift), drift.speed, kLineLoad * 10);
+    EXPECT_NEAR(done.simulation.audit().sums.energy.crushing / (kLineLoad * 10 * kWay), 1, 0.02)
+        << drift.speed << ' ' << drift.step;
+    EXPECT_NEAR(done.simulation.area_ledger().brash_area / (10 * kWay), 1, 0.02);
+  }
+}
+
+TEST(Prescribed, AShipThatKeepsItsSpeedInFastIceDoesAsTheIceThatDriftsOntoIt) {
+  const Scene scene = without_bending(
+      Build().step(0.05).ship(barge({0, 0}, ConstantSpeed{1})).floe(fast(rectangle(0.01, -60, 200, 60))));
+  const double beam = 24;
+  const Trial done = over_the_way(scene, 1, kLineLoad * beam);
+  EXPECT_NEAR(done.simulation.audit().sums.energy.crushing / (kLineLoad * beam * kWay), 1, 0.02);
+}
+
+/// Askew, nothing but the direction changes: the chord of the channel's head is across the motion, up to half
+/// of an edge of the polygon that stands for the cylinder.
+TEST(Prescribed, ACylinderIsPushedAlongTheMotionOfTheIce) {
+  Scene scene = drifting_onto(cylinder_waterline(kRadius), -kRadius, {0.5, 0.05});
+  scene.floes[0].velocity = {0.5, 0.2};
+  const Trial done = run(scene, 150);
+  const double speed = std::hypot(0.5, 0.2);
+  const dynamics::Planar force = done.story.samples.back().from_ice;
+  EXPECT_NEAR((0.5 * force.surge + 0.2 * force.sway) / speed / (kLineLoad * 2 * kRadius), 1, 0.02);
+  const double half_edge = std::numbers::pi / static_cast<double>(cylinder_waterline(kRadius).size());
+  EXPECT_NEAR(std::atan2(force.sway, force.surge), std::atan2(0.2, 0.5), half_edge + 0.01);
+}
+
+/// Across all of its plate: where the cylinder has come out, there are two floes, and the smaller is free.
+TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
+  Scene scene =
+      without_bending(Build().step(0.05).pile({0, 0}, 2).floe(fast(rectangle(-32, -10, -2, 15), {1, 0})));
+  const Trial done = run(scene, 40);
+  ASSERT_EQ(done.simulation.floe_states().size(), 2u);
+  EXPECT_EQ(done.story.rejected_cuts().size(), 0u);
+  expect_closed(done.simulation);
+}
+
+TEST(Prescribed, ALoadAboveAllThatIceBearsIsANumericalFailure) {
+  World world(drifting_onto(cylinder_waterline(kRadius), -kRadius - 0.001, {0.2, 0.05}));
+  for (int i = 0; i < 10; ++i) step(world);
+  ASSERT_EQ(world.step.contacts.size(), 1u);
+  EXPECT_FALSE(overload_of(world.setup, world.clock, world.population, world.step).has_value());
+  for (double& impulse : world.step.contacts[0].normal_impulse) impulse = 0.05 * 5 * kLineLoad * 2 * kRadius;
+  const auto failure = overload_of(world.setup, world.clock, world.population, world.step);
+  ASSERT_TRUE(failure.has_value());
+  EXPECT_NE(failure->find("their ice bears 14"), std::string::npos) << *failure;
+}
+
+TEST(Prescribed, ARunIsResumedAmongItsCarvings) {
+  expect_resumes(drifting_onto(cylinder_waterline(kRadius), -kRadius, {1, 0.05}), 7.3, 12);
+}
+
+}  // namespace
+}  // namespace polynya::simulation
