@@ -107,7 +107,7 @@ def test_the_force_is_pale_where_it_is_still_to_come(run):
 
     at_start, at_end = darkest(0.0), darkest(12.0)
     assert at_start[20:].min() >= 255 * (1 - history.PALE) - 1
-    assert at_end[:-20].min() < 120  # a pale line is at 216
+    assert at_end[:-20].min() < 160  # a pale line is at 216, a full one darker by its width in pixels
 
 
 def test_thinned_curves_keep_their_peaks():
