@@ -39,6 +39,11 @@ struct ShipName {
   Index& index;
   bool may_be_none = false;
 };
+template <class Index>  // clang 14, which builds the fuzzers, deduces none for aggregates
+ShipName(Index&)->ShipName<Index>;
+template <class Index>
+ShipName(Index&, bool) -> ShipName<Index>;
+
 /// The parent of the event's floe, which the event does not have.
 struct Parent {};
 

@@ -277,7 +277,8 @@ std::vector<ForceCause> all_causes() {
   for (std::size_t i = 0; i < std::size(kDirections); ++i) {
     for (const Row& row : kRows) {
       if (row.columns[i].empty()) continue;
-      ForceCause& cause = causes.emplace_back(kDirections[i], row.cause, row.words, row.columns[i]);
+      ForceCause& cause = causes.emplace_back();
+      cause = {kDirections[i], row.cause, row.words, row.columns[i]};
       if (row.cause == kFriction.cause) cause.share_of = kIce.columns[i];
       if (row.cause == kIce.cause) cause.without_shares = "ice: crushing and pushing";
     }
