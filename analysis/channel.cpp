@@ -91,8 +91,7 @@ class ChannelMeasure {
   using Done = tl::expected<void, std::string>;
 
   Point centre_at(double time) const {
-    return carried_by_water(run_.scene.scene.water, ship_pose_at(run_, motions_, ship_, time).position, time,
-                            time_);
+    return carried_by_water(run_.scene.scene.water, ship_pose_at(run_, motions_, ship_, time).position, time, time_);
   }
 
   void find_track() {
@@ -110,8 +109,7 @@ class ChannelMeasure {
       if (within && !overlaps(bounding_box(polygon.outer), *within)) continue;
       if (auto done = add_ice(ice_, floe.birth, std::move(polygon)); !done) return done;
     }
-    for (const PlacedIce& ice : ice_)
-      (run_.floe(ice.birth->floe)->came_up ? brash_ : firm_ice_).push_back(ice);
+    for (const PlacedIce& ice : ice_) (run_.floe(ice.birth->floe)->came_up ? brash_ : firm_ice_).push_back(ice);
     return {};
   }
 
@@ -150,21 +148,18 @@ class ChannelMeasure {
     }
     for (std::size_t i = 0; i < count; ++i) {
       const auto cell = [&](double half) {
-        return Polygon{
-            geometry::convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
-                                   joints[i + 1].point + half * across[i + 1],
-                                   joints[i + 1].point - half * across[i + 1]}),
-            {}};
+        return Polygon{geometry::convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
+                                              joints[i + 1].point + half * across[i + 1],
+                                              joints[i + 1].point - half * across[i + 1]}),
+                       {}};
       };
-      if (auto done = add_station(joints[i], joints[i + 1], cell(channel_.reach), cell(0.5 * channel_.beam));
-          !done)
+      if (auto done = add_station(joints[i], joints[i + 1], cell(channel_.reach), cell(0.5 * channel_.beam)); !done)
         return done;
     }
     return {};
   }
 
-  Done add_station(const Waypoint& from, const Waypoint& to, const Polygon& cell,
-                   const Polygon& within_beam) {
+  Done add_station(const Waypoint& from, const Waypoint& to, const Polygon& cell, const Polygon& within_beam) {
     const Vector chord = to.point - from.point;
     if (cell.outer.size() < 3 || within_beam.outer.size() < 3 || !(length(chord) > 0)) return {};
     const Waypoint middle = at_way(track_, 0.5 * (from.along + to.along));
@@ -266,13 +261,12 @@ class ChannelMeasure {
 
 /// With the time.
 tl::expected<ChannelOptions, std::string> checked_options(const io::Run& run, ChannelOptions options) {
-  if (options.ship >= hull_count(run.scene.scene))
-    return tl::unexpected(std::string("the run has no such ship"));
+  if (options.ship >= hull_count(run.scene.scene)) return tl::unexpected(std::string("the run has no such ship"));
   if (run.frames.empty()) return tl::unexpected(std::string("the run has no frames"));
   const double time = options.time.value_or(run.end_time());
   if (!(time >= run.start_time() && time <= run.end_time()))
-    return tl::unexpected(fmt::format("there is no {:g} s: the run goes from {:g} to {:g} s", time,
-                                      run.start_time(), run.end_time()));
+    return tl::unexpected(
+        fmt::format("there is no {:g} s: the run goes from {:g} to {:g} s", time, run.start_time(), run.end_time()));
   options.time = time;
   return options;
 }
@@ -402,8 +396,7 @@ BrashSizes brash_sizes(const Channel& channel) {
   BrashSizes sizes{.count = channel.brash_pieces.size()};
   const double none = std::numeric_limits<double>::quiet_NaN();
   if (sizes.count == 0) return {0, none, none, none};
-  for (const ChannelFloe& piece : channel.brash_pieces)
-    sizes.mean += piece.size / static_cast<double>(sizes.count);
+  for (const ChannelFloe& piece : channel.brash_pieces) sizes.mean += piece.size / static_cast<double>(sizes.count);
   sizes.median = channel.brash_pieces[(sizes.count - 1) / 2].size;
   sizes.largest = channel.brash_pieces.front().size;
   return sizes;
@@ -432,11 +425,11 @@ std::string size_table(const Channel& channel) {
   std::vector<SizedFloe> floes;
   for (const ChannelFloe& floe : channel.floes) floes.push_back({floe.size, floe.inside});
   std::ranges::reverse(floes);
-  std::string text = fmt::format("{:>10} {:>10} {:>8} {:>16} {:>10}\n", "from_m", "below_m", "floes",
-                                 "inside_area_m2", "from_on");
+  std::string text =
+      fmt::format("{:>10} {:>10} {:>8} {:>16} {:>10}\n", "from_m", "below_m", "floes", "inside_area_m2", "from_on");
   for (const SizeClass& one : size_classes(floes))
-    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.4f} {:>10}\n", one.from, one.below, one.count, one.area,
-                        one.from_on);
+    text +=
+        fmt::format("{:>10g} {:>10g} {:>8} {:>16.4f} {:>10}\n", one.from, one.below, one.count, one.area, one.from_on);
   return text;
 }
 
@@ -446,22 +439,20 @@ std::string summary_lines(const Channel& channel) {
   if (width.count == 0)
     text += "no station has ice on both sides within reach: nothing to call a width\n";
   else
-    text += fmt::format(
-        "width  mean {:.2f} m, least {:.2f} m, most {:.2f} m; over the beam {:.2f}, {:.2f}, {:.2f}\n",
-        width.mean, width.least, width.most, width.mean / channel.beam, width.least / channel.beam,
-        width.most / channel.beam);
+    text += fmt::format("width  mean {:.2f} m, least {:.2f} m, most {:.2f} m; over the beam {:.2f}, {:.2f}, {:.2f}\n",
+                        width.mean, width.least, width.most, width.mean / channel.beam, width.least / channel.beam,
+                        width.most / channel.beam);
   const double swept = channel.swept_area;
   text += fmt::format(
-      "swept by the hull  {:.2f} m2; ice covered {:.2f} % of it at the start, {:.2f} % now ({:.2f} m2)\n",
-      swept, 100 * channel.swept_ice_at_start / swept, 100 * channel.swept_ice() / swept,
-      channel.swept_ice());
+      "swept by the hull  {:.2f} m2; ice covered {:.2f} % of it at the start, {:.2f} % now ({:.2f} m2)\n", swept,
+      100 * channel.swept_ice_at_start / swept, 100 * channel.swept_ice() / swept, channel.swept_ice());
   if (channel.floes.empty())
     text += "no floe is left in it\n";
   else
     text += fmt::format("largest floe in it  floe {}, {:.2f} m (root of its area), {:.2f} m2 of it inside\n",
                         channel.floes.front().floe, channel.floes.front().size, channel.floes.front().inside);
-  text += fmt::format("open water joined to the track, up to {:g} m to either side  {:.2f} m2\n",
-                      channel.reach, channel.open_area);
+  text += fmt::format("open water joined to the track, up to {:g} m to either side  {:.2f} m2\n", channel.reach,
+                      channel.open_area);
   return text;
 }
 
@@ -523,17 +514,16 @@ void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t nu
 }  // namespace
 
 std::string to_table(const Channel& channel) {
-  std::string text =
-      fmt::format("channel of {} at {:g} s: {} of {:g} m, {} with ice on both sides within {:g} m\n",
-                  channel.ship, channel.time, io::counted(channel.stations.size(), "station"),
-                  channel.spacing, widths(channel).count, channel.reach);
+  std::string text = fmt::format("channel of {} at {:g} s: {} of {:g} m, {} with ice on both sides within {:g} m\n",
+                                 channel.ship, channel.time, io::counted(channel.stations.size(), "station"),
+                                 channel.spacing, widths(channel).count, channel.reach);
   const bool has_brash = !channel.brash_pieces.empty();
-  text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>9} {:>10}{}\n", "along_m", "passed_s",
-                      "x_m", "y_m", "port_m", "starboard_m", "width_m", "over_beam", "ice_beam_%",
-                      has_brash ? "    brash_%" : "");
+  text +=
+      fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>9} {:>10}{}\n", "along_m", "passed_s", "x_m", "y_m",
+                  "port_m", "starboard_m", "width_m", "over_beam", "ice_beam_%", has_brash ? "    brash_%" : "");
   for (const ChannelStation& s : channel.stations)
-    text += fmt::format("{:>9.1f} {:>9.1f} {:>9.2f} {:>9.2f} {:>9} {:>11} {:>9} {:>9.2f} {:>10.2f}{}\n",
-                        s.along, s.passed, s.middle.x, s.middle.y, side(s.port, s.has_port_ice),
+    text += fmt::format("{:>9.1f} {:>9.1f} {:>9.2f} {:>9.2f} {:>9} {:>11} {:>9} {:>9.2f} {:>10.2f}{}\n", s.along,
+                        s.passed, s.middle.x, s.middle.y, side(s.port, s.has_port_ice),
                         side(s.starboard, s.has_starboard_ice), side(s.width(), s.is_bounded()),
                         s.width() / channel.beam, 100 * s.ice_across_beam, has_brash ? brash_cell(s) : "");
   return text + summary_lines(channel) + brash_lines(channel) + size_table(channel);
@@ -546,10 +536,9 @@ std::string to_csv(const Channel& channel) {
   for (std::size_t i = 0; i < channel.stations.size(); ++i) {
     const ChannelStation& s = channel.stations[i];
     io::append_number(text, static_cast<std::int64_t>(i));
-    io::append_csv(text,
-                   {s.along, s.passed, s.middle.x, s.middle.y, heading_deg(s), s.port, s.starboard, s.width(),
-                    s.width() / channel.beam, s.has_port_ice ? 1.0 : 0.0, s.has_starboard_ice ? 1.0 : 0.0,
-                    s.ice_across_beam, s.channel_area, s.brash_area, s.brash_cover()});
+    io::append_csv(text, {s.along, s.passed, s.middle.x, s.middle.y, heading_deg(s), s.port, s.starboard, s.width(),
+                          s.width() / channel.beam, s.has_port_ice ? 1.0 : 0.0, s.has_starboard_ice ? 1.0 : 0.0,
+                          s.ice_across_beam, s.channel_area, s.brash_area, s.brash_cover()});
     text += '\n';
   }
   return text;

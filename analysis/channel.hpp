@@ -29,9 +29,9 @@ struct ChannelStation {
   geometry::Point middle;    ///< on the track, now [m]
   geometry::Vector forward;  ///< unit, along the track
   double length = 0;         ///< of its part of the track, straight from end to end [m]
-  double port = 0;  ///< from the track to the nearest ice in the cell that is not brash [m]; the reach where
-                    ///< there is none
-  double starboard = 0;  ///< [m]
+  double port = 0;           ///< from the track to the nearest ice in the cell that is not brash [m]; the reach where
+                             ///< there is none
+  double starboard = 0;      ///< [m]
   bool has_port_ice = false;
   bool has_starboard_ice = false;
   double ice_across_beam = 0;  ///< share of the cell within half a beam of the track that ice covers [-]

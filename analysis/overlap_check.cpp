@@ -75,8 +75,7 @@ simulation::ContactState::Body OverlapCheck::name_of(BodyKey body) const {
 OverlapCheck::Placed OverlapCheck::placed(BodyKey body, const io::Motion& motion) const {
   const auto polygon = polygon_of(body);
   const auto rotation = geometry::Rotation::by(motion.angle);
-  Placed placed{body, motion, {motion.position - rotate(rotation, centre_of(body) - Point{}), rotation},
-                {},   0,      0};
+  Placed placed{body, motion, {motion.position - rotate(rotation, centre_of(body) - Point{}), rotation}, {}, 0, 0};
   if (!is_hull(body)) placed.world_from_body = pose_of(run_.floe(body)->birth, motion);
   const Box box = bounding_box(transform(placed.world_from_body, polygon->outer));
   placed.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
@@ -105,8 +104,8 @@ void OverlapCheck::place_bodies(double time) {
 
 void OverlapCheck::read_crushed(double time) {
   crushed_.clear();
-  is_recorded_ = run_.has_crushed &&
-                 std::ranges::any_of(run_.frames, [&](const io::Frame& f) { return f.time == time; });
+  is_recorded_ =
+      run_.has_crushed && std::ranges::any_of(run_.frames, [&](const io::Frame& f) { return f.time == time; });
   const auto key = [](const simulation::ContactState::Body& body) {
     return body.ship >= 0 ? -1 - BodyKey{body.ship} : body.floe;
   };
@@ -141,8 +140,7 @@ void OverlapCheck::measure(double time) {
     ++(is_hull(a.body) ? check_.hull_pairs : check_.pairs);
     const Known& known = shared_by(a, b);
     if (is_recorded_) compare_with_crushed(a, b, known.area, time);
-    const SharedIce pair{is_hull(a.body) ? simulation::kNoFloe : a.body, b.body, time, known.area,
-                         known.depth};
+    const SharedIce pair{is_hull(a.body) ? simulation::kNoFloe : a.body, b.body, time, known.area, known.depth};
     if (is_hull(a.body)) {
       if (pair.area > check_.worst_with_hull.area) {
         check_.worst_with_hull = pair;
@@ -193,13 +191,13 @@ void OverlapCheck::compare_with_crushed(const Placed& a, const Placed& b, double
       length(small.motion.velocity - large.motion.velocity - cross(large.motion.angular_velocity, arm)) +
       std::abs(small.motion.angular_velocity - large.motion.angular_velocity) * small.radius;
   const double off = 2 * kFrameDistance + kFrameAngle * (a.radius + b.radius);
-  const double allowed = kUncrushedShare * smaller +
-                         (run_.scene.scene.time.step * speed + off) * length(common.high - common.low);
+  const double allowed =
+      kUncrushedShare * smaller + (run_.scene.scene.time.step * speed + off) * length(common.high - common.low);
   if (shared - crushed <= allowed) return;
   ++check_.uncrushed_pairs;
   if (check_.uncrushed.size() < kMostUncrushed)
-    check_.uncrushed.push_back({name_of(a.body), name_of(b.body), time, shared, crushed, allowed,
-                                midpoint(common.low, common.high)});
+    check_.uncrushed.push_back(
+        {name_of(a.body), name_of(b.body), time, shared, crushed, allowed, midpoint(common.low, common.high)});
 }
 
 }  // namespace polynya::analysis

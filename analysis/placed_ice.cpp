@@ -22,8 +22,8 @@ tl::expected<void, std::string> add_ice(std::vector<PlacedIce>& ice, const simul
   const auto repaired = geometry::repair(rings_of(polygon_in_world), geometry::FillRule::kNonZero);
   if (!repaired && repaired.error().reason == geometry::CutFailure::kMisses) return {};
   if (!repaired)
-    return tl::unexpected(fmt::format("a placed floe is not a polygon: {}: {}",
-                                      name_of(repaired.error().reason), repaired.error().detail));
+    return tl::unexpected(fmt::format("a placed floe is not a polygon: {}: {}", name_of(repaired.error().reason),
+                                      repaired.error().detail));
   for (const geometry::Shape& shape : repaired->shapes)
     ice.push_back({birth, shape.polygon, bounding_box(shape.polygon.outer)});
   return {};
@@ -42,13 +42,11 @@ tl::expected<Parted, std::string> part(const Polygon& polygon, const std::vector
   auto cut = geometry::cut_by_polygons({polygon}, by);
   if (!cut && cut.error().reason == geometry::CutFailure::kMisses) return Parted{{}, {polygon}, 0};
   if (!cut)
-    return tl::unexpected(
-        fmt::format("a cut was refused: {}: {}", name_of(cut.error().reason), cut.error().detail));
+    return tl::unexpected(fmt::format("a cut was refused: {}: {}", name_of(cut.error().reason), cut.error().detail));
   Parted parted;
   parted.inside_area = cut->ledger.area_inside;
   for (geometry::Piece& piece : cut->pieces)
-    (piece.part == geometry::Part::kInside ? parted.inside : parted.outside)
-        .push_back(std::move(piece.shape.polygon));
+    (piece.part == geometry::Part::kInside ? parted.inside : parted.outside).push_back(std::move(piece.shape.polygon));
   return parted;
 }
 

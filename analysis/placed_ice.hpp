@@ -34,7 +34,6 @@ struct Parted {
 };
 
 /// Exact but for one rounding of vertices. Fails with words where geometry refuses the cut.
-tl::expected<Parted, std::string> part(const geometry::Polygon& polygon,
-                                       const std::vector<geometry::Polygon>& by);
+tl::expected<Parted, std::string> part(const geometry::Polygon& polygon, const std::vector<geometry::Polygon>& by);
 
 }  // namespace polynya::analysis

@@ -57,16 +57,14 @@ void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck
       const auto shared = shared_area(*pieces[i], {}, *pieces[j], {});
       if (!shared) ++check.undecided;
       if (shared && *shared > kAreaTolerance * before) ++check.overlapping_siblings;
-      if (shared && *shared > check.siblings.area)
-        check.siblings = {children[i], children[j], event.time, *shared, 0};
+      if (shared && *shared > check.siblings.area) check.siblings = {children[i], children[j], event.time, *shared, 0};
     }
   }
 }
 
 }  // namespace
 
-RunCheck check_run(const io::Run& run, std::optional<double> only_at,
-                   const std::function<void(double)>& on_part) {
+RunCheck check_run(const io::Run& run, std::optional<double> only_at, const std::function<void(double)>& on_part) {
   RunCheck check;
   check.has_crushed = run.has_crushed;
   const std::size_t instants = only_at ? 1 : run.frames.size();

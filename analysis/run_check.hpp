@@ -54,25 +54,23 @@ struct RunCheck {
   std::vector<InvalidFloe> invalid;
   Worst recorded_area;  ///< recorded − that of the ring
   std::size_t fractures = 0;
-  Worst balance;  ///< children + submerged + brash − rounding defect − parent
-  std::size_t overlapping_siblings =
-      0;               ///< pieces of one fracture sharing more than kAreaTolerance of their parent
-  SharedIce siblings;  ///< the most that pieces of one fracture share in their body frame
+  Worst balance;                         ///< children + submerged + brash − rounding defect − parent
+  std::size_t overlapping_siblings = 0;  ///< pieces of one fracture sharing more than kAreaTolerance of their parent
+  SharedIce siblings;                    ///< the most that pieces of one fracture share in their body frame
 
-  std::size_t instants = 0;  ///< at which overlaps were measured
-  std::size_t pairs = 0;     ///< whose boxes met, over all instants
-  std::size_t overlapping_pairs =
-      0;                   ///< that shared more than kTouchingArea (overlapping_pairs.hpp) at some instant
-  double most_shared = 0;  ///< Σ over all pairs at the instant it is most [m²]
-  double most_shared_time = 0;      ///< [s]
-  double ice_then = 0;              ///< area of all floes at that instant [m²]
-  SharedIce deepest;                ///< the deepest pair of those that share more than kTouchingArea
-  SharedIce worst;                  ///< the pair that shares most
-  std::size_t hull_pairs = 0;       ///< of a ship or structure and a floe, whose boxes met, over all instants
-  SharedIce worst_with_hull;        ///< the floe (second) that shares most with one
-  int worst_hull = -1;              ///< that one
-  bool has_crushed = false;         ///< the run states what was crushed: overlaps were compared with it
-  std::size_t uncrushed_pairs = 0;  ///< over all instants
+  std::size_t instants = 0;           ///< at which overlaps were measured
+  std::size_t pairs = 0;              ///< whose boxes met, over all instants
+  std::size_t overlapping_pairs = 0;  ///< that shared more than kTouchingArea (overlapping_pairs.hpp) at some instant
+  double most_shared = 0;             ///< Σ over all pairs at the instant it is most [m²]
+  double most_shared_time = 0;        ///< [s]
+  double ice_then = 0;                ///< area of all floes at that instant [m²]
+  SharedIce deepest;                  ///< the deepest pair of those that share more than kTouchingArea
+  SharedIce worst;                    ///< the pair that shares most
+  std::size_t hull_pairs = 0;         ///< of a ship or structure and a floe, whose boxes met, over all instants
+  SharedIce worst_with_hull;          ///< the floe (second) that shares most with one
+  int worst_hull = -1;                ///< that one
+  bool has_crushed = false;           ///< the run states what was crushed: overlaps were compared with it
+  std::size_t uncrushed_pairs = 0;    ///< over all instants
   std::vector<UncrushedOverlap> uncrushed;  ///< the first of these
   std::size_t undecided = 0;                ///< pairs whose overlap geometry failed to find
 

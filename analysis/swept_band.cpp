@@ -49,8 +49,8 @@ bool is_straight(const std::vector<Ring>& hulls, std::size_t from, std::size_t t
 
 }  // namespace
 
-std::vector<double> straight_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship,
-                                    double time, double tolerance) {
+std::vector<double> straight_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship, double time,
+                                    double tolerance) {
   constexpr std::size_t kLongest = 256;  ///< frames in a piece, which keeps the search near linear
   const std::vector<double> times = frame_times_until(run, time);
   std::vector<Ring> hulls;
@@ -66,8 +66,8 @@ std::vector<double> straight_pieces(const io::Run& run, const io::MotionIndex& m
   return ends;
 }
 
-std::vector<Polygon> swept_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship,
-                                  double time, double tolerance) {
+std::vector<Polygon> swept_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship, double time,
+                                  double tolerance) {
   const std::vector<double> ends = straight_pieces(run, motions, ship, time, tolerance);
   std::vector<Polygon> pieces;
   Ring before = hull_at(run, motions, ship, ends.front(), time);

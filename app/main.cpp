@@ -51,8 +51,7 @@ int report_out_of_memory() {
 }
 
 int command_line(int count, char** words) {
-  return run_command_line({kExamples, kCodes, "polynya " + std::string(io::version())}, kCommands, count,
-                          words);
+  return run_command_line({kExamples, kCodes, "polynya " + std::string(io::version())}, kCommands, count, words);
 }
 
 /// What the standard library throws, as an exit code.

@@ -28,8 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 template <typename Case>
-void compare(const char* title, const Case& data, std::vector<Contender<Case>> contenders, int rounds,
-             int repeats) {
+void compare(const char* title, const Case& data, std::vector<Contender<Case>> contenders, int rounds, int repeats) {
   for (int round = 0; round < rounds; ++round) {
     for (Contender<Case>& contender : contenders) {
       const auto start = std::chrono::steady_clock::now();
@@ -37,11 +36,10 @@ void compare(const char* title, const Case& data, std::vector<Contender<Case>> c
       contender.least_s = std::min(contender.least_s, seconds_since(start) / repeats);
     }
   }
-  std::printf("%s\n  %-16s %12s %10s %18s %9s\n", title, "library", "least [ms]", "vs ours", "area [m2]",
-              "vertices");
+  std::printf("%s\n  %-16s %12s %10s %18s %9s\n", title, "library", "least [ms]", "vs ours", "area [m2]", "vertices");
   for (const Contender<Case>& c : contenders) {
-    std::printf("  %-16s %12.4f %9.2fx %18.9f %9zu\n", c.name, c.least_s * 1e3,
-                c.least_s / contenders.front().least_s, c.result.area, c.result.vertices);
+    std::printf("  %-16s %12.4f %9.2fx %18.9f %9zu\n", c.name, c.least_s * 1e3, c.least_s / contenders.front().least_s,
+                c.result.area, c.result.vertices);
   }
 }
 
@@ -64,18 +62,16 @@ int main(int argc, char** argv) {
                   {"Clipper 6", clipper::split}},
                  rounds, 20);
   using Seconds = double (*)(int);
-  const std::vector<std::pair<const char*, Seconds>> columns{
-      {"find_defect", polynya_cuts::seconds_to_validate},
-      {"crack, whole", polynya_cuts::seconds_to_cut_generally},
-      {"crack", polynya_cuts::seconds_to_cut_locally},
-      {"2 discs, whole", polynya_cuts::seconds_to_cut_by_two}};
+  const std::vector<std::pair<const char*, Seconds>> columns{{"find_defect", polynya_cuts::seconds_to_validate},
+                                                             {"crack, whole", polynya_cuts::seconds_to_cut_generally},
+                                                             {"crack", polynya_cuts::seconds_to_cut_locally},
+                                                             {"2 discs, whole", polynya_cuts::seconds_to_cut_by_two}};
   std::printf("exact cost by size of the floe [ms], least of %d\n  %10s", rounds, "vertices");
   for (const auto& [name, run] : columns) std::printf(" %16s", name);
   for (const int vertices : {1250, 2500, 5000, 10000, 100000}) {
     std::vector<double> least(columns.size(), std::numeric_limits<double>::infinity());
     for (int round = 0; round < (vertices > 10000 ? 1 : rounds); ++round) {
-      for (std::size_t i = 0; i < columns.size(); ++i)
-        least[i] = std::min(least[i], columns[i].second(vertices));
+      for (std::size_t i = 0; i < columns.size(); ++i) least[i] = std::min(least[i], columns[i].second(vertices));
     }
     std::printf("\n  %10d", vertices);
     for (const double seconds : least) std::printf(" %16.3f", seconds * 1e3);

@@ -26,8 +26,8 @@ Result march(const March& march) {
   for (const geometry::Ring& cusp : march.cusps) {
     BoostMulti left;
     bg::difference(plate, to_boost(cusp), left);
-    const auto largest = std::max_element(
-        left.begin(), left.end(), [](auto& a, auto& b) { return a.outer().size() < b.outer().size(); });
+    const auto largest = std::max_element(left.begin(), left.end(),
+                                          [](auto& a, auto& b) { return a.outer().size() < b.outer().size(); });
     plate = std::move(*largest);
   }
   return {bg::area(plate), plate.outer().size() - 1};

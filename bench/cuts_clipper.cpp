@@ -14,13 +14,11 @@ constexpr double kScale = 1 << 20;
 ClipperLib::Path to_clipper(const geometry::Ring& ring) {
   ClipperLib::Path path;
   path.reserve(ring.size());
-  for (const geometry::Point p : ring)
-    path.emplace_back(std::llround(p.x * kScale), std::llround(p.y * kScale));
+  for (const geometry::Point p : ring) path.emplace_back(std::llround(p.x * kScale), std::llround(p.y * kScale));
   return path;
 }
 
-ClipperLib::Paths clip(ClipperLib::ClipType type, const ClipperLib::Path& subject,
-                       const ClipperLib::Path& tool) {
+ClipperLib::Paths clip(ClipperLib::ClipType type, const ClipperLib::Path& subject, const ClipperLib::Path& tool) {
   ClipperLib::Clipper clipper;
   clipper.AddPath(subject, ClipperLib::ptSubject, true);
   clipper.AddPath(tool, ClipperLib::ptClip, true);

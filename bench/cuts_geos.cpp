@@ -31,8 +31,7 @@ GEOSGeometry* to_geos(GEOSContextHandle_t geos, const geometry::Ring& ring) {
 }
 
 std::size_t vertices(GEOSContextHandle_t geos, const GEOSGeometry* geometry) {
-  return static_cast<std::size_t>(GEOSGetNumCoordinates_r(geos, geometry) -
-                                  GEOSGetNumGeometries_r(geos, geometry));
+  return static_cast<std::size_t>(GEOSGetNumCoordinates_r(geos, geometry) - GEOSGetNumGeometries_r(geos, geometry));
 }
 
 GEOSGeometry* largest_part(GEOSContextHandle_t geos, GEOSGeometry* whole) {

@@ -21,11 +21,10 @@ Result march(const March& march) {
   for (const geometry::Ring& cusp : march.cusps) {
     CutOutcome outcome = cut_by_polygon(plate, {cusp, {}});
     if (!outcome) throw std::runtime_error(outcome.error().detail);
-    const auto largest =
-        std::max_element(outcome->pieces.begin(), outcome->pieces.end(), [](auto& a, auto& b) {
-          return std::pair(a.part == Part::kOutside, vertex_count(a.shape.polygon)) <
-                 std::pair(b.part == Part::kOutside, vertex_count(b.shape.polygon));
-        });
+    const auto largest = std::max_element(outcome->pieces.begin(), outcome->pieces.end(), [](auto& a, auto& b) {
+      return std::pair(a.part == Part::kOutside, vertex_count(a.shape.polygon)) <
+             std::pair(b.part == Part::kOutside, vertex_count(b.shape.polygon));
+    });
     area = outcome->ledger.area_outside;
     plate = std::move(largest->shape);
   }

@@ -35,9 +35,9 @@ const std::array<BendingLoad, kLoads>& loads() {
       load.hull_angle = uniform(0.5, 1.2);
       load.mean_approach_speed = uniform(0.05, 4);
       load.penetration = uniform(0.01, 0.5);
-      load.vertical_to_crushing = fracture::crushing_shares(load.hull_angle, load.ice.friction,
-                                                            load.mean_approach_speed, uniform(0, 2))
-                                      .vertical;
+      load.vertical_to_crushing =
+          fracture::crushing_shares(load.hull_angle, load.ice.friction, load.mean_approach_speed, uniform(0, 2))
+              .vertical;
     }
     return some;
   }();
@@ -91,8 +91,7 @@ BENCHMARK(DirectMarch)->Unit(benchmark::kMillisecond);
 /// The whole shipped table, on as many threads as the argument says.
 void BuildTable(benchmark::State& state) {
   for (auto _ : state) {
-    const auto built =
-        fracture::build_database({}, fracture::default_grid(), static_cast<int>(state.range(0)));
+    const auto built = fracture::build_database({}, fracture::default_grid(), static_cast<int>(state.range(0)));
     if (!built || fracture::write_database(*built) != fracture::default_database_text())
       state.SkipWithError("the table is not the shipped one");
   }

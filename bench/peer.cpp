@@ -53,12 +53,10 @@ PeerScene peer_scene(const simulation::Simulation& simulation) {
   for (simulation::BodyIndex i = 0; i < world.population.hull_count; ++i) {
     const geometry::Ring& waterline = hull_of(world.setup.scene, i).hull.waterline;
     PeerBody body = body_at(world, i, waterline);
-    if (world.population.kind(i) == simulation::BodyKind::kStructure)
-      body.radius = distance(waterline.front(), {});
+    if (world.population.kind(i) == simulation::BodyKind::kStructure) body.radius = distance(waterline.front(), {});
     if (world.population.kind(i) == simulation::BodyKind::kShip) {
       const simulation::Propulsion& propulsion = world.setup.scene.ships[i].propulsion;
-      if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&propulsion))
-        body.thrust = thrust->thrust;
+      if (const auto* thrust = std::get_if<simulation::ConstantThrust>(&propulsion)) body.thrust = thrust->thrust;
     }
     scene.bodies.push_back(std::move(body));
   }
@@ -84,8 +82,7 @@ std::vector<geometry::Ring> convex_pieces(const geometry::Ring& ring, std::size_
   return pieces;
 }
 
-Vector drag_acceleration(const PeerBody& body, const dynamics::ShearCurrent& current, Point p, Vector v,
-                         Rotation r) {
+Vector drag_acceleration(const PeerBody& body, const dynamics::ShearCurrent& current, Point p, Vector v, Rotation r) {
   if (body.shape == nullptr) return {};
   const Vector u = current.is_still() ? v : v - current.velocity_at(p);
   const double speed = length(u);

@@ -90,8 +90,8 @@ class ChipmunkWorld {
 };
 
 /// Acceleration by the water of Eq. (6) on a body that moves with v at p and is turned by r [m/s²].
-geometry::Vector drag_acceleration(const PeerBody& body, const dynamics::ShearCurrent& current,
-                                   geometry::Point p, geometry::Vector v, geometry::Rotation r);
+geometry::Vector drag_acceleration(const PeerBody& body, const dynamics::ShearCurrent& current, geometry::Point p,
+                                   geometry::Vector v, geometry::Rotation r);
 /// The same of its spin [rad/s²].
 double drag_spin(const PeerBody& body, const dynamics::ShearCurrent& current, double angular_velocity);
 

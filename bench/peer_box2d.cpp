@@ -79,8 +79,7 @@ StepReport Box2dWorld::step(bool counts_contacts) {
     const b2Vec2 p = body.GetPosition();
     const b2Rot q = body.GetTransform().q;
     if (from.thrust != 0) body.ApplyForceToCenter(static_cast<float>(from.thrust) * q.GetXAxis(), true);
-    const geometry::Vector drag =
-        drag_acceleration(from, parts_->scene.current, {p.x, p.y}, {v.x, v.y}, {q.c, q.s});
+    const geometry::Vector drag = drag_acceleration(from, parts_->scene.current, {p.x, p.y}, {v.x, v.y}, {q.c, q.s});
     body.ApplyForceToCenter(to_b2(from.mass * drag), false);
     const double spin = drag_spin(from, parts_->scene.current, body.GetAngularVelocity());
     body.ApplyTorque(static_cast<float>(from.moment * spin), false);

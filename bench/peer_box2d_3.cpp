@@ -90,8 +90,7 @@ StepReport Box2d3World::step(bool counts_contacts) {
     const b2Vec2 p = b2Body_GetPosition(body);
     const b2Rot q = b2Body_GetRotation(body);
     const geometry::Vector thrust = from.thrust * geometry::Vector{q.c, q.s};
-    const geometry::Vector drag =
-        drag_acceleration(from, parts_->scene.current, {p.x, p.y}, {v.x, v.y}, {q.c, q.s});
+    const geometry::Vector drag = drag_acceleration(from, parts_->scene.current, {p.x, p.y}, {v.x, v.y}, {q.c, q.s});
     b2Body_ApplyForceToCenter(body, to_b2(thrust + from.mass * drag), false);
     const double spin = drag_spin(from, parts_->scene.current, b2Body_GetAngularVelocity(body));
     b2Body_ApplyTorque(body, static_cast<float>(from.moment * spin), false);

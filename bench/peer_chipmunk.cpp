@@ -51,8 +51,7 @@ ChipmunkWorld::ChipmunkWorld(const PeerScene& scene) : parts_(std::make_unique<P
   std::vector<cpBody*> still;
   for (std::size_t i = 0; i < parts_->scene.bodies.size(); ++i) {
     const PeerBody& from = parts_->scene.bodies[i];
-    cpBody* body =
-        cpSpaceAddBody(space, from.is_prescribed ? cpBodyNewKinematic() : cpBodyNew(from.mass, from.moment));
+    cpBody* body = cpSpaceAddBody(space, from.is_prescribed ? cpBodyNewKinematic() : cpBodyNew(from.mass, from.moment));
     parts_->tags[i] = {&from, &parts_->scene.current};
     cpBodySetUserData(body, &parts_->tags[i]);
     cpBodySetPosition(body, to_cp(from.position - geometry::Point{}));
@@ -63,9 +62,8 @@ ChipmunkWorld::ChipmunkWorld(const PeerScene& scene) : parts_(std::make_unique<P
     if (!from.is_prescribed) cpBodySetVelocityUpdateFunc(body, push_and_brake);
     std::vector<cpVect> corners;
     for (const geometry::Point p : from.outline) corners.push_back(to_cp(p - geometry::Point{}));
-    cpShape* shape = from.radius > 0
-                         ? cpCircleShapeNew(body, from.radius, cpvzero)
-                         : cpPolyShapeNewRaw(body, static_cast<int>(corners.size()), corners.data(), 0);
+    cpShape* shape = from.radius > 0 ? cpCircleShapeNew(body, from.radius, cpvzero)
+                                     : cpPolyShapeNewRaw(body, static_cast<int>(corners.size()), corners.data(), 0);
     cpShapeSetFriction(shape, std::sqrt(scene.friction));  // Chipmunk multiplies the two
     cpShapeSetElasticity(shape, std::sqrt(scene.restitution));
     cpSpaceAddShape(space, shape);

@@ -111,7 +111,6 @@ int main(int count, char** words) {
     if (until > 0) at.until = until;
     return print_threads(at, part), 0;
   }
-  std::fprintf(stderr, "usage: %s [--quick] [--only voyage|field-10000|cylinder-shear [--until SECONDS]]\n",
-               words[0]);
+  std::fprintf(stderr, "usage: %s [--quick] [--only voyage|field-10000|cylinder-shear [--until SECONDS]]\n", words[0]);
   return 2;
 }

@@ -75,11 +75,9 @@ simulation::Scene round_plate(int corners) {
 }
 
 std::vector<Sweep> run_sweeps(bool is_quick) {
-  std::vector<Sweep> sweeps{
-      {"floes", {}}, {"awake", {}}, {"contacts", {}}, {"vertices", {}}, {"threads", {}}};
+  std::vector<Sweep> sweeps{{"floes", {}}, {"awake", {}}, {"contacts", {}}, {"vertices", {}}, {"threads", {}}};
   const double part = is_quick ? 0.1 : 1;
-  const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until,
-                           int threads = 1) {
+  const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until, int threads = 1) {
     const auto steps = std::lround(part * until / scene.time.step);
     RunCost cost = run_polynya(scene, {1e9, steps, threads});
     keep_quieter(cost, run_polynya(scene, {1e9, steps, threads}));
@@ -88,13 +86,10 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
   };
   for (const int copies : {1, 2, 5, 15, 50}) measure(sweeps[0], 2000 * copies, voyage_beside(copies), 200);
   for (const int floes : {100, 300, 1000, 3000, 10000}) measure(sweeps[1], floes, sheared(floes, 0.8), 100);
-  for (const double concentration : {0.5, 0.6, 0.7, 0.8, 0.9})
-    measure(sweeps[2], 0, sheared(2000, concentration), 100);
-  for (const int corners : {30, 100, 300, 1000, 3000, 10000})
-    measure(sweeps[3], corners, round_plate(corners), 100);
+  for (const double concentration : {0.5, 0.6, 0.7, 0.8, 0.9}) measure(sweeps[2], 0, sheared(2000, concentration), 100);
+  for (const int corners : {30, 100, 300, 1000, 3000, 10000}) measure(sweeps[3], corners, round_plate(corners), 100);
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  for (int threads = 1; threads <= cores; threads *= 2)
-    measure(sweeps[4], threads, sheared(10000, 0.8), 100, threads);
+  for (int threads = 1; threads <= cores; threads *= 2) measure(sweeps[4], threads, sheared(10000, 0.8), 100, threads);
   return sweeps;
 }
 
@@ -114,8 +109,8 @@ int main(int count, char** words) {
   table << "sweep,x,mean_us,median_us,mean_awake,mean_contacts\n";
   for (const Sweep& sweep : sweeps) {
     for (const Sample& s : sweep.samples) {
-      table << sweep.name << ',' << s.x << ',' << 1e6 * s.cost.mean_step() << ','
-            << 1e6 * s.cost.median_step() << ',' << s.cost.mean_awake << ',' << s.cost.mean_contacts << '\n';
+      table << sweep.name << ',' << s.x << ',' << 1e6 * s.cost.mean_step() << ',' << 1e6 * s.cost.median_step() << ','
+            << s.cost.mean_awake << ',' << s.cost.mean_contacts << '\n';
     }
   }
 }

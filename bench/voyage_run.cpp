@@ -93,8 +93,8 @@ RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
     simulation.step();
     simulation.journal().clear();
     report.seconds = seconds_since(before);
-    report.awake = static_cast<int>(simulation.world().population.awake.size()) -
-                   simulation.world().population.hull_count;
+    report.awake =
+        static_cast<int>(simulation.world().population.awake.size()) - simulation.world().population.hull_count;
     report.contacts = counts_contacts ? touching_pairs(simulation.world().step.contacts) : -1;
     return report;
   });
@@ -116,8 +116,7 @@ double RunCost::total_of_first(long first) const {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const long begin = static_cast<long>(i) * kBlock;
     const long length = std::min(kBlock, steps - begin);
-    const double share =
-        std::clamp(static_cast<double>(first - begin) / static_cast<double>(length), 0.0, 1.0);
+    const double share = std::clamp(static_cast<double>(first - begin) / static_cast<double>(length), 0.0, 1.0);
     sum += share * blocks[i];
   }
   return sum;
@@ -140,8 +139,7 @@ void keep_quieter(RunCost& cost, const RunCost& again) {
 simulation::Scene load(const std::string& file, const Edit& edit) {
   auto loaded = io::read_scene_file(std::string(POLYNYA_SOURCE_DIR) + "/scenes/" + file);
   if (!loaded) {
-    for (const io::Problem& problem : loaded.error())
-      std::fprintf(stderr, "%s\n", to_string(problem).c_str());
+    for (const io::Problem& problem : loaded.error()) std::fprintf(stderr, "%s\n", to_string(problem).c_str());
     std::exit(1);
   }
   if (edit) edit(loaded->scene);

@@ -102,20 +102,17 @@ std::vector<Case> cases(bool is_quick) {
           {"plate-10000", "level-plate.json", round_plate(10000), 200 * part, false, "plate-100", 1, 3}};
 }
 
-void print_row(const Case& at, const RunCost& cost, std::size_t floes, const std::string& ratio,
-               std::FILE* csv) {
+void print_row(const Case& at, const RunCost& cost, std::size_t floes, const std::string& ratio, std::FILE* csv) {
   std::printf("| %s | %s | %zu | %.4g | %.0f | %.1f | %.1f | %.0f | %.1f | %.4g | %.2f | %.0f | %s |\n",
-              at.name.c_str(), cost.engine.c_str(), floes, cost.step,
-              cost.step * static_cast<double>(cost.steps), 1e6 * cost.mean_step(), 1e6 * cost.median_step(),
-              cost.mean_awake, cost.mean_contacts, cost.real_time_factor(), cost.load, cost.memory,
-              ratio.c_str());
+              at.name.c_str(), cost.engine.c_str(), floes, cost.step, cost.step * static_cast<double>(cost.steps),
+              1e6 * cost.mean_step(), 1e6 * cost.median_step(), cost.mean_awake, cost.mean_contacts,
+              cost.real_time_factor(), cost.load, cost.memory, ratio.c_str());
   std::fflush(stdout);
   if (csv == nullptr) return;
   std::fprintf(csv, "%s,%s,%zu,%.6g,%.6g,%.4f,%.4f,%.2f,%d,%.2f,%.6g,%.4f,%.1f,%d,%d,%s\n", at.name.c_str(),
                cost.engine.c_str(), floes, cost.step, cost.step * static_cast<double>(cost.steps),
-               1e6 * cost.mean_step(), 1e6 * cost.median_step(), cost.mean_awake, cost.most_awake,
-               cost.mean_contacts, cost.real_time_factor(), cost.load, cost.memory, cost.bends, cost.splits,
-               ratio.c_str());
+               1e6 * cost.mean_step(), 1e6 * cost.median_step(), cost.mean_awake, cost.most_awake, cost.mean_contacts,
+               cost.real_time_factor(), cost.load, cost.memory, cost.bends, cost.splits, ratio.c_str());
   std::fflush(csv);
 }
 
@@ -142,12 +139,10 @@ void run_case(const Case& at, const std::vector<Case>& all, const Options& optio
   const auto ours = [&](const Case& which) {
     return [&which, steps] { return run_polynya(which.scene, which.edit, {1e9, steps, which.threads}); };
   };
-  const auto yardstick =
-      std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
+  const auto yardstick = std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
   std::vector<std::function<RunCost()>> runs{ours(at)};
   if (yardstick != all.end()) runs.emplace_back(ours(*yardstick));
-  const PeerScene bodies =
-      at.has_peers ? peer_scene(simulation::Simulation{simulation::Scene(scene)}) : PeerScene{};
+  const PeerScene bodies = at.has_peers ? peer_scene(simulation::Simulation{simulation::Scene(scene)}) : PeerScene{};
   const Limits limits{options.peer_seconds, steps};
   if (at.has_peers) {
     for (const Peer& peer : peers()) runs.emplace_back([&] { return peer.run(peer, bodies, limits); });
@@ -181,8 +176,7 @@ Options options_of(int count, char** words) {
     } else if (std::strcmp(words[i], "--lateral") == 0 && has_value) {
       options.lateral = std::atof(words[++i]);
     } else {
-      std::fprintf(stderr,
-                   "usage: %s [--quick] [--csv FILE] [--only CASE] [--peer-seconds S] [--lateral METRES]\n",
+      std::fprintf(stderr, "usage: %s [--quick] [--csv FILE] [--only CASE] [--peer-seconds S] [--lateral METRES]\n",
                    words[0]);
       std::exit(2);
     }

@@ -46,10 +46,9 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
 void reserve(Bodies& bodies, std::size_t count) {
   const auto reserve_all = [count](auto&... columns) { (columns.reserve(count), ...); };
   reserve_all(bodies.position, bodies.angle, bodies.rotation, bodies.velocity, bodies.angular_velocity,
-              bodies.inverse_mass, bodies.inverse_moment, bodies.travel, bodies.bounding_radius,
-              bodies.rim_speed, bodies.drag_span, bodies.is_awake, bodies.is_alive, bodies.mass,
-              bodies.moment, bodies.centroid, bodies.area, bodies.thickness, bodies.kind, bodies.boundary,
-              bodies.drag);
+              bodies.inverse_mass, bodies.inverse_moment, bodies.travel, bodies.bounding_radius, bodies.rim_speed,
+              bodies.drag_span, bodies.is_awake, bodies.is_alive, bodies.mass, bodies.moment, bodies.centroid,
+              bodies.area, bodies.thickness, bodies.kind, bodies.boundary, bodies.drag);
 }
 
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn) {
@@ -63,29 +62,28 @@ void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn)
 double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt, int threads) {
   boost::container::small_vector<double, 16> fastest(chunk_count(awake.size(), kBodiesPerChunk));
   const auto is_faster = [](double rim, double than) { return rim > than || rim != rim; };
-  for_chunks(awake.size(), kBodiesPerChunk, threads,
-             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-               // Without checks of each index.
-               const geometry::Vector* velocity = bodies.velocity.data();
-               const double* angular_velocity = bodies.angular_velocity.data();
-               const double* radius = bodies.bounding_radius.data();
-               geometry::Point* position = bodies.position.data();
-               geometry::Rotation* rotation = bodies.rotation.data();
-               double *angle = bodies.angle.data(), *travel = bodies.travel.data();
-               double* rim_speed = bodies.rim_speed.data();
-               double most = 0;
-               for (const BodyIndex i : std::span(awake).subspan(begin, end - begin)) {
-                 const double omega = angular_velocity[i];
-                 const double rim = length(velocity[i]) + std::abs(omega) * radius[i];
-                 rim_speed[i] = rim;
-                 if (is_faster(rim, most)) most = rim;
-                 position[i] += dt * velocity[i];
-                 travel[i] += dt * rim;
-                 angle[i] += dt * omega;
-                 rotation[i] = turned(rotation[i], dt * omega);
-               }
-               fastest[chunk] = most;
-             });
+  for_chunks(awake.size(), kBodiesPerChunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    // Without checks of each index.
+    const geometry::Vector* velocity = bodies.velocity.data();
+    const double* angular_velocity = bodies.angular_velocity.data();
+    const double* radius = bodies.bounding_radius.data();
+    geometry::Point* position = bodies.position.data();
+    geometry::Rotation* rotation = bodies.rotation.data();
+    double *angle = bodies.angle.data(), *travel = bodies.travel.data();
+    double* rim_speed = bodies.rim_speed.data();
+    double most = 0;
+    for (const BodyIndex i : std::span(awake).subspan(begin, end - begin)) {
+      const double omega = angular_velocity[i];
+      const double rim = length(velocity[i]) + std::abs(omega) * radius[i];
+      rim_speed[i] = rim;
+      if (is_faster(rim, most)) most = rim;
+      position[i] += dt * velocity[i];
+      travel[i] += dt * rim;
+      angle[i] += dt * omega;
+      rotation[i] = turned(rotation[i], dt * omega);
+    }
+    fastest[chunk] = most;
+  });
   double most = 0;
   for (const double rim : fastest) {
     if (is_faster(rim, most)) most = rim;

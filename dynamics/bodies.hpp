@@ -99,13 +99,11 @@ inline geometry::Pose water_from_body(const Bodies& bodies, BodyIndex i) {
 
 /// Where b's centre of mass and axes are in the frame of a's.
 inline geometry::Pose centre_a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b) {
-  return geometry::relative_pose({bodies.position[a], bodies.rotation[a]},
-                                 {bodies.position[b], bodies.rotation[b]});
+  return geometry::relative_pose({bodies.position[a], bodies.rotation[a]}, {bodies.position[b], bodies.rotation[b]});
 }
 
 /// Placement of b's frame in a's, from that of their centres of mass.
-inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b,
-                               const geometry::Pose& centre_a_from_b) {
+inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b, const geometry::Pose& centre_a_from_b) {
   const geometry::Vector centroid_of_a = bodies.centroid[a] - geometry::Point{};
   const geometry::Vector centroid_of_b = bodies.centroid[b] - geometry::Point{};
   return {centre_a_from_b.position + centroid_of_a - rotate(centre_a_from_b.rotation, centroid_of_b),
@@ -114,8 +112,8 @@ inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b,
 
 /// Whether it is ice of prescribed motion that stands in the water: nothing moves it.
 inline bool is_held(const Bodies& bodies, BodyIndex i) {
-  return bodies.kind[i] == BodyKind::kFloe && bodies.inverse_mass[i] == 0 &&
-         bodies.velocity[i] == geometry::Vector{} && bodies.angular_velocity[i] == 0;
+  return bodies.kind[i] == BodyKind::kFloe && bodies.inverse_mass[i] == 0 && bodies.velocity[i] == geometry::Vector{} &&
+         bodies.angular_velocity[i] == 0;
 }
 
 /// Velocity of a point of the body at `arm` from its centre of mass, v + ω × r [m/s].

@@ -61,8 +61,7 @@ void start_workers(int threads) {
 
 struct ThreadLimit::Arena {
   explicit Arena(int threads)
-      : most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
-        arena(threads) {}
+      : most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
   tbb::global_control most;
   tbb::task_arena arena;
 };

@@ -7,8 +7,7 @@
 namespace polynya::fracture {
 
 inline constexpr double kSmallestHalfAngle = 0.174532925199432957;  ///< 10°, least wedge half-angle [rad]
-inline constexpr double kLargestHalfAngle =
-    1.43116998663535025;  ///< 82°: tan diverges at a straight edge [rad]
+inline constexpr double kLargestHalfAngle = 1.43116998663535025;    ///< 82°: tan diverges at a straight edge [rad]
 
 /// The hull's inclination from the vertical where its waterline's plan normal has the forward component
 /// sin α: tan θ_s = sin α / tan φ, with the stem angle φ from the horizontal and the waterline angle α from

@@ -21,8 +21,7 @@ struct FailureCriteria {
 
   // Splitting by Eq. (4), with j/τ_c:
   double collision_force = 0;  ///< j / τ_c of Eq. (5) [N]
-  double splitting_force =
-      0;  ///< F_s, of use only where crack_length > 0; 0 where the rule is not in use [N]
+  double splitting_force = 0;  ///< F_s, of use only where crack_length > 0; 0 where the rule is not in use [N]
 
   // Splitting by the true forces, on the same crack:
   double flank_forces[2] = {0, 0};  ///< that push the ice on its left and right apart [N]

@@ -7,8 +7,7 @@ namespace polynya::fracture {
 
 using geometry::Vector;
 
-std::optional<std::array<Push, 2>> wedge_pushes(Vector force, const std::array<Face, 2>& faces,
-                                                double friction) {
+std::optional<std::array<Push, 2>> wedge_pushes(Vector force, const std::array<Face, 2>& faces, double friction) {
   constexpr double kLeastAngle = 1e-6;  // between the faces' forces [rad]
   if (std::max(faces[0].leaving, faces[1].leaving) > kFullSlip) return std::nullopt;
   const auto direction = [&](const Face& face) {

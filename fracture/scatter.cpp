@@ -27,8 +27,7 @@ Gauss gauss_of(const ScatterLaw& law) {
 
 bool is_single_value(const ScatterLaw& law) {
   if (law.kind == ScatterKind::kUniform) return law.least == law.most;
-  return law.kind == ScatterKind::kConstant ||
-         gauss_of(law).deviation == 0;  // also where its square underflows
+  return law.kind == ScatterKind::kConstant || gauss_of(law).deviation == 0;  // also where its square underflows
 }
 
 double single_value(const ScatterLaw& law) {
@@ -68,8 +67,7 @@ double quantile(const ScatterLaw& law, double share) {
   const Gauss gauss = gauss_of(law);
   const double unbounded = unbounded_share(law, law.least) + share * share_within_bounds(law);
   if (!(unbounded > 0)) return law.least;
-  const double x =
-      boost::math::quantile(normal(gauss.mean, gauss.deviation), std::min(unbounded, kAlmostOne));
+  const double x = boost::math::quantile(normal(gauss.mean, gauss.deviation), std::min(unbounded, kAlmostOne));
   return std::clamp(law.kind == ScatterKind::kLogNormal ? std::exp(x) : x, law.least, law.most);
 }
 

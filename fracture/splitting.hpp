@@ -25,8 +25,7 @@ inline double michel_splitting_force(const Ice& ice, double path_length, double 
 /// within 2 % to finite elements of W/L from 0.25 to 3 (docs/theory.md, "Splitting"); K_IC 115–250 kPa √m
 /// after [Bhat1988] (*recall*).
 inline double lefm_splitting_force(const Ice& ice, double length, double width) {
-  return ice.thickness * ice.fracture_toughness *
-         std::min(0.187 * std::sqrt(width), 0.2105 * std::sqrt(length));
+  return ice.thickness * ice.fracture_toughness * std::min(0.187 * std::sqrt(width), 0.2105 * std::sqrt(length));
 }
 
 /// W/L down to which that was fitted. Cracks with less ice beside them do not run straight: they turn to the

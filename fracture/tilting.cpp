@@ -19,16 +19,14 @@ TiltResistance tilt_resistance(const Ice& ice, const Water& water, double area, 
           .mass = (ice.density * ice.thickness * area + added) / 4};
 }
 
-double most_vertical_force(const TiltResistance& resistance, const EdgeMotion& motion, double slide_speed,
-                           double dt) {
+double most_vertical_force(const TiltResistance& resistance, const EdgeMotion& motion, double slide_speed, double dt) {
   return resistance.at(motion.deflection) + resistance.mass * std::max(0.0, slide_speed - motion.rate) / dt;
 }
 
-EdgeMotion tilted(const TiltResistance& resistance, const EdgeMotion& motion, double vertical_force,
-                  double damping, double dt) {
+EdgeMotion tilted(const TiltResistance& resistance, const EdgeMotion& motion, double vertical_force, double damping,
+                  double dt) {
   const double frequency = std::sqrt(resistance.stiffness / resistance.mass);
-  const double pushed =
-      motion.rate + dt * (vertical_force - resistance.at(motion.deflection)) / resistance.mass;
+  const double pushed = motion.rate + dt * (vertical_force - resistance.at(motion.deflection)) / resistance.mass;
   const double rate = pushed / (1 + damping * frequency * dt);
   const double deflection = motion.deflection + dt * rate;
   if (deflection <= 0) return {};

@@ -18,7 +18,7 @@ struct TiltSettings {
 struct TiltResistance {
   double stiffness = 0;  ///< k = ρ_w g A / 4 [N/m]
   double capacity = 0;   ///< V_rot = ρ_w g h A √r (1 − √r), r = ρ_i/ρ_w: the most it bears [N]
-  double mass = 0;  ///< m_e = ¼ [ρ_i h A + c_a 4/3 ρ_w (A/π)^1.5]: of the edge, with the water's [kg]
+  double mass = 0;       ///< m_e = ¼ [ρ_i h A + c_a 4/3 ρ_w (A/π)^1.5]: of the edge, with the water's [kg]
 
   double at(double deflection) const;  ///< R(w) = min(k w, V_rot) [N]
 };
@@ -34,12 +34,11 @@ struct EdgeMotion {
 
 /// The vertical force with which the edge is as fast at the end of dt [s] as the hull slides it down: a
 /// contact transmits no more. V_lim = R(w) + m_e max(0, u − ẇ)/Δt, u = v_n / tan θ_s [m/s] [N].
-double most_vertical_force(const TiltResistance& resistance, const EdgeMotion& motion, double slide_speed,
-                           double dt);
+double most_vertical_force(const TiltResistance& resistance, const EdgeMotion& motion, double slide_speed, double dt);
 
 /// The edge dt [s] later, under a vertical force [N]: m_e ẅ = V − R(w), with ẇ decaying at ζ √(k/m_e). The
 /// floe comes to rest where it floats, w = 0.
-EdgeMotion tilted(const TiltResistance& resistance, const EdgeMotion& motion, double vertical_force,
-                  double damping, double dt);
+EdgeMotion tilted(const TiltResistance& resistance, const EdgeMotion& motion, double vertical_force, double damping,
+                  double dt);
 
 }  // namespace polynya::fracture

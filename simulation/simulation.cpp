@@ -23,8 +23,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 tl::expected<Simulation, std::string> Simulation::resumed(Scene scene, std::string_view state) {
   auto world = std::make_unique<World>(std::move(scene), Shortcuts{}, Start::kEmpty);
-  if (std::string reason = load_state(*world, state); !reason.empty())
-    return tl::unexpected(std::move(reason));
+  if (std::string reason = load_state(*world, state); !reason.empty()) return tl::unexpected(std::move(reason));
   world->setup.scene.floes = std::vector<FloeSpec>();  // they are in the population now
   return Simulation(std::move(world));
 }
@@ -111,9 +110,8 @@ AreaLedger Simulation::area_ledger() const {
     if (!population.is_alive(id)) continue;
     (population.floes[id].is_under ? ledger.under_hull_area : ledger.floe_area) += population.floes[id].area;
   }
-  ledger.imbalance = ledger.floe_area + ledger.under_hull_area + ledger.under_ice_area +
-                     ledger.submerged_area + ledger.brash_area - ledger.rounding_defect -
-                     ledger.initial_ice_area;
+  ledger.imbalance = ledger.floe_area + ledger.under_hull_area + ledger.under_ice_area + ledger.submerged_area +
+                     ledger.brash_area - ledger.rounding_defect - ledger.initial_ice_area;
   return ledger;
 }
 
@@ -125,9 +123,8 @@ MassLedger Simulation::mass_ledger() const {
     (population.floes[id].is_under ? ledger.under_hull_mass : ledger.floe_mass) +=
         population.bodies.mass[population.body_of(id)];
   }
-  ledger.imbalance = ledger.floe_mass + ledger.under_hull_mass + ledger.under_ice_mass +
-                     ledger.submerged_mass + ledger.brash_mass - ledger.rounding_mass -
-                     ledger.initial_ice_mass;
+  ledger.imbalance = ledger.floe_mass + ledger.under_hull_mass + ledger.under_ice_mass + ledger.submerged_mass +
+                     ledger.brash_mass - ledger.rounding_mass - ledger.initial_ice_mass;
   return ledger;
 }
 
@@ -203,8 +200,7 @@ ContactState::Body contact_body(const Population& population, BodyIndex body) {
 std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
   const Population& population = world_->population;
   std::vector<std::tuple<BodyIndex, BodyIndex, double>> pairs;
-  population.pairs.for_loaded_overlaps(
-      [&](BodyIndex a, BodyIndex b, double area) { pairs.emplace_back(a, b, area); });
+  population.pairs.for_loaded_overlaps([&](BodyIndex a, BodyIndex b, double area) { pairs.emplace_back(a, b, area); });
   std::ranges::sort(pairs);
   std::vector<CrushedOverlap> overlaps;
   overlaps.reserve(pairs.size());

@@ -59,8 +59,7 @@ class ExamplesFirst : public CLI::Formatter {
     const auto [examples, rest] = examples_and_rest(app->get_footer());
     std::string text = make_description(app);
     if (!examples.empty()) text += "\n" + examples + "\n";
-    text += make_usage(app, std::move(name)) + make_positionals(app) + option_groups(app) +
-            make_subcommands(app, mode);
+    text += make_usage(app, std::move(name)) + make_positionals(app) + option_groups(app) + make_subcommands(app, mode);
     return rest.empty() ? text : text + "\n" + rest;
   }
 };
@@ -98,12 +97,10 @@ std::string meant_by(const std::string& word, const std::vector<std::string>& na
 std::string wrong_command(const CLI::App& command, const std::vector<std::string>& rest) {
   std::vector<std::string> names;
   for (const CLI::App* sub : commands_of(command)) names.push_back(sub->get_name());
-  const auto first =
-      std::ranges::find_if(rest, [](const std::string& word) { return !word.starts_with('-'); });
+  const auto first = std::ranges::find_if(rest, [](const std::string& word) { return !word.starts_with('-'); });
   return fmt::format("{}\ncommands: {}",
-                     first == rest.end()
-                         ? std::string("a command is missing")
-                         : fmt::format("no such command: {}{}", *first, meant_by(*first, names)),
+                     first == rest.end() ? std::string("a command is missing")
+                                         : fmt::format("no such command: {}{}", *first, meant_by(*first, names)),
                      fmt::join(names, ", "));
 }
 
@@ -112,8 +109,7 @@ std::string unexpected(const CLI::App& command, const std::vector<std::string>& 
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  const auto option =
-      std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with('-'); });
+  const auto option = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with('-'); });
   return fmt::format("not expected: {}{}", fmt::join(rest, " "),
                      option == rest.end() ? "" : meant_by(option->substr(0, option->find('=')), names));
 }
@@ -255,8 +251,7 @@ Option Option::one_of(std::vector<std::string_view> names, std::vector<std::stri
   return *this;
 }
 
-CommandLine CommandLine::add_command(const std::string& name, const std::string& meaning,
-                                     const std::string& footer) {
+CommandLine CommandLine::add_command(const std::string& name, const std::string& meaning, const std::string& footer) {
   CLI::App* const command = app_->add_subcommand(name, meaning);
   command->footer(footer);
   return CommandLine(command);
@@ -300,8 +295,7 @@ template Option CommandLine::add_option(const char*, std::optional<std::uint64_t
 template Option CommandLine::add_option(const char*, std::vector<std::string>&, const char*, const char*);
 template Option CommandLine::add_option(const char*, std::vector<double>&, const char*, const char*);
 
-Option CommandLine::add_setter(const char* name, std::function<void(int)> set, const char* type,
-                               const char* meaning) {
+Option CommandLine::add_setter(const char* name, std::function<void(int)> set, const char* type, const char* meaning) {
   return Option(app_->add_option_function<int>(name, std::move(set), meaning)->type_name(type));
 }
 
@@ -335,26 +329,24 @@ void add_set(CommandLine& command, std::vector<io::Assignment>& assignments) {
     const auto assignment = io::parse_assignment(word);
     return assignment ? "" : assignment.error();
   };
-  command.repeated(
-      "--set", "KEY=VALUE",
-      "A scene key's value instead of the scene's, by its path: --set ice.thickness_m=0.7; may be "
-      "repeated",
-      {problem_of, ""}, [&assignments](const std::string& word) {
-        if (auto assignment = io::parse_assignment(word)) assignments.push_back(std::move(*assignment));
-      });
+  command.repeated("--set", "KEY=VALUE",
+                   "A scene key's value instead of the scene's, by its path: --set ice.thickness_m=0.7; may be "
+                   "repeated",
+                   {problem_of, ""}, [&assignments](const std::string& word) {
+                     if (auto assignment = io::parse_assignment(word)) assignments.push_back(std::move(*assignment));
+                   });
 }
 
 void add_progress(CommandLine& command, ProgressKind& kind) {
-  command
-      .option("--progress", kind, "", "auto: a bar on a terminal, else a line every ten seconds; on stderr")
+  command.option("--progress", kind, "", "auto: a bar on a terminal, else a line every ten seconds; on stderr")
       .one_of<ProgressKind>({{"auto", ProgressKind::kAuto},
                              {"bar", ProgressKind::kBar},
                              {"json", ProgressKind::kJson},
                              {"none", ProgressKind::kNone}});
 }
 
-int run_command_line(const ProgramText& text, const std::vector<Command (*)(CommandLine&)>& commands,
-                     int count, const char* const* words) {
+int run_command_line(const ProgramText& text, const std::vector<Command (*)(CommandLine&)>& commands, int count,
+                     const char* const* words) {
   CLI::App app(text.examples, "polynya");
   app.formatter(std::make_shared<ExamplesFirst>());  // subcommands inherit it
   app.footer(text.footer);

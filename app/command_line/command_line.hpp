@@ -176,7 +176,7 @@ struct ProgramText {
 
 /// Parses the words and runs the command that they choose, or prints help, version or what is wrong with
 /// them.
-int run_command_line(const ProgramText& text, const std::vector<Command (*)(CommandLine&)>& commands,
-                     int count, const char* const* words);
+int run_command_line(const ProgramText& text, const std::vector<Command (*)(CommandLine&)>& commands, int count,
+                     const char* const* words);
 
 }  // namespace polynya::app

@@ -36,8 +36,8 @@ bool is_of_shell(const std::string& file) {
 bool is_open_as(const std::string& file, int descriptor) {
   struct stat named {
   }, opened{};
-  return ::stat(file.c_str(), &named) == 0 && ::fstat(descriptor, &opened) == 0 &&
-         named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+  return ::stat(file.c_str(), &named) == 0 && ::fstat(descriptor, &opened) == 0 && named.st_dev == opened.st_dev &&
+         named.st_ino == opened.st_ino;
 }
 
 }  // namespace

@@ -74,9 +74,8 @@ struct Completions {
         if (!name.starts_with("--")) continue;
         known += name + " ";
         if (!option.takes_value) continue;
-        values += has_choices
-                      ? fmt::format("    \"{} {}\") choices=\"{}\" ;;\n", path, name, choices)
-                      : fmt::format("    \"{} {}\") value={} ;;\n", path, name, completed_by(option.type));
+        values += has_choices ? fmt::format("    \"{} {}\") choices=\"{}\" ;;\n", path, name, choices)
+                              : fmt::format("    \"{} {}\") value={} ;;\n", path, name, completed_by(option.type));
       }
     }
     words += fmt::format("    \"{}\") words=\"{}\"; rest={} ;;\n", path, known, rest);

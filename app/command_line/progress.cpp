@@ -84,9 +84,8 @@ void ProgressOutput::show(const ProgressReport& report) const {
   } else {
     const int columns = terminal_width() - 1;  // the last one would wrap some terminals
     const int room = columns - static_cast<int>(report.beside_bar.size());
-    line =
-        fmt::format("\r{}{}\x1b[K", room >= 8 && report.part >= 0 ? bar(report.part, std::min(room, 40)) : "",
-                    fitted(report.beside_bar, columns));
+    line = fmt::format("\r{}{}\x1b[K", room >= 8 && report.part >= 0 ? bar(report.part, std::min(room, 40)) : "",
+                       fitted(report.beside_bar, columns));
   }
   show_progress(line);
 }
@@ -113,8 +112,8 @@ void WorkProgress::show_until(const std::stop_token& stop) {
   double pause = std::max(kFirst, output_.pause());
   bool is_shown = false;
   std::unique_lock lock(mutex_);
-  while (!ended_.wait_for(lock, stop, std::chrono::duration<double>(pause),
-                          [&stop] { return stop.stop_requested(); })) {
+  while (
+      !ended_.wait_for(lock, stop, std::chrono::duration<double>(pause), [&stop] { return stop.stop_requested(); })) {
     output_.show(report());
     is_shown = true;
     pause = output_.pause();

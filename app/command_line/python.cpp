@@ -25,8 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> kPythonCommands{"figures", "movie", "performance", "study"};
-constexpr auto kModule =
-    "polynya.command";  ///< python/polynya/command.py starts every command of the package
+constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
 /// The folder that holds the Python package: beside the build's app/, or the installed one.
 std::optional<fs::path> package_folder(const fs::path& program) {
@@ -113,8 +112,7 @@ Command add_movie(CommandLine& app) {
   return add_python_command(app, "movie", "Make a film of a run: the ice, and the force on the ship");
 }
 Command add_performance(CommandLine& app) {
-  return add_python_command(app, "performance",
-                            "Find the speed that a ship keeps in level ice, by thickness");
+  return add_python_command(app, "performance", "Find the speed that a ship keeps in level ice, by thickness");
 }
 Command add_study(CommandLine& app) {
   return add_python_command(app, "study", "Plan, run and gather many runs of one scene");
@@ -125,11 +123,10 @@ int become_python(const std::vector<std::string>& words) {
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const auto package = package_folder(program);
   if (!package)
-    return fail(
-        kInputOutput,
-        fmt::format("the Python package is neither in {0}/python nor in {0}/lib/polynya/python; build "
-                    "or install polynya again",
-                    program.parent_path().parent_path().string()));
+    return fail(kInputOutput,
+                fmt::format("the Python package is neither in {0}/python nor in {0}/lib/polynya/python; build "
+                            "or install polynya again",
+                            program.parent_path().parent_path().string()));
   const char* const more = std::getenv("PYTHONPATH");
   setenv("PYTHONPATH", (package->string() + (more && *more ? ":" + std::string(more) : "")).c_str(), 1);
   setenv("PYTHONSAFEPATH", "1", 1);  // no module of the working folder
@@ -143,8 +140,8 @@ int become_python(const std::vector<std::string>& words) {
   flush_out();
   execvp(arguments[0], arguments.data());
   return fail(kInputOutput,
-              fmt::format("{}: {}; this command needs Python: ./setup.sh python, or apt-get install python3",
-                          line[0], std::strerror(errno)));
+              fmt::format("{}: {}; this command needs Python: ./setup.sh python, or apt-get install python3", line[0],
+                          std::strerror(errno)));
 }
 
 void describe_python_commands(std::vector<CommandDescription>& commands) {

@@ -69,16 +69,16 @@ ProgressReport report(std::size_t done, std::size_t total, double wall) {
   const double left = part > 0 ? wall * (1 - part) / part : 0;
   return {part, fmt::format(" {:3.0f} %  {}/{} wedges  {} left", 100 * part, done, total, clock_time(left)),
           fmt::format("{:3.0f} %  {} of {} wedges, {} left", 100 * part, done, total, clock_time(left)),
-          fmt::format(R"({{"wedges":{},"wedges_total":{},"wall_time_s":{:.3f},"time_left_s":{:.1f}}})", done,
-                      total, wall, left)};
+          fmt::format(R"({{"wedges":{},"wedges_total":{},"wall_time_s":{:.3f},"time_left_s":{:.1f}}})", done, total,
+                      wall, left)};
 }
 
 int build(const BuildOptions& options) {
   fracture::DatabaseGrid grid = fracture::default_grid();
   if (const auto& angles = options.wedge_angles_deg; !angles.empty()) {
     if (!fracture::is_grid_axis(angles) || angles.size() > kMostWedgeAngles)
-      return fail(kUsage, fmt::format("--wedge-angles takes 2 to {} angles, each above the one before",
-                                      kMostWedgeAngles));
+      return fail(kUsage,
+                  fmt::format("--wedge-angles takes 2 to {} angles, each above the one before", kMostWedgeAngles));
     grid.opening_angles_deg = angles;
   }
   if (const auto target = check_target(options.out, options.overwrite); !target)
@@ -89,10 +89,9 @@ int build(const BuildOptions& options) {
   const std::size_t wedges = grid.opening_angles_deg.size() * grid.mass_ratios.size();
   const int threads = std::min(thread_count(options.threads), static_cast<int>(wedges));
   ProgressOutput output(options.progress);
-  const auto built =
-      fracture::build_database(settings, grid, threads, [&](std::size_t done, std::size_t total) {
-        if (output.is_due()) output.show(report(done, total, output.wall_time()));
-      });
+  const auto built = fracture::build_database(settings, grid, threads, [&](std::size_t done, std::size_t total) {
+    if (output.is_due()) output.show(report(done, total, output.wall_time()));
+  });
   if (!built) return fail(kNumericalFailure, built.error().message + "; nothing was written");
   const double wall = output.wall_time();
   output.finish(report(wedges, wedges, wall));
@@ -159,8 +158,7 @@ void study_fluid(const BendingLoad& load, const fracture::SolverSettings& settin
 
 std::string forecast_cells(const std::optional<BendingForecast>& forecast) {
   if (!forecast) return " does not break | | |";
-  return fmt::format(" {} | {:.3f} | {} |", force(*forecast), forecast->capacity.cusp_radius,
-                     time(*forecast));
+  return fmt::format(" {} | {:.3f} | {} |", force(*forecast), forecast->capacity.cusp_radius, time(*forecast));
 }
 
 void study_couple(const BendingLoad& load, const fracture::SolverSettings& settings) {
@@ -186,8 +184,8 @@ void print_errors(const char* name, const std::vector<AccuracyRow>& rows, double
       *std::ranges::max_element(rows, {}, [error](const AccuracyRow& row) { return std::abs(row.*error); });
   print_out("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} deg, {:.4f}, {:.3g}, {:.3g} |\n", name,
             quantile(sizes, 0.5), quantile(sizes, 0.9), quantile(sizes, 0.99), quantile(sizes, 1),
-            worst.groups.opening_angle * geometry::kRadiansPerDegree, worst.groups.mass_ratio,
-            worst.groups.softness, worst.groups.froude);
+            worst.groups.opening_angle * geometry::kRadiansPerDegree, worst.groups.mass_ratio, worst.groups.softness,
+            worst.groups.froude);
 }
 
 std::string mesh_of(const fracture::SolverSettings& settings) {
@@ -233,8 +231,8 @@ int study(const StudyOptions& options) {
 }  // namespace
 
 void add_threads(CommandLine& command, int& threads) {
-  command.option("--threads", threads, "N",
-                 "As many as the machine runs at once if not given; no result depends on it", whole(1, 1024));
+  command.option("--threads", threads, "N", "As many as the machine runs at once if not given; no result depends on it",
+                 whole(1, 1024));
 }
 
 void add_database_file(CommandLine& command, std::string& file) {
@@ -244,14 +242,12 @@ void add_database_file(CommandLine& command, std::string& file) {
 void add_load(CommandLine& command, DatabaseLoadOptions& load) {
   command.option("--wedge-angle", load.wedge_angle_deg, "DEG", "Opening angle of the wedge of ice",
                  between(kNarrowestWedge, 179.9));
-  command.option("--front-angle", load.front_angle_deg, "DEG",
-                 "Instead: from the inward normal to the front edge", between(0, 89.9));
+  command.option("--front-angle", load.front_angle_deg, "DEG", "Instead: from the inward normal to the front edge",
+                 between(0, 89.9));
   command.option("--back-angle", load.back_angle_deg, "DEG", "and to the back edge", between(0, 89.9));
-  const auto add = [&command](const char* name, double& value, const char* unit, const char* meaning,
-                              double least, double most) {
-    command.option(name, value, unit, meaning, between(least, most))
-        .in_group("Ice and water")
-        .shows_default();
+  const auto add = [&command](const char* name, double& value, const char* unit, const char* meaning, double least,
+                              double most) {
+    command.option(name, value, unit, meaning, between(least, most)).in_group("Ice and water").shows_default();
   };
   add("--density", load.ice.density, "KG_PER_M3", "of the ice", 1, 5000);
   add("--youngs-modulus", load.ice.youngs_modulus, "PA", "of the ice", 1e3, 1e12);
@@ -311,8 +307,7 @@ tl::expected<fracture::BendingLoad, ExitCode> bending_load(const DatabaseLoadOpt
   load.hull_angle = geometry::kRadiansPerDegree * options.hull_angle_deg;
   load.mean_approach_speed = options.speed;
   load.vertical_to_crushing =
-      fracture::crushing_shares(load.hull_angle, load.ice.friction, options.speed, options.slip_speed)
-          .vertical;
+      fracture::crushing_shares(load.hull_angle, load.ice.friction, options.speed, options.slip_speed).vertical;
   return load;
 }
 
@@ -321,8 +316,8 @@ std::string describe(const fracture::BendingLoad& load) {
                back = load.back_half_angle / geometry::kRadiansPerDegree;
   const std::string wedge = front == back ? fmt::format("{:g} deg wedge", front + back)
                                           : fmt::format("wedge of {:g} + {:g} deg", front, back);
-  return fmt::format("{:g} m of ice, {}, hull {:g} deg from the vertical, v_n {:g} m/s", load.ice.thickness,
-                     wedge, load.hull_angle / geometry::kRadiansPerDegree, load.mean_approach_speed);
+  return fmt::format("{:g} m of ice, {}, hull {:g} deg from the vertical, v_n {:g} m/s", load.ice.thickness, wedge,
+                     load.hull_angle / geometry::kRadiansPerDegree, load.mean_approach_speed);
 }
 
 int thread_count(int asked) {
@@ -340,8 +335,7 @@ Command add_database_build(CommandLine& app) {
                                      {"free-surface", fracture::FluidModel::kFreeSurface}});
   command
       .option("--wedge-angles", options->wedge_angles_deg, "DEG,DEG,...",
-              "Opening angles of the wedges, ascending; the shipped database's if not given [deg]",
-              between(5, 180))
+              "Opening angles of the wedges, ascending; the shipped database's if not given [deg]", between(5, 180))
       .separated_by(',');
   add_threads(command, options->threads);
   add_progress(command, options->progress);
@@ -350,8 +344,7 @@ Command add_database_build(CommandLine& app) {
 }
 
 Command add_database_study(CommandLine& app) {
-  CommandLine command =
-      app.add_command("study", "Print the tables of docs/theory-bending.md", kStudyExamples);
+  CommandLine command = app.add_command("study", "Print the tables of docs/theory-bending.md", kStudyExamples);
   auto options = std::make_shared<StudyOptions>();
   command.option("study", options->study, "", "Which one")
       .required()
@@ -359,8 +352,7 @@ Command add_database_study(CommandLine& app) {
   add_point(command, options->load, false);
   add_load(command, options->load);
   command.option("--points", options->points, "N", "of accuracy", whole(1, 100000)).shows_default();
-  command.option("--seed", options->seed, "N", "of accuracy's points", whole(0, 9007199254740991))
-      .shows_default();
+  command.option("--seed", options->seed, "N", "of accuracy's points", whole(0, 9007199254740991)).shows_default();
   command.option("--inner-radius", options->inner_radius, "L",
                  "of the solution that accuracy compares with; a quarter of the table's if not given",
                  between(1e-6, 0.1));

@@ -41,8 +41,7 @@ void add_threads(CommandLine& command, int& threads);
 
 /// The database of that file, or the shipped one for an empty name. Reports on stderr why a file cannot be
 /// read or is not a database of this version; the code is then kInputOutput.
-tl::expected<std::shared_ptr<const fracture::BendingDatabase>, ExitCode> load_database(
-    const std::string& file);
+tl::expected<std::shared_ptr<const fracture::BendingDatabase>, ExitCode> load_database(const std::string& file);
 
 /// "the one that ships with Polynya", or the file's name.
 std::string database_title(const std::string& file);

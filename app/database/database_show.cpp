@@ -56,8 +56,7 @@ void write_number(io::JsonWriter& json, std::string_view key, double value, bool
   json.key(key).value(is_known ? std::optional(value) : std::nullopt);
 }
 
-void write_published(io::JsonWriter& json, std::string_view name, const BendingCapacity& capacity,
-                     bool is_known) {
+void write_published(io::JsonWriter& json, std::string_view name, const BendingCapacity& capacity, bool is_known) {
   json.key(name).open('{');
   write_number(json, "vertical_force_N", capacity.vertical_force, is_known);
   write_number(json, "cusp_radius_m", capacity.cusp_radius, is_known);
@@ -93,8 +92,7 @@ void write_load(io::JsonWriter& json, const DatabaseLoadOptions& options, const 
   json.close('}');
 }
 
-void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled,
-                  const fracture::BendingForecast& forecast) {
+void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled, const fracture::BendingForecast& forecast) {
   json.key("groups").open('{');
   json.key("opening_angle_deg").value(scaled.groups.opening_angle * kDegree);
   json.key("mass_ratio").value(scaled.groups.mass_ratio);
@@ -206,8 +204,8 @@ int query(const QueryOptions& options) {
   else
     print_for_people(options, **database, *load, answer);
   if (!can_bend(*load))
-    print_err("note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
-              load->hull_angle * kDegree, load->ice.friction);
+    print_err("note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n", load->hull_angle * kDegree,
+              load->ice.friction);
   else if (!answer.database.outside.empty())
     print_err("note: outside the database: {}; the answer is its nearest edge's\n",
               with_ranges(answer.database.outside));
@@ -285,8 +283,8 @@ struct FigureText {
   bool is_radius_log;
 };
 
-void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const BendingLoad& load,
-                  SliceAxis axis, const std::vector<double>& abscissae, const FigureText& text) {
+void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis,
+                  const std::vector<double>& abscissae, const FigureText& text) {
   const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
   std::vector<double> shown;
   shown.reserve(abscissae.size());
@@ -302,8 +300,7 @@ void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const Ben
         [](const SlicePoint& p) -> const auto& { return p.database.capacity; });
   const std::vector<SlicePoint> own = slice(model, load, axis, abscissae);
   write_curve(
-      json, "Nevel, " + members.front().name, "Nevel", own,
-      [](const SlicePoint& p) -> const auto& { return p.nevel; });
+      json, "Nevel, " + members.front().name, "Nevel", own, [](const SlicePoint& p) -> const auto& { return p.nevel; });
   write_curve(
       json, "Kashtelyan, " + members.front().name, "Kashtelyan", own,
       [](const SlicePoint& p) -> const auto& { return p.kashtelyan; });
@@ -313,8 +310,7 @@ void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const Ben
 /// Slices of a database through one load as JSON, which polynya.figures.database draws: force and radius
 /// against speed, opening angle and thickness, each for the load itself and its neighbours in another of the
 /// three, beside Nevel's and Kashtelyan's forms. Units in the keys.
-std::string database_slices(const FsiDatabaseModel& model, const std::string& title,
-                            const BendingLoad& load) {
+std::string database_slices(const FsiDatabaseModel& model, const std::string& title, const BendingLoad& load) {
   const std::vector<double>& grid = model.database().grid().opening_angles_deg;
   const double widest = std::min(grid.back(), kWidestWedge);
   const double narrowest = std::min(grid.front(), 0.5 * widest);
@@ -326,8 +322,7 @@ std::string database_slices(const FsiDatabaseModel& model, const std::string& ti
   json.key("figures").open('[');
   write_figure(json, model, load, SliceAxis::kSpeed, evenly(0.02, 8, true),
                {"speed", "normal approach speed, m/s", true, false});
-  write_figure(json, model, load, SliceAxis::kOpeningAngle,
-               evenly(narrowest / kDegree, widest / kDegree, false),
+  write_figure(json, model, load, SliceAxis::kOpeningAngle, evenly(narrowest / kDegree, widest / kDegree, false),
                {"wedge-angle", "opening angle 2α of the wedge, °", false, false});
   write_figure(json, model, load, SliceAxis::kThickness, evenly(0.1, 3, true),
                {"thickness", "ice thickness, m", true, true});
@@ -347,8 +342,7 @@ void print_parameters(const BendingDatabase& database, const std::string& file) 
   const fracture::SolverSettings& settings = database.settings();
   const std::string hash = fracture::database_hash(database);
   const bool is_shipped = !file.empty() && hash == fracture::database_hash(fracture::default_database());
-  print_out("database        {}{}\n", database_title(file),
-            is_shipped ? ", the one that ships with Polynya" : "");
+  print_out("database        {}{}\n", database_title(file), is_shipped ? ", the one that ships with Polynya" : "");
   print_out("format          polynya-bending-database 1\n");
   print_out("hash            fnv1a64 {}\n", hash);
   print_out("fluid           {}\n", fracture::fluid_name(settings.fluid));
@@ -385,24 +379,21 @@ std::string_view star(bool is_in_range) {
 
 void print_slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis, const char* abscissa,
                  std::span<const double> values) {
-  print_out("\n| {} | V kN | R m | t s | crack first | Nevel V kN | R m | Kashtelyan V kN | R m |\n",
-            abscissa);
+  print_out("\n| {} | V kN | R m | t s | crack first | Nevel V kN | R m | Kashtelyan V kN | R m |\n", abscissa);
   print_out("|---|---|---|---|---|---|---|---|---|\n");
   const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
   for (const SlicePoint& point : slice(model, load, axis, values)) {
     const auto& [x, forecast, nevel, kashtelyan] = point;
-    print_out("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n",
-              x * scale, forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
-              forecast.capacity.cusp_radius, forecast.time,
-              forecast.capacity.radial_crack_first ? "yes" : "no", nevel.vertical_force / 1e3,
-              star(nevel.is_in_range), nevel.cusp_radius, kashtelyan.vertical_force / 1e3,
+    print_out("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n", x * scale,
+              forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
+              forecast.capacity.cusp_radius, forecast.time, forecast.capacity.radial_crack_first ? "yes" : "no",
+              nevel.vertical_force / 1e3, star(nevel.is_in_range), nevel.cusp_radius, kashtelyan.vertical_force / 1e3,
               star(kashtelyan.is_in_range), kashtelyan.cusp_radius);
   }
 }
 
 void print_slices(const FsiDatabaseModel& model, const BendingLoad& load) {
-  print_out("\nSlices through {}; * outside of the table, or of the published form's range\n",
-            describe(load));
+  print_out("\nSlices through {}; * outside of the table, or of the published form's range\n", describe(load));
   constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4, 8};
   constexpr double kThicknesses[] = {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3};
   std::vector<double> angles{20, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165};
@@ -416,8 +407,7 @@ void print_slices(const FsiDatabaseModel& model, const BendingLoad& load) {
 int draw_slices(const std::string& slices, const std::filesystem::path& folder) {
   if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
   const std::filesystem::path file = folder / "slices.json";
-  if (const auto written = io::write_named_file(file, slices); !written)
-    return fail(kInputOutput, written.error());
+  if (const auto written = io::write_named_file(file, slices); !written) return fail(kInputOutput, written.error());
   print_out("\nnumbers         {}\n", file.string());
   return become_python({"database", file.string()});
 }
@@ -443,14 +433,12 @@ int show(const ShowOptions& options) {
 }  // namespace
 
 Command add_database_query(CommandLine& app) {
-  CommandLine command = app.add_command(
-      "query", "What a wedge of ice bears, by the database and by published forms", kQueryExamples);
+  CommandLine command =
+      app.add_command("query", "What a wedge of ice bears, by the database and by published forms", kQueryExamples);
   auto options = std::make_shared<QueryOptions>();
   add_point(command, options->load, true);
   add_load(command, options->load);
-  command
-      .option("--slip-speed", options->load.slip_speed, "M_PER_S", "along the hull's waterline",
-              between(-100, 100))
+  command.option("--slip-speed", options->load.slip_speed, "M_PER_S", "along the hull's waterline", between(-100, 100))
       .shows_default();
   add_database_file(command, options->file);
   command.flag("--json", options->json, "Answer as JSON, in SI units");
@@ -465,12 +453,11 @@ Command add_database_show(CommandLine& app) {
                       "  polynya database show winkler.txt --svg plots --thickness 1\n");
   auto options = std::make_shared<ShowOptions>();
   command.option("file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
-  command.option(
-      "--svg", options->svg_folder, "DIR",
-      "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
-      "(needs "
-      "Python and matplotlib: ./setup.sh python)",
-      not_empty());
+  command.option("--svg", options->svg_folder, "DIR",
+                 "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
+                 "(needs "
+                 "Python and matplotlib: ./setup.sh python)",
+                 not_empty());
   add_point(command, options->load, false);
   add_load(command, options->load);
   return {command, [options] { return show(*options); }};

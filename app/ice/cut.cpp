@@ -35,18 +35,17 @@ void report_floes(const std::string& name, const io::CutReport& report) {
       if (!floe.rejected->detail.empty()) words += ": " + floe.rejected->detail;
       const auto& vertices = floe.rejected->vertices;
       words += io::places_in_words(vertices, kMostVertices);
-      if (vertices.size() > kMostVertices)
-        words += fmt::format(" and {} more", vertices.size() - kMostVertices);
+      if (vertices.size() > kMostVertices) words += fmt::format(" and {} more", vertices.size() - kMostVertices);
       report_of(floe, words);
     }
     if (floe.repair) {
       report_of(floe, fmt::format("{}, repaired ({}): {}, {:+} m2 to the {} m2 drawn", floe.repair->defect,
-                                  floe.repair->rule, counted(floe.repair->shapes, "polygon"),
-                                  floe.repair->area_changed, floe.repair->area_drawn));
+                                  floe.repair->rule, counted(floe.repair->shapes, "polygon"), floe.repair->area_changed,
+                                  floe.repair->area_drawn));
     }
     for (const io::Dangling& one : floe.dangling) {
-      report_of(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m",
-                                  one.from.x, one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
+      report_of(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m", one.from.x,
+                                  one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
     }
   }
   if (reported > kMostReported) print_err("polynya: {} more; the ledger has all\n", reported - kMostReported);
@@ -59,11 +58,11 @@ void report_totals(const io::CutReport& report) {
   print_err(
       "polynya: {} -> {}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect {}, rounding {:.2e} "
       "m2)\n",
-      counted(floes, "floe"), counted(totals.pieces, "piece"), totals.area, totals.area_of_pieces,
-      totals.removed, totals.exact_defect, totals.rounding_defect);
+      counted(floes, "floe"), counted(totals.pieces, "piece"), totals.area, totals.area_of_pieces, totals.removed,
+      totals.exact_defect, totals.rounding_defect);
   if (totals.snap_rounded > 0) {
-    print_err("polynya: {} piece{} snap-rounded: nearest doubles did not make a valid polygon\n",
-              totals.snap_rounded, totals.snap_rounded == 1 ? " was" : "s were");
+    print_err("polynya: {} piece{} snap-rounded: nearest doubles did not make a valid polygon\n", totals.snap_rounded,
+              totals.snap_rounded == 1 ? " was" : "s were");
   }
   if (totals.rejected > 0) {
     print_err("polynya: {} refused; {}\n", totals.rejected,
@@ -129,8 +128,7 @@ Outcome<std::vector<io::CutOp>> op_of_numbers(const char* option, const std::str
 }
 
 Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
-  const std::string* const tools[] = {&options.disc, &options.crack, &options.line, &options.polygon,
-                                      &options.ops};
+  const std::string* const tools[] = {&options.disc, &options.crack, &options.line, &options.polygon, &options.ops};
   const auto given = std::ranges::count_if(tools, [](const std::string* tool) { return !tool->empty(); });
   if (given != 1) {
     return failure(kUsage, fmt::format("one of --disc, --crack, --line, --polygon, --ops is needed, {} given",
@@ -171,10 +169,9 @@ Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
                                        {".wkt", io::FloeFormat::kWkt}}) {
     if (extension == ending) return format;
   }
-  return failure(kUsage,
-                 fmt::format("--out {}: no format has the extension {}; GeoJSON: .geojson, .json; NDJSON: "
-                             ".ndjson, .jsonl, .geojsonl; WKT: .wkt (others: ogr2ogr converts GeoJSON)",
-                             file, extension));
+  return failure(kUsage, fmt::format("--out {}: no format has the extension {}; GeoJSON: .geojson, .json; NDJSON: "
+                                     ".ndjson, .jsonl, .geojsonl; WKT: .wkt (others: ogr2ogr converts GeoJSON)",
+                                     file, extension));
 }
 
 /// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
@@ -202,12 +199,12 @@ io::CoordinateEvidence evidence_of(const io::FloeText& floes) {
 Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   const std::string crs = floes.crs.empty() ? "" : io::geographic_crs(io::parse_json(floes.crs).root);
   if (!crs.empty()) {
-    return failure(kRefused, fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}",
-                                         name, crs, io::how_to_project(evidence_of(floes).box, name)));
+    return failure(kRefused, fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}", name, crs,
+                                         io::how_to_project(evidence_of(floes).box, name)));
   }
   if (floes.crs.empty() && floes.format != io::FloeFormat::kWkt && evidence_of(floes).look_polar()) {
-    print_err("note: {}: these look like longitude and latitude; areas and lengths are then in degrees: {}\n",
-              name, io::how_to_project(evidence_of(floes).box, name));
+    print_err("note: {}: these look like longitude and latitude; areas and lengths are then in degrees: {}\n", name,
+              io::how_to_project(evidence_of(floes).box, name));
   }
   return {};
 }
@@ -241,11 +238,9 @@ Outcome<ExitCode> cut_all(const Options& options) {
 }  // namespace
 
 Command add_cut(CommandLine& app) {
-  CommandLine command =
-      app.add_command("cut", "Cut floes exactly, with every square metre accounted for", kExamples);
+  CommandLine command = app.add_command("cut", "Cut floes exactly, with every square metre accounted for", kExamples);
   auto options = std::make_shared<Options>();
-  command
-      .option("floes", options->floes, "FLOES", "GeoJSON, NDJSON or WKT, recognised by content; - for stdin")
+  command.option("floes", options->floes, "FLOES", "GeoJSON, NDJSON or WKT, recognised by content; - for stdin")
       .required();
   const auto tool = [&](const char* name, std::string& value, const char* type, const char* meaning) {
     command.option(name, value, type, meaning).in_group("Tools, one of them");
@@ -256,13 +251,11 @@ Command add_cut(CommandLine& app) {
   tool("--polygon", options->polygon, "FILE", "Polygons, with holes or not, in any format of FLOES");
   tool("--ops", options->ops, "FILE", "A JSON list of cuts, in order, each of all pieces");
   command.option("--keep", options->keep, "", "Which side of a disc or polygon stays; outside if not given")
-      .one_of<io::Keep>(
-          {{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
+      .one_of<io::Keep>({{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
   command.option("--sagitta", options->sagitta, "M",
                  "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less",
                  between(1e-12, 1e6));
-  command.option("--out", options->out, "FILE",
-                 "The pieces; format by extension, else that of FLOES; - for stdout");
+  command.option("--out", options->out, "FILE", "The pieces; format by extension, else that of FLOES; - for stdout");
   command.option("--ledger", options->ledger, "FILE", "The ledger, JSON; stdout if not given");
   command
       .option("--repair", options->repair, "",

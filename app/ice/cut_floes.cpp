@@ -52,8 +52,7 @@ std::vector<double> crossings(Point a, Point b, const Polygon& polygon) {
 bool is_on_an_edge(Point point, const std::vector<Polygon>& polygons, double tolerance) {
   bool found = false;
   for (const Polygon& polygon : polygons) {
-    for_edges(polygon,
-              [&](Point p, Point q) { found = found || distance_to_segment(point, p, q) <= tolerance; });
+    for_edges(polygon, [&](Point p, Point q) { found = found || distance_to_segment(point, p, q) <= tolerance; });
     if (found) return true;
   }
   return false;
@@ -96,8 +95,7 @@ std::vector<std::int64_t> ids_of(const std::vector<io::FloeEntry>& entries) {
 /// cos and sin, exact at whole quarter turns and equal between them.
 geometry::Vector direction_of(double angle_deg) {
   constexpr double kDiagonal = 1 / std::numbers::sqrt2;
-  constexpr geometry::Vector kEighths[] = {
-      {1, 0}, {kDiagonal, kDiagonal}, {0, 1}, {-kDiagonal, kDiagonal}, {-1, 0}};
+  constexpr geometry::Vector kEighths[] = {{1, 0}, {kDiagonal, kDiagonal}, {0, 1}, {-kDiagonal, kDiagonal}, {-1, 0}};
   const double angle = std::remainder(angle_deg, 360);  // exact, from −180 to 180
   const double eighths = std::abs(angle) / 45;
   if (eighths == std::floor(eighths)) {
@@ -112,8 +110,7 @@ geometry::Vector direction_of(double angle_deg) {
 std::vector<Point> across(const io::CrackTool& crack, const geometry::Box& box) {
   double farthest = 0;
   for (const double x : {box.low.x, box.high.x}) {
-    for (const double y : {box.low.y, box.high.y})
-      farthest = std::max(farthest, distance(crack.point, {x, y}));
+    for (const double y : {box.low.y, box.high.y}) farthest = std::max(farthest, distance(crack.point, {x, y}));
   }
   const double reach = std::ldexp(1.0, std::ilogb(std::max(farthest, 1e-300)) + 2);
   const geometry::Vector arm = reach * direction_of(crack.angle_deg);
@@ -198,8 +195,8 @@ class FloeCutter {
   }
 
   void put(const io::CutOp& op, Piece piece) {
-    const bool is_kept = !is_area(op) || op.keep == io::Keep::kBoth ||
-                         (op.keep == io::Keep::kInside) == (piece.part == Part::kInside);
+    const bool is_kept =
+        !is_area(op) || op.keep == io::Keep::kBoth || (op.keep == io::Keep::kInside) == (piece.part == Part::kInside);
     if (is_kept)
       pieces_.push_back(std::move(piece));
     else
@@ -207,8 +204,8 @@ class FloeCutter {
   }
 
   void put_uncut(const io::CutOp& op, std::size_t number, Piece piece, const geometry::CutError& error) {
-    const bool is_left_whole = error.reason == geometry::CutFailure::kMisses ||
-                               error.reason == geometry::CutFailure::kDoesNotSeparate;
+    const bool is_left_whole =
+        error.reason == geometry::CutFailure::kMisses || error.reason == geometry::CutFailure::kDoesNotSeparate;
     if (is_left_whole) note_dangling(op, error.dangling_length, piece, {piece});
     if (!is_left_whole || op.must_cut) {
       const std::string detail = fmt::format("cut {}: {}", number, error.detail);
@@ -226,9 +223,7 @@ class FloeCutter {
   static geometry::CutOutcome cut(const Shape& shape, const io::PolygonTool& tool) {
     return cut_by_polygons(shape, tool.polygons);
   }
-  static geometry::CutOutcome cut(const Shape& shape, const io::LineTool& line) {
-    return cut_along(shape, line.path);
-  }
+  static geometry::CutOutcome cut(const Shape& shape, const io::LineTool& line) { return cut_along(shape, line.path); }
   geometry::CutOutcome cut(const Shape& shape, const io::CrackTool& crack) const {
     return cut_along(shape, across(crack, box_));
   }
@@ -244,8 +239,7 @@ class FloeCutter {
     if (ledger.exact_defect != "0") floe_.exact_defect = ledger.exact_defect;
   }
 
-  void note_dangling(const io::CutOp& op, double length, const Piece& before,
-                     const std::vector<Piece>& after) {
+  void note_dangling(const io::CutOp& op, double length, const Piece& before, const std::vector<Piece>& after) {
     const auto* line = std::get_if<io::LineTool>(&op.tool);
     if (!line || !(length > 0)) return;
     floe_.dangling_length += length;
@@ -282,8 +276,7 @@ io::CutReport cut_floes(const std::vector<io::FloeEntry>& entries, std::vector<i
     }
     FloeCutter cutter(floe);
     if (!cutter.take(entry.polygon, repair_rule)) continue;
-    for (std::size_t number = 0; number < report.ops.size(); ++number)
-      cutter.apply(report.ops[number], number);
+    for (std::size_t number = 0; number < report.ops.size(); ++number) cutter.apply(report.ops[number], number);
     cutter.finish(next_id);
   }
   return report;

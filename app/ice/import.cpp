@@ -94,8 +94,8 @@ std::vector<std::string> read_properties(const io::FloeText& text, const io::Pro
     }
     if (entry.floe_id) floe.properties.floe_id = entry.floe_id;
     for (const io::BadProperty& one : bad)
-      refused[i] += fmt::format("{}property {}: found {}, allowed: {}", refused[i].empty() ? "" : "; ",
-                                one.key, one.found, one.allowed);
+      refused[i] += fmt::format("{}property {}: found {}, allowed: {}", refused[i].empty() ? "" : "; ", one.key,
+                                one.found, one.allowed);
   }
   return refused;
 }
@@ -120,12 +120,11 @@ void report_totals(const std::string& name, const io::ImportOutcome& imported,
   if (totals.read == 0) print_err("note: {}: no floes in it\n", name);
   print_err("polynya: {}: {}\npolynya: {}\npolynya: {}\n", name, plane_in_words(imported.plane),
             counts_in_words(totals), areas_in_words(totals));
-  if (totals.written > 0)
-    print_err("polynya: {}\n", io::thickness_in_words(totals.with_thickness, totals.written));
+  if (totals.written > 0) print_err("polynya: {}\n", io::thickness_in_words(totals.with_thickness, totals.written));
   for (const io::NearMiss& miss : near_misses) {
     if (miss.floes > 0)
-      print_err("note: {}: property \"{}\" of {} is not read; did you mean {}? --property '{}' reads it\n",
-                name, miss.key, counted(miss.floes, "floe"), miss.meant, as_property_name(miss));
+      print_err("note: {}: property \"{}\" of {} is not read; did you mean {}? --property '{}' reads it\n", name,
+                miss.key, counted(miss.floes, "floe"), miss.meant, as_property_name(miss));
   }
   if (std::ranges::any_of(imported.items, &io::ImportItem::is_outline_refused))
     print_err("polynya: --repair non-zero, or even-odd, makes valid polygons of crossing outlines\n");
@@ -185,26 +184,24 @@ Outcome<ExitCode> import_all(const Options& options) {
       !written)
     return failure(kInputOutput, written.error());
   report_totals(name, *imported, near_misses.found());
-  if (are_all_refused)
-    return failure(kRefused, name + ": every floe was refused; only the report was written");
+  if (are_all_refused) return failure(kRefused, name + ": every floe was refused; only the report was written");
   return totals.refused == 0 ? kDone : kRefused;
 }
 
 void add_plane_options(CommandLine& command, Options& options) {
   const char* const group = "The plane";
   command
-      .option(
-          "--origin", options.origin, "LAT,LON",
-          "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
-          "origin")
+      .option("--origin", options.origin, "LAT,LON",
+              "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
+              "origin")
       .in_group(group);
   command
       .option("--crs", options.settings.plane.target, "EPSG:n",
               "The plane of this projected system instead; any name PROJ knows", not_empty())
       .in_group(group);
   command
-      .option("--from", options.settings.plane.source, "EPSG:n",
-              "The file's system, where the file names none", not_empty())
+      .option("--from", options.settings.plane.source, "EPSG:n", "The file's system, where the file names none",
+              not_empty())
       .in_group(group);
   command
       .flag("--shift", options.settings.plane.is_shifted,
@@ -221,11 +218,10 @@ void add_floe_options(CommandLine& command, Options& options) {
       .one_of<geometry::FillRule>(
           {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
   command.option("--simplify", settings.simplify, "M",
-                 "Leave out vertices, each at most so far from the outline that is left [m]",
-                 between(0, 1e4));
+                 "Leave out vertices, each at most so far from the outline that is left [m]", between(0, 1e4));
   command.option("--min-area", settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
-  command.option("--gap", settings.gap, "M",
-                 "Least distance between floes: the smaller of two is trimmed to it [m]", between(0, 1e3));
+  command.option("--gap", settings.gap, "M", "Least distance between floes: the smaller of two is trimmed to it [m]",
+                 between(0, 1e3));
   command.option("--layer", options.layer, "NAME", "Of a GeoPackage with several", not_empty());
   command
       .option("--property", options.properties, "KEY=NAME",
@@ -241,13 +237,11 @@ Command add_import(CommandLine& app) {
       app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kExamples);
   auto options = std::make_shared<Options>();
   command
-      .option(
-          "file", options->file, "FILE",
-          "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
-          "for stdin")
+      .option("file", options->file, "FILE",
+              "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
+              "for stdin")
       .required();
-  command.option("--out", options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty())
-      .required();
+  command.option("--out", options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty()).required();
   command.option("--report", options->report, "FILE",
                  "The report, JSON; stdout if not given, unless the floes go there");
   add_plane_options(command, *options);

@@ -38,8 +38,8 @@ int measure(const Options& options) {
     if (ship < 0) return fail(kUsage, fmt::format("the run has no ship \"{}\"", options.ship));
     wanted.ship = static_cast<std::size_t>(ship);
   }
-  const auto channel = with_progress(options.progress, "measuring the channel",
-                                     [&] { return analysis::measure_channel(*run, wanted); });
+  const auto channel =
+      with_progress(options.progress, "measuring the channel", [&] { return analysis::measure_channel(*run, wanted); });
   if (!channel) return fail(kUsage, channel.error());
   for (const auto& [name, text] : {std::pair{io::run_file::kChannelCsv, to_csv(*channel)},
                                    std::pair{io::run_file::kChannel, to_geojson(*channel)}}) {
@@ -70,8 +70,7 @@ Command add_channel(CommandLine& app) {
       .flag(
           "--json", [options] { options->format = "json"; }, "Print the sums as JSON instead of the table")
       .excludes(format);
-  command.option("--out", options->out, "DIR",
-                 "Folder for channel.csv and channel.geojson; the run's if not given");
+  command.option("--out", options->out, "DIR", "Folder for channel.csv and channel.geojson; the run's if not given");
   add_progress(command, options->progress);
   return {command, [options] { return measure(*options); }};
 }

@@ -72,9 +72,8 @@ int write_geojson(const io::Run& run, double time, const Options& options) {
   } else if (!options.is_in_metres) {
     print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
   }
-  return write_files(options.geojson, with_progress(options.progress, "making the layers", [&] {
-                       return views::geojson_layers(run, time, project);
-                     }));
+  return write_files(options.geojson, with_progress(options.progress, "making the layers",
+                                                    [&] { return views::geojson_layers(run, time, project); }));
 }
 
 /// A scene of its own that starts where the run was then.
@@ -82,8 +81,8 @@ int write_scene(const io::Run& run, double time, const Options& options) {
   const auto scene =
       with_progress(options.progress, "making the scene", [&] { return views::continued_scene(run, time); });
   if (!scene) return fail(kInputOutput, scene.error());
-  const fs::path folder = options.out.empty() ? fs::path(options.run) / fmt::format("from-{:g}s", scene->time)
-                                              : fs::path(options.out);
+  const fs::path folder =
+      options.out.empty() ? fs::path(options.run) / fmt::format("from-{:g}s", scene->time) : fs::path(options.out);
   if (const int code = write_files(folder, scene->files); code != kDone) return code;
   if (scene->time != time) print_err("note: as of the frame at {:g} s\n", scene->time);
   for (const std::string& words : scene->left_out) print_err("note: not in the scene: {}\n", words);
@@ -92,9 +91,8 @@ int write_scene(const io::Run& run, double time, const Options& options) {
 
 int export_run(const Options& options) {
   if (options.vtk.empty() && options.geojson.empty() && !options.is_scene)
-    return fail(
-        kUsage,
-        "--vtk DIR (for ParaView), --geojson DIR (for QGIS) or --scene (to continue the run) is needed");
+    return fail(kUsage,
+                "--vtk DIR (for ParaView), --geojson DIR (for QGIS) or --scene (to continue the run) is needed");
   const auto run = read_run(options.run, options.progress);
   if (!run) return fail(kInputOutput, run.error());
   const bool has_instant = !options.geojson.empty() || options.is_scene;
@@ -102,8 +100,8 @@ int export_run(const Options& options) {
   int code = kDone;
   if (!options.vtk.empty()) code = write_vtk(*run, options);
   if (code == kDone && has_instant && !(time >= run->start_time() && time <= run->end_time()))
-    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run->start_time(),
-                                    run->end_time()));
+    return fail(kUsage,
+                fmt::format("--at {:g}: the run goes from {:g} to {:g} s", time, run->start_time(), run->end_time()));
   if (code == kDone && !options.geojson.empty()) code = write_geojson(*run, time, options);
   if (code == kDone && options.is_scene) code = write_scene(*run, time, options);
   return code;
@@ -117,18 +115,14 @@ Command add_export(CommandLine& app) {
   auto options = std::make_shared<Options>();
   add_run_folder(command, options->run);
   command.option("--vtk", options->vtk, "DIR", "Folder for run.pvd and its .vtp frames");
-  command.option("--every", options->every, "N", "Of VTK only each N-th frame, and the last",
-                 whole(1, 1000000));
-  command.option(
-      "--geojson", options->geojson, "DIR",
-      "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
-      "scene has an origin, metres where not");
-  command.option("--at", options->at, "S", "Instant of GeoJSON and scene [s]; the end if not given",
-                 finite());
+  command.option("--every", options->every, "N", "Of VTK only each N-th frame, and the last", whole(1, 1000000));
+  command.option("--geojson", options->geojson, "DIR",
+                 "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
+                 "scene has an origin, metres where not");
+  command.option("--at", options->at, "S", "Instant of GeoJSON and scene [s]; the end if not given", finite());
   command.flag("--scene", options->is_scene,
                "A scene of its own, scene.json and floes.geojson, that starts where the run was then");
-  command.option("--out", options->out, "DIR", "Folder of the scene; one in the run's if not given",
-                 not_empty());
+  command.option("--out", options->out, "DIR", "Folder of the scene; one in the run's if not given", not_empty());
   command.flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
   add_progress(command, options->progress);
   return {command, [options] { return export_run(*options); }};

@@ -47,22 +47,19 @@ int print_floe(const io::Run& run, const Options& options) {
   ShapeView view{floe->birth, ice_of(run.scene.scene, floe->birth.own_ice), *run.shape(*options.floe), {}};
   if (options.at) {
     if (!run.is_alive(floe->birth.floe, *options.at)) {
-      const std::string end =
-          floe->death_event ? fmt::format("to {:g} s", floe->died) : std::string("to the end");
+      const std::string end = floe->death_event ? fmt::format("to {:g} s", floe->died) : std::string("to the end");
       return fail(kUsage, fmt::format("floe {} lived from {:g} s {}", *options.floe, floe->birth.time, end));
     }
     const auto motion = io::MotionIndex(run).floe_at(floe->birth.floe, *options.at);
     if (!motion) {
-      return fail(kUsage,
-                  fmt::format("floe {} lived from {:g} to {:g} s, between two frames: where is not on record",
-                              *options.floe, floe->birth.time, floe->died));
+      return fail(kUsage, fmt::format("floe {} lived from {:g} to {:g} s, between two frames: where is not on record",
+                                      *options.floe, floe->birth.time, floe->died));
     }
     view.polygon = polygon_in_world(view.polygon, floe->birth.centroid_in_body, *motion);
     view.time_in_world = options.at;
   }
   if (!view.time_in_world && options.format == ShapeFormat::kWkt)
-    print_err("note: floe {} in its body frame [m]; --at T gives it where it was in the world at T\n",
-              *options.floe);
+    print_err("note: floe {} in its body frame [m]; --at T gives it where it was in the world at T\n", *options.floe);
   write_out(to_text(view, options.format));
   return kDone;
 }
@@ -75,8 +72,8 @@ analysis::RunCheck check_of(const io::Run& run, const Options& options) {
 
 int print(const io::Run& run, const Options& options) {
   if (options.at && !(*options.at >= run.start_time() && *options.at <= run.end_time())) {
-    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", *options.at,
-                                    run.start_time(), run.end_time()));
+    return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", *options.at, run.start_time(),
+                                    run.end_time()));
   }
   const double time = options.at.value_or(run.end_time());
   if (options.floe) return print_floe(run, options);
@@ -116,19 +113,15 @@ Command add_inspect(CommandLine& app) {
   auto options = std::make_shared<Options>();
   add_run_folder(command, options->run);
   command.option("--at", options->at, "T", "At that time; the end of the run if not given [s]", finite());
-  auto floe =
-      command.option("--floe", options->floe, "N",
-                     "The shape of one floe: in its body frame, or with --at where it was in the world");
-  auto lineage =
-      command.option("--lineage", options->lineage, "N", "The tree of fractures that led to a floe");
+  auto floe = command.option("--floe", options->floe, "N",
+                             "The shape of one floe: in its body frame, or with --at where it was in the world");
+  auto lineage = command.option("--lineage", options->lineage, "N", "The tree of fractures that led to a floe");
   auto events = command.flag("--events", options->events,
                              "Every event of the run: fractures, ships that meet, moorings that break");
-  auto check =
-      command.flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
+  auto check = command.flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
   auto fsd = command.flag("--fsd", options->fsd, "The distribution of floe sizes");
   command.option("--format", options->format, "", "Of --floe; wkt if not given")
-      .one_of<ShapeFormat>(
-          {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}})
+      .one_of<ShapeFormat>({{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}})
       .needs(floe);
   auto json = command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
   add_progress(command, options->progress);

@@ -63,38 +63,34 @@ std::string as_svg(const ShapeView& view) {
   };
   write(view.polygon.outer);
   std::ranges::for_each(view.polygon.holes, write);
-  text += fmt::format("' fill='#fbeec2' fill-rule='evenodd' stroke='#3d5261' stroke-width='{}'/>\n</svg>\n",
-                      margin / 8);
+  text +=
+      fmt::format("' fill='#fbeec2' fill-rule='evenodd' stroke='#3d5261' stroke-width='{}'/>\n</svg>\n", margin / 8);
   return text;
 }
 
-void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check,
-                           const simulation::Scene& scene) {
+void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, const simulation::Scene& scene) {
   const auto add = [&text](const std::string& line) { text += line + "\n"; };
   if (check.worst_with_hull.area > 0)
     add(fmt::format(
         "hulls      {} with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
         "vertex {:.4g} m deep",
-        counted(check.hull_pairs, "pair"), io::ship_name(scene, check.worst_hull),
-        check.worst_with_hull.second, check.worst_with_hull.time, check.worst_with_hull.area,
-        check.worst_with_hull.depth));
+        counted(check.hull_pairs, "pair"), io::ship_name(scene, check.worst_hull), check.worst_with_hull.second,
+        check.worst_with_hull.time, check.worst_with_hull.area, check.worst_with_hull.depth));
   if (!check.has_crushed) {
     add("crushed    not on record (no crushed.csv): overlaps are measured, not judged");
   } else {
-    add(fmt::format(
-        "crushed    {} more than was crushed there and {:g} % of the smaller body",
-        check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
-        100 * analysis::kUncrushedShare));
+    add(fmt::format("crushed    {} more than was crushed there and {:g} % of the smaller body",
+                    check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
+                    100 * analysis::kUncrushedShare));
     const auto name = [&](const simulation::ContactState::Body& body) {
-      return body.ship >= 0 ? std::string(io::ship_name(scene, body.ship))
-                            : fmt::format("floe {}", body.floe);
+      return body.ship >= 0 ? std::string(io::ship_name(scene, body.ship)) : fmt::format("floe {}", body.floe);
     };
     for (const analysis::UncrushedOverlap& pair : check.uncrushed)
-      add(fmt::format(
-          "           {} and {} at {:.6g} s about ({:.3f}, {:.3f}): {:.6g} m2 shared, {:.6g} m2 crushed, "
-          "{:.6g} m2 beyond it allowed",
-          name(pair.first), name(pair.second), pair.time, pair.place_in_world.x, pair.place_in_world.y,
-          pair.shared, pair.crushed, pair.allowed));
+      add(
+          fmt::format("           {} and {} at {:.6g} s about ({:.3f}, {:.3f}): {:.6g} m2 shared, {:.6g} m2 crushed, "
+                      "{:.6g} m2 beyond it allowed",
+                      name(pair.first), name(pair.second), pair.time, pair.place_in_world.x, pair.place_in_world.y,
+                      pair.shared, pair.crushed, pair.allowed));
   }
 }
 
@@ -107,8 +103,8 @@ std::string described(const io::Run& run, const simulation::Event& event) {
   const std::string by = is_by_floe     ? fmt::format(" by floe {}", event.ice()->by_floe)
                          : ship.empty() ? ""
                                         : fmt::format(" {} {}", event.ice() ? "by" : "of", ship);
-  return fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): {}", event.time, name_of(event), by,
-                     event.point_in_world.x, event.point_in_world.y, io::words_of(event, run.scene.scene));
+  return fmt::format("{:.6g} s  {}{} at ({:.3f}, {:.3f}): {}", event.time, name_of(event), by, event.point_in_world.x,
+                     event.point_in_world.y, io::words_of(event, run.scene.scene));
 }
 
 /// A line of events.ndjson, without its end.
@@ -214,16 +210,15 @@ std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
 }
 
 std::string floe_table(const std::vector<FloeRow>& rows) {
-  std::string text = fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>11} {:>9} {}\n",
-                                 "floe", "parent", "born_s", "area_m2", "perimeter_m", "vertices", "holes",
-                                 "mass_kg", "thickness_m", "m_per_s", "valid");
+  std::string text =
+      fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>11} {:>9} {}\n", "floe", "parent", "born_s",
+                  "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "thickness_m", "m_per_s", "valid");
   for (const FloeRow& row : rows) {
     const simulation::BirthRecord& birth = row.birth;
-    text +=
-        fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>11.6g} {:>9} {}\n",
-                    birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
-                    birth.time, birth.area, row.perimeter, row.vertices, row.holes, birth.mass,
-                    row.ice.thickness, row.speed ? fmt::format("{:.5f}", *row.speed) : "-", row.validity);
+    text += fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>11.6g} {:>9} {}\n",
+                        birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
+                        birth.time, birth.area, row.perimeter, row.vertices, row.holes, birth.mass, row.ice.thickness,
+                        row.speed ? fmt::format("{:.5f}", *row.speed) : "-", row.validity);
   }
   return text;
 }
@@ -254,16 +249,16 @@ std::string size_text(const analysis::SizeDistribution& sizes) {
   std::string text = fmt::format("{}, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
                                  counted(sizes.count, "floe"), sizes.area, sizes.time);
   if (sizes.without_size > 0)
-    text += fmt::format("left out: {} whose recorded area is not a positive number\n",
-                        counted(sizes.without_size, "floe"));
+    text +=
+        fmt::format("left out: {} whose recorded area is not a positive number\n", counted(sizes.without_size, "floe"));
   if (sizes.count == 0) return text;
-  text += fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", sizes.least, sizes.median,
-                      sizes.largest);
-  text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2",
-                      "area_%", "from_on");
+  text +=
+      fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", sizes.least, sizes.median, sizes.largest);
+  text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2", "area_%",
+                      "from_on");
   for (const analysis::SizeClass& one : sizes.classes)
-    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", one.from, one.below, one.count,
-                        one.area, 100 * one.area / sizes.area, one.from_on);
+    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", one.from, one.below, one.count, one.area,
+                        100 * one.area / sizes.area, one.from_on);
   return text;
 }
 
@@ -275,33 +270,29 @@ std::string check_text(const analysis::RunCheck& check, const simulation::Scene&
   };
   add(fmt::format("validity   {}, {} invalid", counted(check.shapes, "shape"), check.invalid.size()));
   for (const analysis::InvalidFloe& floe : check.invalid) {
-    add(fmt::format("           floe {}: {}{}", floe.floe, floe.defect,
-                    io::places_in_words(floe.places_in_body, 4)));
+    add(fmt::format("           floe {}: {}{}", floe.floe, floe.defect, io::places_in_words(floe.places_in_body, 4)));
   }
   add(fmt::format("areas      recorded - ring at most {:.2e} m2{}, {} beyond {:g} of the area",
                   check.recorded_area.value, from(check.recorded_area.floe), check.recorded_area.wrong,
                   analysis::kAreaTolerance));
-  add(
-      fmt::format("fractures  {}: pieces + submerged + brash - rounding - parent at most {:.2e} m2{}, {} "
-                  "beyond {:g} of it",
-                  check.fractures, check.balance.value, from(check.balance.floe), check.balance.wrong,
-                  analysis::kAreaTolerance));
+  add(fmt::format(
+      "fractures  {}: pieces + submerged + brash - rounding - parent at most {:.2e} m2{}, {} "
+      "beyond {:g} of it",
+      check.fractures, check.balance.value, from(check.balance.floe), check.balance.wrong, analysis::kAreaTolerance));
   add(check.siblings.area > 0 ? fmt::format("           pieces of one fracture share at most {:.2e} m2 in "
                                             "their body frame (floes {} and {})",
                                             check.siblings.area, check.siblings.first, check.siblings.second)
                               : "           pieces of one fracture share 0 m2 in their body frame, exactly");
-  add(fmt::format(
-      "overlap    {}, {} with boxes that meet, {} not decided; {} more than 1e-6 m2 at some instant",
-      counted(check.instants, "instant"), counted(check.pairs, "pair"), check.undecided,
-      check.overlapping_pairs == 1 ? "1 pair of floes shares"
-                                   : fmt::format("{} pairs of floes share", check.overlapping_pairs)));
-  add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice",
-                  check.most_shared, check.most_shared_time,
-                  check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));
+  add(fmt::format("overlap    {}, {} with boxes that meet, {} not decided; {} more than 1e-6 m2 at some instant",
+                  counted(check.instants, "instant"), counted(check.pairs, "pair"), check.undecided,
+                  check.overlapping_pairs == 1 ? "1 pair of floes shares"
+                                               : fmt::format("{} pairs of floes share", check.overlapping_pairs)));
+  add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice", check.most_shared,
+                  check.most_shared_time, check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));
   const auto add_pair = [&](const char* words, const analysis::SharedIce& pair) {
     if (pair.first == simulation::kNoFloe) return;
-    add(fmt::format("           {}: floes {} and {} at {:.6g} s, {:.6g} m2, a vertex {:.4g} m deep", words,
-                    pair.first, pair.second, pair.time, pair.area, pair.depth));
+    add(fmt::format("           {}: floes {} and {} at {:.6g} s, {:.6g} m2, a vertex {:.4g} m deep", words, pair.first,
+                    pair.second, pair.time, pair.area, pair.depth));
   };
   add_pair("largest", check.worst);
   add_pair("deepest", check.deepest);

@@ -47,9 +47,8 @@ tl::expected<ViewedRun, int> read_viewed(const std::string& folder, const views:
   if (!run) return tl::unexpected(fail(kInputOutput, run.error()));
   views::PlayerData data = views::player_data(*run, part);
   if (data.frames == 0 && !run->frames.empty())
-    return tl::unexpected(
-        fail(kUsage, fmt::format("no frame of {} is in that part; they go from {:g} to {:g} s", folder,
-                                 run->start_time(), run->end_time())));
+    return tl::unexpected(fail(kUsage, fmt::format("no frame of {} is in that part; they go from {:g} to {:g} s",
+                                                   folder, run->start_time(), run->end_time())));
   if (data.floes == 0 && !run->floes.empty())
     return tl::unexpected(fail(kUsage, fmt::format("no floe of {} comes within --area", folder)));
   return ViewedRun{std::move(*run), std::move(data)};
@@ -95,8 +94,8 @@ class Advice {
         "the page would have {:.0f} MB, the limit is {:g}: {:.3g} MB of it are the shapes of {}, {:.3g} MB "
         "where they are "
         "in {}; what is small enough: {}",
-        megabytes_, options_.most_megabytes, in_page(floe_bytes), counted(floes, "floe"),
-        in_page(frame_bytes), counted(frames, "frame"), fmt::join(ways, ", or "));
+        megabytes_, options_.most_megabytes, in_page(floe_bytes), counted(floes, "floe"), in_page(frame_bytes),
+        counted(frames, "frame"), fmt::join(ways, ", or "));
   }
 
  private:
@@ -108,8 +107,7 @@ class Advice {
     for (const auto& [run, data] : viewed_) {
       const views::PlayerData held = views::player_data(run, part);
       if (held.frames == 0 || held.floes == 0) return false;
-      bytes += static_cast<double>(held.columns.bytes().size()) * 4 / 3 +
-               1.1 * static_cast<double>(held.info.size());
+      bytes += static_cast<double>(held.columns.bytes().size()) * 4 / 3 + 1.1 * static_cast<double>(held.info.size());
     }
     return bytes + kPageBytes < 1e6 * options_.most_megabytes;
   }
@@ -147,8 +145,7 @@ class Advice {
     for (double share = options_.most_megabytes / megabytes_; share > 0.01; share *= 0.7) {
       const auto held = static_cast<std::size_t>(share * static_cast<double>(distances.size() - 1));
       const geometry::Box box = geometry::grown(way, distances[held]);
-      part.area = {{std::ceil(box.low.x), std::ceil(box.low.y)},
-                   {std::floor(box.high.x), std::floor(box.high.y)}};
+      part.area = {{std::ceil(box.low.x), std::ceil(box.low.y)}, {std::floor(box.high.x), std::floor(box.high.y)}};
       const auto& [low, high] = *part.area;
       if (low.x < high.x && low.y < high.y && fits(part))
         return fmt::format("--area {:.0f},{:.0f},{:.0f},{:.0f}", low.x, low.y, high.x, high.y);
@@ -164,8 +161,7 @@ class Advice {
 
 /// What is wrong with the options; empty where nothing is.
 std::string problem_of(const Options& options) {
-  if (options.runs.size() == 2 && options.out.empty())
-    return "two runs: --out FILE has to state where their page goes";
+  if (options.runs.size() == 2 && options.out.empty()) return "two runs: --out FILE has to state where their page goes";
   if (!options.labels.empty() && (options.runs.size() != 2 || options.labels.size() != 2))
     return fmt::format("--label: {} for {}; two names for two runs", counted(options.labels.size(), "name"),
                        counted(options.runs.size(), "run"));
@@ -179,8 +175,8 @@ std::string contents(const std::vector<ViewedRun>& viewed) {
   std::vector<std::string> all;
   all.reserve(viewed.size());
   for (const ViewedRun& one : viewed)
-    all.push_back(fmt::format("{}, {}, {}", counted(one.data.frames, "frame"),
-                              counted(one.data.floes, "floe"), counted(one.run.events.size(), "event")));
+    all.push_back(fmt::format("{}, {}, {}", counted(one.data.frames, "frame"), counted(one.data.floes, "floe"),
+                              counted(one.run.events.size(), "event")));
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
@@ -198,37 +194,34 @@ int write_view(Options options) {
   const double megabytes = static_cast<double>(page.size()) / 1e6;
   if (megabytes > options.most_megabytes) return fail(kUsage, Advice(viewed, options, megabytes).text());
   const fs::path in_run = fs::path(options.runs[0]) / io::run_file::kView;
-  const auto written =
-      options.out.empty() ? io::write_whole_file(in_run, page) : write_output(options.out, page);
+  const auto written = options.out.empty() ? io::write_whole_file(in_run, page) : write_output(options.out, page);
   if (!written) return fail(kInputOutput, written.error());
   const bool is_on_stdout = !options.out.empty() && is_stdout(options.out);
-  (is_on_stdout ? write_err : write_out)(fmt::format("{}  {:.1f} MB, {}; open it in a browser\n",
-                                                     options.out.empty() ? in_run.string() : options.out,
-                                                     megabytes, held));
+  (is_on_stdout ? write_err
+                : write_out)(fmt::format("{}  {:.1f} MB, {}; open it in a browser\n",
+                                         options.out.empty() ? in_run.string() : options.out, megabytes, held));
   return kDone;
 }
 
 }  // namespace
 
 Command add_view(CommandLine& app) {
-  CommandLine command = app.add_command(
-      "view", "Write a page that plays a run, or two side by side, in any browser, offline", kExamples);
+  CommandLine command =
+      app.add_command("view", "Write a page that plays a run, or two side by side, in any browser, offline", kExamples);
   auto options = std::make_shared<Options>();
   command.option("run", options->runs, "RUN", "The run folder; two are shown side by side, with one clock")
       .required()
       .takes(1, 2);
   command.option("--out", options->out, "FILE", "The page; view.html in the run folder if not given");
   command.option("--label", options->labels, "NAME,NAME", "Names of two runs").separated_by(',');
-  command.option("--every", options->part.frames.every, "N", "Only each N-th frame, and the last",
-                 whole(1, 1000000));
+  command.option("--every", options->part.frames.every, "N", "Only each N-th frame, and the last", whole(1, 1000000));
   command.option("--from", options->part.frames.from, "S", "Only from that time on [s]", finite());
   command.option("--until", options->part.frames.until, "S", "Only up to that time [s]", finite());
   command
-      .option(
-          "--area", options->area, "X0,Y0,X1,Y1",
-          "Only floes that come within that part of the world [m], and what broke from the same floes of the "
-          "scene",
-          finite())
+      .option("--area", options->area, "X0,Y0,X1,Y1",
+              "Only floes that come within that part of the world [m], and what broke from the same floes of the "
+              "scene",
+              finite())
       .separated_by(',')
       .takes(4);
   command.option("--limit", options->most_megabytes, "MB", "The largest page to write [MB]; 100 if not given",

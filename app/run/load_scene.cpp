@@ -45,13 +45,11 @@ void print_problems(const std::string& name, const std::vector<io::Problem>& pro
   print_err("polynya: {} in {}; nothing was written\n", counted(problems.size(), "problem"), name);
 }
 
-tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
-                                                   const io::SceneOverrides& overrides, ProblemFormat format,
-                                                   ProgressKind progress) {
+tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file, const io::SceneOverrides& overrides,
+                                                   ProblemFormat format, ProgressKind progress) {
   const bool is_json = format == ProblemFormat::kJson;
   const std::string name = file == "-" ? "stdin" : file;
-  auto text =
-      with_progress(progress, "reading the scene", [&] { return read_input(file, io::kLongestScene); });
+  auto text = with_progress(progress, "reading the scene", [&] { return read_input(file, io::kLongestScene); });
   if (!text) {
     if (is_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
     return tl::unexpected(fail(kInputOutput, fmt::format("{}: {}", name, text.error())));
@@ -74,20 +72,19 @@ void print_hints(const io::LoadedScene& scene) {
 void print_fields(const io::LoadedScene& scene) {
   for (const io::FieldReport& field : scene.fields) {
     const simulation::FloeFieldOutcome& outcome = field.outcome;
-    print_out("floes[{}]: {}, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n",
-              field.group, counted(outcome.count, "floe"), outcome.mean_size, 100 * outcome.size_spread,
+    print_out("floes[{}]: {}, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n", field.group,
+              counted(outcome.count, "floe"), outcome.mean_size, 100 * outcome.size_spread,
               100 * outcome.concentration(), outcome.region_area, outcome.left_out);
     if (!outcome.statistics) continue;
     const FieldStatistics& statistics = *outcome.statistics;
-    const std::string law =
-        std::visit([&](const auto& asked) { return against(asked, statistics); }, statistics.law);
+    const std::string law = std::visit([&](const auto& asked) { return against(asked, statistics); }, statistics.law);
     print_out("floes[{}]: {}\n", field.group, law);
     print_out(
         "floes[{}]: sizes {:.4g} to {:.4g} m, length / width {:.3g} and {:.3g} corners on average, overlap "
         "0, gaps "
         "of {:g} m and more\n",
-        field.group, statistics.least_size, statistics.largest_size, statistics.mean_aspect,
-        statistics.mean_corners, field.gap);
+        field.group, statistics.least_size, statistics.largest_size, statistics.mean_aspect, statistics.mean_corners,
+        field.gap);
   }
 }
 

@@ -17,8 +17,7 @@ enum class ProblemFormat { kText, kJson };
 /// The scene of that file, or of stdin where its name is "-" (floe files are then searched in the working
 /// folder), with its progress on stderr. Where it cannot be read or is wrong, every problem has been printed,
 /// and it is the code to exit with.
-tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file,
-                                                   const io::SceneOverrides& overrides = {},
+tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file, const io::SceneOverrides& overrides = {},
                                                    ProblemFormat format = ProblemFormat::kText,
                                                    ProgressKind progress = ProgressKind::kNone);
 

@@ -66,8 +66,8 @@ struct GroupFiles {
 };
 
 /// A group and those it is in, up to the root of groups: each has its limit.
-void limit_by_groups(MemoryAvailable& available, const fs::path& root, const GroupFiles& files,
-                     const fs::path& group, double ours) {
+void limit_by_groups(MemoryAvailable& available, const fs::path& root, const GroupFiles& files, const fs::path& group,
+                     double ours) {
   for (fs::path at = group;; at = at.parent_path()) {
     const fs::path folder = root / files.folder / at.relative_path();
     const auto most = number_in(folder / files.limit);
@@ -90,13 +90,11 @@ void limit_by_groups(MemoryAvailable& available, const fs::path& root, double ou
     const std::string controllers = ',' + line.substr(first + 1, second - first - 1) + ',';
     const fs::path group = line.substr(second + 1);
     if (controllers == ",,")
-      limit_by_groups(available, root, {"sys/fs/cgroup", "memory.max", "memory.current", "file"}, group,
-                      ours);
+      limit_by_groups(available, root, {"sys/fs/cgroup", "memory.max", "memory.current", "file"}, group, ours);
     else if (controllers.find(",memory,") != std::string::npos)
-      limit_by_groups(
-          available, root,
-          {"sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_cache"}, group,
-          ours);
+      limit_by_groups(available, root,
+                      {"sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_cache"}, group,
+                      ours);
   }
 }
 
@@ -124,9 +122,9 @@ std::string amount_of_memory(double bytes) {
 bool may_fit(const simulation::Scene& scene, const std::string& name, const MemoryAvailable& available) {
   const simulation::MemoryEstimate needed = simulation::estimate_memory(scene);
   if (needed.at_start > available.bytes) {
-    print_err("polynya: {}: {} take at least {} of memory, and there are {} ({}); nothing was written; {}\n",
-              name, counted(scene.floes.size(), "floe"), amount_of_memory(needed.at_start),
-              amount_of_memory(available.bytes), available.source, kToNeedLessMemory);
+    print_err("polynya: {}: {} take at least {} of memory, and there are {} ({}); nothing was written; {}\n", name,
+              counted(scene.floes.size(), "floe"), amount_of_memory(needed.at_start), amount_of_memory(available.bytes),
+              available.source, kToNeedLessMemory);
     return false;
   }
   if (needed.all_moving > available.bytes) {
@@ -142,16 +140,14 @@ void print_folder_size(const simulation::Scene& scene, bool has_final_geojson) {
   if (scene.floes.size() <= io::kMostFloesInFinal) return;
   const io::FolderSize size = io::estimate_folder_size(scene);
   print_err("note: {} begin floes.ndjson with about {}; final.geojson, about {}, {}\n",
-            counted(scene.floes.size(), "floe"), amount_of_memory(size.floes),
-            amount_of_memory(size.final_geojson),
+            counted(scene.floes.size(), "floe"), amount_of_memory(size.floes), amount_of_memory(size.final_geojson),
             has_final_geojson ? "is written at the end" : "is written only with --final-geojson");
 }
 
 std::string out_of_memory() {
   const MemoryAvailable available = memory_available();
   if (!std::isfinite(available.bytes)) return "out of memory";
-  return fmt::format("out of memory: there are {} in all ({})", amount_of_memory(available.bytes),
-                     available.source);
+  return fmt::format("out of memory: there are {} in all ({})", amount_of_memory(available.bytes), available.source);
 }
 
 }  // namespace polynya::app

@@ -52,8 +52,7 @@ class PlaceWriter {
       std::size_t index = 0;
       for (const io::JsonValue& item : value.items()) add_below(std::to_string(index++), item, {});
     } else if (value.is(io::JsonValue::Kind::kObject)) {
-      for (const io::JsonMember& member : value.members())
-        add_below(member.key, member.value, member.key_offset);
+      for (const io::JsonMember& member : value.members()) add_below(member.key, member.value, member.key_offset);
     }
   }
   void add_below(std::string_view step, const io::JsonValue& value, std::optional<std::uint32_t> key_offset) {
@@ -91,8 +90,7 @@ int read_json(const std::string& file) {
 
 /// For the commands that are written in Python, not in the help.
 Command add_read_json(CommandLine& app) {
-  CommandLine command =
-      app.add_hidden_command("read-json", "Print a JSON file's value and the place of all in it");
+  CommandLine command = app.add_hidden_command("read-json", "Print a JSON file's value and the place of all in it");
   auto file = std::make_shared<std::string>();
   command.option("file", *file, "FILE", "JSON with comments").required();
   return {command, [file] { return read_json(*file); }};

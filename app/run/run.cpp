@@ -63,9 +63,8 @@ std::string force_lines(const io::RunSummary& summary, const simulation::Scene& 
       const io::Peak& sway = peaks.of_column[i + 1];
       if (surge.value == 0 && sway.value == 0) continue;
       is_free = false;
-      text +=
-          fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n", is_by_ice ? "ice force" : "ship force",
-                      peaks.ship, with_time(surge), with_time(sway), measure_of(*columns[i], scene));
+      text += fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n", is_by_ice ? "ice force" : "ship force",
+                          peaks.ship, with_time(surge), with_time(sway), measure_of(*columns[i], scene));
     }
     if (is_free) text += fmt::format("ice force   {}: none\n", peaks.ship);
   }
@@ -76,8 +75,8 @@ void print_under_hull(const simulation::Counts& counts, const simulation::AreaLe
   if (counts.went_under == 0) return;
   print_out("under hull  {} went under, {} of them tilted floes; {} came up, {} stayed under the ice\n",
             counted(counts.went_under, "piece"), counts.tilted_under, counts.came_up, counts.stayed_under);
-  print_out("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n",
-            ledger.under_hull_area, ledger.under_ice_area);
+  print_out("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n", ledger.under_hull_area,
+            ledger.under_ice_area);
 }
 
 void print_result(const io::RunSummary& summary, const simulation::Scene& scene, const fs::path& folder,
@@ -101,19 +100,16 @@ void print_result(const io::RunSummary& summary, const simulation::Scene& scene,
   const auto& masses = summary.masses;
   print_out("            {:.6g} t = {:.6g} floes + {:.6g} submerged + {:.6g} brash (imbalance {:.1e} t)\n",
             1e-3 * masses.initial_ice_mass, 1e-3 * masses.floe_mass,
-            1e-3 * (masses.submerged_mass + masses.under_hull_mass + masses.under_ice_mass),
-            1e-3 * masses.brash_mass, 1e-3 * masses.imbalance);
+            1e-3 * (masses.submerged_mass + masses.under_hull_mass + masses.under_ice_mass), 1e-3 * masses.brash_mass,
+            1e-3 * masses.imbalance);
   const simulation::EnergyFlows& energy = summary.audit.sums.energy;
   const simulation::BoundaryFlows& boundaries = summary.audit.sums.boundaries;
   print_out(
       "energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
       "motion (imbalance {:.1e} of it)\n",
-      (energy.thrust + energy.current + boundaries.wind + boundaries.walls +
-       summary.audit.sums.initial_energy) /
-          1e3,
+      (energy.thrust + energy.current + boundaries.wind + boundaries.walls + summary.audit.sums.initial_energy) / 1e3,
       energy.drag / 1e3, energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
-      summary.audit.kinetic_energy / 1e3,
-      summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
+      summary.audit.kinetic_energy / 1e3, summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
   print_out("{}", force_lines(summary, scene));
   print_out("run folder  {}\n", folder.string());
   if (!picture.empty()) print_out("picture     {}\n", (folder / picture).string());
@@ -148,8 +144,7 @@ void report_stop(const io::ActiveRun& run, const io::RunResult& result) {
   const std::string folder = run.writer.folder().string();
   print_err("polynya: stopped at {:.6g} s: {}\n", result.summary.sim_time, result.reason);
   if (run.writer.is_displaced())
-    print_err(
-        "polynya: the run is lost unless its folder is elsewhere now, with all its files; resume it there\n");
+    print_err("polynya: the run is lost unless its folder is elsewhere now, with all its files; resume it there\n");
   else if (result.end == RunEnd::kNumericalFailure)
     print_err("polynya: {} holds the run up to there\n", folder);
   else if (result.end == RunEnd::kFolderFailure)
@@ -185,8 +180,7 @@ ExitCode exit_code_of(RunEnd end) {
 ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
   { const simulation::Simulation freed = std::move(run.simulation); }  // makes room for the map
   const fs::path& folder = run.writer.folder();
-  const io::Result<std::string> picture =
-      no_map || result.end == RunEnd::kFolderFailure ? "" : draw_map(folder);
+  const io::Result<std::string> picture = no_map || result.end == RunEnd::kFolderFailure ? "" : draw_map(folder);
   if (!picture) {
     result.end = RunEnd::kFolderFailure;
     result.reason = picture.error();
@@ -200,15 +194,12 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
 
 void add_run_options(CommandLine& command, DriverOptions& options) {
   io::RunControl& control = options.control;
-  command.option("--threads", control.threads, "N", "Threads to step on; results do not depend on it",
-                 whole(1, 1024));
+  command.option("--threads", control.threads, "N", "Threads to step on; results do not depend on it", whole(1, 1024));
   command.option("--checkpoint-every", control.checkpoint_every, "S",
                  "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
   command.option("--checkpoint-every-wall", control.checkpoint_every_wall, "S",
-                 "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]",
-                 between(0, 1e7));
-  command.flag("--check", control.check,
-               "Recompute every cross-index and sum after every step; stop if one differs");
+                 "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
+  command.flag("--check", control.check, "Recompute every cross-index and sum after every step; stop if one differs");
   command.flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
   command.flag("--final-geojson", control.final_geojson,
                fmt::format("Write final.geojson also of more than {} floes", io::kMostFloesInFinal));
@@ -222,10 +213,10 @@ ProgressReport progress_of(const io::RunStatus& at, double until, double wall_ti
   const double left = rate > 0 ? std::max(0.0, until - sim_time) / rate : 0;
   return {
       part,
-      fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {}", 100 * part, sim_time, until,
+      fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {}", 100 * part, sim_time, until, rate,
+                  clock_time(left), counted(at.fractures, "fracture")),
+      fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {}", 100 * part, sim_time, until,
                   rate, clock_time(left), counted(at.fractures, "fracture")),
-      fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {}", 100 * part,
-                  sim_time, until, rate, clock_time(left), counted(at.fractures, "fracture")),
       fmt::format(
           R"({{"sim_time_s":{:.6g},"until_s":{:.6g},"wall_time_s":{:.3f},"real_time_factor":{:.4g},"time_left_s":{:.1f},"fractures":{}}})",
           sim_time, until, wall, rate, left, at.fractures)};
@@ -281,9 +272,8 @@ struct Start {
 
 tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
   try {
-    auto loaded =
-        load_scene(options.scene, {.until = options.until, .seed = options.seed, .assignments = options.set},
-                   ProblemFormat::kText, options.driver.progress);
+    auto loaded = load_scene(options.scene, {.until = options.until, .seed = options.seed, .assignments = options.set},
+                             ProblemFormat::kText, options.driver.progress);
     if (!loaded) return tl::unexpected(loaded.error());
     print_hints(*loaded);
     print_fields(*loaded);
@@ -302,8 +292,7 @@ tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
 int run(const RunOptions& options) {
   const auto start = start_of(options);
   if (!start) return start.error();
-  const fs::path folder =
-      options.out.empty() ? fs::path("runs") / start->scene->scene.name : fs::path(options.out);
+  const fs::path folder = options.out.empty() ? fs::path("runs") / start->scene->scene.name : fs::path(options.out);
   watch_signals();
   return within_memory(folder, [&]() -> int {
     auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
@@ -325,8 +314,7 @@ struct ResumeOptions {
 void offer_others(const fs::path& folder, const fs::path& refused) {
   for (const fs::path& other : io::checkpoints_in(folder)) {
     if (other.filename() == refused.filename()) continue;
-    print_err("polynya: there is another: polynya resume {} --checkpoint {}\n", folder.string(),
-              other.string());
+    print_err("polynya: there is another: polynya resume {} --checkpoint {}\n", folder.string(), other.string());
   }
   print_err("polynya: or from the start: polynya run {} --out {} --overwrite\n",
             (folder / io::run_file::kScene).string(), folder.string());
@@ -364,8 +352,7 @@ std::string no_run_in(const fs::path& folder) {
 /// A kill between the end of a run and the end of the command leaves checkpoints, or a part of the pictures.
 int report_finished(const fs::path& folder, bool no_map) {
   print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
-  const bool is_drawn =
-      fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
+  const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
   if (is_drawn && io::checkpoints_in(folder).empty()) return kDone;
   const auto lock = io::RunLock::take(folder);
   if (!lock) return kDone;                            // another polynya holds it and does what is left
@@ -436,16 +423,15 @@ Command add_run(CommandLine& app) {
 }
 
 Command add_resume(CommandLine& app) {
-  CommandLine command = app.add_command(
-      "resume", "Resume a run that was stopped, killed or ran out of disk",
-      "Examples:\n"
-      "  polynya resume runs/level-plate\n"
-      "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
-      "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
+  CommandLine command =
+      app.add_command("resume", "Resume a run that was stopped, killed or ran out of disk",
+                      "Examples:\n"
+                      "  polynya resume runs/level-plate\n"
+                      "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
+                      "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
   auto options = std::make_shared<ResumeOptions>();
   command.option("folder", options->folder, "RUN", "The run folder").required();
-  auto checkpoint =
-      command.option("--checkpoint", options->checkpoint, "FILE", "This one, instead of the newest");
+  auto checkpoint = command.option("--checkpoint", options->checkpoint, "FILE", "This one, instead of the newest");
   command
       .flag("--from-failure", options->from_failure,
             "Repeat the step for which failure.bin was dumped; nothing is written")

@@ -116,15 +116,13 @@ void print_floes(const io::LoadedScene& loaded) {
   for (const io::IceReport& report : loaded.ice) {
     const io::FloeIceProperty& property = io::floe_ice_properties()[report.property];
     const fracture::ScatterMeasures& drawn = report.measures;
-    print_out(
-        "floes[{}].ice.{}: {} drawn, {:.4g} {} ± {:.3g} %, from {:.4g} to {:.4g}, {:.2g} off the law (KS)\n",
-        report.group, property.key, drawn.count, drawn.mean, property.unit, 100 * drawn.spread, drawn.least,
-        drawn.most, drawn.distance);
+    print_out("floes[{}].ice.{}: {} drawn, {:.4g} {} ± {:.3g} %, from {:.4g} to {:.4g}, {:.2g} off the law (KS)\n",
+              report.group, property.key, drawn.count, drawn.mean, property.unit, 100 * drawn.spread, drawn.least,
+              drawn.most, drawn.distance);
   }
   for (const io::FileReport& file : loaded.files) {
     print_out("floes[{}]: {}{}; {}\n", file.group, io::plane_in_words(file.plane),
-              file.run_time
-                  ? fmt::format("; {} of a run at {:g} s", counted(file.floes, "floe"), *file.run_time)
+              file.run_time ? fmt::format("; {} of a run at {:g} s", counted(file.floes, "floe"), *file.run_time)
               : file.totals ? "; " + io::counts_in_words(*file.totals)
                             : "; " + counted(file.floes, "floe"),
               io::thickness_in_words(file.with_thickness, file.floes));
@@ -182,11 +180,10 @@ Command add_validate(CommandLine& app) {
   auto options = std::make_shared<ValidateOptions>();
   add_scene(command, options->scene);
   add_set(command, options->set);
-  auto cases = command.option(
-      "--cases", options->cases, "FILE",
-      "Check the scene once for each line of this file, an object of paths and values", not_empty());
-  auto resolved =
-      command.flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  auto cases =
+      command.option("--cases", options->cases, "FILE",
+                     "Check the scene once for each line of this file, an object of paths and values", not_empty());
+  auto resolved = command.flag("--resolved", options->resolved, "Print the scene with every default filled in");
   resolved.excludes(cases);
   command.flag("--json", options->json, "Print the problems as a JSON array; [] for none").excludes(resolved);
   add_progress(command, options->progress);
@@ -204,11 +201,10 @@ Command add_init(CommandLine& app) {
 }
 
 Command add_schema(CommandLine& app) {
-  CommandLine command =
-      app.add_command("schema", "Print the JSON Schema of scenes",
-                      "Examples:\n"
-                      "  polynya schema > polynya.schema.json\n"
-                      "  polynya schema --markdown            the tables of docs/scene.md\n");
+  CommandLine command = app.add_command("schema", "Print the JSON Schema of scenes",
+                                        "Examples:\n"
+                                        "  polynya schema > polynya.schema.json\n"
+                                        "  polynya schema --markdown            the tables of docs/scene.md\n");
   auto is_markdown = std::make_shared<bool>(false);
   command.flag("--markdown", *is_markdown, "Print the fields as Markdown tables");
   return {command, [is_markdown] {

@@ -21,8 +21,7 @@ namespace {
 std::string reported_of(const io::ShipPreset& ship) {
   std::string text;
   for (const io::ReportedSpeed& speed : ship.reported)
-    text += fmt::format("{}{:g} m at {:.1f} kn", text.empty() ? "" : ", ", speed.thickness,
-                        speed.speed / io::kKnot);
+    text += fmt::format("{}{:g} m at {:.1f} kn", text.empty() ? "" : ", ", speed.thickness, speed.speed / io::kKnot);
   return text;
 }
 
@@ -42,11 +41,10 @@ void print_ship(const io::ShipPreset& ship) {
     print_out("{:<46}{:>12}  {:<10}{}\n", p.path, p.json, name_of(p.basis), p.source);
   if (!ship.reported.empty()) print_out("\nlevel ice as reported\n");
   for (const io::ReportedSpeed& speed : ship.reported) {
-    const std::string strength = speed.flexural_strength > 0 ? fmt::format(", flexural strength {:g} kPa",
-                                                                           1e-3 * speed.flexural_strength)
-                                                             : "";
-    print_out("{:g} m at {:.2f} m/s ({:.1f} kn){}: {}\n", speed.thickness, speed.speed,
-              speed.speed / io::kKnot, strength, speed.source);
+    const std::string strength =
+        speed.flexural_strength > 0 ? fmt::format(", flexural strength {:g} kPa", 1e-3 * speed.flexural_strength) : "";
+    print_out("{:g} m at {:.2f} m/s ({:.1f} kn){}: {}\n", speed.thickness, speed.speed, speed.speed / io::kKnot,
+              strength, speed.source);
   }
   print_out("\nassumed: nobody has published it. recall: from memory. Sources: docs/references.md.\n");
 }
@@ -98,10 +96,7 @@ void print_particulars(const std::string& path, const io::JsonValue& resolved, c
     if (member.value.is(io::JsonValue::Kind::kObject))
       print_particulars(below, member.value, own, filled, preset_name);
     else
-      print_out("{:<46}{:>12}  {}\n", below, io::show(member.value),
-                own      ? "given"
-                : filled ? preset_name
-                         : "default");
+      print_out("{:<46}{:>12}  {}\n", below, io::show(member.value), own ? "given" : filled ? preset_name : "default");
   }
 }
 
@@ -147,8 +142,7 @@ ExitCode no_such_ship(const std::string& name) {
   for (const io::ShipPreset& other : io::ship_presets()) names.push_back(other.name);
   const std::string meant = io::nearest(name, names);
   return fail(kUsage, fmt::format("no ship \"{}\"; {}there are {}; no file has that name", name,
-                                  meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
-                                  fmt::join(names, " ")));
+                                  meant.empty() ? "" : fmt::format("did you mean {}? ", meant), fmt::join(names, " ")));
 }
 
 ExitCode show(const Options& options) {
@@ -158,8 +152,7 @@ ExitCode show(const Options& options) {
     return kDone;
   }
   if (const io::ShipPreset* ship = io::find_ship_preset(name)) {
-    if (options.is_for_performance)
-      return show_text(fmt::format("{{\"ship\": \"{}\"}}", name), name, false, options);
+    if (options.is_for_performance) return show_text(fmt::format("{{\"ship\": \"{}\"}}", name), name, false, options);
     options.is_json ? print_json(described(*ship)) : print_ship(*ship);
     return kDone;
   }
@@ -184,8 +177,7 @@ Command add_ships(CommandLine& app) {
       "  polynya ships polaris --json   its \"ship\" as scenes have one\n"
       "  polynya ships our-ship.json    a ship as scenes have it: what is wrong, or all its particulars\n");
   auto options = std::make_shared<Options>();
-  command.option("ship", options->ship, "SHIP", "Its name, or a JSON file with one; - for stdin",
-                 not_empty());
+  command.option("ship", options->ship, "SHIP", "Its name, or a JSON file with one; - for stdin", not_empty());
   command.flag("--json", options->is_json,
                "Print that ship, or the list of all, as JSON; of a file with every default filled in");
   command.flag("--for-performance", options->is_for_performance,

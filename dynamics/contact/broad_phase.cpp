@@ -120,8 +120,8 @@ void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
     if (other == body) return;
     if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
     if (!can_press(bodies, body, other, rule_.presses_prescribed)) return;
-    const auto& smaller = entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs
-                                                                                     : entries_[other].pairs;
+    const auto& smaller =
+        entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs : entries_[other].pairs;
     const BodyIndex a = std::min(body, other);
     const BodyIndex b = std::max(body, other);
     for (const std::uint32_t pair : smaller) {
@@ -261,8 +261,8 @@ void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, Pa
   active.separation_bound = travelled + std::max(0.0, clearance - kRounding);
 }
 
-void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt,
-                               Share& share, std::vector<Contact>& contacts) {
+void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt, Share& share,
+                               std::vector<Contact>& contacts) {
   constexpr std::size_t kAhead = 8;  // pairs whose memory is fetched ahead of their turn
   const std::size_t count = find_pending(bodies, begin, end, share.pending);
   share.scratch.keeps_distant_edges = static_cast<double>(active_.size()) <= rule_.most_pairs_with_edges;
@@ -340,8 +340,8 @@ ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex pare
       if (record.loaded_area == 0) continue;
       CrushedIce crushed = record.crushed;
       if (pair.b == parent) crushed.a_from_b = inverse(crushed.a_from_b);
-      memory.pressed.push_back({other, transform(water_from_b, record.last_point_in_b), record.reach,
-                                record.loaded_area, crushed});
+      memory.pressed.push_back(
+          {other, transform(water_from_b, record.last_point_in_b), record.reach, record.loaded_area, crushed});
     }
   }
   std::sort(memory.outside.begin(), memory.outside.end(),

@@ -120,9 +120,7 @@ class BroadPhase {
     BodyIndex a, b;
     double separation_bound;  // the two cannot touch until they have travelled this far together [m]
     std::uint32_t slot;
-    friend bool operator<(const ActivePair& p, const ActivePair& q) {
-      return p.a != q.a ? p.a < q.a : p.b < q.b;
-    }
+    friend bool operator<(const ActivePair& p, const ActivePair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
   };
   void place(const Bodies& bodies, BodyIndex body);
   bool may_move(const Bodies& bodies, BodyIndex body) const;
@@ -138,8 +136,7 @@ class BroadPhase {
   void merge_new();
   void erase_dropped(std::vector<ActivePair>& list);
   struct Share;
-  std::size_t find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
-                           std::vector<ActivePair*>& pending);
+  std::size_t find_pending(const Bodies& bodies, std::size_t begin, std::size_t end, std::vector<ActivePair*>& pending);
   void collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt, Share& share,
                      std::vector<Contact>& contacts);
   void collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
@@ -148,10 +145,9 @@ class BroadPhase {
   ContactRule rule_;
   HashGrid grid_;
   std::vector<Entry> entries_;
-  std::vector<BodyIndex> movers_;  // those awake that may move, in no order
-  std::vector<double>
-      travel_limits_;        // of bodies: the grown box contains one until it has travelled this far
-  std::vector<Pair> pairs_;  // slots
+  std::vector<BodyIndex> movers_;      // those awake that may move, in no order
+  std::vector<double> travel_limits_;  // of bodies: the grown box contains one until it has travelled this far
+  std::vector<Pair> pairs_;            // slots
   std::vector<std::uint32_t> free_pairs_;
   std::vector<ActivePair> active_;     // pairs in use, by (a, b), dropped ones included
   std::vector<ActivePair> recent_;     // the same; merged into active_ when there are many

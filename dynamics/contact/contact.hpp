@@ -27,11 +27,11 @@ struct PersistentContact {
   geometry::Point first_touch_in_b;  ///< the point of b that was touched first [m]
   double age = 0;                    ///< since first contact [s]
   double approach = 0;               ///< ∫ max(0, v_n) dt [m]
-  double crushed_depth = 0;         ///< overlap that crushing made: the ice is gone, nothing separates it [m]
-  double last_impulse[2] = {0, 0};  ///< of compression, at each end, in the last substep solved [N s]
-  double loaded_depth = 0;          ///< deepest overlap that pressed: the ice is gone so far [m]
-  double loaded_area = 0;           ///< of that overlap [m²]
-  double reach = 0;                 ///< of the contact from last_point_in_b, at the last step [m]
+  double crushed_depth = 0;          ///< overlap that crushing made: the ice is gone, nothing separates it [m]
+  double last_impulse[2] = {0, 0};   ///< of compression, at each end, in the last substep solved [N s]
+  double loaded_depth = 0;           ///< deepest overlap that pressed: the ice is gone so far [m]
+  double loaded_area = 0;            ///< of that overlap [m²]
+  double reach = 0;                  ///< of the contact from last_point_in_b, at the last step [m]
   RestitutionMemory restitution;
   CrushedIce crushed;
   bool has_crushed = false;
@@ -45,15 +45,15 @@ struct PersistentContact {
 struct Contact {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  geometry::Point ends[2];    ///< the ends of the contact line [m]
-  geometry::Point tip_of_b;   ///< the point of b farthest inside a [m]
-  geometry::Point tip_of_a;   ///< the corner of a farthest inside b; the line's middle where none is [m]
-  geometry::Vector normal;    ///< unit
-  double width = 0;           ///< of the contact line [m]
-  double depth = 0;           ///< of the overlap along the normal [m]
-  double area = 0;            ///< of the overlap [m²]
-  double approach_speed = 0;  ///< v_n at the middle, positive when approaching [m/s]
-  double slip_speed = 0;      ///< along the contact line [m/s]
+  geometry::Point ends[2];              ///< the ends of the contact line [m]
+  geometry::Point tip_of_b;             ///< the point of b farthest inside a [m]
+  geometry::Point tip_of_a;             ///< the corner of a farthest inside b; the line's middle where none is [m]
+  geometry::Vector normal;              ///< unit
+  double width = 0;                     ///< of the contact line [m]
+  double depth = 0;                     ///< of the overlap along the normal [m]
+  double area = 0;                      ///< of the overlap [m²]
+  double approach_speed = 0;            ///< v_n at the middle, positive when approaching [m/s]
+  double slip_speed = 0;                ///< along the contact line [m/s]
   std::uint32_t tip_edge_of_b = 0;      ///< the edge of b that starts at the tip, or that the tip is on
   std::uint32_t place = 0;              ///< among the contacts of its two bodies
   PersistentContact* record = nullptr;  ///< in its pair; valid during the step
@@ -73,9 +73,9 @@ struct Contact {
   double slip_work = 0;               ///< of the slip impulse [J]
   bool is_at_limit = false;           ///< it pressed with all that crushing ice carries
   bool is_broken = false;             ///< the force reached breaking_force
-  double steady_share = 1;     ///< of the impulses: without what was missed before the contact was found [-]
-  double prescribed_work = 0;  ///< by one of prescribed motion on the other [J]
-  double slip_impulse = 0;     ///< on b along perpendicular(normal), anywhere on the line [N s]
+  double steady_share = 1;            ///< of the impulses: without what was missed before the contact was found [-]
+  double prescribed_work = 0;         ///< by one of prescribed motion on the other [J]
+  double slip_impulse = 0;            ///< on b along perpendicular(normal), anywhere on the line [N s]
 
   bool gives_way = false;  ///< the floe tilts rather than bears what crushing it takes
 

@@ -19,17 +19,15 @@ constexpr double kHeldInverseMass = 1e-13;
 
 }  // namespace
 
-void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched,
-                 std::vector<SolverBody>& solver_bodies) {
+void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::vector<SolverBody>& solver_bodies) {
   solver_bodies.clear();
   for (const BodyIndex body : touched) {
-    solver_bodies.push_back({bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
-                             bodies.inverse_moment[body]});
+    solver_bodies.push_back(
+        {bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body], bodies.inverse_moment[body]});
   }
 }
 
-void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched,
-                      Bodies& bodies) {
+void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched, Bodies& bodies) {
   for (std::size_t place = 0; place < touched.size(); ++place) {
     bodies.velocity[touched[place]] = solver_bodies[place].velocity;
     bodies.angular_velocity[touched[place]] = solver_bodies[place].angular_velocity;
@@ -49,8 +47,7 @@ ContactConstraint make_constraint(const Bodies& bodies, const Contact& c, std::i
   for (int end = 0; end < 2; ++end) {
     k.arm_cross_normal_a[end] = cross(c.ends[end] - bodies.position[c.a], c.normal);
     k.arm_cross_normal_b[end] = cross(c.ends[end] - bodies.position[c.b], c.normal);
-    k.inverse_mass_at[end] = inverse_masses +
-                             k.arm_cross_normal_a[end] * k.arm_cross_normal_a[end] * a.inverse_moment +
+    k.inverse_mass_at[end] = inverse_masses + k.arm_cross_normal_a[end] * k.arm_cross_normal_a[end] * a.inverse_moment +
                              k.arm_cross_normal_b[end] * k.arm_cross_normal_b[end] * b.inverse_moment;
     k.least[end] = 0;
     k.normal_impulse[end] = 0;
@@ -58,8 +55,7 @@ ContactConstraint make_constraint(const Bodies& bodies, const Contact& c, std::i
   const Vector tangent = perpendicular(c.normal);
   k.arm_cross_tangent_a = cross(c.ends[0] - bodies.position[c.a], tangent);
   k.arm_cross_tangent_b = cross(c.ends[0] - bodies.position[c.b], tangent);
-  k.inverse_mass_between = inverse_masses +
-                           k.arm_cross_normal_a[0] * k.arm_cross_normal_a[1] * a.inverse_moment +
+  k.inverse_mass_between = inverse_masses + k.arm_cross_normal_a[0] * k.arm_cross_normal_a[1] * a.inverse_moment +
                            k.arm_cross_normal_b[0] * k.arm_cross_normal_b[1] * b.inverse_moment;
   const double both = k.inverse_mass_at[0] * k.inverse_mass_at[1];
   const double determinant = both - k.inverse_mass_between * k.inverse_mass_between;
@@ -85,8 +81,8 @@ double isolated_impulse(const ContactConstraint& k, const ConstraintSpeeds& spee
   return std::max({0.0, v0 / k.inverse_mass_at[0], v1 / k.inverse_mass_at[1]});
 }
 
-double prescribed_work(const ContactConstraint& k, std::span<const SolverBody> solver_bodies,
-                       const Bodies& bodies, const Contact& c) {
+double prescribed_work(const ContactConstraint& k, std::span<const SolverBody> solver_bodies, const Bodies& bodies,
+                       const Contact& c) {
   double work = 0;
   if (solver_bodies[k.a].inverse_mass != 0 && solver_bodies[k.b].inverse_mass != 0) return work;
   for (const auto& [solver_body, body, sign] : {std::tuple{k.a, c.a, 1.0}, std::tuple{k.b, c.b, -1.0}}) {

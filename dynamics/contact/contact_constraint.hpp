@@ -19,10 +19,8 @@ struct SolverBody {
 };
 
 /// Those that touch, and the velocities found for them.
-void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched,
-                 std::vector<SolverBody>& solver_bodies);
-void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched,
-                      Bodies& bodies);
+void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::vector<SolverBody>& solver_bodies);
+void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched, Bodies& bodies);
 
 /// The constraint of one contact line, with the impulses found so far; [0] and [1] are its ends. J and K are
 /// those of contact_solver.hpp; K is singular where both ends turn the bodies alike.
@@ -34,12 +32,12 @@ struct ContactConstraint {
   double inverse_mass_at[2];                            ///< the diagonal of K [1/kg]
   double inverse_mass_between;                          ///< its other element [1/kg]
   double inverse_determinant;                           ///< 1 / det K; 0 where K is nearly singular [kg²]
-  double inverse_slip_mass, slip_mass;  ///< speed along the line per impulse [1/kg], and its inverse
-  double least[2];                      ///< of the normal impulse: what restitution has added [N s]
-  double limit;                         ///< of the normal impulse at each end [N s]
-  double friction;                      ///< most slip impulse per normal impulse [-]
-  double normal_impulse[2];             ///< [N s]
-  double slip_impulse;                  ///< [N s]
+  double inverse_slip_mass, slip_mass;                  ///< speed along the line per impulse [1/kg], and its inverse
+  double least[2];                                      ///< of the normal impulse: what restitution has added [N s]
+  double limit;                                         ///< of the normal impulse at each end [N s]
+  double friction;                                      ///< most slip impulse per normal impulse [-]
+  double normal_impulse[2];                             ///< [N s]
+  double slip_impulse;                                  ///< [N s]
 };
 
 /// Velocity of b relative to a at a contact line [m/s].
@@ -49,8 +47,8 @@ struct ConstraintSpeeds {
 };
 
 /// The constraint of a contact between two solver bodies, without impulses.
-ContactConstraint make_constraint(const Bodies& bodies, const Contact& contact, std::int32_t a,
-                                  std::int32_t b, std::span<const SolverBody> solver_bodies);
+ContactConstraint make_constraint(const Bodies& bodies, const Contact& contact, std::int32_t a, std::int32_t b,
+                                  std::span<const SolverBody> solver_bodies);
 
 /// The sum of the impulses p ≥ 0 that would bring both ends to rest without other contacts, K p = approach
 /// speeds [N s].
@@ -62,9 +60,8 @@ double prescribed_work(const ContactConstraint& constraint, std::span<const Solv
 
 inline std::array<double, 2> apart_at(const ContactConstraint& k, const SolverBody& a, const SolverBody& b) {
   const double apart = dot(b.velocity - a.velocity, k.normal);
-  return {
-      apart + b.angular_velocity * k.arm_cross_normal_b[0] - a.angular_velocity * k.arm_cross_normal_a[0],
-      apart + b.angular_velocity * k.arm_cross_normal_b[1] - a.angular_velocity * k.arm_cross_normal_a[1]};
+  return {apart + b.angular_velocity * k.arm_cross_normal_b[0] - a.angular_velocity * k.arm_cross_normal_a[0],
+          apart + b.angular_velocity * k.arm_cross_normal_b[1] - a.angular_velocity * k.arm_cross_normal_a[1]};
 }
 
 inline ConstraintSpeeds speeds_at(const ContactConstraint& k, std::span<const SolverBody> solver_bodies) {
@@ -76,12 +73,11 @@ inline ConstraintSpeeds speeds_at(const ContactConstraint& k, std::span<const So
 }
 
 /// Changes the velocities by impulses on b, and their opposites on a.
-inline void apply_impulses(const ContactConstraint& k, double impulse_0, double impulse_1,
-                           double slip_impulse, std::span<SolverBody> solver_bodies) {
+inline void apply_impulses(const ContactConstraint& k, double impulse_0, double impulse_1, double slip_impulse,
+                           std::span<SolverBody> solver_bodies) {
   SolverBody& a = solver_bodies[k.a];
   SolverBody& b = solver_bodies[k.b];
-  const geometry::Vector impulse =
-      (impulse_0 + impulse_1) * k.normal + slip_impulse * perpendicular(k.normal);
+  const geometry::Vector impulse = (impulse_0 + impulse_1) * k.normal + slip_impulse * perpendicular(k.normal);
   // A body of prescribed motion is shared by islands on several threads: it is never written.
   if (a.inverse_mass != 0) {
     a.velocity -= a.inverse_mass * impulse;
@@ -98,18 +94,14 @@ inline void apply_impulses(const ContactConstraint& k, double impulse_0, double 
 }
 
 /// The normal impulses that bring ends of these separating speeds to rest, within their bounds.
-inline std::array<double, 2> impulses_to_rest(const ContactConstraint& k,
-                                              const std::array<double, 2>& apart) {
+inline std::array<double, 2> impulses_to_rest(const ContactConstraint& k, const std::array<double, 2>& apart) {
   const double before_0 = k.normal_impulse[0];
   const double before_1 = k.normal_impulse[1];
-  double p0 = before_0 -
-              (k.inverse_mass_at[1] * apart[0] - k.inverse_mass_between * apart[1]) * k.inverse_determinant;
-  double p1 = before_1 -
-              (k.inverse_mass_at[0] * apart[1] - k.inverse_mass_between * apart[0]) * k.inverse_determinant;
+  double p0 = before_0 - (k.inverse_mass_at[1] * apart[0] - k.inverse_mass_between * apart[1]) * k.inverse_determinant;
+  double p1 = before_1 - (k.inverse_mass_at[0] * apart[1] - k.inverse_mass_between * apart[0]) * k.inverse_determinant;
   const bool is_within = p0 >= k.least[0] && p1 >= k.least[1] && p0 <= k.limit && p1 <= k.limit;
   const bool is_beyond = (p0 > k.limit && p1 > k.limit) || (p0 < k.least[0] && p1 < k.least[1]);
-  if (k.inverse_determinant == 0 ||
-      !(is_within || is_beyond)) {  // the one end at its bound decides the other
+  if (k.inverse_determinant == 0 || !(is_within || is_beyond)) {  // the one end at its bound decides the other
     p0 = std::clamp(before_0 - apart[0] / k.inverse_mass_at[0], k.least[0], k.limit);
     p1 = before_1 - (apart[1] + k.inverse_mass_between * (p0 - before_0)) / k.inverse_mass_at[1];
   }
@@ -118,14 +110,14 @@ inline std::array<double, 2> impulses_to_rest(const ContactConstraint& k,
 
 /// The slip impulse that brings a contact line's slip to rest, within the Coulomb cone of its normal
 /// impulses, whose last changes the bodies do not have yet [N s].
-inline double slip_to_rest(const ContactConstraint& k, const SolverBody& a, const SolverBody& b,
-                           double change_0, double change_1) {
-  const double omega_a = a.angular_velocity - a.inverse_moment * (change_0 * k.arm_cross_normal_a[0] +
-                                                                  change_1 * k.arm_cross_normal_a[1]);
-  const double omega_b = b.angular_velocity + b.inverse_moment * (change_0 * k.arm_cross_normal_b[0] +
-                                                                  change_1 * k.arm_cross_normal_b[1]);
-  const double slip = dot(b.velocity - a.velocity, perpendicular(k.normal)) +
-                      omega_b * k.arm_cross_tangent_b - omega_a * k.arm_cross_tangent_a;
+inline double slip_to_rest(const ContactConstraint& k, const SolverBody& a, const SolverBody& b, double change_0,
+                           double change_1) {
+  const double omega_a =
+      a.angular_velocity - a.inverse_moment * (change_0 * k.arm_cross_normal_a[0] + change_1 * k.arm_cross_normal_a[1]);
+  const double omega_b =
+      b.angular_velocity + b.inverse_moment * (change_0 * k.arm_cross_normal_b[0] + change_1 * k.arm_cross_normal_b[1]);
+  const double slip = dot(b.velocity - a.velocity, perpendicular(k.normal)) + omega_b * k.arm_cross_tangent_b -
+                      omega_a * k.arm_cross_tangent_a;
   const double most = k.friction * (k.normal_impulse[0] + k.normal_impulse[1]);
   return std::clamp(k.slip_impulse - slip * k.slip_mass, -most, most);
 }

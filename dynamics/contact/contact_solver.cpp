@@ -29,8 +29,7 @@ void solve_jam(std::span<ContactConstraint> constraints, std::span<const CrushLa
   std::vector<EndLaws> laws(constraints.size());
   for (std::size_t k = 0; k < constraints.size(); ++k) {
     const double(&inverse_mass)[2] = constraints[k].inverse_mass_at;
-    laws[k] =
-        states[k].is_rigid ? EndLaws{rigid_law(inverse_mass[0]), rigid_law(inverse_mass[1])} : states[k].ends;
+    laws[k] = states[k].is_rigid ? EndLaws{rigid_law(inverse_mass[0]), rigid_law(inverse_mass[1])} : states[k].ends;
   }
   solve_jam(constraints, laws, solver_bodies, kSlipShare * tolerance);
 }
@@ -38,25 +37,23 @@ void solve_jam(std::span<ContactConstraint> constraints, std::span<const CrushLa
 }  // namespace
 
 template <class Law>
-void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& contacts, const Law& law,
-                         int threads) {
+void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& contacts, const Law& law, int threads) {
   auto& states = std::get<States<Law>>(states_);
   take_bodies(bodies, islands_.bodies_touched(), solver_bodies_);
   constraints_.resize(contacts.size());
   states.resize(contacts.size());
   sums_.resize(contacts.size());
   directions_.resize(contacts.size());
-  for_chunks(contacts.size(), kContactsPerChunk, threads,
-             [&](std::size_t, std::size_t begin, std::size_t end) {
-               for (std::size_t k = begin; k < end; ++k) {
-                 const std::uint32_t i = islands_.order()[k];
-                 // Made in their places: copying them costs as much as making them.
-                 new (&constraints_[k]) ContactConstraint(make_constraint(
-                     bodies, contacts[i], islands_.place_of_a(i), islands_.place_of_b(i), solver_bodies_));
-                 new (&states[k]) typename Law::State(state_of(law, contacts[i]));
-                 new (&sums_[k]) Sums{};
-               }
-             });
+  for_chunks(contacts.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = islands_.order()[k];
+      // Made in their places: copying them costs as much as making them.
+      new (&constraints_[k]) ContactConstraint(
+          make_constraint(bodies, contacts[i], islands_.place_of_a(i), islands_.place_of_b(i), solver_bodies_));
+      new (&states[k]) typename Law::State(state_of(law, contacts[i]));
+      new (&sums_[k]) Sums{};
+    }
+  });
 }
 
 /// Starts a substep: bounds of the impulses, and those to start from.
@@ -115,10 +112,9 @@ void ContactSolver::accelerate(const Island& island, Search& search) {
   for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
     const ContactConstraint& c = constraints_[i];
     const double(&before)[3] = directions_[i].before;
-    const double d[3] = {c.normal_impulse[0] - before[0], c.normal_impulse[1] - before[1],
-                         c.slip_impulse - before[2]};
-    change += d[0] * d[0] * c.inverse_mass_at[0] + d[1] * d[1] * c.inverse_mass_at[1] +
-              d[2] * d[2] * c.inverse_slip_mass;
+    const double d[3] = {c.normal_impulse[0] - before[0], c.normal_impulse[1] - before[1], c.slip_impulse - before[2]};
+    change +=
+        d[0] * d[0] * c.inverse_mass_at[0] + d[1] * d[1] * c.inverse_mass_at[1] + d[2] * d[2] * c.inverse_slip_mass;
   }
   const bool is_first = search.sweeps++ == 0;
   const bool has_grown = change > search.last_change * (1 + 1e-6);
@@ -135,12 +131,10 @@ void ContactSolver::accelerate(const Island& island, Search& search) {
       direction.along[k] = along + (p[k] - direction.before[k]);
     }
     if (share == 0) continue;
-    for (int end = 0; end < 2; ++end)
-      c.normal_impulse[end] = std::clamp(extrapolated[end], c.least[end], c.limit);
+    for (int end = 0; end < 2; ++end) c.normal_impulse[end] = std::clamp(extrapolated[end], c.least[end], c.limit);
     const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
     c.slip_impulse = std::clamp(extrapolated[2], -most, most);
-    apply_impulses(c, c.normal_impulse[0] - p[0], c.normal_impulse[1] - p[1], c.slip_impulse - p[2],
-                   solver_bodies_);
+    apply_impulses(c, c.normal_impulse[0] - p[0], c.normal_impulse[1] - p[1], c.slip_impulse - p[2], solver_bodies_);
   }
 }
 
@@ -174,8 +168,7 @@ double ContactSolver::solve_island(const Island& island, const Law& law, const S
       const bool is_converged = residual <= settings.tolerance;
       bool has_given = false;
       for (std::uint32_t k = island.first; k < island.first + island.count; ++k)
-        has_given |=
-            restore(law, is_converged, std::get<States<Law>>(states_)[k], constraints_[k], solver_bodies_);
+        has_given |= restore(law, is_converged, std::get<States<Law>>(states_)[k], constraints_[k], solver_bodies_);
       if (has_given) residual = std::max(residual, sweep(island, law, settings));
     }
     finish(island, law);
@@ -207,11 +200,9 @@ SolverResult ContactSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
   const auto solve_by = [&](const auto& law) {
     fill(bodies, contacts, law, settings.threads);
-    for_chunks(islands.size(), kIslandsPerChunk, threads,
-               [&](std::size_t, std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k)
-                   residuals_[k] = solve_island(islands[k], law, settings);
-               });
+    for_chunks(islands.size(), kIslandsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) residuals_[k] = solve_island(islands[k], law, settings);
+    });
     write_back(bodies, contacts, law);
   };
   std::visit(solve_by, any_law);

@@ -89,8 +89,7 @@ PersistentContact ContactTracker::record_of(const Contact& c, const Patch& patch
   double nearest = std::numeric_limits<double>::infinity();
   for (PersistentContact& record : records_) {
     const double d = distance(record.last_point_in_b, patch.middle);
-    if (record.is_continued || record.is_inherited || d > std::min(nearest, reach_of(record, patch)))
-      continue;
+    if (record.is_continued || record.is_inherited || d > std::min(nearest, reach_of(record, patch))) continue;
     nearest = d;
     old = &record;
   }
@@ -104,8 +103,7 @@ PersistentContact ContactTracker::record_of(const Contact& c, const Patch& patch
 }
 
 /// A contact without a record of its own, where an overlap was: a part of that one.
-void ContactTracker::keep_what_pressed(const Contact& c, const Patch& patch,
-                                       PersistentContact& record) const {
+void ContactTracker::keep_what_pressed(const Contact& c, const Patch& patch, PersistentContact& record) const {
   for (const PersistentContact& old : records_) {
     if (distance(old.last_point_in_b, patch.middle) > tolerance_ + old.reach) continue;
     record.loaded_area = std::max(record.loaded_area, std::min(old.loaded_area, c.area));
@@ -131,8 +129,7 @@ void ContactTracker::join_left_over(std::span<Contact> contacts, std::span<const
   }
 }
 
-void ContactTracker::note_parted(BodyIndex a, BodyIndex b, const PersistentContact& record,
-                                 const Bodies& bodies) {
+void ContactTracker::note_parted(BodyIndex a, BodyIndex b, const PersistentContact& record, const Bodies& bodies) {
   if (record.is_inherited || record.crushed.area == 0) return;
   const Point middle = transform(water_from_body(bodies, b), record.last_point_in_b);
   parted_.push_back({a, b, record.crushed, middle});

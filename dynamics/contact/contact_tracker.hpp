@@ -19,8 +19,7 @@ class ContactTracker {
       : records_(records), updated_(scratch), parted_(parted), tolerance_(0.25 * circle_radius), dt_(dt) {}
 
   /// `manifolds` are those of the contacts, one each.
-  void update(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
-              const Bodies& bodies);
+  void update(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds, const Bodies& bodies);
 
   /// Ends all contacts of a pair that does not touch any more.
   void end(BodyIndex a, BodyIndex b, const Bodies& bodies);
@@ -33,16 +32,14 @@ class ContactTracker {
     bool is_pierced;
     bool holds(geometry::Point point_in_b) const;
   };
-  static Patch patch_of(const Contact& contact, const geometry::ContactManifold& manifold,
-                        const Bodies& bodies);
+  static Patch patch_of(const Contact& contact, const geometry::ContactManifold& manifold, const Bodies& bodies);
   double reach_of(const PersistentContact& record, const Patch& patch) const;
   PersistentContact record_of(const Contact& contact, const Patch& patch, const Bodies& bodies);
   void keep_what_pressed(const Contact& contact, const Patch& patch, PersistentContact& record) const;
   void join_left_over(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
                       const Bodies& bodies);
   void note_parted(BodyIndex a, BodyIndex b, const PersistentContact& record, const Bodies& bodies);
-  void advance(PersistentContact& record, const Contact& contact, const Patch& patch,
-               const Bodies& bodies) const;
+  void advance(PersistentContact& record, const Contact& contact, const Patch& patch, const Bodies& bodies) const;
 
   std::vector<PersistentContact>& records_;
   std::vector<PersistentContact>& updated_;

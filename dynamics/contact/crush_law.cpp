@@ -14,10 +14,7 @@ class EndPair {
  public:
   EndPair(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
           const std::array<double, 2>& closing_speed)
-      : ends_(ends),
-        creep_{creep_slope(ends[0]), creep_slope(ends[1])},
-        mobility_(mobility),
-        free_(closing_speed) {}
+      : ends_(ends), creep_{creep_slope(ends[0]), creep_slope(ends[1])}, mobility_(mobility), free_(closing_speed) {}
 
   std::array<double, 2> speeds(const std::array<double, 2>& impulse) const {
     return {free_[0] - mobility_.at[0] * impulse[0] - mobility_.between * impulse[1],
@@ -97,8 +94,7 @@ std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, c
   for (int i = 0; i < kMostTries; ++i) {
     const auto impulse = pair.solve_on(branches);
     const ActiveBranches next = pair.branches_near(impulse);
-    if (next == branches)
-      return {std::clamp(impulse[0], 0.0, ends[0].cap), std::clamp(impulse[1], 0.0, ends[1].cap)};
+    if (next == branches) return {std::clamp(impulse[0], 0.0, ends[0].cap), std::clamp(impulse[1], 0.0, ends[1].cap)};
     branches = next;
   }
   const auto impulse = pair.best_of_all();
@@ -151,8 +147,8 @@ double solve_block(const CrushLaw& /*law*/, CrushLaw::State& state, ContactConst
   const double slip = slip_to_rest(k, a, b, change_0, change_1) - k.slip_impulse;
   k.slip_impulse += slip;
   apply_impulses(k, change_0, change_1, slip, solver_bodies);
-  return std::max({std::abs(change_0) * mobility.at[0], std::abs(change_1) * mobility.at[1],
-                   std::abs(slip) * k.inverse_slip_mass});
+  return std::max(
+      {std::abs(change_0) * mobility.at[0], std::abs(change_1) * mobility.at[1], std::abs(slip) * k.inverse_slip_mass});
 }
 
 void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const ContactConstraint& constraint,

@@ -63,8 +63,7 @@ inline CrushBranch branch_at(const CrushResponse& r, double closing_speed) {
 /// The branch whose point (closing speed, impulse) is nearest one that need not obey the law, along
 /// (1, −1/inverse_mass), the line on which impulses change the speed of a mass. Far steadier than the branch
 /// at the speed alone, which jumps across the steep one that creeps. `inverse_mass`: > 0 [1/kg].
-inline CrushBranch branch_near(const CrushResponse& r, double closing_speed, double impulse,
-                               double inverse_mass) {
+inline CrushBranch branch_near(const CrushResponse& r, double closing_speed, double impulse, double inverse_mass) {
   const double place = closing_speed - r.gap_speed + inverse_mass * impulse;
   if (place <= 0) return CrushBranch::kApart;
   const double creep = creep_slope(r);
@@ -138,8 +137,8 @@ using EndLaws = std::array<CrushResponse, 2>;
 /// The response law of crushing ice, over the substeps of a step (contact_solver.hpp). Contacts that do not
 /// crush (Contact::is_rigid) end the approach of their bodies.
 struct CrushLaw {
-  double step = 0;   ///< Δt [s]
-  int substeps = 1;  ///< equal parts of the step, solved one after the other on the step's geometry
+  double step = 0;              ///< Δt [s]
+  int substeps = 1;             ///< equal parts of the step, solved one after the other on the step's geometry
   bool is_warm_started = true;  ///< from the impulses of the step before
   static constexpr bool kHasJams = true, kRestores = false;
 
@@ -163,8 +162,8 @@ CrushLaw::State state_of(const CrushLaw& law, const Contact& contact);
 void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_first, CrushLaw::State& state,
                    ContactConstraint& constraint);
 /// λ of one end where the substep's sweeps start [N s].
-inline double start_impulse(const CrushLaw& law, const CrushLaw::State& state,
-                            const ContactConstraint& constraint, int end, bool is_first) {
+inline double start_impulse(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
+                            int end, bool is_first) {
   if (!law.is_warm_started) return 0;
   return is_first ? state.last_impulse[end] : constraint.normal_impulse[end];
 }

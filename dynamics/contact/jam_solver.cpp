@@ -119,8 +119,7 @@ class Jam {
     Unknowns v(mass_.size());
     for (std::size_t i = 0; i < body_of_.size(); ++i) {
       const SolverBody& body = bodies_[index(body_of_[i])];
-      v.segment<3>(static_cast<Eigen::Index>(3 * i)) << body.velocity.x, body.velocity.y,
-          body.angular_velocity;
+      v.segment<3>(static_cast<Eigen::Index>(3 * i)) << body.velocity.x, body.velocity.y, body.angular_velocity;
     }
     return v;
   }
@@ -211,8 +210,7 @@ class Jam {
   }
   double normal_within_law(std::size_t k) const {
     double normal = 0;
-    for (std::size_t end = 0; end < 2; ++end)
-      normal += std::clamp(loads_[k].impulse[end], 0.0, laws_[k][end].cap);
+    for (std::size_t end = 0; end < 2; ++end) normal += std::clamp(loads_[k].impulse[end], 0.0, laws_[k][end].cap);
     return normal;
   }
   /// Whether the impulses, which obey their bounds once entered, give the speeds that they were found at.
@@ -238,8 +236,8 @@ class Jam {
     double largest = 0;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const ConstraintSpeeds now = speeds_at(constraints_[k], bodies_);
-      largest = std::max({largest, std::abs(now.apart[0] - speeds_[k][0]),
-                          std::abs(now.apart[1] - speeds_[k][1]), std::abs(now.slip - speeds_[k][2])});
+      largest = std::max({largest, std::abs(now.apart[0] - speeds_[k][0]), std::abs(now.apart[1] - speeds_[k][1]),
+                          std::abs(now.slip - speeds_[k][2])});
     }
     return largest;
   }
@@ -280,8 +278,8 @@ CrushResponse rigid_law(double inverse_mass) {
           .cap = std::numeric_limits<double>::infinity()};
 }
 
-bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws,
-               std::span<SolverBody> bodies, double slip_speed) {
+bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
+               double slip_speed) {
   return Jam(constraints, laws, bodies, slip_speed).solve();
 }
 

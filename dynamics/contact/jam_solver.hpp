@@ -30,7 +30,7 @@ CrushResponse rigid_law(double inverse_mass);
 /// Enters the impulses into the constraints and the velocities into the bodies and returns true where no
 /// contact would leave its branches; else both stay as they were. Bodies of prescribed motion are never
 /// changed.
-bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws,
-               std::span<SolverBody> bodies, double slip_speed);
+bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
+               double slip_speed);
 
 }  // namespace polynya::dynamics

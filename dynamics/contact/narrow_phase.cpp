@@ -43,8 +43,7 @@ double near_parts(const Bodies& bodies, const Pair& pair, const Pose& a_from_b, 
   return distance;
 }
 
-void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
-               PairScratch& scratch) {
+void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, PairScratch& scratch) {
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
   const double distance = near_parts(bodies, pair, a_from_b, rule, scratch);
   const bool is_any_near = !scratch.near_edges.pairs.empty();
@@ -77,22 +76,19 @@ void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch
     blind.middle = transform(water_from_a, m.centroid);
   }
   if (blind.area > 0) scratch.blind.push_back(blind);
-  std::erase_if(scratch.manifolds, [](const geometry::ContactManifold& m) {
-    return m.is_pierced && m.width <= geometry::kNoWidth;
-  });
+  std::erase_if(scratch.manifolds,
+                [](const geometry::ContactManifold& m) { return m.is_pierced && m.width <= geometry::kNoWidth; });
 }
 
 /// Two bodies whose boundaries do not cross: notes where one is inside the other.
-void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
-                 PairScratch& scratch) {
+void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, PairScratch& scratch) {
   if (pair.is_outside) return;
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
   if (need_covers(bodies, pair.a, pair.b, rule)) {
     const auto [a, b] = scratch.covers.of(bodies, pair.a, pair.b, circle_rule(rule));
     pair.is_outside = !is_one_inside(a, b, a_from_b);
   } else {
-    pair.is_outside =
-        !is_one_inside(bodies.boundary[pair.a]->edges, bodies.boundary[pair.b]->edges, a_from_b);
+    pair.is_outside = !is_one_inside(bodies.boundary[pair.a]->edges, bodies.boundary[pair.b]->edges, a_from_b);
   }
   if (pair.is_outside) return;
   const BodyIndex inner = bodies.bounding_radius[pair.a] < bodies.bounding_radius[pair.b] ? pair.a : pair.b;
@@ -100,8 +96,8 @@ void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const Conta
 }
 
 /// Appends the contacts of a pair among its near edges. Returns whether the two are apart.
-bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule,
-             PairScratch& scratch, std::vector<Contact>& contacts) {
+bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, PairScratch& scratch,
+             std::vector<Contact>& contacts) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
   const geometry::Boundary& b = *bodies.boundary[pair.b];
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
@@ -199,8 +195,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
                     PairScratch& scratch, std::vector<Contact>& contacts) {
   const double travelled = bodies.travel[pair.a] + bodies.travel[pair.b];
   if (travelled > pair.near_bound) {
-    if (clearance_left(bodies, pair.b, pose, pair.near) < kRounding)
-      find_near(bodies, pair, pose, rule, scratch);
+    if (clearance_left(bodies, pair.b, pose, pair.near) < kRounding) find_near(bodies, pair, pose, rule, scratch);
     pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
   }
   const auto tracker_of = [&](std::vector<PersistentContact>& records) {

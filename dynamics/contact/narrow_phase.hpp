@@ -39,8 +39,7 @@ struct alignas(64) Pair {
 
   bool has_near_edges() const { return parts != nullptr && !parts->edges.pairs.empty(); }
   std::span<const PersistentContact> records() const {
-    return parts != nullptr ? std::span<const PersistentContact>(parts->records)
-                            : std::span<const PersistentContact>();
+    return parts != nullptr ? std::span<const PersistentContact>(parts->records) : std::span<const PersistentContact>();
   }
   NearParts& own_parts() {
     if (parts == nullptr) parts = std::make_unique<NearParts>();
@@ -88,10 +87,8 @@ class CoverCache {
     BodyIndex body = -1;
     geometry::Cover cover;
   };
-  const geometry::Cover& first(const geometry::Boundary& boundary, BodyIndex body,
-                               const geometry::CircleRule& rule);
-  const geometry::Cover& second(const geometry::Boundary& boundary, BodyIndex body,
-                                const geometry::CircleRule& rule);
+  const geometry::Cover& first(const geometry::Boundary& boundary, BodyIndex body, const geometry::CircleRule& rule);
+  const geometry::Cover& second(const geometry::Boundary& boundary, BodyIndex body, const geometry::CircleRule& rule);
 
   Entry first_;                ///< the first body of the last pair
   std::vector<Entry> second_;  ///< by body; empty until one is needed
@@ -112,13 +109,12 @@ struct PairScratch {
 };
 
 /// How far the two can still move within a clearance [m]; `pose` is that of b's centre of mass in a's frame.
-double clearance_left(const Bodies& bodies, BodyIndex b, const geometry::Pose& pose,
-                      const Clearance& clearance);
+double clearance_left(const Bodies& bodies, BodyIndex b, const geometry::Pose& pose, const Clearance& clearance);
 
 /// Appends the contacts of a pair and updates their records. Returns how far the two can move from here
 /// without touching, negative where they touch [m].
-double collide_pair(const Bodies& bodies, Pair& pair, const geometry::Pose& pose, const ContactRule& rule,
-                    double dt, PairScratch& scratch, std::vector<Contact>& contacts);
+double collide_pair(const Bodies& bodies, Pair& pair, const geometry::Pose& pose, const ContactRule& rule, double dt,
+                    PairScratch& scratch, std::vector<Contact>& contacts);
 
 /// Far more than the rounding errors of positions and distances. Smaller, bodies that touch may be
 /// taken for apart [m].

@@ -36,8 +36,8 @@ void begin_substep(const RestitutionLaw& law, const ConstraintSpeeds& before, bo
   limit = std::max(limit, kFrictionSlack * law.restitution * isolated_impulse(constraint, before));
 }
 
-bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State& state,
-             ContactConstraint& constraint, std::span<SolverBody> solver_bodies) {
+bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State& state, ContactConstraint& constraint,
+             std::span<SolverBody> solver_bodies) {
   PersistentContact* const record = state.record;
   const double compression = constraint.normal_impulse[0] + constraint.normal_impulse[1];
   double owed = law.restitution * compression;
@@ -65,15 +65,13 @@ bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State
   return given[0] > 0 || given[1] > 0;
 }
 
-int separate(Bodies& bodies, const std::vector<Contact>& contacts, const SeparationSettings& settings,
-             double dt) {
+int separate(Bodies& bodies, const std::vector<Contact>& contacts, const SeparationSettings& settings, double dt) {
   // Each contact moves its own bodies by its own share, one after the other: a relaxation, not a solution,
   // since this overlap is a few centimetres that may take a second to decay.
   int moved = 0;
   const double share = std::min(1.0, dt / settings.time);
   for (const Contact& c : contacts) {
-    const double excess =
-        c.depth - std::max(settings.slop, c.record != nullptr ? c.record->crushed_depth : 0.0);
+    const double excess = c.depth - std::max(settings.slop, c.record != nullptr ? c.record->crushed_depth : 0.0);
     if (excess <= 0) continue;
     const Vector arm_a = c.middle() - bodies.position[c.a];
     const Vector arm_b = c.middle() - bodies.position[c.b];

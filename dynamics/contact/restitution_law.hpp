@@ -64,8 +64,8 @@ inline double solve_block(const RestitutionLaw& /*law*/, RestitutionLaw::State& 
   return solve_constraint(constraint, solver_bodies);
 }
 /// Gives back what a compression owes. Returns whether it gave any impulse, after which compression goes on.
-bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State& state,
-             ContactConstraint& constraint, std::span<SolverBody> solver_bodies);
+bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State& state, ContactConstraint& constraint,
+             std::span<SolverBody> solver_bodies);
 inline void end_substep(const RestitutionLaw& /*law*/, const ConstraintSpeeds& /*after*/,
                         const ContactConstraint& /*constraint*/, RestitutionLaw::State& /*state*/) {}
 inline void write_back(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
@@ -81,7 +81,6 @@ struct SeparationSettings {
 /// Moves overlapping bodies apart without giving them speed (split impulse): along the normals, in
 /// proportion to their inverse masses, the overlap beyond what crushing made decays over the settings' time.
 /// Returns how many contacts it moved.
-int separate(Bodies& bodies, const std::vector<Contact>& contacts, const SeparationSettings& settings,
-             double dt);
+int separate(Bodies& bodies, const std::vector<Contact>& contacts, const SeparationSettings& settings, double dt);
 
 }  // namespace polynya::dynamics

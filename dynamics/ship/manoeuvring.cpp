@@ -57,8 +57,7 @@ double wetted_surface(const MainDimensions& hull) {
   return 1.7 * hull.length * hull.draught + hull.block_coefficient * hull.length * hull.beam;
 }
 
-PlanarMatrix added_mass_of(const ManoeuvringDerivatives& derivatives, double length, double density,
-                           double in_surge) {
+PlanarMatrix added_mass_of(const ManoeuvringDerivatives& derivatives, double length, double density, double in_surge) {
   const double sway = -0.5 * density * std::pow(length, 3) * derivatives.y_v_dot;
   const double yaw = -0.5 * density * std::pow(length, 5) * derivatives.n_r_dot;
   const double mean = -0.25 * density * std::pow(length, 4) * (derivatives.y_r_dot + derivatives.n_v_dot);

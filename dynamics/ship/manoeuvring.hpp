@@ -54,8 +54,7 @@ struct HullInWater {
 /// The added mass of a hull: ½ρL³ and so on times −Y_v̇, −N_ṙ, and in surge what is given [kg]. The coupling
 /// of sway and yaw is the mean of −Y_ṙ and −N_v̇, which the regression gives apart and which no energy can
 /// have apart; it is held below where the added mass would have a negative energy.
-PlanarMatrix added_mass_of(const ManoeuvringDerivatives& derivatives, double length, double density,
-                           double in_surge);
+PlanarMatrix added_mass_of(const ManoeuvringDerivatives& derivatives, double length, double density, double in_surge);
 
 /// D(ν) of the force of the water −D(ν) ν on a hull that moves at ν through it, without added mass [N s/m …].
 /// Three laws: the resistance ahead; the linear derivatives, of which those that damp scale with |u| and

@@ -148,13 +148,11 @@ DragShape plan_shape(const geometry::Polygon& polygon, Point centroid) {
 
 DragShape make_drag_shape(const geometry::Polygon& polygon, Point centroid, DragArea area, bool has_skin) {
   DragShape shape = area == DragArea::kPlan ? plan_shape(polygon, centroid) : edge_shape(polygon, centroid);
-  if (has_skin)
-    shape.skin_rotational = area == DragArea::kPlan ? shape.rotational : third_moment(polygon, centroid);
+  if (has_skin) shape.skin_rotational = area == DragArea::kPlan ? shape.rotational : third_moment(polygon, centroid);
   return shape;
 }
 
-DragShape make_small_drag_shape(const geometry::Polygon& polygon, Point centroid, DragArea area,
-                                bool has_skin) {
+DragShape make_small_drag_shape(const geometry::Polygon& polygon, Point centroid, DragArea area, bool has_skin) {
   // Up to here widths_of_outline() costs less than the table takes of memory: 1 kB a floe. No result changes.
   constexpr std::size_t kFewCorners = 32;
   DragShape shape = make_drag_shape(polygon, centroid, area, has_skin);

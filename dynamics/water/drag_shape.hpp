@@ -17,8 +17,8 @@ enum class DragArea {
 /// By edge: width of a shape across each direction [m] and its rotational drag integral [m⁴], about
 /// `centroid` in its frame. By plan: the area in place of the widths [m²], and ∫ r³ dA, exact for the polygon
 /// [m⁵]. `has_skin`: with ∫ r³ dA for the skin drag too.
-DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid,
-                          DragArea area = DragArea::kEdge, bool has_skin = false);
+DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid, DragArea area = DragArea::kEdge,
+                          bool has_skin = false);
 
 /// The same, its widths not kept where widths_of_outline() finds them as fast: those of one floe are 1 KB.
 DragShape make_small_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid,
@@ -26,8 +26,7 @@ DragShape make_small_drag_shape(const geometry::Polygon& polygon, geometry::Poin
 
 /// The widths of an outline of these corners across drag_direction(k) and the next [m], 0 ≤ k < 128: to the
 /// bit those of make_drag_shape().
-std::array<double, 2> widths_of_outline(std::span<const geometry::Point> corners, geometry::Point centroid,
-                                        int k);
+std::array<double, 2> widths_of_outline(std::span<const geometry::Point> corners, geometry::Point centroid, int k);
 
 /// The k-th of the 128 directions over half a turn at which widths are known: evenly around a diamond, since
 /// that needs no arctangent to find a direction's place among them. Not of unit length.

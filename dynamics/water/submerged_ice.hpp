@@ -24,9 +24,7 @@ struct SubmersionPath {
   double sliding = 0;  ///< s̄, over which it slides along the hull, Eq. of R_s [m]
 
   /// Of z̄, between two values of s [m].
-  double risen_over(double from, double to) const {
-    return bow > 0 ? rise / bow * part_of(bow, from, to) : 0;
-  }
+  double risen_over(double from, double to) const { return bow > 0 ? rise / bow * part_of(bow, from, to) : 0; }
   /// Of s̄, likewise [m].
   double slid_over(double from, double to) const { return part_of(sliding, from, to); }
 

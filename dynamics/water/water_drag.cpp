@@ -135,8 +135,7 @@ struct DragRates {
 };
 
 /// Writes what changes the motion of the bodies into the lanes.
-void gather(const Columns& bodies, Lanes& l, std::size_t count, const DragRates& rates,
-            const ShearCurrent& current) {
+void gather(const Columns& bodies, Lanes& l, std::size_t count, const DragRates& rates, const ShearCurrent& current) {
   const double turning = current.is_still() ? 0 : current.angular_velocity();
   for (std::size_t k = 0; k < count; ++k) {
     const BodyIndex i = l.body[k];
@@ -157,8 +156,7 @@ void gather(const Columns& bodies, Lanes& l, std::size_t count, const DragRates&
 }
 
 /// Writes the lanes' motion back and adds what the water did, body by body.
-void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const ShearCurrent& current,
-             WaterWork& work) {
+void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const ShearCurrent& current, WaterWork& work) {
   const bool is_still = current.is_still();
   const double turning = is_still ? 0 : current.angular_velocity();
   for (std::size_t k = 0; k < count; ++k) {
@@ -181,8 +179,7 @@ void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const She
 }
 
 /// Brakes the lanes' bodies over the step.
-void brake(const Columns& bodies, Lanes& l, std::size_t count, const WaterDrag& water, double dt,
-           WaterWork& work) {
+void brake(const Columns& bodies, Lanes& l, std::size_t count, const WaterDrag& water, double dt, WaterWork& work) {
   const DragRates rates{0.5 * water.drag_coefficient * water.density * dt,
                         0.5 * water.skin_coefficient * water.density * dt, water.area == DragArea::kPlan};
   gather(bodies, l, count, rates, water.current);
@@ -197,24 +194,22 @@ void brake(const Columns& bodies, Lanes& l, std::size_t count, const WaterDrag& 
 
 }  // namespace
 
-WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
-                           double dt, int threads) {
+WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water, double dt,
+                           int threads) {
   const Columns columns(bodies);
   boost::container::small_vector<WaterWork, 16> works(chunk_count(awake.size(), kBodiesPerChunk));
-  for_chunks(awake.size(), kBodiesPerChunk, threads,
-             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-               WaterWork work;
-               Lanes lanes;
-               std::size_t count = 0;
-               for (std::size_t k = begin; k < end; ++k) {
-                 if (columns.span[awake[k]].place >= 0 || columns.drag[awake[k]] != nullptr)
-                   lanes.body[count++] = awake[k];
-                 if (count < Lanes::kMost && k + 1 < end) continue;
-                 brake(columns, lanes, count, water, dt, work);
-                 count = 0;
-               }
-               works[chunk] = work;
-             });
+  for_chunks(awake.size(), kBodiesPerChunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    WaterWork work;
+    Lanes lanes;
+    std::size_t count = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (columns.span[awake[k]].place >= 0 || columns.drag[awake[k]] != nullptr) lanes.body[count++] = awake[k];
+      if (count < Lanes::kMost && k + 1 < end) continue;
+      brake(columns, lanes, count, water, dt, work);
+      count = 0;
+    }
+    works[chunk] = work;
+  });
   WaterWork all;
   for (const WaterWork& work : works) {
     all.lost += work.lost;

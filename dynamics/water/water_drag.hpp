@@ -18,9 +18,7 @@ struct ShearCurrent {
   geometry::Point origin;        ///< [m]
 
   bool is_still() const { return rate == 0; }
-  geometry::Vector velocity_at(geometry::Point p) const {
-    return rate * dot(perpendicular(along), p - origin) * along;
-  }
+  geometry::Vector velocity_at(geometry::Point p) const { return rate * dot(perpendicular(along), p - origin) * along; }
   double angular_velocity() const { return -0.5 * rate; }  ///< of the water, half its vorticity [rad/s]
 };
 
@@ -51,7 +49,7 @@ struct WaterWork {
 /// −½ C_w ρ_w ∫r³ dA |ω| ω, which is exact for a floe that only turns. Solved exactly over the step for
 /// constant A, v⁺ = v / (1 + c |v| dt): stable for any step. The bodies' kinetic energy changes by by_current
 /// − lost.
-WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water,
-                           double dt, int threads = 1);
+WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water, double dt,
+                           int threads = 1);
 
 }  // namespace polynya::dynamics

@@ -54,8 +54,7 @@ std::array<Cell, 2> froude_cells(const std::vector<double>& softnesses, const Ce
 
 /// A load's place on the axes.
 std::array<double, 4> axis_coordinates(const WedgeGroups& groups) {
-  return {groups.opening_angle, std::log(groups.mass_ratio), std::log(groups.softness),
-          std::log(groups.froude)};
+  return {groups.opening_angle, std::log(groups.mass_ratio), std::log(groups.softness), std::log(groups.froude)};
 }
 
 /// Rounding at the edge of an axis is not "outside".
@@ -86,25 +85,22 @@ bool is_grid_axis(const std::vector<double>& values) {
 /// Chosen by `polynya database study accuracy`: closer in Fr where inertia overshoots, and in Π where the
 /// loaded patch is no longer small.
 DatabaseGrid default_grid() {
-  return {
-      {20, 29, 40, 51, 63, 76, 90, 104, 118, 132, 145, 156, 165, 173, 180},
-      {0.02, 0.05, 0.1},
-      {3e-5, 9.5e-5, 2.7e-4, 7e-4, 1.6e-3, 3.5e-3, 7e-3, 1.3e-2, 2.3e-2, 4e-2, 6.5e-2, 1e-1},
-      {5e-4,   7.5e-4, 1.1e-3, 1.6e-3, 2.3e-3, 3.3e-3, 4.7e-3, 6.7e-3, 9.4e-3, 1.3e-2, 1.8e-2, 2.5e-2, 3.5e-2,
-       4.8e-2, 6.5e-2, 8.7e-2, 0.114,  0.15,   0.2,    0.27,   0.38,   0.54,   0.76,   1.07,   1.5}};
+  return {{20, 29, 40, 51, 63, 76, 90, 104, 118, 132, 145, 156, 165, 173, 180},
+          {0.02, 0.05, 0.1},
+          {3e-5, 9.5e-5, 2.7e-4, 7e-4, 1.6e-3, 3.5e-3, 7e-3, 1.3e-2, 2.3e-2, 4e-2, 6.5e-2, 1e-1},
+          {5e-4,   7.5e-4, 1.1e-3, 1.6e-3, 2.3e-3, 3.3e-3, 4.7e-3, 6.7e-3, 9.4e-3, 1.3e-2, 1.8e-2, 2.5e-2, 3.5e-2,
+           4.8e-2, 6.5e-2, 8.7e-2, 0.114,  0.15,   0.2,    0.27,   0.38,   0.54,   0.76,   1.07,   1.5}};
 }
 
-BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid,
-                                 std::vector<DatabaseEntry> entries)
+BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid, std::vector<DatabaseEntry> entries)
     : settings_(settings), grid_(std::move(grid)), entries_(std::move(entries)) {
   assert(entries_.size() == grid_.size());
-  assert(is_grid_axis(grid_.opening_angles_deg) && is_grid_axis(grid_.mass_ratios) &&
-         is_grid_axis(grid_.softnesses) && is_grid_axis(grid_.froude_numbers));
+  assert(is_grid_axis(grid_.opening_angles_deg) && is_grid_axis(grid_.mass_ratios) && is_grid_axis(grid_.softnesses) &&
+         is_grid_axis(grid_.froude_numbers));
   coordinates_ = {mapped(grid_.opening_angles_deg, radians), mapped(grid_.mass_ratios, natural_log),
                   mapped(grid_.softnesses, natural_log), mapped(grid_.froude_numbers, natural_log)};
   strides_[3] = 1;
-  for (std::size_t axis = 3; axis > 0; --axis)
-    strides_[axis - 1] = strides_[axis] * coordinates_[axis].size();
+  for (std::size_t axis = 3; axis > 0; --axis) strides_[axis - 1] = strides_[axis] * coordinates_[axis].size();
   stored_.reserve(entries_.size());
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const DatabaseEntry& e = entries_[i];
@@ -125,9 +121,8 @@ DatabaseAnswer BendingDatabase::look_up(const WedgeGroups& groups) const {
   for (unsigned vertex = 0; vertex < 16; ++vertex) {  // the corners of the cell
     const unsigned a = vertex & 1U, m = (vertex >> 1U) & 1U, s = (vertex >> 2U) & 1U, f = vertex >> 3U;
     const double weight = angle.weight(a) * mass.weight(m) * softness.weight(s) * froude[s].weight(f);
-    const DatabaseEntry& e =
-        stored_[(angle.lower + a) * strides_[0] + (mass.lower + m) * strides_[1] +
-                (softness.lower + s) * strides_[2] + (froude[s].lower + f) * strides_[3]];
+    const DatabaseEntry& e = stored_[(angle.lower + a) * strides_[0] + (mass.lower + m) * strides_[1] +
+                                     (softness.lower + s) * strides_[2] + (froude[s].lower + f) * strides_[3]];
     log_force += weight * e.force;
     log_radius += weight * e.cusp_radius;
     answer.crack_ratio += weight * e.crack_ratio;
@@ -147,8 +142,7 @@ std::vector<OutsideRange> BendingDatabase::outside(const WedgeGroups& groups) co
   std::vector<OutsideRange> ranges;
   for (std::size_t axis = 0; axis < axes.size(); ++axis)
     if (((static_cast<unsigned>(bits) >> axis) & 1U) != 0)
-      ranges.push_back(
-          {std::string(kGroupNames[axis]), values[axis], axes[axis]->front(), axes[axis]->back()});
+      ranges.push_back({std::string(kGroupNames[axis]), values[axis], axes[axis]->front(), axes[axis]->back()});
   return ranges;
 }
 

@@ -111,8 +111,7 @@ using BuildProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Solves the wedge at every point of the grid. The threads share the work; the result does not depend on how
 /// many they are. progress, if any, is called by one thread at a time. Stored to six significant digits.
-tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings& settings,
-                                                            const DatabaseGrid& grid, int threads = 1,
-                                                            const BuildProgress& progress = {});
+tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings& settings, const DatabaseGrid& grid,
+                                                            int threads = 1, const BuildProgress& progress = {});
 
 }  // namespace polynya::fracture

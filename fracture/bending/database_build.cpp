@@ -17,8 +17,7 @@ namespace {
 /// functions differ in the last bit.
 double rounded(double x) {
   std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, 5).ptr;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, 5).ptr;
   double value = 0;
   std::from_chars(text.data(), end, value);
   return value;
@@ -38,8 +37,7 @@ std::optional<std::vector<DatabaseEntry>> solve_wedge(const Wedge& wedge, const 
     for (const double froude : grid.froude_numbers) {
       const std::optional<WedgeFailure> failure = solver.failure({froude, softness, 0, 0});
       if (!failure) return std::nullopt;
-      entries.push_back(
-          {rounded(failure->force), rounded(failure->cusp_radius), rounded(failure->crack_ratio)});
+      entries.push_back({rounded(failure->force), rounded(failure->cusp_radius), rounded(failure->crack_ratio)});
     }
   }
   return entries;
@@ -47,11 +45,9 @@ std::optional<std::vector<DatabaseEntry>> solve_wedge(const Wedge& wedge, const 
 
 }  // namespace
 
-tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings& settings,
-                                                            const DatabaseGrid& grid, int threads,
-                                                            const BuildProgress& progress) {
-  for (const auto* axis :
-       {&grid.opening_angles_deg, &grid.mass_ratios, &grid.softnesses, &grid.froude_numbers})
+tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings& settings, const DatabaseGrid& grid,
+                                                            int threads, const BuildProgress& progress) {
+  for (const auto* axis : {&grid.opening_angles_deg, &grid.mass_ratios, &grid.softnesses, &grid.froude_numbers})
     if (!is_grid_axis(*axis))
       return tl::unexpected(DatabaseError{0, "every group needs at least two positive, ascending values"});
   if (grid.opening_angles_deg.back() > 180)
@@ -73,9 +69,9 @@ tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings
   std::vector<DatabaseEntry> entries;
   for (std::size_t i = 0; i < wedges.size(); ++i) {
     if (!solved[i])
-      return tl::unexpected(DatabaseError{
-          0, "a push of the grid does not break the wedge of " + std::to_string(wedges[i].opening_angle_deg) +
-                 " degrees within a penetration of 3 l: take smaller softnesses"});
+      return tl::unexpected(DatabaseError{0, "a push of the grid does not break the wedge of " +
+                                                 std::to_string(wedges[i].opening_angle_deg) +
+                                                 " degrees within a penetration of 3 l: take smaller softnesses"});
     entries.insert(entries.end(), solved[i]->begin(), solved[i]->end());
   }
   return BendingDatabase(settings, grid, std::move(entries));

@@ -29,11 +29,10 @@ struct Setting {
   Number SolverSettings::*member;
   Number least, most;
 };
-constexpr std::array<Setting<double>, 4> kLengths = {
-    {{"poisson_ratio", &SolverSettings::poisson_ratio, 0, 0.5},
-     {"local_mass", &SolverSettings::local_mass, 0, 100},
-     {"inner_radius", &SolverSettings::inner_radius, 1e-6, 1},
-     {"outer_radius", &SolverSettings::outer_radius, 1, 1e3}}};
+constexpr std::array<Setting<double>, 4> kLengths = {{{"poisson_ratio", &SolverSettings::poisson_ratio, 0, 0.5},
+                                                      {"local_mass", &SolverSettings::local_mass, 0, 100},
+                                                      {"inner_radius", &SolverSettings::inner_radius, 1e-6, 1},
+                                                      {"outer_radius", &SolverSettings::outer_radius, 1, 1e3}}};
 constexpr std::array<Setting<int>, 6> kCounts = {
     {{"radial_elements", &SolverSettings::radial_elements, 4, 10000},
      {"angular_terms", &SolverSettings::angular_terms, 1, 1000},
@@ -65,8 +64,7 @@ std::string hash_of(std::string_view text) {
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string digits;
-  for (int shift = 60; shift >= 0; shift -= 4)
-    digits += kDigits[(hash >> static_cast<unsigned>(shift)) & 15U];
+  for (int shift = 60; shift >= 0; shift -= 4) digits += kDigits[(hash >> static_cast<unsigned>(shift)) & 15U];
   return digits;
 }
 
@@ -187,8 +185,7 @@ class Reader {
 template <typename Number>
 void read_setting(Reader& reader, const Setting<Number>& setting, SolverSettings& settings) {
   const auto value = reader.number<Number>(reader.item(setting.name));
-  if (!(value >= setting.least && value <= setting.most))
-    reader.fail("out of range: " + std::string(setting.name));
+  if (!(value >= setting.least && value <= setting.most)) reader.fail("out of range: " + std::string(setting.name));
   settings.*setting.member = value;
 }
 
@@ -252,8 +249,7 @@ std::string database_hash(const BendingDatabase& database) {
 }
 
 tl::expected<BendingDatabase, DatabaseError> parse_database(std::string_view text) {
-  if (text.size() > kLargestFile)
-    return tl::unexpected(DatabaseError{0, "the file is too large for a database"});
+  if (text.size() > kLargestFile) return tl::unexpected(DatabaseError{0, "the file is too large for a database"});
   Reader reader(text);
   reader.expect(kTitle);
   const SolverSettings settings = read_settings(reader);

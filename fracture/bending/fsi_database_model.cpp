@@ -73,21 +73,18 @@ bool has_poisson_ratio_of(const BendingDatabase& database, const BendingLoad& lo
 
 FsiDatabaseModel::FsiDatabaseModel(RadialCracks radial_cracks)
     // The shipped database lives as long as the program: nothing to delete.
-    : database_(std::shared_ptr<const BendingDatabase>(), &default_database()),
-      radial_cracks_(radial_cracks) {}
+    : database_(std::shared_ptr<const BendingDatabase>(), &default_database()), radial_cracks_(radial_cracks) {}
 
-FsiDatabaseModel::FsiDatabaseModel(std::shared_ptr<const BendingDatabase> database)
-    : database_(std::move(database)) {
+FsiDatabaseModel::FsiDatabaseModel(std::shared_ptr<const BendingDatabase> database) : database_(std::move(database)) {
   assert(database_ != nullptr);
 }
 
 BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
   const ScaledLoad scaled_load = scaled(load);
-  const WedgeGroups groups = load.vertical_force > 0 ? measured_groups(scaled_load, load)
-                                                     : looked_up_groups(scaled_load, load.penetration);
-  const DatabaseAnswer answer = radial_cracks_ == RadialCracks::kSplitWedge
-                                    ? with_radial_cracks(*database_, groups)
-                                    : database_->look_up(groups);
+  const WedgeGroups groups =
+      load.vertical_force > 0 ? measured_groups(scaled_load, load) : looked_up_groups(scaled_load, load.penetration);
+  const DatabaseAnswer answer =
+      radial_cracks_ == RadialCracks::kSplitWedge ? with_radial_cracks(*database_, groups) : database_->look_up(groups);
   return to_capacity(answer, scaled_load, has_poisson_ratio_of(*database_, load));
 }
 

@@ -25,8 +25,7 @@ constexpr std::array<double, 16> kRadiusOverRoot = {0.97064, 0.99147, 1.01525, 1
 double nevel_force(double opening_angle, double load_length_over_l, const Ice& ice) {
   const double a = load_length_over_l;
   const double width_growth = 2 * std::tan(0.5 * opening_angle);
-  return (1.05 + 2 * a + 0.5 * a * a * a) * width_growth * ice.flexural_strength * ice.thickness *
-         ice.thickness / 6;
+  return (1.05 + 2 * a + 0.5 * a * a * a) * width_growth * ice.flexural_strength * ice.thickness * ice.thickness / 6;
 }
 
 double nevel_cusp_radius_over_l(double load_length_over_l) {
@@ -62,12 +61,10 @@ double kashtelyan_radius(double characteristic_length, double approach_speed,
 
 BendingCapacity KashtelyanModel::capacity(const BendingLoad& load) const {
   BendingCapacity result;
-  result.vertical_force =
-      kashtelyan_force(load.front_half_angle + load.back_half_angle, load.ice, coefficients_);
+  result.vertical_force = kashtelyan_force(load.front_half_angle + load.back_half_angle, load.ice, coefficients_);
   result.cusp_radius =
       kashtelyan_radius(characteristic_length(load.ice, load.water), load.mean_approach_speed, coefficients_);
-  result.is_in_range =
-      1 + coefficients_.radius_speed * load.mean_approach_speed >= kSmallestKashtelyanRadiusFactor;
+  result.is_in_range = 1 + coefficients_.radius_speed * load.mean_approach_speed >= kSmallestKashtelyanRadiusFactor;
   return result;
 }
 

@@ -43,13 +43,11 @@ struct KashtelyanCoefficients {
   double radius_speed = -0.144;  ///< C_v [s/m]
 };
 
-inline constexpr double kSmallestKashtelyanRadiusFactor =
-    0.2;  ///< floor of 1 + C_v v: reached at v = 5.6 m/s [-]
+inline constexpr double kSmallestKashtelyanRadiusFactor = 0.2;  ///< floor of 1 + C_v v: reached at v = 5.6 m/s [-]
 
 /// Force that breaks a wedge of opening angle θ, P = C_f (θ/π)² σ_f h² [N].
 /// θ the whole opening angle 2α [rad], σ_f flexural strength [Pa], h thickness [m].
-double kashtelyan_force(double opening_angle, const Ice& ice,
-                        const KashtelyanCoefficients& coefficients = {});
+double kashtelyan_force(double opening_angle, const Ice& ice, const KashtelyanCoefficients& coefficients = {});
 
 /// Cusp radius R = C_l l (1 + C_v v) [m]; the factor is clamped to its floor beyond its range of speed.
 /// l characteristic length [m], v normal approach speed [m/s].

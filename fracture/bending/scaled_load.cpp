@@ -26,8 +26,7 @@ ScaledLoad scaled(const BendingLoad& load) {
   result.groups.softness = crushing > 0 && std::isfinite(crushing) ? result.force_scale / (crushing * l * l)
                                                                    : std::numeric_limits<double>::infinity();
   result.full_depth = h * std::tan(load.hull_angle) / l;
-  result.feedback =
-      result.force_scale * std::tan(load.hull_angle) / (load.water.density * kGravity * l * l * l);
+  result.feedback = result.force_scale * std::tan(load.hull_angle) / (load.water.density * kGravity * l * l * l);
   return result;
 }
 

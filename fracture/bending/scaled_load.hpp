@@ -14,7 +14,7 @@ namespace polynya::fracture {
 /// Edges of unequal angles crush as they are, through T, and bend as the symmetric wedge of the same opening
 /// 2α.
 struct ScaledLoad {
-  WedgeGroups groups;  ///< softness is infinite where the hull cannot press the ice down, c_V ≤ 0 or θ_s = 0
+  WedgeGroups groups;       ///< softness is infinite where the hull cannot press the ice down, c_V ≤ 0 or θ_s = 0
   double full_depth = 0;    ///< h tan θ_s / l
   double feedback = 0;      ///< χ = σ_f h² tan θ_s / (ρ_w g l³)
   double length_scale = 0;  ///< l [m]

@@ -8,13 +8,10 @@
 namespace polynya::fracture {
 
 SolverSettings with_inner_radius(const SolverSettings& settings, double inner_radius) {
-  const auto reach = [&](double inner) {
-    return radial_coordinate(settings.outer_radius) - radial_coordinate(inner);
-  };
+  const auto reach = [&](double inner) { return radial_coordinate(settings.outer_radius) - radial_coordinate(inner); };
   const double elements = settings.radial_elements * reach(inner_radius) / reach(settings.inner_radius);
   constexpr double kRounding = 1e-6;  // the same inner radius keeps the same elements
-  SolverSettings changed =
-      with_elements(settings, std::max(1, static_cast<int>(std::ceil(elements - kRounding))));
+  SolverSettings changed = with_elements(settings, std::max(1, static_cast<int>(std::ceil(elements - kRounding))));
   changed.inner_radius = inner_radius;
   return changed;
 }

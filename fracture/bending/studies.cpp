@@ -36,8 +36,7 @@ double log_uniform(std::mt19937_64& random, const std::vector<double>& axis) {
   return std::exp(uniform(random, std::log(axis.front()), std::log(axis.back())));
 }
 
-AccuracyRow compared(const BendingDatabase& database, const SolverSettings& reference,
-                     const WedgeGroups& groups) {
+AccuracyRow compared(const BendingDatabase& database, const SolverSettings& reference, const WedgeGroups& groups) {
   const WedgeSolver solver(groups.opening_angle, groups.mass_ratio, reference);
   const std::optional<WedgeFailure> solution = solver.failure({groups.froude, groups.softness, 0, 0});
   if (!solution) return {groups, 1, 1};
@@ -53,8 +52,7 @@ WedgeSolver wedge_of(const BendingLoad& load, SolverSettings settings) {
   return {groups.opening_angle, groups.mass_ratio, settings};
 }
 
-std::optional<BendingForecast> direct_forecast(const WedgeSolver& solver, const BendingLoad& load,
-                                               Feedback feedback) {
+std::optional<BendingForecast> direct_forecast(const WedgeSolver& solver, const BendingLoad& load, Feedback feedback) {
   const ScaledLoad scaled_load = scaled(load);
   if (!(scaled_load.groups.froude > 0) || !std::isfinite(scaled_load.groups.softness)) return std::nullopt;
   const std::optional<WedgeFailure> failure = solver.failure(push_of(scaled_load, feedback));
@@ -125,8 +123,8 @@ AccuracyStudy accuracy_study(const BendingDatabase& database, const SolverSettin
   std::vector<WedgeGroups> groups;
   for (int i = 0; i < points; ++i) {
     WedgeGroups g;
-    g.opening_angle = uniform(random, grid.opening_angles_deg.front(), grid.opening_angles_deg.back()) *
-                      (std::numbers::pi / 180);
+    g.opening_angle =
+        uniform(random, grid.opening_angles_deg.front(), grid.opening_angles_deg.back()) * (std::numbers::pi / 180);
     g.mass_ratio = uniform(random, grid.mass_ratios.front(), grid.mass_ratios.back());
     g.softness = log_uniform(random, grid.softnesses);
     g.froude = log_uniform(random, grid.froude_numbers);

@@ -56,8 +56,7 @@ Extent build_node(Cover& cover, std::uint32_t first, std::uint32_t count) {
     }
   }
   node.centre = midpoint(extent.centres.low, extent.centres.high);
-  node.reach =
-      std::min(covering_reach(cover, index, node), distance(node.centre, extent.centres.high) + extent.reach);
+  node.reach = std::min(covering_reach(cover, index, node), distance(node.centre, extent.centres.high) + extent.reach);
   node.reach *= 1 + 1e-12;
   cover.tree[index] = node;
   return extent;
@@ -91,9 +90,8 @@ double pieces_of(const EdgeList& edges, double circle_radius) {
 
 void make_cover(const EdgeList& edges, const CircleRule& rule, Cover& cover) {
   // Contact circles have their size; what only bounds may be coarse where a plate's rim is long and straight.
-  const std::vector<BoundaryPiece> pieces = rule.has_circles
-                                                ? boundary_pieces(edges, rule.circle_radius)
-                                                : boundary_pieces(edges, rule.circle_radius, kMostPieces);
+  const std::vector<BoundaryPiece> pieces = rule.has_circles ? boundary_pieces(edges, rule.circle_radius)
+                                                             : boundary_pieces(edges, rule.circle_radius, kMostPieces);
   cover.pieces.clear();
   cover.pieces.reserve(pieces.size());
   for (const BoundaryPiece& piece : pieces) cover.pieces.push_back({piece.first_edge, piece.edges});
@@ -101,8 +99,7 @@ void make_cover(const EdgeList& edges, const CircleRule& rule, Cover& cover) {
   cover.bounding_circles.reserve(pieces.size());
   if (rule.has_circles) {
     cover.circles = sample_contact_circles(edges, pieces, rule.circle_radius);
-    for (const ContactCircle& circle : cover.circles)
-      cover.bounding_circles.push_back({circle.centre, circle.reach});
+    for (const ContactCircle& circle : cover.circles) cover.bounding_circles.push_back({circle.centre, circle.reach});
   } else {
     for (const BoundaryPiece& piece : pieces) cover.bounding_circles.push_back({piece.middle, piece.reach});
   }
@@ -176,8 +173,7 @@ bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b) {
 bool is_one_inside(const EdgeList& a, const EdgeList& b, const Pose& a_from_b) {
   // All vertices: where two only touch, rounding may find one of them inside.
   return std::ranges::all_of(b.vertices, [&](Point p) { return is_inside(a, transform(a_from_b, p)); }) ||
-         std::ranges::all_of(a.vertices,
-                             [&](Point p) { return is_inside(b, inverse_transform(a_from_b, p)); });
+         std::ranges::all_of(a.vertices, [&](Point p) { return is_inside(b, inverse_transform(a_from_b, p)); });
 }
 
 }  // namespace polynya::geometry

@@ -108,22 +108,20 @@ inline bool have_few_edges(const EdgeList& a, const EdgeList& b) {
 /// The pairs of edges of two boundaries of few edges (have_few_edges) within `margin` of each other [m], in
 /// order. Returns a lower bound of the distance between the boundaries [m], of use where nothing is within
 /// the margin.
-double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin,
-                  NearEdges& edges);
+double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin, NearEdges& edges);
 
 /// The pairs of edges on the pieces of pairs of bounding circles, each once, in order.
-void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs,
-              NearEdges& edges);
+void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs, NearEdges& edges);
 
 /// Where two bodies overlap, seen as one contact. In the frame of a.
 struct ContactManifold {
-  Point ends[2];     ///< the ends of the contact line [m]
-  Vector normal;     ///< unit, from a into b
-  double width = 0;  ///< length of the contact line [m]
-  double depth = 0;  ///< extent of the overlap along the normal [m]
-  double area = 0;   ///< of the overlap [m²]
-  Point tip_of_b;    ///< the point of b farthest inside a [m]
-  Point tip_of_a;    ///< the corner of a farthest inside b; the line's middle where none is [m]
+  Point ends[2];                    ///< the ends of the contact line [m]
+  Vector normal;                    ///< unit, from a into b
+  double width = 0;                 ///< length of the contact line [m]
+  double depth = 0;                 ///< extent of the overlap along the normal [m]
+  double area = 0;                  ///< of the overlap [m²]
+  Point tip_of_b;                   ///< the point of b farthest inside a [m]
+  Point tip_of_a;                   ///< the corner of a farthest inside b; the line's middle where none is [m]
   std::uint32_t tip_edge_of_b = 0;  ///< the edge of b that starts at the tip, or that the tip is on
 
   // Of a pierced body, whose overlap has several stretches of a boundary:
@@ -244,8 +242,7 @@ double least_distance(const Pose& a_from_b, const NearEdges& edges);
 /// line of centres and its contact point half-way into the overlap. [Sawamura2017], Fig. 1. Depth is the
 /// circles' overlap; width and area are those of the circles' lens.
 void find_circle_manifolds(const Covered& a, const Covered& b, const Pose& a_from_b,
-                           const std::vector<NearPair>& circle_pairs,
-                           std::vector<ContactManifold>& manifolds);
+                           const std::vector<NearPair>& circle_pairs, std::vector<ContactManifold>& manifolds);
 
 /// Whether two bodies share nothing, in plain doubles: no edges cross or touch, and neither is inside the
 /// other. A boundary's edges suffice, it need not be ready. Of a's edges only those in the box of b are

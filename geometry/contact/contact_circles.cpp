@@ -10,8 +10,7 @@ namespace {
 
 /// The largest circle up to `radius` that touches the boundary at `touch` from inside and holds no boundary
 /// point: shrink the circle onto the nearest boundary point inside it until there is none.
-double inscribed_radius(const EdgeList& edges, const BoxTree& tree, Point touch, Vector inward,
-                        double radius) {
+double inscribed_radius(const EdgeList& edges, const BoxTree& tree, Point touch, Vector inward, double radius) {
   constexpr int kMostShrinks = 64;  // a few are the rule; very sharp corners took up to twenty
   for (int shrink = 0; shrink < kMostShrinks; ++shrink) {
     const Point centre = touch + radius * inward;
@@ -38,8 +37,7 @@ double inscribed_radius(const EdgeList& edges, const BoxTree& tree, Point touch,
 }
 
 /// Sets the middle and the reach of a run of whole edges of these lengths, and of this length in all [m].
-void measure_run(const EdgeList& edges, const std::vector<double>& lengths, BoundaryPiece& piece,
-                 double total) {
+void measure_run(const EdgeList& edges, const std::vector<double>& lengths, BoundaryPiece& piece, double total) {
   double before = 0;
   std::uint32_t e = piece.first_edge;
   for (std::uint32_t k = 0; k < piece.edges; ++k, e = edges.next[e]) {
@@ -66,8 +64,7 @@ double reach_from(const EdgeList& edges, const BoundaryPiece& piece, Point centr
   return reach;
 }
 
-ContactCircle circle_for(const EdgeList& edges, const BoxTree& tree, const BoundaryPiece& piece,
-                         double radius) {
+ContactCircle circle_for(const EdgeList& edges, const BoxTree& tree, const BoundaryPiece& piece, double radius) {
   const Vector along = edges.to(piece.middle_edge) - edges.from(piece.middle_edge);
   const Vector inward = perpendicular(along) / length(along);
   ContactCircle circle;
@@ -129,8 +126,8 @@ std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius,
   return pieces;
 }
 
-std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges,
-                                                  const std::vector<BoundaryPiece>& pieces, double radius) {
+std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges, const std::vector<BoundaryPiece>& pieces,
+                                                  double radius) {
   std::vector<ContactCircle> circles;
   circles.reserve(pieces.size());
   std::vector<Box> boxes;

@@ -49,7 +49,7 @@ struct ContactCircle {
 /// [Sawamura2017] sets them along waterline and floe edges with a radius of 1.0 m.
 /// Deviation: a circle never leaves the ice. Near corners and in narrow places it shrinks until it touches
 /// the boundary twice, so the circles' union tends to the polygon as the radius tends to zero.
-std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges,
-                                                  const std::vector<BoundaryPiece>& pieces, double radius);
+std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges, const std::vector<BoundaryPiece>& pieces,
+                                                  double radius);
 
 }  // namespace polynya::geometry

@@ -30,8 +30,7 @@ std::vector<Point> CrackPath::points() const {
   return {start, end};
 }
 
-CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin,
-                     CrackReach reach) {
+CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin, CrackReach reach) {
   const std::vector<LineCrossing> crossings = crossings_of_line(boundary, point, direction);
   CrackPath path{point - margin * direction, point + margin * direction};
   // The line is in ice between crossings 0–1, 2–3, …: an even count, since every ring is closed.
@@ -64,14 +63,14 @@ std::vector<CrackPath> ligaments_of(const Boundary& boundary, Point point, Vecto
     if (leave <= 0) continue;
     if (enter >= end) break;
     const Point start = ligaments.empty() ? path.start : point + (enter - margin) * direction;
-    ligaments.push_back({start, point + (leave + margin) * direction, leave - std::max(0.0, enter),
-                         first_edge, last_edge, 1});
+    ligaments.push_back(
+        {start, point + (leave + margin) * direction, leave - std::max(0.0, enter), first_edge, last_edge, 1});
   }
   return ligaments;
 }
 
-std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice,
-                                     Point knee, Vector onward, double margin) {
+std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice, Point knee,
+                                     Vector onward, double margin) {
   if (straight.stretches != 1 || distance(first_ice, knee) >= straight.length_in_ice) return std::nullopt;
   const CrackPath last_leg = crack_path(boundary, knee, onward, margin, CrackReach::kFirstEdge);
   if (last_leg.stretches != 1) return std::nullopt;
@@ -85,8 +84,7 @@ std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& 
 
 CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
   const EdgeList& edges = boundary.edges;
-  if (path.length_in_ice <= 0 || edges.ring[path.first_edge] != 0 || edges.ring[path.last_edge] != 0)
-    return {};
+  if (path.length_in_ice <= 0 || edges.ring[path.first_edge] != 0 || edges.ring[path.last_edge] != 0) return {};
   const auto crossing = [&](std::uint32_t edge, Point leg_from, Point leg_to) {
     const Vector leg = leg_to - leg_from;
     const Point from = edges.from(edge);
@@ -97,8 +95,7 @@ CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
   const Point end = crossing(path.last_edge, path.knee.value_or(path.start), path.end);
   const auto doubled = [&](Point p, Point q) { return cross(p - end, q - end); };
   double all = 0;
-  for (std::uint32_t e = 0; e < edges.size() && edges.ring[e] == 0; ++e)
-    all += doubled(edges.from(e), edges.to(e));
+  for (std::uint32_t e = 0; e < edges.size() && edges.ring[e] == 0; ++e) all += doubled(edges.from(e), edges.to(e));
   // The left side: from the crack's end around the ice, counter-clockwise, to its start.
   double left = 0;
   for (std::uint32_t e = edges.next[path.last_edge]; e != path.first_edge; e = edges.next[e])

@@ -19,12 +19,12 @@ std::vector<LineCrossing> crossings_of_line(const Boundary& boundary, Point poin
 
 /// A path through a floe, from a point on or near its boundary to its far side: straight, or of two legs.
 struct CrackPath {
-  Point start;                   ///< just outside the ice behind the point [m]
-  Point end;                     ///< just outside the ice at its far end [m]
-  double length_in_ice = 0;      ///< [m]
-  std::uint32_t first_edge = 0;  ///< of the boundary, that it starts at; of use where length_in_ice > 0
-  std::uint32_t last_edge = 0;   ///< that it ends at
-  int stretches = 0;             ///< of ice: more than one where it crosses holes or other water
+  Point start;                               ///< just outside the ice behind the point [m]
+  Point end;                                 ///< just outside the ice at its far end [m]
+  double length_in_ice = 0;                  ///< [m]
+  std::uint32_t first_edge = 0;              ///< of the boundary, that it starts at; of use where length_in_ice > 0
+  std::uint32_t last_edge = 0;               ///< that it ends at
+  int stretches = 0;                         ///< of ice: more than one where it crosses holes or other water
   std::optional<Point> knee = std::nullopt;  ///< where it turns [m]
 
   std::vector<Point> points() const;
@@ -49,8 +49,8 @@ std::vector<CrackPath> ligaments_of(const Boundary& boundary, Point point, Vecto
 
 /// The path that follows a straight one from its first ice on to `knee`, and from there the unit direction
 /// `onward` to the edge of the floe. None where it would cross water on its way.
-std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice,
-                                     Point knee, Vector onward, double margin);
+std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice, Point knee,
+                                     Vector onward, double margin);
 
 /// The ice on the two sides of a crack, holes counted as ice [m²].
 struct CrackSides {

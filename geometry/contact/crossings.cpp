@@ -24,9 +24,8 @@ struct EdgeLanes {
 /// is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were moved
 /// by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
 /// leaving.
-POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::size_t stride,
-                                            std::size_t count, const Pose& a_from_b,
-                                            EdgeLanes& __restrict l) {
+POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::size_t stride, std::size_t count,
+                                            const Pose& a_from_b, EdgeLanes& __restrict l) {
   const Pose pose = a_from_b;
   for (std::size_t i = 0; i < count; ++i) {
     const Point a0{ends[i], ends[i + stride]};
@@ -130,8 +129,8 @@ void order_crossings(const Boundary& a, const Boundary& b, ManifoldScratch& scra
       });
 }
 
-std::size_t next_on_ring(const std::vector<Crossing>& order, std::size_t i,
-                         const std::vector<std::uint32_t>& ring, std::uint32_t Crossing::*edge) {
+std::size_t next_on_ring(const std::vector<Crossing>& order, std::size_t i, const std::vector<std::uint32_t>& ring,
+                         std::uint32_t Crossing::*edge) {
   const std::uint32_t own = ring[order[i].*edge];
   if (i + 1 < order.size() && ring[order[i + 1].*edge] == own) return i + 1;
   while (i > 0 && ring[order[i - 1].*edge] == own) --i;

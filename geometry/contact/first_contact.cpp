@@ -63,8 +63,7 @@ bool overlap_at(const Ring& a, const Ring& b, Vector shift_of_b) {
 
 }  // namespace
 
-std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector velocity, double from,
-                                          double until) {
+std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector velocity, double from, double until) {
   if (velocity == Vector{}) return {};
   for (const FirstContact& touch : meetings(a, b, velocity, from, until)) {
     const double later = touch.time + kFurtherOn / length(velocity);

@@ -16,7 +16,6 @@ struct FirstContact {
 /// The first contact of `a` and `b` at a time in [from, until] [s], b moving at `velocity` relative to a
 /// [m/s]; both are counter-clockwise and in one frame. A time before 0 lies in the past. Outlines that only
 /// slide along each other have none.
-std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector velocity, double from,
-                                          double until);
+std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector velocity, double from, double until);
 
 }  // namespace polynya::geometry

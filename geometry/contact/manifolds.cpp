@@ -21,8 +21,8 @@ struct ChainExtent {
 /// Walks `edges` from a point on edge `first` to a point on edge `last`, measuring along `outward` from the
 /// line. Writes the chain's points as (along the line, off the line) into `profile`.
 template <typename InFrame>
-ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to,
-                 double width, Vector outward, bool wraps, InFrame in_frame, std::vector<Point>& profile) {
+ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to, double width,
+                 Vector outward, bool wraps, InFrame in_frame, std::vector<Point>& profile) {
   ChainExtent extent;
   extent.tip = midpoint(from, to);
   extent.tip_edge = first;
@@ -86,8 +86,7 @@ double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& 
 /// The manifold of one stretch of a's boundary inside b, from its entering to its leaving crossing; false
 /// where its sides do not close.
 bool make_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
-                   const Crossing& leave, bool closes_on_b, ManifoldScratch& scratch,
-                   ContactManifold& manifold) {
+                   const Crossing& leave, bool closes_on_b, ManifoldScratch& scratch, ContactManifold& manifold) {
   const Vector line = leave.point - enter.point;
   manifold.width = length(line);
   if (manifold.width < kNoWidth) return false;
@@ -149,8 +148,8 @@ int find_several(const Boundary& a, const Boundary& b, const Pose& a_from_b, Man
     for (std::uint32_t s = loop.first; s < loop.first + loop.stretches; ++s) {
       const Crossing& enter = scratch.crossings[scratch.stretches[s].enter];
       const Crossing& leave = scratch.crossings[scratch.stretches[s].leave];
-      const bool is_left_out = leave.is_entering || !add_manifold(a, b, a_from_b, enter, leave,
-                                                                  loop.is_closed, scratch, manifolds);
+      const bool is_left_out =
+          leave.is_entering || !add_manifold(a, b, a_from_b, enter, leave, loop.is_closed, scratch, manifolds);
       left_out += is_left_out ? 1 : 0;
       if (is_left_out || !loop.is_closed) continue;
       ContactManifold& manifold = manifolds.back();
@@ -168,21 +167,18 @@ int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, c
   scratch.crossings.clear();
   find_crossings(a_from_b, edges, scratch.crossings);
   if (by_a.empty()) return 0;
-  const bool is_simple = by_a.size() == 2 && by_a[0].is_entering != by_a[1].is_entering &&
-                         !a.edges.has_holes() && !b.edges.has_holes();
+  const bool is_simple =
+      by_a.size() == 2 && by_a[0].is_entering != by_a[1].is_entering && !a.edges.has_holes() && !b.edges.has_holes();
   if (is_simple) {  // nearly all contacts: no order to find
     const bool is_first = by_a[0].is_entering;
-    return !add_manifold(a, b, a_from_b, by_a[is_first ? 0 : 1], by_a[is_first ? 1 : 0], true, scratch,
-                         manifolds)
-               ? 1
-               : 0;
+    return !add_manifold(a, b, a_from_b, by_a[is_first ? 0 : 1], by_a[is_first ? 1 : 0], true, scratch, manifolds) ? 1
+                                                                                                                   : 0;
   }
   return find_several(a, b, a_from_b, scratch, manifolds);
 }
 
 void find_circle_manifolds(const Covered& a, const Covered& b, const Pose& a_from_b,
-                           const std::vector<NearPair>& circle_pairs,
-                           std::vector<ContactManifold>& manifolds) {
+                           const std::vector<NearPair>& circle_pairs, std::vector<ContactManifold>& manifolds) {
   for (const NearPair pair : circle_pairs) {
     const ContactCircle& ca = a.cover.circles[pair.a];
     const ContactCircle& cb = b.cover.circles[pair.b];

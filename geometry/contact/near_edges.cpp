@@ -51,8 +51,8 @@ double squared_gap(Point a0, Point a1, Point b0, Point b1) {
   const auto squared_to_segment = [](Point p, Point from, Point to) {
     return squared_length(nearest_on_segment(from, to, p) - p);
   };
-  return std::min({squared_to_segment(a0, b0, b1), squared_to_segment(a1, b0, b1),
-                   squared_to_segment(b0, a0, a1), squared_to_segment(b1, a0, a1)});
+  return std::min({squared_to_segment(a0, b0, b1), squared_to_segment(a1, b0, b1), squared_to_segment(b0, a0, a1),
+                   squared_to_segment(b1, a0, a1)});
 }
 
 double squared_gap(const Box& a, const Box& b) {
@@ -63,8 +63,7 @@ double squared_gap(const Box& a, const Box& b) {
 
 }  // namespace
 
-double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin,
-                  NearEdges& edges) {
+double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin, NearEdges& edges) {
   std::array<Point, kFewEdges> b_in_a;
   Box around_b{transform(a_from_b, b.vertices.front()), transform(a_from_b, b.vertices.front())};
   for (std::size_t k = 0; k < b.size(); ++k) {
@@ -97,8 +96,7 @@ double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, do
   return 0;
 }
 
-void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs,
-              NearEdges& edges) {
+void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs, NearEdges& edges) {
   std::vector<NearPair>& pairs = edges.pairs;
   pairs.clear();
   const std::vector<NearPair> near = edges_near_pieces(a, circle_pairs);
@@ -118,8 +116,7 @@ double least_distance(const Pose& a_from_b, const NearEdges& edges) {
     const auto end = [&](std::size_t k) {
       return Point{edges.ends[i + 2 * k * edges.stride], edges.ends[i + (2 * k + 1) * edges.stride]};
     };
-    least = std::min(least,
-                     squared_gap(end(0), end(1), transform(a_from_b, end(2)), transform(a_from_b, end(3))));
+    least = std::min(least, squared_gap(end(0), end(1), transform(a_from_b, end(2)), transform(a_from_b, end(3))));
   }
   return std::sqrt(least);
 }

@@ -14,8 +14,7 @@ using Crossing = ManifoldScratch::Crossing;
 /// Writes the vertices after a point on edge `first` up to one on edge `last`. `wraps`: all around the ring,
 /// where both are on one edge.
 template <typename Use>
-void for_vertices_between(const EdgeList& edges, std::uint32_t first, std::uint32_t last, bool wraps,
-                          Use use) {
+void for_vertices_between(const EdgeList& edges, std::uint32_t first, std::uint32_t last, bool wraps, Use use) {
   std::size_t left = edges.size();
   for (std::uint32_t edge = first; (edge != last || wraps) && left > 0; --left) {
     wraps = false;
@@ -82,14 +81,14 @@ bool is_inside(std::span<const OverlapPoint> points, Point p) {
 }
 
 bool is_hole_of(const ManifoldScratch& scratch, std::size_t hole, std::size_t outer) {
-  return scratch.loops[outer].area > 0 && is_inside(points_of(scratch, scratch.loops[outer]),
-                                                    points_of(scratch, scratch.loops[hole])[0].point);
+  return scratch.loops[outer].area > 0 &&
+         is_inside(points_of(scratch, scratch.loops[outer]), points_of(scratch, scratch.loops[hole])[0].point);
 }
 
 /// Takes out of an overlap the holes of one body that lie in it whole, without a crossing.
 template <typename InFrame, typename IsCrossed>
-void add_whole_holes(const EdgeList& edges, InFrame in_frame, IsCrossed is_crossed,
-                     std::span<const OverlapPoint> outer, Moments& moments) {
+void add_whole_holes(const EdgeList& edges, InFrame in_frame, IsCrossed is_crossed, std::span<const OverlapPoint> outer,
+                     Moments& moments) {
   std::size_t end = 0;
   for (std::size_t first = 0; first < edges.size(); first = end) {
     const std::uint32_t ring = edges.ring[first];
@@ -100,8 +99,8 @@ void add_whole_holes(const EdgeList& edges, InFrame in_frame, IsCrossed is_cross
   }
 }
 
-void add_holes_of_both(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                       const ManifoldScratch& scratch, const OverlapLoop& loop, Moments& moments) {
+void add_holes_of_both(const Boundary& a, const Boundary& b, const Pose& a_from_b, const ManifoldScratch& scratch,
+                       const OverlapLoop& loop, Moments& moments) {
   const auto points = points_of(scratch, loop);
   const auto crosses = [&](const Boundary& body, std::uint32_t Crossing::*edge) {
     return [&scratch, &body, edge](std::uint32_t ring) {
@@ -112,8 +111,7 @@ void add_holes_of_both(const Boundary& a, const Boundary& b, const Pose& a_from_
   add_whole_holes(
       a.edges, [](Point p) { return p; }, crosses(a, &Crossing::edge_a), points, moments);
   add_whole_holes(
-      b.edges, [&](Point p) { return transform(a_from_b, p); }, crosses(b, &Crossing::edge_b), points,
-      moments);
+      b.edges, [&](Point p) { return transform(a_from_b, p); }, crosses(b, &Crossing::edge_b), points, moments);
 }
 
 struct Range {
@@ -150,10 +148,8 @@ void trace_loops(const Boundary& a, const Boundary& b, ManifoldScratch& scratch)
     std::uint32_t enter = start;
     do {
       scratch.is_traced[enter] = true;
-      const auto leave =
-          static_cast<std::uint32_t>(next_on_ring(by_a, enter, a.edges.ring, &Crossing::edge_a));
-      const std::size_t next_on_b =
-          next_on_ring(by_b, scratch.place_on_b[leave], b.edges.ring, &Crossing::edge_b);
+      const auto leave = static_cast<std::uint32_t>(next_on_ring(by_a, enter, a.edges.ring, &Crossing::edge_a));
+      const std::size_t next_on_b = next_on_ring(by_b, scratch.place_on_b[leave], b.edges.ring, &Crossing::edge_b);
       const std::uint32_t next = by_b[next_on_b].place_on_a;
       scratch.stretches.push_back({enter, leave, next});
       loop.is_closed = !by_a[leave].is_entering && next == start;
@@ -187,8 +183,8 @@ void measure_loops(const Boundary& a, const Boundary& b, const Pose& a_from_b, M
   }
 }
 
-double area_of_whole_holes(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                           const ManifoldScratch& scratch, const OverlapLoop& loop) {
+double area_of_whole_holes(const Boundary& a, const Boundary& b, const Pose& a_from_b, const ManifoldScratch& scratch,
+                           const OverlapLoop& loop) {
   if (loop.points == 0) return 0;  // no body has holes
   Moments moments{scratch.loop_points[loop.first_point].point, 0, {}};
   add_holes_of_both(a, b, a_from_b, scratch, loop, moments);

@@ -29,8 +29,7 @@ double angle_between(Vector unit, Vector v) {
 
 }  // namespace
 
-WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward,
-                         double length) {
+WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward, double length) {
   Point from = tip;
   std::uint32_t e = tip_edge;
   while (distance(tip, edges.to(e)) <= length) {

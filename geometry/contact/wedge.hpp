@@ -14,7 +14,6 @@ struct WedgeAngles {
 /// circle of radius `length` about the tip [m], and the angle of that chord with the unit vector `inward`.
 /// Jagged edges and the short edges of earlier cusps so count by where they lead, not by which of them
 /// happens to be touched. `tip_edge` starts at the tip or holds it.
-WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward,
-                         double length);
+WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward, double length);
 
 }  // namespace polynya::geometry

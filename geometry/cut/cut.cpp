@@ -137,16 +137,14 @@ CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<Po
 }
 
 std::string_view name_of(CutFailure reason) {
-  constexpr std::string_view kNames[]{"invalid-shape", "invalid-tool", "misses", "does-not-separate",
-                                      "internal"};
+  constexpr std::string_view kNames[]{"invalid-shape", "invalid-tool", "misses", "does-not-separate", "internal"};
   return kNames[static_cast<std::size_t>(reason)];
 }
 
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
   if (!tool_in_body.holes.empty()) return cut_by_polygons(shape, {tool_in_body});
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, found->defect);
-  if (const auto found = find_tool_defect(tool_in_body))
-    return refuse(CutFailure::kInvalidTool, found->defect);
+  if (const auto found = find_tool_defect(tool_in_body)) return refuse(CutFailure::kInvalidTool, found->defect);
   return cut_by_valid(shape, {tool_in_body});
 }
 

@@ -57,8 +57,7 @@ struct RingInFrame {
 RingInFrame ring_in_frame(const Pose& world_from_a, const Polygon& b, const Pose& world_from_b) {
   RingInFrame in_a;
   in_a.ring.reserve(b.outer.size());
-  for (const Point p : b.outer)
-    in_a.ring.push_back(inverse_transform(world_from_a, transform(world_from_b, p)));
+  for (const Point p : b.outer) in_a.ring.push_back(inverse_transform(world_from_a, transform(world_from_b, p)));
   in_a.box = bounding_box(in_a.ring);
   in_a.error = 1e-12 * (length(in_a.box.low - Point{}) + length(in_a.box.high - Point{}) +
                         length(world_from_a.position - Point{}) + length(world_from_b.position - Point{}));
@@ -111,8 +110,7 @@ class Trimmer {
     bool is_cut = false;
     std::vector<Polygon> left;
     for (Polygon& piece : trimmed_.pieces) {
-      if (trimmed_.error || !overlaps(bounding_box(piece.outer), box) ||
-          !cut_piece(piece, tool, least_area, left))
+      if (trimmed_.error || !overlaps(bounding_box(piece.outer), box) || !cut_piece(piece, tool, least_area, left))
         left.push_back(std::move(piece));
       else
         is_cut = true;
@@ -180,8 +178,7 @@ std::vector<std::size_t> by_area(const std::vector<Polygon>& polygons) {
   for (const Polygon& polygon : polygons) areas.push_back(measure(polygon).area);
   std::vector<std::size_t> order(polygons.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return areas[i] > areas[j]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return areas[i] > areas[j]; });
   return order;
 }
 
@@ -217,8 +214,7 @@ tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_f
   }
   // The near part may cross itself, as overlap allows. Where it winds differently from the whole, b does not
   // wind at all.
-  return overlap({.polygon = std::move(near)}, world_from_a, {.polygon = b}, world_from_b)
-      .map(&Overlap::area);
+  return overlap({.polygon = std::move(near)}, world_from_a, {.polygon = b}, world_from_b).map(&Overlap::area);
 }
 
 bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b) {
@@ -268,8 +264,7 @@ std::vector<OverlappingPair> find_overlapping_pairs(const std::vector<Polygon>& 
     if (found.size() >= most) break;
     const Polygon& p = polygons[i];
     const Polygon& q = polygons[j];
-    if (!overlap_deeply(boxes[i], boxes[j]) ||
-        has_separating_edge(p.outer, q.outer, kTouchingDepth, kTouchingDepth) ||
+    if (!overlap_deeply(boxes[i], boxes[j]) || has_separating_edge(p.outer, q.outer, kTouchingDepth, kTouchingDepth) ||
         has_separating_edge(q.outer, p.outer, kTouchingDepth, kTouchingDepth))
       continue;
     const double area = area_in_common(p, q);
@@ -300,8 +295,7 @@ std::vector<Trimmed> make_disjoint(const std::vector<Polygon>& polygons, double 
         is_cut = trimmer.cut_off(piece, kTouchingArea) || is_cut;
         if (gap > 0) {
           is_cut = cut_off_strip(piece.outer, gap, trimmer, result[i]) || is_cut;
-          for (const Ring& hole : piece.holes)
-            is_cut = cut_off_strip(hole, gap, trimmer, result[i]) || is_cut;
+          for (const Ring& hole : piece.holes) is_cut = cut_off_strip(hole, gap, trimmer, result[i]) || is_cut;
         }
       }
       if (is_cut) result[i].yields.push_back(other);

@@ -27,8 +27,7 @@ Found find_ring_defect(const Ring& ring) {
   }
   const auto differs_from_first = [&](Point p) { return p != ring.front(); };
   const auto second = std::find_if(ring.begin(), ring.end(), differs_from_first);
-  const auto third =
-      std::find_if(second, ring.end(), [&](Point p) { return p != ring.front() && p != *second; });
+  const auto third = std::find_if(second, ring.end(), [&](Point p) { return p != ring.front() && p != *second; });
   if (third == ring.end()) return DefectAt{Defect::kTooFewPoints, ring};
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i] == ring[(i + 1) % ring.size()]) return DefectAt{Defect::kRepeatedPoint, {ring[i]}};
@@ -91,8 +90,7 @@ Wedge wedge_at(const Polygon& polygon, const Edge& e, Point at) {
   return {{at, e.b}, {at, e.a}};
 }
 
-Found find_crossing_touch(const Polygon& polygon, const std::vector<Edge>& edges,
-                          const std::vector<Touch>& touches) {
+Found find_crossing_touch(const Polygon& polygon, const std::vector<Edge>& edges, const std::vector<Touch>& touches) {
   for (const Touch& touch : touches) {
     const Wedge one = wedge_at(polygon, edges[touch.edge_i], touch.at);
     const Wedge other = wedge_at(polygon, edges[touch.edge_j], touch.at);
@@ -133,8 +131,7 @@ Found find_misplaced_hole(const Polygon& polygon) {
 
 // Rings and the points they touch in make a graph; the interior is in one piece where that graph has no
 // cycle.
-Found find_disconnection(const Polygon& polygon, const std::vector<Edge>& edges,
-                         const std::vector<Touch>& touches) {
+Found find_disconnection(const Polygon& polygon, const std::vector<Edge>& edges, const std::vector<Touch>& touches) {
   struct Incidence {
     Point at;
     int ring;
@@ -179,10 +176,9 @@ Found find_wrong_orientation(const Polygon& polygon) {
 }  // namespace
 
 std::string_view name_of(Defect defect) {
-  constexpr std::string_view kNames[]{"too-few-points",    "not-finite",    "repeated-point",
-                                      "zero-area",         "self-crossing", "overlapping-edges",
-                                      "wrong-orientation", "hole-outside",  "holes-overlap",
-                                      "rings-cross",       "disconnected"};
+  constexpr std::string_view kNames[]{"too-few-points", "not-finite",        "repeated-point",    "zero-area",
+                                      "self-crossing",  "overlapping-edges", "wrong-orientation", "hole-outside",
+                                      "holes-overlap",  "rings-cross",       "disconnected"};
   return kNames[static_cast<std::size_t>(defect)];
 }
 

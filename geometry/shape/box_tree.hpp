@@ -65,8 +65,7 @@ class BoxTree {
   template <typename Visit>
   bool visit_pair(std::uint32_t i, std::uint32_t j, Visit& visit) const {
     if (!overlaps(boxes_[i], boxes_[j])) return true;
-    return numbers_.empty() || numbers_[i] < numbers_[j] ? visit(number(i), number(j))
-                                                         : visit(number(j), number(i));
+    return numbers_.empty() || numbers_[i] < numbers_[j] ? visit(number(i), number(j)) : visit(number(j), number(i));
   }
 
   template <typename Visit>
@@ -84,8 +83,7 @@ class BoxTree {
   bool join_self(std::uint32_t n, Visit& visit) const {
     const Node& node = nodes_[n];
     if (node.left != 0)
-      return join_self(node.left, visit) && join_self(node.right, visit) &&
-             join(node.left, node.right, visit);
+      return join_self(node.left, visit) && join_self(node.right, visit) && join(node.left, node.right, visit);
     for (std::uint32_t i = node.first; i < node.last; ++i) {
       for (std::uint32_t j = i + 1; j < node.last; ++j) {
         if (!visit_pair(i, j, visit)) return false;
@@ -108,8 +106,7 @@ class BoxTree {
       }
       return true;
     }
-    const bool split_low =
-        high.left == 0 || (low.left != 0 && low.last - low.first >= high.last - high.first);
+    const bool split_low = high.left == 0 || (low.left != 0 && low.last - low.first >= high.last - high.first);
     if (split_low) return join(low.left, n, visit) && join(low.right, n, visit);
     return join(m, high.left, visit) && join(m, high.right, visit);
   }

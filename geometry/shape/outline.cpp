@@ -25,8 +25,7 @@ namespace PS = CGAL::Polyline_simplification_2;
 template <class VertexBase, class FaceBase>
 using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel,
-    CGAL::Triangulation_data_structure_2<VertexBase,
-                                         CGAL::Constrained_triangulation_face_base_2<Kernel, FaceBase>>,
+    CGAL::Triangulation_data_structure_2<VertexBase, CGAL::Constrained_triangulation_face_base_2<Kernel, FaceBase>>,
     CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Plus = CGAL::Constrained_triangulation_plus_2<
     Delaunay<PS::Vertex_base_2<Kernel>, CGAL::Triangulation_face_base_2<Kernel>>>;

@@ -16,8 +16,7 @@ constexpr int kMostClasses = 16;
 /// quarter longer, docs/decisions.md.)
 class SiteBins {
  public:
-  SiteBins(const std::vector<Site>& sites, const std::vector<std::uint32_t>& chosen, const Box& box)
-      : low_(box.low) {
+  SiteBins(const std::vector<Site>& sites, const std::vector<std::uint32_t>& chosen, const Box& box) : low_(box.low) {
     const Vector extent = box.high - box.low;
     const auto count = static_cast<double>(chosen.size());
     side_ = std::max({std::sqrt(extent.x * extent.y / count), extent.x / 1e6, extent.y / 1e6});
@@ -51,13 +50,10 @@ class SiteBins {
   }
 
  private:
-  int column_of(double x) const {
-    return std::clamp(static_cast<int>((x - low_.x) / side_), 0, columns_ - 1);
-  }
+  int column_of(double x) const { return std::clamp(static_cast<int>((x - low_.x) / side_), 0, columns_ - 1); }
   int row_of(double y) const { return std::clamp(static_cast<int>((y - low_.y) / side_), 0, rows_ - 1); }
   std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
   std::size_t bin_at(Point p) const { return index(column_of(p.x), row_of(p.y)); }
 

@@ -33,8 +33,7 @@ double change_of(const Polygon& after, const Polygon& before) {
 /// The floes of one file on their way.
 class FloeImport {
  public:
-  FloeImport(std::vector<SourceFloe>& floes, const std::vector<std::string>& refused,
-             const ImportSettings& settings)
+  FloeImport(std::vector<SourceFloe>& floes, const std::vector<std::string>& refused, const ImportSettings& settings)
       : sources_(floes), refused_(refused), settings_(settings) {}
 
   ImportOutcome run(PlaneReport plane) {
@@ -202,9 +201,8 @@ class FloeImport {
 
 }  // namespace
 
-tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes,
-                                                     std::vector<std::string> refused, const std::string& crs,
-                                                     const ImportSettings& settings) {
+tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, std::vector<std::string> refused,
+                                                     const std::string& crs, const ImportSettings& settings) {
   refused.resize(floes.size());
   auto plane = bring_to_plane(floes, refused, crs, settings.plane);
   if (!plane) return tl::unexpected(std::move(plane.error()));

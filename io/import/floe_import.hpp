@@ -62,8 +62,7 @@ struct ImportOutcome {
 /// Brings floes to the plane, repairs or refuses outlines that are not valid, simplifies them, and takes
 /// overlaps from the smaller of two (geometry/cut/overlap.hpp). `refused` has what is known to be wrong with
 /// floes before, by their index, "" elsewhere; it may be empty. The floes' properties are left in `floes`.
-tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes,
-                                                     std::vector<std::string> refused, const std::string& crs,
-                                                     const ImportSettings& settings);
+tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, std::vector<std::string> refused,
+                                                     const std::string& crs, const ImportSettings& settings);
 
 }  // namespace polynya::io

@@ -63,8 +63,7 @@ Place place_of(std::string_view key, const JsonValue& properties, const Property
 void read_number(const FloeProperty& property, const Place& place, FloeProperties& result,
                  std::vector<BadProperty>& bad) {
   if (!place.value) return;
-  const double value =
-      place.value->is(JsonKind::kNumber) ? place.factor * place.value->number() : std::nan("");
+  const double value = place.value->is(JsonKind::kNumber) ? place.factor * place.value->number() : std::nan("");
   if (value >= property.low && value <= property.high) {
     result.*property.member = value;
     return;
@@ -212,8 +211,7 @@ void NearMisses::add(const JsonValue& properties, const FloeProperties& read, st
 }
 
 std::string as_property_name(const NearMiss& miss) {
-  return fmt::format("{}={}{}", miss.meant, miss.key,
-                     miss.factor == 1 ? "" : fmt::format("*{:g}", miss.factor));
+  return fmt::format("{}={}{}", miss.meant, miss.key, miss.factor == 1 ? "" : fmt::format("*{:g}", miss.factor));
 }
 
 }  // namespace polynya::io

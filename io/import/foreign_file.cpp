@@ -124,8 +124,8 @@ std::string reason_in(const std::string& text) {
 
 Result<ChildOutput> convert(const std::filesystem::path& file, ForeignFormat format, const std::string& layer,
                             bool to_degrees, std::size_t longest) {
-  std::vector<std::string> words{
-      kConverter, "-f", "GeoJSON", "-lco", "RFC7946=NO", "-lco", "COORDINATE_PRECISION=15", "-dim", "XY"};
+  std::vector<std::string> words{kConverter, "-f", "GeoJSON", "-lco", "RFC7946=NO", "-lco", "COORDINATE_PRECISION=15",
+                                 "-dim",     "XY"};
   if (to_degrees) words.insert(words.end(), {"-t_srs", "OGC:CRS84"});
   words.insert(words.end(), {"/vsistdout/", std::filesystem::absolute(file).string()});
   if (!layer.empty()) words.push_back(layer);
@@ -161,8 +161,8 @@ std::optional<ForeignFormat> foreign_format(const std::filesystem::path& file) {
   return {};
 }
 
-Result<std::string> read_foreign_file(const std::filesystem::path& file, ForeignFormat format,
-                                      const std::string& layer, std::size_t longest) {
+Result<std::string> read_foreign_file(const std::filesystem::path& file, ForeignFormat format, const std::string& layer,
+                                      std::size_t longest) {
   auto output = convert(file, format, layer, false, longest);
   if (!output) return fail(output.error());
   if (output->code != 0 || output->out.empty()) {

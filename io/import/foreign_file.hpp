@@ -20,7 +20,7 @@ std::optional<ForeignFormat> foreign_format(const std::filesystem::path& file);
 /// `layer` is empty where the file has one. Coordinates in a system that ogr2ogr does not name are converted
 /// to longitude and latitude (OGC:CRS84). Fails where ogr2ogr is not installed, with what ogr2ogr reports, or
 /// where the text would be longer than `longest` [bytes].
-Result<std::string> read_foreign_file(const std::filesystem::path& file, ForeignFormat format,
-                                      const std::string& layer, std::size_t longest);
+Result<std::string> read_foreign_file(const std::filesystem::path& file, ForeignFormat format, const std::string& layer,
+                                      std::size_t longest);
 
 }  // namespace polynya::io

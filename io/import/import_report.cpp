@@ -58,10 +58,7 @@ std::string others_of(const FloeEntry& entry) {
 
 void write_plane(JsonWriter& json, const PlaneReport& plane) {
   if (plane.origin) {
-    json.key("origin")
-        .open('{')
-        .key("latitude_deg")
-        .value(geometry::kDegreesPerRadian * plane.origin->latitude);
+    json.key("origin").open('{').key("latitude_deg").value(geometry::kDegreesPerRadian * plane.origin->latitude);
     json.key("longitude_deg").value(geometry::kDegreesPerRadian * plane.origin->longitude);
     json.key("heading_deg").value(geometry::kDegreesPerRadian * plane.origin->heading).close('}');
   }
@@ -85,13 +82,7 @@ void write_item(JsonWriter& json, const ImportItem& item, const std::vector<Floe
   json.key("pieces").value(item.pieces);
   if (!item.refused.empty()) json.key("refused").value(item.refused);
   if (!item.defect.empty())
-    json.key("repaired")
-        .open('{')
-        .key("defect")
-        .value(item.defect)
-        .key("area_m2")
-        .value(item.repaired)
-        .close('}');
+    json.key("repaired").open('{').key("defect").value(item.defect).key("area_m2").value(item.repaired).close('}');
   if (item.vertices_after != item.vertices_before) {
     json.key("simplified").open('{').key("vertices_before").value(item.vertices_before);
     json.key("vertices_after").value(item.vertices_after).key("area_m2").value(item.simplified).close('}');
@@ -156,8 +147,8 @@ std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFl
   return text + "\n";
 }
 
-std::string to_json_text(const ImportOutcome& imported, const std::string& file,
-                         const std::vector<FloeEntry>& entries, const std::vector<NearMiss>& near_misses) {
+std::string to_json_text(const ImportOutcome& imported, const std::string& file, const std::vector<FloeEntry>& entries,
+                         const std::vector<NearMiss>& near_misses) {
   std::string text;
   JsonWriter json(text);
   json.open('{').key("file").value(file);
@@ -197,8 +188,7 @@ std::string counts_in_words(const ImportTotals& totals) {
 
 std::string thickness_in_words(std::size_t with_thickness, std::size_t floes) {
   if (floes == 1)
-    return with_thickness == 1 ? "the floe has a thickness of its own"
-                               : "the floe has no thickness of its own";
+    return with_thickness == 1 ? "the floe has a thickness of its own" : "the floe has no thickness of its own";
   if (with_thickness == 0) return fmt::format("none of {} floes has a thickness of its own", floes);
   if (with_thickness == floes) return fmt::format("all {} floes have a thickness of their own", floes);
   return fmt::format("{} of {} floes {} a thickness of {} own", with_thickness, floes,
@@ -208,16 +198,14 @@ std::string thickness_in_words(std::size_t with_thickness, std::size_t floes) {
 std::string areas_in_words(const ImportTotals& totals) {
   return fmt::format("{:.12g} m2 read{}{}{}{} = {:.12g} m2 written", totals.area_read,
                      term(totals.area_repaired, "repaired"), term(totals.area_simplified, "simplified"),
-                     term(-totals.area_trimmed, "trimmed"), term(-totals.area_dropped, "dropped"),
-                     totals.area_written);
+                     term(-totals.area_trimmed, "trimmed"), term(-totals.area_dropped, "dropped"), totals.area_written);
 }
 
 std::string plane_in_words(const PlaneReport& plane) {
   std::string words = plane.system.empty() ? "metres of the plane" : plane.system;
   if (plane.origin && !plane.system.empty()) {
-    words +=
-        fmt::format(", projected about {:.9g}, {:.9g}", geometry::kDegreesPerRadian * plane.origin->latitude,
-                    geometry::kDegreesPerRadian * plane.origin->longitude);
+    words += fmt::format(", projected about {:.9g}, {:.9g}", geometry::kDegreesPerRadian * plane.origin->latitude,
+                         geometry::kDegreesPerRadian * plane.origin->longitude);
     if (plane.is_origin_chosen) words += " (the floes' middle: give it as the scene's origin)";
   } else if (!plane.target.empty()) {
     words += fmt::format(", in the plane of {}", plane.target);

@@ -15,8 +15,8 @@ std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFl
 
 /// The report of an import as JSON: totals, how the coordinates came to the plane, and each floe that did not
 /// stay as it was (docs/import.md).
-std::string to_json_text(const ImportOutcome& imported, const std::string& file,
-                         const std::vector<FloeEntry>& entries, const std::vector<NearMiss>& near_misses);
+std::string to_json_text(const ImportOutcome& imported, const std::string& file, const std::vector<FloeEntry>& entries,
+                         const std::vector<NearMiss>& near_misses);
 
 /// "812 floes read, 3 repaired, 12 trimmed, 2 dropped, 1 refused; 809 written"
 std::string counts_in_words(const ImportTotals& totals);

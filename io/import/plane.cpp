@@ -80,8 +80,7 @@ struct MisplacedFloe {
 /// Brings one file's floes to the plane, step by step.
 class PlaneImport {
  public:
-  PlaneImport(std::vector<SourceFloe>& floes, std::vector<std::string>& refused,
-              const PlaneSettings& settings)
+  PlaneImport(std::vector<SourceFloe>& floes, std::vector<std::string>& refused, const PlaneSettings& settings)
       : floes_(floes), refused_(refused), settings_(settings) {}
 
   tl::expected<PlaneReport, PlaneError> run(const std::string& crs) {
@@ -89,8 +88,7 @@ class PlaneImport {
     if (!system) return tl::unexpected(system.error());
     if (auto checked = check_numbers(); !checked) return tl::unexpected(checked.error());
     if (!system->empty()) {
-      if (auto projected = project(*system, !crs.empty()); !projected)
-        return tl::unexpected(projected.error());
+      if (auto projected = project(*system, !crs.empty()); !projected) return tl::unexpected(projected.error());
     } else if (settings_.origin) {
       report_.origin = settings_.origin;
     }
@@ -132,8 +130,8 @@ class PlaneImport {
   /// The system that the coordinates are in; empty where they are metres of the plane already.
   tl::expected<std::string, PlaneError> system_of(const std::string& crs) {
     if (!crs.empty() && !settings_.source.empty() && crs != settings_.source)
-      return refuse(fmt::format("the file names its own coordinate system, {}, where {} is given", crs,
-                                settings_.source));
+      return refuse(
+          fmt::format("the file names its own coordinate system, {}, where {} is given", crs, settings_.source));
     if (!crs.empty() || !settings_.source.empty()) return crs.empty() ? settings_.source : crs;
     CoordinateEvidence evidence;
     for (const SourceFloe& floe : floes_) evidence.add(floe.polygon);
@@ -141,16 +139,15 @@ class PlaneImport {
     if (!settings_.are_metres && (evidence.look_like_degrees() || (settings_.origin && lie_about_origin()))) {
       if (is_projected) return std::string(kDegreesByOgc);
       const Point middle = middle_of_degrees();
-      return refuse(
-          fmt::format("these look like longitude and latitude, and the file names no coordinate system: {} "
-                      "within ±180, ±90, and as metres {:.4g} m² of ice in all. {} projects them; metres "
-                      "are kept where a crs member names a projected system",
-                      evidence.are_all_whole ? "all" : "most", evidence.area,
-                      settings_.origin_in_words(middle.y, middle.x)));
+      return refuse(fmt::format(
+          "these look like longitude and latitude, and the file names no coordinate system: {} "
+          "within ±180, ±90, and as metres {:.4g} m² of ice in all. {} projects them; metres "
+          "are kept where a crs member names a projected system",
+          evidence.are_all_whole ? "all" : "most", evidence.area, settings_.origin_in_words(middle.y, middle.x)));
     }
     if (!settings_.target.empty())
-      return refuse(fmt::format("the file names no coordinate system to project to {} from: {}",
-                                settings_.target, settings_.source_in_words));
+      return refuse(fmt::format("the file names no coordinate system to project to {} from: {}", settings_.target,
+                                settings_.source_in_words));
     if (settings_.origin && !settings_.keeps_metres && evidence.floes > 0)
       return refuse(
           fmt::format("the file names no coordinate system to project from, and its coordinates do "
@@ -187,19 +184,17 @@ class PlaneImport {
     std::vector<Point> points;
     std::vector<double> latitudes, longitudes;
     for (std::size_t i = 0; i < floes_.size(); ++i)
-      if (is_kept(i))
-        std::ranges::copy_if(floes_[i].polygon.outer, std::back_inserter(points), is_in_degrees);
+      if (is_kept(i)) std::ranges::copy_if(floes_[i].polygon.outer, std::back_inserter(points), is_in_degrees);
     if (points.empty()) return {};
     for (const Point p : points) {
       latitudes.push_back(p.y / geometry::kDegreesPerRadian);
-      longitudes.push_back(std::remainder(p.x - points[0].x, 360) /
-                           geometry::kDegreesPerRadian);  // also across 180°
+      longitudes.push_back(std::remainder(p.x - points[0].x, 360) / geometry::kDegreesPerRadian);  // also across 180°
     }
     const double latitude = median(std::move(latitudes));
     const double longitude = median(std::move(longitudes)) + points[0].x / geometry::kDegreesPerRadian;
     const auto is_near = [&](Point p) {
-      return great_circle(p.y / geometry::kDegreesPerRadian, p.x / geometry::kDegreesPerRadian, latitude,
-                          longitude) < kFarthestFloe;
+      return great_circle(p.y / geometry::kDegreesPerRadian, p.x / geometry::kDegreesPerRadian, latitude, longitude) <
+             kFarthestFloe;
     };
     const bool are_all = std::ranges::none_of(points, is_near);
     double x = 0, y = 0, z = 0;
@@ -216,8 +211,7 @@ class PlaneImport {
 
   Done project(const std::string& system, bool is_of_file) {
     const auto crs = find_crs(system);
-    if (!crs)
-      return refuse(crs.error() + (is_of_file ? "; a file of metres in a plane of its own has no crs" : ""));
+    if (!crs) return refuse(crs.error() + (is_of_file ? "; a file of metres in a plane of its own has no crs" : ""));
     report_.system = crs->name;
     if (crs->is_geographic) {
       if (auto checked = check_degrees(); !checked) return checked;
@@ -229,16 +223,15 @@ class PlaneImport {
     if (!origin && crs->is_geographic) {
       const Point middle = middle_of_degrees();
       if (!settings_.chooses_origin)
-        return refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}",
-                                  crs->name, settings_.origin_in_words(middle.y, middle.x)));
-      origin = {middle.y / geometry::kDegreesPerRadian, middle.x / geometry::kDegreesPerRadian,
-                std::numbers::pi / 2};
+        return refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}", crs->name,
+                                  settings_.origin_in_words(middle.y, middle.x)));
+      origin = {middle.y / geometry::kDegreesPerRadian, middle.x / geometry::kDegreesPerRadian, std::numbers::pi / 2};
       report_.is_origin_chosen = true;
     }
     if (origin) return project_about(*origin, system, crs->is_geographic);
     if (!crs->is_metric)
-      return refuse(fmt::format("{} is not in metres: an origin, or a projected system in metres, is needed",
-                                crs->name));
+      return refuse(
+          fmt::format("{} is not in metres: an origin, or a projected system in metres, is needed", crs->name));
     report_.target = system;
     return {};
   }
@@ -246,8 +239,7 @@ class PlaneImport {
   Done check_numbers() {
     const auto is_none = [](Point p) { return !is_finite(p); };
     return refuse_floes(find_floes(is_none), [](const MisplacedFloe& one, Others) {
-      return fmt::format("found [{}, {}], allowed: coordinates that are finite numbers", one.point.x,
-                         one.point.y);
+      return fmt::format("found [{}, {}], allowed: coordinates that are finite numbers", one.point.x, one.point.y);
     });
   }
 
@@ -261,8 +253,8 @@ class PlaneImport {
             "one turn more or less",
             p.x, p.y);
       const bool is_swapped = others && std::abs(p.x) <= 90 && std::abs(p.y) <= 180;
-      return fmt::format("found [{}, {}], allowed: [longitude, latitude], a latitude from -90 to 90{}", p.x,
-                         p.y, is_swapped ? "; here latitude seems to come first" : "");
+      return fmt::format("found [{}, {}], allowed: [longitude, latitude], a latitude from -90 to 90{}", p.x, p.y,
+                         is_swapped ? "; here latitude seems to come first" : "");
     });
   }
 
@@ -277,8 +269,7 @@ class PlaneImport {
     return apply([&](std::vector<Point>& points) { steps->apply(points); });
   }
 
-  Done project_about(const simulation::GeographicOrigin& origin, const std::string& system,
-                     bool is_geographic) {
+  Done project_about(const simulation::GeographicOrigin& origin, const std::string& system, bool is_geographic) {
     const auto steps = Projection::between(system, GeographicPlane::system(origin));
     if (!steps) return refuse(steps.error());
     report_.origin = origin;
@@ -325,8 +316,8 @@ class PlaneImport {
     steps(frame);
     const Vector first = frame[1] - frame[0];
     const Vector second = frame[2] - frame[0];
-    const Vector v = (p.velocity_x.value_or(0) / length(first)) * first +
-                     (p.velocity_y.value_or(0) / length(second)) * second;
+    const Vector v =
+        (p.velocity_x.value_or(0) / length(first)) * first + (p.velocity_y.value_or(0) / length(second)) * second;
     p.velocity_x = v.x;
     p.velocity_y = v.y;
   }
@@ -339,16 +330,15 @@ class PlaneImport {
       const Geographic at = plane.geographic_of(one.point);
       const double latitude = geometry::kDegreesPerRadian * at.latitude,
                    longitude = geometry::kDegreesPerRadian * at.longitude;
-      std::string words = fmt::format("{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km",
-                                      place_in_words(latitude, longitude), length(one.point - Point{}) / 1000,
-                                      place_in_words(geometry::kDegreesPerRadian * origin.latitude,
-                                                     geometry::kDegreesPerRadian * origin.longitude),
-                                      latitude * origin.latitude < 0 ? ", in the other hemisphere" : "",
-                                      more_in_words(others), kFarthestFloe / 1000);
+      std::string words = fmt::format(
+          "{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km", place_in_words(latitude, longitude),
+          length(one.point - Point{}) / 1000,
+          place_in_words(geometry::kDegreesPerRadian * origin.latitude, geometry::kDegreesPerRadian * origin.longitude),
+          latitude * origin.latitude < 0 ? ", in the other hemisphere" : "", more_in_words(others),
+          kFarthestFloe / 1000);
       const std::span<const SourceFloe> all(as_read);
       if (are_swapped(plane, others || all.empty() ? all : all.subspan(one.floe, 1)))
-        return words +
-               ". With latitude and longitude exchanged it lies near it: GeoJSON has [longitude, latitude]";
+        return words + ". With latitude and longitude exchanged it lies near it: GeoJSON has [longitude, latitude]";
       if (others) words += ": " + settings_.origin_in_words(latitude, std::remainder(longitude, 360));
       return words;
     });
@@ -391,12 +381,10 @@ class PlaneImport {
   }
 
   Done check_distance() {
-    const auto far =
-        find_floes([](Point p) { return std::max(std::abs(p.x), std::abs(p.y)) > kFarthestFloe; });
+    const auto far = find_floes([](Point p) { return std::max(std::abs(p.x), std::abs(p.y)) > kFarthestFloe; });
     const auto words_of = [&](const MisplacedFloe& one, Others others) {
-      return fmt::format("found [{:.12g}, {:.12g}]{}, allowed: coordinates from {:g} to {:g} [m]: {}",
-                         one.point.x, one.point.y, more_in_words(others), -kFarthestFloe, kFarthestFloe,
-                         settings_.shift_in_words);
+      return fmt::format("found [{:.12g}, {:.12g}]{}, allowed: coordinates from {:g} to {:g} [m]: {}", one.point.x,
+                         one.point.y, more_in_words(others), -kFarthestFloe, kFarthestFloe, settings_.shift_in_words);
     };
     return refuse_floes(far, words_of, 0.5);  // most of them: the file needs a shift
   }
@@ -415,8 +403,7 @@ class PlaneImport {
 
 }  // namespace
 
-tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes,
-                                                     std::vector<std::string>& refused,
+tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, std::vector<std::string>& refused,
                                                      const std::string& crs, const PlaneSettings& settings) {
   return PlaneImport(floes, refused, settings).run(crs);
 }

@@ -22,11 +22,11 @@ struct SourceFloe {
 struct PlaneSettings {
   std::optional<simulation::GeographicOrigin> origin;  ///< that about a place on the Earth
   std::string target;                                  ///< that of a projected system, "EPSG:3413"; or empty
-  std::string source;           ///< the file's system, where the file names none; or empty
-  bool chooses_origin = false;  ///< of a file in degrees without either: the middle of its floes
-  bool are_metres = false;      ///< known to be no degrees
-  bool keeps_metres = true;     ///< also beside an origin, of a file without system that is not in degrees
-  bool is_shifted = false;      ///< then the middle of the floes' box comes to (0, 0), to a metre
+  std::string source;                                  ///< the file's system, where the file names none; or empty
+  bool chooses_origin = false;                         ///< of a file in degrees without either: the middle of its floes
+  bool are_metres = false;                             ///< known to be no degrees
+  bool keeps_metres = true;  ///< also beside an origin, of a file without system that is not in degrees
+  bool is_shifted = false;   ///< then the middle of the floes' box comes to (0, 0), to a metre
   /// How a user gives an origin [°], in messages.
   std::string (*origin_in_words)(double latitude, double longitude) = nullptr;
   std::string shift_in_words;   ///< likewise
@@ -55,8 +55,7 @@ struct PlaneError {
 /// (most, of those far in the plane), it is the error; others are degrees without a system or an origin,
 /// systems that PROJ does not know, and planes that are not in metres. Coordinates without system that do not
 /// look like degrees (io/text/degrees.hpp) are metres of the plane.
-tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes,
-                                                     std::vector<std::string>& refused,
+tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, std::vector<std::string>& refused,
                                                      const std::string& crs, const PlaneSettings& settings);
 
 }  // namespace polynya::io

@@ -70,9 +70,8 @@ pj_ctx* quiet_context() {
 bool is_metric(pj_ctx* context, const PJ* crs) {
   PJ* const axes = proj().proj_crs_get_coordinate_system(context, crs);
   double metres = 0;
-  const bool has_axis =
-      axes != nullptr && proj().proj_cs_get_axis_info(context, axes, 0, nullptr, nullptr, nullptr, &metres,
-                                                      nullptr, nullptr, nullptr) == 1;
+  const bool has_axis = axes != nullptr && proj().proj_cs_get_axis_info(context, axes, 0, nullptr, nullptr, nullptr,
+                                                                        &metres, nullptr, nullptr, nullptr) == 1;
   proj().proj_destroy(axes);
   return has_axis && metres == 1;
 }
@@ -102,9 +101,8 @@ Result<Crs> find_crs(const std::string& definition) {
   const std::unique_ptr<pj_ctx, Projection::Free> context(quiet_context());
   std::unique_ptr<PJ, Projection::Free> crs(proj().proj_create(context.get(), definition.c_str()));
   if (!crs || proj().proj_is_crs(crs.get()) == 0)
-    return fail(
-        fmt::format("PROJ knows no coordinate system \"{}\", allowed: EPSG:n, OGC:CRS84, a PROJ string, WKT",
-                    definition));
+    return fail(fmt::format("PROJ knows no coordinate system \"{}\", allowed: EPSG:n, OGC:CRS84, a PROJ string, WKT",
+                            definition));
   Crs found;
   if (const char* name = proj().proj_get_name(crs.get())) found.name = name;
   PJ_TYPE type = proj().proj_get_type(crs.get());
@@ -125,8 +123,7 @@ Result<Projection> Projection::between(const std::string& from, const std::strin
   Projection projection;
   projection.context_.reset(quiet_context());
   pj_ctx* const context = projection.context_.get();
-  const std::unique_ptr<PJ, Free> steps(
-      proj().proj_create_crs_to_crs(context, from.c_str(), to.c_str(), nullptr));
+  const std::unique_ptr<PJ, Free> steps(proj().proj_create_crs_to_crs(context, from.c_str(), to.c_str(), nullptr));
   if (!steps) return fail(fmt::format(R"(PROJ has no way from "{}" to "{}")", from, to));
   projection.steps_.reset(proj().proj_normalize_for_visualization(context, steps.get()));
   if (!projection.steps_) return fail(fmt::format(R"(PROJ has no way from "{}" to "{}")", from, to));
@@ -142,8 +139,7 @@ void Projection::apply_inverse(std::vector<Point>& points) const {
 
 std::string GeographicPlane::system(const simulation::GeographicOrigin& origin) {
   return fmt::format("+proj=aeqd +lat_0={} +lon_0={} +datum=WGS84 +units=m +no_defs +type=crs",
-                     geometry::kDegreesPerRadian * origin.latitude,
-                     geometry::kDegreesPerRadian * origin.longitude);
+                     geometry::kDegreesPerRadian * origin.latitude, geometry::kDegreesPerRadian * origin.longitude);
 }
 
 Result<GeographicPlane> GeographicPlane::about(const simulation::GeographicOrigin& origin) {

@@ -19,8 +19,7 @@ struct ActiveRun {
 };
 
 /// A run before its first step. The error is what is wrong with the folder (RunWriter::create).
-Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene,
-                            bool overwrite = false);
+Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene, bool overwrite = false);
 
 /// A run at a checkpoint of its folder, read from `file`: the folder is cut back to it (RunWriter::resume).
 Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::filesystem::path& file);
@@ -29,7 +28,7 @@ Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::
 Result<simulation::Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint);
 
 /// Where a run stands between two steps, its journal having been written.
-Checkpoint checkpoint_of(const simulation::Simulation& simulation, const LoadedScene& scene,
-                         RunProgress progress, double wall_time);
+Checkpoint checkpoint_of(const simulation::Simulation& simulation, const LoadedScene& scene, RunProgress progress,
+                         double wall_time);
 
 }  // namespace polynya::io

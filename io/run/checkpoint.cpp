@@ -95,8 +95,7 @@ Result<> remove_file(const std::filesystem::path& path) {
 
 template <class Archive>
 void fields(Archive& archive, Is<Checkpoint> auto& c) {
-  archive(c.program_version, c.scene_hash, c.steps, c.wall_time, c.progress, c.state, c.state_hash,
-          c.failure);
+  archive(c.program_version, c.scene_hash, c.steps, c.wall_time, c.progress, c.state, c.state_hash, c.failure);
 }
 
 }  // namespace
@@ -159,8 +158,7 @@ Result<Checkpoint> read_checkpoint(std::string_view bytes) {
   std::uint64_t length = 0;
   head(version, crc, length);
   if (version != kCheckpointVersion)
-    return fail(
-        fmt::format("a checkpoint of version {}; this program reads {}", version, kCheckpointVersion));
+    return fail(fmt::format("a checkpoint of version {}; this program reads {}", version, kCheckpointVersion));
   const std::string_view payload = bytes.substr(kHeadSize);
   if (payload.size() != length) return fail(fmt::format("damaged: {} bytes of {}", payload.size(), length));
   if (crc_of(payload) != crc) return fail("damaged: its checksum does not match");
@@ -208,9 +206,7 @@ Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkp
 }
 
 Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view scene_hash) {
-  const auto problem = [&](const std::string& reason) {
-    return fail(fmt::format("{}: {}", path.string(), reason));
-  };
+  const auto problem = [&](const std::string& reason) { return fail(fmt::format("{}: {}", path.string(), reason)); };
   auto text = read_text_file(path, std::numeric_limits<std::size_t>::max());
   if (!text) return problem(text.error());
   auto checkpoint = read_checkpoint(*text);

@@ -52,14 +52,12 @@ inline constexpr FieldMeaning kRule = derived({"", "the rule, in words"});
 template <class Line>
 void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
   const bool tilts = c.least_deflection != 0;
-  line("kind",
-       std::string_view(tilts ? "edge deflection >= least deflection" : "a cusp broken off at the hull"),
+  line("kind", std::string_view(tilts ? "edge deflection >= least deflection" : "a cusp broken off at the hull"),
        kRule);
   line("deflection_m", c.deflection, optional(tilts, {"m", "of the floe's edge", "deflection"}));
   line("least_deflection_m", c.least_deflection,
        optional(tilts, {"m", "at which the floe goes under", "goes under from", 0}));
-  line("vertical_force_N", c.vertical_force,
-       optional(tilts, {"N", "on the edge in the step", "vertical force"}));
+  line("vertical_force_N", c.vertical_force, optional(tilts, {"N", "on the edge in the step", "vertical force"}));
   line("tilting_capacity_N", c.capacity,
        optional(tilts, {"N", "the force that turns the floe over", "tilting capacity", 0}));
 }
@@ -80,13 +78,10 @@ void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool come
 template <class Line>
 void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
   const bool is_blind = c.least_width > 0;
-  line("kind", std::string_view(is_blind ? "overlap width < least width" : "crushed overlap >= least area"),
-       kRule);
-  line("width_m", c.width,
-       optional(is_blind, {"m", "by which the overlap's area falls per metre of motion"}));
+  line("kind", std::string_view(is_blind ? "overlap width < least width" : "crushed overlap >= least area"), kRule);
+  line("width_m", c.width, optional(is_blind, {"m", "by which the overlap's area falls per metre of motion"}));
   line("least_width_m", c.least_width,
-       optional(is_blind,
-                {"m", "from which a contact parts the overlap; left out where it was crushed", {}, 0}));
+       optional(is_blind, {"m", "from which a contact parts the overlap; left out where it was crushed", {}, 0}));
   line("overlap_area_m2", c.overlap_area, {"m²", "of the overlap, exactly", "overlap ground", 0});
   line("least_area_m2", c.least_area, {"m²", "a smaller overlap is left", {}, 0});
 }
@@ -110,11 +105,10 @@ void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split)
        optional(true, {"N", "true force of the contact in the step", of_crack("contact force")}));
   const bool opens = c.opening_capacity > 0;
   line("opening_force_N", c.opening_force,
-       optional(opens,
-                {"N",
-                 "F that opens the crack, by the true forces: the lesser of its two flanks; with the next "
-                 "four, of a bend by lefm, of the crack nearest to running, and left out where none opens",
-                 of_crack("opening force")}));
+       optional(opens, {"N",
+                        "F that opens the crack, by the true forces: the lesser of its two flanks; with the next "
+                        "four, of a bend by lefm, of the crack nearest to running, and left out where none opens",
+                        of_crack("opening force")}));
   line("opening_capacity_N", c.opening_capacity,
        optional(opens, {"N", "F_max, at which the crack runs", of_crack("opening capacity"), 0}));
   line("left_flank_force_N", c.flank_forces[0],
@@ -146,9 +140,8 @@ template <class Line, class Kind>
 requires std::derived_from<Kind, simulation::IceEvent>
 void kind_fields(Line& line, auto& event, Kind& e) {
   line("ship", ShipName{event.ship, true}, {"", "by which it happened; empty where a floe did it", "ship"});
-  line(
-      "by_floe", e.by_floe,
-      optional(e.by_floe != simulation::kNoFloe, {"", "the floe that did it, where no ship did", "by floe"}));
+  line("by_floe", e.by_floe,
+       optional(e.by_floe != simulation::kNoFloe, {"", "the floe that did it, where no ship did", "by floe"}));
   line("floe", e.floe, {"", "that broke, was ground, went under or came up", "floe"});
   line("parent", Parent{}, derived({"", "of that floe; null for a floe of the scene"}));
   line("children", e.children, {"", "the floes it became", "pieces"});
@@ -179,9 +172,8 @@ void kind_fields(Line& line, auto& event, Is<simulation::ShipContact> auto& e) {
   line("closing_speed_m_per_s", e.closing_speed,
        {"m/s", "along the contact's normal, before the contact acts", "closing at"});
   line("relative_speed_m_per_s", e.relative_speed, {"m/s", "of the two at that point, likewise", {}, 0});
-  line(
-      "is_prescribed", e.is_prescribed,
-      {"", "the scene prescribes the motion of both: they pass through each other and no force is computed"});
+  line("is_prescribed", e.is_prescribed,
+       {"", "the scene prescribes the motion of both: they pass through each other and no force is computed"});
 }
 
 template <class Line>

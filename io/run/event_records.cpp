@@ -64,8 +64,7 @@ struct Words {
   void operator()(std::string_view, const auto&, const FieldMeaning&) {}
   void operator()(std::string_view, std::string_view rule, const FieldMeaning&) { text += rule; }
   void operator()(std::string_view, const DecidingLoad& by, const FieldMeaning&) {
-    text += fmt::format("{} {:.4g} N {} {} {:.4g} N", by.name, by.load, by.comparison, by.capacity_name,
-                        by.capacity);
+    text += fmt::format("{} {:.4g} N {} {} {:.4g} N", by.name, by.load, by.comparison, by.capacity_name, by.capacity);
   }
   void operator()(std::string_view, const double& value, const FieldMeaning& about) {
     if (value != 0 && !about.is_derived) add(about, fmt::format("{:.4g}", value));
@@ -73,9 +72,7 @@ struct Words {
   void operator()(std::string_view, const geometry::Vector& value, const FieldMeaning& about) {
     add(about, fmt::format("({:.3g}, {:.3g})", value.x, value.y));
   }
-  void operator()(std::string_view, const std::string& value, const FieldMeaning& about) {
-    add(about, value);
-  }
+  void operator()(std::string_view, const std::string& value, const FieldMeaning& about) { add(about, value); }
   void operator()(std::string_view key, const ShipName<const int>& ship, const FieldMeaning& about) {
     if (key != "ship") add(about, ship_name(scene, ship.index));
   }
@@ -84,8 +81,8 @@ struct Words {
  private:
   void add(const FieldMeaning& about, std::string_view value) {
     if (about.label.empty()) return;
-    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : "; ", about.label, value,
-                        about.unit.empty() ? "" : " ", about.unit);
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : "; ", about.label, value, about.unit.empty() ? "" : " ",
+                        about.unit);
   }
 };
 
@@ -141,9 +138,8 @@ struct Lister {
   bool is_of_criterion = false;
 
   void operator()(std::string_view key, const auto&, const FieldMeaning& about) {
-    auto found = std::ranges::find_if(fields, [&](const EventField& field) {
-      return field.key == key && field.meaning.meaning == about.meaning;
-    });
+    auto found = std::ranges::find_if(
+        fields, [&](const EventField& field) { return field.key == key && field.meaning.meaning == about.meaning; });
     if (found == fields.end()) found = fields.insert(found, {key, about, is_of_criterion, {}});
     if (found->meaning.label.empty()) found->meaning.label = about.label;
     found->kinds.push_back(kind);
@@ -254,14 +250,12 @@ Result<std::filesystem::path> folder_in(const std::filesystem::path& run_folder)
   std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
   std::error_code ignored;
   if (!std::filesystem::is_symlink(std::filesystem::symlink_status(folder, ignored))) return folder;
-  return fail(
-      fmt::format("{}: a link; polynya writes through no link in a run folder; remove it", folder.string()));
+  return fail(fmt::format("{}: a link; polynya writes through no link in a run folder; remove it", folder.string()));
 }
 
 }  // namespace
 
-Result<> write_rejected_cut(const std::filesystem::path& run_folder, double time,
-                            const simulation::RejectedCut& cut) {
+Result<> write_rejected_cut(const std::filesystem::path& run_folder, double time, const simulation::RejectedCut& cut) {
   if (cut.input.number > kMostRejectedCuts) return {};
   const auto folder = folder_in(run_folder);
   if (!folder) return fail(folder.error());
@@ -269,8 +263,7 @@ Result<> write_rejected_cut(const std::filesystem::path& run_folder, double time
   std::filesystem::create_directory(*folder, error);
   if (error) return fail(fmt::format("{}: {}", folder->string(), error.message()));
   const auto write = [&](std::string_view ending, const std::string& text) {
-    return write_whole_file(*folder / fmt::format("{:06}{}", cut.input.number, ending), text,
-                            Durability::kSynced);
+    return write_whole_file(*folder / fmt::format("{:06}{}", cut.input.number, ending), text, Durability::kSynced);
   };
   if (auto written = write(kFloeEnding, floe_text(time, cut)); !written) return written;
   return write(kOpsEnding, ops_text(cut.input));

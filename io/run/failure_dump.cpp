@@ -50,8 +50,7 @@ Result<> find_and_dump(const ActiveRun& run) {
   before.journal().clear();
   Checkpoint dump = checkpoint_of(before, run.scene, {}, 0);
   dump.failure = *failure;
-  return write_whole_file(run.writer.folder() / run_file::kFailure, checkpoint_bytes(dump),
-                          Durability::kSynced);
+  return write_whole_file(run.writer.folder() / run_file::kFailure, checkpoint_bytes(dump), Durability::kSynced);
 }
 
 }  // namespace

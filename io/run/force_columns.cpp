@@ -57,8 +57,8 @@ struct Table {
 
   /// The number at the end of a path of pointers to members.
   template <class... Path>
-  ForceColumn& number(std::string name, std::string_view unit, Over over, std::string meaning,
-                      const Shown& shown, Path... path) {
+  ForceColumn& number(std::string name, std::string_view unit, Over over, std::string meaning, const Shown& shown,
+                      Path... path) {
     const bool is_turn = unit.starts_with("°");
     const double scale = is_turn ? geometry::kDegreesPerRadian : 1;
     const double inverse = is_turn ? geometry::kRadiansPerDegree : 1;
@@ -105,8 +105,8 @@ void add_contact_loads(Table& t) {
           {kSurge, kYaw}});
   t.number("ice_under_hull_m2", "m²", kAtEnd, "ice under the hull", {kUnderHulls, {}, "Ice under the hull"},
            &S::submerged_area);
-  t.load({"_j_over_tau_c", &S::collision, kLargestStep, "of the ice by the paper, j/τ_c,", kWhereItSplits,
-          "of the ice", "paper"});
+  t.load({"_j_over_tau_c", &S::collision, kLargestStep, "of the ice by the paper, j/τ_c,", kWhereItSplits, "of the ice",
+          "paper"});
 }
 
 void add_motion(Table& t) {
@@ -136,27 +136,25 @@ void add_sailing_loads(Table& t) {
           "of thrusters",
           "mean",
           {kSway, kYaw}});
-  t.load({"_from_water", &S::from_water, kMean, "of the water on the hull, with its inertia,", kInWater,
-          "of the water"});
-  t.load({"_from_rudder", &S::from_rudder, kMean, "of the rudder, with the hull's share,", kWithRudders,
-          "of the rudder"});
+  t.load(
+      {"_from_water", &S::from_water, kMean, "of the water on the hull, with its inertia,", kInWater, "of the water"});
+  t.load(
+      {"_from_rudder", &S::from_rudder, kMean, "of the rudder, with the hull's share,", kWithRudders, "of the rudder"});
   t.load({"_from_mooring", &S::from_mooring, kMean, "of the mooring", kMoored});
   t.load({"_from_ice_friction", &S::friction_of_ice, kMean,
-          "of the ice's friction along the waterline, a share of that of the ice,", kInWater,
-          "of the ice's friction"});
+          "of the ice's friction along the waterline, a share of that of the ice,", kInWater, "of the ice's friction"});
 }
 
 void add_helm(Table& t) {
   t.number("lever", "", kAtEnd, "of the thrust, a share of the power: −1 full astern to 1 full ahead",
            {{}, kWithEngines, "Thrust lever"}, &S::lever);
-  t.number("steering_deg", "°", kAtEnd, "angle of rudder or thrusters, to port",
-           {{}, kWithEngines, "Steering angle"}, &S::steering_angle);
+  t.number("steering_deg", "°", kAtEnd, "angle of rudder or thrusters, to port", {{}, kWithEngines, "Steering angle"},
+           &S::steering_angle);
   t.number("delivered_power_W", "W", kAtEnd, "power of the engine at that lever; 0 where none is given",
            {{}, kWithEngines, "Delivered power"}, &S::delivered_power);
-  t.number("rams", "", kAtEnd, "charges after the first, of a pilot that rams", {{}, kRamming, "Rams"},
-           &S::rams);
-  t.number("gained_m", "m", kAtEnd, "by rams, from where the ship was first stuck",
-           {{}, kRamming, "Gained by ramming"}, &S::gained);
+  t.number("rams", "", kAtEnd, "charges after the first, of a pilot that rams", {{}, kRamming, "Rams"}, &S::rams);
+  t.number("gained_m", "m", kAtEnd, "by rams, from where the ship was first stuck", {{}, kRamming, "Gained by ramming"},
+           &S::gained);
   t.number("contacts", "", kAtEnd, "with ice", {{}, {}, "Contacts at the hull"}, &S::contacts);
   t.number("contacts_with_ships", "", kAtEnd, "with other ships and structures", {}, &S::contacts_with_ships)
       .is_optional = true;
@@ -200,11 +198,9 @@ bool is_shown(ShownWhere where, const simulation::Scene& scene) {
   if (where == kWithEngines)
     return any_ship([](const Ship& s) { return std::holds_alternative<simulation::Engine>(s.propulsion); });
   if (where == kWithRudders)
-    return any_ship(
-        [](const Ship& s) { return std::holds_alternative<simulation::RudderSettings>(s.steering); });
+    return any_ship([](const Ship& s) { return std::holds_alternative<simulation::RudderSettings>(s.steering); });
   if (where == kWithThrusters)
-    return any_ship(
-        [](const Ship& s) { return std::holds_alternative<simulation::AzimuthSettings>(s.steering); });
+    return any_ship([](const Ship& s) { return std::holds_alternative<simulation::AzimuthSettings>(s.steering); });
   if (where == kRamming)
     return any_ship([](const Ship& s) { return std::holds_alternative<simulation::RammingPilot>(s.pilot); });
   if (where == kMoored) return any_ship([](const Ship& s) { return s.mooring.has_value(); });
@@ -247,8 +243,7 @@ Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header
 
 namespace {
 
-constexpr std::string_view kDirections[]{"Surge force by cause", "Sway force by cause",
-                                         "Yaw moment by cause"};
+constexpr std::string_view kDirections[]{"Surge force by cause", "Sway force by cause", "Yaw moment by cause"};
 
 /// What one cause gives in each direction.
 struct Row {
@@ -257,9 +252,7 @@ struct Row {
 };
 constexpr Row kIce{"ice", "ice on the hull, with friction", {"surge_N", "sway_N", "yaw_Nm"}};
 constexpr Row kFriction{
-    "friction",
-    "ice: friction",
-    {"surge_from_ice_friction_N", "sway_from_ice_friction_N", "yaw_from_ice_friction_Nm"}};
+    "friction", "ice: friction", {"surge_from_ice_friction_N", "sway_from_ice_friction_N", "yaw_from_ice_friction_Nm"}};
 constexpr Row kRows[]{
     kIce,
     kFriction,

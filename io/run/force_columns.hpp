@@ -69,13 +69,12 @@ Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header
 /// shares of it. The parts of one direction add up to the force on the ship, mass × acceleration
 /// (docs/run-folder.md). To add one, add a line to force_causes.cpp.
 struct ForceCause {
-  std::string_view direction;  ///< title of the player's plot that stacks the parts: "Surge force by cause"
-  std::string_view cause;      ///< "friction": names its colour
-  std::string_view words;      ///< as people read it: "ice: friction"
-  std::string_view column;     ///< of forces.csv
-  std::string_view share_of = {};  ///< the column that contains this one; empty: none
-  std::string_view without_shares =
-      {};  ///< words for a column whose shares are shown apart; empty: it has none
+  std::string_view direction;            ///< title of the player's plot that stacks the parts: "Surge force by cause"
+  std::string_view cause;                ///< "friction": names its colour
+  std::string_view words;                ///< as people read it: "ice: friction"
+  std::string_view column;               ///< of forces.csv
+  std::string_view share_of = {};        ///< the column that contains this one; empty: none
+  std::string_view without_shares = {};  ///< words for a column whose shares are shown apart; empty: it has none
 };
 
 /// Every one there is.

@@ -26,16 +26,14 @@ Number take(std::string_view& bytes) {
 
 Motion take_motion(std::string_view& bytes) {
   Motion m;
-  for (double* value :
-       {&m.position.x, &m.position.y, &m.angle, &m.velocity.x, &m.velocity.y, &m.angular_velocity}) {
+  for (double* value : {&m.position.x, &m.position.y, &m.angle, &m.velocity.x, &m.velocity.y, &m.angular_velocity}) {
     *value = take<double>(bytes);
   }
   return m;
 }
 
 /// All of a frame but its floes.
-void write_head(simulation::ByteWriter& frame, double time, std::span<const Motion> ships,
-                std::uint32_t floes) {
+void write_head(simulation::ByteWriter& frame, double time, std::span<const Motion> ships, std::uint32_t floes) {
   for (const char letter : kFrameMark) frame(letter);
   frame(static_cast<std::uint32_t>(ships.size()), floes, std::uint32_t{0}, time);
   for (const Motion& ship : ships) frame(ship);

@@ -27,8 +27,7 @@ MotionIndex::MotionIndex(const Run& run) : floes_(run.floes.size()), ships_(hull
       const auto id = static_cast<std::size_t>(floe.floe);
       if (id < floes_.size()) floes_[id].push_back({frame.time, floe.motion});
     }
-    for (std::size_t i = 0; i < std::min(ships_.size(), frame.ships.size()); ++i)
-      ships_[i].push_back(frame.ships[i]);
+    for (std::size_t i = 0; i < std::min(ships_.size(), frame.ships.size()); ++i) ships_[i].push_back(frame.ships[i]);
   }
 }
 
@@ -57,8 +56,7 @@ std::optional<Motion> MotionIndex::floe_at(FloeId floe, double time) const {
   if (!last) return std::nullopt;
   const Motion carried = carried_on(last->motion, time - last->time);
   const auto next_frame = std::ranges::upper_bound(frame_times_, time);
-  if (next_frame == frame_times_.end() || next_frame == frame_times_.begin() || last->time > time)
-    return carried;
+  if (next_frame == frame_times_.end() || next_frame == frame_times_.begin() || last->time > time) return carried;
   const RecordedMotion* next = last_record(floe, *next_frame);
   if (next == last) return carried;
   const double start = *(next_frame - 1);
@@ -69,8 +67,7 @@ std::optional<Motion> MotionIndex::floe_at(FloeId floe, double time) const {
 std::optional<Motion> MotionIndex::ship_at(std::size_t ship, double time) const {
   if (ship >= ships_.size() || ships_[ship].empty()) return std::nullopt;
   const auto& motions = ships_[ship];
-  const auto next =
-      static_cast<std::size_t>(std::ranges::upper_bound(frame_times_, time) - frame_times_.begin());
+  const auto next = static_cast<std::size_t>(std::ranges::upper_bound(frame_times_, time) - frame_times_.begin());
   if (next == 0) return motions.front();
   if (next >= motions.size()) return carried_on(motions.back(), time - frame_times_[motions.size() - 1]);
   const double start = frame_times_[next - 1];

@@ -10,8 +10,7 @@ geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motio
 namespace {
 
 /// Of the youngest of the floe and those it broke from that a frame has.
-geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe,
-                         double time) {
+geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe, double time) {
   const simulation::BirthRecord* at = &floe;
   while (true) {
     if (const auto motion = motions.floe_at(at->floe, time)) return pose_of(*at, *motion);
@@ -21,8 +20,7 @@ geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simul
   }
 }
 
-PlacedFloe placed(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe,
-                  double time) {
+PlacedFloe placed(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe, double time) {
   return {&floe, run.shape(floe.floe), body_pose(run, motions, floe, time), motions.floe_at(floe.floe, time)};
 }
 
@@ -48,8 +46,7 @@ std::vector<PlacedFloe> floes_under_hulls_at(const Run& run, const MotionIndex& 
 }
 
 geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time) {
-  if (const auto motion = motions.ship_at(ship, time))
-    return {motion->position, geometry::Rotation::by(motion->angle)};
+  if (const auto motion = motions.ship_at(ship, time)) return {motion->position, geometry::Rotation::by(motion->angle)};
   const simulation::PlacedHull& hull = hull_of(run.scene.scene, ship);
   return {hull.position_in_world, geometry::Rotation::by(hull.heading)};
 }

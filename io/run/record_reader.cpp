@@ -106,8 +106,7 @@ RunContact contact_of(std::string_view line, const Run& run) {
   simulation::ContactState& state = contact.state;
   state.on = body_of(line, run);
   state.by = body_of(line, run);
-  for (double* value :
-       {&state.point_in_world.x, &state.point_in_world.y, &state.force.x, &state.force.y, &state.depth})
+  for (double* value : {&state.point_in_world.x, &state.point_in_world.y, &state.force.x, &state.force.y, &state.depth})
     *value = take_number(line);
   state.is_crushing = take_number(line) != 0;
   return contact;

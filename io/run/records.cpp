@@ -46,13 +46,13 @@ std::string_view contacts_header() {
   return "t_s,ship,floe_id,by_ship,by_floe_id,x_m,y_m,fx_N,fy_N,depth_m,is_crushing\n";
 }
 
-void append_contact(std::string& text, double time, const simulation::ContactState& contact,
-                    std::string_view on_ship, std::string_view by_ship) {
+void append_contact(std::string& text, double time, const simulation::ContactState& contact, std::string_view on_ship,
+                    std::string_view by_ship) {
   append_number(text, time);
   append_body(text, on_ship, contact.on.floe);
   append_body(text, by_ship, contact.by.floe);
-  append_csv(text, {contact.point_in_world.x, contact.point_in_world.y, contact.force.x, contact.force.y,
-                    contact.depth});
+  append_csv(text,
+             {contact.point_in_world.x, contact.point_in_world.y, contact.force.x, contact.force.y, contact.depth});
   text += contact.is_crushing ? ",1\n" : ",0\n";
 }
 
@@ -60,8 +60,8 @@ std::string_view crushed_header() {
   return "t_s,ship,floe_id,by_ship,by_floe_id,crushed_m2\n";
 }
 
-void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
-                    std::string_view on_ship, std::string_view by_ship) {
+void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap, std::string_view on_ship,
+                    std::string_view by_ship) {
   append_number(text, time);
   append_body(text, on_ship, overlap.on.floe);
   append_body(text, by_ship, overlap.by.floe);

@@ -41,8 +41,7 @@ Result<Contents> contents_of(const fs::path& folder) {
   if (error) return fail(fmt::format("{}: {}", folder.string(), error.message()));
   if (is_empty) return Contents::kNothing;
   const bool has_scene = fs::is_regular_file(folder / run_file::kScene, error);
-  if (has_scene && (is_marked || fs::is_regular_file(folder / run_file::kSummary, error)))
-    return Contents::kRun;
+  if (has_scene && (is_marked || fs::is_regular_file(folder / run_file::kSummary, error))) return Contents::kRun;
   return is_marked && !has_scene ? Contents::kRemains : Contents::kForeign;
 }
 
@@ -50,19 +49,19 @@ Result<Contents> contents_of(const fs::path& folder) {
 Result<> check_claim(const fs::path& folder, Contents contents, bool overwrite) {
   const std::string name = folder.string();
   if (contents == Contents::kForeign)
-    return fail(fmt::format("{}: it is not empty and not a run folder; name another folder with --out{}",
-                            name, overwrite ? ", since --overwrite replaces only runs" : ""));
+    return fail(fmt::format("{}: it is not empty and not a run folder; name another folder with --out{}", name,
+                            overwrite ? ", since --overwrite replaces only runs" : ""));
   if (overwrite || contents == Contents::kNothing) return {};
   if (contents == Contents::kRemains)
-    return fail(fmt::format(
-        "{}: there are parts of a run in it, without its scene; name another folder with --out, or replace "
-        "them with --overwrite",
-        name));
+    return fail(
+        fmt::format("{}: there are parts of a run in it, without its scene; name another folder with --out, or replace "
+                    "them with --overwrite",
+                    name));
   if (is_finished_run(folder))
-    return fail(fmt::format(
-        "{}: there is a run in it already; name another folder with --out, or replace the run with "
-        "--overwrite",
-        name));
+    return fail(
+        fmt::format("{}: there is a run in it already; name another folder with --out, or replace the run with "
+                    "--overwrite",
+                    name));
   return fail(
       fmt::format("{0}: there is a run in it that is not finished; continue it with: polynya resume {0}, or "
                   "replace it with "
@@ -127,8 +126,7 @@ FolderSize estimate_folder_size(const simulation::Scene& scene) {
   double vertices = 0;
   for (const simulation::FloeSpec& floe : scene.floes) {
     vertices += static_cast<double>(floe.polygon_in_world.outer.size());
-    for (const geometry::Ring& hole : floe.polygon_in_world.holes)
-      vertices += static_cast<double>(hole.size());
+    for (const geometry::Ring& hole : floe.polygon_in_world.holes) vertices += static_cast<double>(hole.size());
   }
   const auto floes = static_cast<double>(scene.floes.size());
   return {kBirth * floes + kVertex * vertices, kState * floes + kVertex * (vertices + floes)};
@@ -145,8 +143,7 @@ Result<RunLock> claim_run_folder(const fs::path& folder, bool overwrite) {
   const auto check = [&]() -> Result<Contents> {
     auto contents = contents_of(folder);
     if (!contents) return contents;
-    if (const auto claimed = check_claim(folder, *contents, overwrite); !claimed)
-      return fail(claimed.error());
+    if (const auto claimed = check_claim(folder, *contents, overwrite); !claimed) return fail(claimed.error());
     return contents;
   };
   if (const auto before = check(); !before) return fail(before.error());

@@ -41,9 +41,8 @@ inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
 inline constexpr std::string_view kFailure = "failure.bin";
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
-inline constexpr std::array kAll{kScene,    kSummary,  kForces,   kEvents,  kFloes,
-                                 kFrames,   kStates,   kContacts, kCrushed, kFinalGeojson,
-                                 kFinalSvg, kFinalPng, kView,     kChannel, kChannelCsv};
+inline constexpr std::array kAll{kScene,   kSummary,      kForces,   kEvents,   kFloes, kFrames,  kStates,    kContacts,
+                                 kCrushed, kFinalGeojson, kFinalSvg, kFinalPng, kView,  kChannel, kChannelCsv};
 }  // namespace run_file
 
 /// What reads runs takes no longer file; a run that writes one warns [bytes].

@@ -15,9 +15,7 @@ namespace polynya::io {
 
 Result<RunLock> RunLock::take(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / run_file::kLock;
-  const auto refuse = [&](const std::string& reason) {
-    return fail(fmt::format("{}: {}", file.string(), reason));
-  };
+  const auto refuse = [&](const std::string& reason) { return fail(fmt::format("{}: {}", file.string(), reason)); };
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0)
     return refuse(errno == ELOOP ? "a link; remove it if the folder is a run's" : std::strerror(errno));

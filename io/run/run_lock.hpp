@@ -29,8 +29,7 @@ class RunLock {
   bool is_in_place() const;
 
  private:
-  RunLock(int descriptor, std::filesystem::path folder)
-      : descriptor_(descriptor), folder_(std::move(folder)) {}
+  RunLock(int descriptor, std::filesystem::path folder) : descriptor_(descriptor), folder_(std::move(folder)) {}
   int descriptor_ = -1;
   std::filesystem::path folder_;
 };

@@ -121,8 +121,8 @@ std::optional<Stop> RunLoop::work_between_steps() {
 Result<> RunLoop::checkpoint() {
   auto progress = writer().sync();
   if (!progress) return fail(progress.error());
-  auto written = write_checkpoint(writer().folder(),
-                                  checkpoint_of(simulation(), run_.scene, std::move(*progress), wall_time()));
+  auto written =
+      write_checkpoint(writer().folder(), checkpoint_of(simulation(), run_.scene, std::move(*progress), wall_time()));
   last_checkpoint_ = Clock::now();
   return written;
 }

@@ -22,8 +22,8 @@ struct RunControl {
   int threads = 1;                    ///< results do not depend on it
   double checkpoint_every = 0;        ///< simulated time between checkpoints [s]; 0: by the clock alone
   double checkpoint_every_wall = 60;  ///< and by the clock [s]; 0: never by it
-  bool check = false;          ///< validate all of the world, and derive its sums again, after every step
-  bool final_geojson = false;  ///< also of a scene of more than kMostFloesInFinal floes (run_folder.hpp)
+  bool check = false;                 ///< validate all of the world, and derive its sums again, after every step
+  bool final_geojson = false;         ///< also of a scene of more than kMostFloesInFinal floes (run_folder.hpp)
   /// Called every 16th step.
   std::function<void(const RunStatus&)> progress = {};
   /// Called after every step: a reason stops the run there, with a checkpoint to resume from.

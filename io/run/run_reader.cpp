@@ -31,8 +31,7 @@ JsonValue document_of(const std::filesystem::path& folder, std::string_view name
   if (document.faults.empty()) return std::move(document.root);
   const JsonFault& fault = document.faults.front();
   const LineAndColumn place = line_and_column(text, fault.offset);
-  throw ReadError(
-      fmt::format("{}:{}:{}: {}", (folder / name).string(), place.line, place.column, message_of(fault)));
+  throw ReadError(fmt::format("{}:{}:{}: {}", (folder / name).string(), place.line, place.column, message_of(fault)));
 }
 
 /// Uses each whole line of a file.
@@ -80,12 +79,10 @@ void read_floes(Run& run) {
       birth.own_ice = parent->birth.own_ice;
     else if (birth.floe < std::ssize(run.scene.scene.floes))
       birth.own_ice = run.scene.scene.floes[static_cast<std::size_t>(birth.floe)].own_ice;
-    if (birth.floe != static_cast<FloeId>(run.floes.size()))
-      throw ReadError("floes are not in the order of their ids");
+    if (birth.floe != static_cast<FloeId>(run.floes.size())) throw ReadError("floes are not in the order of their ids");
     auto shape = read_shape(json);
     if (!shape) throw ReadError(shape.error());
-    if (const auto added = run.shapes.add(std::move(*shape), birth.parent); !added)
-      throw ReadError(added.error());
+    if (const auto added = run.shapes.add(std::move(*shape), birth.parent); !added) throw ReadError(added.error());
     run.floes.push_back({.birth = birth, .death_event = {}});
   });
 }

@@ -57,15 +57,13 @@ struct Run {
   double start_time() const { return frames.empty() ? 0 : frames.front().time; }
   double end_time() const { return frames.empty() ? 0 : frames.back().time; }
   const RunFloe* floe(simulation::FloeId id) const {
-    return id >= 0 && static_cast<std::size_t>(id) < floes.size() ? &floes[static_cast<std::size_t>(id)]
-                                                                  : nullptr;
+    return id >= 0 && static_cast<std::size_t>(id) < floes.size() ? &floes[static_cast<std::size_t>(id)] : nullptr;
   }
   /// The shape of a floe that there is, in its body frame.
   std::shared_ptr<const geometry::Polygon> shape(simulation::FloeId id) const { return shapes.of(id); }
   /// Whether it floats then.
   bool is_alive(simulation::FloeId id, double time) const {
-    return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died &&
-           time < floe(id)->went_under;
+    return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died && time < floe(id)->went_under;
   }
   /// Whether it is under a hull then, or waits for room behind it.
   bool is_under(simulation::FloeId id, double time) const {

@@ -33,14 +33,12 @@ std::string header_of(std::size_t file) {
 }
 
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
-  return {transform(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity,
-          floe.angular_velocity};
+  return {transform(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity, floe.angular_velocity};
 }
 
 }  // namespace
 
-Result<RunWriter> RunWriter::create(const std::filesystem::path& folder, bool overwrite,
-                                    const LoadedScene& scene) {
+Result<RunWriter> RunWriter::create(const std::filesystem::path& folder, bool overwrite, const LoadedScene& scene) {
   auto lock = claim_run_folder(folder, overwrite);
   if (!lock) return fail(lock.error());
   const auto written = write_whole_file(folder / run_file::kScene, scene.resolved_text, Durability::kSynced);
@@ -88,8 +86,8 @@ Result<> check_header(const std::filesystem::path& file, std::string_view header
   std::ifstream stream(file, std::ios::binary);
   stream.read(there.data(), static_cast<std::streamsize>(there.size()));
   if (stream && there == header) return {};
-  return fail(fmt::format("{}: its columns are those of another version of polynya, which can continue it",
-                          file.string()));
+  return fail(
+      fmt::format("{}: its columns are those of another version of polynya, which can continue it", file.string()));
 }
 
 /// Whether the folder can be cut back to a checkpoint, before any of its files is.
@@ -111,8 +109,7 @@ Result<> check_progress(const RunProgress& progress, const std::filesystem::path
 }  // namespace
 
 Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, const Checkpoint& checkpoint,
-                                    const std::filesystem::path& file,
-                                    const simulation::Simulation& simulation) {
+                                    const std::filesystem::path& file, const simulation::Simulation& simulation) {
   const RunProgress& progress = checkpoint.progress;
   const std::filesystem::path folder = lock.folder();
   auto ready = check_progress(progress, folder, scene.scene);
@@ -133,8 +130,7 @@ Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, cons
   return writer;
 }
 
-void RunWriter::add_floe(simulation::FloeId floe, simulation::FloeId parent,
-                         geometry::Point centroid_in_body) {
+void RunWriter::add_floe(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body) {
   const auto id = static_cast<std::size_t>(floe);
   if (id >= parents_.size()) {
     parents_.resize(id + 1, simulation::kNoFloe);
@@ -180,18 +176,15 @@ void RunWriter::record(simulation::Journal& journal) {
                    ice ? parents_[static_cast<std::size_t>(ice->floe)] : simulation::kNoFloe);
     });
     if (const auto* cut = std::get_if<simulation::RejectedCut>(&event.what))
-      if (auto written = write_rejected_cut(folder(), event.time, *cut); !written)
-        status_ = std::move(written);
+      if (auto written = write_rejected_cut(folder(), event.time, *cut); !written) status_ = std::move(written);
   }
   for (const simulation::ShipSample& sample : journal.samples) {
-    append_line(kForces, [&](std::string& line) {
-      append_forces_row(line, sample, ship_name(scene_->scene, sample.ship));
-    });
+    append_line(kForces,
+                [&](std::string& line) { append_forces_row(line, sample, ship_name(scene_->scene, sample.ship)); });
   }
   for (const simulation::ShipSample& sample : journal.samples) {
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
-    for (std::size_t i = 0; i < peaks.size(); ++i)
-      peaks[i].include(peak_columns_[i]->read(sample), sample.time);
+    for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].include(peak_columns_[i]->read(sample), sample.time);
   }
   journal.clear();
 }

@@ -31,8 +31,7 @@ class RunWriter {
  public:
   /// Prepares the folder (run_folder.hpp) and writes scene.json and a first summary.json. `scene` must
   /// outlive this.
-  static Result<RunWriter> create(const std::filesystem::path& folder, bool overwrite,
-                                  const LoadedScene& scene);
+  static Result<RunWriter> create(const std::filesystem::path& folder, bool overwrite, const LoadedScene& scene);
 
   /// The same for a folder that has its scene.json already: everything else of the run is written from the
   /// start.
@@ -41,8 +40,7 @@ class RunWriter {
   /// Continues the folder of a run that was interrupted: what its files have beyond the checkpoint is cut
   /// off, newer checkpoints too. `file` is where the checkpoint was read.
   static Result<RunWriter> resume(RunLock lock, const LoadedScene& scene, const Checkpoint& checkpoint,
-                                  const std::filesystem::path& file,
-                                  const simulation::Simulation& simulation);
+                                  const std::filesystem::path& file, const simulation::Simulation& simulation);
 
   /// Records the journal and clears it.
   void record(simulation::Journal& journal);

@@ -131,15 +131,13 @@ std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
   for (const simulation::Event& event : contacts) {
     const auto& c = std::get<simulation::ShipContact>(event.what);
     if (warnings.size() == kMostShipContacts) {
-      warnings.push_back(
-          fmt::format("{} more pairs of ships and structures came into contact (events.ndjson)",
-                      contacts.size() - kMostShipContacts));
+      warnings.push_back(fmt::format("{} more pairs of ships and structures came into contact (events.ndjson)",
+                                     contacts.size() - kMostShipContacts));
       break;
     }
     warnings.push_back(fmt::format(
-        "{} and {} came into contact at {:.6g} s, closing at {:.3g} m/s; {}",
-        ship_name(simulation.scene(), event.ship), ship_name(simulation.scene(), c.other), event.time,
-        c.closing_speed,
+        "{} and {} came into contact at {:.6g} s, closing at {:.3g} m/s; {}", ship_name(simulation.scene(), event.ship),
+        ship_name(simulation.scene(), c.other), event.time, c.closing_speed,
         c.is_prescribed ? "the motion of both is prescribed, so they pass through each other and no force is "
                           "computed: give the ship thrust_N or an engine"
                         : "forces.csv has these loads apart from those of ice, in its *_from_ships columns"));
@@ -177,10 +175,10 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
            : "outside the range of fracture.bending.model: the force at which the ice broke and the cusp's "
              "radius are the formula's, beyond where it is known to hold (docs/theory-bending.md)");
   if (const simulation::Audit audit = simulation.audit(); !audit.is_closed()) {
-    warnings.push_back(fmt::format(
-        "THE AUDIT IS BROKEN: energy is off by {:.2e} J of {:.2e} J, momentum by {:.2e} N s of {:.2e} N s; "
-        "do not trust this run, and please report it with its failure.bin",
-        audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
+    warnings.push_back(
+        fmt::format("THE AUDIT IS BROKEN: energy is off by {:.2e} J of {:.2e} J, momentum by {:.2e} N s of {:.2e} N s; "
+                    "do not trust this run, and please report it with its failure.bin",
+                    audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
   }
   if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
     warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");

@@ -55,8 +55,8 @@ struct RunSummary {
 };
 
 /// The summary of a run at its end, or where it was stopped; `stopped_by` is empty at the end.
-RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& writer,
-                     const std::string& stopped_by, double wall_time);
+RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& writer, const std::string& stopped_by,
+                     double wall_time);
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
 

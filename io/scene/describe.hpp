@@ -182,8 +182,7 @@ FieldOf<Record> leaf(Field field, Read read, Write write, Path... path) {
 
 /// A number, vector, text, … Of records that are variants, the Record is given.
 template <class Given = void, class... Path>
-auto member(std::string_view key, std::string_view unit, Range range, std::string_view meaning,
-            Path... path) {
+auto member(std::string_view key, std::string_view unit, Range range, std::string_view meaning, Path... path) {
   using Place = place::Optional<typename place::Last<Path...>::Member>;
   using T = typename Place::Value;
   Field field{.key = key, .kind = kind_of<T>(), .unit = unit, .range = range, .meaning = meaning};
@@ -195,8 +194,8 @@ auto member(std::string_view key, std::string_view unit, Range range, std::strin
 
 /// One of a few words, each of which stands for a value.
 template <class T, class... Path>
-auto choice(std::string_view key, std::string_view meaning,
-            std::initializer_list<std::pair<std::string_view, T>> words, Path... path) {
+auto choice(std::string_view key, std::string_view meaning, std::initializer_list<std::pair<std::string_view, T>> words,
+            Path... path) {
   Field field{.key = key, .kind = FieldKind::kChoice, .meaning = meaning};
   for (const auto& [word, value] : words) field.choices.push_back(word);
   const std::vector<std::pair<std::string_view, T>> all(words);
@@ -206,25 +205,21 @@ auto choice(std::string_view key, std::string_view meaning,
         return std::ranges::find_if(all, [&](const auto& one) { return one.first == json.text(); })->second;
       },
       [all](const T& value) -> JsonValue {
-        return {std::string(
-            std::ranges::find_if(all, [&](const auto& one) { return one.second == value; })->first)};
+        return {std::string(std::ranges::find_if(all, [&](const auto& one) { return one.second == value; })->first)};
       },
       path...);
 }
 
 /// An object of its own record, or, without a path, one that has a part of this record's members.
 template <class Given = void, class Part, class... Path>
-auto object(std::string_view key, const Description<Part>& description, std::string_view meaning,
-            Path... path) {
+auto object(std::string_view key, const Description<Part>& description, std::string_view meaning, Path... path) {
   using Start = std::conditional_t<std::is_void_v<Given> && sizeof...(Path) == 0, Part, Given>;
   using Record = typename place::Begin<Start, Path...>::Record;
   FieldOf<Record> field{{.key = key, .kind = FieldKind::kObject, .meaning = meaning, .object = &description}};
   if constexpr (sizeof...(Path) > 0) {
     if (place::Optional<typename place::Last<Path...>::Member>::value) field.presence = Presence::kLeftOut;
   }
-  field.open = [path...](void* record) -> void* {
-    return &place::make<Part>(*static_cast<Record*>(record), path...);
-  };
+  field.open = [path...](void* record) -> void* { return &place::make<Part>(*static_cast<Record*>(record), path...); };
   field.find = [path...](const void* record, std::size_t) -> const void* {
     return place::find<Part>(*static_cast<const Record*>(record), path...);
   };
@@ -233,8 +228,7 @@ auto object(std::string_view key, const Description<Part>& description, std::str
 
 /// A list of objects.
 template <class Item, class... Path>
-auto list(std::string_view key, Range length, std::string_view meaning, const Description<Item>& items,
-          Path... path) {
+auto list(std::string_view key, Range length, std::string_view meaning, const Description<Item>& items, Path... path) {
   using Record = typename place::Begin<void, Path...>::Record;
   FieldOf<Record> field{{.key = key,
                          .kind = FieldKind::kList,

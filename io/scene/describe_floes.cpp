@@ -9,8 +9,7 @@ using namespace simulation;
 using geometry::Polygon;
 
 const Description<SizeLaw> kSizes{
-    {of("equal",
-        required(member<SizeLaw>("size_m", "m", from(0.1, 1e4), "√area of every floe", &EqualSizes::size))),
+    {of("equal", required(member<SizeLaw>("size_m", "m", from(0.1, 1e4), "√area of every floe", &EqualSizes::size))),
      of("log-normal",
         required(member<SizeLaw>("mean_m", "m", from(0.1, 1e4),
                                  "mean √area of log-normal sizes, cut off at 3 deviations of the logarithm",
@@ -21,16 +20,14 @@ const Description<SizeLaw> kSizes{
         required(member<SizeLaw>("exponent", "", from(-3, 6),
                                  "a of the number of floes larger than d, ∝ d^−a, d √area; −1 is even in d",
                                  &PowerLawSizes::exponent))),
+     of("power law", required(member<SizeLaw>("least_m", "m", from(0.1, 1e4), "least √area", &PowerLawSizes::least))),
      of("power law",
-        required(member<SizeLaw>("least_m", "m", from(0.1, 1e4), "least √area", &PowerLawSizes::least))),
-     of("power law", required(member<SizeLaw>("largest_m", "m", from(0.1, 1e4), "largest √area",
-                                              &PowerLawSizes::largest)))},
+        required(member<SizeLaw>("largest_m", "m", from(0.1, 1e4), "largest √area", &PowerLawSizes::largest)))},
     {"equal", "log-normal", "power law"}};
 
 const Description<FieldInput> kField{
-    {of("rectangle",
-        required(member("corner_m", "m", coordinate(), "corner of its region with the least x and y",
-                        &FieldInput::region, &FieldRectangle::corner))),
+    {of("rectangle", required(member("corner_m", "m", coordinate(), "corner of its region with the least x and y",
+                                     &FieldInput::region, &FieldRectangle::corner))),
      of("rectangle",
         required(as(FieldKind::kNumberOrVector, member("extent_m", "m", from(0.1, 1e6), "sides of its region",
                                                        &FieldInput::region, &FieldRectangle::extent)))),
@@ -41,22 +38,19 @@ const Description<FieldInput> kField{
      of("channel", required(as(FieldKind::kLine, member("centreline_m", "m", coordinate(),
                                                         "middle of its region, a channel, point by point",
                                                         &FieldInput::region, &FieldChannel::centreline)))),
-     of("channel", required(member("width_m", "m", from(0.1, 1e5), "of the channel", &FieldInput::region,
-                                   &FieldChannel::width))),
-     object("sizes", kSizes, "law of the floes' sizes; this or floe_size_m", &FieldInput::field,
-            &FloeField::law),
+     of("channel",
+        required(member("width_m", "m", from(0.1, 1e5), "of the channel", &FieldInput::region, &FieldChannel::width))),
+     object("sizes", kSizes, "law of the floes' sizes; this or floe_size_m", &FieldInput::field, &FloeField::law),
      member("floe_size_m", "m", from(0.1, 1e4), "mean of the floes' √area", &FieldInput::floe_size),
-     member(
-         "size_spread", "", from(0, 0.5),
-         "with floe_size_m: standard deviation of the floes' √area / its mean, 0.25 if not given; they are "
-         "lognormal, cut off at 2.5 deviations",
-         &FieldInput::size_spread),
+     member("size_spread", "", from(0, 0.5),
+            "with floe_size_m: standard deviation of the floes' √area / its mean, 0.25 if not given; they are "
+            "lognormal, cut off at 2.5 deviations",
+            &FieldInput::size_spread),
      required(member("concentration", "", above(0, 0.99),
                      "share of the region that ice covers; with sizes, of the region less what is kept clear",
                      &FieldInput::field, &FloeField::concentration)),
-     member("gap_m", "m", from(1e-6, 1000),
-            "least distance between floes, and of floes from what is kept clear", &FieldInput::field,
-            &FloeField::gap),
+     member("gap_m", "m", from(1e-6, 1000), "least distance between floes, and of floes from what is kept clear",
+            &FieldInput::field, &FloeField::gap),
      member("most_corners", "", from(3, 32),
             "of a floe; floes are convex; 8 with floe_size_m and 16 with sizes if not given",
             &FieldInput::most_corners),
@@ -73,10 +67,9 @@ const Description<FieldInput> kField{
             "with sizes: concentration between the holes, which floes of the same sizes would fill; if not "
             "given, 0.75, but no more than twice the concentration, nor less than that",
             &FieldInput::packing),
-     member(
-         "keep_clear_m", "m", coordinate(),
-         "regions no floe may reach into; ships, structures and walls are kept clear without being asked for",
-         &FieldInput::keep_clear),
+     member("keep_clear_m", "m", coordinate(),
+            "regions no floe may reach into; ships, structures and walls are kept clear without being asked for",
+            &FieldInput::keep_clear),
      member("seed", "", from(0, kLargestSeed), "another one gives another field; the scene's seed is added",
             &FieldInput::field, &FloeField::seed)},
     {"rectangle", "outline", "channel"}};
@@ -90,17 +83,14 @@ const Description<LatticeInput> kLattice{
                  member("pitch_m", "m", from(0.01, 1e5),
                         "from one floe's centre to the next; each floe stands in the middle of its cell",
                         &LatticeInput::pitch))),
-     required(
-         as(FieldKind::kNumberOrVector, member("size_m", "m", from(0.01, 1e5),
-                                               "sides of a floe, at most the pitch", &LatticeInput::size)))}};
+     required(as(FieldKind::kNumberOrVector,
+                 member("size_m", "m", from(0.01, 1e5), "sides of a floe, at most the pitch", &LatticeInput::size)))}};
 
 const Description<RectangleInput> kRectangle{
     {required(member("corner_m", "m", coordinate(), "corner with the least x and y before it is turned",
                      &RectangleInput::corner)),
-     required(as(FieldKind::kNumberOrVector,
-                 member("size_m", "m", from(0.01, 1e5), "sides", &RectangleInput::size))),
-     member("angle_deg", "°", from(-360, 360), "turned about that corner, counter-clockwise",
-            &RectangleInput::angle)}};
+     required(as(FieldKind::kNumberOrVector, member("size_m", "m", from(0.01, 1e5), "sides", &RectangleInput::size))),
+     member("angle_deg", "°", from(-360, 360), "turned about that corner, counter-clockwise", &RectangleInput::angle)}};
 
 const Description<Polygon> kPolygon{
     {required(member("outer_m", "m", coordinate(), "outer boundary; it may run either way and may be closed",
@@ -109,22 +99,18 @@ const Description<Polygon> kPolygon{
 
 using Repair = std::optional<geometry::FillRule>;
 const Description<FileImport> kImport{
-    {member("from", "", {}, "the file's coordinate system, where the file names none: EPSG:4326",
-            &FileImport::settings, &ImportSettings::plane, &PlaneSettings::source),
-     member("crs", "", {},
-            "the projected system whose plane is the scene's: EPSG:3413; of scenes without an origin",
+    {member("from", "", {}, "the file's coordinate system, where the file names none: EPSG:4326", &FileImport::settings,
+            &ImportSettings::plane, &PlaneSettings::source),
+     member("crs", "", {}, "the projected system whose plane is the scene's: EPSG:3413; of scenes without an origin",
             &FileImport::settings, &ImportSettings::plane, &PlaneSettings::target),
-     member("shift", "", {}, "moves the middle of the floes' box to (0, 0), by whole metres",
-            &FileImport::settings, &ImportSettings::plane, &PlaneSettings::is_shifted),
-     choice<Repair>("repair",
-                    "what becomes of outlines that are not valid: refused, or made of what a rule fills",
-                    {{"refuse", Repair{}},
-                     {"even-odd", geometry::FillRule::kEvenOdd},
-                     {"non-zero", geometry::FillRule::kNonZero}},
-                    &FileImport::settings, &ImportSettings::repair),
-     member("simplify_m", "m", from(0, 1e4),
-            "leaves out vertices, each at most so far from the outline that is left", &FileImport::settings,
-            &ImportSettings::simplify),
+     member("shift", "", {}, "moves the middle of the floes' box to (0, 0), by whole metres", &FileImport::settings,
+            &ImportSettings::plane, &PlaneSettings::is_shifted),
+     choice<Repair>(
+         "repair", "what becomes of outlines that are not valid: refused, or made of what a rule fills",
+         {{"refuse", Repair{}}, {"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}},
+         &FileImport::settings, &ImportSettings::repair),
+     member("simplify_m", "m", from(0, 1e4), "leaves out vertices, each at most so far from the outline that is left",
+            &FileImport::settings, &ImportSettings::simplify),
      member("min_area_m2", "m²", from(0, 1e12), "drops smaller floes", &FileImport::settings,
             &ImportSettings::least_area),
      member("gap_m", "m", from(0, 1000), "least distance between floes: the smaller of two is trimmed to it",
@@ -136,8 +122,7 @@ const Description<FileImport> kImport{
 
 using fracture::ScatterKind;
 const Description<LawInput> kLaw{
-    {choice<ScatterKind>("law",
-                         "constant; uniform between least and most; normal or log_normal, cut off at them",
+    {choice<ScatterKind>("law", "constant; uniform between least and most; normal or log_normal, cut off at them",
                          {{"constant", ScatterKind::kConstant},
                           {"uniform", ScatterKind::kUniform},
                           {"normal", ScatterKind::kNormal},
@@ -153,16 +138,13 @@ const Description<LawInput> kLaw{
      member("most", "", {}, "no floe has more; likewise", &LawInput::most)}};
 
 /// A property that floe files have too, by its number there: a number, or the law that it is drawn by.
-FieldOf<IceInput> property(std::size_t index, std::string_view meaning,
-                           std::optional<NumberOrLaw> IceInput::*place) {
+FieldOf<IceInput> property(std::size_t index, std::string_view meaning, std::optional<NumberOrLaw> IceInput::*place) {
   const FloeProperty& in_file = floe_properties()[index];
   FieldOf<IceInput> field = object(in_file.key, kLaw, meaning, place);
   field.kind = FieldKind::kNumberOrLaw;
   field.unit = in_file.unit;
   field.range = from(in_file.low, in_file.high);
-  field.set = [place](void* record, const JsonValue& json) {
-    static_cast<IceInput*>(record)->*place = json.number();
-  };
+  field.set = [place](void* record, const JsonValue& json) { static_cast<IceInput*>(record)->*place = json.number(); };
   field.get = [place](const void* record) -> std::optional<JsonValue> {
     const double* found = place::find<double>(*static_cast<const IceInput*>(record), place);
     return found ? std::optional(JsonValue{*found}) : std::nullopt;
@@ -174,41 +156,36 @@ const Description<IceInput> kOwnIce{
     {property(0, "thickness h", &IceInput::thickness),
      property(1, "density ρ_i, less than the water's", &IceInput::density),
      property(2, "flexural strength σ_f", &IceInput::flexural_strength),
-     property(3, "compressive strength σ_c; of two floes the weaker ice crushes",
-              &IceInput::compressive_strength),
+     property(3, "compressive strength σ_c; of two floes the weaker ice crushes", &IceInput::compressive_strength),
      property(4, "tensile strength σ_t", &IceInput::tensile_strength),
      property(5, "fracture toughness K_IC", &IceInput::fracture_toughness),
-     member("seed", "", from(0, kLargestSeed),
-            "another one draws other floes' ice; the scene's seed is added", &IceInput::seed)}};
+     member("seed", "", from(0, kLargestSeed), "another one draws other floes' ice; the scene's seed is added",
+            &IceInput::seed)}};
 
 template <class Form>
-FieldOf<FloeGroup> form(std::string_view key, const Description<Form>& description,
-                        std::string_view meaning) {
+FieldOf<FloeGroup> form(std::string_view key, const Description<Form>& description, std::string_view meaning) {
   return of(key, required(object(key, description, meaning, &FloeGroup::form)));
 }
 
 const Description<FloeGroup> kFloeGroup{
-    {form("lattice", kLattice, "rows and columns of equal rectangles"),
-     form("rectangle", kRectangle, "one rectangle"), form("polygon", kPolygon, "one polygon, with holes"),
+    {form("lattice", kLattice, "rows and columns of equal rectangles"), form("rectangle", kRectangle, "one rectangle"),
+     form("polygon", kPolygon, "one polygon, with holes"),
      form("field", kField, "random convex floes at a concentration"),
-     of("file",
-        required(member("file", "", {},
-                        "a floe file in the scene's folder or below: GeoJSON in metres, in longitude and "
-                        "latitude or with "
-                        "a crs; shapefile, GeoPackage, FlatGeobuf; a run's final.geojson (docs/import.md)",
-                        &FloeGroup::form, &FileInput::name))),
-     of("file",
-        object("import", kImport, "repairs, simplifies and trims the file's floes as `polynya import` does",
-               &FloeGroup::form, &FileInput::import)),
+     of("file", required(member("file", "", {},
+                                "a floe file in the scene's folder or below: GeoJSON in metres, in longitude and "
+                                "latitude or with "
+                                "a crs; shapefile, GeoPackage, FlatGeobuf; a run's final.geojson (docs/import.md)",
+                                &FloeGroup::form, &FileInput::name))),
+     of("file", object("import", kImport, "repairs, simplifies and trims the file's floes as `polynya import` does",
+                       &FloeGroup::form, &FileInput::import)),
      member("fast_ice", "", {},
             "held whatever pushes it, at its velocity, which is then over ground; of its pieces, the largest "
             "stays fast",
             &FloeGroup::is_fast),
-     member("velocity_m_per_s", "m/s", from(-20, 20),
-            "of the centre of mass relative to the water there, at the start", &FloeGroup::velocity),
+     member("velocity_m_per_s", "m/s", from(-20, 20), "of the centre of mass relative to the water there, at the start",
+            &FloeGroup::velocity),
      member("angular_velocity_deg_per_s", "°/s", from(-360, 360),
-            "counter-clockwise, at the start; a shear's own turning comes on top",
-            &FloeGroup::angular_velocity),
+            "counter-clockwise, at the start; a shear's own turning comes on top", &FloeGroup::angular_velocity),
      object("ice", kOwnIce,
             "what of their ice is not the scene's: given, or drawn floe by floe; pieces have their floe's",
             &FloeGroup::ice),
@@ -217,8 +194,7 @@ const Description<FloeGroup> kFloeGroup{
             "there; of a run's floe file without being asked for",
             &FloeGroup::has_crushed_overlaps),
      member("source_floe_id", "", from(0, kLargestSeed),
-            "the floe_id that it has in the file it is from; written beside its own",
-            &FloeGroup::source_floe)},
+            "the floe_id that it has in the file it is from; written beside its own", &FloeGroup::source_floe)},
     {"lattice", "rectangle", "polygon", "field", "file"}};
 
 }  // namespace

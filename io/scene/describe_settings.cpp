@@ -16,8 +16,7 @@ const Description<GeographicOrigin> kOrigin{
                      &GeographicOrigin::latitude)),
      required(member("longitude_deg", "°", from(-180, 180), "east positive", &GeographicOrigin::longitude)),
      member("heading_deg", "°", from(-360, 360),
-            "of the scene's x axis from true north, clockwise; 90: x is east, y north",
-            &GeographicOrigin::heading)}};
+            "of the scene's x axis from true north, clockwise; 90: x is east, y north", &GeographicOrigin::heading)}};
 
 const Description<StepSettings> kTime{
     {member("step_s", "s", from(1e-5, 1), "time step Δt", &StepSettings::step),
@@ -41,8 +40,7 @@ const Description<WaterSettings> kWater{
          "drag_area",
          "A of Eq. (6): thickness times the floe's width across its motion, or its area in plan (the reading "
          "under which the paper's voyages come out: docs/paper-comparison.md)",
-         {{"edge", dynamics::DragArea::kEdge}, {"plan", dynamics::DragArea::kPlan}},
-         &WaterSettings::drag_area),
+         {{"edge", dynamics::DragArea::kEdge}, {"plan", dynamics::DragArea::kPlan}}, &WaterSettings::drag_area),
      member("skin_drag_coefficient", "", from(0, 1),
             "C_w, of a floe's area in plan, beside Eq. (6); if not given, 0.004 where a wind blows",
             &WaterSettings::skin_drag_coefficient),
@@ -60,25 +58,19 @@ const Description<dynamics::Wind> kWind{
      member("air_density_kg_per_m3", "kg/m³", from(0, 10), "ρ_a", &dynamics::Wind::density)}};
 
 const Description<Ice> kIce{
-    {member("thickness_m", "m", from(1e-3, 20), "thickness h, of every floe without one of its own",
-            &Ice::thickness),
-     member("density_kg_per_m3", "kg/m³", from(100, 1100), "density ρ_i, less than the water's",
-            &Ice::density),
+    {member("thickness_m", "m", from(1e-3, 20), "thickness h, of every floe without one of its own", &Ice::thickness),
+     member("density_kg_per_m3", "kg/m³", from(100, 1100), "density ρ_i, less than the water's", &Ice::density),
      member("youngs_modulus_Pa", "Pa", from(1e6, 1e12), "Young's modulus E", &Ice::youngs_modulus),
-     member("poisson_ratio", "", below(0, 0.5), "Poisson's ratio ν (the paper gives none)",
-            &Ice::poisson_ratio),
+     member("poisson_ratio", "", below(0, 0.5), "Poisson's ratio ν (the paper gives none)", &Ice::poisson_ratio),
      member("flexural_strength_Pa", "Pa", from(1, 1e9), "flexural strength σ_f", &Ice::flexural_strength),
-     member("compressive_strength_Pa", "Pa", from(1, 1e10), "compressive strength σ_c",
-            &Ice::compressive_strength),
+     member("compressive_strength_Pa", "Pa", from(1, 1e10), "compressive strength σ_c", &Ice::compressive_strength),
      member("tensile_strength_Pa", "Pa", from(1, 1e9), "tensile strength σ_t", &Ice::tensile_strength),
-     member("fracture_toughness_Pa_sqrt_m", "Pa √m", from(1, 1e9),
-            "fracture toughness K_IC, for splitting by lefm", &Ice::fracture_toughness),
-     member("friction", "", from(0, 2), "friction coefficient μ, hull on ice and ice on ice",
-            &Ice::friction)}};
+     member("fracture_toughness_Pa_sqrt_m", "Pa √m", from(1, 1e9), "fracture toughness K_IC, for splitting by lefm",
+            &Ice::fracture_toughness),
+     member("friction", "", from(0, 2), "friction coefficient μ, hull on ice and ice on ice", &Ice::friction)}};
 
 const Description<ContactSettings> kContact{
-    {member("circle_radius_m", "m", from(0.01, 100), "radius of the contact circles",
-            &ContactSettings::circle_radius),
+    {member("circle_radius_m", "m", from(0.01, 100), "radius of the contact circles", &ContactSettings::circle_radius),
      choice<ContactNormal>(
          "normal",
          "how a contact's normal is found: from the boundary pieces the touching circles stand for, or along "
@@ -88,12 +80,11 @@ const Description<ContactSettings> kContact{
      choice<ContactLaw>("law",
                         "how bodies push each other apart: what crushing ice carries, or the paper's rigid "
                         "impulses, Eq. (5)",
-                        {{"crush", ContactLaw::kCrush}, {"impulse", ContactLaw::kImpulse}},
-                        &ContactSettings::law),
+                        {{"crush", ContactLaw::kCrush}, {"impulse", ContactLaw::kImpulse}}, &ContactSettings::law),
      member("substeps", "", from(1, 64), "of law crush: parts of a step, solved one after the other",
             &ContactSettings::substeps),
-     member("tolerance_m_per_s", "m/s", from(1e-9, 0.1),
-            "of law crush: largest violation of the law that is left", &ContactSettings::tolerance),
+     member("tolerance_m_per_s", "m/s", from(1e-9, 0.1), "of law crush: largest violation of the law that is left",
+            &ContactSettings::tolerance),
      choice<bool>("start",
                   "of law crush: the impulses that the solver starts from, those of the step before or none; "
                   "the solution does not depend on it",
@@ -105,8 +96,7 @@ const Description<ContactSettings> kContact{
             "otherwise)",
             &ContactSettings::contact_time),
      member("separation_time_s", "s", from(1e-3, 1e4),
-            "time over which overlap that nothing presses together any more decays",
-            &ContactSettings::separation_time),
+            "time over which overlap that nothing presses together any more decays", &ContactSettings::separation_time),
      member("iterations", "", from(1, 10000),
             "most sweeps of the contact solver over bodies in touch, in a step or substep",
             &ContactSettings::iterations)}};
@@ -121,8 +111,7 @@ const Description<FractureSettings> kBending{
          "radial_cracks",
          "of model fsi-database: whether the crack that opens below a wide wedge before its cusp breaks "
          "splits the wedge, or is ignored",
-         {{"split", RadialCracks::kSplitWedge}, {"ignored", RadialCracks::kIgnored}},
-         &FractureSettings::radial_cracks),
+         {{"split", RadialCracks::kSplitWedge}, {"ignored", RadialCracks::kIgnored}}, &FractureSettings::radial_cracks),
      choice<bool>("deflection",
                   "of contact law crush: whether ice that bends under a hull recedes from it, so "
                   "that the hull comes farther before a cusp breaks, or only crushes until then",
@@ -138,27 +127,24 @@ const Description<FractureSettings> kSplitting{
          "what splits a floe: lefm, the true forces of ships, structures and floes that open a crack, by "
          "linear elastic fracture mechanics; michel, the paper's j/τ_c against Eq. (4), F_s = n L h σ_t; "
          "none, nothing",
-         {{"lefm", SplittingModel::kLefm},
-          {"michel", SplittingModel::kMichel},
-          {"none", SplittingModel::kNone}},
+         {{"lefm", SplittingModel::kLefm}, {"michel", SplittingModel::kMichel}, {"none", SplittingModel::kNone}},
          &FractureSettings::splitting),
      member("shape_factor", "", above(0, 100), "n of Eq. (4)", &FractureSettings::splitting_shape_factor),
      member("least_piece_width_over_l", "", from(0, 1000),
             "a crack that leaves ice narrower than this on either side (area over the crack's length) does "
             "not run: it would pare the floe's edge; l = (D/ρ_w g)^¼",
             &FractureSettings::least_piece, &fracture::LeastPiece::width_over_l),
-     member("least_piece_area_over_l2", "", from(0, 1e6), "the same of its area, by l²",
-            &FractureSettings::least_piece, &fracture::LeastPiece::area_over_l2)}};
+     member("least_piece_area_over_l2", "", from(0, 1e6), "the same of its area, by l²", &FractureSettings::least_piece,
+            &fracture::LeastPiece::area_over_l2)}};
 
 using fracture::TiltSettings;
 const Description<GoingUnderSettings> kGoingUnder{
     {member("enabled", "", {}, "whether floes tilt and go under; if not given, where a ship has a draught",
             &GoingUnderSettings::is_enabled),
      member("added_mass_factor", "", from(0, 10),
-            "c_a, of the water's mass that tilts with a floe; 1: a disc's in heave",
-            &GoingUnderSettings::tilting, &TiltSettings::added_mass_factor),
-     member("damping", "", from(0, 10), "ζ, of the tilting", &GoingUnderSettings::tilting,
-            &TiltSettings::damping),
+            "c_a, of the water's mass that tilts with a floe; 1: a disc's in heave", &GoingUnderSettings::tilting,
+            &TiltSettings::added_mass_factor),
+     member("damping", "", from(0, 10), "ζ, of the tilting", &GoingUnderSettings::tilting, &TiltSettings::damping),
      member("edge_deflection_over_thickness", "", above(0, 10),
             "c_g: a floe goes under when its edge is pressed down by this times its thickness",
             &GoingUnderSettings::tilting, &TiltSettings::edge_deflection)}};
@@ -166,8 +152,7 @@ const Description<GoingUnderSettings> kGoingUnder{
 const Description<ResurfaceSettings> kResurface{
     {member("enabled", "", {}, "whether ice comes up behind the hull; if not given, where any goes under",
             &ResurfaceSettings::is_enabled),
-     member("retry_s", "s", above(0, 1e4), "time between two tries where there is no room",
-            &ResurfaceSettings::retry),
+     member("retry_s", "s", above(0, 1e4), "time between two tries where there is no room", &ResurfaceSettings::retry),
      member("give_up_s", "s", from(0, 1e6), "time without room after which a piece stays under the ice",
             &ResurfaceSettings::give_up),
      member("rim_loss", "", below(0, 1), "share of a piece's area that became brash, evenly off its rim",
@@ -182,21 +167,16 @@ const Description<FractureSettings> kFracture{
          "characteristic_length",
          "how Eq. (7) is read: (D/ρ_w g)^¼, a length, or as the paper prints it, (D/ρ_w g)^½, whose unit "
          "is m² (the paper's story needs that number: docs/paper-comparison.md)",
-         {{"fourth_root", CharacteristicLength::kFourthRoot},
-          {"as_printed", CharacteristicLength::kAsPrinted}},
+         {{"fourth_root", CharacteristicLength::kFourthRoot}, {"as_printed", CharacteristicLength::kAsPrinted}},
          &FractureSettings::characteristic_length),
-     member("breakable_size_factor", "", from(0, 1000),
-            "κ: floes with √area < κ l are pushed away, never broken",
+     member("breakable_size_factor", "", from(0, 1000), "κ: floes with √area < κ l are pushed away, never broken",
             &FractureSettings::breakable_size_factor),
-     object("bending", kBending, "failure by bending"),
-     object("splitting", kSplitting, "failure by splitting"),
+     object("bending", kBending, "failure by bending"), object("splitting", kSplitting, "failure by splitting"),
      choice<CuspFate>(
          "cusp_fate",
          "what becomes of a broken cusp: it goes under the hull and comes up behind it (if not given, where "
          "a ship has a draught), it is gone (the paper), or it floats as a floe",
-         {{"under_hull", CuspFate::kUnderHull},
-          {"submerge", CuspFate::kSubmerge},
-          {"float", CuspFate::kFloat}},
+         {{"under_hull", CuspFate::kUnderHull}, {"submerge", CuspFate::kSubmerge}, {"float", CuspFate::kFloat}},
          &FractureSettings::cusp_fate),
      object("going_under", kGoingUnder, "floes that a hull with a draught presses under",
             &FractureSettings::going_under),
@@ -204,26 +184,21 @@ const Description<FractureSettings> kFracture{
      member("cusp_sagitta_m", "m", from(1e-4, 1), "a cusp's polygon stays this close to its circle",
             &FractureSettings::cusp_sagitta),
      member("smallest_floe_m2", "m²", from(kLeastFloeArea, 1e6),
-            "smaller pieces leave the floe list and are counted as brash",
-            &FractureSettings::smallest_floe_area)}};
+            "smaller pieces leave the floe list and are counted as brash", &FractureSettings::smallest_floe_area)}};
 
 const Description<RecordSettings> kRecord{
-    {member("forces_interval_s", "s", above(0, 1e6), "between rows of forces.csv",
-            &RecordSettings::forces_interval),
-     member("frames_interval_s", "s", above(0, 1e6), "between frames of frames.bin",
-            &RecordSettings::frames_interval),
+    {member("forces_interval_s", "s", above(0, 1e6), "between rows of forces.csv", &RecordSettings::forces_interval),
+     member("frames_interval_s", "s", above(0, 1e6), "between frames of frames.bin", &RecordSettings::frames_interval),
      choice<RecordedContacts>(
          "contacts",
          "which contacts contacts.csv has at every frame: those with ships and structures, those between "
          "floes too, none",
-         {{"ships", RecordedContacts::kShips},
-          {"all", RecordedContacts::kAll},
-          {"none", RecordedContacts::kNone}},
+         {{"ships", RecordedContacts::kShips}, {"all", RecordedContacts::kAll}, {"none", RecordedContacts::kNone}},
          &RecordSettings::contacts)}};
 
 const Description<SceneInput> kScene{
-    {as(FieldKind::kName, member("name", "", {}, "names the run folder; if left out, the scene file's name",
-                                 &SceneInput::name)),
+    {as(FieldKind::kName,
+        member("name", "", {}, "names the run folder; if left out, the scene file's name", &SceneInput::name)),
      member("description", "", {}, "for people", &SceneInput::description),
      member("seed", "", from(0, kLargestSeed),
             "of whatever is random: floe fields, ice that scatters, where ice comes up", &SceneInput::scene,
@@ -240,8 +215,7 @@ const Description<SceneInput> kScene{
      object("fracture", kFracture, "", &SceneInput::scene, &Scene::fracture),
      object("record", kRecord, "", &SceneInput::scene, &Scene::record),
      list_of<SceneInput>("ships", 100, "the ships", ship_description()),
-     list_of<SceneInput>("structures", 100, "what stands in the ice and does not move",
-                         structure_description()),
+     list_of<SceneInput>("structures", 100, "what stands in the ice and does not move", structure_description()),
      list_of<SceneInput>("walls", 100, "straight boundaries that ice cannot pass, and that may press on it",
                          wall_description()),
      list_of<SceneInput>("floes", kLargestCount, "the ice, in groups", floes_description())}};

@@ -9,13 +9,12 @@ using dynamics::Engine;
 using namespace simulation;
 
 const Description<ShipInput> kHull{
-    {of("wedge bow", required(member("length_m", "m", from(0.1, 1000), "length of the waterline",
-                                     &ShipInput::form, &WedgeBow::length))),
-     of("wedge bow", required(member("beam_m", "m", from(0.1, 1000), "beam of the waterline",
-                                     &ShipInput::form, &WedgeBow::beam))),
+    {of("wedge bow", required(member("length_m", "m", from(0.1, 1000), "length of the waterline", &ShipInput::form,
+                                     &WedgeBow::length))),
      of("wedge bow",
-        required(member("entrance_angle_deg", "°", from(1, 89), "of each bow flank from the centreline",
-                        &ShipInput::form, &WedgeBow::entrance_angle))),
+        required(member("beam_m", "m", from(0.1, 1000), "beam of the waterline", &ShipInput::form, &WedgeBow::beam))),
+     of("wedge bow", required(member("entrance_angle_deg", "°", from(1, 89), "of each bow flank from the centreline",
+                                     &ShipInput::form, &WedgeBow::entrance_angle))),
      of("outline",
         required(member("waterline_m", "m", from(-1000, 1000),
                         "the waterline in the ship's frame: origin at the centre of gravity, x forward, y to "
@@ -25,28 +24,26 @@ const Description<ShipInput> kHull{
                           "the hull's inclination from the vertical at each vertex of the waterline; empty: "
                           "from the stem angle",
                           &ShipInput::form, &HullOutline::angles_from_vertical)),
-     member("stem_angle_deg", "°", from(1, 90), "φ, of the stem from the horizontal", &ShipInput::spec,
-            &Ship::hull, &Hull::stem_angle),
+     member("stem_angle_deg", "°", from(1, 90), "φ, of the stem from the horizontal", &ShipInput::spec, &Ship::hull,
+            &Hull::stem_angle),
      left_out(member("draught_m", "m", above(0, 1000),
-                     "T: ice goes under the hull and comes up behind it; without it none does",
-                     &ShipInput::spec, &Ship::hull, &Hull::draught)),
+                     "T: ice goes under the hull and comes up behind it; without it none does", &ShipInput::spec,
+                     &Ship::hull, &Hull::draught)),
      left_out(member("block_coefficient", "", from(0.2, 1),
-                     "C_B, displaced volume over length, beam and draught; if not given, by the mass",
-                     &ShipInput::spec, &Ship::water, &HullWaterSettings::block_coefficient)),
+                     "C_B, displaced volume over length, beam and draught; if not given, by the mass", &ShipInput::spec,
+                     &Ship::water, &HullWaterSettings::block_coefficient)),
      choice<bool>("submersion_speed_factor",
                   "how the load of ice under the hull grows with speed: by 1 + 9.4 v/√(gL), or not",
-                  {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull,
-                  &Hull::has_speed_factor)},
+                  {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull, &Hull::has_speed_factor)},
     {"wedge bow", "outline"}};
 
 const Description<EngineInput> kEngine{
     {required(member("open_water_speed_m_per_s", "m/s", above(0, 30),
                      "v_ow, full ahead in open water: the net thrust is nil there", &EngineInput::engine,
                      &Engine::open_water_speed)),
-     left_out(
-         member("bollard_pull_kN", "kN", above(0, 1e5),
-                "T_B, at rest, full ahead, of all propellers; if not given, by power, diameter and number",
-                &EngineInput::engine, &Engine::bollard_pull)),
+     left_out(member("bollard_pull_kN", "kN", above(0, 1e5),
+                     "T_B, at rest, full ahead, of all propellers; if not given, by power, diameter and number",
+                     &EngineInput::engine, &Engine::bollard_pull)),
      left_out(member("power_MW", "MW", above(0, 1000), "installed, of all propellers", &EngineInput::engine,
                      &Engine::power)),
      left_out(member("propeller_diameter_m", "m", above(0, 50),
@@ -57,8 +54,8 @@ const Description<EngineInput> kEngine{
             &EngineInput::has_nozzles),
      member("astern_share", "", from(0, 1), "of the bollard pull, full astern", &EngineInput::engine,
             &Engine::astern_share),
-     member("lever_rate_per_s", "1/s", above(0, 10), "of the thrust lever; 1 is full ahead",
-            &EngineInput::engine, &Engine::lever_rate)}};
+     member("lever_rate_per_s", "1/s", above(0, 10), "of the thrust lever; 1 is full ahead", &EngineInput::engine,
+            &Engine::lever_rate)}};
 
 const Description<ShipInput> kPropulsion{
     {of("thrust", required(member("thrust_N", "N", from(-1e9, 1e9), "constant thrust along the heading",
@@ -68,8 +65,7 @@ const Description<ShipInput> kPropulsion{
                         "velocity over ground and heading are held; the forces reported are what it takes to "
                         "hold them",
                         &ShipInput::propulsion, &ConstantSpeed::speed))),
-     of("engine",
-        required(object("engine", kEngine, "propellers, and what drives them", &ShipInput::propulsion)))},
+     of("engine", required(object("engine", kEngine, "propellers, and what drives them", &ShipInput::propulsion)))},
     {"thrust", "constant speed", "engine"}};
 
 const Description<HullWaterSettings> kHullWater{
@@ -98,10 +94,8 @@ const Description<AzimuthSettings> kAzimuth{
      member("max_deg", "°", from(0, 180), "to either side", &AzimuthSettings::most)}};
 
 const Description<Steering> kSteering{
-    {of("rudder",
-        required(object<Steering>("rudder", kRudder, "at the stern, in the race of the propellers"))),
-     of("azimuth",
-        required(object<Steering>("azimuth", kAzimuth, "thrusters at the stern that turn all thrust")))},
+    {of("rudder", required(object<Steering>("rudder", kRudder, "at the stern, in the race of the propellers"))),
+     of("azimuth", required(object<Steering>("azimuth", kAzimuth, "thrusters at the stern that turn all thrust")))},
     {"rudder", "azimuth"}};
 
 FieldOf<MooringInput> stiffness(std::string_view key, std::string_view unit, std::string_view meaning,
@@ -110,8 +104,7 @@ FieldOf<MooringInput> stiffness(std::string_view key, std::string_view unit, std
 }
 
 const Description<MooringInput> kMooring{
-    {stiffness("surge_stiffness_N_per_m", "N/m", "along the moored heading",
-               &MooringSettings::surge_stiffness),
+    {stiffness("surge_stiffness_N_per_m", "N/m", "along the moored heading", &MooringSettings::surge_stiffness),
      stiffness("sway_stiffness_N_per_m", "N/m", "across it", &MooringSettings::sway_stiffness),
      stiffness("yaw_stiffness_Nm_per_rad", "N m/rad", "against a turn", &MooringSettings::yaw_stiffness),
      stiffness("surge_damping_N_s_per_m", "N s/m", "along the moored heading, over ground",
@@ -119,8 +112,8 @@ const Description<MooringInput> kMooring{
      stiffness("sway_damping_N_s_per_m", "N s/m", "across it", &MooringSettings::sway_damping),
      stiffness("yaw_damping_Nm_s_per_rad", "N m s/rad", "against a turn", &MooringSettings::yaw_damping),
      left_out(member("break_load_N", "N", above(0, 1e12),
-                     "horizontal force at which it breaks for good; without it never",
-                     &MooringInput::settings, &MooringSettings::break_load)),
+                     "horizontal force at which it breaks for good; without it never", &MooringInput::settings,
+                     &MooringSettings::break_load)),
      member("position_m", "m", coordinate(),
             "of the centre of gravity where nothing pulls; if not given, where the ship is at the start",
             &MooringInput::position),
@@ -152,20 +145,18 @@ const Description<HeadingPilot> kHoldHeading{{heading(&HeadingPilot::heading), l
 
 const Description<Waypoint> kWaypoint{
     {required(member("position_m", "m", coordinate(), "over ground", &Waypoint::position_in_world)),
-     required(member("speed_m_per_s", "m/s", above(0, 20), "on the leg to it, through the water",
-                     &Waypoint::speed))}};
+     required(member("speed_m_per_s", "m/s", above(0, 20), "on the leg to it, through the water", &Waypoint::speed))}};
 
 const Description<RoutePilot> kRoute{
     {required(list("waypoints", from(1, 1000), "in their order; the ship stops after the last", kWaypoint,
                    &RoutePilot::waypoints)),
      member("look_ahead_lengths", "", above(0, 100), "how far ahead on the leg it steers to, of its length",
             &RoutePilot::look_ahead),
-     member("arrival_lengths", "", above(0, 100),
-            "a waypoint is reached this near to it, of the ship's length", &RoutePilot::arrival)}};
+     member("arrival_lengths", "", above(0, 100), "a waypoint is reached this near to it, of the ship's length",
+            &RoutePilot::arrival)}};
 
-const Description<TableRow> kRow{
-    {required(member("t_s", "s", from(0, 1e7), "when; ascending", &TableRow::time)),
-     required(lever(&TableRow::lever)), steering_angle(&TableRow::steering_angle)}};
+const Description<TableRow> kRow{{required(member("t_s", "s", from(0, 1e7), "when; ascending", &TableRow::time)),
+                                  required(lever(&TableRow::lever)), steering_angle(&TableRow::steering_angle)}};
 
 const Description<TablePilot> kTable{
     {required(list("rows", from(1, 10000), "linear between them", kRow, &TablePilot::rows))}};
@@ -174,20 +165,17 @@ const Description<RammingPilot> kRam{
     {heading(&RammingPilot::heading),
      member("lever_ahead", "", above(0, 1), "when it charges", &RammingPilot::lever_ahead),
      member("lever_astern", "", below(-1, 0), "when it backs", &RammingPilot::lever_astern),
-     member("stuck_speed_m_per_s", "m/s", above(0, 20), "slower over ground is stuck",
-            &RammingPilot::stuck_speed),
+     member("stuck_speed_m_per_s", "m/s", above(0, 20), "slower over ground is stuck", &RammingPilot::stuck_speed),
      member("stuck_s", "s", above(0, 1e5), "for so long", &RammingPilot::stuck_time),
      left_out(member("back_m", "m", above(0, 1e5), "how far it backs; if not given, its own length",
                      &RammingPilot::back_distance))}};
 
 const Description<FollowingPilot> kFollow{
     {required(as(FieldKind::kName, member("ship", "", {}, "its name", &FollowingPilot::ship))),
-     required(
-         member("distance_m", "m", above(0, 1e5), "from its stern to the stem", &FollowingPilot::distance))}};
+     required(member("distance_m", "m", above(0, 1e5), "from its stern to the stem", &FollowingPilot::distance))}};
 
 template <class Pilot>
-FieldOf<PilotSettings> pilot(std::string_view key, std::string_view meaning,
-                             const Description<Pilot>& description) {
+FieldOf<PilotSettings> pilot(std::string_view key, std::string_view meaning, const Description<Pilot>& description) {
   return of(key, required(object<PilotSettings>(key, description, meaning)));
 }
 
@@ -220,29 +208,24 @@ FieldOf<ShipInput> or_preset(FieldOf<ShipInput> field) {
 
 const Description<ShipInput> kShip{
     {preset(),
-     as(FieldKind::kName,
-        member("name", "", {}, "its name in the outputs; # is its number", &ShipInput::name)),
+     as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &ShipInput::name)),
      or_preset(object("hull", kHull, "the waterline, by its main dimensions or point by point")),
      left_out(member("mass_kg", "kg", from(1, 1e12),
                      "displacement; if not given, of the water that draught and block coefficient displace",
                      &ShipInput::spec, &Ship::mass)),
-     left_out(
-         member("moment_of_inertia_kg_m2", "kg m²", from(1e-3, 1e16),
-                "about the vertical through the centre of gravity; if not given, of a radius of gyration "
-                "of a quarter of the length",
-                &ShipInput::spec, &Ship::moment_of_inertia)),
-     member("position_m", "m", coordinate(),
-            "of the centre of gravity at the start (amidships for a wedge bow)", &ShipInput::spec,
-            &Ship::position_in_world),
+     left_out(member("moment_of_inertia_kg_m2", "kg m²", from(1e-3, 1e16),
+                     "about the vertical through the centre of gravity; if not given, of a radius of gyration "
+                     "of a quarter of the length",
+                     &ShipInput::spec, &Ship::moment_of_inertia)),
+     member("position_m", "m", coordinate(), "of the centre of gravity at the start (amidships for a wedge bow)",
+            &ShipInput::spec, &Ship::position_in_world),
      member("heading_deg", "°", from(-360, 360), "from the x axis, counter-clockwise", &ShipInput::spec,
             &Ship::heading),
      member("speed_m_per_s", "m/s", from(-20, 20),
-            "along the heading over ground at the start; of a ship at constant speed, that speed",
-            &ShipInput::spec, &Ship::speed),
-     member("sway_speed_m_per_s", "m/s", from(-20, 20), "to port over ground at the start",
-            &ShipInput::sway_speed),
-     member("yaw_rate_deg_per_s", "°/s", from(-90, 90), "counter-clockwise at the start",
-            &ShipInput::yaw_rate),
+            "along the heading over ground at the start; of a ship at constant speed, that speed", &ShipInput::spec,
+            &Ship::speed),
+     member("sway_speed_m_per_s", "m/s", from(-20, 20), "to port over ground at the start", &ShipInput::sway_speed),
+     member("yaw_rate_deg_per_s", "°/s", from(-90, 90), "counter-clockwise at the start", &ShipInput::yaw_rate),
      or_preset(object("propulsion", kPropulsion, "constant thrust, constant speed or an engine")),
      object("water", kHullWater, "", &ShipInput::spec, &Ship::water),
      object("steering", kSteering, "a rudder or thrusters that turn; needs an engine", &ShipInput::steering),
@@ -251,19 +234,16 @@ const Description<ShipInput> kShip{
      object("mooring", kMooring, "what holds the ship in its place", &ShipInput::mooring)}};
 
 const Description<StructureInput> kStructure{
-    {as(FieldKind::kName,
-        member("name", "", {}, "its name in the outputs; # is its number", &StructureInput::name)),
-     of("cylinder",
-        required(member("radius_m", "m", from(0.1, 1000), "of a cylinder or cone at the waterline",
-                        &StructureInput::form, &Cylinder::radius))),
-     of("outline",
-        required(member("waterline_m", "m", from(-1000, 1000), "the waterline in the structure's frame",
-                        &StructureInput::form, &HullOutline::waterline))),
-     member("position_m", "m", coordinate(), "of its frame's origin; moments are about it",
-            &StructureInput::spec, &Structure::position_in_world),
+    {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &StructureInput::name)),
+     of("cylinder", required(member("radius_m", "m", from(0.1, 1000), "of a cylinder or cone at the waterline",
+                                    &StructureInput::form, &Cylinder::radius))),
+     of("outline", required(member("waterline_m", "m", from(-1000, 1000), "the waterline in the structure's frame",
+                                   &StructureInput::form, &HullOutline::waterline))),
+     member("position_m", "m", coordinate(), "of its frame's origin; moments are about it", &StructureInput::spec,
+            &Structure::position_in_world),
      member("heading_deg", "°", from(-360, 360),
-            "of its frame, from the x axis, counter-clockwise; forces are in that frame",
-            &StructureInput::spec, &Structure::heading),
+            "of its frame, from the x axis, counter-clockwise; forces are in that frame", &StructureInput::spec,
+            &Structure::heading),
      member("wall_angle_deg", "°", below(0, 89),
             "inclination of its walls from the vertical, all around: 0 crushes the ice, more presses it down "
             "as a hull does",
@@ -276,22 +256,19 @@ const Description<WallPressure> kPressure{
                      "presses",
                      &WallPressure::line_load)),
      member("closing_speed_m_per_s", "m/s", above(0, 10),
-            "at which it closes where nothing bears; its damping is q over that speed",
-            &WallPressure::closing_speed),
+            "at which it closes where nothing bears; its damping is q over that speed", &WallPressure::closing_speed),
      member("mass_kg_per_m", "kg/m", from(1e3, 1e9),
             "of what moves with the wall; that of a kilometre of ice of half a metre",
             &WallPressure::mass_per_length)}};
 
 const Description<WallInput> kWall{
-    {as(FieldKind::kName,
-        member("name", "", {}, "its name in the outputs; # is its number", &WallInput::name)),
+    {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &WallInput::name)),
      required(member("from_m", "m", coordinate(),
-                     "an end of its face, which runs from here to to_m with the ice to its left",
-                     &WallInput::from)),
+                     "an end of its face, which runs from here to to_m with the ice to its left", &WallInput::from)),
      required(member("to_m", "m", coordinate(), "the other end", &WallInput::to)),
      member("depth_m", "m", from(0.5, 1000), "of its body, behind the face", &WallInput::depth),
-     member("velocity_m_per_s", "m/s", from(-20, 20),
-            "over ground, held whatever pushes it; if not given, it stands", &WallInput::velocity),
+     member("velocity_m_per_s", "m/s", from(-20, 20), "over ground, held whatever pushes it; if not given, it stands",
+            &WallInput::velocity),
      object("pressure", kPressure, "moves it along its normal instead, by a load that the ice is to bear",
             &WallInput::pressure)}};
 

@@ -58,12 +58,10 @@ ChannelRegion channel_region(const std::vector<Point>& line, double width) {
     to_port.push_back(mitre(before, after, 0.5 * width));
   }
   for (std::size_t i = 0; i < last; ++i) {
-    Ring part{line[i] - to_port[i], line[i + 1] - to_port[i + 1], line[i + 1] + to_port[i + 1],
-              line[i] + to_port[i]};
+    Ring part{line[i] - to_port[i], line[i + 1] - to_port[i + 1], line[i + 1] + to_port[i + 1], line[i] + to_port[i]};
     if (!is_convex(part) && region.too_sharp < 0)
       region.too_sharp = static_cast<int>(
-          i == 0 || (i < last - 1 && squared_length(to_port[i + 1]) > squared_length(to_port[i])) ? i + 1
-                                                                                                  : i);
+          i == 0 || (i < last - 1 && squared_length(to_port[i + 1]) > squared_length(to_port[i])) ? i + 1 : i);
     region.parts.push_back(std::move(part));
   }
   for (std::size_t i = 0; i <= last; ++i) region.outline.push_back(line[i] - to_port[i]);
@@ -73,8 +71,8 @@ ChannelRegion channel_region(const std::vector<Point>& line, double width) {
 
 class FieldReader {
  public:
-  FieldReader(FieldInput& input, const JsonValue& item, const std::string& path,
-              const simulation::Scene& scene, ProblemCollector& problems)
+  FieldReader(FieldInput& input, const JsonValue& item, const std::string& path, const simulation::Scene& scene,
+              ProblemCollector& problems)
       : input_(input), json_(*item.find("field")), path_(path), scene_(scene), problems_(problems) {}
 
   std::optional<FloeField> read() {
@@ -83,8 +81,7 @@ class FieldReader {
     choose_sizes();
     set_region();
     field_.seed += scene_.seed;
-    for (const geometry::Ring& clear : input_.keep_clear)
-      field_.kept_clear.push_back(in_house_notation({clear, {}}));
+    for (const geometry::Ring& clear : input_.keep_clear) field_.kept_clear.push_back(in_house_notation({clear, {}}));
     for (std::size_t i = 0; i < hull_count(scene_); ++i) {
       const simulation::PlacedHull& hull = hull_of(scene_, i);
       if (hull.hull.waterline.size() >= 3) field_.kept_clear.push_back(waterline_in_world(hull));
@@ -150,8 +147,7 @@ class FieldReader {
   }
 
   void complete_law() {
-    const double packing =
-        std::max(field_.concentration, std::min(kDefaultPacking, 2 * field_.concentration));
+    const double packing = std::max(field_.concentration, std::min(kDefaultPacking, 2 * field_.concentration));
     field_.aspect = input_.aspect.value_or(field_.aspect);
     field_.most_corners = filled_in(input_.most_corners, kCornersWithLaw);
     field_.least_corners = filled_in(input_.least_corners, field_.least_corners);
@@ -185,10 +181,10 @@ class FieldReader {
     }
     ChannelRegion region = channel_region(line, channel.width);
     if (region.too_sharp >= 0)
-      return report("centreline_m",
-                    fmt::format("a bend at point {} that is too sharp for {:g} m of width",
-                                region.too_sharp + 1, channel.width),
-                    "longer legs, wider angles or less width");
+      return report(
+          "centreline_m",
+          fmt::format("a bend at point {} that is too sharp for {:g} m of width", region.too_sharp + 1, channel.width),
+          "longer legs, wider angles or less width");
     field_.region = std::move(region.outline);
     field_.parts = std::move(region.parts);
   }
@@ -199,8 +195,7 @@ class FieldReader {
   }
   void check_rings() {
     if (!field_.is_rectangle)
-      check_ring(field_.region,
-                 std::holds_alternative<FieldOutline>(input_.region) ? "outline_m" : "centreline_m");
+      check_ring(field_.region, std::holds_alternative<FieldOutline>(input_.region) ? "outline_m" : "centreline_m");
     for (std::size_t i = 0; i < input_.keep_clear.size(); ++i)
       check_ring(field_.kept_clear[i].outer, fmt::format("keep_clear_m[{}]", i));
   }
@@ -220,13 +215,12 @@ class FieldReader {
     const double count = simulation::floe_count(field_);
     const double width = width_of_region();
     // The bounds of a power law are asked for; a log-normal law has none that a field would have to reach.
-    const double largest =
-        power ? power->largest : simulation::size_at(*field_.law, 1 - 0.5 / std::max(count, 1.0));
+    const double largest = power ? power->largest : simulation::size_at(*field_.law, 1 - 0.5 / std::max(count, 1.0));
     if (largest > width) {
       const std::string_view key = power ? "sizes.largest_m" : "sizes";
-      return report(key, fmt::format("floes of up to {:.4g} m in a region {:.4g} m across", largest, width),
-                    power ? fmt::format("at most {:.4g}, or a wider region", width)
-                          : "smaller floes, or a wider region");
+      return report(
+          key, fmt::format("floes of up to {:.4g} m in a region {:.4g} m across", largest, width),
+          power ? fmt::format("at most {:.4g}, or a wider region", width) : "smaller floes, or a wider region");
     }
   }
 
@@ -242,8 +236,7 @@ class FieldReader {
 std::string remedy(const FloeField& field, const simulation::FloeFieldOutcome& outcome) {
   const double reachable = outcome.reachable_concentration;
   if (!field.law) return fmt::format("at most {:.3g} with this gap_m", reachable);
-  const std::string most =
-      fmt::format("at most {:.3g} with these sizes", std::floor(1000 * reachable) / 1000);
+  const std::string most = fmt::format("at most {:.3g} with these sizes", std::floor(1000 * reachable) / 1000);
   const double room = outcome.reachable_without_gap - field.concentration;
   const double taken = outcome.reachable_without_gap - reachable;
   if (room > 0 && taken > 0)
@@ -262,13 +255,11 @@ bool check_cover(const FloeField& field, const simulation::FloeFieldOutcome& out
                  const std::string& path, ProblemCollector& problems) {
   const JsonValue& concentration = *item.find("field")->find("concentration");
   if (field.law && outcome.region_area <= 0) {
-    problems.report(0, item.offset, path, "no room: all of the region is kept clear",
-                    "a region with free water");
+    problems.report(0, item.offset, path, "no room: all of the region is kept clear", "a region with free water");
     return false;
   }
   if (outcome.reachable_concentration >= field.concentration) return true;
-  problems.report(0, concentration.offset, path + ".concentration", show(concentration),
-                  remedy(field, outcome));
+  problems.report(0, concentration.offset, path + ".concentration", show(concentration), remedy(field, outcome));
   return false;
 }
 

@@ -53,14 +53,11 @@ class GeojsonReader {
       }
       return;
     }
-    report(*type, path + ".type", show(*type),
-           "Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection");
+    report(*type, path + ".type", show(*type), "Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection");
   }
 
   /// Whether the features' area_m2 are those of their coordinates: then these are metres, however small.
-  bool has_own_areas() const {
-    return own_area_ > 0 && std::abs(own_area_ - evidence_.area) <= 1e-3 * evidence_.area;
-  }
+  bool has_own_areas() const { return own_area_ > 0 && std::abs(own_area_ - evidence_.area) <= 1e-3 * evidence_.area; }
 
   GeojsonFloes take() {
     floes.near_misses = near_misses_.found();
@@ -184,8 +181,8 @@ GeojsonFloes read_geojson(std::size_t source, const PropertyNames& names, Proble
 }
 
 std::string origin_in_scene(double latitude, double longitude) {
-  return fmt::format(R"("origin": {{"latitude_deg": {:.6g}, "longitude_deg": {:.6g}}} in the scene)",
-                     latitude, longitude);
+  return fmt::format(R"("origin": {{"latitude_deg": {:.6g}, "longitude_deg": {:.6g}}} in the scene)", latitude,
+                     longitude);
 }
 
 /// Words between commas.
@@ -243,15 +240,13 @@ class FloeFileReader {
                   : read_text_file(file, kLongestFloesFile);
   }
 
-  PlaneSettings plane_of(const GeojsonFloes& floes,
-                         const std::optional<simulation::GeographicOrigin>& origin) const {
+  PlaneSettings plane_of(const GeojsonFloes& floes, const std::optional<simulation::GeographicOrigin>& origin) const {
     PlaneSettings plane = import_.settings.plane;
     if (plane.target.empty()) plane.origin = origin;
     plane.are_metres = floes.are_metres;
     plane.origin_in_words = origin_in_scene;
-    plane.shift_in_words =
-        R"("import": {"shift": true} beside "file" moves them to the middle of the plane, )"
-        "an origin in the scene projects them about a place";
+    plane.shift_in_words = R"("import": {"shift": true} beside "file" moves them to the middle of the plane, )"
+                           "an origin in the scene projects them about a place";
     plane.source_in_words = R"("import": {"from": "EPSG:n"} beside "file" names it)";
     return plane;
   }
@@ -268,8 +263,8 @@ class FloeFileReader {
         if (!refused[i].empty()) report(floes, {i, refused[i]});
       result_.plane = std::move(*placed);
       for (std::size_t i = 0; i < sources.size(); ++i)
-        result_.floes.push_back({in_house_notation(std::move(sources[i].polygon)), sources[i].properties,
-                                 floes.polygons[i].offset});
+        result_.floes.push_back(
+            {in_house_notation(std::move(sources[i].polygon)), sources[i].properties, floes.polygons[i].offset});
       return;
     }
     ImportSettings settings = import_.settings;
@@ -313,11 +308,9 @@ class FloeFileReader {
 
 }  // namespace
 
-std::optional<FloeFile> read_floe_file(const std::filesystem::path& file,
-                                       const std::optional<FileImport>& import,
+std::optional<FloeFile> read_floe_file(const std::filesystem::path& file, const std::optional<FileImport>& import,
                                        const std::optional<simulation::GeographicOrigin>& origin,
-                                       const std::string& path, std::uint32_t offset,
-                                       ProblemCollector& problems) {
+                                       const std::string& path, std::uint32_t offset, ProblemCollector& problems) {
   return FloeFileReader(import, path, offset, problems).read(file, origin);
 }
 

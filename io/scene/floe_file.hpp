@@ -31,10 +31,8 @@ struct FloeFile {
 /// Reads a floe file of a scene: GeoJSON, or what GDAL converts (io/import/foreign_file.hpp), brought to the
 /// plane about the scene's origin. None where anything is wrong with it: then there are problems, of the file
 /// or of the entry's `file` at `offset` in the scene.
-std::optional<FloeFile> read_floe_file(const std::filesystem::path& file,
-                                       const std::optional<FileImport>& import,
+std::optional<FloeFile> read_floe_file(const std::filesystem::path& file, const std::optional<FileImport>& import,
                                        const std::optional<simulation::GeographicOrigin>& origin,
-                                       const std::string& path, std::uint32_t offset,
-                                       ProblemCollector& problems);
+                                       const std::string& path, std::uint32_t offset, ProblemCollector& problems);
 
 }  // namespace polynya::io

@@ -25,8 +25,7 @@ std::string word_of(const LawInput& law) {
 /// Completes the law of one property of one entry; `value` is its JSON.
 class LawReader {
  public:
-  LawReader(const FloeIceProperty& property, const JsonValue& value, std::string path,
-            ProblemCollector& problems)
+  LawReader(const FloeIceProperty& property, const JsonValue& value, std::string path, ProblemCollector& problems)
       : property_(property), value_(value), path_(std::move(path)), problems_(problems) {}
 
   std::optional<ScatterLaw> read(const NumberOrLaw& given, double scene_value) {
@@ -41,8 +40,7 @@ class LawReader {
     check("least", input_.least, word, is_uniform, is_constant);
     check("most", input_.most, word, is_uniform, is_constant);
     if (!is_good_) return std::nullopt;
-    ScatterLaw law{
-        .kind = input_.kind, .mean = input_.mean.value_or(scene_value), .spread = input_.spread.value_or(0)};
+    ScatterLaw law{.kind = input_.kind, .mean = input_.mean.value_or(scene_value), .spread = input_.spread.value_or(0)};
     set_bounds(law);
     check_bounds(law);
     return is_good_ ? std::optional(law) : std::nullopt;
@@ -78,8 +76,8 @@ class LawReader {
              fmt::format("at most `most`, {:g} [{}]", law.most, property_.unit));
     } else if (const double share = share_within_bounds(law); share < kLeastShare) {
       report("", fmt::format("a law of which {:.2g} lies between {:g} and {:g}", share, law.least, law.most),
-             fmt::format("bounds around the mean, {:g} [{}], that hold {:g} of it or more", law.mean,
-                         property_.unit, kLeastShare));
+             fmt::format("bounds around the mean, {:g} [{}], that hold {:g} of it or more", law.mean, property_.unit,
+                         kLeastShare));
     }
   }
 
@@ -92,17 +90,16 @@ class LawReader {
 };
 
 bool is_same(const Ice& a, const Ice& b) {
-  return std::ranges::all_of(floe_ice_properties(),
-                             [&](const FloeIceProperty& p) { return a.*p.value == b.*p.value; });
+  return std::ranges::all_of(floe_ice_properties(), [&](const FloeIceProperty& p) { return a.*p.value == b.*p.value; });
 }
 
 }  // namespace
 
 const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties() {
   static const auto kProperties = [] {
-    constexpr std::array<double Ice::*, kFloeIceProperties> kValues{
-        &Ice::thickness,        &Ice::density,           &Ice::flexural_strength, &Ice::compressive_strength,
-        &Ice::tensile_strength, &Ice::fracture_toughness};
+    constexpr std::array<double Ice::*, kFloeIceProperties> kValues{&Ice::thickness,         &Ice::density,
+                                                                    &Ice::flexural_strength, &Ice::compressive_strength,
+                                                                    &Ice::tensile_strength,  &Ice::fracture_toughness};
     constexpr std::array<std::optional<NumberOrLaw> IceInput::*, kFloeIceProperties> kInputs{
         &IceInput::thickness,         &IceInput::density,
         &IceInput::flexural_strength, &IceInput::compressive_strength,
@@ -110,8 +107,7 @@ const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties() {
     std::array<FloeIceProperty, kFloeIceProperties> properties;
     for (std::size_t i = 0; i < properties.size(); ++i) {
       const FloeProperty& in_file = floe_properties()[i];
-      properties[i] = {
-          in_file.key, in_file.unit, {.low = in_file.low, .high = in_file.high}, kValues[i], kInputs[i]};
+      properties[i] = {in_file.key, in_file.unit, {.low = in_file.low, .high = in_file.high}, kValues[i], kInputs[i]};
     }
     return properties;
   }();
@@ -128,13 +124,11 @@ GivenIce ice_of(const FloeProperties& properties) {
 }
 
 void append_ice(JsonWriter& json, const Ice& ice) {
-  for (const FloeIceProperty& property : floe_ice_properties())
-    json.key(property.key).value(ice.*property.value);
+  for (const FloeIceProperty& property : floe_ice_properties()) json.key(property.key).value(ice.*property.value);
 }
 
-std::optional<GroupIce> GroupIce::of(const simulation::Scene& scene, const FloeGroup& group,
-                                     const JsonValue& item, const std::string& path,
-                                     ProblemCollector& problems) {
+std::optional<GroupIce> GroupIce::of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
+                                     const std::string& path, ProblemCollector& problems) {
   GroupIce ice;
   if (!group.ice) return ice;
   ice.seed_ = scene.seed + group.ice->seed;
@@ -143,8 +137,8 @@ std::optional<GroupIce> GroupIce::of(const simulation::Scene& scene, const FloeG
     const FloeIceProperty& property = floe_ice_properties()[i];
     const std::optional<NumberOrLaw>& given = (*group.ice).*property.input;
     if (!given) continue;
-    LawReader reader(property, *item.find("ice")->find(property.key),
-                     fmt::format("{}.ice.{}", path, property.key), problems);
+    LawReader reader(property, *item.find("ice")->find(property.key), fmt::format("{}.ice.{}", path, property.key),
+                     problems);
     if (auto law = reader.read(*given, scene.ice.*property.value))
       ice.laws_.push_back({i, *law, {}});
     else

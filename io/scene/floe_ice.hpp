@@ -42,9 +42,8 @@ class GroupIce {
  public:
   /// The scene's ice is complete. Nothing where the entry's is wrong, which is reported; `path` is the
   /// entry's, `item` its JSON.
-  static std::optional<GroupIce> of(const simulation::Scene& scene, const FloeGroup& group,
-                                    const JsonValue& item, const std::string& path,
-                                    ProblemCollector& problems);
+  static std::optional<GroupIce> of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
+                                    const std::string& path, ProblemCollector& problems);
 
   /// The index in the scene's own_ice of the floe that is added next.
   std::int32_t add_to(simulation::Scene& scene, const GivenIce& given);

@@ -77,21 +77,18 @@ void FloeListReader::check_fast_ice(bool is_fast) {
   if (!is_fast) return;
   if (group_.is_fast && group_.angular_velocity != 0)
     report(offset_of("angular_velocity_deg_per_s"), path_ + ".angular_velocity_deg_per_s",
-           fmt::format("{:g}, of fast ice", from_si("°", group_.angular_velocity)),
-           "0: fast ice does not turn");
+           fmt::format("{:g}, of fast ice", from_si("°", group_.angular_velocity)), "0: fast ice does not turn");
   if (draft_.scene.contact.law == simulation::ContactLaw::kImpulse)
-    report(offset_of("fast_ice"), path_ + ".fast_ice", "true with contact.law impulse",
-           "contact.law crush, or false");
+    report(offset_of("fast_ice"), path_ + ".fast_ice", "true with contact.law impulse", "contact.law crush, or false");
 }
 
 void FloeListReader::add_floes(const LatticeInput& lattice) {
   const bool is_too_wide = (lattice.size.x > lattice.pitch.x && lattice.columns > 1) ||
                            (lattice.size.y > lattice.pitch.y && lattice.rows > 1);
   if (is_too_wide)
-    report(
-        offset_of("lattice.size_m"), path_ + ".lattice.size_m",
-        fmt::format("{} × {} m, more than the pitch", lattice.size.x, lattice.size.y),
-        fmt::format("at most pitch_m, {} × {} m, or neighbours overlap", lattice.pitch.x, lattice.pitch.y));
+    report(offset_of("lattice.size_m"), path_ + ".lattice.size_m",
+           fmt::format("{} × {} m, more than the pitch", lattice.size.x, lattice.size.y),
+           fmt::format("at most pitch_m, {} × {} m, or neighbours overlap", lattice.pitch.x, lattice.pitch.y));
   const auto count = static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
   if (is_too_wide || !has_room_for(count, path_)) return;
   int member = 0;
@@ -103,8 +100,7 @@ void FloeListReader::add_floes(const LatticeInput& lattice) {
 
 void FloeListReader::add_floes(const RectangleInput& rectangle) {
   if (!has_room_for(1, path_)) return;
-  add_floe(group_, floe_of(rectangle), {},
-           {.offset = item_->offset, .group = index_, .is_known_valid = true});
+  add_floe(group_, floe_of(rectangle), {}, {.offset = item_->offset, .group = index_, .is_known_valid = true});
   write_group();
 }
 
@@ -148,8 +144,7 @@ void FloeListReader::add_floes(const FileInput& input) {
   const std::uint32_t name = offset_of("file");
   const auto found = locate(input.name);
   if (!found)
-    return report(name, path, show({input.name}) + ": " + found.error(),
-                  "a floe file in the scene's folder or below");
+    return report(name, path, show({input.name}) + ": " + found.error(), "a floe file in the scene's folder or below");
   auto file = read_floe_file(*found, input.import, draft_.scene.origin, path, name, problems_);
   if (!file || !has_room_for(file->floes.size(), path)) return;
   const auto is_fast = [](const FileFloe& floe) { return floe.properties.is_fast.value_or(false); };
@@ -166,8 +161,8 @@ void FloeListReader::add_floes(const FileInput& input) {
     entry.ice = ice_.spelled_out(draft_.scene, given);
     written.items().push_back(write(floes_description(), entry));
   }
-  const auto with_thickness = std::ranges::count_if(
-      file->floes, [](const FileFloe& floe) { return floe.properties.thickness.has_value(); });
+  const auto with_thickness =
+      std::ranges::count_if(file->floes, [](const FileFloe& floe) { return floe.properties.thickness.has_value(); });
   files.push_back({index_, std::move(file->plane), file->run_time, file->totals, file->floes.size(),
                    static_cast<std::size_t>(with_thickness), std::move(file->near_misses), name});
 }
@@ -212,12 +207,10 @@ Result<std::filesystem::path> FloeListReader::locate(const std::string& name) co
   return folder_ / name;
 }
 
-void FloeListReader::add_floe(const FloeGroup& group, geometry::Polygon polygon, const GivenIce& given,
-                              Origin origin) {
+void FloeListReader::add_floe(const FloeGroup& group, geometry::Polygon polygon, const GivenIce& given, Origin origin) {
   const std::int32_t own_ice = ice_.add_to(draft_.scene, given);
-  draft_.scene.floes.push_back({std::move(polygon), group.velocity, group.angular_velocity, group.is_fast,
-                                own_ice, group.has_crushed_overlaps.value_or(false),
-                                group.source_floe.value_or(-1)});
+  draft_.scene.floes.push_back({std::move(polygon), group.velocity, group.angular_velocity, group.is_fast, own_ice,
+                                group.has_crushed_overlaps.value_or(false), group.source_floe.value_or(-1)});
   draft_.floe_origins.push_back(origin);
 }
 

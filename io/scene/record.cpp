@@ -26,8 +26,7 @@ bool is_name(const std::string& text) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   };
   if (text.empty() || text.size() > 100 || !is_plain(text.front())) return false;
-  return std::ranges::all_of(
-      text, [&](char c) { return is_plain(c) || c == ' ' || c == '.' || c == '_' || c == '-'; });
+  return std::ranges::all_of(text, [&](char c) { return is_plain(c) || c == ' ' || c == '.' || c == '_' || c == '-'; });
 }
 
 std::string describe_range(const Field& field) {
@@ -102,8 +101,7 @@ std::string keys_needed_by(const Object& table) {
   const auto keys_of = [&](std::string_view alternative) {
     std::vector<std::string_view> keys;
     for (const Field& field : table.fields)
-      if (field.alternative == alternative && field.presence == Presence::kRequired)
-        keys.push_back(field.key);
+      if (field.alternative == alternative && field.presence == Presence::kRequired) keys.push_back(field.key);
     return fmt::format("{}", fmt::join(keys, " and "));
   };
   std::string forms = table.alternatives.empty() ? keys_of("") : "";
@@ -121,8 +119,7 @@ std::optional<JsonValue> write_field(const Field& field, const void* record) {
   const auto part = [&](std::size_t item) { return field.find ? field.find(record, item) : nullptr; };
   if (field.kind == FieldKind::kList) {
     JsonValue list{JsonValue::Array{}};
-    for (std::size_t i = 0; const void* item = part(i); ++i)
-      list.items().push_back(write_object(*field.object, item));
+    for (std::size_t i = 0; const void* item = part(i); ++i) list.items().push_back(write_object(*field.object, item));
     return list;
   }
   if (const void* found = part(0)) return write_object(*field.object, found);
@@ -157,8 +154,8 @@ void RecordReader::report_unknown_keys(const Object& table, const JsonValue& val
   for (const JsonMember& member : value.members()) {
     if (std::ranges::find(known, member.key) != known.end()) continue;
     if (path.empty() && member.key == "$schema") continue;
-    report(member.key_offset, key_path(path, member.key), "an unknown key",
-           fmt::format("{}", fmt::join(known, ", ")), nearest(member.key, known));
+    report(member.key_offset, key_path(path, member.key), "an unknown key", fmt::format("{}", fmt::join(known, ", ")),
+           nearest(member.key, known));
   }
 }
 
@@ -173,19 +170,17 @@ bool RecordReader::choose_alternative(const Object& table, const JsonValue& valu
   }
   if (!given.empty()) chosen = given.front();
   if (given.size() == 1) return true;
-  report(value.offset, path,
-         given.empty() ? "none of them" : fmt::format("{} together", fmt::join(given, " and ")),
+  report(value.offset, path, given.empty() ? "none of them" : fmt::format("{} together", fmt::join(given, " and ")),
          fmt::format("either {}", keys_needed_by(table)));
   return false;
 }
 
-bool RecordReader::one_field(const Field& field, const JsonValue& parent, const std::string& parent_path,
-                             void* record, std::size_t number) {
+bool RecordReader::one_field(const Field& field, const JsonValue& parent, const std::string& parent_path, void* record,
+                             std::size_t number) {
   const std::string path = key_path(parent_path, field.key);
   const JsonValue* given = parent.find(field.key);
   if (given && checked(field, *given, path, record)) return true;
-  if (!given && field.presence == Presence::kRequired)
-    report(parent.offset, path, "nothing", describe_missing(field));
+  if (!given && field.presence == Presence::kRequired) report(parent.offset, path, "nothing", describe_missing(field));
   const bool has_default = field.presence == Presence::kDefault;
   if (has_default && field.kind == FieldKind::kName && field.default_value.text().ends_with('#')) {
     std::string name = field.default_value.text();
@@ -195,12 +190,10 @@ bool RecordReader::one_field(const Field& field, const JsonValue& parent, const 
   return has_default || (!given && field.presence == Presence::kLeftOut);
 }
 
-bool RecordReader::checked(const Field& field, const JsonValue& value, const std::string& path,
-                           void* record) {
+bool RecordReader::checked(const Field& field, const JsonValue& value, const std::string& path, void* record) {
   if (field.kind == FieldKind::kObject) return object(*field.object, value, path, field.open(record), 1);
   if (field.kind == FieldKind::kList) return list(field, value, path, record);
-  if (field.kind == FieldKind::kNumberOrLaw && value.is(JsonKind::kObject))
-    return law(field, value, path, record);
+  if (field.kind == FieldKind::kNumberOrLaw && value.is(JsonKind::kObject)) return law(field, value, path, record);
   if (field.kind == FieldKind::kNumberOrVector && value.is(JsonKind::kNumber))
     return leaf(field, {JsonValue::Array{value, value}, value.offset}, path, record);
   return leaf(field, value, path, record);
@@ -223,8 +216,7 @@ bool RecordReader::list(const Field& field, const JsonValue& value, const std::s
   }
   for (std::size_t i = 0; field.open && i < value.items().size(); ++i) {
     void* const item = field.open(record);
-    if (!object(*field.object, value.items()[i], fmt::format("{}[{}]", path, i), item, i + 1))
-      field.drop(record);
+    if (!object(*field.object, value.items()[i], fmt::format("{}[{}]", path, i), item, i + 1)) field.drop(record);
   }
   return true;
 }

@@ -62,9 +62,9 @@ struct Field {
   std::string_view alternative = {};  ///< belongs to this one of its object's alternatives; empty: to all
   const Object* object = nullptr;     ///< of kObject, kList and kNumberOrLaw
   JsonValue default_value = {};       ///< of the record as it is constructed, of what is no object
-  std::function<void(void*, const JsonValue&)> set = {};          ///< from a value that has been checked
-  std::function<std::optional<JsonValue>(const void*)> get = {};  ///< nothing where it is not there
-  std::function<void*(void*)> open = {};                          ///< the part; of a list, a new item
+  std::function<void(void*, const JsonValue&)> set = {};                ///< from a value that has been checked
+  std::function<std::optional<JsonValue>(const void*)> get = {};        ///< nothing where it is not there
+  std::function<void*(void*)> open = {};                                ///< the part; of a list, a new item
   std::function<const void*(const void*, std::size_t item)> find = {};  ///< the part or item, or null
   std::function<void(void*)> drop = {};                                 ///< the last item
 };
@@ -103,14 +103,13 @@ class RecordReader {
   /// wrong. `number` takes the place of the # of a default name. Lists without a place in the record are
   /// checked but for their items.
   template <class Record>
-  bool read(const Description<Record>& description, const JsonValue& value, const std::string& path,
-            Record& record, std::size_t number = 1) {
+  bool read(const Description<Record>& description, const JsonValue& value, const std::string& path, Record& record,
+            std::size_t number = 1) {
     return object(description, value, path, &record, number);
   }
 
  private:
-  bool object(const Object& table, const JsonValue& value, const std::string& path, void* record,
-              std::size_t number);
+  bool object(const Object& table, const JsonValue& value, const std::string& path, void* record, std::size_t number);
   bool one_field(const Field& field, const JsonValue& parent, const std::string& parent_path, void* record,
                  std::size_t number);
   bool checked(const Field& field, const JsonValue& value, const std::string& path, void* record);

@@ -140,15 +140,12 @@ Result<Assignment> parse_assignment(std::string_view words, std::string_view opt
                     {fmt::format("{} {}", option, words), 0, words.size()}};
 }
 
-tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text, const std::string& file,
-                                                          int line) {
+tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text, const std::string& file, int line) {
   JsonDocument document = parse_json(text);
   if (!document.faults.empty()) {
     const JsonFault& fault = document.faults.front();
-    return tl::unexpected(Problem{.file = file,
-                                  .line = line,
-                                  .column = static_cast<int>(fault.offset) + 1,
-                                  .sentence = message_of(fault)});
+    return tl::unexpected(Problem{
+        .file = file, .line = line, .column = static_cast<int>(fault.offset) + 1, .sentence = message_of(fault)});
   }
   if (!document.root.is(JsonKind::kObject))
     return tl::unexpected(Problem{.file = file,
@@ -158,8 +155,7 @@ tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text,
                                   .allowed = "an object of paths and values"});
   std::vector<Assignment> assignments;
   for (JsonMember& member : document.root.members())
-    assignments.push_back(
-        {member.key, std::move(member.value), member.key_offset, {file, line, text.size()}});
+    assignments.push_back({member.key, std::move(member.value), member.key_offset, {file, line, text.size()}});
   return assignments;
 }
 

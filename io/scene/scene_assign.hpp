@@ -23,8 +23,7 @@ struct Assignment {
 Result<Assignment> parse_assignment(std::string_view words, std::string_view option = "--set");
 
 /// One line of a file of cases: {"ice.thickness_m": 0.7, "seed": 3}. `line` counts from 1.
-tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text, const std::string& file,
-                                                          int line);
+tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text, const std::string& file, int line);
 
 /// Puts the values into a scene before it is resolved, in order. Objects on the way are made where the scene
 /// has none; what is no key of a scene is found when it is resolved. Items of lists must be there.

@@ -70,8 +70,7 @@ double rim_speed_of(const dynamics::ShearCurrent& current, const simulation::Flo
   const geometry::Measures measures = geometry::measure(floe.polygon_in_world);
   if (!simulation::can_be_floe(measures)) return 0;
   double radius = 0;
-  for (const geometry::Point p : floe.polygon_in_world.outer)
-    radius = std::max(radius, distance(p, measures.centroid));
+  for (const geometry::Point p : floe.polygon_in_world.outer) radius = std::max(radius, distance(p, measures.centroid));
   return length(floe.velocity + current.velocity_at(measures.centroid)) +
          std::abs(floe.angular_velocity + current.angular_velocity()) * radius;
 }
@@ -84,11 +83,10 @@ struct Fastest {
 
 void report_runaway(const Fastest& body, const Origin& origin, ProblemCollector& problems) {
   if (body.speed < simulation::kRunawaySpeed) return;
-  problems.add(
-      origin.source, origin.offset,
-      {.path = body.path,
-       .found = fmt::format("a rim that moves at {:.4g} m/s at the start", body.speed),
-       .allowed = fmt::format("less than {:g} m/s, the water's shear included", simulation::kRunawaySpeed)});
+  problems.add(origin.source, origin.offset,
+               {.path = body.path,
+                .found = fmt::format("a rim that moves at {:.4g} m/s at the start", body.speed),
+                .allowed = fmt::format("less than {:g} m/s, the water's shear included", simulation::kRunawaySpeed)});
 }
 
 /// Of the water and the ships.
@@ -109,16 +107,15 @@ void report_step(const Fastest& fastest, const simulation::Scene& scene, const J
                  ProblemCollector& problems) {
   problems.add(0, nearest_offset(given, "time.step_s"),
                {.path = "time.step_s",
-                .found = fmt::format("{}: {} moves {:.3g} m in one step at {:.3g} m/s", scene.time.step,
-                                     fastest.path, fastest.speed * scene.time.step, fastest.speed),
+                .found = fmt::format("{}: {} moves {:.3g} m in one step at {:.3g} m/s", scene.time.step, fastest.path,
+                                     fastest.speed * scene.time.step, fastest.speed),
                 .allowed = fmt::format("a step in which nothing moves as far as a circle's radius, {} m",
                                        scene.contact.circle_radius)});
 }
 
 void check_speeds_of_ships(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
-    report_runaway({speed_of(draft.scene, draft.scene.ships[i]), hull_path(draft, i)}, draft.hull_origins[i],
-                   problems);
+    report_runaway({speed_of(draft.scene, draft.scene.ships[i]), hull_path(draft, i)}, draft.hull_origins[i], problems);
   const Fastest fastest = fastest_ship(draft);
   if (is_too_fast_for_step(fastest, draft.scene)) report_step(fastest, draft.scene, given, problems);
 }
@@ -149,17 +146,16 @@ double most_that_ice_bears(const simulation::Scene& scene) {
 }
 
 /// A load that no ice bears, and a mass that it takes beyond the closing speed in one step.
-void check_load(const simulation::Scene& scene, const simulation::WallPressure& pressure,
-                const JsonValue& given, const std::string& path, ProblemCollector& problems) {
+void check_load(const simulation::Scene& scene, const simulation::WallPressure& pressure, const JsonValue& given,
+                const std::string& path, ProblemCollector& problems) {
   const auto report = [&](const std::string& key, std::string found, std::string allowed) {
     problems.report(0, nearest_offset(given, "pressure." + key), path + "pressure." + key, std::move(found),
                     std::move(allowed));
   };
   if (const double most = most_that_ice_bears(scene); pressure.line_load >= most)
-    report(
-        "line_load_N_per_m",
-        fmt::format("{:g} N/m, which crushes the strongest ice of the scene without end", pressure.line_load),
-        fmt::format("less than its σ_c h, {:.4g} [N/m]", most));
+    report("line_load_N_per_m",
+           fmt::format("{:g} N/m, which crushes the strongest ice of the scene without end", pressure.line_load),
+           fmt::format("less than its σ_c h, {:.4g} [N/m]", most));
   const double gain = scene.time.step * pressure.line_load / pressure.mass_per_length;
   if (gain > pressure.closing_speed)
     report("mass_kg_per_m",
@@ -175,8 +171,7 @@ void each_pressing_wall(const SceneDraft& draft, const JsonValue& given, Call ca
   std::size_t hull = hull_count(draft.scene) - draft.scene.walls.size();
   for (const simulation::Wall& wall : draft.scene.walls) {
     const std::size_t index = draft.hull_origins[hull++].group;
-    if (wall.pressure)
-      call(*wall.pressure, given.find("walls")->items()[index], fmt::format("walls[{}].", index));
+    if (wall.pressure) call(*wall.pressure, given.find("walls")->items()[index], fmt::format("walls[{}].", index));
   }
 }
 
@@ -186,8 +181,7 @@ void check_walls(const SceneDraft& draft, const JsonValue& given, ProblemCollect
       problems.report(0, velocity->offset, path + "velocity_m_per_s", "a velocity of a wall with pressure",
                       "either of them: the load moves the wall");
     if (draft.scene.contact.law == simulation::ContactLaw::kImpulse)
-      problems.report(0, nearest_offset(item, "pressure"), path + "pressure",
-                      "a load with contact.law impulse",
+      problems.report(0, nearest_offset(item, "pressure"), path + "pressure", "a load with contact.law impulse",
                       "contact.law crush, or velocity_m_per_s: rigid impulses bear no definite load");
   });
 }
@@ -219,8 +213,7 @@ void check_hulls(const SceneDraft& draft, ProblemCollector& problems) {
     };
     for (std::size_t k = 0; k < i; ++k) {
       if (hull_of(draft.scene, k).name == placed.name)
-        report("name", fmt::format("\"{}\" a second time", placed.name),
-               "each ship and structure its own name");
+        report("name", fmt::format("\"{}\" a second time", placed.name), "each ship and structure its own name");
     }
     const auto& hull = placed.hull;
     const geometry::Box box = bounding_box(hull.waterline);
@@ -231,11 +224,9 @@ void check_hulls(const SceneDraft& draft, ProblemCollector& problems) {
       report("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
              fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
     if (const auto defect = geometry::find_defect({hull.waterline, {}}))
-      report(origin.kind == BodyKind::kShip ? "hull" : "waterline_m",
-             "an invalid waterline: " + describe(*defect),
-             origin.kind == BodyKind::kShip
-                 ? "a simple ring with an area; a wedge bow must end before the stern"
-                 : "a simple ring with an area");
+      report(origin.kind == BodyKind::kShip ? "hull" : "waterline_m", "an invalid waterline: " + describe(*defect),
+             origin.kind == BodyKind::kShip ? "a simple ring with an area; a wedge bow must end before the stern"
+                                            : "a simple ring with an area");
   }
 }
 
@@ -255,8 +246,7 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
     const Origin& origin = draft.floe_origins[i];
     if (!origin.is_known_valid) {
       if (const auto defect = geometry::find_defect(polygon)) {
-        problems.report(origin.source, origin.offset, floe_path(draft, i),
-                        "an invalid polygon: " + describe(*defect),
+        problems.report(origin.source, origin.offset, floe_path(draft, i), "an invalid polygon: " + describe(*defect),
                         "simple rings with an area, holes inside and apart");
         continue;
       }
@@ -276,8 +266,8 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
 
 /// Whether two bodies may share that area: ice in contact overlaps by what it crushed. Not by nearly
 /// all of the smaller one, which would be the same ice twice.
-bool is_crushed(const SceneDraft& draft, const Named& first, const Named& second, double area,
-                const Polygon& a, const Polygon& b) {
+bool is_crushed(const SceneDraft& draft, const Named& first, const Named& second, double area, const Polygon& a,
+                const Polygon& b) {
   const auto is_as_a_run_left_it = [&](const Named& one) {
     return one.is_floe() && draft.scene.floes[one.index].has_crushed_overlaps;
   };
@@ -288,8 +278,7 @@ bool is_crushed(const SceneDraft& draft, const Named& first, const Named& second
 
 /// All of a scene that may have overlaps, else as many as are reported.
 std::size_t most_overlaps(const SceneDraft& draft) {
-  const bool may_overlap =
-      std::ranges::any_of(draft.scene.floes, &simulation::FloeSpec::has_crushed_overlaps);
+  const bool may_overlap = std::ranges::any_of(draft.scene.floes, &simulation::FloeSpec::has_crushed_overlaps);
   return may_overlap ? std::numeric_limits<std::size_t>::max() : kMostOverlaps;
 }
 
@@ -299,19 +288,18 @@ std::string remedy_of(const Named& first, const Named& second) {
   return first.is_wall() ? "floes in front of the wall" : "floes outside the waterline";
 }
 
-void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
-                    const std::vector<Polygon>& outlines, ProblemCollector& problems) {
+void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named, const std::vector<Polygon>& outlines,
+                    ProblemCollector& problems) {
   auto overlaps = geometry::find_overlapping_pairs(outlines, most_overlaps(draft));
   std::erase_if(overlaps, [&](const geometry::OverlappingPair& overlap) {
-    return is_crushed(draft, named[overlap.first], named[overlap.second], overlap.area,
-                      outlines[overlap.first], outlines[overlap.second]);
+    return is_crushed(draft, named[overlap.first], named[overlap.second], overlap.area, outlines[overlap.first],
+                      outlines[overlap.second]);
   });
   if (overlaps.size() > kMostOverlaps) overlaps.resize(kMostOverlaps);
   for (const geometry::OverlappingPair& overlap : overlaps) {
     const Named& first = named[overlap.first];
     const Named& second = named[overlap.second];
-    if (second.is_wall() && is_grounded(first.origin->kind))
-      continue;  // walls cross each other and structures
+    if (second.is_wall() && is_grounded(first.origin->kind)) continue;  // walls cross each other and structures
     const std::string area = std::isnan(overlap.area) ? "" : fmt::format(", {:.6g} m² shared", overlap.area);
     problems.add(second.origin->source, second.origin->offset,
                  {.path = second.path,
@@ -319,8 +307,7 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named,
                   .allowed = remedy_of(first, second)});
   }
   if (overlaps.size() == kMostOverlaps)
-    problems.add(0, 0,
-                 {.path = "floes", .found = fmt::format("{} overlaps, and perhaps more", kMostOverlaps)});
+    problems.add(0, 0, {.path = "floes", .found = fmt::format("{} overlaps, and perhaps more", kMostOverlaps)});
 }
 
 }  // namespace
@@ -359,8 +346,7 @@ void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemC
 
 void check_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   if (draft.hull_origins.empty() && draft.scene.floes.empty() && problems.count() == 0)
-    problems.add(0, given.offset,
-                 {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
+    problems.add(0, given.offset, {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
   if (problems.count() == 0) check_own_density(draft, problems);
   check_loads_of_walls(draft, given, problems);
   std::vector<Named> named;

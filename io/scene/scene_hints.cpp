@@ -21,7 +21,7 @@ using simulation::Wall;
 // Block coefficients are those of fine-lined and of full ships; a draught is most often a third of the beam.
 constexpr double kSlenderBlock = 0.4, kFullBlock = 0.9;                        // [-]
 constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
-constexpr double kMassError = 0.05;    ///< of what the hull displaces [-]
+constexpr double kMassError = 0.05;                                            ///< of what the hull displaces [-]
 constexpr double kFastestShip = 12;    ///< icebreakers reach 11 m/s in open water [m/s]
 constexpr double kFastestIce = 3;      ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
 constexpr double kThinnestIce = 0.01;  ///< thinner ice is grease and slush [m]
@@ -82,15 +82,13 @@ class Hinter {
 
  private:
   void add(Severity severity, const JsonValue& at, std::string path, std::string sentence) {
-    hints_.add(0, at.offset,
-               {.path = std::move(path), .sentence = std::move(sentence), .severity = severity});
+    hints_.add(0, at.offset, {.path = std::move(path), .sentence = std::move(sentence), .severity = severity});
   }
   void add(Severity severity, std::size_t hull, std::string_view key, std::string sentence) {
     const Origin& origin = draft_.hull_origins[hull];
     const JsonValue& item = given_.find(list_of(origin.kind))->items()[origin.group];
     const JsonValue* member = item.find(key);
-    add(severity, member ? *member : item, fmt::format("{}.{}", hull_path(draft_, hull), key),
-        std::move(sentence));
+    add(severity, member ? *member : item, fmt::format("{}.{}", hull_path(draft_, hull), key), std::move(sentence));
   }
   /// A member of an object of the scene, or what is there of it.
   const JsonValue& value_at(std::string_view object, std::string_view key) const {
@@ -111,19 +109,16 @@ class Hinter {
       const Origin& origin = draft_.floe_origins[i];
       const double h = ice_of(scene_, scene_.floes[i].own_ice).thickness;
       if (h == scene_.ice.thickness || last == origin.group) continue;
-      if (hint_at_thickness(h, value_at("floes", ""), floe_path(draft_, i) + ": ice.thickness_m"))
-        last = origin.group;
+      if (hint_at_thickness(h, value_at("floes", ""), floe_path(draft_, i) + ": ice.thickness_m")) last = origin.group;
     }
   }
 
   bool hint_at_thickness(double h, const JsonValue& at, const std::string& path) {
     if (h > kThickestIce)
       add(Severity::kHint, at, path,
-          fmt::format("{:g} m: level ice is {:g} m at most, and bends as plates only to there", h,
-                      kThickestIce));
+          fmt::format("{:g} m: level ice is {:g} m at most, and bends as plates only to there", h, kThickestIce));
     else if (h < kThinnestIce)
-      add(Severity::kHint, at, path,
-          fmt::format("{:g} m: ice under {:g} m is slush and no plate", h, kThinnestIce));
+      add(Severity::kHint, at, path, fmt::format("{:g} m: ice under {:g} m is slush and no plate", h, kThinnestIce));
     return h > kThickestIce || h < kThinnestIce;
   }
 
@@ -142,10 +137,9 @@ class Hinter {
     const double least = kSlenderBlock * area * shallow, most = kFullBlock * area * deep;
     if (ship.mass >= least && ship.mass <= most) return;
     add(Severity::kWarning, i, "mass_kg",
-        fmt::format(
-            "{:.4g} kg for a hull of {:.4g} × {:.4g} m, which displaces {:.2g} to {:.2g} kg of water at a "
-            "draught of {:.2g} to {:.2g} m and block coefficients of {:g} to {:g}",
-            ship.mass, length, beam, least, most, shallow, deep, kSlenderBlock, kFullBlock));
+        fmt::format("{:.4g} kg for a hull of {:.4g} × {:.4g} m, which displaces {:.2g} to {:.2g} kg of water at a "
+                    "draught of {:.2g} to {:.2g} m and block coefficients of {:g} to {:g}",
+                    ship.mass, length, beam, least, most, shallow, deep, kSlenderBlock, kFullBlock));
   }
 
   void hint_at_mooring(std::size_t i) {
@@ -169,19 +163,17 @@ class Hinter {
     const double gained = thrust_of(ship) / ship.mass * scene_.time.until;
     if (is_slowed(ship) || !too_fast(ship.speed + gained)) return;
     add(Severity::kHint, i, "propulsion",
-        fmt::format(
-            "where no ice stops it this thrust takes the ship to {:.3g} m/s by {:g} s, since no water slows "
-            "it (water.model none); {}",
-            ship.speed + gained, scene_.time.until, most));
+        fmt::format("where no ice stops it this thrust takes the ship to {:.3g} m/s by {:g} s, since no water slows "
+                    "it (water.model none); {}",
+                    ship.speed + gained, scene_.time.until, most));
   }
 
   /// All of the ice is behind the hull, and the ship moves away from it.
   void hint_at_course(std::size_t i) {
     const Ship& ship = scene_.ships[i];
-    const bool is_ice_moved = scene_.water.shear.rate != 0 || scene_.wind.blows() || !scene_.walls.empty() ||
-                              std::ranges::any_of(scene_.floes, [](const simulation::FloeSpec& floe) {
-                                return floe.velocity != Vector{};
-                              });
+    const bool is_ice_moved =
+        scene_.water.shear.rate != 0 || scene_.wind.blows() || !scene_.walls.empty() ||
+        std::ranges::any_of(scene_.floes, [](const simulation::FloeSpec& floe) { return floe.velocity != Vector{}; });
     if (scene_.floes.empty() || is_ice_moved || ship.mooring || is_steered(ship)) return;
     const double drift = dot(scene_.water.drift, ahead_of(ship));
     const double speed = ship.speed - drift, thrust = thrust_of(ship);
@@ -194,8 +186,7 @@ class Hinter {
     }
     if (ice > stern) return;
     add(Severity::kWarning, i, "heading_deg",
-        fmt::format("the ship moves away from all ice: the nearest lies {:.4g} m behind its end",
-                    stern - ice));
+        fmt::format("the ship moves away from all ice: the nearest lies {:.4g} m behind its end", stern - ice));
   }
 
   /// Two whose motions are prescribed do not stop each other.
@@ -214,16 +205,14 @@ class Hinter {
   /// Of velocities in the water frame [m/s].
   void hint_at_crossing(std::size_t i, std::size_t k, Vector velocity, Vector velocity_of_other) {
     const PlacedHull &hull = hull_of(scene_, i), &other = hull_of(scene_, k);
-    const auto touch =
-        geometry::first_contact(waterline_in_world(hull).outer, waterline_in_world(other).outer,
-                                velocity_of_other - velocity, 0, scene_.time.until);
+    const auto touch = geometry::first_contact(waterline_in_world(hull).outer, waterline_in_world(other).outer,
+                                               velocity_of_other - velocity, 0, scene_.time.until);
     if (!touch) return;
     const Point at = touch->point + touch->time * (velocity + scene_.water.drift);
     add(Severity::kWarning, i, "propulsion",
-        fmt::format(
-            "it meets {} after {:.4g} s at ({:.4g}, {:.4g}) m, where the motion of both is prescribed: they "
-            "pass through each other without a force; give it thrust_N",
-            other.name, touch->time, at.x, at.y));
+        fmt::format("it meets {} after {:.4g} s at ({:.4g}, {:.4g}) m, where the motion of both is prescribed: they "
+                    "pass through each other without a force; give it thrust_N",
+                    other.name, touch->time, at.x, at.y));
   }
 
   void hint_at_drift() {
@@ -273,13 +262,11 @@ class Hinter {
       thickness = std::min(thickness, ice_of(scene_, floe.own_ice).thickness);
     const double of_ice = kLongestWayOfThickness * thickness;
     const double of_circle = kLongestWayOfCircle * scene_.contact.circle_radius;
-    if (way <= 1.005 * std::min(of_ice, of_circle))
-      return;  // what the sentence below gives, rounded, will do
+    if (way <= 1.005 * std::min(of_ice, of_circle)) return;  // what the sentence below gives, rounded, will do
     const std::string why =
         of_ice < of_circle
             ? fmt::format("{:g} of the ice's thickness of {:g} m", kLongestWayOfThickness, thickness)
-            : fmt::format("{:g} of contact.circle_radius_m {:g}", kLongestWayOfCircle,
-                          scene_.contact.circle_radius);
+            : fmt::format("{:g} of contact.circle_radius_m {:g}", kLongestWayOfCircle, scene_.contact.circle_radius);
     add(Severity::kWarning, value_at("time", "step_s"), "time.step_s",
         fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
                     "give {:.3g} s or less",

@@ -29,8 +29,7 @@ std::string hash_of(std::string_view text) {
 void put(JsonValue& object, const std::string& key, JsonValue::Data data) {
   if (!object.is(JsonKind::kObject)) return;
   JsonValue* member = object.find(key);
-  if (!member)
-    member = &object.members().emplace_back(JsonMember{key, object.offset, {nullptr, object.offset}}).value;
+  if (!member) member = &object.members().emplace_back(JsonMember{key, object.offset, {nullptr, object.offset}}).value;
   member->data = std::move(data);
 }
 
@@ -88,8 +87,7 @@ class SceneReader {
     if (use == ShipUse::kLevelIce) check_for_level_ice(scene.find("ships")->items().front());
     if (!is_valid || problems_.count() > 0) return tl::unexpected(problems_of_ship());
     ship.resolved = std::move(resolved_.find("ships")->items().front());
-    if (auto* engine = std::get_if<simulation::Engine>(&draft_.scene.ships.back().propulsion))
-      ship.engine = *engine;
+    if (auto* engine = std::get_if<simulation::Engine>(&draft_.scene.ships.back().propulsion)) ship.engine = *engine;
     return ship;
   }
 
@@ -113,8 +111,7 @@ class SceneReader {
 
   /// What the formulas and the course of `polynya performance` need, of a ship with its preset filled in.
   void check_for_level_ice(const JsonValue& ship) {
-    const auto report_at = [&](const JsonValue& at, const std::string& key, std::string found,
-                               std::string allowed) {
+    const auto report_at = [&](const JsonValue& at, const std::string& key, std::string found, std::string allowed) {
       report(at.offset, "ships[0]." + key, std::move(found), std::move(allowed));
     };
     const std::string reason = ": the formulas and the course in level ice need it";
@@ -122,8 +119,7 @@ class SceneReader {
       if (const JsonValue* waterline = hull->find("waterline_m"))
         report_at(*waterline, "hull.waterline_m", "a waterline point by point",
                   "length_m, beam_m and entrance_angle_deg, which the formulas and the course need");
-      if (!hull->find("draught_m"))
-        report_at(*hull, "hull.draught_m", "nothing", "a number > 0, ≤ 1000 [m]" + reason);
+      if (!hull->find("draught_m")) report_at(*hull, "hull.draught_m", "nothing", "a number > 0, ≤ 1000 [m]" + reason);
     }
     const JsonValue* propulsion = ship.find("propulsion", JsonKind::kObject);
     if (propulsion && !propulsion->members().empty() && !propulsion->find("engine"))
@@ -151,18 +147,14 @@ class SceneReader {
     resolved_ = write(scene_description(), input_);
     simulation::Scene& scene = draft_.scene = std::move(input_.scene);
     scene.name = input_.name;
-    add_hulls(given, BodyKind::kShip, ship_description(), ships,
-              [&](auto& ship, auto& item, const auto& path) {
-                scene.ships.push_back(complete_ship(ship, item, path, scene.water.water.density, problems_));
-              });
-    add_hulls(
-        given, BodyKind::kStructure, structure_description(), structures,
-        [&](auto& structure, auto&, auto&&) { scene.structures.push_back(complete_structure(structure)); });
-    add_hulls(given, BodyKind::kWall, wall_description(), walls,
-              [&](auto& wall, auto& item, const auto& path) {
-                if (auto completed = complete_wall(wall, item, path, problems_))
-                  scene.walls.push_back(*std::move(completed));
-              });
+    add_hulls(given, BodyKind::kShip, ship_description(), ships, [&](auto& ship, auto& item, const auto& path) {
+      scene.ships.push_back(complete_ship(ship, item, path, scene.water.water.density, problems_));
+    });
+    add_hulls(given, BodyKind::kStructure, structure_description(), structures,
+              [&](auto& structure, auto&, auto&&) { scene.structures.push_back(complete_structure(structure)); });
+    add_hulls(given, BodyKind::kWall, wall_description(), walls, [&](auto& wall, auto& item, const auto& path) {
+      if (auto completed = complete_wall(wall, item, path, problems_)) scene.walls.push_back(*std::move(completed));
+    });
     if (is_whole) {
       complete_pilots(given, draft_, problems_);
       check_without_ice(draft_, given, problems_);
@@ -187,8 +179,7 @@ class SceneReader {
     for (const JsonValue& item : items_of(given, list)) {
       Item input;
       const std::size_t index = read.size();
-      const bool is_good =
-          reader.read(description, item, fmt::format("{}[{}]", list, index), input, index + 1);
+      const bool is_good = reader.read(description, item, fmt::format("{}[{}]", list, index), input, index + 1);
       read.push_back(is_good ? std::optional(std::move(input)) : std::nullopt);
     }
     return read;
@@ -218,8 +209,7 @@ class SceneReader {
     const std::string draught = "a hull with a draught (hull.draught_m)";
     if (!has_draught && is_under_hull)
       report_at("fracture.cusp_fate", "under_hull without " + draught, "submerge or float");
-    if (!has_draught && going_under)
-      report_at("fracture.going_under.enabled", "true without " + draught, "false");
+    if (!has_draught && going_under) report_at("fracture.going_under.enabled", "true without " + draught, "false");
     if (!goes_under && coming_up)
       report_at("fracture.resurface.enabled", "true where no ice goes under a hull",
                 "false, or cusp_fate under_hull, or going_under.enabled");
@@ -262,21 +252,19 @@ class SceneReader {
   /// others.
   void add_file_hints(const FileReport& file) {
     const auto add = [&](Severity severity, std::string sentence) {
-      problems_.add(0, file.offset,
-                    {.path = fmt::format("floes[{}].file", file.group),
-                     .sentence = std::move(sentence),
-                     .severity = severity});
+      problems_.add(
+          0, file.offset,
+          {.path = fmt::format("floes[{}].file", file.group), .sentence = std::move(sentence), .severity = severity});
     };
     const std::string thickness = thickness_in_words(file.with_thickness, file.floes);
     bool is_partial = file.with_thickness > 0 && file.with_thickness < file.floes;
     for (const NearMiss& miss : file.near_misses) {
       if (miss.floes == 0) continue;
       const bool is_thickness = miss.meant == "thickness_m";
-      add(Severity::kWarning,
-          fmt::format("property \"{}\" of {} floe{} is not read; did you mean {}? \"import\": "
-                      "{{\"properties\": \"{}\"}} reads it{}",
-                      miss.key, miss.floes, miss.floes == 1 ? "" : "s", miss.meant, as_property_name(miss),
-                      is_thickness ? "; " + thickness : ""));
+      add(Severity::kWarning, fmt::format("property \"{}\" of {} floe{} is not read; did you mean {}? \"import\": "
+                                          "{{\"properties\": \"{}\"}} reads it{}",
+                                          miss.key, miss.floes, miss.floes == 1 ? "" : "s", miss.meant,
+                                          as_property_name(miss), is_thickness ? "; " + thickness : ""));
       is_partial = is_partial && !is_thickness;
     }
     if (is_partial) add(Severity::kHint, thickness + "; the others have that of the scene");
@@ -307,18 +295,16 @@ SceneOutcome read_scene(std::string text, const std::string& name, const std::fi
   return SceneReader(std::move(text), name, folder).read(name_from(name), overrides, longest);
 }
 
-tl::expected<LoadedShip, std::vector<Problem>> read_ship(std::string text, const std::string& name,
-                                                         ShipUse use) {
+tl::expected<LoadedShip, std::vector<Problem>> read_ship(std::string text, const std::string& name, ShipUse use) {
   return SceneReader(std::move(text), name, {}).read_ship(use);
 }
 
 SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides) {
   auto text = read_text_file(path, kLongestScene);
   if (!text) {
-    return tl::unexpected(
-        std::vector<Problem>{{.file = path.string(),
-                              .found = text.error(),
-                              .allowed = fmt::format("a scene of at most {} bytes", kLongestScene)}});
+    return tl::unexpected(std::vector<Problem>{{.file = path.string(),
+                                                .found = text.error(),
+                                                .allowed = fmt::format("a scene of at most {} bytes", kLongestScene)}});
   }
   return read_scene(std::move(*text), path.string(), path.parent_path(), overrides);
 }

@@ -52,9 +52,8 @@ struct IceReport {
 struct LoadedScene {
   simulation::Scene scene;
   std::string description;
-  std::string
-      resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
-  std::string hash;   ///< of resolved_text: 16 hexadecimal digits, FNV-1a
+  std::string resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
+  std::string hash;           ///< of resolved_text: 16 hexadecimal digits, FNV-1a
   std::vector<FieldReport> fields;
   std::vector<FileReport> files;
   std::vector<IceReport> ice;  ///< what was drawn of it, by floe groups and properties

@@ -16,8 +16,7 @@ using Kind = FieldKind;
 
 void write_range(JsonWriter& json, const Range& range, const char* low, const char* high) {
   if (std::isfinite(range.low)) json.key(range.is_low_excluded ? "exclusiveMinimum" : low).value(range.low);
-  if (std::isfinite(range.high))
-    json.key(range.is_high_excluded ? "exclusiveMaximum" : high).value(range.high);
+  if (std::isfinite(range.high)) json.key(range.is_high_excluded ? "exclusiveMaximum" : high).value(range.high);
 }
 
 void write_number(JsonWriter& json, const Field& field, const char* type) {
@@ -98,8 +97,7 @@ void write_type(JsonWriter& json, const Field& field) {
     case Kind::kObject:
       return write_object(json, *field.object);
     case Kind::kList:
-      return write_list(json, 0, static_cast<int>(field.range.high),
-                        [&] { write_object(json, *field.object); });
+      return write_list(json, 0, static_cast<int>(field.range.high), [&] { write_object(json, *field.object); });
   }
 }
 
@@ -129,8 +127,7 @@ void write_object(JsonWriter& json, const Object& object) {
     json.key(field.key).open('{');
     if (!field.meaning.empty())
       json.key("description")
-          .value(field.unit.empty() ? std::string(field.meaning)
-                                    : fmt::format("{} [{}]", field.meaning, field.unit));
+          .value(field.unit.empty() ? std::string(field.meaning) : fmt::format("{} [{}]", field.meaning, field.unit));
     // A default that is filled in from elsewhere ("ship-#", objects) is no default of the schema's.
     if (field.presence == Presence::kDefault && field.kind != Kind::kObject && field.kind != Kind::kName)
       json.key("default").json(default_text(field));
@@ -148,11 +145,10 @@ void append_table(std::string& text, const Object& object, const std::string& pa
                         fmt::join(object.alternatives, ", "));
   text += "| key | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const Field& field : object.fields) {
-    const std::string if_not_given = field.presence == Presence::kLeftOut ? "left out"
-                                     : field.presence == Presence::kDefault
-                                         ? fmt::format("`{}`", default_text(field))
-                                     : field.alternative.empty() ? "must be given"
-                                                                 : "—";
+    const std::string if_not_given = field.presence == Presence::kLeftOut   ? "left out"
+                                     : field.presence == Presence::kDefault ? fmt::format("`{}`", default_text(field))
+                                     : field.alternative.empty()            ? "must be given"
+                                                                            : "—";
     const std::string mark = field.alternative.empty() ? "" : fmt::format("*{}*: ", field.alternative);
     text += fmt::format("| `{}` | {} | {} | {}{} |\n", field.key, describe_allowed(field), if_not_given, mark,
                         field.meaning);
@@ -201,8 +197,7 @@ void append_settings(std::string& text, const Object& object, int depth) {
       text += fmt::format("{}}}{}\n", indent, is_last ? "" : ",");
       continue;
     }
-    std::string allowed =
-        field.kind == Kind::kText || field.kind == Kind::kName ? "" : "; " + describe_allowed(field);
+    std::string allowed = field.kind == Kind::kText || field.kind == Kind::kName ? "" : "; " + describe_allowed(field);
     text += fmt::format("{0}// {1}{2}\n{0}\"{3}\": {4}{5}\n", indent, field.meaning, allowed, field.key,
                         default_text(field), is_last ? "" : ",");
   }

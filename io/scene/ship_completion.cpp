@@ -101,8 +101,7 @@ class Completion {
   void add_mass() {
     const bool has_form = ship_.hull.draught > 0 && ship_.water.block_coefficient > 0;
     const auto d = dimensions();
-    if (has_form && ship_.mass == 0)
-      ship_.mass = density_ * d.block_coefficient * d.length * d.beam * d.draught;
+    if (has_form && ship_.mass == 0) ship_.mass = density_ * d.block_coefficient * d.length * d.beam * d.draught;
     if (has_form && ship_.moment_of_inertia == 0)
       ship_.moment_of_inertia = ship_.mass * std::pow(kGyrationOfLength * d.length, 2);
     const std::string from_form = ", or hull.draught_m and hull.block_coefficient, from which it follows";
@@ -142,36 +141,31 @@ class Completion {
       return report(key, fmt::format("{}, the bollard pull {:.4g} kN", at, 1e-3 * engine.bollard_pull),
                     "a speed that the engine can reach");
     if (engine.power > 0 && resistance * v > engine.power)
-      report(
-          key,
-          fmt::format("{}, which takes {:.4g} MW of {:.4g}", at, 1e-6 * resistance * v, 1e-6 * engine.power),
-          "a speed that the engine can reach");
+      report(key, fmt::format("{}, which takes {:.4g} MW of {:.4g}", at, 1e-6 * resistance * v, 1e-6 * engine.power),
+             "a speed that the engine can reach");
   }
 
   void check_hull() {
     if (ship_.hull.draught <= 0)
-      return report("hull.draught_m", "nothing, and water acts on the hull",
-                    "a draught, or water.model none");
+      return report("hull.draught_m", "nothing, and water acts on the hull", "a draught, or water.model none");
     const auto d = dimensions();
     if (!std::isfinite(d.block_coefficient)) return;  // no mass: reported
     if (d.block_coefficient < kLeastBlock || d.block_coefficient > 1)
       return report("mass_kg",
-                    fmt::format("{:.4g}, a block coefficient of {:.3g} for {:.4g} × {:.4g} × {:.4g} m",
-                                ship_.mass, d.block_coefficient, d.length, d.beam, d.draught),
+                    fmt::format("{:.4g}, a block coefficient of {:.3g} for {:.4g} × {:.4g} × {:.4g} m", ship_.mass,
+                                d.block_coefficient, d.length, d.beam, d.draught),
                     fmt::format("a block coefficient of {:g} to 1", kLeastBlock));
     if (!clarke_derivatives(d).are_physical())
-      report(
-          "water.model",
-          fmt::format("manoeuvring, whose regression has no meaning for a hull of {:.4g} × {:.4g} × {:.4g} m",
-                      d.length, d.beam, d.draught),
-          "none, or a hull of ship's proportions");
+      report("water.model",
+             fmt::format("manoeuvring, whose regression has no meaning for a hull of {:.4g} × {:.4g} × {:.4g} m",
+                         d.length, d.beam, d.draught),
+             "none, or a hull of ship's proportions");
   }
 
   void check_steering() {
     if (std::holds_alternative<simulation::NoSteering>(ship_.steering)) return;
     if (!std::holds_alternative<simulation::Engine>(ship_.propulsion))
-      return report("steering", "a rudder or thrusters without an engine",
-                    "propulsion.engine, or no steering");
+      return report("steering", "a rudder or thrusters without an engine", "propulsion.engine, or no steering");
     auto* rudder = std::get_if<simulation::RudderSettings>(&ship_.steering);
     if (!rudder) return;
     const auto d = dimensions();
@@ -191,13 +185,13 @@ class Completion {
     mooring.heading = input.heading.value_or(ship_.heading);
     if (std::holds_alternative<simulation::ConstantSpeed>(ship_.propulsion))
       return report("mooring", "a mooring of a ship whose speed is prescribed", "thrust_N or an engine");
-    const geometry::Vector off = rotate_back(geometry::Rotation::by(mooring.heading),
-                                             ship_.position_in_world - mooring.position_in_world);
+    const geometry::Vector off =
+        rotate_back(geometry::Rotation::by(mooring.heading), ship_.position_in_world - mooring.position_in_world);
     const double load = std::hypot(mooring.surge_stiffness * off.x, mooring.sway_stiffness * off.y);
     if (mooring.break_load > 0 && load > mooring.break_load)
       report("mooring.break_load_N",
-             fmt::format("{:g}: the mooring is broken at the start, where it pulls with {:.4g} N",
-                         mooring.break_load, load),
+             fmt::format("{:g}: the mooring is broken at the start, where it pulls with {:.4g} N", mooring.break_load,
+                         load),
              "a greater load, or a ship nearer to mooring.position_m");
   }
 
@@ -276,11 +270,10 @@ class PilotCheck {
     const Vector ahead{std::cos(ship_.heading), std::sin(ship_.heading)};
     const Vector way = pilot.waypoints.front().position_in_world - ship_.position_in_world;
     if (dot(way, ahead) <= 0)
-      report(
-          "pilot.route.waypoints[0].position_m",
-          fmt::format("({:g}, {:g}), {:.4g} m behind the ship", pilot.waypoints.front().position_in_world.x,
-                      pilot.waypoints.front().position_in_world.y, -dot(way, ahead)),
-          "a first waypoint ahead of the ship, or another heading_deg");
+      report("pilot.route.waypoints[0].position_m",
+             fmt::format("({:g}, {:g}), {:.4g} m behind the ship", pilot.waypoints.front().position_in_world.x,
+                         pilot.waypoints.front().position_in_world.y, -dot(way, ahead)),
+             "a first waypoint ahead of the ship, or another heading_deg");
     Point from = ship_.position_in_world;
     for (std::size_t i = 0; i < pilot.waypoints.size(); ++i) {
       const Point to = pilot.waypoints[i].position_in_world;
@@ -344,8 +337,8 @@ class PilotCheck {
 
 }  // namespace
 
-simulation::Ship complete_ship(ShipInput& input, const JsonValue& given, const std::string& path,
-                               double density, ProblemCollector& problems) {
+simulation::Ship complete_ship(ShipInput& input, const JsonValue& given, const std::string& path, double density,
+                               ProblemCollector& problems) {
   return Completion(input, given, path, density, problems).run();
 }
 
@@ -360,8 +353,8 @@ simulation::Structure complete_structure(const StructureInput& input) {
   return structure;
 }
 
-std::optional<simulation::Wall> complete_wall(const WallInput& input, const JsonValue& given,
-                                              const std::string& path, ProblemCollector& problems) {
+std::optional<simulation::Wall> complete_wall(const WallInput& input, const JsonValue& given, const std::string& path,
+                                              ProblemCollector& problems) {
   simulation::Wall wall = simulation::wall_between(input.from, input.to, input.depth);
   if (wall.length < kShortestWall) {
     problems.report(0, nearest_offset(given, "to_m"), path + ".to_m",

@@ -72,8 +72,7 @@ ShipPreset polaris() {
        {"hull.stem_angle_deg", "25", kAssumed, kAngles},
        {"hull.entrance_angle_deg", "30", kAssumed, kAngles},
        {"propulsion.engine.bollard_pull_kN", "2100", kPublished, "214 t, [Arctia2016]"},
-       {"propulsion.engine.power_MW", "19", kPublished,
-        "three azimuthing thrusters, one at the bow, [Arctech2016]"},
+       {"propulsion.engine.power_MW", "19", kPublished, "three azimuthing thrusters, one at the bow, [Arctech2016]"},
        {"propulsion.engine.propellers", "3", kPublished, "[Arctech2016]"},
        {"propulsion.engine.open_water_speed_m_per_s", "8.75", kPublished, "17 kn, [Arctia2016]"},
        {"steering.azimuth.rate_deg_per_s", "8", kAssumed, "usual of azimuthing thrusters"}},
@@ -81,21 +80,20 @@ ShipPreset polaris() {
 }
 
 ShipPreset nordica() {
-  return {
-      "nordica",
-      "Nordica, multipurpose icebreaker, 1994",
-      {{"hull.length_m", "96.7", kPublished, "between perpendiculars, [NordicaPage]"},
-       {"hull.beam_m", "26", kPublished, kNordicaPage},
-       {"hull.draught_m", "7", kPublished, "as a Baltic icebreaker, [NordicaPage]"},
-       {"hull.block_coefficient", "0.59", kEstimated, "from 12 800 t at 8.4 m, [NordicaPage]"},
-       {"hull.stem_angle_deg", "25", kAssumed, kAngles},
-       {"hull.entrance_angle_deg", "30", kAssumed, kAngles},
-       {"propulsion.engine.bollard_pull_kN", "2300", kRecall, "trials"},
-       {"propulsion.engine.power_MW", "15", kPublished, "two azimuthing thrusters of 7.5 MW, [NordicaPage]"},
-       {"propulsion.engine.propellers", "2", kPublished, kNordicaPage},
-       {"propulsion.engine.open_water_speed_m_per_s", "8.49", kPublished, "16.5 kn, [NordicaPage]"},
-       {"steering.azimuth.rate_deg_per_s", "8", kAssumed, "usual of azimuthing thrusters"}},
-      {{0.8, 9.5 * kKnot, 0, kNordicaPage}}};
+  return {"nordica",
+          "Nordica, multipurpose icebreaker, 1994",
+          {{"hull.length_m", "96.7", kPublished, "between perpendiculars, [NordicaPage]"},
+           {"hull.beam_m", "26", kPublished, kNordicaPage},
+           {"hull.draught_m", "7", kPublished, "as a Baltic icebreaker, [NordicaPage]"},
+           {"hull.block_coefficient", "0.59", kEstimated, "from 12 800 t at 8.4 m, [NordicaPage]"},
+           {"hull.stem_angle_deg", "25", kAssumed, kAngles},
+           {"hull.entrance_angle_deg", "30", kAssumed, kAngles},
+           {"propulsion.engine.bollard_pull_kN", "2300", kRecall, "trials"},
+           {"propulsion.engine.power_MW", "15", kPublished, "two azimuthing thrusters of 7.5 MW, [NordicaPage]"},
+           {"propulsion.engine.propellers", "2", kPublished, kNordicaPage},
+           {"propulsion.engine.open_water_speed_m_per_s", "8.49", kPublished, "16.5 kn, [NordicaPage]"},
+           {"steering.azimuth.rate_deg_per_s", "8", kAssumed, "usual of azimuthing thrusters"}},
+          {{0.8, 9.5 * kKnot, 0, kNordicaPage}}};
 }
 
 ShipPreset oden() {
@@ -118,21 +116,20 @@ ShipPreset oden() {
 }
 
 ShipPreset xue_long_2() {
-  return {
-      "xuelong-2",
-      "Xue Long 2, research icebreaker, 2019",
-      {{"hull.length_m", "116", kEstimated, kWaterline},
-       {"hull.beam_m", "22.3", kPublished, kXueLongPage},
-       {"hull.draught_m", "7.9", kPublished, "of the design, [XueLong2Page]"},
-       {"hull.block_coefficient", "0.65", kEstimated, "from 14 300 t at 8.3 m, [XueLong2Page]"},
-       {"hull.stem_angle_deg", "25", kAssumed, kAngles},
-       {"hull.entrance_angle_deg", "30", kAssumed, kAngles},
-       {"propulsion.engine.power_MW", "15", kPublished, "two azimuthing thrusters of 7.5 MW, [XueLong2Page]"},
-       {"propulsion.engine.propellers", "2", kPublished, kXueLongPage},
-       {"propulsion.engine.propeller_diameter_m", "4.5", kEstimated, kByPower},
-       {"propulsion.engine.open_water_speed_m_per_s", "7.72", kPublished, "15 kn, [XueLong2Page]"},
-       {"steering.azimuth.rate_deg_per_s", "8", kAssumed, "usual of azimuthing thrusters"}},
-      {{1.5, 2.5 * kKnot, 0, "2 to 3 kn, with .2 m of snow, [XueLong2Page]"}}};
+  return {"xuelong-2",
+          "Xue Long 2, research icebreaker, 2019",
+          {{"hull.length_m", "116", kEstimated, kWaterline},
+           {"hull.beam_m", "22.3", kPublished, kXueLongPage},
+           {"hull.draught_m", "7.9", kPublished, "of the design, [XueLong2Page]"},
+           {"hull.block_coefficient", "0.65", kEstimated, "from 14 300 t at 8.3 m, [XueLong2Page]"},
+           {"hull.stem_angle_deg", "25", kAssumed, kAngles},
+           {"hull.entrance_angle_deg", "30", kAssumed, kAngles},
+           {"propulsion.engine.power_MW", "15", kPublished, "two azimuthing thrusters of 7.5 MW, [XueLong2Page]"},
+           {"propulsion.engine.propellers", "2", kPublished, kXueLongPage},
+           {"propulsion.engine.propeller_diameter_m", "4.5", kEstimated, kByPower},
+           {"propulsion.engine.open_water_speed_m_per_s", "7.72", kPublished, "15 kn, [XueLong2Page]"},
+           {"steering.azimuth.rate_deg_per_s", "8", kAssumed, "usual of azimuthing thrusters"}},
+          {{1.5, 2.5 * kKnot, 0, "2 to 3 kn, with .2 m of snow, [XueLong2Page]"}}};
 }
 
 std::vector<ShipPreset> make_presets() {
@@ -158,8 +155,8 @@ void put_at(JsonValue& object, std::string_view path, JsonValue value) {
 }
 
 const Field* field_of(const Object& table, std::string_view key) {
-  const auto found = std::find_if(table.fields.begin(), table.fields.end(),
-                                  [&](const Field& field) { return field.key == key; });
+  const auto found =
+      std::find_if(table.fields.begin(), table.fields.end(), [&](const Field& field) { return field.key == key; });
   return found == table.fields.end() ? nullptr : &*found;
 }
 
@@ -217,8 +214,8 @@ std::span<const ShipPreset> ship_presets() {
 
 const ShipPreset* find_ship_preset(std::string_view name) {
   const auto presets = ship_presets();
-  const auto found = std::find_if(presets.begin(), presets.end(),
-                                  [&](const ShipPreset& preset) { return preset.name == name; });
+  const auto found =
+      std::find_if(presets.begin(), presets.end(), [&](const ShipPreset& preset) { return preset.name == name; });
   return found == presets.end() ? nullptr : &*found;
 }
 
@@ -233,8 +230,7 @@ void fill_in_presets(JsonValue& scene) {
   JsonValue* ships = scene.find("ships");
   if (!ships || !ships->is(JsonValue::Kind::kArray)) return;
   for (JsonValue& ship : ships->items()) {
-    const JsonValue* name =
-        ship.is(JsonValue::Kind::kObject) ? ship.find("ship", JsonValue::Kind::kText) : nullptr;
+    const JsonValue* name = ship.is(JsonValue::Kind::kObject) ? ship.find("ship", JsonValue::Kind::kText) : nullptr;
     if (!name) continue;
     const std::uint32_t offset = name->offset;
     const ShipPreset* preset = find_ship_preset(name->text());

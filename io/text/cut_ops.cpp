@@ -34,8 +34,8 @@ ToolOutcome<PolygonTool> tool_of(const FloeText& text) {
     if (!entry.refusal.empty()) return invalid(fmt::format("{}: {}: {}", place, entry.refusal, entry.detail));
     geometry::Polygon polygon = geometry::normalised(entry.polygon);
     if (const auto found = geometry::find_defect(polygon))
-      return invalid(fmt::format("{}: {}{}", place, name_of(found->defect),
-                                 places_in_words(found->places, kMostPlaces)));
+      return invalid(
+          fmt::format("{}: {}{}", place, name_of(found->defect), places_in_words(found->places, kMostPlaces)));
     tool.polygons.push_back(std::move(polygon));
   }
   if (tool.polygons.empty()) return malformed("there is no polygon in it");
@@ -44,8 +44,7 @@ ToolOutcome<PolygonTool> tool_of(const FloeText& text) {
 
 Result<std::vector<double>> numbers_of(const JsonValue& value, std::size_t count, const char* form) {
   const auto is_number = [](const JsonValue& item) { return item.is(JsonKind::kNumber); };
-  if (!value.is(JsonKind::kArray) || value.items().size() != count ||
-      !std::ranges::all_of(value.items(), is_number))
+  if (!value.is(JsonKind::kArray) || value.items().size() != count || !std::ranges::all_of(value.items(), is_number))
     return fail(fmt::format("expected {}", form));
   std::vector<double> numbers;
   for (const JsonValue& item : value.items()) numbers.push_back(item.number());
@@ -117,8 +116,7 @@ ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) 
       if (!member.value.is(JsonKind::kNumber) || !(member.value.number() > 0))
         return malformed("sagitta_m: expected a number > 0");
       sagitta = member.value.number();
-    } else if (member.key == "disc" || member.key == "crack" || member.key == "line" ||
-               member.key == "polygon") {
+    } else if (member.key == "disc" || member.key == "crack" || member.key == "line" || member.key == "polygon") {
       if (tool) return malformed(fmt::format(R"("{}" and "{}" in one: {})", tool->key, member.key, kForm));
       tool = &member;
     } else {
@@ -169,8 +167,7 @@ Result<std::vector<double>> read_numbers(std::string_view text, std::size_t coun
     text.remove_prefix(1);
   }
   if (numbers.size() != count)
-    return fail(
-        fmt::format("{} number{}, expected {}", numbers.size(), numbers.size() == 1 ? "" : "s", count));
+    return fail(fmt::format("{} number{}, expected {}", numbers.size(), numbers.size() == 1 ? "" : "s", count));
   return numbers;
 }
 
@@ -180,8 +177,8 @@ ToolOutcome<DiscTool> disc_tool(const std::vector<double>& centre_and_radius, do
   if (!(disc.sagitta > 0)) disc.sagitta = default_sagitta(disc.radius);
   disc.polygon.outer = geometry::disc_polygon(disc.centre, disc.radius, disc.sagitta);
   if (const auto found = geometry::find_defect(disc.polygon)) {
-    return invalid(fmt::format("the disc's polygon has no room among the doubles there: {}{}",
-                               name_of(found->defect), places_in_words(found->places, kMostPlaces)));
+    return invalid(fmt::format("the disc's polygon has no room among the doubles there: {}{}", name_of(found->defect),
+                               places_in_words(found->places, kMostPlaces)));
   }
   return disc;
 }
@@ -205,9 +202,7 @@ ToolOutcome<std::vector<CutOp>> read_cut_ops(const std::string& text, const CutD
   std::vector<CutOp> ops;
   for (const JsonValue& item : value->items()) {
     auto op = read_op(item, defaults);
-    if (!op)
-      return tl::unexpected(
-          ToolError{op.error().kind, fmt::format("[{}]: {}", ops.size(), op.error().words)});
+    if (!op) return tl::unexpected(ToolError{op.error().kind, fmt::format("[{}]: {}", ops.size(), op.error().words)});
     ops.push_back(std::move(*op));
   }
   if (ops.empty()) return malformed("the list of cuts is empty");

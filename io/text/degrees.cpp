@@ -17,10 +17,10 @@ constexpr double kLeastIce = 1;        ///< of a scene in metres [m²]
 constexpr double kMostPolarIce = 100;  ///< of a scene in degrees [°²]
 
 /// Codes of EPSG and OGC in common use whose axes are longitude and latitude.
-constexpr std::string_view kGeographic[] = {
-    "CRS84", "CRS84H", "CRS83", "CRS27", "4326", "4979", "4258", "4937", "4267", "4269",
-    "4617",  "4619",   "4283",  "7844",  "4167", "4490", "4612", "6668", "4674", "4148",
-    "4162",  "4170",   "4202",  "4203",  "4230", "4277", "4284", "4314", "4313", "4322"};
+constexpr std::string_view kGeographic[] = {"CRS84", "CRS84H", "CRS83", "CRS27", "4326", "4979", "4258", "4937",
+                                            "4267",  "4269",   "4617",  "4619",  "4283", "7844", "4167", "4490",
+                                            "4612",  "6668",   "4674",  "4148",  "4162", "4170", "4202", "4203",
+                                            "4230",  "4277",   "4284",  "4314",  "4313", "4322"};
 
 }  // namespace
 
@@ -41,8 +41,7 @@ std::string geographic_crs(const JsonValue& crs) {
   std::ranges::transform(code, code.begin(),
                          [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c; });
   const bool is_known = std::ranges::find(kGeographic, code) != std::end(kGeographic);
-  return is_known || code == "WGS 84" || code == "WGS84" || code.find("LONGLAT") != std::string::npos ? name
-                                                                                                      : "";
+  return is_known || code == "WGS 84" || code == "WGS84" || code.find("LONGLAT") != std::string::npos ? name : "";
 }
 
 bool is_in_degrees(geometry::Point point) {
@@ -75,8 +74,7 @@ std::string how_to_project(const geometry::Box& box_in_degrees, const std::strin
   return fmt::format(
       "ogr2ogr -f GeoJSON -t_srs \"+proj=aeqd +lat_0={:.4g} +lon_0={:.5g}\" metres.geojson {} (its "
       "origin is then in their middle)",
-      0.5 * (box_in_degrees.low.y + box_in_degrees.high.y),
-      0.5 * (box_in_degrees.low.x + box_in_degrees.high.x), file);
+      0.5 * (box_in_degrees.low.y + box_in_degrees.high.y), 0.5 * (box_in_degrees.low.x + box_in_degrees.high.x), file);
 }
 
 }  // namespace polynya::io

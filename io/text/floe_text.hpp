@@ -19,14 +19,14 @@ enum class FloeFormat { kGeojson, kNdjson, kWkt };
 
 /// A polygon as it stands in a text, or what stands there in place of one.
 struct FloeEntry {
-  geometry::Polygon polygon;  ///< rings as drawn: either way round, closed or not; NaN where no number stands
-  std::size_t feature = 0;    ///< which feature, line or WKT geometry of the text, from 0
-  std::size_t member = 0;     ///< which polygon of it, from 0
-  std::size_t line = 1;       ///< in the text, from 1
-  std::optional<std::int64_t> floe_id;            ///< its property of that name
+  geometry::Polygon polygon;            ///< rings as drawn: either way round, closed or not; NaN where no number stands
+  std::size_t feature = 0;              ///< which feature, line or WKT geometry of the text, from 0
+  std::size_t member = 0;               ///< which polygon of it, from 0
+  std::size_t line = 1;                 ///< in the text, from 1
+  std::optional<std::int64_t> floe_id;  ///< its property of that name
   std::shared_ptr<const std::string> properties;  ///< the feature's others, as members of JSON; null if none
-  std::string refusal;  ///< "not-a-polygon", "no-geometry", "malformed", "syntax", or empty
-  std::string detail;   ///< for people
+  std::string refusal;                            ///< "not-a-polygon", "no-geometry", "malformed", "syntax", or empty
+  std::string detail;                             ///< for people
 };
 
 struct FloeText {
@@ -34,8 +34,8 @@ struct FloeText {
   std::vector<FloeEntry> entries;     ///< in the order of the text
   bool has_more_coordinates = false;  ///< Z or M values were passed over
   bool has_srid = false;              ///< "SRID=…;" was passed over
-  std::string crs;             ///< GeoJSON's member of that name (of 2008; RFC 7946 has none), JSON; or empty
-  bool has_other_crs = false;  ///< several differ; `crs` is the first
+  std::string crs;                    ///< GeoJSON's member of that name (of 2008; RFC 7946 has none), JSON; or empty
+  bool has_other_crs = false;         ///< several differ; `crs` is the first
 };
 
 /// Reads the polygons of a text: GeoJSON (Polygon, MultiPolygon, Feature, FeatureCollection,

@@ -97,8 +97,7 @@ class GeojsonEntries {
   }
 
  private:
-  void refuse(const JsonValue& value, std::size_t feature, std::string_view reason,
-              const std::string& detail) {
+  void refuse(const JsonValue& value, std::size_t feature, std::string_view reason, const std::string& detail) {
     FloeEntry entry;
     entry.feature = feature;
     entry.member = member_;
@@ -122,8 +121,7 @@ class GeojsonEntries {
         floe_id_ = floe_id_in(*properties, "floe_id");
         properties_ = kept_of(*properties);
       }
-      if (!geometry || geometry->is_null())
-        return refuse(value, feature, "no-geometry", "a feature without geometry");
+      if (!geometry || geometry->is_null()) return refuse(value, feature, "no-geometry", "a feature without geometry");
     }
     attempt(*geometry, [&] {
       const bool is_birth = geometry->find("ring_m") || geometry->find("ring_parts_m");
@@ -190,9 +188,9 @@ class GeojsonEntries {
   void read_geometry(const JsonValue& value) {
     const JsonValue* type = value.find("type", JsonKind::kText);
     if (!type)
-      throw ParseError("malformed", fmt::format("found {}, expected an object with a GeoJSON type",
-                                                value.is(JsonKind::kObject) ? "an object without one"
-                                                                            : name_of(value.kind())));
+      throw ParseError("malformed",
+                       fmt::format("found {}, expected an object with a GeoJSON type",
+                                   value.is(JsonKind::kObject) ? "an object without one" : name_of(value.kind())));
     if (type->text() == "GeometryCollection") {
       const JsonValue* geometries = value.find("geometries");
       if (!geometries) throw ParseError("malformed", "a GeometryCollection without geometries");
@@ -201,9 +199,8 @@ class GeojsonEntries {
       return;
     }
     if (type->text() != "Polygon" && type->text() != "MultiPolygon") {
-      throw ParseError("not-a-polygon",
-                       fmt::format("found {}, expected Polygon, MultiPolygon or GeometryCollection",
-                                   type->text().substr(0, 40)));
+      throw ParseError("not-a-polygon", fmt::format("found {}, expected Polygon, MultiPolygon or GeometryCollection",
+                                                    type->text().substr(0, 40)));
     }
     const JsonValue* coordinates = value.find("coordinates");
     if (!coordinates) throw ParseError("malformed", "no coordinates");

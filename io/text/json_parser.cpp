@@ -69,8 +69,7 @@ class PlaceFinder {
 
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
-  TreeBuilder(std::string_view text, JsonDocument& document)
-      : places_(text), text_(text), document_(document) {}
+  TreeBuilder(std::string_view text, JsonDocument& document) : places_(text), text_(text), document_(document) {}
 
   bool null() override {
     place(nullptr);
@@ -107,8 +106,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
   bool end_array() override { return close(); }
 
-  bool parse_error(std::size_t position, const std::string&,
-                   const nlohmann::json::exception& error) override {
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) override {
     const std::size_t gap = places_.gap();
     const std::size_t token = places_.start_of_token();
     ParserStop stop{.text = text_,
@@ -129,8 +127,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     JsonValue* slot = &document_.root;
     if (!open_.empty()) {
       JsonValue& parent = *open_.back();
-      slot = parent.is(JsonValue::Kind::kArray) ? &parent.items().emplace_back()
-                                                : &parent.members().back().value;
+      slot = parent.is(JsonValue::Kind::kArray) ? &parent.items().emplace_back() : &parent.members().back().value;
     }
     slot->data = std::forward<Value>(value);
     slot->offset = places_.start_of_token();
@@ -186,9 +183,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
                                   fmt::format("\"{}\" a second time", sorted[i]->key), "each key once"});
     }
     if (repeated.empty()) return;
-    std::erase_if(members, [&](const JsonMember& m) {
-      return std::ranges::find(repeated, m.key_offset) != repeated.end();
-    });
+    std::erase_if(members,
+                  [&](const JsonMember& m) { return std::ranges::find(repeated, m.key_offset) != repeated.end(); });
   }
 
   PlaceFinder places_;
@@ -229,8 +225,7 @@ JsonDocument parse_json(std::string_view text) {
     return document;
   }
   TreeBuilder builder(text, document);
-  nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json, true,
-                            true);
+  nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json, true, true);
   return document;
 }
 
@@ -241,8 +236,7 @@ constexpr auto kAnyValue = "an object, a list, text in double quotes, a number, 
 /// The word or sign at an offset, on one line.
 std::string show_at(std::string_view text, std::size_t offset) {
   if (offset >= text.size()) return "the end of the text";
-  if (std::string_view("[]{},:").find(text[offset]) != std::string_view::npos)
-    return fmt::format("'{}'", text[offset]);
+  if (std::string_view("[]{},:").find(text[offset]) != std::string_view::npos) return fmt::format("'{}'", text[offset]);
   std::size_t end = text.find_first_of(" \t\r\n,:[]{}\"", offset + 1);
   if (text[offset] == '"') end = std::min(text.find_first_of("\"\n", offset + 1), text.size() - 1) + 1;
   std::string_view word = text.substr(offset, std::min<std::size_t>(end - offset, 40));
@@ -261,8 +255,7 @@ std::string allowed_by(const ParserStop& stop) {
     return "one of \" \\ / b f n r t u behind a backslash (a backslash itself: two of them)";
   if (has("must be followed by")) return "\\u and four hexadecimal digits; beyond U+FFFF a surrogate pair";
   if (has("UTF-8")) return "text in UTF-8";
-  if (has("missing '*/'") || has("invalid comment"))
-    return "a comment: /* … */, or // to the end of the line";
+  if (has("missing '*/'") || has("invalid comment")) return "a comment: /* … */, or // to the end of the line";
   if (has("; expected string literal")) return "a key in double quotes";
   if (has("; expected ':'")) return "a colon between a key and its value";
   if (has("; expected '}'")) return "a comma, or '}'";
@@ -284,8 +277,7 @@ std::optional<JsonFault> wrong_comma(const ParserStop& stop) {
   };
   if (stop.commas.empty()) {
     const bool is_apart = stop.token > stop.gap || next == '"' || next == '{' || next == '[';
-    if (!stop.follows_value || !is_apart || !begins_a_value(next) || stop.last_read < stop.token)
-      return std::nullopt;
+    if (!stop.follows_value || !is_apart || !begins_a_value(next) || stop.last_read < stop.token) return std::nullopt;
     const int line_before = line_and_column(stop.text, stop.gap).line;
     const bool is_on_a_later_line = line_before < line_and_column(stop.text, stop.token).line;
     return fault(stop.token,
@@ -311,8 +303,8 @@ JsonFault fault_of(const ParserStop& stop) {
   if (stop.open && stop.token >= stop.text.size()) {
     return {static_cast<std::uint32_t>(offset), "", "", "",
             fmt::format("the text ends, but the {} that begins on line {} is not closed with '{}'",
-                        stop.open->is_list ? "list" : "object",
-                        line_and_column(stop.text, stop.open->offset).line, stop.open->is_list ? ']' : '}')};
+                        stop.open->is_list ? "list" : "object", line_and_column(stop.text, stop.open->offset).line,
+                        stop.open->is_list ? ']' : '}')};
   }
   return {static_cast<std::uint32_t>(offset), "", show_at(stop.text, offset), allowed_by(stop)};
 }
@@ -357,8 +349,7 @@ void blank_unfinite(std::string& text) {
     } else if (kOfTokens.find(text[at]) != std::string_view::npos) {
       const std::size_t end = std::min(text.find_first_not_of(kOfTokens, at), text.size());
       if (end - at >= 3 && is_not_finite(text.substr(at, end - at))) {
-        std::fill(text.begin() + static_cast<std::ptrdiff_t>(at),
-                  text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
         text[at] = text[at + 1] = '"';
       }
       at = end;

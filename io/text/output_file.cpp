@@ -113,8 +113,8 @@ bool OutputFile::sync() {
 bool OutputFile::is_in_place() const {
   struct stat opened {
   }, named{};
-  return ::fstat(descriptor_, &opened) == 0 && ::lstat(name_.c_str(), &named) == 0 &&
-         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+  return ::fstat(descriptor_, &opened) == 0 && ::lstat(name_.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
 }
 
 Result<> sync_folder(const std::filesystem::path& folder) {
@@ -243,8 +243,7 @@ Result<> write_whole_file(const std::filesystem::path& path, std::string_view te
 }
 
 Result<> write_whole_file_in_parts(const std::filesystem::path& path,
-                                   const std::function<void(const WritePart&)>& produce,
-                                   Durability durability) {
+                                   const std::function<void(const WritePart&)>& produce, Durability durability) {
   if (auto replaceable = check_replaceable(path); !replaceable) return replaceable;
   const bool is_synced = durability == Durability::kSynced;
   {

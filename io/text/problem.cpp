@@ -20,8 +20,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t exchange = a[i - 1] == b[j - 1] ? 0 : 1;
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + exchange});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
     }
     std::swap(before, above);
     std::swap(above, row);
@@ -67,10 +66,7 @@ std::string to_json_text(const std::vector<Problem>& problems) {
     json.open('{').key("file").value(problem.file);
     for (const auto& [key, value] : {std::pair{"line", problem.line}, {"column", problem.column}})
       json.key(key).value(problem.line > 0 ? std::optional(value) : std::nullopt);
-    json.key("path")
-        .value(shortened(problem.path, kLongestPath))
-        .key("severity")
-        .value(name_of(problem.severity));
+    json.key("path").value(shortened(problem.path, kLongestPath)).key("severity").value(name_of(problem.severity));
     json.key("message").value(message_of(problem)).close('}');
   }
   json.close(']');

@@ -31,8 +31,8 @@ void ProblemCollector::add_faults(std::size_t source, const std::vector<JsonFaul
 }
 
 std::uint32_t ProblemCollector::add_overlay(PlacedText text) {
-  const std::size_t begin = overlays_.empty() ? sources_[0].text.size() + 1
-                                              : overlays_.back().begin + overlays_.back().text.length + 1;
+  const std::size_t begin =
+      overlays_.empty() ? sources_[0].text.size() + 1 : overlays_.back().begin + overlays_.back().text.length + 1;
   overlays_.push_back({static_cast<std::uint32_t>(begin), std::move(text)});
   return overlays_.back().begin;
 }
@@ -60,8 +60,7 @@ std::vector<Problem> ProblemCollector::take() {
     place(entry, entry.problem);
     problems.push_back(std::move(entry.problem));
   }
-  if (beyond_ > 0)
-    problems.push_back({.file = sources_[0].name, .found = fmt::format("{} more problems", beyond_)});
+  if (beyond_ > 0) problems.push_back({.file = sources_[0].name, .found = fmt::format("{} more problems", beyond_)});
   entries_.clear();
   beyond_ = 0;
   return problems;

@@ -34,8 +34,8 @@ class ProblemCollector {
   const SourceText& source(std::size_t index) const { return sources_[index]; }
 
   void add(std::size_t source, std::uint32_t offset, Problem problem);
-  void report(std::size_t source, std::uint32_t offset, std::string path, std::string found,
-              std::string allowed, std::string suggestion = {});
+  void report(std::size_t source, std::uint32_t offset, std::string path, std::string found, std::string allowed,
+              std::string suggestion = {});
   /// What the parser found in a source.
   void add_faults(std::size_t source, const std::vector<JsonFault>& faults);
   std::size_t count() const { return entries_.size() + beyond_; }

@@ -52,9 +52,7 @@ class StretchFinder {
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
   std::size_t bucket_of(Point p) const {
-    const auto bits = [](double x) {
-      return std::bit_cast<std::uint64_t>(x + 0.0);
-    };  // +0 and −0 are the same
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // +0 and −0 are the same
     const std::uint64_t mixed = (bits(p.x) * 0x9e3779b97f4a7c15U + bits(p.y)) * 0xbf58476d1ce4e5b9U;
     return (mixed ^ (mixed >> 32U)) >> 8U & (by_hash_.size() - 1);
   }
@@ -87,8 +85,8 @@ class StretchFinder {
 };
 
 void append_new(ShapeParts& shape, const Ring& ring, std::size_t from, std::size_t count) {
-  shape.parts.push_back({ShapePart::kNew, static_cast<std::uint32_t>(shape.vertices.size()),
-                         static_cast<std::uint32_t>(count)});
+  shape.parts.push_back(
+      {ShapePart::kNew, static_cast<std::uint32_t>(shape.vertices.size()), static_cast<std::uint32_t>(count)});
   const auto first = ring.begin() + static_cast<std::ptrdiff_t>(from);
   shape.vertices.insert(shape.vertices.end(), first, first + static_cast<std::ptrdiff_t>(count));
 }
@@ -159,8 +157,7 @@ std::vector<std::size_t> ring_sizes(const geometry::Polygon& polygon) {
 }
 
 Result<> check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes) {
-  const std::size_t most =
-      std::accumulate(parent_ring_sizes.begin(), parent_ring_sizes.end(), std::size_t{0});
+  const std::size_t most = std::accumulate(parent_ring_sizes.begin(), parent_ring_sizes.end(), std::size_t{0});
   std::size_t taken = 0;
   for (const ShapePart& part : shape.parts) {
     if (part.ring == ShapePart::kNew) continue;
@@ -185,8 +182,7 @@ Polygon assembled(const ShapeParts& shape, const Polygon& parent) {
   for_parts(shape, [&](std::size_t ring, const ShapePart& part) {
     Ring& to = ring == 0 ? polygon.outer : polygon.holes[ring - 1];
     if (to.empty()) to.reserve(sizes[ring]);
-    const Ring& of =
-        part.ring == ShapePart::kNew ? shape.vertices : *from[static_cast<std::size_t>(part.ring)];
+    const Ring& of = part.ring == ShapePart::kNew ? shape.vertices : *from[static_cast<std::size_t>(part.ring)];
     const auto first = of.begin() + part.first;
     const auto before_end = std::min<std::ptrdiff_t>(part.count, of.end() - first);
     to.insert(to.end(), first, first + before_end);

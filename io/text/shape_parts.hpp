@@ -13,10 +13,9 @@ namespace polynya::io {
 /// A stretch of a ring: vertices that follow each other, around a ring of the parent or of the new ones.
 struct ShapePart {
   static constexpr std::int32_t kNew = -1;
-  std::int32_t ring =
-      kNew;                 ///< of the parent, 0 the outer one, then its holes; kNew: of ShapeParts::vertices
-  std::uint32_t first = 0;  ///< vertex
-  std::uint32_t count = 0;  ///< of vertices; around a ring they continue from its last to its first
+  std::int32_t ring = kNew;  ///< of the parent, 0 the outer one, then its holes; kNew: of ShapeParts::vertices
+  std::uint32_t first = 0;   ///< vertex
+  std::uint32_t count = 0;   ///< of vertices; around a ring they continue from its last to its first
 };
 
 /// A floe's shape as floes.ndjson has it (docs/run-folder.md): what it has of the floe that it broke from,

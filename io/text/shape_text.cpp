@@ -64,8 +64,7 @@ class ShapeReader {
       read_ring(hole);
     const std::vector<std::size_t> sizes = ring_sizes(shape_);
     for (std::size_t ring = 0; ring < sizes.size(); ++ring) {
-      if (sizes[ring] < 3)
-        throw NoShape(fmt::format("ring {} has {} vertices; it takes 3 or more", ring, sizes[ring]));
+      if (sizes[ring] < 3) throw NoShape(fmt::format("ring {} has {} vertices; it takes 3 or more", ring, sizes[ring]));
     }
     return std::move(shape_);
   }
@@ -85,8 +84,7 @@ class ShapeReader {
         continue;
       }
       if (items.size() != 3)
-        throw NoShape(
-            fmt::format("{} numbers where [ring, first vertex, vertices] is expected", items.size()));
+        throw NoShape(fmt::format("{} numbers where [ring, first vertex, vertices] is expected", items.size()));
       const std::uint32_t of = whole_number(items[0]);
       if (of > static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max()))
         throw NoShape(fmt::format("ring {} of a parent", of));

@@ -16,8 +16,7 @@ struct Floes {
   Integers ids, parents, generations;
   py::array_t<bool> is_under;
   Numbers poses, velocities;  ///< n × 3
-  Numbers thickness, densities, flexural_strengths, compressive_strengths, tensile_strengths,
-      fracture_toughnesses;
+  Numbers thickness, densities, flexural_strengths, compressive_strengths, tensile_strengths, fracture_toughnesses;
   Numbers areas, masses;
   Numbers vertices, world_vertices;  ///< m × 2
   Integers ring_offsets, floe_offsets;
@@ -55,8 +54,8 @@ py::object ships_of(const Simulation& python) {
     const geometry::Point at = state.world_from_ship.position;
     const auto& sample = python.last_sample(i);
     ships.append(Ship{hull_of(simulation.scene(), i).name, pair_of(at.x, at.y),
-                      pair_of(state.velocity.x, state.velocity.y), state.heading, state.angular_velocity,
-                      helm.lever, helm.steering_angle, sample ? forces_of(*sample) : py::dict()});
+                      pair_of(state.velocity.x, state.velocity.y), state.heading, state.angular_velocity, helm.lever,
+                      helm.steering_angle, sample ? forces_of(*sample) : py::dict()});
   }
   return py::module_::import("polynya.named").attr("Named")(ships);
 }
@@ -134,8 +133,7 @@ void bind_ship(py::module_& module) {
                     "causes them, means over the recording interval that ends at t_s. Empty before the\n"
                     "first interval has ended.")
       .def("__repr__", [](const Ship& s) {
-        return py::str("polynya.Ship({!r}, position {}, heading {:.4f} rad)")
-            .format(s.name, s.position, s.heading);
+        return py::str("polynya.Ship({!r}, position {}, heading {:.4f} rad)").format(s.name, s.position, s.heading);
       });
 }
 
@@ -161,12 +159,10 @@ void bind_floes(py::module_& module) {
       .def_readonly("fracture_toughnesses", &Floes::fracture_toughnesses, "[Pa m^0.5]")
       .def_readonly("areas", &Floes::areas, "[m2]")
       .def_readonly("masses", &Floes::masses, "[kg]")
-      .def_readonly("vertices", &Floes::vertices,
-                    "m x 2: in the body's frame, where a floe's shape never changes [m].")
+      .def_readonly("vertices", &Floes::vertices, "m x 2: in the body's frame, where a floe's shape never changes [m].")
       .def_readonly("world_vertices", &Floes::world_vertices, "m x 2: the same in the world [m].")
       .def_readonly("ring_offsets", &Floes::ring_offsets, "Of the rings in vertices; one more than rings.")
-      .def_readonly("floe_offsets", &Floes::floe_offsets,
-                    "Of the floes in ring_offsets; one more than floes.")
+      .def_readonly("floe_offsets", &Floes::floe_offsets, "Of the floes in ring_offsets; one more than floes.")
       .def("__len__", [](const Floes& floes) { return floes.ids.size(); });
 }
 

@@ -85,8 +85,7 @@ void bind_simulation(py::module_& module) {
       .def_property_readonly(
           "steps", [](const Simulation& s) { return s.between_steps().steps(); }, "Time steps taken.")
       .def_property_readonly(
-          "state_hash",
-          [](const Simulation& s) { return fmt::format("{:016x}", s.between_steps().state_hash()); },
+          "state_hash", [](const Simulation& s) { return fmt::format("{:016x}", s.between_steps().state_hash()); },
           "A hash of all the state: 16 hexadecimal digits, as in the run folder's states.csv.");
   bind_arrays(module, type);
   bind_floe_memory(module, type);

@@ -40,9 +40,7 @@ const simulation::Population& population_of(const FloeMemory& memory) {
 
 /// Counts a view of a simulation's memory as long as it lives, and keeps that memory.
 struct Hold {
-  explicit Hold(const FloeMemory& memory) : simulation(memory.owner()), views(memory.simulation().views()) {
-    ++*views;
-  }
+  explicit Hold(const FloeMemory& memory) : simulation(memory.owner()), views(memory.simulation().views()) { ++*views; }
   ~Hold() { --*views; }
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
@@ -64,8 +62,7 @@ py::array view(const FloeMemory& memory, const py::dtype& type, std::vector<py::
 
 py::array points(const FloeMemory& memory, const double* first, std::size_t count) {
   constexpr py::ssize_t kNumber = sizeof(double);
-  return view(memory, py::dtype::of<double>(), {static_cast<py::ssize_t>(count), 2}, {2 * kNumber, kNumber},
-              first);
+  return view(memory, py::dtype::of<double>(), {static_cast<py::ssize_t>(count), 2}, {2 * kNumber, kNumber}, first);
 }
 
 /// A quantity of bodies, from the first floe on.
@@ -79,8 +76,8 @@ py::array of_bodies(const FloeMemory& memory) {
     return points(memory, rows.empty() ? nullptr : &rows.front().x, rows.size());
   } else {
     const auto type = sizeof(Value) == 1 ? py::dtype("?") : py::dtype::of<double>();
-    return view(memory, type, {static_cast<py::ssize_t>(rows.size())},
-                {static_cast<py::ssize_t>(sizeof(Value))}, rows.empty() ? nullptr : &rows.front());
+    return view(memory, type, {static_cast<py::ssize_t>(rows.size())}, {static_cast<py::ssize_t>(sizeof(Value))},
+                rows.empty() ? nullptr : &rows.front());
   }
 }
 
@@ -90,8 +87,8 @@ py::array of_floes(const FloeMemory& memory) {
   const std::vector<Floe>& floes = population_of(memory).floes;
   using Value = std::remove_cvref_t<decltype(floes.front().*Member)>;
   const auto type = std::is_same_v<Value, bool> ? py::dtype("?") : py::dtype::of<Value>();
-  return view(memory, type, {static_cast<py::ssize_t>(floes.size())},
-              {static_cast<py::ssize_t>(sizeof(Floe))}, floes.empty() ? nullptr : &(floes.front().*Member));
+  return view(memory, type, {static_cast<py::ssize_t>(floes.size())}, {static_cast<py::ssize_t>(sizeof(Floe))},
+              floes.empty() ? nullptr : &(floes.front().*Member));
 }
 
 py::list shape_of(const FloeMemory& memory, std::int64_t id) {
@@ -144,14 +141,12 @@ void bind_floe_memory(py::module_& module, py::class_<Simulation>& simulation) {
                              "Ids of the floes that they broke from; -1: of the scene.")
       .def_property_readonly("generations", &of_floes<&Floe::generation>, "Fractures since the scene's floe.")
       .def_property_readonly("areas", &of_floes<&Floe::area>, "[m2]")
-      .def_property_readonly("is_under", &of_floes<&Floe::is_under>,
-                             "Whether under a hull, or the ice behind it.")
+      .def_property_readonly("is_under", &of_floes<&Floe::is_under>, "Whether under a hull, or the ice behind it.")
       .def("shape", &shape_of, py::arg("id"),
            "shape(id)\n\nThe rings of a floe that has not broken, n x 2 each, in its body's frame [m]: the "
            "outer one,\nthen its holes.")
       .def_property_readonly(
-          "water_shift",
-          [](const FloeMemory& m) { return pair_of(m.simulation().at_rest().world().clock.drift()); },
+          "water_shift", [](const FloeMemory& m) { return pair_of(m.simulation().at_rest().world().clock.drift()); },
           "How far the water has gone over ground, x and y [m].")
       .def_property_readonly(
           "water_velocity",

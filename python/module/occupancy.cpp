@@ -36,9 +36,7 @@ void CoverImage::add_crossing(std::size_t row, double x, double share) {
 /// down.
 void CoverImage::add_edge(geometry::Point a, geometry::Point b) {
   const auto lines = static_cast<double>(frame_.rows * kLines);
-  const auto line_from = [lines](double y) {
-    return static_cast<std::size_t>(std::clamp(y + 0.5, 0.0, lines));
-  };
+  const auto line_from = [lines](double y) { return static_cast<std::size_t>(std::clamp(y + 0.5, 0.0, lines)); };
   std::size_t from = line_from(a.y), to = line_from(b.y);
   if (from == to) return;
   double share = 1.0 / kLines;
@@ -101,8 +99,8 @@ ImageFrame checked_frame(std::pair<int, int> shape, double cell, double ahead) {
 }
 
 /// Floes whose circle meets the image's; those under hulls are not in the way.
-void add_floes(const simulation::Simulation& simulation, const geometry::Pose& world_from_ship,
-               CoverImage& image, const ImageFrame& frame) {
+void add_floes(const simulation::Simulation& simulation, const geometry::Pose& world_from_ship, CoverImage& image,
+               const ImageFrame& frame) {
   const simulation::Population& population = simulation.world().population;
   const dynamics::Bodies& bodies = population.bodies;
   const geometry::Vector drift = simulation.world().clock.drift();
@@ -119,8 +117,8 @@ void add_floes(const simulation::Simulation& simulation, const geometry::Pose& w
   }
 }
 
-py::array_t<float> occupancy(const Simulation& python, const py::object& ship, std::pair<int, int> shape,
-                             double cell, double ahead) {
+py::array_t<float> occupancy(const Simulation& python, const py::object& ship, std::pair<int, int> shape, double cell,
+                             double ahead) {
   const simulation::Simulation& simulation = python.between_steps();
   const ImageFrame frame = checked_frame(shape, cell, ahead);
   const std::size_t own = python.index_of(ship, "occupancy");

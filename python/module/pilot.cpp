@@ -71,8 +71,7 @@ void bind_pilot(py::module_& module) {
       .def_property_readonly(
           "heading", [](const PilotView& v) { return v.own().heading; }, "[rad]")
       .def_property_readonly(
-          "velocity", [](const PilotView& v) { return pair_of(v.own().velocity); },
-          "Over ground, x and y [m/s].")
+          "velocity", [](const PilotView& v) { return pair_of(v.own().velocity); }, "Over ground, x and y [m/s].")
       .def_property_readonly(
           "through_water", [](const PilotView& v) { return three_of(v.values.through_water); },
           "Ahead and to port [m/s], turning [rad/s].")

@@ -10,8 +10,7 @@ namespace polynya::python {
 
 /// What a pilot in Python gets: a copy, which it may keep.
 struct PilotView {
-  explicit PilotView(const simulation::PilotView& seen)
-      : values(seen), ships(seen.ships.begin(), seen.ships.end()) {
+  explicit PilotView(const simulation::PilotView& seen) : values(seen), ships(seen.ships.begin(), seen.ships.end()) {
     values.ships = {};
   }
   simulation::PilotView values;  ///< without its ships

@@ -15,8 +15,8 @@ py::list to_python(const std::vector<io::Problem>& problems, bool has_lines) {
   const py::object type = py::module_::import("polynya.errors").attr("Problem");
   py::list list;
   for (const io::Problem& p : problems) {
-    list.append(type(p.file, optional_line(p.line, has_lines), optional_line(p.column, has_lines), p.path,
-                     p.found, p.allowed, p.suggestion, std::string(name_of(p.severity)), message_of(p)));
+    list.append(type(p.file, optional_line(p.line, has_lines), optional_line(p.column, has_lines), p.path, p.found,
+                     p.allowed, p.suggestion, std::string(name_of(p.severity)), message_of(p)));
   }
   return list;
 }
@@ -70,9 +70,7 @@ void bind_scene(py::module_& module) {
           "Of the scene with every default filled in: 16 hexadecimal digits, as in the run's summary.json.")
       .def_property_readonly(
           "resolved",
-          [](const Scene& scene) {
-            return py::module_::import("json").attr("loads")(scene.loaded().resolved_text);
-          },
+          [](const Scene& scene) { return py::module_::import("json").attr("loads")(scene.loaded().resolved_text); },
           "The scene as a dict, with every default filled in and floe files read in.")
       .def("__repr__", [](const Scene& scene) {
         const py::list problems = scene.problems();

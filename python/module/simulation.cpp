@@ -75,16 +75,14 @@ Simulation::Simulation(std::shared_ptr<Scene> scene, simulation::Simulation simu
   simulation_.journal().clear();
 }
 
-std::unique_ptr<Simulation> Simulation::resume(std::shared_ptr<Scene> scene, const py::bytes& bytes,
-                                               int threads) {
+std::unique_ptr<Simulation> Simulation::resume(std::shared_ptr<Scene> scene, const py::bytes& bytes, int threads) {
   simulation::Simulation simulation = resumed(scene->loaded(), bytes);
   return std::unique_ptr<Simulation>(new Simulation(std::move(scene), std::move(simulation), threads));
 }
 
 const simulation::Simulation& Simulation::between_steps() const {
   if (is_broken_)
-    throw std::runtime_error(
-        "an earlier error left a step of this simulation unfinished; resume a saved one");
+    throw std::runtime_error("an earlier error left a step of this simulation unfinished; resume a saved one");
   if (!is_pilot_asked_) refuse_while_stepping();
   return simulation_;
 }
@@ -103,8 +101,7 @@ void Simulation::refuse_while_viewed() const {
 }
 
 void Simulation::refuse_while_stepping() const {
-  if (is_stepping_)
-    throw std::runtime_error("this simulation is being stepped; wait for its step() or run()");
+  if (is_stepping_) throw std::runtime_error("this simulation is being stepped; wait for its step() or run()");
 }
 
 void Simulation::take_journal() {
@@ -132,8 +129,7 @@ void Simulation::step_once() {
 
 void Simulation::raise_failure() {
   if (const auto failure = simulation_.numerical_failure())
-    raise("SimulationError",
-          py::str(fmt::format("numerical failure at {:.6g} s: {}", simulation_.time(), *failure)));
+    raise("SimulationError", py::str(fmt::format("numerical failure at {:.6g} s: {}", simulation_.time(), *failure)));
 }
 
 void Simulation::advance_to(std::int64_t last_step, const py::object& progress) {
@@ -198,8 +194,7 @@ std::size_t Simulation::index_of(const py::object& ship, const char* caller) con
       throw py::index_error(fmt::format("ship {}: the scene has {} ships and structures", index, count));
     return static_cast<std::size_t>(index);
   }
-  if (!py::isinstance<py::str>(ship))
-    throw py::type_error(fmt::format("{}: a ship is an index or a name", caller));
+  if (!py::isinstance<py::str>(ship)) throw py::type_error(fmt::format("{}: a ship is an index or a name", caller));
   const auto name = ship.cast<std::string>();
   const int found = hull_named(simulation_.scene(), name);
   if (found < 0) throw py::value_error(fmt::format("the scene has no ship named \"{}\"", name));
@@ -211,15 +206,13 @@ void Simulation::set_pilot(const py::object& ship, const py::object& pilot) {
   const std::size_t index = index_of(ship, "set_pilot");
   const auto& ships = simulation_.scene().ships;
   if (index >= ships.size() || !std::holds_alternative<simulation::Engine>(ships[index].propulsion))
-    throw py::value_error(
-        fmt::format("ship \"{}\" has no engine to command: give it propulsion.engine (docs/scene.md)",
-                    hull_of(simulation_.scene(), index).name));
+    throw py::value_error(fmt::format("ship \"{}\" has no engine to command: give it propulsion.engine (docs/scene.md)",
+                                      hull_of(simulation_.scene(), index).name));
   if (!pilot.is_none() && !PyCallable_Check(pilot.ptr()))
     throw py::type_error("set_pilot: a pilot is a callable that takes a PilotView, or None");
   pilots_[index] = pilot;
   simulation::ExternalPilot external;
-  if (!pilot.is_none())
-    external = [this, index](const simulation::PilotView& view) { return command_of(index, view); };
+  if (!pilot.is_none()) external = [this, index](const simulation::PilotView& view) { return command_of(index, view); };
   simulation_.set_pilot(static_cast<int>(index), std::move(external));
 }
 

@@ -20,8 +20,7 @@ class Simulation {
  public:
   Simulation(const std::shared_ptr<Scene>& scene, int threads);
   /// Continues from the bytes of save(). Raises ValueError where they do not fit.
-  static std::unique_ptr<Simulation> resume(std::shared_ptr<Scene> scene, const py::bytes& bytes,
-                                            int threads);
+  static std::unique_ptr<Simulation> resume(std::shared_ptr<Scene> scene, const py::bytes& bytes, int threads);
 
   void step(std::int64_t count);
   /// To a time [s], the scene's own end if none is given. `progress` is None or a callable.
@@ -63,7 +62,7 @@ class Simulation {
   std::string events_;  ///< since the last call of events(): JSON objects, a comma behind each
   std::vector<std::optional<simulation::ShipSample>> samples_;  ///< per ship
   std::vector<py::object> pilots_;                              ///< per ship; None: its own
-  std::exception_ptr pilot_error_;  ///< raised by one in a step, to be raised after it
+  std::exception_ptr pilot_error_;                              ///< raised by one in a step, to be raised after it
   std::shared_ptr<std::int64_t> views_ = std::make_shared<std::int64_t>(0);
   bool is_stepping_ = false;
   bool is_pilot_asked_ = false;

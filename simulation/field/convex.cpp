@@ -134,8 +134,7 @@ void add_corners(Ring& ring, int least) {
     const Vector ahead = ring[(sharpest + 1) % n] - corner;
     const double cut = kCutOff * std::min(length(back), length(ahead));
     ring[sharpest] = corner + (cut / length(back)) * back;
-    ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(sharpest) + 1,
-                corner + (cut / length(ahead)) * ahead);
+    ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(sharpest) + 1, corner + (cut / length(ahead)) * ahead);
   }
 }
 
@@ -177,8 +176,8 @@ bool is_near_ring(const Ring& floe, const Ring& ring, double gap) {
     for (std::size_t k = 0; k < floe.size(); ++k) {
       const Point c = floe[k];
       const Point d = floe[(k + 1) % floe.size()];
-      const double nearest = std::min({squared_distance(a, c, d), squared_distance(b, c, d),
-                                       squared_distance(c, a, b), squared_distance(d, a, b)});
+      const double nearest = std::min(
+          {squared_distance(a, c, d), squared_distance(b, c, d), squared_distance(c, a, b), squared_distance(d, a, b)});
       if (nearest < gap * gap || cross_each_other(a, b, c, d)) return true;
     }
   }

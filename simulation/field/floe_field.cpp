@@ -82,8 +82,8 @@ Ring permitted(const Obstacles& obstacles, const Candidate& candidate, double fa
 
 /// The floes at a common factor. A candidate that had to be smaller, or left out, has no more room than that
 /// from now on; true where there was one.
-bool shrink_candidates(const Obstacles& obstacles, double factor, int tries,
-                       std::vector<Candidate>& candidates, std::vector<Ring>& floes) {
+bool shrink_candidates(const Obstacles& obstacles, double factor, int tries, std::vector<Candidate>& candidates,
+                       std::vector<Ring>& floes) {
   bool was_any = false;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Candidate& candidate = candidates[i];
@@ -133,8 +133,7 @@ void add_floes(const FloeField& field, FieldLayout& layout, FloeFieldOutcome& ou
 }  // namespace
 
 double floe_count(const FloeField& field) {
-  if (field.law)
-    return std::round(field.concentration * geometry::signed_area(field.region) / mean_area(*field.law));
+  if (field.law) return std::round(field.concentration * geometry::signed_area(field.region) / mean_area(*field.law));
   const Box box = bounding_box(field.region);
   const double area = (box.high.x - box.low.x) * (box.high.y - box.low.y);
   const double mean = field.floe_size * field.floe_size * (1 + field.size_spread * field.size_spread);

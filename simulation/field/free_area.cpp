@@ -44,8 +44,7 @@ bool runs_through(Point from, Point to, const Ring& ring, double depth) {
 
 }  // namespace
 
-FreeArea::FreeArea(const Ring& region, const std::vector<Polygon>& kept_clear, double gap,
-                   const Plane& plane) {
+FreeArea::FreeArea(const Ring& region, const std::vector<Polygon>& kept_clear, double gap, const Plane& plane) {
   hull_ = plane.from_world(region);
   if (!is_convex(region)) {
     region_ = hull_;

@@ -19,8 +19,7 @@ using geometry::Vector;
 // Every one of these changes all fields without a size law, to the bit.
 constexpr double kFarthestCellDeviation = 2.5;  ///< of the logarithm of a floe's size, in standard deviations
 constexpr int kRelaxations = 12;                ///< fewer leave cells slender and off their areas
-constexpr double kShortestCellEdge =
-    0.1;  ///< of a floe, in sizes of its cell; smaller leaves slivers of edges
+constexpr double kShortestCellEdge = 0.1;       ///< of a floe, in sizes of its cell; smaller leaves slivers of edges
 
 /// e^x for moderate x, without a library's: (1 + x/2²⁰)^(2²⁰), to 1e-6.
 double exponential(double x) {

@@ -106,8 +106,7 @@ std::vector<Run> shuffled_runs(const FloeField& field, std::size_t count, Random
   return runs;
 }
 
-void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_at_boundary,
-                   FieldLayout& layout) {
+void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_at_boundary, FieldLayout& layout) {
   const auto lose = [&layout] { ++layout.left_out; };
   if (ring.empty()) return lose();
   const double shortest = kShortestFloeEdge * std::sqrt(item.area);

@@ -41,8 +41,7 @@ double at(const LognormalSizes& law, double u) {
 double below(const PowerLawSizes& law, double size) {
   if (size <= law.least) return 0;
   if (size >= law.largest) return 1;
-  if (std::abs(law.exponent) < kLogUniform)
-    return std::log(size / law.least) / std::log(law.largest / law.least);
+  if (std::abs(law.exponent) < kLogUniform) return std::log(size / law.least) / std::log(law.largest / law.least);
   const double share = std::pow(size / law.least, -law.exponent);
   return (1 - share) / (1 - std::pow(law.largest / law.least, -law.exponent));
 }
@@ -69,8 +68,7 @@ double area_of(const PowerLawSizes& law) {
   // ∫ d² dP with dP ∝ d^(−a−1): [d^(2−a)] / (2 − a) over [d^(−a)] / (−a), in units of the least size.
   const double ratio = law.largest / law.least;
   const auto integral = [&](double power) {
-    return std::abs(power) < kLogUniform ? portable_logarithm(ratio)
-                                         : (portable_power(ratio, power) - 1) / power;
+    return std::abs(power) < kLogUniform ? portable_logarithm(ratio) : (portable_power(ratio, power) - 1) / power;
   };
   return law.least * law.least * integral(2 - law.exponent) / integral(-law.exponent);
 }
@@ -108,8 +106,7 @@ double mean_area(const SizeLaw& law) {
 std::vector<double> draw_areas(const SizeLaw& law, std::size_t count, Random& random) {
   std::vector<double> areas(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const double size =
-        size_at(law, (static_cast<double>(i) + random.uniform()) / static_cast<double>(count));
+    const double size = size_at(law, (static_cast<double>(i) + random.uniform()) / static_cast<double>(count));
     areas[i] = size * size;
   }
   return areas;
@@ -120,8 +117,7 @@ double kolmogorov_smirnov(const SizeLaw& law, const std::vector<double>& sizes) 
   double most = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const double share = share_below(law, sizes[i]);
-    most =
-        std::max({most, share - static_cast<double>(i) / count, static_cast<double>(i + 1) / count - share});
+    most = std::max({most, share - static_cast<double>(i) / count, static_cast<double>(i + 1) / count - share});
   }
   return most;
 }

@@ -23,9 +23,8 @@ using geometry::Vector;
 // Every one of these changes all fields with a size law, to the bit: their goldens and pinned hashes go with
 // them.
 constexpr double kPointsPerSite = 4;  ///< fewer, and sites start where others' floes are to lie
-constexpr int kMoves = 11;  ///< passes in which sites move to their centroids; fewer leave slender cells
-constexpr int kSettles =
-    5;  ///< passes after them in which weights alone change; fewer miss areas by above 1 %
+constexpr int kMoves = 11;            ///< passes in which sites move to their centroids; fewer leave slender cells
+constexpr int kSettles = 5;      ///< passes after them in which weights alone change; fewer miss areas by above 1 %
 constexpr int kMostExtras = 6;   ///< more of these while sites are without a cell; fewer lose floes
 constexpr int kIterations = 12;  ///< of a settling pass's system of equations; as kSettles
 
@@ -79,9 +78,8 @@ class Dealer {
     auto middle = static_cast<std::size_t>(found - sum_before_.begin());
     if (middle > first + 1 && half - sum_before_[middle - 1] < sum_before_[middle] - half) --middle;
     const double share = (sum_before_[middle] - sum_before_[first]) / (sum_before_[end] - sum_before_[first]);
-    const auto left =
-        std::clamp(static_cast<std::size_t>(std::round(share * static_cast<double>(points.size()))),
-                   middle - first, points.size() - (end - middle));
+    const auto left = std::clamp(static_cast<std::size_t>(std::round(share * static_cast<double>(points.size()))),
+                                 middle - first, points.size() - (end - middle));
     const bool is_wide = box.high.x - box.low.x > box.high.y - box.low.y;
     std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(left), points.end(),
                      [is_wide](Point a, Point b) {
@@ -273,9 +271,7 @@ class Relaxation {
   }
 
   /// What a cell's area lacks, of which it loses no more than a part at once [m²].
-  double lack(std::size_t i) const {
-    return std::max(share_ * areas_[i] - found_[i].area, -0.7 * found_[i].area);
-  }
+  double lack(std::size_t i) const { return std::max(share_ * areas_[i] - found_[i].area, -0.7 * found_[i].area); }
 
   /// Sites to their cells' centroids, and each weight by its own cell's error alone, which is safe far from
   /// the end.
@@ -314,10 +310,9 @@ class Relaxation {
     }
     const std::size_t count = std::min(lost.size(), hosts.size());
     const auto surplus = [&](std::size_t i) { return found_[i].area - share_ * areas_[i]; };
-    std::partial_sort(hosts.begin(), hosts.begin() + static_cast<std::ptrdiff_t>(count), hosts.end(),
-                      [&](std::size_t a, std::size_t b) {
-                        return surplus(a) > surplus(b) || (surplus(a) == surplus(b) && a < b);
-                      });
+    std::partial_sort(
+        hosts.begin(), hosts.begin() + static_cast<std::ptrdiff_t>(count), hosts.end(),
+        [&](std::size_t a, std::size_t b) { return surplus(a) > surplus(b) || (surplus(a) == surplus(b) && a < b); });
     for (std::size_t k = 0; k < count; ++k) {
       const Site& host = sites_[hosts[k]];
       const Point place = found_[hosts[k]].farthest;

@@ -9,8 +9,7 @@
 namespace polynya::simulation {
 
 struct FieldCell {
-  geometry::Ring
-      ring;  ///< convex, counter-clockwise, in the field's plane [m]; empty where no room was found
+  geometry::Ring ring;      ///< convex, counter-clockwise, in the field's plane [m]; empty where no room was found
   bool is_clipped = false;  ///< by a boundary other than the hull's
 };
 

@@ -22,24 +22,22 @@ struct StraightCrack {
 
 /// A crack begins where the body that opens it ends, at ice that is not crushed, and does not lead into that
 /// body. None where it would.
-std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, BodyIndex floe,
-                                            const Mouth& mouth, Vector direction) {
+std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, BodyIndex floe, const Mouth& mouth,
+                                            Vector direction) {
   const BodyIndex by = other_of(*mouth.contact, floe);
   const geometry::Boundary& boundary = *bodies.boundary[floe];
   const geometry::Pose pose = dynamics::water_from_body(bodies, floe);
   const geometry::Pose pose_of_by = dynamics::water_from_body(bodies, by);
   StraightCrack crack{inverse_transform(pose, mouth.point), rotate_back(pose.rotation, direction), {}, 0, {}};
   const auto find_path = [&] {
-    crack.path =
-        crack_path(boundary, crack.from, crack.direction, kCrackMargin, geometry::CrackReach::kFirstEdge);
+    crack.path = crack_path(boundary, crack.from, crack.direction, kCrackMargin, geometry::CrackReach::kFirstEdge);
     const double on = dot(crack.path.start - crack.from, crack.direction) + kCrackMargin;
     crack.first_ice = crack.from + std::max(0.0, on) * crack.direction;
     return crack.path.length_in_ice > 0;
   };
   if (!find_path()) return std::nullopt;
-  const geometry::Passage in_body =
-      passage_through(*bodies.boundary[by], inverse_transform(pose_of_by, mouth.point),
-                      rotate_back(pose_of_by.rotation, direction));
+  const geometry::Passage in_body = passage_through(*bodies.boundary[by], inverse_transform(pose_of_by, mouth.point),
+                                                    rotate_back(pose_of_by.rotation, direction));
   const Point from_mouth = crack.from;
   const auto along = [&](Point p) { return dot(p - from_mouth, crack.direction); };
   if (along(crack.first_ice) < in_body.ahead) {
@@ -85,8 +83,8 @@ std::optional<CrackPath> turning_crack(const geometry::Boundary& boundary, const
   const fracture::TurningCrack& shape = fracture::kTurningCrack;
   const auto turn = geometry::Rotation::by(arm.is_left ? shape.turn : -shape.turn);
   const Point knee = straight.first_ice + shape.straight * arm.width * straight.direction;
-  auto path = turned_path(boundary, straight.path, straight.first_ice, knee, rotate(turn, straight.direction),
-                          kCrackMargin);
+  auto path =
+      turned_path(boundary, straight.path, straight.first_ice, knee, rotate(turn, straight.direction), kCrackMargin);
   if (path && path->length_in_ice > (shape.straight + shape.most_on) * arm.width) return std::nullopt;
   return path;
 }
@@ -96,8 +94,8 @@ bool leaves_strip(const CrackPath& path, const geometry::CrackSides& sides) {
 }
 
 /// Turns a candidate to the free edge beside it. Returns whether it can run there.
-bool turn_to_edge(const Setup& setup, const Population& population, BodyIndex floe,
-                  const StraightCrack& straight, CrackCandidate& candidate) {
+bool turn_to_edge(const Setup& setup, const Population& population, BodyIndex floe, const StraightCrack& straight,
+                  CrackCandidate& candidate) {
   const geometry::Boundary& boundary = *population.bodies.boundary[floe];
   const auto arm = arm_beside(boundary, straight.first_ice, straight.direction, fracture::kTurningCrack.peak);
   if (!arm) return false;
@@ -107,25 +105,22 @@ bool turn_to_edge(const Setup& setup, const Population& population, BodyIndex fl
   candidate.criteria.crack_length = path->length_in_ice;
   const geometry::CrackSides sides = measure_sides(setup, population, floe, *path, candidate.criteria);
   candidate.criteria.crack_width = 2 * arm->width;
-  candidate.criteria.opening_capacity =
-      fracture::turning_crack_force(ice_of_body(setup, population, floe), arm->width);
+  candidate.criteria.opening_capacity = fracture::turning_crack_force(ice_of_body(setup, population, floe), arm->width);
   return !leaves_strip(*path, sides);
 }
 
 }  // namespace
 
-void enter_opening(const fracture::Opening& opening, const fracture::Ice& ice,
-                   fracture::FailureCriteria& criteria) {
+void enter_opening(const fracture::Opening& opening, const fracture::Ice& ice, fracture::FailureCriteria& criteria) {
   criteria.flank_forces[0] = opening.left;
   criteria.flank_forces[1] = opening.right;
   criteria.opening_force = opening.force();
-  criteria.opening_capacity =
-      fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+  criteria.opening_capacity = fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
 }
 
-std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Population& population,
-                                              BodyIndex floe, const PressedFloe& pressed, const Mouth& mouth,
-                                              Vector direction, double least_share) {
+std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Population& population, BodyIndex floe,
+                                              const PressedFloe& pressed, const Mouth& mouth, Vector direction,
+                                              double least_share) {
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Opening opening = fracture::opening_of(pressed.pushes, mouth.point, direction);
   const fracture::Ice& ice = ice_of_body(setup, population, floe);
@@ -149,8 +144,7 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
   } else {
     const double mean_width = 2 * std::min(sides.left, sides.right) / straight->path.length_in_ice;
     measure_hardest(bodies, floe, ice, *straight, mean_width, criteria);
-    criteria.opening_capacity =
-        fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
+    criteria.opening_capacity = fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
   }
   if (criteria.pares || !(candidate.share() >= least_share)) return std::nullopt;
   return candidate;

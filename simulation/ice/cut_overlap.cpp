@@ -51,8 +51,8 @@ bool can_cut(const Population& population, const Accounts& accounts, BodyIndex a
 
 BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
   if (population.is_hull(a)) return b;
-  const double stronger = crushing_line_load(ice_of_body(setup, population, a)) -
-                          crushing_line_load(ice_of_body(setup, population, b));
+  const double stronger =
+      crushing_line_load(ice_of_body(setup, population, a)) - crushing_line_load(ice_of_body(setup, population, b));
   if (stronger != 0) return stronger > 0 ? b : a;
   return population.bodies.area[a] < population.bodies.area[b] ? a : b;
 }
@@ -73,14 +73,13 @@ bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overl
     criterion.overlap_area = outcome->ledger.area_inside;
     if (criterion.overlap_area < criterion.least_area) return false;
     Event event = event_of(population, clock, overlap, ground, Grind{.criterion = criterion});
-    replace_by_pieces(setup, clock,
-                      {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
+    replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                       *outcome, population, accounts, journal);
     return true;
   }
   if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
-    RejectedCut rejected = rejected_cut(criterion, shape.polygon, tools.front().outer, outcome.error(),
-                                        ++accounts.counts.rejected_cuts);
+    RejectedCut rejected =
+        rejected_cut(criterion, shape.polygon, tools.front().outer, outcome.error(), ++accounts.counts.rejected_cuts);
     journal.events.push_back(event_of(population, clock, overlap, ground, std::move(rejected)));
     accounts.refused_grinds.emplace_back(overlap.a, overlap.b);
   }

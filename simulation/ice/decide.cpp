@@ -101,8 +101,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
 }
 
 /// Adds j/τ_c of a ship's contact with ice.
-void add_collision(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
-                   ShipLoads& loads) {
+void add_collision(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load, ShipLoads& loads) {
   const Contact& c = load.contact;
   const Vector force = -(load.impulse / setup.scene.contact.contact_time) * c.normal;
   const Vector in_ship = rotate_back(bodies.rotation[c.a], force);
@@ -127,8 +126,8 @@ void decide_between_floes(const Setup& setup, const Clock& clock, const Populati
 }
 
 /// Of a ship with ice: also whether the ice breaks.
-void decide_at_ship(const Setup& setup, const Clock& clock, const Population& population, Contact& c,
-                    StepData& step, Counts& counts) {
+void decide_at_ship(const Setup& setup, const Clock& clock, const Population& population, Contact& c, StepData& step,
+                    Counts& counts) {
   const dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.scene.time.step;
   ShipContactLoad load = load_of(setup, population, c);
@@ -146,8 +145,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
   c.friction = load.shares.tangential / horizontal;
   step.slopes.back() = {load.shares.vertical / horizontal, std::tan(load.hull_angle)};
   const PendingFracture pending = evaluate(setup, population, load, counts);
-  const bool breaks =
-      pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
+  const bool breaks = pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
   if (!breaks || c.record->was_refused) return;
   if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
     break_at(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);

@@ -8,8 +8,7 @@ namespace polynya::simulation {
 namespace {
 
 geometry::Ring cusp_of(const Setup& setup, const PendingFracture& pending) {
-  return geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius,
-                                setup.scene.fracture.cusp_sagitta);
+  return geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius, setup.scene.fracture.cusp_sagitta);
 }
 
 geometry::CutOutcome cut(const Setup& setup, const geometry::Shape& shape, const PendingFracture& pending) {
@@ -59,8 +58,8 @@ Event event_of(const Clock& clock, const PendingFracture& pending) {
   return {clock.time(), pending.ship, pending.point_in_water + clock.drift(), std::move(kind)};
 }
 
-void reject(const Setup& setup, const Clock& clock, const PendingFracture& pending,
-            const geometry::Shape& shape, const geometry::CutError& error, Counts& counts, Journal& journal) {
+void reject(const Setup& setup, const Clock& clock, const PendingFracture& pending, const geometry::Shape& shape,
+            const geometry::CutError& error, Counts& counts, Journal& journal) {
   Event event = event_of<RejectedCut>(clock, pending);
   auto& rejected = std::get<RejectedCut>(event.what);
   rejected.reason = std::string(name_of(error.reason)) + ": " + error.detail;
@@ -87,8 +86,7 @@ InsideFate fate_of_cusp(const Setup& setup, int ship) {
 Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFracture& pending) {
   if (pending.failure != fracture::Failure::kBend)
     return {event_of<Split>(clock, pending), InsideFate::kFloats, &EnergyFlows::splitting, &Counts::splits};
-  return {event_of<Bend>(clock, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending,
-          &Counts::bends};
+  return {event_of<Bend>(clock, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
 }
 
 }  // namespace
@@ -106,8 +104,7 @@ void apply_fractures(const Setup& setup, const Clock& clock, std::vector<Pending
       outcome = cut(setup, shape, pending);
     }
     if (outcome) {
-      replace_by_pieces(setup, clock, breakage_of(setup, clock, pending), *outcome, population, accounts,
-                        journal);
+      replace_by_pieces(setup, clock, breakage_of(setup, clock, pending), *outcome, population, accounts, journal);
     } else {
       reject(setup, clock, pending, shape, outcome.error(), accounts.counts, journal);
     }

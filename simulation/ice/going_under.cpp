@@ -14,9 +14,8 @@ double weight_under(const Setup& setup, const Population& population, FloeId flo
   const BodyIndex body = population.body_of(floe);
   const geometry::Pose ship_from_floe =
       relative_pose(dynamics::water_from_body(bodies, ship), dynamics::water_from_body(bodies, body));
-  const double under_beam =
-      geometry::area_in_band(transform(ship_from_floe, population.floes[floe].shape.polygon),
-                             0.5 * setup.underwater[ship].form.beam);
+  const double under_beam = geometry::area_in_band(transform(ship_from_floe, population.floes[floe].shape.polygon),
+                                                   0.5 * setup.underwater[ship].form.beam);
   const fracture::Ice& ice = ice_of_floe(setup, population, floe);
   const double lighter = setup.scene.water.water.density - ice.density;
   return lighter * fracture::kGravity * ice.thickness * std::max(0.0, under_beam);

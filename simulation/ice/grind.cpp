@@ -34,10 +34,10 @@ void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vec
     const GrindCriterion criterion = criterion_of(population, overlap);
     if (criterion.overlap_area < criterion.least_area) continue;
     const dynamics::Bodies& bodies = population.bodies;
-    const geometry::Pose a_from_b = relative_pose(dynamics::water_from_body(bodies, overlap.a),
-                                                  dynamics::water_from_body(bodies, overlap.b));
-    cut_overlap(setup, clock, {overlap.a, overlap.b, {a_from_b}, overlap.middle, criterion}, population,
-                accounts, journal);
+    const geometry::Pose a_from_b =
+        relative_pose(dynamics::water_from_body(bodies, overlap.a), dynamics::water_from_body(bodies, overlap.b));
+    cut_overlap(setup, clock, {overlap.a, overlap.b, {a_from_b}, overlap.middle, criterion}, population, accounts,
+                journal);
   }
 }
 

@@ -26,14 +26,13 @@ double drawn_share(std::uint64_t seed, std::initializer_list<std::uint64_t> keys
   return (static_cast<double>(mixed >> 12) + 0.5) * 0x1p-52;
 }
 
-double drawn_property(const fracture::ScatterLaw& law, std::uint64_t seed, std::size_t floe,
-                      std::size_t property) {
+double drawn_property(const fracture::ScatterLaw& law, std::uint64_t seed, std::size_t floe, std::size_t property) {
   return fracture::quantile(law, drawn_share(seed, {key_of(Stream::kFloe), floe, property}));
 }
 
 double strength_factor(std::uint64_t seed, geometry::Point first_touch_in_body, double spread) {
-  const double share = drawn_share(
-      seed, {key_of(Stream::kBending), key_of(first_touch_in_body.x), key_of(first_touch_in_body.y)});
+  const double share =
+      drawn_share(seed, {key_of(Stream::kBending), key_of(first_touch_in_body.x), key_of(first_touch_in_body.y)});
   return fracture::quantile({.kind = fracture::ScatterKind::kLogNormal, .mean = 1, .spread = spread}, share);
 }
 

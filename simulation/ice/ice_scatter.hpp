@@ -13,8 +13,7 @@ namespace polynya::simulation {
 double drawn_share(std::uint64_t seed, std::initializer_list<std::uint64_t> keys);
 
 /// A property of a floe of the scene, by the floe's index there and the property's own number.
-double drawn_property(const fracture::ScatterLaw& law, std::uint64_t seed, std::size_t floe,
-                      std::size_t property);
+double drawn_property(const fracture::ScatterLaw& law, std::uint64_t seed, std::size_t floe, std::size_t property);
 
 /// What the flexural strength of a floe is multiplied by where a hull first touched it, log-normal with mean
 /// 1 and that standard deviation. Floes keep the scene's coordinates in their body frames, so that the point

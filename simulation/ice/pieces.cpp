@@ -21,8 +21,7 @@ NewFloe child_of(const Population& population, FloeId parent) {
   child.water_from_body = dynamics::water_from_body(bodies, body);
   child.angle = bodies.angle[body];
   child.angular_velocity = bodies.angular_velocity[body];
-  child.velocity =
-      dynamics::velocity_at(bodies, body, child.water_from_body.position - bodies.position[body]);
+  child.velocity = dynamics::velocity_at(bodies, body, child.water_from_body.position - bodies.position[body]);
   return child;
 }
 
@@ -50,14 +49,13 @@ std::vector<geometry::Measures> measures_of(const geometry::CutResult& cut) {
 }
 
 /// Enters the motion of ice that leaves the floe list with its parent's motion.
-void enter_removed(const NewFloe& piece, const geometry::Measures& measures, double mass_per_area,
-                   double& energy_sink, AuditSums& audit) {
-  const geometry::Vector arm =
-      transform(piece.water_from_body, measures.centroid) - piece.water_from_body.position;
+void enter_removed(const NewFloe& piece, const geometry::Measures& measures, double mass_per_area, double& energy_sink,
+                   AuditSums& audit) {
+  const geometry::Vector arm = transform(piece.water_from_body, measures.centroid) - piece.water_from_body.position;
   const geometry::Vector velocity = piece.velocity + cross(piece.angular_velocity, arm);
   const geometry::Vector carried = mass_per_area * measures.area * velocity;
-  energy_sink += 0.5 * (dot(carried, velocity) + mass_per_area * measures.second_moment *
-                                                     piece.angular_velocity * piece.angular_velocity);
+  energy_sink += 0.5 * (dot(carried, velocity) +
+                        mass_per_area * measures.second_moment * piece.angular_velocity * piece.angular_velocity);
   audit.momentum.removed += carried;
   audit.impulses += length(carried);
 }
@@ -77,9 +75,8 @@ void enter_areas(IceEvent& event, const geometry::CutLedger& cut, double mass_pe
 
 }  // namespace
 
-void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage,
-                       const geometry::CutResult& cut, Population& population, Accounts& accounts,
-                       Journal& journal) {
+void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage, const geometry::CutResult& cut,
+                       Population& population, Accounts& accounts, Journal& journal) {
   IceEvent& event = *breakage.event.ice();
   const int ship = breakage.event.ship;
   NewFloe child = child_of(population, event.floe);

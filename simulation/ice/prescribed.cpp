@@ -48,14 +48,12 @@ struct Carving {
 
 /// Where a body was some time ago.
 Pose pose_ago(const dynamics::Bodies& bodies, BodyIndex i, double time) {
-  const geometry::Rotation rotation =
-      geometry::Rotation::by(bodies.angle[i] - time * bodies.angular_velocity[i]);
+  const geometry::Rotation rotation = geometry::Rotation::by(bodies.angle[i] - time * bodies.angular_velocity[i]);
   const geometry::Point centre = bodies.position[i] - time * bodies.velocity[i];
   return {centre - rotate(rotation, bodies.centroid[i] - geometry::Point{}), rotation};
 }
 
-geometry::Polygon tool_of(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c,
-                          double time_ago) {
+geometry::Polygon tool_of(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c, double time_ago) {
   geometry::Ring outline = hull_of(setup.scene, c.a).hull.waterline;
   for (geometry::Point& p : outline) p = {(1 + kClearance) * p.x, (1 + kClearance) * p.y};
   const Pose floe_from_hull = relative_pose(pose_ago(bodies, c.b, time_ago), pose_ago(bodies, c.a, time_ago));
@@ -81,8 +79,7 @@ std::vector<Carving> due_carvings(const Setup& setup, const Population& populati
     const std::pair<std::int64_t, std::int64_t> both{c.a, c.b};
     if (std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end()) continue;
     const double time_ago = setup.scene.time.step + facet / c.approach_speed;
-    due.push_back(
-        {population.floe_of(c.b), &c, tool_of(setup, bodies, c, time_ago), {c.area, least_area, c.width, 0}});
+    due.push_back({population.floe_of(c.b), &c, tool_of(setup, bodies, c, time_ago), {c.area, least_area, c.width, 0}});
   }
   std::ranges::stable_sort(due, {}, &Carving::floe);
   return due;
@@ -103,14 +100,12 @@ Event event_of_carving(const Clock& clock, const Carving& carving, Kind kind) {
 double share_of_friction(const Contact& c, bool is_crescent) {
   const double slip = std::abs(c.slip_speed);
   if (slip == 0) return 0;
-  return is_crescent ? slip / std::hypot(slip, c.approach_speed)
-                     : std::min(1.0, slip / dynamics::kCreepSpeed);
+  return is_crescent ? slip / std::hypot(slip, c.approach_speed) : std::min(1.0, slip / dynamics::kCreepSpeed);
 }
 
 }  // namespace
 
-double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c,
-                           double slope_tangent) {
+double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c, double slope_tangent) {
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Ice& of_b = ice_of_body(setup, population, c.b);
   const fracture::Ice ice =
@@ -131,8 +126,7 @@ void press_prescribed(const Setup& setup, const Population& population, ShipCont
     crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);
     crushed.slope = load.stiffness / load.ice.compressive_strength;
   }
-  const double most =
-      most_that_ice_bears(setup, population, c, std::tan(load.hull_angle)) / load.shares.horizontal;
+  const double most = most_that_ice_bears(setup, population, c, std::tan(load.hull_angle)) / load.shares.horizontal;
   load.normal_force = std::min(fracture::crushing_force(load.ice, crushed.area), most);
   load.vertical_force = load.shares.vertical * load.normal_force;
   load.shares.tangential *= share_of_friction(c, spans_facet);
@@ -144,8 +138,7 @@ void press_prescribed(const Setup& setup, const Population& population, ShipCont
 void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
   if (!is_prescribed(bodies, c) || c.approach_speed <= 0) return;
   const double half_a_step = 0.5 * c.width * c.approach_speed * setup.scene.time.step;  // of area
-  if (c.area + half_a_step >= c.record->loaded_area)
-    c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
+  if (c.area + half_a_step >= c.record->loaded_area) c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
 }
 
 void carve_channels(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
@@ -160,8 +153,7 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
     const geometry::CutOutcome outcome = geometry::cut_by_polygons(shape, tools);
     if (outcome) {
       Event event = event_of_carving(clock, *first, Grind{.criterion = first->criterion});
-      replace_by_pieces(setup, clock,
-                        {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
+      replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                         *outcome, population, accounts, journal);
     } else if (outcome.error().reason != geometry::CutFailure::kMisses) {
       RejectedCut rejected;

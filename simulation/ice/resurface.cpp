@@ -48,12 +48,10 @@ Place scattered(const dynamics::Bodies& bodies, BodyIndex body, double size, dou
 bool is_clear_of(const Population& population, BodyIndex other, const geometry::Boundary& piece,
                  const Pose& water_from_piece) {
   const Pose water_from_other = dynamics::water_from_body(population.bodies, other);
-  return is_clear(*population.bodies.boundary[other], piece,
-                  relative_pose(water_from_other, water_from_piece));
+  return is_clear(*population.bodies.boundary[other], piece, relative_pose(water_from_other, water_from_piece));
 }
 
-bool is_under_hull(const Population& population, const geometry::Boundary& piece,
-                   const Pose& water_from_piece) {
+bool is_under_hull(const Population& population, const geometry::Boundary& piece, const Pose& water_from_piece) {
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     if (!is_clear_of(population, hull, piece, water_from_piece)) return true;
   return false;
@@ -71,8 +69,8 @@ bool has_room(const Population& population, const geometry::Boundary& piece, con
 }
 
 /// Whether a piece would come up where another is that has not come up yet: that one keeps its room.
-bool is_over_another(const Population& population, const SubmergedPiece& submerged,
-                     const geometry::Boundary& piece, const Pose& water_from_piece, Point centre) {
+bool is_over_another(const Population& population, const SubmergedPiece& submerged, const geometry::Boundary& piece,
+                     const Pose& water_from_piece, Point centre) {
   const dynamics::Bodies& bodies = population.bodies;
   const double radius = bodies.bounding_radius[population.body_of(submerged.floe)];
   return std::ranges::any_of(population.submerged, [&](const SubmergedPiece& other) {
@@ -85,8 +83,8 @@ bool is_over_another(const Population& population, const SubmergedPiece& submerg
 
 /// A kind of event with what decided it.
 template <class Kind>
-Event event_of(const Setup& setup, const Clock& clock, const Population& population,
-               const SubmergedPiece& submerged, Kind kind) {
+Event event_of(const Setup& setup, const Clock& clock, const Population& population, const SubmergedPiece& submerged,
+               Kind kind) {
   kind.floe = submerged.floe;
   kind.criterion = {submerged.path, setup.underwater[submerged.ship].path.sliding, submerged.waited,
                     setup.scene.fracture.resurface.give_up};
@@ -97,8 +95,7 @@ Event event_of(const Setup& setup, const Clock& clock, const Population& populat
 /// One submerged piece's attempts to come up.
 class Resurfacing {
  public:
-  Resurfacing(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
-              Journal& journal)
+  Resurfacing(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal)
       : setup_(setup),
         settings_(setup.scene.fracture.resurface),
         clock_(clock),
@@ -131,8 +128,7 @@ class Resurfacing {
   bool try_to_come_up(SubmergedPiece& submerged) {
     const BodyIndex body = population_.body_of(submerged.floe);
     const Floe& floe = population_.floes[submerged.floe];
-    const geometry::Polygon polygon =
-        shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
+    const geometry::Polygon polygon = shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
     const geometry::Boundary boundary = geometry::make_outline(polygon);
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
     if (is_under_hull(population_, boundary, in_place)) return false;  // not behind it yet
@@ -140,12 +136,10 @@ class Resurfacing {
                   static_cast<std::uint64_t>(clock_.steps));
     for (int i = 0; i < kPlaces; ++i) {
       const double share = 1 - static_cast<double>(i) / (kPlaces - 1);
-      const Place place =
-          scattered(population_.bodies, body, std::sqrt(floe.area), share * settings_.scatter, random);
+      const Place place = scattered(population_.bodies, body, std::sqrt(floe.area), share * settings_.scatter, random);
       if (!has_room(population_, boundary, place.water_from_body)) continue;
       const Point centre = transform(place.water_from_body, population_.bodies.centroid[body]);
-      if (share > 0 && is_over_another(population_, submerged, boundary, place.water_from_body, centre))
-        continue;
+      if (share > 0 && is_over_another(population_, submerged, boundary, place.water_from_body, centre)) continue;
       come_up(submerged, polygon, place);
       return true;
     }
@@ -164,8 +158,7 @@ class Resurfacing {
     if (is_floe) up.children.push_back(add_piece(submerged, polygon, measures, place));
     accounts_.counts.brash_pieces += is_floe ? 0 : 1;
     accounts_.ledger.brash_area += up.brash_area;
-    accounts_.masses.brash_mass +=
-        mass_per_area(ice_of_floe(setup_, population_, submerged.floe)) * up.brash_area;
+    accounts_.masses.brash_mass += mass_per_area(ice_of_floe(setup_, population_, submerged.floe)) * up.brash_area;
     Event event = event_of(setup_, clock_, population_, submerged, std::move(up));
     ++accounts_.counts.came_up;
     retire_floe(submerged.floe, population_, journal_);
@@ -185,8 +178,8 @@ class Resurfacing {
     if (!setup_.current.is_still()) {
       const Point centre = transform(place.water_from_body, measures.centroid);
       piece.angular_velocity = setup_.current.angular_velocity();
-      piece.velocity = setup_.current.velocity_at(centre) -
-                       cross(piece.angular_velocity, centre - place.water_from_body.position);
+      piece.velocity =
+          setup_.current.velocity_at(centre) - cross(piece.angular_velocity, centre - place.water_from_body.position);
     }
     const FloeId id = add_floe(setup_, clock_, piece, measures, population_, journal_);
     wake_and_enter(population_.body_of(id));
@@ -210,8 +203,7 @@ class Resurfacing {
 
 }  // namespace
 
-void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
-             Journal& journal) {
+void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal) {
   if (population.submerged.empty()) return;
   Resurfacing resurfacing(setup, clock, population, accounts, journal);
   std::vector<FloeId> ended;  // in the order of the submerged pieces

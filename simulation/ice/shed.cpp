@@ -39,8 +39,7 @@ struct Touching {
   }
   double crushed_area() const {  ///< of the overlap now [m²]
     double area = 0;
-    for (const Contact& c : contacts)
-      area += c.record->crushed.area > 0 ? std::min(c.area, c.record->loaded_area) : 0;
+    for (const Contact& c : contacts) area += c.record->crushed.area > 0 ? std::min(c.area, c.record->loaded_area) : 0;
     return area;
   }
   const Contact& largest() const {
@@ -61,9 +60,8 @@ void for_touching(const StepData& step, Use use) {
     std::size_t end = first + 1;
     while (end < all.size() && all[end].a == all[first].a && all[end].b == all[first].b) ++end;
     const bool has_slopes = first < step.slopes.size();
-    use(Touching{all.subspan(first, end - first), has_slopes
-                                                      ? std::span(step.slopes).subspan(first, end - first)
-                                                      : std::span<const HullSlope>()});
+    use(Touching{all.subspan(first, end - first),
+                 has_slopes ? std::span(step.slopes).subspan(first, end - first) : std::span<const HullSlope>()});
     first = end;
   }
 }
@@ -74,8 +72,7 @@ std::vector<geometry::Pose> poses_of(const dynamics::Bodies& bodies, const Touch
   const Contact& c = touching.largest();
   std::vector<geometry::Pose> poses{c.record->crushed.a_from_b};
   if (!touching.is_pressing())
-    poses.push_back(
-        relative_pose(dynamics::water_from_body(bodies, c.a), dynamics::water_from_body(bodies, c.b)));
+    poses.push_back(relative_pose(dynamics::water_from_body(bodies, c.a), dynamics::water_from_body(bodies, c.b)));
   return poses;
 }
 
@@ -90,8 +87,7 @@ std::vector<BodyIndex> left_of(const Population& population, const Clock& clock,
   if (population.bodies.is_alive[body]) return {body};
   const FloeId first = population.floe_of(body);
   std::vector<BodyIndex> left;
-  for (FloeId id = population.floe_count() - 1; id > first && population.floes[id].born == clock.time();
-       --id) {
+  for (FloeId id = population.floe_count() - 1; id > first && population.floes[id].born == clock.time(); --id) {
     FloeId ancestor = population.floes[id].parent;
     while (ancestor > first) ancestor = population.floes[ancestor].parent;
     if (ancestor == first && population.is_alive(id)) left.push_back(population.body_of(id));
@@ -101,8 +97,8 @@ std::vector<BodyIndex> left_of(const Population& population, const Clock& clock,
 }
 
 /// Cuts off what a contact crushed that has parted.
-void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedContact& parted,
-                 Population& population, Accounts& accounts, Journal& journal) {
+void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedContact& parted, Population& population,
+                 Accounts& accounts, Journal& journal) {
   for (const BodyIndex a : left_of(population, clock, parted.a)) {
     for (const BodyIndex b : left_of(population, clock, parted.b)) {
       const bool is_in_order = a < b;  // pieces have numbers of their own
@@ -112,10 +108,9 @@ void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedC
       const double least = least_parted(setup, population, low, high);
       if (parted.crushed.area < least) continue;
       const geometry::Pose pose = parted.crushed.a_from_b;
-      cut_overlap(
-          setup, clock,
-          {low, high, {is_in_order ? pose : inverse(pose)}, parted.middle, {parted.crushed.area, least}},
-          population, accounts, journal);
+      cut_overlap(setup, clock,
+                  {low, high, {is_in_order ? pose : inverse(pose)}, parted.middle, {parted.crushed.area, least}},
+                  population, accounts, journal);
     }
   }
 }
@@ -130,8 +125,7 @@ void shed_touching(const Setup& setup, const Clock& clock, const Touching& touch
   const double least = kLeastCrushedShare * smaller_area(population, c.a, c.b);
   if (crushed < least || (touching.is_pressing() && !touching.is_vertical())) return;
   if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
-  const OverlapCut cut{
-      c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
+  const OverlapCut cut{c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
   std::vector<dynamics::CrushedIce> kept;  // the pieces inherit none of it
   for (const Contact& contact : touching.contacts) kept.push_back(std::exchange(contact.record->crushed, {}));
   if (cut_overlap(setup, clock, cut, population, accounts, journal)) return;
@@ -145,9 +139,8 @@ void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& st
   if (!is_crush_law(setup)) return;
   for (const dynamics::PartedContact& parted : step.parted)
     shed_parted(setup, clock, parted, population, accounts, journal);
-  for_touching(step, [&](const Touching& touching) {
-    shed_touching(setup, clock, touching, population, accounts, journal);
-  });
+  for_touching(step,
+               [&](const Touching& touching) { shed_touching(setup, clock, touching, population, accounts, journal); });
 }
 
 }  // namespace polynya::simulation

@@ -38,8 +38,7 @@ std::vector<Before> keep_before(const dynamics::Bodies& bodies, const std::vecto
   return kept;
 }
 
-void go_back(const std::vector<Before>& kept, const std::vector<Contact>& contacts,
-             dynamics::Bodies& bodies) {
+void go_back(const std::vector<Before>& kept, const std::vector<Contact>& contacts, dynamics::Bodies& bodies) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = contacts[i];
     const BodyIndex both[] = {c.a, c.b};
@@ -120,15 +119,13 @@ class Instants {
   /// Whether a contact's force stayed below that at which its ice bends, since a split stopped it.
   bool stops(const dynamics::PersistentContact* record) const {
     return std::ranges::any_of(met_, [&](const MetSplit& met) {
-      return std::ranges::any_of(met.stopped,
-                                 [&](const Stopped& s) { return contacts_[s.contact].record == record; });
+      return std::ranges::any_of(met.stopped, [&](const Stopped& s) { return contacts_[s.contact].record == record; });
     });
   }
 
  private:
   std::size_t index_of(const PendingFracture& split) const {
-    return static_cast<std::size_t>(std::ranges::find(contacts_, split.record, &Contact::record) -
-                                    contacts_.begin());
+    return static_cast<std::size_t>(std::ranges::find(contacts_, split.record, &Contact::record) - contacts_.begin());
   }
   const Contact& contact_of(const PendingFracture& split) const { return contacts_[index_of(split)]; }
 
@@ -156,8 +153,7 @@ class Instants {
     double before = 0, now = 0;
     for (const Stopped& stopped : met.stopped) {
       before += stopped.force;
-      now +=
-          std::min(normal_force(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
+      now += std::min(normal_force(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
     }
     return now / before;
   }

@@ -5,8 +5,8 @@
 namespace polynya::simulation {
 
 /// The splits that the forces of solved contacts would make, by the order of the pairs. By `lefm` only.
-void find_splits(const Setup& setup, const Population& population,
-                 const std::vector<dynamics::Contact>& contacts, std::vector<PendingFracture>& splits);
+void find_splits(const Setup& setup, const Population& population, const std::vector<dynamics::Contact>& contacts,
+                 std::vector<PendingFracture>& splits);
 
 /// Solves the step's contacts and finds its splits. By the law of crushing ice, each of them at the instant
 /// at which its force comes to F_max: where the forces of two bodies would open a crack with s F_max, they

@@ -42,8 +42,7 @@ std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population&
 
 /// The split of a floe by one other body, where their contacts open a crack.
 std::optional<PendingFracture> split_of(const Setup& setup, const Population& population,
-                                        std::span<const Contact> contacts, BodyIndex floe,
-                                        PressedFloe& pressed) {
+                                        std::span<const Contact> contacts, BodyIndex floe, PressedFloe& pressed) {
   const IceLimits& limits = limits_of_body(setup, population, floe);
   const double size = floe_size(population, floe);
   if (size < limits.breakable_size) return std::nullopt;
@@ -102,8 +101,7 @@ void enter_true_forces(const Setup& setup, const Population& population, const s
     criteria.opening_force = crack->criteria.opening_force;
     criteria.opening_capacity = crack->criteria.opening_capacity;
   } else if (criteria.crack_length > 0) {
-    if (pending.failure ==
-        fracture::Failure::kBend)  // only now: most bends that are pending do not come about
+    if (pending.failure == fracture::Failure::kBend)  // only now: most bends that are pending do not come about
       measure_crack_and_sides(setup, population, c->b, pending.crack_in_body, criteria);
     const fracture::Opening opening = fracture::opening_of(pressed.pushes, c->middle(), c->normal);
     enter_opening(opening, ice, criteria);
@@ -131,8 +129,7 @@ void find_splits(const Setup& setup, const Population& population, const std::ve
 }
 
 void enter_splits(const Setup& setup, const Population& population, StepData& step) {
-  for (PendingFracture& pending : step.fractures)
-    enter_true_forces(setup, population, step.contacts, pending);
+  for (PendingFracture& pending : step.fractures) enter_true_forces(setup, population, step.contacts, pending);
   // Before the bends: a bend stops the force at V_b, so what splits at it has split before.
   step.fractures.insert(step.fractures.begin(), step.splits.begin(), step.splits.end());
 }

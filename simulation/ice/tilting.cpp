@@ -75,8 +75,8 @@ void scale(Contact& c, double share) {
 }
 
 /// Turns the floe's edge, and enters that it goes under where it is deep enough.
-void tilt(const Setup& setup, const Population& population, const Pressed& pressed,
-          std::vector<TiltedFloe>& tilted, std::vector<PendingSubmersion>& submersions) {
+void tilt(const Setup& setup, const Population& population, const Pressed& pressed, std::vector<TiltedFloe>& tilted,
+          std::vector<PendingSubmersion>& submersions) {
   const fracture::TiltSettings& settings = setup.scene.fracture.going_under.tilting;
   const double dt = setup.scene.time.step;
   double vertical_force = 0;
@@ -89,8 +89,7 @@ void tilt(const Setup& setup, const Population& population, const Pressed& press
   const fracture::EdgeMotion before = edge_of(population.tilted, pressed.key());
   if (vertical_force == 0 && before.deflection == 0) return;
   const fracture::TiltResistance resistance = resistance_of(setup, population, pressed.floe);
-  const fracture::EdgeMotion edge =
-      fracture::tilted(resistance, before, vertical_force, settings.damping, dt);
+  const fracture::EdgeMotion edge = fracture::tilted(resistance, before, vertical_force, settings.damping, dt);
   if (edge.deflection > 0) tilted.push_back({pressed.floe, pressed.ship, edge});
   const double least = settings.edge_deflection * ice_of_floe(setup, population, pressed.floe).thickness;
   if (edge.deflection < least) return;

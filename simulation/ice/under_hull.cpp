@@ -33,8 +33,8 @@ void add_piece(const Setup& setup, const dynamics::SubmersionPath& path, const P
   if (piece.path < path.sliding) pull.area += piece.area;
   if (pull.speed <= 0) return;
   const double to = piece.path + pull.speed * setup.scene.time.step;
-  const double work = piece.weight * (path.risen_over(piece.path, to) +
-                                      setup.scene.ice.friction * path.slid_over(piece.path, to));
+  const double work =
+      piece.weight * (path.risen_over(piece.path, to) + setup.scene.ice.friction * path.slid_over(piece.path, to));
   if (work == 0) return;
   pull.work += work;
   pull.moment += work * distance_to_port(setup, population.bodies, piece, population.body_of(piece.floe));
@@ -55,8 +55,8 @@ void add_tiles(const Setup& setup, const Population& population, std::vector<Pul
 }
 
 /// Brakes the ship, which it never reverses, and turns it. Enters both.
-void apply(const Setup& setup, BodyIndex ship, const Pull& pull, dynamics::Bodies& bodies,
-           SubmergedLoads& loads, AuditSums& audit) {
+void apply(const Setup& setup, BodyIndex ship, const Pull& pull, dynamics::Bodies& bodies, SubmergedLoads& loads,
+           AuditSums& audit) {
   loads.area = pull.area;
   if (pull.work == 0) return;
   const bool has_factor = setup.scene.ships[ship].hull.has_speed_factor;
@@ -72,8 +72,8 @@ void apply(const Setup& setup, BodyIndex ship, const Pull& pull, dynamics::Bodie
   const Vector pushed = -impulse * heading_of(bodies, ship);
   const Vector change = bodies.inverse_mass[ship] * pushed;
   const double spin = bodies.inverse_moment[ship] * angular;
-  audit.energy.submerged_ice -= dot(pushed, bodies.velocity[ship] + 0.5 * change) +
-                                angular * (bodies.angular_velocity[ship] + 0.5 * spin);
+  audit.energy.submerged_ice -=
+      dot(pushed, bodies.velocity[ship] + 0.5 * change) + angular * (bodies.angular_velocity[ship] + 0.5 * spin);
   audit.momentum.water += pushed;
   audit.impulses += impulse;
   bodies.velocity[ship] += change;

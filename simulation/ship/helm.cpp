@@ -26,8 +26,8 @@ double steering_gain(const Sailing& sailing, const PilotView& view, double momen
   constexpr double kAngle = 0.05;  // [rad]
   const double thrust = dynamics::propeller_thrust(*sailing.engine, view.lever, view.through_water.surge);
   const auto yaw_at = [&](double angle) {
-    return sailing.rudder ? dynamics::rudder_force(*sailing.rudder, angle, {view.through_water.surge, 0, 0},
-                                                   thrust, sailing.hull.density)
+    return sailing.rudder ? dynamics::rudder_force(*sailing.rudder, angle, {view.through_water.surge, 0, 0}, thrust,
+                                                   sailing.hull.density)
                                 .yaw
                           : dynamics::turned_thrust(thrust, angle, sailing.stern).yaw;
   };
@@ -36,8 +36,8 @@ double steering_gain(const Sailing& sailing, const PilotView& view, double momen
   return (yaw_at(kAngle) - yaw_at(-kAngle)) / (2 * kAngle * inertia);
 }
 
-PilotView view_of(const Setup& setup, const Clock& clock, const Population& population,
-                  std::span<const SeenShip> ships, BodyIndex i) {
+PilotView view_of(const Setup& setup, const Clock& clock, const Population& population, std::span<const SeenShip> ships,
+                  BodyIndex i) {
   const dynamics::Bodies& bodies = population.bodies;
   const Sailing& sailing = setup.sailing[i];
   const Helm& helm = population.helms[i];
@@ -68,8 +68,7 @@ Command limited(Command command, const Sailing& sailing) {
   return {within(command.lever, 1), within(command.steering_angle, sailing.steering_most)};
 }
 
-Command commanded(const Setup& setup, const PilotView& view, const std::vector<ExternalPilot>& external,
-                  Helm& helm) {
+Command commanded(const Setup& setup, const PilotView& view, const std::vector<ExternalPilot>& external, Helm& helm) {
   const auto i = static_cast<std::size_t>(view.ship);
   const bool is_external = i < external.size() && external[i];
   return limited(is_external ? external[i](view) : command_of(setup.scene.ships[i].pilot, view, helm.memory),
@@ -86,16 +85,15 @@ void take_helms(const Setup& setup, const Clock& clock, Population& population) 
     Helm& helm = population.helms[i];
     helm.memory = memory_at_start(view_of(setup, clock, population, ships, i));
     PilotMemory untouched = helm.memory;
-    const Command first = limited(
-        command_of(setup.scene.ships[i].pilot, view_of(setup, clock, population, ships, i), untouched),
-        setup.sailing[i]);
+    const Command first =
+        limited(command_of(setup.scene.ships[i].pilot, view_of(setup, clock, population, ships, i), untouched),
+                setup.sailing[i]);
     helm.lever = first.lever;
     helm.steering_angle = first.steering_angle;
   }
 }
 
-void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external,
-           Population& population) {
+void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external, Population& population) {
   if (std::ranges::none_of(setup.sailing, [](const Sailing& s) { return s.engine.has_value(); })) return;
   const std::vector<SeenShip> ships = seen_ships(setup, clock, population.bodies);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {

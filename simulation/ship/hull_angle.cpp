@@ -19,8 +19,7 @@ double hull_angle_at(const Hull& hull, const dynamics::Bodies& bodies, const dyn
   for (std::size_t i = 0; i < hull.waterline.size(); ++i) {
     const std::size_t next = (i + 1) % hull.waterline.size();
     const double along = nearest_part(hull.waterline[i], hull.waterline[next], here);
-    const double d =
-        squared_length(here - (hull.waterline[i] + along * (hull.waterline[next] - hull.waterline[i])));
+    const double d = squared_length(here - (hull.waterline[i] + along * (hull.waterline[next] - hull.waterline[i])));
     if (d >= nearest) continue;
     nearest = d;
     angle = (1 - along) * hull.angles_from_vertical[i] + along * hull.angles_from_vertical[next];

@@ -144,15 +144,13 @@ Command steer(const RammingPilot& pilot, const PilotView& view, PilotMemory& mem
       memory.slow_since = view.time;
       ++memory.rams;
     }
-  } else if (is_stuck(pilot, view.speed_over_ground, view, memory) &&
-             view.lever >= 0.99 * pilot.lever_ahead) {
+  } else if (is_stuck(pilot, view.speed_over_ground, view, memory) && view.lever >= 0.99 * pilot.lever_ahead) {
     memory.is_backing = true;
     memory.slow_since = view.time;
     memory.stuck_at = here;
     if (memory.rams == 0) memory.first_stuck_at = here;
   }
-  if (memory.rams > 0)
-    memory.gained = std::max(memory.gained, dot(here - memory.first_stuck_at, unit(heading)));
+  if (memory.rams > 0) memory.gained = std::max(memory.gained, dot(here - memory.first_stuck_at, unit(heading)));
   if (memory.is_backing) return {pilot.lever_astern, 0};
   return {pilot.lever_ahead, steering_to_hold(heading, view)};
 }

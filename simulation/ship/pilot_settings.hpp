@@ -72,7 +72,7 @@ struct FollowingPilot {
   double distance = 0;  ///< [m]
   friend bool operator==(const FollowingPilot&, const FollowingPilot&) = default;
 };
-using PilotSettings = std::variant<ConstantPilot, SpeedPilot, HeadingPilot, RoutePilot, TablePilot,
-                                   RammingPilot, FollowingPilot>;
+using PilotSettings =
+    std::variant<ConstantPilot, SpeedPilot, HeadingPilot, RoutePilot, TablePilot, RammingPilot, FollowingPilot>;
 
 }  // namespace polynya::simulation

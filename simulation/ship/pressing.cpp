@@ -21,25 +21,23 @@ constexpr double kLeastFace = 1e-9;
 
 /// Whether a face of a body belongs to a ship's stern: its normal is within 60° of straight aft.
 bool is_aft(const dynamics::Bodies& bodies, BodyIndex by, Vector normal) {
-  return bodies.kind[by] == dynamics::BodyKind::kShip &&
-         dot(normal, rotate(bodies.rotation[by], {1, 0})) < -0.5;
+  return bodies.kind[by] == dynamics::BodyKind::kShip && dot(normal, rotate(bodies.rotation[by], {1, 0})) < -0.5;
 }
 
-fracture::Face face_of(const dynamics::Bodies& bodies, const Contact& c, BodyIndex floe, Point end,
-                       Point tip) {
+fracture::Face face_of(const dynamics::Bodies& bodies, const Contact& c, BodyIndex floe, Point end, Point tip) {
   const BodyIndex by = other_of(c, floe);
   const Point middle = midpoint(end, tip);
   Vector normal = perpendicular(tip - end) / distance(end, tip);
   if (dot(normal, into_floe(c, floe)) < 0) normal = -normal;
-  const Vector relative = velocity_at(bodies, by, middle - bodies.position[by]) -
-                          velocity_at(bodies, floe, middle - bodies.position[floe]);
+  const Vector relative =
+      velocity_at(bodies, by, middle - bodies.position[by]) - velocity_at(bodies, floe, middle - bodies.position[floe]);
   const double leaving = is_aft(bodies, by, normal) ? -dot(relative, normal) : 0;
   return {middle, normal, dot(relative, perpendicular(normal)), leaving};
 }
 
 /// The pushes of a contact where the other body's corner is in the floe.
-std::optional<std::array<Push, 2>> corner_pushes(const dynamics::Bodies& bodies, const Contact& c,
-                                                 BodyIndex floe, Vector force, double friction) {
+std::optional<std::array<Push, 2>> corner_pushes(const dynamics::Bodies& bodies, const Contact& c, BodyIndex floe,
+                                                 Vector force, double friction) {
   const Point tip = floe == c.b ? c.tip_of_a : c.tip_of_b;
   if (dot(tip - c.ends[0], into_floe(c, floe)) < kLeastFace) return std::nullopt;
   if (std::min(distance(tip, c.ends[0]), distance(tip, c.ends[1])) < kLeastFace) return std::nullopt;
@@ -87,8 +85,8 @@ double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
   return 0.5 * std::numbers::sqrt2 * with_slip / (1 - friction) * sum;
 }
 
-void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const Contact> contacts,
-           BodyIndex floe, PressedFloe& pressed) {
+void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const Contact> contacts, BodyIndex floe,
+           PressedFloe& pressed) {
   pressed.contacts.clear();
   pressed.pushes.clear();
   for (const Contact& c : contacts) {
@@ -110,8 +108,7 @@ void find_mouths(BodyIndex floe, PressedFloe& pressed) {
   const PressedContact* before = nullptr;
   for (const PressedContact& next : pressed.contacts) {
     const Contact& c = *next.contact;
-    if (next.is_corner)
-      pressed.mouths.push_back({floe == c.b ? c.tip_of_a : c.tip_of_b, into_floe(c, floe), &c});
+    if (next.is_corner) pressed.mouths.push_back({floe == c.b ? c.tip_of_a : c.tip_of_b, into_floe(c, floe), &c});
     if (before) add_mouth_between(*before, next, pressed.mouths);
     before = &next;
   }

@@ -28,8 +28,8 @@ struct ShipInStep {
   Planar of_ground;    ///< of the ground
 };
 
-ShipInStep ship_of(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies,
-                   const ShipMotion& start, BodyIndex i) {
+ShipInStep ship_of(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies, const ShipMotion& start,
+                   BodyIndex i) {
   const geometry::Rotation rotation = bodies.rotation[i];
   ShipInStep ship;
   ship.mass = bodies.mass[i];
@@ -58,10 +58,8 @@ LinearForce mooring_force(const MooringSettings& mooring, const Clock& clock, co
   const auto to_mooring = geometry::Rotation::by(mooring.heading);
   const double turn = bodies.angle[i] - mooring.heading;
   const Vector off = rotate_back(to_mooring, bodies.position[i] + clock.drift() - mooring.position_in_world);
-  const geometry::Rotation to_ship =
-      geometry::relative_pose({{}, to_mooring}, {{}, bodies.rotation[i]}).rotation;
-  const Vector pull =
-      rotate_back(to_ship, {-mooring.surge_stiffness * off.x, -mooring.sway_stiffness * off.y});
+  const geometry::Rotation to_ship = geometry::relative_pose({{}, to_mooring}, {{}, bodies.rotation[i]}).rotation;
+  const Vector pull = rotate_back(to_ship, {-mooring.surge_stiffness * off.x, -mooring.sway_stiffness * off.y});
   const double dt = clock.step;
   const double along = dt * mooring.surge_stiffness + mooring.surge_damping;
   const double across = dt * mooring.sway_stiffness + mooring.sway_damping;
@@ -99,8 +97,8 @@ Forces forces_on(const Setup& setup, const Clock& clock, const Population& popul
   }
   forces.engine = dynamics::turned_thrust(thrust, turned, sailing.stern);
   if (sailing.rudder)
-    forces.rudder = dynamics::rudder_force(*sailing.rudder, helm.steering_angle, through_water, thrust,
-                                           sailing.hull.density);
+    forces.rudder =
+        dynamics::rudder_force(*sailing.rudder, helm.steering_angle, through_water, thrust, sailing.hull.density);
   forces.water = {{}, dynamics::water_damping(sailing.hull, through_water), ship.of_current};
   const auto& mooring = setup.scene.ships[i].mooring;
   if (mooring && !helm.is_adrift) forces.mooring = mooring_force(*mooring, clock, population.bodies, ship, i);
@@ -109,13 +107,11 @@ Forces forces_on(const Setup& setup, const Clock& clock, const Population& popul
 
 /// ν at the end of the step: (M + A + Δt D) ν⁺ = M ν + A ν_b + Δt F, ν with the step's other impulses, ν_b in
 /// the ship's axes of the step before (docs/theory.md, "The ship in water").
-Planar solved_motion(const ShipInStep& ship, const PlanarMatrix& added_mass, const Forces& forces,
-                     double dt) {
+Planar solved_motion(const ShipInStep& ship, const PlanarMatrix& added_mass, const Forces& forces, double dt) {
   const PlanarMatrix inertia = PlanarMatrix{{{{ship.mass, 0, 0}, {0, ship.mass, 0}, {0, 0, ship.moment}}}};
   const PlanarMatrix damping = forces.water.damping + forces.mooring.damping;
   const Planar force = forces.engine + forces.rudder + forces.water.at({}) + forces.mooring.at({});
-  return solve(inertia + added_mass + dt * damping,
-               inertia * ship.now + added_mass * ship.before_turn + dt * force);
+  return solve(inertia + added_mass + dt * damping, inertia * ship.now + added_mass * ship.before_turn + dt * force);
 }
 
 /// Enters an impulse that took a ship from one velocity to another, its part of the work at their mean.
@@ -147,8 +143,8 @@ void add(const SailingLoads& of_step, SailingLoads& sum) {
 
 /// The mooring breaks where it held the ship with more than it can. `velocity` is the ship's in the water at
 /// the end of the step: the pull is that of the place where the step takes the ship.
-void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar impulse, Vector velocity,
-                   BodyIndex i, Population& population, std::vector<Event>& breaks) {
+void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar impulse, Vector velocity, BodyIndex i,
+                   Population& population, std::vector<Event>& breaks) {
   const double force = std::hypot(impulse.surge, impulse.sway) / clock.step;
   if (mooring.break_load <= 0 || force <= mooring.break_load) return;
   Helm& helm = population.helms[i];
@@ -156,13 +152,12 @@ void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar im
   helm.adrift_since = clock.time() + clock.step;
   const geometry::Point place =
       population.bodies.position[i] + clock.drift() + clock.step * (velocity + clock.water_drift);
-  const Vector offset =
-      rotate_back(geometry::Rotation::by(mooring.heading), place - mooring.position_in_world);
+  const Vector offset = rotate_back(geometry::Rotation::by(mooring.heading), place - mooring.position_in_world);
   breaks.push_back({helm.adrift_since, i, place, MooringBreak{offset, force, mooring.break_load}});
 }
 
-void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, BodyIndex i,
-               Population& population, Accounts& accounts, std::vector<Event>& mooring_breaks) {
+void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, BodyIndex i, Population& population,
+               Accounts& accounts, std::vector<Event>& mooring_breaks) {
   dynamics::Bodies& bodies = population.bodies;
   const double dt = clock.step;
   const bool is_free = bodies.inverse_mass[i] != 0;
@@ -194,9 +189,8 @@ dynamics::MainDimensions dimensions_of(const Ship& ship, double water_density) {
   d.length = box.high.x - box.low.x;
   d.beam = box.high.y - box.low.y;
   d.draught = ship.hull.draught;
-  d.block_coefficient = ship.water.block_coefficient > 0
-                            ? ship.water.block_coefficient
-                            : ship.mass / (water_density * d.length * d.beam * d.draught);
+  d.block_coefficient = ship.water.block_coefficient > 0 ? ship.water.block_coefficient
+                                                         : ship.mass / (water_density * d.length * d.beam * d.draught);
   return d;
 }
 
@@ -215,11 +209,9 @@ dynamics::HullInWater hull_in_water(const Ship& ship, const dynamics::Engine* en
   if (!ship.water.acts) return hull;
   hull.cross_flow_drag = ship.water.cross_flow_drag;
   hull.derivatives = clarke_derivatives(dimensions);
-  hull.added_mass =
-      added_mass_of(hull.derivatives, hull.length, density, ship.water.surge_added_mass * ship.mass);
+  hull.added_mass = added_mass_of(hull.derivatives, hull.length, density, ship.water.surge_added_mass * ship.mass);
   if (!engine)
-    hull.quadratic_resistance =
-        0.5 * density * ship.water.resistance_coefficient * wetted_surface(dimensions);
+    hull.quadratic_resistance = 0.5 * density * ship.water.resistance_coefficient * wetted_surface(dimensions);
   return hull;
 }
 
@@ -255,8 +247,7 @@ void keep_motion(const Population& population, StepData& step) {
     step.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};
 }
 
-void sail(const Setup& setup, const Clock& clock, StepData& step, Population& population,
-          Accounts& accounts) {
+void sail(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts) {
   step.mooring_breaks.clear();
   for (BodyIndex ship = 0; ship < std::ssize(setup.sailing); ++ship) {
     if (!setup.sailing[ship].is_active) continue;

@@ -29,8 +29,7 @@ double eq5_impulse(const Setup& setup, const dynamics::Bodies& bodies, const Con
   return dynamics::collision_impulse(c.approach_speed, setup.scene.contact.restitution, mass);
 }
 
-geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodies,
-                               const ShipContactLoad& load) {
+geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load) {
   const Contact& c = load.contact;
   const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
   const double l = fracture::characteristic_length(load.ice, setup.scene.water.water);
@@ -45,8 +44,8 @@ void press(const Setup& setup, bool can_bend, ShipContactLoad& load) {
   const double deepest = std::max(c.depth, c.record->loaded_depth);
   const bool recedes = can_bend && setup.scene.fracture.follows_deflection && load.shares.vertical > 0;
   const double recession = recedes ? fracture::recession_per_area(bending_load(setup, load), deepest) : 0;
-  const fracture::RecedingCrush pressed = fracture::crushed_receding(
-      {c.width, c.depth, c.area}, deepest, load.ice.thickness, load.hull_angle, recession);
+  const fracture::RecedingCrush pressed =
+      fracture::crushed_receding({c.width, c.depth, c.area}, deepest, load.ice.thickness, load.hull_angle, recession);
   load.normal_force = fracture::crushing_force(load.ice, pressed.crushed.area);
   load.stiffness = fracture::crushing_force(load.ice, pressed.crushed.slope);
   load.penetration = pressed.penetration;
@@ -70,11 +69,9 @@ fracture::BendingLoad bending_load(const Setup& setup, const ShipContactLoad& lo
   fracture::BendingLoad bending;
   bending.ice = load.ice;
   bending.water = setup.scene.water.water;
-  bending.front_half_angle =
-      std::clamp(wedge.front, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
+  bending.front_half_angle = std::clamp(wedge.front, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
   bending.back_half_angle = std::clamp(wedge.back, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
-  if (is_crush_law(setup))
-    bending.opening_angle = std::max(wedge.front + wedge.back, 2 * fracture::kSmallestHalfAngle);
+  if (is_crush_law(setup)) bending.opening_angle = std::max(wedge.front + wedge.back, 2 * fracture::kSmallestHalfAngle);
   bending.hull_angle = load.hull_angle;
   bending.mean_approach_speed = load.mean_speed;
   bending.penetration = load.penetration;

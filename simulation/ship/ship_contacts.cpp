@@ -11,9 +11,8 @@ namespace {
 using geometry::Vector;
 
 bool is_known(const std::vector<Event>& contacts, BodyIndex ship, BodyIndex other) {
-  return std::ranges::any_of(contacts, [&](const Event& e) {
-    return e.ship == ship && std::get<ShipContact>(e.what).other == other;
-  });
+  return std::ranges::any_of(
+      contacts, [&](const Event& e) { return e.ship == ship && std::get<ShipContact>(e.what).other == other; });
 }
 
 geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
@@ -23,8 +22,8 @@ geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bo
 
 /// The contact of two ships of prescribed motion whose outlines came to touch in the step. The contact search
 /// leaves such pairs out: no impulse moves them.
-std::optional<Event> prescribed_contact(const Setup& setup, const Clock& clock,
-                                        const dynamics::Bodies& bodies, BodyIndex ship, BodyIndex other) {
+std::optional<Event> prescribed_contact(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies,
+                                        BodyIndex ship, BodyIndex other) {
   const Vector velocity = bodies.velocity[other] - bodies.velocity[ship];
   const double speed = length(velocity);
   // The touch may lie in the step before, where rounding hid it.
@@ -40,8 +39,8 @@ std::optional<Event> prescribed_contact(const Setup& setup, const Clock& clock,
 
 }  // namespace
 
-void record_ship_events(const Setup& setup, const Clock& clock, const Population& population,
-                        const StepData& step, std::vector<Event>& known_contacts, Journal& journal) {
+void record_ship_events(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+                        std::vector<Event>& known_contacts, Journal& journal) {
   const dynamics::Bodies& bodies = population.bodies;
   const auto enter = [&](const Event& contact) {
     known_contacts.push_back(contact);

@@ -17,8 +17,7 @@ namespace {
 
 constexpr double kFarthest = 1e9;               ///< from the origin that a body can have gone [m]
 constexpr double kFastest = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
-constexpr double kOutside =
-    1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
+constexpr double kOutside = 1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
 
 void set_motion(dynamics::Bodies& bodies, BodyIndex i, const BodyMotion& motion) {
   bodies.position[i] = motion.position;
@@ -42,18 +41,13 @@ geometry::Box ice_box(const Scene& scene) {
 class StateLoader {
  public:
   StateLoader(World& world, std::string_view bytes)
-      : scene_(world.setup.scene),
-        world_(world),
-        population_(world.population),
-        bytes_(bytes),
-        ice_(ice_box(scene_)) {}
+      : scene_(world.setup.scene), world_(world), population_(world.population), bytes_(bytes), ice_(ice_box(scene_)) {}
 
   std::string load() {
     load_accounts();
     std::uint64_t floes = 0;
     bytes_(floes);
-    bytes_.require(floes >= scene_.floes.size() && floes <= bytes_.left(),
-                   "a number of floes that cannot be");
+    bytes_.require(floes >= scene_.floes.size() && floes <= bytes_.left(), "a number of floes that cannot be");
     for (BodyIndex hull = 0; hull < population_.hull_count && bytes_.is_well(); ++hull) load_hull(hull);
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_ice_at_hulls();
@@ -67,7 +61,7 @@ class StateLoader {
   }
 
  private:
-  static constexpr std::int64_t kMostSteps = 1'000'000'000;  // 58 days of the default step: more is damage
+  static constexpr std::int64_t kMostSteps = 1'000'000'000;            // 58 days of the default step: more is damage
   static constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
 
   void load_accounts() {
@@ -93,14 +87,11 @@ class StateLoader {
   BodyMotion load_motion(double radius) {
     BodyMotion motion;
     bytes_(motion);
-    const auto is_within = [](double x, double y, double most) {
-      return std::max(std::abs(x), std::abs(y)) <= most;
-    };
+    const auto is_within = [](double x, double y, double most) { return std::max(std::abs(x), std::abs(y)) <= most; };
     const geometry::Rotation r = motion.rotation;
     bytes_.require(is_within(motion.position.x, motion.position.y, kFarthest), "a body beyond the world");
     bytes_.require(is_within(motion.velocity.x, motion.velocity.y, kFastest), "a body faster than any");
-    bytes_.require(std::abs(motion.angular_velocity) * radius <= kFastest,
-                   "a body that spins faster than any");
+    bytes_.require(std::abs(motion.angular_velocity) * radius <= kFastest, "a body that spins faster than any");
     bytes_.require(std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6, "a rotation that is none");
     bytes_.require(motion.travel >= 0, "a negative travel");
     return motion;
@@ -149,22 +140,21 @@ class StateLoader {
     const FloeHead head = load_head(id);
     if (!bytes_.is_well()) return;
     const bool is_under = head.standing == Standing::kUnderHull;
-    Floe floe{
-        .parent = head.parent,
-        .born = head.born,
-        .generation = head.generation,
-        .own_ice = head.parent == kNoFloe ? scene_.floes[id].own_ice : population_.floes[head.parent].own_ice,
-        .area = head.area,
-        .shape = {},
-        .is_under = is_under};
+    Floe floe{.parent = head.parent,
+              .born = head.born,
+              .generation = head.generation,
+              .own_ice = head.parent == kNoFloe ? scene_.floes[id].own_ice : population_.floes[head.parent].own_ice,
+              .area = head.area,
+              .shape = {},
+              .is_under = is_under};
     if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = scene_.floes[id].polygon_in_world;
     if (head.is_alive && head.parent != kNoFloe) floe.shape = load_shape();
     if (!bytes_.is_well()) return;
     const fracture::Ice& ice = ice_of(scene_, floe.own_ice);
     dynamics::NewBody body;
     if (head.is_alive) {
-      body = new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), ice,
-                         head.standing == Standing::kFast);
+      body =
+          new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), ice, head.standing == Standing::kFast);
     } else {  // its index stays
       body.mass = body.moment = 1;
       body.is_prescribed = head.standing == Standing::kFast;
@@ -210,18 +200,17 @@ class StateLoader {
     };
     std::pair<int, FloeId> last{-1, kNoFloe};
     for (const TiltedFloe& tilted : population_.tilted) {
-      bytes_.require(
-          can_take_ice(tilted.ship) && is_floe(tilted.floe) && population_.is_floating(tilted.floe),
-          "a tilted floe that there is not");
+      bytes_.require(can_take_ice(tilted.ship) && is_floe(tilted.floe) && population_.is_floating(tilted.floe),
+                     "a tilted floe that there is not");
       bytes_.require(tilted.edge.deflection >= 0, "an edge above the water");
       bytes_.require(last < std::pair(tilted.ship, tilted.floe), "tilted floes out of their order");
       last = {tilted.ship, tilted.floe};
     }
     std::vector<bool> is_submerged(population_.floes.size());
     for (SubmergedPiece& submerged : population_.submerged) {
-      bytes_.require(can_take_ice(submerged.ship) && is_floe(submerged.floe) &&
-                         population_.floes[submerged.floe].is_under,
-                     "ice under a hull that there is not");
+      bytes_.require(
+          can_take_ice(submerged.ship) && is_floe(submerged.floe) && population_.floes[submerged.floe].is_under,
+          "ice under a hull that there is not");
       if (!bytes_.is_well()) return;
       bytes_.require(!is_submerged[static_cast<std::size_t>(submerged.floe)], "ice under two hulls");
       bytes_.require(submerged.weight >= 0 && submerged.waited >= 0, "a negative weight or wait");
@@ -255,21 +244,18 @@ class StateLoader {
     bytes_(pairs);
     if (is_crush_law(world_.setup)) load_crushed_ice(pairs);
     bytes_(separation_bound);
-    bytes_.require(pairs.size() == separation_bound.size(),
-                   "another number of separation bounds than of pairs");
+    bytes_.require(pairs.size() == separation_bound.size(), "another number of separation bounds than of pairs");
     const dynamics::Bodies& bodies = population_.bodies;
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {
       dynamics::PairState& pair = pairs[i];
       const bool is_there = pair.a >= 0 && pair.a < pair.b && pair.b < bodies.size();
-      bytes_.require(is_there && is_in_contact_world(pair.a) && is_in_contact_world(pair.b),
-                     "a pair of no two bodies");
+      bytes_.require(is_there && is_in_contact_world(pair.a) && is_in_contact_world(pair.b), "a pair of no two bodies");
       if (!bytes_.is_well()) return;
       bytes_.require(bodies.is_awake[pair.a] || bodies.is_awake[pair.b], "a pair of two asleep");
       const bool is_held = bodies.inverse_mass[pair.a] == 0 && bodies.inverse_mass[pair.b] == 0;
       bytes_.require(!is_held || (population_.is_hull(pair.a) && !population_.is_hull(pair.b)),
                      "a pair of two of prescribed motion");
-      bytes_.require(!is_grounded(bodies.kind[pair.a]) || !is_grounded(bodies.kind[pair.b]),
-                     "a pair of two walls");
+      bytes_.require(!is_grounded(bodies.kind[pair.a]) || !is_grounded(bodies.kind[pair.b]), "a pair of two walls");
       const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
       bytes_.require(is_next, "pairs out of their order");
       pair.separation_bound = separation_bound[i];

@@ -100,8 +100,8 @@ void fields(Archive& archive, Is<SailingLoads> auto& l) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<PilotMemory> auto& m) {
-  archive(m.heading, m.speed_integral, m.drift_angle, m.waypoint, m.from, m.is_backing, m.slow_since,
-          m.stuck_at, m.first_stuck_at, m.rams, m.gained);
+  archive(m.heading, m.speed_integral, m.drift_angle, m.waypoint, m.from, m.is_backing, m.slow_since, m.stuck_at,
+          m.first_stuck_at, m.rams, m.gained);
 }
 template <class Archive>
 void fields(Archive& archive, Is<Helm> auto& h) {
@@ -119,15 +119,15 @@ void fields(Archive& archive, Is<MassLedger> auto& l) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<Counts> auto& c) {
-  archive(c.floes_initial, c.bends, c.splits, c.ground, c.tilted_under, c.went_under, c.came_up,
-          c.stayed_under, c.crush_contacts, c.rejected_cuts, c.floated_cusps, c.brash_pieces, c.snap_rounded,
-          c.database_out_of_range, c.unconverged_steps, c.largest_residual, c.energy_created,
-          c.unpaired_stretches, c.peak_contacts, c.peak_awake);
+  archive(c.floes_initial, c.bends, c.splits, c.ground, c.tilted_under, c.went_under, c.came_up, c.stayed_under,
+          c.crush_contacts, c.rejected_cuts, c.floated_cusps, c.brash_pieces, c.snap_rounded, c.database_out_of_range,
+          c.unconverged_steps, c.largest_residual, c.energy_created, c.unpaired_stretches, c.peak_contacts,
+          c.peak_awake);
 }
 template <class Archive>
 void fields(Archive& archive, Is<EnergyFlows> auto& e) {
-  archive(e.thrust, e.current, e.drag, e.friction, e.restitution, e.crushing, e.bending, e.splitting,
-          e.grinding, e.submersion, e.submerged_ice, e.rest);
+  archive(e.thrust, e.current, e.drag, e.friction, e.restitution, e.crushing, e.bending, e.splitting, e.grinding,
+          e.submersion, e.submerged_ice, e.rest);
 }
 template <class Archive>
 void fields(Archive& archive, Is<MomentumFlows> auto& m) {
@@ -144,10 +144,10 @@ void fields(Archive& archive, Is<AuditSums> auto& a) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<dynamics::PersistentContact> auto& r) {
-  archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth,
-          r.restitution.owed_impulse, r.restitution.given_impulse, r.restitution.limit, r.last_impulse[0],
-          r.last_impulse[1], r.restitution.start_impulse[0], r.restitution.start_impulse[1], r.loaded_depth,
-          r.loaded_area, r.reach, r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused, r.is_continued);
+  archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.restitution.owed_impulse,
+          r.restitution.given_impulse, r.restitution.limit, r.last_impulse[0], r.last_impulse[1],
+          r.restitution.start_impulse[0], r.restitution.start_impulse[1], r.loaded_depth, r.loaded_area, r.reach,
+          r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused, r.is_continued);
 }
 template <class Archive>
 void fields(Archive& archive, Is<geometry::Pose> auto& p) {

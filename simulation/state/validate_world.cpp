@@ -19,14 +19,12 @@ Defect check_columns(const World& world) {
   const dynamics::Bodies& b = world.population.bodies;
   const auto count = static_cast<std::size_t>(world.population.hull_count) + world.population.floes.size();
   const auto size_of = [](const auto&... columns) { return std::array{columns.size()...}; };
-  const auto sizes =
-      size_of(b.position, b.angle, b.rotation, b.velocity, b.angular_velocity, b.inverse_mass,
-              b.inverse_moment, b.travel, b.bounding_radius, b.rim_speed, b.drag_span, b.is_awake, b.is_alive,
-              b.mass, b.moment, b.centroid, b.thickness, b.kind, b.boundary, b.drag);
+  const auto sizes = size_of(b.position, b.angle, b.rotation, b.velocity, b.angular_velocity, b.inverse_mass,
+                             b.inverse_moment, b.travel, b.bounding_radius, b.rim_speed, b.drag_span, b.is_awake,
+                             b.is_alive, b.mass, b.moment, b.centroid, b.thickness, b.kind, b.boundary, b.drag);
   const auto is_count = [&](std::size_t size) { return size == count; };
   if (!std::ranges::all_of(sizes, is_count)) return fmt::format("a column of bodies is not {} long", count);
-  if (world.accounts.loads.size() != hull_count(world.setup.scene))
-    return "loads of other ships than there are";
+  if (world.accounts.loads.size() != hull_count(world.setup.scene)) return "loads of other ships than there are";
   return {};
 }
 
@@ -48,8 +46,7 @@ Defect check_helms(const World& world) {
 
 Defect check_awake(const Population& population) {
   std::size_t awake = 0;
-  for (BodyIndex i = 0; i < population.bodies.size(); ++i)
-    awake += population.bodies.is_awake[i] != 0 ? 1 : 0;
+  for (BodyIndex i = 0; i < population.bodies.size(); ++i) awake += population.bodies.is_awake[i] != 0 ? 1 : 0;
   if (awake != population.awake.size())
     return fmt::format("{} bodies are awake, {} are listed", awake, population.awake.size());
   for (std::size_t k = 0; k < population.awake.size(); ++k) {
@@ -88,19 +85,15 @@ Defect check_floe(const Population& population, const Setup& setup, FloeId id) {
   if (floe.generation != (is_of_scene ? 0 : population.floes[floe.parent].generation + 1))
     return fmt::format("floe {} has the generation {}", id, floe.generation);
   if (!population.is_alive(id)) {
-    const bool is_gone =
-        b.boundary[body] == nullptr && b.is_awake[body] == 0 && floe.shape.polygon.outer.empty();
+    const bool is_gone = b.boundary[body] == nullptr && b.is_awake[body] == 0 && floe.shape.polygon.outer.empty();
     return is_gone ? Defect{} : fmt::format("floe {} broke and is still there", id);
   }
-  if (b.is_awake[body] != 0 && b.drag[body] == nullptr)
-    return fmt::format("floe {} is awake without drag", id);
+  if (b.is_awake[body] != 0 && b.drag[body] == nullptr) return fmt::format("floe {} is awake without drag", id);
   const geometry::Measures measures = geometry::measure(floe.shape.polygon);
   const fracture::Ice& ice = ice_of_floe(setup, population, id);
   const double mass = ice.density * ice.thickness * measures.area;
-  if (b.thickness[body] != ice.thickness)
-    return fmt::format("floe {} has another thickness than its ice", id);
-  if (measures.area != floe.area || !(floe.area > 0))
-    return fmt::format("floe {} has another area than its shape", id);
+  if (b.thickness[body] != ice.thickness) return fmt::format("floe {} has another thickness than its ice", id);
+  if (measures.area != floe.area || !(floe.area > 0)) return fmt::format("floe {} has another area than its shape", id);
   if (b.mass[body] != mass || (!population.is_fast(id) && b.inverse_mass[body] != 1 / mass) ||
       b.centroid[body] != measures.centroid)
     return fmt::format("floe {} has another mass than its shape", id);
@@ -134,22 +127,19 @@ Defect check_sums(const World& world) {
     area += population.floes[submerged.floe].area;
   }
   for (const TiltedFloe& tilted : population.tilted) {
-    if (!population.is_floating(tilted.floe))
-      return fmt::format("floe {} is tilted and does not float", tilted.floe);
+    if (!population.is_floating(tilted.floe)) return fmt::format("floe {} is tilted and does not float", tilted.floe);
   }
   const AreaLedger& ledger = world.accounts.ledger;
   const double lost = area + ledger.under_ice_area + ledger.submerged_area + ledger.brash_area -
                       ledger.rounding_defect - ledger.initial_ice_area;
-  if (!(std::abs(lost) <= kAreaTolerance * ledger.initial_ice_area))
-    return fmt::format("{} m² of ice too much", lost);
+  if (!(std::abs(lost) <= kAreaTolerance * ledger.initial_ice_area)) return fmt::format("{} m² of ice too much", lost);
   const MassLedger& masses = world.accounts.masses;
   const double lost_mass = mass + masses.under_ice_mass + masses.submerged_mass + masses.brash_mass -
                            masses.rounding_mass - masses.initial_ice_mass;
   if (!(std::abs(lost_mass) <= kAreaTolerance * masses.initial_ice_mass))
     return fmt::format("{} kg of ice too much", lost_mass);
   const Counts& counts = world.accounts.counts;
-  const std::int64_t fractures =
-      counts.bends + counts.splits + counts.ground + counts.came_up + counts.stayed_under;
+  const std::int64_t fractures = counts.bends + counts.splits + counts.ground + counts.came_up + counts.stayed_under;
   if (broken != fractures) return fmt::format("{} floes broke in {} fractures", broken, fractures);
   return {};
 }

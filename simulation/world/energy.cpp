@@ -39,8 +39,7 @@ void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums) {
   sums.initial_momentum = momentum(bodies);
 }
 
-void enter_motion(const dynamics::Bodies& bodies, BodyIndex floe, double& energy, Vector& momentum,
-                  AuditSums& sums) {
+void enter_motion(const dynamics::Bodies& bodies, BodyIndex floe, double& energy, Vector& momentum, AuditSums& sums) {
   const Vector carried = bodies.mass[floe] * bodies.velocity[floe];
   const double omega = bodies.angular_velocity[floe];
   energy += 0.5 * (dot(carried, bodies.velocity[floe]) + bodies.moment[floe] * omega * omega);
@@ -73,8 +72,8 @@ Audit audit(const AuditSums& sums, double kinetic_energy, Vector momentum) {
   audit.turnover = audit.sums.initial_energy + std::abs(e.thrust) + std::abs(e.current) + std::abs(b.wind) +
                    std::abs(b.walls) + std::abs(out);
   audit.total_momentum = momentum;
-  audit.momentum_imbalance = audit.total_momentum - audit.sums.initial_momentum - m.thrust - m.held -
-                             m.water - b.wind_impulse - b.wall_impulse + m.removed;
+  audit.momentum_imbalance = audit.total_momentum - audit.sums.initial_momentum - m.thrust - m.held - m.water -
+                             b.wind_impulse - b.wall_impulse + m.removed;
   audit.momentum_turnover = length(audit.sums.initial_momentum) + audit.sums.impulses;
   return audit;
 }

@@ -8,17 +8,16 @@ namespace polynya::simulation {
 /// water frame, of everything whose motion is not prescribed. Each entry is measured where it happens; that
 /// they account for the kinetic energy is audited, not arranged (audit).
 struct EnergyFlows {
-  double thrust = 0;    ///< in: by thrust and moorings, and by bodies of prescribed motion
-  double current = 0;   ///< in: by a sheared current carrying ice along
-  double drag = 0;      ///< out: to the water around, of ships with the inertia that it has
-  double friction = 0;  ///< out: along contact lines
-  double restitution =
-      0;                  ///< out: across contact lines that did not crush, which restitution does not return
-  double crushing = 0;    ///< out: across contact lines that pressed with all that crushing ice carries
-  double bending = 0;     ///< out: the motion of the cusps and brash that bending took out of the floe list
-  double splitting = 0;   ///< out: the same of splits
-  double grinding = 0;    ///< out: the same of overlaps that were ground to brash
-  double submersion = 0;  ///< out: the motion of ice that went under a hull
+  double thrust = 0;         ///< in: by thrust and moorings, and by bodies of prescribed motion
+  double current = 0;        ///< in: by a sheared current carrying ice along
+  double drag = 0;           ///< out: to the water around, of ships with the inertia that it has
+  double friction = 0;       ///< out: along contact lines
+  double restitution = 0;    ///< out: across contact lines that did not crush, which restitution does not return
+  double crushing = 0;       ///< out: across contact lines that pressed with all that crushing ice carries
+  double bending = 0;        ///< out: the motion of the cusps and brash that bending took out of the floe list
+  double splitting = 0;      ///< out: the same of splits
+  double grinding = 0;       ///< out: the same of overlaps that were ground to brash
+  double submersion = 0;     ///< out: the motion of ice that went under a hull
   double submerged_ice = 0;  ///< out: of ships, to the ice under their hulls
   double rest = 0;           ///< out: what was left to floes that came to rest
 };
@@ -71,8 +70,8 @@ geometry::Vector momentum(const dynamics::Bodies& bodies);  ///< of the same [N 
 void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums);
 
 /// Enters the motion of a floe: its energy into one of the sums' flows [J], its momentum into another [N s].
-void enter_motion(const dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy,
-                  geometry::Vector& momentum, AuditSums& sums);
+void enter_motion(const dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy, geometry::Vector& momentum,
+                  AuditSums& sums);
 
 /// Stops a floe: its energy goes to the sink, one of the sums' flows [J], its momentum to what was removed.
 void stop(dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy_sink, AuditSums& sums);

@@ -36,8 +36,7 @@ double length_of(const Ring& ring) {
 }
 
 /// A body's share of the columns of dynamics::Bodies.
-constexpr double kColumns =
-    16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3;
+constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3;
 
 /// A floe in the scene and in the world's copy of it, whose polygon becomes the floe's, the floe, its birth
 /// in the journal and its outline.
@@ -56,8 +55,8 @@ double moving() {
   constexpr double kPairs = 4;      // half of a floe's eight neighbours
   constexpr double kNearEdges = 4;  // of a pair that touches
   constexpr double kEnds = 8 * sizeof(double);
-  const double near = block(sizeof(dynamics::NearParts)) + block(kNearEdges * sizeof(geometry::NearPair)) +
-                      block(kNearEdges * kEnds);
+  const double near =
+      block(sizeof(dynamics::NearParts)) + block(kNearEdges * sizeof(geometry::NearPair)) + block(kNearEdges * kEnds);
   return block(sizeof(dynamics::DragShape)) + kPairs * (sizeof(dynamics::Pair) + near);
 }
 
@@ -78,11 +77,10 @@ class KeptCovers {
 
   double bytes() const {
     constexpr double kNodes = 0.8;  // of the tree, a piece
-    constexpr double kPiece = sizeof(geometry::PieceEdges) + sizeof(geometry::BoundingCircle) +
-                              kNodes * sizeof(geometry::CircleNode);
+    constexpr double kPiece =
+        sizeof(geometry::PieceEdges) + sizeof(geometry::BoundingCircle) + kNodes * sizeof(geometry::CircleNode);
     const double room = std::max(0.0, dynamics::ContactRule{}.most_kept_pieces - always_);
-    return (kPiece + (has_circles_ ? sizeof(geometry::ContactCircle) : 0)) *
-           (always_ + std::min(others_, room));
+    return (kPiece + (has_circles_ ? sizeof(geometry::ContactCircle) : 0)) * (always_ + std::min(others_, room));
   }
 
  private:

@@ -90,24 +90,22 @@ void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clo
       wake(body, population);
   }
   for (std::size_t i = 0; i < floes.size(); ++i) {
-    if (floes[i].has_crushed_overlaps)
-      population.pairs.note_pressed(population.body_of(static_cast<FloeId>(i)));
+    if (floes[i].has_crushed_overlaps) population.pairs.note_pressed(population.body_of(static_cast<FloeId>(i)));
   }
 }
 
 FloeId add_floe(const Setup& setup, const Clock& clock, NewFloe floe, const geometry::Measures& measures,
                 Population& population, Journal& journal) {
   const FloeId id = population.floe_count();
-  dynamics::NewBody body =
-      new_body_of(floe.shape.polygon, measures, ice_of(setup.scene, floe.own_ice), floe.is_fast);
+  dynamics::NewBody body = new_body_of(floe.shape.polygon, measures, ice_of(setup.scene, floe.own_ice), floe.is_fast);
   body.position = transform(floe.water_from_body, body.centroid);
   body.angle = floe.angle;
   // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
   body.angular_velocity = floe.angular_velocity;
-  journal.births.push_back({{id, floe.parent, clock.time(), floe.generation, measures.area, body.mass,
-                             body.centroid, floe.own_ice},
-                            floe.shape.polygon});
+  journal.births.push_back(
+      {{id, floe.parent, clock.time(), floe.generation, measures.area, body.mass, body.centroid, floe.own_ice},
+       floe.shape.polygon});
   population.floes.push_back({.parent = floe.parent,
                               .born = clock.time(),
                               .generation = floe.generation,
@@ -158,8 +156,8 @@ void add_drag(BodyIndex body, Population& population) {
     return;
   }
   population.bodies.drag[body] = std::make_shared<dynamics::DragShape>(dynamics::make_small_drag_shape(
-      population.floes[population.floe_of(body)].shape.polygon, population.bodies.centroid[body],
-      population.drag_area, population.has_skin_drag));
+      population.floes[population.floe_of(body)].shape.polygon, population.bodies.centroid[body], population.drag_area,
+      population.has_skin_drag));
 }
 
 bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies) {
@@ -189,10 +187,8 @@ dynamics::NewBody held_body(const PlacedHull& hull, BodyKind kind, double speed,
 
 dynamics::NewBody body_of(const Ship& ship, Vector water_drift) {
   const auto* prescribed = std::get_if<ConstantSpeed>(&ship.propulsion);
-  dynamics::NewBody body =
-      held_body(ship, BodyKind::kShip, prescribed ? prescribed->speed : ship.speed, water_drift);
-  if (ship.sway_speed != 0)
-    body.velocity += ship.sway_speed * Vector{-std::sin(ship.heading), std::cos(ship.heading)};
+  dynamics::NewBody body = held_body(ship, BodyKind::kShip, prescribed ? prescribed->speed : ship.speed, water_drift);
+  if (ship.sway_speed != 0) body.velocity += ship.sway_speed * Vector{-std::sin(ship.heading), std::cos(ship.heading)};
   body.angular_velocity = ship.yaw_rate;
   body.is_prescribed = prescribed != nullptr;
   body.mass = ship.mass;
@@ -217,8 +213,7 @@ dynamics::NewBody body_of(const Wall& wall, Vector water_drift) {
 }  // namespace
 
 dynamics::NewBody new_body_of(const Scene& scene, std::size_t hull) {
-  return visit_hull(scene, hull,
-                    [&](const auto& of_a_kind) { return body_of(of_a_kind, scene.water.drift); });
+  return visit_hull(scene, hull, [&](const auto& of_a_kind) { return body_of(of_a_kind, scene.water.drift); });
 }
 
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,

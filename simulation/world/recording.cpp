@@ -52,8 +52,7 @@ void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
 }
 
 /// What the helm is at, and what moved the ship beside ice and other ships.
-void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval,
-                 ShipSample& sample) {
+void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval, ShipSample& sample) {
   ShipSample& s = sample;
   const auto mean = [&](Planar impulse) { return (1 / interval) * impulse; };
   s.friction_of_ice = mean(loads.ice_friction);

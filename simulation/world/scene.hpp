@@ -44,8 +44,8 @@ struct WaterSettings {
   fracture::Water water;
   double drag_coefficient = 0.5;                             ///< C_D of Eq. (6) [-]
   dynamics::DragArea drag_area = dynamics::DragArea::kEdge;  ///< A of Eq. (6)
-  double skin_drag_coefficient = 0;  ///< C_w, of a floe's area in plan, beside Eq. (6) [-]
-  geometry::Vector drift;            ///< velocity of the water, and of all ice with it [m/s]
+  double skin_drag_coefficient = 0;                          ///< C_w, of a floe's area in plan, beside Eq. (6) [-]
+  geometry::Vector drift;                                    ///< velocity of the water, and of all ice with it [m/s]
   ShearSettings shear;
   friend bool operator==(const WaterSettings&, const WaterSettings&) = default;
 };
@@ -106,7 +106,7 @@ struct FractureSettings {
   BendingModelKind bending = BendingModelKind::kFsiDatabase;
   fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;  ///< of kFsiDatabase
   bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
-  double bending_scatter = 0;  ///< deviation / mean of each bending event's flexural strength, log-normal [-]
+  double bending_scatter = 0;      ///< deviation / mean of each bending event's flexural strength, log-normal [-]
   fracture::SplittingModel splitting = fracture::SplittingModel::kLefm;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
   fracture::LeastPiece least_piece;      ///< that a crack leaves on either side
@@ -123,8 +123,8 @@ struct Hull {
   geometry::Ring waterline;                         ///< counter-clockwise
   double stem_angle = 30 * std::numbers::pi / 180;  ///< φ, of the stem from the horizontal [rad]
   double draught = 0;                               ///< T; 0: no ice goes under this hull [m]
-  bool has_speed_factor = true;              ///< Lindqvist's factor of speed on the load of ice under it
-  std::vector<double> angles_from_vertical;  ///< θ_s per waterline vertex [rad]; empty: from the stem angle
+  bool has_speed_factor = true;                     ///< Lindqvist's factor of speed on the load of ice under it
+  std::vector<double> angles_from_vertical;         ///< θ_s per waterline vertex [rad]; empty: from the stem angle
   friend bool operator==(const Hull&, const Hull&) = default;
 };
 
@@ -198,10 +198,9 @@ inline constexpr std::int32_t kSceneIce = -1;  ///< instead of an index in Scene
 
 struct FloeSpec {
   geometry::Polygon polygon_in_world;  ///< valid, at the start [m]
-  geometry::Vector velocity;    ///< of the centre of mass relative to the water there, at the start [m/s]
-  double angular_velocity = 0;  ///< relative to the water's own turning there, at the start [rad/s]
-  bool is_fast =
-      false;  ///< held at its velocity, which is then over ground, whatever pushes it; it does not turn
+  geometry::Vector velocity;           ///< of the centre of mass relative to the water there, at the start [m/s]
+  double angular_velocity = 0;         ///< relative to the water's own turning there, at the start [rad/s]
+  bool is_fast = false;  ///< held at its velocity, which is then over ground, whatever pushes it; it does not turn
   std::int32_t own_ice = kSceneIce;   ///< index in Scene::own_ice
   bool has_crushed_overlaps = false;  ///< what it shares with other bodies at the start has pressed already
   std::int64_t source_floe = -1;      ///< its id in the file that it is from; < 0: none

@@ -22,8 +22,8 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
 
 /// Marks what crushed: contacts that needed all that crushing ice can carry. Enters what all contacts did
 /// into the accounts.
-void enter_contacts(const Setup& setup, const dynamics::Bodies& bodies,
-                    std::vector<dynamics::Contact>& contacts, Accounts& accounts) {
+void enter_contacts(const Setup& setup, const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts,
+                    Accounts& accounts) {
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
   for (dynamics::Contact& c : contacts) {
@@ -74,15 +74,14 @@ void find_pairs(Population& population) {
   population.pairs.update(population.bodies, population.awake);
 }
 
-void find_contacts(const Setup& setup, int threads, Population& population,
-                   std::vector<dynamics::Contact>& contacts, Counts& counts) {
+void find_contacts(const Setup& setup, int threads, Population& population, std::vector<dynamics::Contact>& contacts,
+                   Counts& counts) {
   population.pairs.find_contacts(population.bodies, setup.scene.time.step, contacts, threads);
   counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
   counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
 }
 
-void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
-                    Accounts& accounts) {
+void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step, Accounts& accounts) {
   step.splits.clear();
   if (step.contacts.empty()) return;
   dynamics::SolverSettings settings = setup.solver;
@@ -114,8 +113,7 @@ void apply_forces(const Setup& setup, int threads, Population& population, Audit
 }
 
 std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
-                                            const std::vector<dynamics::Contact>& contacts,
-                                            Population& population) {
+                                            const std::vector<dynamics::Contact>& contacts, Population& population) {
   const double dt = setup.scene.time.step;
   if (setup.separation) separate(population.bodies, contacts, *setup.separation, dt);
   const double fastest = integrate(population.bodies, population.awake, dt, threads);
@@ -126,8 +124,7 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
          " has no finite speed below 1000 m/s at t = " + std::to_string(clock.time()) + " s";
 }
 
-void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
-                 AuditSums& audit) {
+void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population, AuditSums& audit) {
   if (!setup.shortcuts.sleeps || clock.steps % setup.steps_per_rest != 0) return;
   dynamics::Bodies& bodies = population.bodies;
   step.touched_at_step.resize(static_cast<std::size_t>(bodies.size()), -1);
@@ -158,11 +155,9 @@ const std::array<Stage, 28> kStages = {{
        w.population.pairs.take_blind_overlaps(w.step.blind_overlaps);
        w.population.pairs.take_parted(w.step.parted);
      }},
-    {"decide",
-     [](World& w) { decide(w.setup, w.clock, w.threads, w.population, w.step, w.accounts.counts); }},
+    {"decide", [](World& w) { decide(w.setup, w.clock, w.threads, w.population, w.step, w.accounts.counts); }},
     {"limit by tilt", [](World& w) { limit_by_tilt(w.setup, w.population, w.step); }},
-    {"solve impulses",
-     [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
+    {"solve impulses", [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
     {"hold walls", [](World& w) { hold_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"drop unbroken", [](World& w) { drop_unbroken(w.setup, w.step); }},
     {"enter splits", [](World& w) { enter_splits(w.setup, w.population, w.step); }},
@@ -184,26 +179,19 @@ const std::array<Stage, 28> kStages = {{
      }},
     {"advance the clock", [](World& w) { ++w.clock.steps; }},
     {"apply fractures",
-     [](World& w) {
-       apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal);
-     }},
+     [](World& w) { apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal); }},
     {"grind",
      [](World& w) {
        grind_blind_overlaps(w.setup, w.clock, w.step.blind_overlaps, w.population, w.accounts, w.journal);
      }},
-    {"carve channels",
-     [](World& w) { carve_channels(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
+    {"carve channels", [](World& w) { carve_channels(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"shed crushed ice",
      [](World& w) { shed_crushed_ice(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"go under",
-     [](World& w) {
-       apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal);
-     }},
+     [](World& w) { apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal); }},
     {"come up", [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},
     {"record ship events",
-     [](World& w) {
-       record_ship_events(w.setup, w.clock, w.population, w.step, w.accounts.ship_contacts, w.journal);
-     }},
+     [](World& w) { record_ship_events(w.setup, w.clock, w.population, w.step, w.accounts.ship_contacts, w.journal); }},
     {"put to rest", [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
     {"record", [](World& w) { record(w.setup, w.clock, w.population, w.step.loads, w.accounts, w.journal); }},
 }};

@@ -14,8 +14,7 @@ namespace polynya::simulation {
 void take_helms(const Setup& setup, const Clock& clock, Population& population);
 
 /// Asks the pilots, and moves levers and steering towards their commands.
-void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external,
-           Population& population);
+void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external, Population& population);
 
 /// Moves the walls that press by their loads. Before the contacts, so that the ice answers within the step.
 void press_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit);
@@ -28,8 +27,8 @@ void keep_motion(const Population& population, StepData& step);
 
 void find_pairs(Population& population);
 
-void find_contacts(const Setup& setup, int threads, Population& population,
-                   std::vector<dynamics::Contact>& contacts, Counts& counts);
+void find_contacts(const Setup& setup, int threads, Population& population, std::vector<dynamics::Contact>& contacts,
+                   Counts& counts);
 
 /// What each contact can carry, and whether ice breaks there: impulse, crush, bend or split.
 void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
@@ -40,8 +39,7 @@ void limit_by_tilt(const Setup& setup, const Population& population, StepData& s
 
 /// Finds the impulses of all contacts, and with them what floes split: where contacts would come to more than
 /// a split takes, they are stopped there and the step is solved again (ice/split_instant.hpp).
-void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step,
-                    Accounts& accounts);
+void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step, Accounts& accounts);
 
 /// By the law of crushing ice: drops the bends whose contacts were not loaded up to V_b.
 void drop_unbroken(const Setup& setup, StepData& step);
@@ -60,8 +58,7 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
 void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit);
 
 /// Brakes ships by the ice under their hulls, and moves that ice along its path.
-void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads,
-                           AuditSums& audit);
+void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads, AuditSums& audit);
 
 /// Moves ships by water, engine, steering and mooring (sailing.hpp). After all other impulses of the step,
 /// since the water shares those too.
@@ -69,17 +66,15 @@ void sail(const Setup& setup, const Clock& clock, StepData& step, Population& po
 
 /// Returns why the numbers cannot be trusted any more, where a body has no finite speed below kRunawaySpeed.
 std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
-                                            const std::vector<dynamics::Contact>& contacts,
-                                            Population& population);
+                                            const std::vector<dynamics::Contact>& contacts, Population& population);
 
 /// With the next three all that changes which floes there are: serially, in floe-id order.
 void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
                      Population& population, Accounts& accounts, Journal& journal);
 
 /// Cuts overlaps that no contact can part from the floe and makes them brash, in the order of the pairs.
-void grind_blind_overlaps(const Setup& setup, const Clock& clock,
-                          const std::vector<dynamics::BlindOverlap>& overlaps, Population& population,
-                          Accounts& accounts, Journal& journal);
+void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vector<dynamics::BlindOverlap>& overlaps,
+                          Population& population, Accounts& accounts, Journal& journal);
 
 /// Cuts the ice that hulls of prescribed motion have crushed out of fast ice, and makes it brash: their
 /// channels are open.
@@ -100,15 +95,13 @@ void apply_submersions(const Setup& setup, const Clock& clock, const std::vector
                        Population& population, Accounts& accounts, Journal& journal);
 
 /// Lets ice come up that ships have passed, in the order in which it went under.
-void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts,
-             Journal& journal);
+void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal);
 
 /// Records the first contact of each two ships, and the moorings that broke.
-void record_ship_events(const Setup& setup, const Clock& clock, const Population& population,
-                        const StepData& step, std::vector<Event>& known_contacts, Journal& journal);
+void record_ship_events(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+                        std::vector<Event>& known_contacts, Journal& journal);
 
-void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population,
-                 AuditSums& audit);
+void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population, AuditSums& audit);
 
 void record(const Setup& setup, const Clock& clock, const Population& population,
             const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal);

@@ -16,12 +16,11 @@ namespace polynya::simulation {
 
 /// What one kind of contact does to a ship over a recording interval, in the ship's frame.
 struct ContactLoads {
-  dynamics::Planar impulse;  ///< on the ship [N s, N m s]
-  dynamics::Planar
-      steady_impulse;         ///< of the present step: what the largest force is found from [N s, N m s]
-  dynamics::Planar largest;   ///< single-step true force, component by component [N, N m]
-  dynamics::Planar friction;  ///< of the present step: what slip gave of the impulse [N s, N m s]
-  int contacts = 0;           ///< at the last step
+  dynamics::Planar impulse;         ///< on the ship [N s, N m s]
+  dynamics::Planar steady_impulse;  ///< of the present step: what the largest force is found from [N s, N m s]
+  dynamics::Planar largest;         ///< single-step true force, component by component [N, N m]
+  dynamics::Planar friction;        ///< of the present step: what slip gave of the impulse [N s, N m s]
+  int contacts = 0;                 ///< at the last step
 };
 
 /// What the ice under its hull does to a ship.

@@ -185,8 +185,7 @@ TEST(Channel, WaterCarriesAffinelyAndBack) {
     const Point there = analysis::carried_by_water(water, p, 10, 200);
     const Point back = analysis::carried_by_water(water, there, 200, 10);
     EXPECT_NEAR(distance(p, back), 0, 1e-9);
-    const Point halfway =
-        analysis::carried_by_water(water, analysis::carried_by_water(water, p, 10, 80), 80, 200);
+    const Point halfway = analysis::carried_by_water(water, analysis::carried_by_water(water, p, 10, 80), 80, 200);
     EXPECT_NEAR(distance(there, halfway), 0, 1e-9);
   }
 }

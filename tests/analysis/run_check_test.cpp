@@ -102,8 +102,7 @@ void add_floe(io::Run& run, simulation::FloeId parent, double born, const Ring& 
 
 /// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards
 /// it.
-io::Run small_run(const Ring& drifting = square(5, 1, 2),
-                  const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
+io::Run small_run(const Ring& drifting = square(5, 1, 2), const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
   io::Run run;
   add_floe(run, simulation::kNoFloe, 0, square(0, 0, 4));
   add_floe(run, simulation::kNoFloe, 0, drifting);
@@ -191,8 +190,7 @@ TEST(RunCheck, OverlapsThatWereNotCrushedAreFoundHullsIncluded) {
   EXPECT_FALSE(check.is_sound());
   ASSERT_EQ(check.uncrushed.size(), 3U);
   EXPECT_EQ(check.uncrushed_pairs, 3U);
-  const auto with_pile =
-      std::ranges::find(check.uncrushed, 0, [](const auto& pair) { return pair.first.ship; });
+  const auto with_pile = std::ranges::find(check.uncrushed, 0, [](const auto& pair) { return pair.first.ship; });
   ASSERT_NE(with_pile, check.uncrushed.end());
   EXPECT_EQ(with_pile->second.floe, 1);
   EXPECT_EQ(with_pile->shared, 0.25);

@@ -18,10 +18,9 @@ using simulation::Simulation;
 
 /// A ship that thrust alone has brought to ½ m v² = (F t)² / 2 m = 5e4 J/s² · t², and a floe that nobody
 /// meets.
-const std::string kScene =
-    scene({R"("time": {"step_s": 0.01, "until_s": 10}, "record": {"frames_interval_s": 1})",
-           list("ships", {ship(R"("position_m": [0, 0], "propulsion": {"thrust_N": 1e6})")}),
-           list("floes", {square(500, -30, 40)})});
+const std::string kScene = scene({R"("time": {"step_s": 0.01, "until_s": 10}, "record": {"frames_interval_s": 1})",
+                                  list("ships", {ship(R"("position_m": [0, 0], "propulsion": {"thrust_N": 1e6})")}),
+                                  list("floes", {square(500, -30, 40)})});
 
 /// Books 4 MJ of kinetic energy that was never there, but for 6 J, and as much that thrust never took out. At
 /// first those 6 J are lost in a turnover of 7.2 MJ. Thrust goes on and brings it down by what it gives,
@@ -61,8 +60,7 @@ class BrokenAudit : public testing::Test {
   /// The dump has the last state whose accounts close, and polynya gets the next one, the same each time.
   void expect_reproduced() {
     const auto scene = io::read_scene_file(folder_ / "run/scene.json");
-    const auto dump =
-        checked(io::read_checkpoint_file(folder_ / "run" / io::run_file::kFailure, scene->hash));
+    const auto dump = checked(io::read_checkpoint_file(folder_ / "run" / io::run_file::kFailure, scene->hash));
     EXPECT_EQ(dump->steps, 632) << "√40 s = 632.5 steps";
     auto simulation = checked(Simulation::resumed(scene->scene, dump->state));
     EXPECT_TRUE(simulation->audit().is_closed());

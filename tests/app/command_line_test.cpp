@@ -50,9 +50,8 @@ TEST_F(CommandLine, ProblemsAreJsonOnRequest) {
   for (const io::JsonValue& problem : problems.root.items()) {
     const auto member = [&](const char* key) { return problem.find(key); };
     EXPECT_EQ(member("severity")->text(), "error");
-    EXPECT_HAS(text.err,
-               fmt::format("{}:{}:{}: {}: {}\n", member("file")->text(), member("line")->number(),
-                           member("column")->number(), member("path")->text(), member("message")->text()));
+    EXPECT_HAS(text.err, fmt::format("{}:{}:{}: {}: {}\n", member("file")->text(), member("line")->number(),
+                                     member("column")->number(), member("path")->text(), member("message")->text()));
   }
   EXPECT_EQ(problems.root.items()[1].find("line")->number(), 2);
   EXPECT_EQ(problems.root.items()[1].find("path")->text(), "time.step_s");
@@ -86,8 +85,7 @@ TEST_F(CommandLine, HintsChangeNoExitCode) {
 
 /// A scene from stdin is the scene: the same hash, and floe files from the working folder.
 TEST_F(CommandLine, ASceneComesFromStdin) {
-  write_file(folder / "floes.geojson",
-             R"({"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
+  write_file(folder / "floes.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
   write_file(folder / "scene.json",
              R"({"name": "piped", "time": {"until_s": 0.1}, "floes": [{"file": "floes.geojson"}]})");
   const std::string valid = call("validate scene.json").out;
@@ -130,13 +128,12 @@ TEST_F(CommandLine, SetPutsValuesByTheirPaths) {
 
 TEST_F(CommandLine, CasesAreReportedEachWithItsPlaceAndCounted) {
   const std::string thin = "{\"ice.thickness_m\": 0.4}\n";
-  write_file(folder / "cases.ndjson",
-             thin + "{\"ice.thickness_m\": -1}\n{\"floes[0].rectangle.corner_m\": [10, 0]}\n");
+  write_file(folder / "cases.ndjson", thin + "{\"ice.thickness_m\": -1}\n{\"floes[0].rectangle.corner_m\": [10, 0]}\n");
   const Words validate = "validate scenes/two-floes.json --cases cases.ndjson";
   const Outcome text = call(validate), json = call(validate + "--json");
   EXPECT_EQ(text.code, 3);
-  EXPECT_HAS(text.err, "cases.ndjson:2:21: ice.thickness_m: found -1",
-             "cases.ndjson:3: " + scene_path("two-floes"), "2 of 3 cases are refused");
+  EXPECT_HAS(text.err, "cases.ndjson:2:21: ice.thickness_m: found -1", "cases.ndjson:3: " + scene_path("two-floes"),
+             "2 of 3 cases are refused");
   EXPECT_EQ(json.code, 3);
   EXPECT_BEGINS(json.out, "{\"line\": 2, \"problems\": [{");
   EXPECT_EQ(std::ranges::count(json.out, '\n'), 2);

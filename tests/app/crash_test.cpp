@@ -22,14 +22,12 @@ CrashTally crash_trials(int kills, unsigned seed) {
   std::cout << "seed " << seed << std::endl;  // before any fork
   std::mt19937 random(seed);
   const TemporaryFolder folder;
-  const Start start{.folder = folder.path(),
-                    .arrange_streams = [] { setenv("PATH", "/", 1); }};  // no rsvg-convert
+  const Start start{.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};  // no rsvg-convert
   write_file(folder / "scene.json", crash_scene("100"));
   const Words often = "--checkpoint-every 4 --progress none";
   const auto begin = std::chrono::steady_clock::now();
   const Outcome whole = polynya(Words("run scene.json --out whole") + often, start);
-  const auto duration =
-      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+  const auto duration = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
   CrashTally tally;
   EXPECT_EQ(whole.code, 0) << whole.err;
   if (whole.code != 0) return tally;
@@ -68,9 +66,8 @@ TEST(Crash, KillsLoseAndDoubleNothing) {
   const char* wanted = std::getenv("POLYNYA_KILLS");
   const int kills = wanted ? std::atoi(wanted) : 4;
   const CrashTally tally = crash_trials(kills, wanted ? 7 : 1);
-  std::cout << tally.kills << " kills of " << tally.runs << " runs: " << tally.resumed
-            << " resumed from a checkpoint, " << tally.restarted << " begun again before the first, "
-            << tally.before_anything
+  std::cout << tally.kills << " kills of " << tally.runs << " runs: " << tally.resumed << " resumed from a checkpoint, "
+            << tally.restarted << " begun again before the first, " << tally.before_anything
             << " killed before the scene was written; every file as in the uninterrupted run\n";
   EXPECT_GE(tally.kills, kills);
   EXPECT_GE(tally.resumed, wanted ? 3 * kills / 10 : 0);

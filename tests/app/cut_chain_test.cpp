@@ -73,8 +73,7 @@ class Chain {
   explicit Chain(unsigned seed) : random_(seed) { start(); }
 
   void step() {
-    constexpr io::FloeFormat kFormats[] = {io::FloeFormat::kWkt, io::FloeFormat::kGeojson,
-                                           io::FloeFormat::kNdjson};
+    constexpr io::FloeFormat kFormats[] = {io::FloeFormat::kWkt, io::FloeFormat::kGeojson, io::FloeFormat::kNdjson};
     std::vector<io::FloeEntry> entries = read();
     const Polygon parent = geometry::normalised(entries[random_() % entries.size()].polygon);
     const io::CutOp op = roll_op(random_, parent);
@@ -92,8 +91,8 @@ class Chain {
 
   std::size_t cuts() const { return cuts_; }
   std::string counts() const {
-    return fmt::format("{} cuts in {} outlines, {} pieces written and read back, {} slivers removed", cuts_,
-                       outlines_, pieces_, slivers_);
+    return fmt::format("{} cuts in {} outlines, {} pieces written and read back, {} slivers removed", cuts_, outlines_,
+                       pieces_, slivers_);
   }
   const std::string& text() const { return text_; }
 
@@ -115,8 +114,7 @@ class Chain {
       return read();
     }
     std::vector<io::FloeEntry>& entries = floes->entries;
-    while (entries.size() > 5)
-      entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(random_() % entries.size()));
+    while (entries.size() > 5) entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(random_() % entries.size()));
     return std::move(entries);
   }
 

@@ -106,8 +106,7 @@ TEST_F(CutCommand, ADiscLeavesTheOutsideAndAccountsForTheRest) {
 TEST_F(CutCommand, KeepSaysWhichSideStays) {
   std::map<std::string, double> kept;
   for (const std::string keep : {"outside", "inside", "both"}) {
-    kept[keep] =
-        ledger_of(cut("--disc 5,5,3 --out pieces.geojson --keep " + keep))["totals"]["area_of_pieces_m2"];
+    kept[keep] = ledger_of(cut("--disc 5,5,3 --out pieces.geojson --keep " + keep))["totals"]["area_of_pieces_m2"];
     for (const json& piece : read_json("pieces.geojson")["features"])
       EXPECT_TRUE(keep == "both" || piece["properties"]["part"] == keep);
   }
@@ -129,8 +128,7 @@ TEST_F(CutCommand, AToolOfSeveralPolygonsWithHolesIsTakenTogether) {
 }
 
 TEST_F(CutCommand, ACrackGoesThroughEveryFloeAndKeepsEverything) {
-  write("floes.geojson",
-        collection({feature(kSquare), feature(kFarSquare), feature("[[0,50],[1,50],[0,51]]")}));
+  write("floes.geojson", collection({feature(kSquare), feature(kFarSquare), feature("[[0,50],[1,50],[0,51]]")}));
   json ledger = ledger_of(cut("--crack 0,5,0 --keep inside"));
   EXPECT_EQ(ledger["totals"]["pieces"], 5);
   EXPECT_EQ(ledger["totals"]["removed_m2"], 0);
@@ -157,8 +155,7 @@ TEST_F(CutCommand, ACrackAlongADiagonalHitsTheCorners) {
 }
 
 TEST_F(CutCommand, ALineSeparatesWhereItCrossesAndSaysWhereItDangles) {
-  write("floes.geojson",
-        collection({feature(kSquare), feature(kFarSquare), feature("[[0,50],[1,50],[0,51]]")}));
+  write("floes.geojson", collection({feature(kSquare), feature(kFarSquare), feature("[[0,50],[1,50],[0,51]]")}));
   const Outcome outcome = cut("--line -1,5,103,5");
   json ledger = ledger_of(outcome);
   EXPECT_EQ(ledger["totals"]["pieces"], 4);
@@ -231,23 +228,21 @@ TEST_F(CutCommand, DefectsAreRefusedByNameAndTheGoodAreCut) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(ledger["floes"][i + 1]["rejected"]["reason"], all[i].second);
     EXPECT_EQ(ledger["floes"][i + 1]["feature"], i + 1);
-    EXPECT_HAS(outcome.err,
-               fmt::format("floes.geojson:{}: feature {}, polygon 0: {}", i + 3, i + 1, all[i].second));
+    EXPECT_HAS(outcome.err, fmt::format("floes.geojson:{}: feature {}, polygon 0: {}", i + 3, i + 1, all[i].second));
   }
   EXPECT_FALSE(ledger["floes"][3]["rejected"]["vertices"].empty());
   EXPECT_EQ(polygons_of(read("pieces.geojson")).size(), 4U);
   write("floes.wkt", "POLYGON ((0 0, 1 1, 1 0, 0 1))\n");
   EXPECT_HAS(cut("--crack 5,5,33", "floes.wkt").err, "1 refused; nothing was cut");
-  expect_refusals({{"cut floes.geojson --polygon floes.wkt", 4,
-                    "floes.wkt: feature 0, polygon 0: self-crossing at (0.5, 0.5)"}},
-                  {folder.path()});
+  expect_refusals(
+      {{"cut floes.geojson --polygon floes.wkt", 4, "floes.wkt: feature 0, polygon 0: self-crossing at (0.5, 0.5)"}},
+      {folder.path()});
 }
 
 TEST_F(CutCommand, WhatOgcAllowsIsCut) {
   // Clockwise and open; a point twice and one straight; a hole at the shell's vertex; holes that touch.
   write("floes.geojson",
-        collection({feature("[[0,0],[0,10],[10,10],[10,0]]"),
-                    feature("[[0,0],[5,0],[5,0],[10,0],[10,10],[0,10]]"),
+        collection({feature("[[0,0],[0,10],[10,10],[10,0]]"), feature("[[0,0],[5,0],[5,0],[10,0],[10,10],[0,10]]"),
                     feature(kSquare + ",[[0,0],[6,2],[2,6]]"),
                     feature(kSquare + ",[[2,2],[4,2],[4,4],[2,4]],[[4,4],[6,4],[6,6],[4,6]]")}));
   EXPECT_EQ(ledger_of(cut("--crack 0,3,7 --out pieces.wkt"))["totals"]["area_m2"], 100 + 100 + 84 + 92);
@@ -256,8 +251,8 @@ TEST_F(CutCommand, WhatOgcAllowsIsCut) {
 
 TEST_F(CutCommand, RepairIsOnRequestAndSaysWhatItChanged) {
   // A bow-tie, and a pentagram: its middle is wound around twice.
-  write("floes.geojson", collection({feature("[[0,0],[4,4],[4,0],[0,4]]"),
-                                     feature("[[0,3],[8,3],[2,8],[4,0],[6,8]]"), feature(kFarSquare)}));
+  write("floes.geojson", collection({feature("[[0,0],[4,4],[4,0],[0,4]]"), feature("[[0,3],[8,3],[2,8],[4,0],[6,8]]"),
+                                     feature(kFarSquare)}));
   EXPECT_EQ(cut("--crack 0,100,0").code, 4);
   std::vector<double> star_area;
   for (const char* rule : {"even-odd", "non-zero"}) {
@@ -309,9 +304,9 @@ TEST_F(CutCommand, LinksAndPipesAreWrittenThrough) {
 
 /// Pieces are floes again: ids go on and lead back, properties and crs stay.
 TEST_F(CutCommand, PiecesAreFloesAgain) {
-  write("floes.geojson", collection({feature(kSquare, R"("floe_id":12,"name":"north","area":7)"),
-                                     feature(kFarSquare, R"("floe_id":3)")},
-                                    kCrs));
+  write("floes.geojson",
+        collection({feature(kSquare, R"("floe_id":12,"name":"north","area":7)"), feature(kFarSquare, R"("floe_id":3)")},
+                   kCrs));
   ASSERT_EQ(cut("--crack 5,5,30 --out first.geojson --ledger l.json").code, 0);
   json first = read_json("first.geojson")["features"][0]["properties"];
   EXPECT_EQ(first["parent_id"], 12);
@@ -357,15 +352,14 @@ TEST_F(CutCommand, WhatAFormatCannotKeepIsReported) {
              "WKT has no room for properties");
   write("floes.wkt", "SRID=3413;POLYGON ((0 0, 1 0, 0 1))");
   EXPECT_HAS(cut("--disc 0,0,0.1", "floes.wkt").err, "SRID is ignored");
-  write("floes.ndjson",
-        "{" + kCrs + feature(kSquare).substr(1) + "\n{\"crs\":null," + feature(kSquare).substr(1));
+  write("floes.ndjson", "{" + kCrs + feature(kSquare).substr(1) + "\n{\"crs\":null," + feature(kSquare).substr(1));
   EXPECT_HAS(cut("--disc 0,0,1", "floes.ndjson").err, "crs members differ");
 }
 
 TEST_F(CutCommand, LongitudeAndLatitudeAreNoMetres) {
   const std::string degrees = polygon_json("[[15.6,78.2],[15.61,78.2],[15.61,78.21],[15.6,78.2]]");
-  write("crs.geojson", R"({"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)" +
-                           degrees.substr(1));
+  write("crs.geojson",
+        R"({"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)" + degrees.substr(1));
   expect_refusals({{"cut crs.geojson --disc 15.6,78.2,0.01 --out pieces.geojson", 4,
                     "longitude and latitude (urn:ogc:def:crs:OGC:1.3:CRS84)"}},
                   {folder.path()});
@@ -410,13 +404,12 @@ TEST_F(CutCommand, WhatCannotBeReadOrWrittenIsFive) {
   write("broken.geojson", "{\"type\": \"Polygon\",\n  \"coordinates\": [[[0,0],}");
   write("prose.txt", "42 is no floe");
   write("pieces.wkt", "as it was");
-  expect_refusals(
-      {{"cut missing.geojson --disc 0,0,1", 5, "missing.geojson"},
-       {"cut prose.txt --disc 0,0,1", 5, "prose.txt"},
-       {"cut floes.geojson --polygon missing.geojson", 5, "missing.geojson"},
-       {"cut floes.geojson --disc 0,0,1 --out no/such/folder.geojson", 5, "no/such/folder.geojson"},
-       {"cut broken.geojson --disc 0,0,1", 5, "broken.geojson:2:"}},
-      {folder.path()});
+  expect_refusals({{"cut missing.geojson --disc 0,0,1", 5, "missing.geojson"},
+                   {"cut prose.txt --disc 0,0,1", 5, "prose.txt"},
+                   {"cut floes.geojson --polygon missing.geojson", 5, "missing.geojson"},
+                   {"cut floes.geojson --disc 0,0,1 --out no/such/folder.geojson", 5, "no/such/folder.geojson"},
+                   {"cut broken.geojson --disc 0,0,1", 5, "broken.geojson:2:"}},
+                  {folder.path()});
   // A size limit stands for a full disk: nothing half-written is left, nor is what was there lost.
   const Outcome full = polynya("cut floes.geojson --disc 0,0,5 --out pieces.wkt", {folder.path(), 300});
   EXPECT_EQ(full.code, 5);

@@ -85,9 +85,8 @@ TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
 /// Rings that can be read but bound no valid area: the check finds them, and everything else says what it
 /// leaves out.
 TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
-  for (const char* ring :
-       {"[[0,0],[1,0],[2,0]]", "[[1,1],[1,1],[1,1]]", "[[0,0],[4,4],[4,0],[0,4]]",
-        "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {
+  for (const char* ring : {"[[0,0],[1,0],[2,0]]", "[[1,1],[1,1],[1,1]]", "[[0,0],[4,4],[4,0],[0,4]]",
+                           "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {
     damage(ring);
     for (const auto& words : kReading) {
       const Outcome outcome = call(words);

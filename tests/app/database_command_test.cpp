@@ -63,8 +63,7 @@ TEST_F(Database, BuildMakesWhatIsAskedAndOverwritesOnlyWhenTold) {
   EXPECT_HAS(shown.out, small.substr(small.rfind(' ') + 1, 16), "winkler", " 2: 40 90\n", "1800:");
   const Outcome of_small = database(paper_wedge + "1 --database small.txt");
   EXPECT_HAS(of_small.out, R"("fluid": "winkler")");
-  EXPECT_NE(number(of_small.out, "vertical_force_N"),
-            number(database(paper_wedge + "1").out, "vertical_force_N"));
+  EXPECT_NE(number(of_small.out, "vertical_force_N"), number(database(paper_wedge + "1").out, "vertical_force_N"));
 }
 
 // Before the work: no wedge is solved, which --progress json would show.
@@ -175,10 +174,9 @@ TEST_F(Database, QueryNamesTheSoftnessThatIsOutside) {
   EXPECT_LT(number(outcome.out, "softness"), 0.1);
   const double equivalent = number(outcome.out, "equivalent_softness");
   EXPECT_GT(equivalent, 0.1);
-  EXPECT_HAS(outcome.err,
-             fmt::format("note: outside the database: equivalent softness {:.4g}, the table's 3e-05 "
-                         "to 0.1;",
-                         equivalent));
+  EXPECT_HAS(outcome.err, fmt::format("note: outside the database: equivalent softness {:.4g}, the table's 3e-05 "
+                                      "to 0.1;",
+                                      equivalent));
   EXPECT_HAS(database(words).out,
              fmt::format("crushes through the thickness: equivalent softness {:.4g}\n", equivalent));
 }
@@ -227,8 +225,8 @@ TEST_F(Database, FilesThatAreNoDatabaseAreRefused) {
     rows.emplace_back(name, message);
   }
   for (const auto& [file, message] : rows) {
-    for (const Words& words : {Words("show") + file, paper_wedge + "1 --database" + file,
-                               Words("study accuracy --database") + file}) {
+    for (const Words& words :
+         {Words("show") + file, paper_wedge + "1 --database" + file, Words("study accuracy --database") + file}) {
       const Refusal refusal{Words("database") + words, 5, "polynya: " + file + ":" + message};
       expect_refusals({refusal}, {folder.path()});
       EXPECT_LACKS(polynya(refusal.words, folder).err, "\x1b");
@@ -239,8 +237,7 @@ TEST_F(Database, FilesThatAreNoDatabaseAreRefused) {
 TEST_F(Database, ShowPrintsTheShippedParametersAndWritesTheNumbersOfItsThreePictures) {
   const std::string shipped = database("show").out;
   EXPECT_HAS(shipped, "ships with Polynya");
-  for (const double value : fracture::default_grid().froude_numbers)
-    EXPECT_HAS(shipped, fmt::format(" {:g}", value));
+  for (const double value : fracture::default_grid().froude_numbers) EXPECT_HAS(shipped, fmt::format(" {:g}", value));
   const Outcome drawn = database("show --svg one/plots");  // 5 where matplotlib is missing
   EXPECT_HAS(drawn.out, "numbers         one/plots/slices.json\n") << drawn.err;
   const auto json = io::parse_json(read_file(folder / "one/plots/slices.json"));

@@ -33,8 +33,7 @@ std::vector<std::string> subcommands(const std::string& help) {
 std::set<std::string> long_options(const std::string& help) {
   std::set<std::string> found;
   static const std::regex kOption(R"(\n  (?:-\w,)?(--[a-z-]+))");
-  for (std::sregex_iterator at(help.begin(), help.end(), kOption), end; at != end; ++at)
-    found.insert((*at)[1]);
+  for (std::sregex_iterator at(help.begin(), help.end(), kOption), end; at != end; ++at) found.insert((*at)[1]);
   return found;
 }
 
@@ -97,8 +96,7 @@ TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
   for (const char* line : {"polynya run --until scene", "polynya cut --disc scene", "polynya schema scene",
                            "polynya database scene", "polynya database query scene", "polynya scene"})
     EXPECT_EQ(completed(line), "  \n") << line;
-  for (const char* line :
-       {"polynya cut scene-of", "polynya cut --ops scene-of", "polynya cut x.wkt --out scene-of"})
+  for (const char* line : {"polynya cut scene-of", "polynya cut --ops scene-of", "polynya cut x.wkt --out scene-of"})
     EXPECT_EQ(completed(line), " scene-of-mine.json \n") << line;
   EXPECT_EQ(completed("polynya run \"scene of\""), " scene of two words.json \n");
   const std::string options = completed("polynya cut floes.wkt --");
@@ -109,8 +107,7 @@ TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
 TEST(Guide, OptionsComeInTheOrderOfTheirUse) {
   const std::string help = output_of("cut --help");
   const std::string page = std::regex_replace(output_of("man"), std::regex(R"(\\-)"), "-");
-  for (const auto& [text, begin] :
-       {std::pair{help, "\n  "}, {page.substr(page.find(".SS cut\n")), "\n.B "}}) {
+  for (const auto& [text, begin] : {std::pair{help, "\n  "}, {page.substr(page.find(".SS cut\n")), "\n.B "}}) {
     std::size_t last = 0;
     for (const char* option :
          {"--disc ", "--crack ", "--line ", "--polygon ", "--ops ", "--keep ", "--sagitta ", "--out "}) {

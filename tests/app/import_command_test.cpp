@@ -21,8 +21,7 @@ class Import : public testing::Test {
   /// Has a program of Debian's gdal-bin been installed?
   static bool has_gdal() { return std::system("ogr2ogr --version >/dev/null 2>&1") == 0; }
   bool convert(const std::string& words) const {
-    return std::system(
-               ("cd '" + folder.path().string() + "' && ogr2ogr " + words + " 2>/dev/null").c_str()) == 0;
+    return std::system(("cd '" + folder.path().string() + "' && ogr2ogr " + words + " 2>/dev/null").c_str()) == 0;
   }
   /// The floes that a scene reads from the file that was written.
   io::SceneOutcome scene() const {
@@ -45,10 +44,9 @@ double area_of(const simulation::Scene& scene) {
   return sum;
 }
 
-const std::string kSvalbard =
-    collection(square(15.60, 78.2000, 0.002, R"("floe_id":7,"thickness_m":0.8)") + ",\n" +
-               square(15.61, 78.2010, 0.002, R"("floe_id":9,"sensor":"S1A")") + ",\n" +
-               square(15.6019, 78.2001, 0.001, R"("floe_id":8)"));
+const std::string kSvalbard = collection(square(15.60, 78.2000, 0.002, R"("floe_id":7,"thickness_m":0.8)") + ",\n" +
+                                         square(15.61, 78.2010, 0.002, R"("floe_id":9,"sensor":"S1A")") + ",\n" +
+                                         square(15.6019, 78.2001, 0.001, R"("floe_id":8)"));
 
 TEST_F(Import, DegreesBecomeAFloeFileThatAScenesReads) {
   const Outcome done = import(kSvalbard, "--origin 78.2,15.6");
@@ -56,8 +54,7 @@ TEST_F(Import, DegreesBecomeAFloeFileThatAScenesReads) {
   EXPECT_HAS(done.err, "feature 2, polygon 0: trimmed", "to feature 0", "3 floes read, 1 trimmed; 3 written",
              "projected about 78.2, 15.6", " m2 written");
   const std::string floes = read_file(folder / "floes.geojson");
-  EXPECT_HAS(floes, R"("floe_id":7)", R"("thickness_m":0.8)", R"("sensor":"S1A")",
-             R"("origin":{"latitude_deg":78.2)");
+  EXPECT_HAS(floes, R"("floe_id":7)", R"("thickness_m":0.8)", R"("sensor":"S1A")", R"("origin":{"latitude_deg":78.2)");
   const io::JsonDocument report = io::parse_json(done.out);
   EXPECT_TRUE(report.faults.empty()) << done.out;
   EXPECT_EQ(report.root.find("floes")->find("trimmed")->number(), 1);
@@ -91,11 +88,9 @@ TEST_F(Import, AFloeWithAWrongNumberIsRefusedByItself) {
   const double alone = area_of(scene()->scene);
   const std::string wrong =
       R"({"type":"Polygon","coordinates":[[[15.61,78.2],[15.612,782],[15.612,78.202],[15.61,78.2]]]})";
-  const Outcome done =
-      import(collection(square(15.6, 78.2, 0.002) + ",\n" + wrong), "--origin 78.201,15.601");
+  const Outcome done = import(collection(square(15.6, 78.2, 0.002) + ",\n" + wrong), "--origin 78.201,15.601");
   EXPECT_EQ(done.code, 4) << done.err;
-  EXPECT_HAS(done.err,
-             "mapped.geojson:2: feature 1, polygon 0: refused: found [15.612, 782], allowed: [longitude, ",
+  EXPECT_HAS(done.err, "mapped.geojson:2: feature 1, polygon 0: refused: found [15.612, 782], allowed: [longitude, ",
              "2 floes read, 1 refused; 1 written");
   EXPECT_HAS(done.out, R"("refused":1)");
   EXPECT_NEAR(area_of(scene()->scene), alone, 0.01);
@@ -115,8 +110,7 @@ TEST_F(Import, WhatCannotBeReadIsRefusedInOneSentence) {
            {kSvalbard, "--origin 78.2,15.6 --crs EPSG:3413", 2, "either about a place"},
            {kSvalbard, "--crs EPSG:4326", 4, "not a plane in metres"},
            {kSvalbard, "--crs EPSG:3413", 4, "--shift moves the floes"},
-           {kSvalbard, "--crs EPSG:99999", 4,
-            "PROJ knows no coordinate system \"EPSG:99999\", allowed: EPSG:n"},
+           {kSvalbard, "--crs EPSG:99999", 4, "PROJ knows no coordinate system \"EPSG:99999\", allowed: EPSG:n"},
            {kSvalbard, "--from +proj=nonsense", 4, "PROJ knows no coordinate system \"+proj=nonsense\""},
            {collection(square(0, 0, 9), R"("crs":{"type":"name","properties":{"name":"+proj=nonsense"}},)"),
             {},
@@ -178,9 +172,8 @@ TEST_F(Import, ShapefilesGeoPackagesAndFlatGeobufsAreReadByGdal) {
 
 TEST_F(Import, WithoutOgr2ogrAMessageNamesThePackage) {
   write_file(folder / "mapped.gpkg", std::string("SQLite format 3\0 and more", 25));
-  const Outcome outcome =
-      polynya("import mapped.gpkg --out floes.geojson",
-              {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/nowhere", 1); }});
+  const Outcome outcome = polynya("import mapped.gpkg --out floes.geojson",
+                                  {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/nowhere", 1); }});
   EXPECT_EQ(outcome.code, 5);
   EXPECT_HAS(outcome.err, "mapped.gpkg: a GeoPackage is read by GDAL's ogr2ogr, which is not there",
              "apt-get install gdal-bin");

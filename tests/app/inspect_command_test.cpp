@@ -13,9 +13,7 @@ namespace {
 
 class InspectCommand : public PlateRun {
  protected:
-  static Outcome inspect(const Words& words, const std::string& of = "run") {
-    return on_run("inspect", words, of);
-  }
+  static Outcome inspect(const Words& words, const std::string& of = "run") { return on_run("inspect", words, of); }
   static std::vector<std::string> lines(const std::string& text) {
     std::vector<std::string> all;
     std::istringstream stream(text);
@@ -56,8 +54,7 @@ TEST_F(InspectCommand, AFloesShapeReadsBackToTheSameDoubles) {
     EXPECT_EQ(geometry::normalised(floes->entries.at(0).polygon), *run->shape(3)) << format;
   }
   const simulation::BirthRecord& last = run->floes.back().birth;
-  const auto moved =
-      checked(io::read_floe_text(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).out));
+  const auto moved = checked(io::read_floe_text(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).out));
   const auto motion = io::MotionIndex(*run).floe_at(last.floe, 30);
   EXPECT_EQ(geometry::normalised(moved->entries.at(0).polygon),
             polygon_in_world(*run->shape(last.floe), last.centroid_in_body, *motion));
@@ -101,8 +98,7 @@ TEST_F(InspectCommand, TheLineageLeadsFromTheSceneToTheFloe) {
   EXPECT_BEGINS(tree, "floe 0  45000.000000 m2  as in the scene");
   EXPECT_HAS(tree, "bend by icebreaker at (");
   std::size_t fractures = 0;
-  for (const std::string& line : lines(tree))
-    fractures += line.find(" by icebreaker at (") != std::string::npos;
+  for (const std::string& line : lines(tree)) fractures += line.find(" by icebreaker at (") != std::string::npos;
   EXPECT_EQ(fractures, ids.size() - 1) << "one fracture between each and the next";
 }
 
@@ -110,8 +106,7 @@ TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
   const Outcome outcome = inspect("--check");
   EXPECT_EQ(outcome.code, 0) << outcome.out;
   const auto all = lines(outcome.out);
-  EXPECT_BEGINS(all.front(), "validity   " + std::to_string(run->floes.size()) + " shapes, 0 invalid")
-      << outcome.out;
+  EXPECT_BEGINS(all.front(), "validity   " + std::to_string(run->floes.size()) + " shapes, 0 invalid") << outcome.out;
   EXPECT_EQ(all.back(), "sound");
   EXPECT_HAS(outcome.out, std::to_string(run->frames.size()) + " instants");
   EXPECT_HAS(outcome.out, "Overlap is part of the contact model");
@@ -198,8 +193,7 @@ TEST(InspectSplit, TheLineageAndThePlayerStateBothSidesOfASplitByTrueForces) {
              "left flank", "K_IC 1.5e+05 Pa √m");
   ASSERT_EQ(polynya("view run", folder).code, 0);
   const std::string page = read_file(folder.path() / "run/view.html");
-  EXPECT_HAS(page,
-             "\"left_flank_force_N\":", "\"opening_capacity_N\":", "\"fracture_toughness_Pa_sqrt_m\":150000");
+  EXPECT_HAS(page, "\"left_flank_force_N\":", "\"opening_capacity_N\":", "\"fracture_toughness_Pa_sqrt_m\":150000");
 }
 
 }  // namespace

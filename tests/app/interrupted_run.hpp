@@ -25,10 +25,9 @@ inline std::string crash_scene(const std::string& until) {
 }
 
 /// The files whose bytes an interruption must not change, and one that it may only bring forth again.
-inline constexpr std::array kComparedFiles{
-    io::run_file::kScene,   io::run_file::kForces, io::run_file::kEvents,
-    io::run_file::kFloes,   io::run_file::kFrames, io::run_file::kContacts,
-    io::run_file::kCrushed, io::run_file::kStates, io::run_file::kFinalGeojson};
+inline constexpr std::array kComparedFiles{io::run_file::kScene,   io::run_file::kForces, io::run_file::kEvents,
+                                           io::run_file::kFloes,   io::run_file::kFrames, io::run_file::kContacts,
+                                           io::run_file::kCrushed, io::run_file::kStates, io::run_file::kFinalGeojson};
 
 /// A summary.json without the lines that record how long the run took by the clock.
 inline std::string without_wall_time(const std::string& summary) {
@@ -46,16 +45,13 @@ inline std::string first_difference(const std::filesystem::path& a, const std::f
     const bool are_there = std::filesystem::exists(a / name) && std::filesystem::exists(b / name);
     if (!are_there || read_file(a / name) != read_file(b / name)) return std::string(name);
   }
-  const auto summary = [](const auto& run) {
-    return without_wall_time(read_file(run / io::run_file::kSummary));
-  };
+  const auto summary = [](const auto& run) { return without_wall_time(read_file(run / io::run_file::kSummary)); };
   return summary(a) == summary(b) ? "" : std::string(io::run_file::kSummary);
 }
 
 inline bool has_ended(pid_t child) {
   siginfo_t ended{};
-  return waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
-         ended.si_pid == child;
+  return waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid == child;
 }
 
 /// Kills a run, or waits until it has ended by itself. Returns whether it was killed.

@@ -11,8 +11,7 @@ namespace {
 /// What a program writes to stderr where that is a terminal of that many columns.
 std::string on_terminal(const Words& words, const TemporaryFolder& folder, int columns) {
   int terminal = -1, stream = -1;
-  const winsize size{
-      .ws_row = 24, .ws_col = static_cast<unsigned short>(columns), .ws_xpixel = 0, .ws_ypixel = 0};
+  const winsize size{.ws_row = 24, .ws_col = static_cast<unsigned short>(columns), .ws_xpixel = 0, .ws_ypixel = 0};
   EXPECT_EQ(openpty(&terminal, &stream, nullptr, nullptr, &size), 0);
   const auto use_terminal = [&] { dup2(stream, 2); };
   const Start start{.folder = folder.path(), .arrange_streams = use_terminal};
@@ -46,8 +45,7 @@ TEST(ProgressBar, FitsAnyTerminal) {
   const TemporaryFolder folder;
   write_file(folder / "tiny.json", kTinyScene);
   for (const int columns : {1, 6, 20, 59, 80}) {
-    const std::string text =
-        on_terminal({"run", "tiny.json", "--out", "run", "--overwrite"}, folder, columns);
+    const std::string text = on_terminal({"run", "tiny.json", "--out", "run", "--overwrite"}, folder, columns);
     std::filesystem::remove_all(folder / "run");
     EXPECT_HAS(text, "\r");
     EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;  // at the end

@@ -34,17 +34,14 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
   World world(scene);
   world.journal.clear();
   dynamics::PersistentContact record;
-  world.step.fractures = {misplaced(fracture::Failure::kBend, record),
-                          misplaced(fracture::Failure::kSplit, record)};
-  apply_fractures(world.setup, world.clock, world.step.fractures, world.population, world.accounts,
-                  world.journal);
+  world.step.fractures = {misplaced(fracture::Failure::kBend, record), misplaced(fracture::Failure::kSplit, record)};
+  apply_fractures(world.setup, world.clock, world.step.fractures, world.population, world.accounts, world.journal);
   ASSERT_EQ(world.journal.events.size(), 2U);
   for (const Event& event : world.journal.events) {
     const auto& cut = std::get<RejectedCut>(event.what);
     ASSERT_TRUE(io::write_rejected_cut(folder.path(), event.time, cut).has_value());
     const std::string name = "rejected-cuts/00000" + std::to_string(cut.input.number);
-    const Outcome again =
-        polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, folder);
+    const Outcome again = polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, folder);
     SCOPED_TRACE(cut.reason);
     SCOPED_TRACE(again.err + again.out);
     EXPECT_EQ(world.accounts.counts.rejected_cuts, 2);
@@ -59,8 +56,7 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
     EXPECT_EQ(ledger.root.find("floes")->items()[0].find("rejected")->find("reason")->text(), kind);
     if (cut.input.number == 2) {
       EXPECT_HAS(again.out, "\"dangling_length_m\"");
-      EXPECT_HAS(again.out, R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})")
-          << "to the last bit";
+      EXPECT_HAS(again.out, R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})") << "to the last bit";
       EXPECT_HAS(again.err, "separates nothing");
     }
   }

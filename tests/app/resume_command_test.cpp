@@ -16,8 +16,7 @@ class Resume : public testing::Test {
   void interrupt() {
     write_file(folder_ / "scene.json", crash_scene("100"));
     ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);
-    ASSERT_TRUE(
-        kill_at_checkpoints("run scene.json --out run --checkpoint-every 1", start_, folder_ / "run", 2))
+    ASSERT_TRUE(kill_at_checkpoints("run scene.json --out run --checkpoint-every 1", start_, folder_ / "run", 2))
         << "it ended before it was killed";
     checkpoints_ = io::checkpoints_in(folder_ / "run");
     ASSERT_EQ(checkpoints_.size(), 2U);
@@ -29,8 +28,7 @@ class Resume : public testing::Test {
   }
   Outcome resume(const Words& more = {}) { return polynya(Words("resume run") + more, start_); }
   void expect_refused(const Words& more, const std::string& message) {
-    const std::string forces = read_file(folder_ / "run/forces.csv"),
-                      events = read_file(folder_ / "run/events.ndjson");
+    const std::string forces = read_file(folder_ / "run/forces.csv"), events = read_file(folder_ / "run/events.ndjson");
     const Outcome refused = resume(more);
     EXPECT_EQ(refused.code, 5);
     EXPECT_HAS(refused.err, message);
@@ -61,8 +59,8 @@ TEST_F(Resume, GivesTheBytesOfTheRunNobodyInterrupted) {
   EXPECT_EQ(read_file(folder_ / "run/final.svg"), map);
 
   restore();  // and rows behind the checkpoint's
-  for (const auto name : {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes,
-                          io::run_file::kFrames, io::run_file::kContacts})
+  for (const auto name : {io::run_file::kForces, io::run_file::kEvents, io::run_file::kFloes, io::run_file::kFrames,
+                          io::run_file::kContacts})
     write_file(folder_ / "run" / name, read_file(folder_ / "run" / name) + "half a li");
   EXPECT_EQ(resume({"--checkpoint", checkpoints_[1]}).code, 0);
   EXPECT_EQ(difference(), "");
@@ -77,8 +75,7 @@ TEST_F(Resume, WhatIsDamagedMissingOrOfAnotherRunIsRefused) {
   interrupt();
   const std::string newest = checkpoints_[0].filename(), older = checkpoints_[1].filename();
   const std::string good = read_file(checkpoints_[0]);
-  for (const std::size_t at :
-       {std::size_t{0}, std::size_t{9}, std::size_t{20}, good.size() / 2, good.size() - 1}) {
+  for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{20}, good.size() / 2, good.size() - 1}) {
     std::string damaged = good;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
     write_file(checkpoints_[0], damaged);
@@ -90,8 +87,7 @@ TEST_F(Resume, WhatIsDamagedMissingOrOfAnotherRunIsRefused) {
 
   restore();
   write_file(folder_ / "other.json", crash_scene("99"));
-  ASSERT_TRUE(
-      kill_at_checkpoints("run other.json --out other --checkpoint-every 1", start_, folder_ / "other", 2));
+  ASSERT_TRUE(kill_at_checkpoints("run other.json --out other --checkpoint-every 1", start_, folder_ / "other", 2));
   expect_refused({"--checkpoint", io::checkpoints_in(folder_ / "other").front()}, "of another run");
   expect_refused("--checkpoint scene.json", "not a checkpoint");
   expect_refused("--checkpoint nowhere.bin", "no such file");
@@ -170,9 +166,9 @@ TEST_F(Resume, TheBytesAreTheSameOnAnyNumberOfThreads) {
     "record": {"frames_interval_s": 2}, "structures": [{"radius_m": 30, "position_m": [430, 430]}],
     "floes": [{"field": {"corner_m": [0, 0], "extent_m": 860, "floe_size_m": 14, "concentration": 0.8}}]})");
   for (const char* threads : {"1", "2", "8"}) {
-    const Outcome outcome = polynya({"run", "scene.json", "--out", std::string("on") + threads, "--threads",
-                                     threads, "--progress", "none"},
-                                    start_);
+    const Outcome outcome =
+        polynya({"run", "scene.json", "--out", std::string("on") + threads, "--threads", threads, "--progress", "none"},
+                start_);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_LACKS(outcome.err, "TBB");
     EXPECT_EQ(first_difference(folder_ / "on1", folder_ / (std::string("on") + threads)), "") << threads;

@@ -65,8 +65,7 @@ TEST(RunCommand, LeadsWithTheTrueForce) {
   for (const std::string model : {"michel", "lefm"}) {
     write_file(folder / "scene.json",
                scene({R"("time": {"until_s": 20}, "fracture": {"splitting": {"model": ")" + model + "\"}}",
-                      list("ships",
-                           {ship(R"("position_m": [-62, 0], "propulsion": {"constant_speed_m_per_s": 1})")}),
+                      list("ships", {ship(R"("position_m": [-62, 0], "propulsion": {"constant_speed_m_per_s": 1})")}),
                       list("floes", {R"({"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}})"})}));
     const Outcome outcome = polynya({"run", "scene.json", "--out", model}, folder);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -113,8 +112,8 @@ TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
   EXPECT_GT(broken.force, 1e5);
   EXPECT_NEAR(broken.offset_in_moored_place.x, run->events[0].point_in_world.x - 5, 1e-9);
   const std::string line = read_file(folder / "run/events.ndjson");
-  EXPECT_HAS(line, R"("kind":"mooring_break")", R"("ship":"tanker")", "force_N", "break_load_N\":1e+05",
-             "offset_m", "point_m", "t_s");
+  EXPECT_HAS(line, R"("kind":"mooring_break")", R"("ship":"tanker")", "force_N", "break_load_N\":1e+05", "offset_m",
+             "point_m", "t_s");
   const Outcome events = polynya("inspect run --events", folder);
   EXPECT_HAS(events.out, "mooring_break of tanker at (");
   EXPECT_HAS(events.out, "breaks above 1e+05 N");
@@ -130,9 +129,8 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
       folder / "scene.json",
       scene({R"("time": {"until_s": 30}, "floes": [])",
              R"("structures": [{"name": "pier", "radius_m": 5, "position_m": [70, 0]}])",
-             list("ships",
-                  {ship(hull + R"({"constant_speed_m_per_s": 1}, "name": "leader", "position_m": [0, 0])"),
-                   ship(hull + R"({"thrust_N": 0}, "name": "follower", "position_m": [-110, 0],
+             list("ships", {ship(hull + R"({"constant_speed_m_per_s": 1}, "name": "leader", "position_m": [0, 0])"),
+                            ship(hull + R"({"thrust_N": 0}, "name": "follower", "position_m": [-110, 0],
                                      "speed_m_per_s": 2)")})}));
   const Outcome outcome = polynya("run scene.json --out run", folder);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -203,8 +201,7 @@ TEST(RunCommand, JsonProgressIsOneObjectALine) {
   const std::string line = outcome.err.substr(0, outcome.err.find('\n'));
   const auto document = io::parse_json(line);
   EXPECT_TRUE(document.faults.empty()) << line;
-  for (const char* key :
-       {"sim_time_s", "until_s", "wall_time_s", "real_time_factor", "time_left_s", "fractures"}) {
+  for (const char* key : {"sim_time_s", "until_s", "wall_time_s", "real_time_factor", "time_left_s", "fractures"}) {
     EXPECT_NE(document.root.find(key), nullptr) << key;
   }
   const Outcome quiet = polynya("run scenes/level-plate.json --until 5 --progress none --out quiet", folder);

@@ -42,12 +42,9 @@ class RunFolderTrial : public testing::Test {
   Outcome run_to(const std::string& name, const Words& more = {}, const Words& under = {}) const {
     return call(Words{"run", "tiny.json", "--out", name, "--progress", "none"} + more, under);
   }
-  std::string difference(const std::string& name) const {
-    return first_difference(folder_ / "whole", folder_ / name);
-  }
+  std::string difference(const std::string& name) const { return first_difference(folder_ / "whole", folder_ / name); }
   /// Leaves the run as a kill after so many steps does; its checkpoints are written at these steps.
-  void leave_run(const std::string& name, std::int64_t end,
-                 const std::vector<std::int64_t>& checkpoints) const;
+  void leave_run(const std::string& name, std::int64_t end, const std::vector<std::int64_t>& checkpoints) const;
 
   const TemporaryFolder folder_;
 };
@@ -170,9 +167,9 @@ class Unsynced {
 /// disk.
 TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
   if (!has_strace()) GTEST_SKIP() << "no strace that works here";
-  const Outcome traced = run_to(
-      "run", {"--checkpoint-every", "0.4"},
-      strace({"-y", "-s", "4096", "-o", "trace.txt", "-e", "trace=write,openat,mkdir,fsync,rename,unlink"}));
+  const Outcome traced =
+      run_to("run", {"--checkpoint-every", "0.4"},
+             strace({"-y", "-s", "4096", "-o", "trace.txt", "-e", "trace=write,openat,mkdir,fsync,rename,unlink"}));
   ASSERT_EQ(traced.code, 0) << traced.err;
   Unsynced unsynced(fs::canonical(folder_.path()) / "run");
   std::istringstream lines(read_file(folder_ / "trace.txt"));
@@ -246,8 +243,7 @@ TEST_F(RunFolderTrial, AFileTooLongToBeReadIsReported) {
   auto longer = checked(io::read_checkpoint_file(checkpoint, scene->hash));
   const fs::path contacts = folder_ / "run/contacts.csv";
   auto& sizes = longer->progress.file_sizes;
-  *std::ranges::find(sizes, fs::file_size(contacts)) =
-      io::kLongestRunFile + 1;  // a hole, which takes no space
+  *std::ranges::find(sizes, fs::file_size(contacts)) = io::kLongestRunFile + 1;  // a hole, which takes no space
   fs::resize_file(contacts, io::kLongestRunFile + 1);
   ASSERT_TRUE(io::write_checkpoint(folder_ / "run", *longer).has_value());
   const Outcome resumed = call({"resume", "run"});

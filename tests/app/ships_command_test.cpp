@@ -59,8 +59,7 @@ TEST(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
     if (text.ends_with('}') || text.ends_with(']')) {
       EXPECT_EQ(refused.err.substr(0, expected.size()), expected) << text;
     }
-    EXPECT_TRUE(refused.err.starts_with("ship.json:1:") || refused.err.starts_with("ship.json:3:"))
-        << refused.err;
+    EXPECT_TRUE(refused.err.starts_with("ship.json:1:") || refused.err.starts_with("ship.json:3:")) << refused.err;
   }
 }
 

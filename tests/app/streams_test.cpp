@@ -115,9 +115,8 @@ TEST_F(Streams, AClosedStdinIsAnErrorWhereItIsRead) {
 TEST_F(Streams, ANamedPipeIsNoFileToRead) {
   ASSERT_EQ(mkfifo((folder->path() / "in").c_str(), 0600), 0);
   write_file(folder->path() / "of-pipe.json", R"({"floes": [{"file": "in"}]})");
-  for (const Words& words :
-       std::vector<Words>{"validate in", "validate of-pipe.json", "import in --out o.geojson",
-                          "cut in --crack 5,5,30", "database show in", "inspect in"}) {
+  for (const Words& words : std::vector<Words>{"validate in", "validate of-pipe.json", "import in --out o.geojson",
+                                               "cut in --crack 5,5,30", "database show in", "inspect in"}) {
     const Outcome outcome = in_folder(words);
     EXPECT_GT(outcome.code, 0) << words.front();
     EXPECT_HAS(outcome.err, "in");

@@ -44,8 +44,7 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
       {"validate tiny.json --json --resolved", 2},
       {"cut floes.wkt", 2, tools + "none is given\n"},
       {"cut x --disc 0,0,1 --crack 0,0,1", 2, tools + "2 are given\n"},
-      {"cut x --disc 0,0,1 --keep all", 2,
-       "polynya cut: --keep: \"all\" is not one of: outside, inside, both\n"},
+      {"cut x --disc 0,0,1 --keep all", 2, "polynya cut: --keep: \"all\" is not one of: outside, inside, both\n"},
       {"cut x --disc 0,0,1 --keep 1", 2, "polynya cut: --keep: \"1\" is not one of: outside, inside, both\n"},
       {"cut floes.wkt --disc 0,0", 2, "--disc"},
       {"cut floes.wkt --disc 0,0,-1", 2, "--disc"},
@@ -58,8 +57,7 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
       {"cut floes.wkt --disc 0,0,1 --out - --ledger -", 2, "--ledger"},
       {"cut floes.wkt --disc 0,0,1 more", 2, "more"},
       {"cut - --polygon -", 2},
-      {"channel x --format jsn", 2,
-       "--format: \"jsn\" is not one of: table, csv, json; did you mean json?\n"},
+      {"channel x --format jsn", 2, "--format: \"jsn\" is not one of: table, csv, json; did you mean json?\n"},
       {"channel shipless", 2},
       {"export shipless", 2},
       {"export shipless --geojson g --at 7", 2},
@@ -94,8 +92,7 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
       {"database biuld", 2,
        "polynya database: no such command: biuld; did you mean build?\ncommands: build, show, "
        "query, study\n"},
-      {"database build --fluid 0", 2,
-       "--fluid: \"0\" is not one of: winkler, local-mass, potential, free-surface\n"},
+      {"database build --fluid 0", 2, "--fluid: \"0\" is not one of: winkler, local-mass, potential, free-surface\n"},
       {"database build --wedge-angles 30", 2, "--wedge-angles"},
       {"database build --wedge-angles 60,30", 2, "--wedge-angles"},
       {"database build --wedge-angles 30,190", 2, "--wedge-angles"},
@@ -106,13 +103,11 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
       {"database show --hull-angle 5", 2, "a hull 5 deg from the vertical only crushes ice of friction 0.2"},
       {{"database", "show", "--svg", ""}, 2, "--svg: the name is empty"},
       {"database study", 2, "is missing"},
-      {"database study fluids", 2,
-       "\"fluids\" is not one of: fluid, couple, accuracy; did you mean fluid?\n"},
+      {"database study fluids", 2, "\"fluids\" is not one of: fluid, couple, accuracy; did you mean fluid?\n"},
       {"database study accuracy --points 0", 2, "--points: "},
       {"database study accuracy --points x", 2, "--points: x is not a whole number from 1 to 100000"},
       {"database study accuracy --seed -1", 2, "--seed: "},
-      {"database study accuracy --seed 1.5", 2,
-       "--seed: 1.5 is not a whole number from 0 to 9007199254740991"},
+      {"database study accuracy --seed 1.5", 2, "--seed: 1.5 is not a whole number from 0 to 9007199254740991"},
       {"database study accuracy --inner-radius 0", 2, "--inner-radius: "},
       {"database study accuracy --inner-radius 1", 2, "--inner-radius: 1 is not a number from 1e-06 to 0.1"},
       {"database study accuracy --elements 3", 2, "--elements: "},
@@ -124,19 +119,17 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
       {query + "--front-angle 30", 2, "--back-angle"},
       {query + "--front-angle 0 --back-angle 0", 2},
       {query + "--wedge-angle 90 --front-angle 30 --back-angle 60", 2},
-      {query + "--wedge-angle 90 --density 1100", 2,
-       "ice of 1100 kg/m3 does not float in water of 1000 kg/m3"}};
+      {query + "--wedge-angle 90 --density 1100", 2, "ice of 1100 kg/m3 does not float in water of 1000 kg/m3"}};
   expect_refusals(rows, {folder->path()});
   for (const char* name : {"x.html", "runs"}) EXPECT_FALSE(std::filesystem::exists(*folder / name)) << name;
 }
 
 /// CLI11's range accepts nan, and a checkpoint every nan seconds is none.
 TEST_F(Usage, EveryNumberMustBeFinite) {
-  for (const Words& row :
-       std::initializer_list<Words>{"run --until --checkpoint-every --checkpoint-every-wall",
-                                    "resume --checkpoint-every --checkpoint-every-wall",
-                                    "view --from --until --limit", "channel --at --spacing --reach",
-                                    "figures --at", "export --at", "inspect --at", "cut --sagitta"}) {
+  for (const Words& row : std::initializer_list<Words>{
+           "run --until --checkpoint-every --checkpoint-every-wall",
+           "resume --checkpoint-every --checkpoint-every-wall", "view --from --until --limit",
+           "channel --at --spacing --reach", "figures --at", "export --at", "inspect --at", "cut --sagitta"}) {
     for (std::size_t i = 1; i < row.size(); ++i)
       for (const char* word : {"nan", "-inf"})
         expect_refusals({{{row[0], "nowhere", row[i], word}, 2, row[i] + ": "}}, {folder->path()});

@@ -17,8 +17,7 @@ namespace {
 
 /// Base64 read by its definition, one character at a time.
 std::string from_base64(std::string_view text) {
-  static constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
   unsigned bits = 0;
   int count = 0;
@@ -107,21 +106,18 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
   expect("parent", run->floes, [](const io::RunFloe& floe) { return std::int32_t{floe.birth.parent}; });
   expect("force_t_s", run->samples, [](const simulation::ShipSample& row) { return row.time; });
   for (const char* name : {"surge_N", "surge_max_N"})
-    expect(name, run->samples,
-           [&](const simulation::ShipSample& row) { return io::force_column(name).read(row); });
+    expect(name, run->samples, [&](const simulation::ShipSample& row) { return io::force_column(name).read(row); });
   EXPECT_EQ(held.info.find("events")->items().size(), run->events.size());
   const io::JsonValue& cause = held.info.find("force_causes")->items().at(0);
   EXPECT_EQ(cause.find("column")->text() + cause.find("unit")->text(), "surge_NN");
   expect("contact_t_s", run->contacts, [](const auto& contact) { return contact.time; });
   expect("contact_fx_N", run->contacts, [](const auto& contact) { return contact.state.force.x; });
-  expect("contact_by_floe", run->contacts,
-         [](const auto& contact) { return std::int32_t{contact.state.by.floe}; });
+  expect("contact_by_floe", run->contacts, [](const auto& contact) { return std::int32_t{contact.state.by.floe}; });
 }
 
 /// A floe's rings from the page's columns: whole, or assembled from those of its parent.
 std::vector<geometry::Ring> rings_in(const Page& held, std::size_t floe,
-                                     const std::vector<std::vector<geometry::Ring>>& before,
-                                     std::size_t& points_used) {
+                                     const std::vector<std::vector<geometry::Ring>>& before, std::size_t& points_used) {
   const auto points = held.column<double>("points_m");
   const auto ends = held.column<std::int32_t>("ring_ends"), rings_of = held.column<std::int32_t>("rings_of");
   const auto of = held.column<std::int32_t>("part_floe"), ring = held.column<std::int32_t>("part_ring");
@@ -149,8 +145,7 @@ std::vector<geometry::Ring> rings_in(const Page& held, std::size_t floe,
   EXPECT_EQ(all.size(), last);
   std::vector<geometry::Ring> rings;
   std::ptrdiff_t from = 0;
-  for (auto r = static_cast<std::size_t>(rings_of[floe]); r < static_cast<std::size_t>(rings_of[floe + 1]);
-       ++r) {
+  for (auto r = static_cast<std::size_t>(rings_of[floe]); r < static_cast<std::size_t>(rings_of[floe + 1]); ++r) {
     rings.emplace_back(all.begin() + from, all.begin() + ends[r]);
     from = ends[r];
   }
@@ -206,8 +201,8 @@ TEST_F(ViewCommand, ThePageNeedsNothingElse) {
 }
 
 TEST_F(ViewCommand, TwoRunsStandInOnePageEachWithItsNumbers) {
-  const Outcome outcome = polynya(
-      {"view", "run", "run", "--until", "20", "--label", "one,two & more", "--out", "both.html"}, *folder);
+  const Outcome outcome =
+      polynya({"view", "run", "run", "--until", "20", "--label", "one,two & more", "--out", "both.html"}, *folder);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::filesystem::path file = folder->path() / "both.html";
   const Page first(file, "info-0", "columns-0"), second(file, "info-1", "columns-1");
@@ -238,11 +233,10 @@ TEST_F(ViewCommand, AdviceForTooLargeAPageIsAcceptedWhenFollowed) {
 /// large.
 TEST(WideField, TheAdviceIsAnAreaWhereFloesAreWhatIsLarge) {
   const TemporaryFolder folder;
-  write_file(
-      folder / "wide.json",
-      scene({R"("time": {"step_s": 0.1, "until_s": 4}, "record": {"frames_interval_s": 1})",
-             list("ships", {ship(R"("position_m": [-80, 600])")}),
-             list("floes", {R"({"lattice": {"columns": 60, "rows": 60, "pitch_m": 20, "size_m": 15}})"})}));
+  write_file(folder / "wide.json",
+             scene({R"("time": {"step_s": 0.1, "until_s": 4}, "record": {"frames_interval_s": 1})",
+                    list("ships", {ship(R"("position_m": [-80, 600])")}),
+                    list("floes", {R"({"lattice": {"columns": 60, "rows": 60, "pitch_m": 20, "size_m": 15}})"})}));
   ASSERT_EQ(polynya("run wide.json --out run --no-map", folder).code, 0);
   const Outcome refused = polynya("view run --limit 1", folder);
   ASSERT_EQ(refused.code, 2) << refused.out;

@@ -33,10 +33,8 @@ std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule)
   geometry::ManifoldScratch scratch;
   for (BodyIndex a = 0; a < bodies.size(); ++a) {
     for (BodyIndex b = a + 1; b < bodies.size(); ++b) {
-      if (!bodies.is_alive[a] || !bodies.is_alive[b] || (!bodies.is_awake[a] && !bodies.is_awake[b]))
-        continue;
-      if (distance(bodies.position[a], bodies.position[b]) >
-          bodies.bounding_radius[a] + bodies.bounding_radius[b])
+      if (!bodies.is_alive[a] || !bodies.is_alive[b] || (!bodies.is_awake[a] && !bodies.is_awake[b])) continue;
+      if (distance(bodies.position[a], bodies.position[b]) > bodies.bounding_radius[a] + bodies.bounding_radius[b])
         continue;
       const Pose a_from_b = dynamics::a_from_b(bodies, a, b, centre_a_from_b(bodies, a, b));
       std::vector<geometry::NearPair> circles;
@@ -69,8 +67,7 @@ struct Pack {
   Pack(const ContactRule& rule, int columns, bool are_covered = true, int least_corners = 5)
       : finder(rule, 15), has_covers(are_covered), corners(least_corners) {
     for (int row = 0, i = 0; row < columns; ++row) {
-      for (int column = 0; column < columns; ++column, ++i)
-        add({14.0 * column, 14.0 * row}, i % 3 != 0, columns);
+      for (int column = 0; column < columns; ++column, ++i) add({14.0 * column, 14.0 * row}, i % 3 != 0, columns);
     }
     for (int i = 0; i < columns * columns; ++i) {
       if (i % 3 != 0) wake(i);
@@ -128,8 +125,7 @@ void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
       return std::pair(p.a, p.b) < std::pair(q.a, q.b);
     }));
     // Bodies that sleep both may still be listed while their pair is known; brute force does not list them.
-    std::erase_if(found,
-                  [&](const Found& f) { return !pack.bodies.is_awake[f.a] && !pack.bodies.is_awake[f.b]; });
+    std::erase_if(found, [&](const Found& f) { return !pack.bodies.is_awake[f.a] && !pack.bodies.is_awake[f.b]; });
     std::sort(found.begin(), found.end());
     const std::vector<Found> expected = over_all_pairs(pack.bodies, rule);
     ASSERT_EQ(found.size(), expected.size()) << "step " << step;
@@ -201,8 +197,7 @@ TEST(BroadPhase, FindsTheSameToTheBitWhereCoversAreMadeAsTheyAreNeeded) {
   constexpr int kFew = 8, kMany = 130;  // two have too many edges to be compared one by one
   Pack keeping({}, kFew, false, kMany), making(few, kFew, false, kMany);
   const auto covers_of = [](const Pack& pack) {
-    return std::ranges::count_if(pack.bodies.boundary,
-                                 [](const auto& boundary) { return boundary->is_ready(); });
+    return std::ranges::count_if(pack.bodies.boundary, [](const auto& boundary) { return boundary->is_ready(); });
   };
   EXPECT_GT(compare_contacts(keeping, making, true), 1000U);
   EXPECT_EQ(covers_of(keeping), keeping.bodies.size());
@@ -332,9 +327,7 @@ TEST(HashGrid, AVastBodyIsNearAllAndTakesNoCells) {
 /// All pieces that broke out of a plate were in the plate's own cell: each looked through all others.
 TEST(HashGrid, PiecesOfAPlateHaveCellsOfTheirSize) {
   HashGrid grid(900);
-  const auto square = [](double x, double y, double side) {
-    return geometry::Box{{x, y}, {x + side, y + side}};
-  };
+  const auto square = [](double x, double y, double side) { return geometry::Box{{x, y}, {x + side, y + side}}; };
   const geometry::Box plate = square(0, 0, 600);
   grid.insert(0, plate);
   for (BodyIndex i = 1; i < 100; ++i) grid.insert(i, square(6.0 * i, 300, 5));

@@ -53,8 +53,8 @@ Outcome with_chipmunk(const Scene& scene) {
     cpBodySetAngularVelocity(bodies[i], b.angular_velocity);
     std::vector<cpVect> corners;
     for (const Point p : scene.boxes[i].outer) corners.push_back(cpv(p.x, p.y));
-    shapes[i] = cpSpaceAddShape(
-        space, cpPolyShapeNewRaw(bodies[i], static_cast<int>(corners.size()), corners.data(), 0));
+    shapes[i] =
+        cpSpaceAddShape(space, cpPolyShapeNewRaw(bodies[i], static_cast<int>(corners.size()), corners.data(), 0));
     cpShapeSetElasticity(shapes[i], i == 0 ? scene.restitution : 1);  // Chipmunk multiplies the two
     cpShapeSetFriction(shapes[i], i == 0 ? scene.friction : 1);
   }
@@ -89,8 +89,7 @@ OurOutcome with_ours(const Scene& scene) {
     c.friction = scene.friction;
     c.record = nullptr;
   }
-  ContactSolver().solve(bodies, outcome.contacts, RestitutionLaw{.restitution = scene.restitution},
-                        {20000, 1e-13});
+  ContactSolver().solve(bodies, outcome.contacts, RestitutionLaw{.restitution = scene.restitution}, {20000, 1e-13});
   for (BodyIndex i = 0; i < 2; ++i) {
     outcome.velocity[i] = bodies.velocity[i];
     outcome.angular_velocity[i] = bodies.angular_velocity[i];
@@ -214,8 +213,8 @@ TEST(Chipmunk, ElasticCornersOnFacesAgreeWithFrictionWhereTheySlide) {
     scene.friction = random.between(0.02, 0.3);
     const OurOutcome ours = with_ours(scene);
     const Contact& c = ours.contacts.at(0);
-    const bool is_at_cone = std::abs(c.slip_impulse) > (1 - 1e-9) * c.friction * c.total_normal_impulse() &&
-                            c.total_normal_impulse() > 0;
+    const bool is_at_cone =
+        std::abs(c.slip_impulse) > (1 - 1e-9) * c.friction * c.total_normal_impulse() && c.total_normal_impulse() > 0;
     if (!is_at_cone || c.slip_speed * slip_speed(ours.bodies, c) <= 0) continue;
     ++compared;
     EXPECT_LT(difference(ours, with_chipmunk(scene)), kAgreement) << i;

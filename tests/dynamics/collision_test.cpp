@@ -16,8 +16,7 @@ constexpr std::uint64_t kSeed = 20170611;
 constexpr int kTrials = 20000;
 
 NewBody random_body(Random& random) {
-  NewBody body =
-      floe_body(rectangle(2, 2), {random.between(-20, 20), random.between(-20, 20)}, random.angle());
+  NewBody body = floe_body(rectangle(2, 2), {random.between(-20, 20), random.between(-20, 20)}, random.angle());
   body.velocity = {random.between(-3, 3), random.between(-3, 3)};
   body.angular_velocity = random.between(-0.5, 0.5);
   body.mass = std::pow(10.0, random.between(3, 7));
@@ -188,8 +187,7 @@ TEST(ContactsTogether, AFloePinchedBetweenAPrescribedShipAndAHeavyPlateFeelsBoth
   EXPECT_NEAR(bodies.velocity[2].x, 1, 1e-3);
   const double plate = bodies.mass[2] * bodies.velocity[2].x;
   EXPECT_NEAR(pinch.contacts[1].total_normal_impulse() / plate, 1, 1e-10);
-  EXPECT_NEAR(pinch.contacts[0].total_normal_impulse() / (plate + bodies.mass[1] * bodies.velocity[1].x), 1,
-              1e-10);
+  EXPECT_NEAR(pinch.contacts[0].total_normal_impulse() / (plate + bodies.mass[1] * bodies.velocity[1].x), 1, 1e-10);
 }
 
 /// In many calls of thirty iterations; with and without what contacts keep from one to the next.
@@ -215,10 +213,8 @@ TEST(ContactsTogether, APinchedPlateComesToTheShipsSpeedFromBelow) {
 /// A row of six equal floes that touch, hit by one at its left end.
 Trial cradle() {
   Trial row;
-  for (BodyIndex i = 0; i < 6; ++i)
-    add_floe(row.bodies, rectangle(10, 10), {10.0 * i, 0}, {i == 0 ? 2.0 : 0.0, 0});
-  for (BodyIndex i = 0; i < 5; ++i)
-    row.contacts.push_back(contact_at(i, i + 1, {10.0 * i + 5, 0}, {1, 0}, 10));
+  for (BodyIndex i = 0; i < 6; ++i) add_floe(row.bodies, rectangle(10, 10), {10.0 * i, 0}, {i == 0 ? 2.0 : 0.0, 0});
+  for (BodyIndex i = 0; i < 5; ++i) row.contacts.push_back(contact_at(i, i + 1, {10.0 * i + 5, 0}, {1, 0}, 10));
   return row;
 }
 
@@ -276,8 +272,7 @@ TEST(CrushLimit, IsNeverExceededAtEitherEnd) {
   for (int i = 0; i < 5000; ++i) {
     Bodies bodies = two_floes(random.between(0.01, 4), random.between(-8, 8));
     bodies.angular_velocity[0] = random.between(-0.3, 0.3);
-    std::vector<Contact> contacts{
-        contact_at(0, 1, {0, random.between(-4, 4)}, {1, 0}, random.between(0, 2), 0.3)};
+    std::vector<Contact> contacts{contact_at(0, 1, {0, random.between(-4, 4)}, {1, 0}, random.between(0, 2), 0.3)};
     Contact& c = contacts[0];
     c.crushing_force = std::pow(10.0, random.between(-2, 6));
     PersistentContact record;
@@ -313,8 +308,8 @@ TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
         Contact contact = contact_at(0, 1, {0, 0}, {1, 0});
         contact.record = &record;
         const double before = parting_speed(bodies, contact, {0, 0});
-        const double mass = 1 / (bodies.inverse_mass[0] + bodies.inverse_mass[1] +
-                                 offset * offset * bodies.inverse_moment[1]);
+        const double mass =
+            1 / (bodies.inverse_mass[0] + bodies.inverse_mass[1] + offset * offset * bodies.inverse_moment[1]);
         contact.crushing_force = mass / steps_of_compression;
         double total = 0;
         for (int step = 0; step < 100; ++step) {
@@ -340,9 +335,7 @@ TEST(Separation, GivesNoSpeedMovesNoCentreOfMassAndDecaysAsItSays) {
   SeparationSettings settings;
   settings.time = 0.5;
   const double dt = 0.01;
-  const auto centre = [&] {
-    return bodies.mass[0] * bodies.position[0].x + bodies.mass[1] * bodies.position[1].x;
-  };
+  const auto centre = [&] { return bodies.mass[0] * bodies.position[0].x + bodies.mass[1] * bodies.position[1].x; };
   const double before = centre();
   double depth = 0;
   for (int step = 0; step < 300; ++step) {
@@ -393,8 +386,7 @@ TEST(Separation, CountsInWhatABodyHasTravelled) {
   separate(bodies, contacts, {}, 0.5);
   for (const BodyIndex i : all_of(bodies)) {
     for (const Point p : bodies.boundary[i]->edges.vertices) {
-      const double way =
-          distance(transform(water_from_body(before, i), p), transform(water_from_body(bodies, i), p));
+      const double way = distance(transform(water_from_body(before, i), p), transform(water_from_body(bodies, i), p));
       EXPECT_LE(way, bodies.travel[i] - before.travel[i] + 1e-15);
       EXPECT_GT(way, 0);
     }

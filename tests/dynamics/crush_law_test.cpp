@@ -20,8 +20,7 @@ CrushResponse random_response(Random& random) {
   r.impulse_of_force = std::pow(10.0, random.between(-2, 5));
   r.slope = random.below(4) == 0 ? 0 : std::pow(10.0, random.between(-2, 6));
   r.gap_speed = random.below(2) == 0 ? 0 : random.between(0, 1);
-  r.cap = random.below(3) == 0 ? r.impulse_of_force * random.between(0.1, 3)
-                               : std::numeric_limits<double>::infinity();
+  r.cap = random.below(3) == 0 ? r.impulse_of_force * random.between(0.1, 3) : std::numeric_limits<double>::infinity();
   return r;
 }
 
@@ -111,8 +110,7 @@ TEST(ContactSolver, FindsOneAnswerWhateverItStartsFrom) {
         now.contacts[i].record = &now.records[i];
         now.records[i].loaded_depth = 0.5 * now.contacts[i].depth;
         for (double& impulse : now.records[i].last_impulse)
-          size_of_start += impulse =
-              start == 0 ? 0 : random.between(0, 0.02) * now.contacts[i].crushing_force;
+          size_of_start += impulse = start == 0 ? 0 : random.between(0, 0.02) * now.contacts[i].crushing_force;
       }
       const SolverResult result =
           ContactSolver().solve(now.bodies, now.contacts, CrushLaw{.step = 0.01}, {20000, 1e-10});
@@ -122,10 +120,8 @@ TEST(ContactSolver, FindsOneAnswerWhateverItStartsFrom) {
     ASSERT_GT(size_of_start, 0);
     for (BodyIndex i = 0; i < jam.bodies.size(); ++i) {
       for (int start = 1; start < 3; ++start) {
-        EXPECT_LT(length(ends[static_cast<std::size_t>(start)].velocity[i] - ends[0].velocity[i]), 1e-6)
-            << trial;
-        EXPECT_NEAR(ends[static_cast<std::size_t>(start)].angular_velocity[i], ends[0].angular_velocity[i],
-                    1e-6);
+        EXPECT_LT(length(ends[static_cast<std::size_t>(start)].velocity[i] - ends[0].velocity[i]), 1e-6) << trial;
+        EXPECT_NEAR(ends[static_cast<std::size_t>(start)].angular_velocity[i], ends[0].angular_velocity[i], 1e-6);
       }
     }
   }
@@ -191,8 +187,7 @@ TEST_P(ByBothLaws, RigidBodiesStopEachOtherWhateverTheIceIs) {
   Pair pair({-1, 0});
   const auto* law = std::get_if<RestitutionLaw>(&GetParam());
   EXPECT_TRUE(ContactSolver().solve(pair.bodies, pair.contacts, GetParam(), {}).is_converged());
-  EXPECT_NEAR(parting_speed(pair.bodies, pair.contacts[0], {1, 0}), law != nullptr ? law->restitution : 0,
-              1e-12);
+  EXPECT_NEAR(parting_speed(pair.bodies, pair.contacts[0], {1, 0}), law != nullptr ? law->restitution : 0, 1e-12);
   EXPECT_FALSE(pair.contacts[0].is_at_limit);
 }
 

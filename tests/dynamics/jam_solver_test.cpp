@@ -33,11 +33,10 @@ void add_contact(Pack& pack, Random& random, BodyIndex a, BodyIndex b, geometry:
   pack.contacts.push_back(contact_at(a, b, middle, normal, random.between(0.5, 8), friction));
   pack.constraints.push_back(make_constraint(pack.bodies, pack.contacts.back(), a, b, pack.solver_bodies));
   const double force = std::pow(10.0, random.between(4, 7));
-  const CrushResponse end{
-      .impulse_of_force = 0.01 * force,
-      .slope = 1e-4 * force * random.between(0, 20),
-      .gap_speed = random.below(3) == 0 ? random.between(0, 0.1) : 0,
-      .cap = random.below(8) == 0 ? 0.015 * force : std::numeric_limits<double>::infinity()};
+  const CrushResponse end{.impulse_of_force = 0.01 * force,
+                          .slope = 1e-4 * force * random.between(0, 20),
+                          .gap_speed = random.below(3) == 0 ? random.between(0, 0.1) : 0,
+                          .cap = random.below(8) == 0 ? 0.015 * force : std::numeric_limits<double>::infinity()};
   pack.laws.push_back({end, end});
 }
 
@@ -58,20 +57,20 @@ Pack pack_of(Random& random, int columns, int rows, double friction) {
     }
   }
   for (BodyIndex i = 0; i < pack.bodies.size(); ++i)
-    pack.solver_bodies.push_back({pack.bodies.velocity[i], pack.bodies.angular_velocity[i],
-                                  pack.bodies.inverse_mass[i], pack.bodies.inverse_moment[i]});
+    pack.solver_bodies.push_back({pack.bodies.velocity[i], pack.bodies.angular_velocity[i], pack.bodies.inverse_mass[i],
+                                  pack.bodies.inverse_moment[i]});
   for (int row = 0; row < rows; ++row) {
     const double y = 10.0 * row + 5;
     add_contact(pack, random, 0, floe_at(0, row), {0, y}, {1, 0}, friction);
     add_contact(pack, random, 1, floe_at(columns - 1, row), {10.0 * columns, y}, {-1, 0}, friction);
     for (int column = 0; column + 1 < columns; ++column)
-      add_contact(pack, random, floe_at(column, row), floe_at(column + 1, row), {10.0 * column + 10, y},
-                  {1, 0}, friction);
+      add_contact(pack, random, floe_at(column, row), floe_at(column + 1, row), {10.0 * column + 10, y}, {1, 0},
+                  friction);
   }
   for (int column = 0; column < columns; ++column) {
     for (int row = 0; row + 1 < rows; ++row)
-      add_contact(pack, random, floe_at(column, row), floe_at(column, row + 1),
-                  {10.0 * column + 5, 10.0 * row + 10}, {0, 1}, friction);
+      add_contact(pack, random, floe_at(column, row), floe_at(column, row + 1), {10.0 * column + 5, 10.0 * row + 10},
+                  {0, 1}, friction);
   }
   return pack;
 }

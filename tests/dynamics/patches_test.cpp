@@ -59,8 +59,7 @@ TEST_F(RandomFloes, CirclesLieInsideAndTouchTheBoundary) {
     const Polygon polygon = random_floe(random_);
     const EdgeList edges = edge_list(polygon);
     const double radius = random_.between(0.2, 3);
-    for (const ContactCircle& circle :
-         sample_contact_circles(edges, boundary_pieces(edges, radius), radius)) {
+    for (const ContactCircle& circle : sample_contact_circles(edges, boundary_pieces(edges, radius), radius)) {
       double nearest = std::numeric_limits<double>::infinity();
       for (std::uint32_t e = 0; e < edges.size(); ++e) {
         nearest = std::min(nearest, distance_to_segment(circle.centre, edges.from(e), edges.to(e)));
@@ -100,19 +99,15 @@ TEST_F(RandomFloes, PiecesAndTheirCirclesCoverAllBoundaryOneForEachRadiusOfIt) {
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
       for (int k = 0; k <= 50; ++k) {
         const Point at = edges.from(e) + (k / 50.0) * (edges.to(e) - edges.from(e));
-        const auto covers = [&](Point centre, double reach) {
-          return distance(centre, at) <= reach * (1 + 1e-9);
-        };
+        const auto covers = [&](Point centre, double reach) { return distance(centre, at) <= reach * (1 + 1e-9); };
         const bool is_covered = std::any_of(of_edge[e].begin(), of_edge[e].end(), [&](std::size_t p) {
           return covers(circles[p].centre, circles[p].reach) && covers(pieces[p].middle, pieces[p].reach);
         });
         ASSERT_TRUE(is_covered) << "floe " << i << ", edge " << e << " at " << k / 50.0;
       }
-      ASSERT_GE(static_cast<double>(of_edge[e].size()) * radius,
-                distance(edges.from(e), edges.to(e)) * (1 - 1e-12));
+      ASSERT_GE(static_cast<double>(of_edge[e].size()) * radius, distance(edges.from(e), edges.to(e)) * (1 - 1e-12));
     }
-    ASSERT_LE(static_cast<double>(pieces.size()),
-              perimeter(polygon) / radius + static_cast<double>(edges.size()));
+    ASSERT_LE(static_cast<double>(pieces.size()), perimeter(polygon) / radius + static_cast<double>(edges.size()));
   }
 }
 
@@ -250,14 +245,7 @@ TEST(Patch, OfFacesAndCornersIsThatOfTheClosedForm) {
              -1,
              0.7,
              {{0, -2}, {-0.1, 5}}},
-        Form{diamond,
-             diamond,
-             {{10 - 2 * d, 0}, {}},
-             {1, 0},
-             2 * d,
-             2 * d,
-             2 * d * d,
-             {{5 - d, d}, {5 - d, -d}}}}) {
+        Form{diamond, diamond, {{10 - 2 * d, 0}, {}}, {1, 0}, 2 * d, 2 * d, 2 * d * d, {{5 - d, d}, {5 - d, -d}}}}) {
     const Found found = patches_of(form.a, form.b, form.a_from_b);
     ASSERT_EQ(found.manifolds.size(), 1u);
     const ContactManifold& manifold = found.manifolds[0];
@@ -285,8 +273,7 @@ TEST(Patch, OfThreeTeethOrTwoProngsAreAsMany) {
 
 TEST(Patch, BodiesThatDoNotOverlapHaveNone) {
   EXPECT_TRUE(patches_of(wall(), rectangle(10, 8), {{5 + 1e-12, 2}, {}}).manifolds.empty());
-  EXPECT_TRUE(patches_of(rectangle(30, 30), rectangle(4, 4), {{0, 0}, {}}).manifolds.empty())
-      << "one inside the other";
+  EXPECT_TRUE(patches_of(rectangle(30, 30), rectangle(4, 4), {{0, 0}, {}}).manifolds.empty()) << "one inside the other";
 }
 
 /// S by exact arithmetic: what the rule is checked against.
@@ -318,8 +305,7 @@ TEST(Patch, OnAGridWhereEverythingTouchesConvexFloesHaveTheirExactOverlap) {
         ASSERT_LE(found.manifolds.size(), 1u) << x << ' ' << y << ' ' << turn;
         ++checked;
         const bool is_one_inside_the_other = exact == 8.5 && found.manifolds.empty();
-        EXPECT_NEAR(area_of(found), is_one_inside_the_other ? 0 : exact, 1e-12)
-            << x << ' ' << y << ' ' << turn;
+        EXPECT_NEAR(area_of(found), is_one_inside_the_other ? 0 : exact, 1e-12) << x << ' ' << y << ' ' << turn;
       }
     }
   }
@@ -408,8 +394,7 @@ TEST_F(RandomPatches, ThePiercedOnesTurnAsTheOverlapsAreaDoes) {
     const Found found = patches_of(a, b, pose);
     if (found.manifolds.size() != 1 || !found.manifolds[0].is_pierced) continue;
     const ContactManifold& m = found.manifolds[0];
-    const double slope =
-        (exact_area(a, b, turned(pose, kStep)) - exact_area(a, b, turned(pose, -kStep))) / (2 * kStep);
+    const double slope = (exact_area(a, b, turned(pose, kStep)) - exact_area(a, b, turned(pose, -kStep))) / (2 * kStep);
     const Point middle = midpoint(m.ends[0], m.ends[1]);
     const double lever = slope / m.width - dot(m.centroid - Point{}, perpendicular(m.normal));
     const double here = dot(middle - m.centroid, perpendicular(m.normal));
@@ -425,8 +410,7 @@ TEST(Pierced, AWedgeThroughAPlankIsPushedBackAlongItsAxis) {
   // by is the difference of its widths on both faces.
   const double half = 15 * std::numbers::pi / 180;
   const double reach = 4;
-  const Polygon wedge{
-      {{reach, 0}, {-20, (20 + reach) * std::tan(half)}, {-20, -(20 + reach) * std::tan(half)}}, {}};
+  const Polygon wedge{{{reach, 0}, {-20, (20 + reach) * std::tan(half)}, {-20, -(20 + reach) * std::tan(half)}}, {}};
   const Polygon plank = rectangle(0.3, 30, {0.15, 0});
   const Found found = patches_of(wedge, plank, {});
   ASSERT_EQ(found.manifolds.size(), 1u);
@@ -497,8 +481,7 @@ TEST(CirclePatch, StandsOnTheLineOfCentresHalfWayIntoTheLens) {
     EXPECT_NEAR(distance(manifold.ends[0], manifold.ends[1]), manifold.width, 1e-12);
     deepest = std::max(deepest, manifold.depth);
   }
-  EXPECT_NEAR(deepest, depth, 1e-9)
-      << "circles touch their faces, so that they overlap as much as the floes do";
+  EXPECT_NEAR(deepest, depth, 1e-9) << "circles touch their faces, so that they overlap as much as the floes do";
 }
 
 }  // namespace

@@ -20,9 +20,7 @@ namespace polynya::scenery {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
-  }
+  double between(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
   double angle() { return between(-std::numbers::pi, std::numbers::pi); }
   int below(int count) { return static_cast<int>(next() % static_cast<std::uint64_t>(count)); }
 
@@ -59,8 +57,8 @@ inline geometry::Polygon random_star(Random& random, int corners, double least_r
 }
 
 /// A floe as a body: mass and moment of its plate. `position` is that of the centre of mass.
-inline dynamics::NewBody floe_body(const geometry::Polygon& polygon, geometry::Point position,
-                                   double angle = 0, double circle_radius = 1.0) {
+inline dynamics::NewBody floe_body(const geometry::Polygon& polygon, geometry::Point position, double angle = 0,
+                                   double circle_radius = 1.0) {
   constexpr double kThickness = 0.5;
   constexpr double kDensity = 900;
   const geometry::Measures measures = geometry::measure(polygon);
@@ -71,8 +69,7 @@ inline dynamics::NewBody floe_body(const geometry::Polygon& polygon, geometry::P
   body.moment = kDensity * kThickness * measures.second_moment;
   body.centroid = measures.centroid;
   body.thickness = kThickness;
-  body.boundary =
-      std::make_shared<geometry::Boundary>(geometry::make_boundary(polygon, {circle_radius, true}));
+  body.boundary = std::make_shared<geometry::Boundary>(geometry::make_boundary(polygon, {circle_radius, true}));
   body.drag = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape(polygon, measures.centroid));
   return body;
 }
@@ -167,16 +164,14 @@ inline dynamics::Contact contact_at(dynamics::BodyIndex a, dynamics::BodyIndex b
 
 /// Speed at which the two bodies of a contact part at a point of it; negative when approaching [m/s].
 inline double parting_speed(const dynamics::Bodies& bodies, const dynamics::Contact& c, geometry::Point at) {
-  return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) -
-                 velocity_at(bodies, c.a, at - bodies.position[c.a]),
+  return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) - velocity_at(bodies, c.a, at - bodies.position[c.a]),
              c.normal);
 }
 
 /// Speed of b along a contact's line, as a sees it [m/s].
 inline double slip_speed(const dynamics::Bodies& bodies, const dynamics::Contact& c) {
   const geometry::Point at = c.middle();
-  return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) -
-                 velocity_at(bodies, c.a, at - bodies.position[c.a]),
+  return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) - velocity_at(bodies, c.a, at - bodies.position[c.a]),
              perpendicular(c.normal));
 }
 

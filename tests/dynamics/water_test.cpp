@@ -125,9 +125,8 @@ TEST(WaterDrag, ActsAgainstTheVelocityAndTakesTheEnergyItReports) {
     bodies.angular_velocity[0] = random.between(-1, 1);
     const Vector v = bodies.velocity[0];
     const double before = kinetic_energy(bodies);
-    const double work = apply_water_drag(bodies, {0}, {random.between(0, 2), kWater, {}},
-                                         std::pow(10.0, random.between(-4, 4)))
-                            .lost;
+    const double work =
+        apply_water_drag(bodies, {0}, {random.between(0, 2), kWater, {}}, std::pow(10.0, random.between(-4, 4))).lost;
     const double after = kinetic_energy(bodies);
     ASSERT_LE(after, before);
     ASSERT_NEAR((before - after) / before, work / before, 1e-12);
@@ -213,8 +212,7 @@ TEST(PlanDrag, TheRotationalIntegralIsExactForDiscRingAndRectangles) {
   std::ranges::reverse(ring.holes[0]);
   EXPECT_NEAR(moment(ring, {}) / (of_disc(7) - of_disc(5)), 1, 5e-6);
   for (const Point about : {Point{}, Point{0.3, 1}, Point{5, 3}, Point{20, -7}})  // inside, on a corner, out
-    EXPECT_NEAR(moment(rectangle(10, 6), about) / third_moment_of_rectangle({-5, -3}, {5, 3}, about), 1,
-                1e-9);
+    EXPECT_NEAR(moment(rectangle(10, 6), about) / third_moment_of_rectangle({-5, -3}, {5, 3}, about), 1, 1e-9);
 }
 
 TEST(PlanDrag, AFreeFloeSlowsAsTheClosedFormWhateverItsCourseAndThickness) {
@@ -228,8 +226,7 @@ TEST(PlanDrag, AFreeFloeSlowsAsTheClosedFormWhateverItsCourseAndThickness) {
     bodies.angular_velocity[0] = -0.2;
     bodies.thickness[0] = random.between(0.1, 3);
     const double braking = kDrag * kWater * 60 / (2 * bodies.mass[0]);
-    const double turning =
-        kDrag * kWater * third_moment_of_rectangle({-5, -3}, {5, 3}, {}) / (2 * bodies.moment[0]);
+    const double turning = kDrag * kWater * third_moment_of_rectangle({-5, -3}, {5, 3}, {}) / (2 * bodies.moment[0]);
     for (int step = 0; step < 2000; ++step) brake(bodies, dt, DragArea::kPlan);
     const double time = 2000 * dt;
     EXPECT_NEAR(length(bodies.velocity[0]) * (1 + braking * 1.5 * time) / 1.5, 1, 1e-9) << dt;
@@ -276,8 +273,7 @@ TEST(Manoeuvring, DerivativesThatGiveEnergyAreNotPhysical) {
 }
 
 TEST(Manoeuvring, AddedMassHasNoNegativeEnergy) {
-  for (const MainDimensions& d :
-       {kShip, MainDimensions{95, 29.4, 8, 0.6}, MainDimensions{200, 30, 12, 0.8}}) {
+  for (const MainDimensions& d : {kShip, MainDimensions{95, 29.4, 8, 0.6}, MainDimensions{200, 30, 12, 0.8}}) {
     const PlanarMatrix a = added_mass_of(clarke_derivatives(d), d.length, 1000, 1e6);
     EXPECT_EQ(a.rows[1].yaw, a.rows[2].sway);
     EXPECT_GT(a.rows[1].sway * a.rows[2].yaw, a.rows[1].yaw * a.rows[2].sway);

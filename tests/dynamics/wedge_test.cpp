@@ -31,8 +31,7 @@ TEST(WedgeAngles, OfCornersAndEdgesAreMeasuredFromTheInwardDirection) {
     Vector inward;
     double front, back;
   };
-  std::vector<Row> rows{{square, 0, {1, -5}, {0, 1}, 90, 90},
-                        {wedge, 0, {0, 0}, towards(10, 1) - Point{}, 40, 20}};
+  std::vector<Row> rows{{square, 0, {1, -5}, {0, 1}, 90, 90}, {wedge, 0, {0, 0}, towards(10, 1) - Point{}, 40, 20}};
   for (std::uint32_t corner = 0; corner < 4; ++corner) {
     const Point tip = square.outer[corner];
     rows.push_back({square, corner, tip, (Point{} - tip) / length(Point{} - tip), 45, 45});
@@ -214,8 +213,7 @@ TEST(CrackPath, ItsWidthIsTwiceTheIceOnItsNarrowerSide) {
   Polygon plate = rectangle(110, 200);
   plate.holes = {{{-45, 10}, {-45, 15}, {-30, 15}, {-30, 10}}};
   const Boundary holed = make_outline(plate);
-  EXPECT_NEAR(crack_width(holed, crack_path(holed, {-55, 0}, {1, 0}, 0), 0.15), 20, 1e-9)
-      << "a hole beside it";
+  EXPECT_NEAR(crack_width(holed, crack_path(holed, {-55, 0}, {1, 0}, 0), 0.15), 20, 1e-9) << "a hole beside it";
 }
 
 TEST(CrackPath, OfTwoLegsHasTheAreasOfTheTwoPiecesThatItLeaves) {
@@ -241,8 +239,7 @@ TEST(CrackPath, OfTwoLegsHasTheAreasOfTheTwoPiecesThatItLeaves) {
     ASSERT_TRUE(outcome);
     ASSERT_EQ(outcome->pieces.size(), 2u);
     const double first = measure(outcome->pieces[0].shape.polygon).area;
-    EXPECT_NEAR(std::min(first, 4000 - first), std::min(sides.left, sides.right), 1e-2)
-        << "its margins are outside";
+    EXPECT_NEAR(std::min(first, 4000 - first), std::min(sides.left, sides.right), 1e-2) << "its margins are outside";
   }
 }
 
@@ -273,8 +270,7 @@ TEST(CrackPath, HasALigamentOnEitherSideOfEachHole) {
 
 TEST(Passage, IsTheStretchOfALineInABodyAndWhereItMeetsTheBodyAgain) {
   // A U that opens to the right.
-  const Boundary u =
-      make_outline(Polygon{{{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 8}, {10, 8}, {10, 10}, {0, 10}}, {}});
+  const Boundary u = make_outline(Polygon{{{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 8}, {10, 8}, {10, 10}, {0, 10}}, {}});
   const Passage up = passage_through(u, {5, 1}, {0, 1});
   EXPECT_NEAR(up.behind, -1, 1e-12);
   EXPECT_NEAR(up.ahead, 1, 1e-12);

@@ -77,8 +77,8 @@ TEST(HullAngle, OfThePapersShip) {
   const double stem = 30 * kDegree;
   EXPECT_NEAR(hull_angle_from_vertical(std::sin(27 * kDegree), stem) / kDegree, 38.2, 0.05);  // bow flank
   EXPECT_NEAR(hull_angle_from_vertical(1, stem) / kDegree, 60, 1e-10);                        // stem
-  EXPECT_EQ(hull_angle_from_vertical(0, stem), 0);   // parallel midbody
-  EXPECT_EQ(hull_angle_from_vertical(-1, stem), 0);  // stern: a wall
+  EXPECT_EQ(hull_angle_from_vertical(0, stem), 0);                                            // parallel midbody
+  EXPECT_EQ(hull_angle_from_vertical(-1, stem), 0);                                           // stern: a wall
 }
 
 TEST(CrushingShares, OnlyAHullLessSteepThanFrictionPressesTheIceDown) {
@@ -112,8 +112,7 @@ TEST(CrushingShares, FrictionIsSharedBetweenDownAndAlongTheHull) {
       const CrushingShares shares = crushing_shares(angle, friction, 0.5, slip);
       const double down = (std::sin(angle) - shares.vertical) / std::cos(angle);
       EXPECT_NEAR(std::hypot(down, shares.tangential), friction, 1e-14);
-      EXPECT_NEAR(down * slip, shares.tangential * 0.5 * std::sin(angle), 1e-14)
-          << "along the slip, as friction acts";
+      EXPECT_NEAR(down * slip, shares.tangential * 0.5 * std::sin(angle), 1e-14) << "along the slip, as friction acts";
     }
   }
 }
@@ -173,8 +172,7 @@ TEST(CrushedOverlapArea, TendsToThicknessTimesContactLineAtAVerticalWall) {
     const double wall = 0.5 * 3;
     EXPECT_NEAR(crushed_overlap_area(overlap, 0.5, 0), wall, 1e-15);
     for (double angle = 0.03; angle > 1e-14; angle /= 3) {
-      EXPECT_NEAR(crushed_overlap_area(overlap, 0.5, angle) / wall, 1, 3 * angle * 0.5 / depth + 1e-9)
-          << angle;
+      EXPECT_NEAR(crushed_overlap_area(overlap, 0.5, angle) / wall, 1, 3 * angle * 0.5 / depth + 1e-9) << angle;
     }
   }
 }
@@ -183,9 +181,7 @@ TEST(CrushedOverlapArea, IsContinuousInAngleDepthAndShape) {
   for (double angle = 0; angle < 1.5; angle += 1e-3) {
     for (const double power : {1.0, 1.7, 2.0}) {
       for (const double depth : {0.01, 0.3, 2.0}) {
-        const auto area = [&](double d, double a) {
-          return crushed_overlap_area({2, d, 2 * d / power}, 0.5, a);
-        };
+        const auto area = [&](double d, double a) { return crushed_overlap_area({2, d, 2 * d / power}, 0.5, a); };
         const double here = area(depth, angle);
         EXPECT_NEAR(area(depth, angle + 1e-9) / here, 1, 1e-4);
         EXPECT_NEAR(area(depth * (1 + 1e-9), angle) / here, 1, 1e-4);

@@ -55,8 +55,7 @@ TEST(Scatter, MeanAndSpreadAreThoseOfTheClosedForms) {
   const auto share = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2)); };
   const double a = (0.45 - 0.5) / 0.1, b = (0.8 - 0.5) / 0.1;
   EXPECT_NEAR(share_within_bounds(normal), share(b) - share(a), 1e-12);
-  EXPECT_NEAR(expected(normal, identity), 0.5 + 0.1 * (density(a) - density(b)) / (share(b) - share(a)),
-              1e-6);
+  EXPECT_NEAR(expected(normal, identity), 0.5 + 0.1 * (density(a) - density(b)) / (share(b) - share(a)), 1e-6);
   EXPECT_NEAR(expected({ScatterKind::kUniform, 0, 0, 0.3, 0.7}, square), (0.343 - 0.027) / 3 / 0.4, 1e-9);
 }
 

@@ -97,8 +97,7 @@ TEST(Opening, OfTheReferenceStemIsAsDerived) {
 TEST(Opening, FrictionActsWithTheSlip) {
   const double still = opening_per_force(27 * kDegree, 0.2, 0);
   EXPECT_NEAR(still, opening_per_force(27 * kDegree, 0, 1), 1e-12) << "nothing slips";
-  EXPECT_GT(opening_per_force(27 * kDegree, 0.2, -1), still)
-      << "a wedge on its way out pulls the faces along";
+  EXPECT_GT(opening_per_force(27 * kDegree, 0.2, -1), still) << "a wedge on its way out pulls the faces along";
   EXPECT_LT(opening_per_force(80 * kDegree, 0.2, 1), 0) << "blunter than atan 1/μ it closes the crack";
 }
 
@@ -107,8 +106,7 @@ TEST(Opening, DoesNotDependOnTheFrame) {
     const Vector ahead{std::cos(turn), std::sin(turn)};
     const auto pushes = wedge_pushes(3e5 * ahead, wedge(27 * kDegree, turn, 0.5 * ahead), 0.2);
     ASSERT_TRUE(pushes);
-    EXPECT_NEAR(opening_of(*pushes, {}, ahead).force(), 3e5 * opening_per_force(27 * kDegree, 0.2, 0.5),
-                1e-6);
+    EXPECT_NEAR(opening_of(*pushes, {}, ahead).force(), 3e5 * opening_per_force(27 * kDegree, 0.2, 0.5), 1e-6);
   }
 }
 

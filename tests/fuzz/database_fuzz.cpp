@@ -107,8 +107,7 @@ void require_answers_among_entries(const BendingDatabase& database) {
   for_each_load(loads, [&](const WedgeGroups& groups) {
     const DatabaseAnswer answer = database.look_up(groups);
     const double angle = std::clamp(groups.opening_angle, edges[0].first, edges[0].second);
-    require(force.has(answer.force / angle) && radius.has(answer.cusp_radius) &&
-            crack.has(answer.crack_ratio));
+    require(force.has(answer.force / angle) && radius.has(answer.cusp_radius) && crack.has(answer.crack_ratio));
     const double x[] = {groups.opening_angle, groups.mass_ratio, groups.softness, groups.froude};
     for (std::size_t i = 0; i < 4; ++i) {
       const auto [least, most] = edges[i];

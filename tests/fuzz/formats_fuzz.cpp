@@ -27,8 +27,7 @@ void read_floes(const std::string& text) {
   if (!floes) return require(!floes.error().empty());
   for (const auto& entry : floes->entries) {
     require(entry.refusal.empty() || entry.polygon.outer.empty());
-    if (entry.refusal.empty() && entry.polygon.outer.size() < 200)
-      (void)polynya::geometry::find_defect(entry.polygon);
+    if (entry.refusal.empty() && entry.polygon.outer.size() < 200) (void)polynya::geometry::find_defect(entry.polygon);
   }
 }
 

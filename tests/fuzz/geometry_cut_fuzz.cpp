@@ -55,8 +55,7 @@ void cut_past_the_checks(Dice& dice, Shape shape) {
 void tell_story(Dice dice) {
   Shape shape{trials::roll_floe(dice)};
   if (const auto found = find_defect(shape.polygon)) {
-    if (found->defect != Defect::kNotFinite && shape.polygon.outer.size() > 2)
-      cut_past_the_checks(dice, shape);
+    if (found->defect != Defect::kNotFinite && shape.polygon.outer.size() > 2) cut_past_the_checks(dice, shape);
     return;
   }
   if (dice.below(4) == 0) return cut_by_many_and_check(dice, shape);

@@ -74,8 +74,7 @@ TEST(Cut, ToolsThatMissOrAreUnusableAreNamed) {
       << "shared edge";
   EXPECT_EQ(failure_of(cut_by_polygon(square, {box_ring({10, 10}, {20, 20}), {}})), CutFailure::kMisses)
       << "shared corner";
-  EXPECT_EQ(failure_of(cut_by_polygon(square, {{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}})),
-            CutFailure::kInvalidTool);
+  EXPECT_EQ(failure_of(cut_by_polygon(square, {{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}})), CutFailure::kInvalidTool);
   EXPECT_EQ(failure_of(cut_by_polygon(shape_of({{0, 0}, {2, 2}, {2, 0}, {0, 2}}), {kSquare, {}})),
             CutFailure::kInvalidShape);
   EXPECT_EQ(failure_of(cut_along(square, {{20, 0}, {20, 10}})), CutFailure::kMisses);
@@ -244,10 +243,9 @@ TEST(LocalCut, EqualsTheGeneralOneOnAnIntegerGrid) {
 
 TEST(LocalCut, EqualsTheGeneralOneAcrossHoles) {
   // Cracks that bridge holes, cut through them, dangle between them; discs that open them to the sea.
-  const Shape shape{{{{0, 0}, {12, 0.3}, {12.1, 9}, {-0.2, 9.3}},
-                     {{{2, 2}, {2.5, 6}, {4, 5}},
-                      {{6, 1}, {5.5, 4}, {7, 4.2}},
-                      {{8, 5}, {8.2, 7.7}, {10, 8}, {9.7, 5.1}}}}};
+  const Shape shape{
+      {{{0, 0}, {12, 0.3}, {12.1, 9}, {-0.2, 9.3}},
+       {{{2, 2}, {2.5, 6}, {4, 5}}, {{6, 1}, {5.5, 4}, {7, 4.2}}, {{8, 5}, {8.2, 7.7}, {10, 8}, {9.7, 5.1}}}}};
   std::mt19937 random(13);
   std::uniform_real_distribution<double> place(-1, 13);
   Tally tally;

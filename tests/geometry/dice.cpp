@@ -23,8 +23,7 @@ Ring comb(Dice& dice) {
   Ring ring{{0, 0}, {2.0 * teeth, 0}};
   for (int tooth = teeth - 1; tooth >= 0; --tooth) {
     const double x = 2 * tooth;
-    for (const Point p : {Point{x + 1.5, 8}, Point{x + 1, 1}, Point{x + 0.5, 1}, Point{x, 8}})
-      ring.push_back(p);
+    for (const Point p : {Point{x + 1.5, 8}, Point{x + 1, 1}, Point{x + 0.5, 1}, Point{x, 8}}) ring.push_back(p);
   }
   return ring;
 }
@@ -32,9 +31,7 @@ Ring comb(Dice& dice) {
 Ring spiral(Dice& dice) {
   const int turns = 8 + dice.below(30);
   Ring ring;
-  const auto at = [](double radius, double angle) {
-    return Point{radius * std::cos(angle), radius * std::sin(angle)};
-  };
+  const auto at = [](double radius, double angle) { return Point{radius * std::cos(angle), radius * std::sin(angle)}; };
   for (int i = 0; i < turns; ++i) ring.push_back(at(2 + 0.2 * i, 0.4 * i));
   for (int i = turns - 1; i >= 0; --i) ring.push_back(at(1 + 0.2 * i, 0.4 * i));
   return ring;

@@ -120,16 +120,15 @@ TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
   std::mt19937 random(26);
   for (int i = 0; i < 300; ++i) {
     Ring ring;
-    for (int k = 0; k < 8; ++k)
-      ring.push_back({static_cast<double>(random() % 5), static_cast<double>(random() % 5)});
+    for (int k = 0; k < 8; ++k) ring.push_back({static_cast<double>(random() % 5), static_cast<double>(random() % 5)});
     const Ring shape = without_repeats(ring);
     if (shape.size() < 3) continue;
     static_cast<void>(cut_by_polygons_generally(exact::exactly(Polygon{shape, {}}), {{kSquare, {}}}));
     static_cast<void>(cut_along_generally(exact::exactly(Polygon{shape, {}}), {{-1, 2}, {7, 3}}));
     static_cast<void>(cut_by_polygon(Shape{{shape, {}}, true}, {disc_polygon({2, 2}, 1.5, 0.1), {}}));
     static_cast<void>(cut_along(Shape{{shape, {}}, true}, {{-1, 2}, {7, 3}}));
-    static_cast<void>(cut_by_polygons(Shape{{shape, {}}, true}, {{disc_polygon({2, 2}, 1.5, 0.1), {}},
-                                                                 {disc_polygon({4, 2}, 0.7, 0.1), {}}}));
+    static_cast<void>(cut_by_polygons(Shape{{shape, {}}, true},
+                                      {{disc_polygon({2, 2}, 1.5, 0.1), {}}, {disc_polygon({4, 2}, 0.7, 0.1), {}}}));
     static_cast<void>(cut_along(Shape{{shape, {kSquare}}, true}, {{-1, 2}, {3, 3}, {2, 1}, {2.5, 7}}));
   }
   SUCCEED();
@@ -196,8 +195,7 @@ TEST_P(Outlines, AreCutSoundly) {
         knives.polygons = {{disc_polygon(shape.polygon.outer.front(), 0.05 * cells, 0.001 * cells), {}}};
         break;
       case 3:
-        for (int k = 0; k < 6; ++k)
-          knives.polygons.push_back({disc_polygon(point(), 0.06 * cells, 0.002 * cells), {}});
+        for (int k = 0; k < 6; ++k) knives.polygons.push_back({disc_polygon(point(), 0.06 * cells, 0.002 * cells), {}});
         break;
       case 4:
         knives.polygons = {ragged_floe(cells / 2, 1000 + seed + static_cast<unsigned>(i))};
@@ -218,10 +216,9 @@ TEST_P(Outlines, AreCutSoundly) {
     }
     if (!outcome) continue;
     ++cuts;
-    const auto largest =
-        std::max_element(outcome->pieces.begin(), outcome->pieces.end(), [](const Piece& a, const Piece& b) {
-          return vertex_count(a.shape.polygon) < vertex_count(b.shape.polygon);
-        });
+    const auto largest = std::max_element(
+        outcome->pieces.begin(), outcome->pieces.end(),
+        [](const Piece& a, const Piece& b) { return vertex_count(a.shape.polygon) < vertex_count(b.shape.polygon); });
     shape = largest->shape;
   }
   EXPECT_GT(2 * cuts, rounds);
@@ -271,8 +268,8 @@ class Trial {
   }
 
   void finish() const {
-    std::printf("%d cuts, %d refused, %zu floes, %d snap-rounded, slivers %.3g m²\n", cuts_, refused_,
-                floes_.size(), snap_rounded_, slivers_);
+    std::printf("%d cuts, %d refused, %zu floes, %d snap-rounded, slivers %.3g m²\n", cuts_, refused_, floes_.size(),
+                snap_rounded_, slivers_);
     EXPECT_GT(cuts_, 1000);
     exact::Rational sum = brash_ - initial_ - itemised_;
     for (const Floe& floe : floes_) sum += exact_area(floe.shape);
@@ -293,9 +290,7 @@ class Trial {
     return best;
   }
 
-  Point to_body(const Floe& floe, Point in_world) {
-    return inverse_transform(floe.world_from_body, in_world);
-  }
+  Point to_body(const Floe& floe, Point in_world) { return inverse_transform(floe.world_from_body, in_world); }
 
   CutOutcome cut(const Floe& floe) {
     const Ring& ring = floe.shape.polygon.outer;
@@ -311,8 +306,7 @@ class Trial {
     if (kind < 5) {
       const double reach = 4 * size + 50 * unit();
       const Point aim = in_world + 0.3 * size * direction;
-      return cut_along(floe.shape,
-                       {to_body(floe, aim - reach * direction), to_body(floe, aim + reach * direction)});
+      return cut_along(floe.shape, {to_body(floe, aim - reach * direction), to_body(floe, aim + reach * direction)});
     }
     const Point centre = in_world + (0.1 * size * unit()) * direction;
     Ring cusp = disc_polygon(centre, size * (0.02 + 0.25 * unit()), 0.004 * size);

@@ -61,9 +61,8 @@ void require(const testing::AssertionResult& result, const Shape& shape, const K
 }
 
 TEST(Laws, EveryCutIsSound) {
-  check("exact balance, valid pieces, a ledger that adds up", [](const Shape& shape, const Knife& knife) {
-    require(is_sound(shape, cut(shape, knife)), shape, knife);
-  });
+  check("exact balance, valid pieces, a ledger that adds up",
+        [](const Shape& shape, const Knife& knife) { require(is_sound(shape, cut(shape, knife)), shape, knife); });
 }
 
 TEST(Laws, LocalEqualsGeneral) {
@@ -115,8 +114,7 @@ TEST(Laws, QuarterTurnsAndPowersOfTwoCommuteWithTheCut) {
     CutOutcome first = cut(shape, knife);
     const CutOutcome second = cut(Shape{turned(shape.polygon)}, {knife.is_ring, turned_ring(knife.points)});
     if (first) {
-      RC_PRE(first->ledger.slivers == 0 &&
-             first->ledger.snap_rounded == 0);  // judged by boxes, which turning changes
+      RC_PRE(first->ledger.slivers == 0 && first->ledger.snap_rounded == 0);  // judged by boxes, which turning changes
       for (Piece& piece : first->pieces) piece.shape.polygon = turned(piece.shape.polygon);
       first->ledger.rounding_defect *= 16;
       first->ledger.dangling_length *= 4;
@@ -153,8 +151,7 @@ TEST(Laws, MotionLeavesGenericCutsCongruent) {
 Ring grid_tool(Dice& dice) {
   const Point c{static_cast<double>(dice.below(9)), static_cast<double>(dice.below(9))};
   const double r = 0.5 * (1 + dice.below(6));
-  if (dice.below(2) == 0)
-    return {{c.x - r, c.y - r}, {c.x + r, c.y - r}, {c.x + r, c.y + r}, {c.x - r, c.y + r}};
+  if (dice.below(2) == 0) return {{c.x - r, c.y - r}, {c.x + r, c.y - r}, {c.x + r, c.y + r}, {c.x - r, c.y + r}};
   return {{c.x - r, c.y}, {c.x, c.y - r}, {c.x + r, c.y}, {c.x, c.y + r}};
 }
 
@@ -197,8 +194,7 @@ TEST(Laws, TheOrderOfTwoToolsDoesNotMatter) {
       for (const Piece& piece : start) {
         if (piece.part == Part::kInside) continue;
         const CutOutcome after_second = cut_by_polygon(piece.shape, {second, {}});
-        const std::vector<Piece> end =
-            after_second ? after_second->pieces : std::vector<Piece>{{piece.shape}};
+        const std::vector<Piece> end = after_second ? after_second->pieces : std::vector<Piece>{{piece.shape}};
         for (const Piece& last : end) {
           if (last.part == Part::kInside) continue;
           left += exact_area(last.shape);

@@ -95,8 +95,7 @@ TEST(Predicates, APointIsInARingWhereItsRayCrossesItOnceMore) {
     for (int i = 0; i < 5; ++i) ring.push_back(any_point(dice));
     const Point p = any_point(dice);
     bool is_odd = false;
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      is_odd ^= crosses_ray(ring[i], ring[(i + 1) % ring.size()], p);
+    for (std::size_t i = 0; i < ring.size(); ++i) is_odd ^= crosses_ray(ring[i], ring[(i + 1) % ring.size()], p);
     const int side = side_of_ring(ring, p);
     if (side != 0) {
       ASSERT_EQ(side > 0, is_odd);
@@ -167,11 +166,9 @@ TEST(Validity, NamesTheDefectsOfOneRing) {
   EXPECT_EQ(defect_of(Ring{{0, 0}, {1, 0}, {1, 1}, {0, 0}}), "repeated-point");
   EXPECT_EQ(defect_of(Ring{{0, 0}, {1, 1}, {3, 3}, {2, 2}}), "zero-area");
   EXPECT_EQ(defect_of(Ring{{0, 0}, {2, 2}, {2, 0}, {0, 2}}), "self-crossing");
-  EXPECT_EQ(defect_of(Ring{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}), "self-crossing")
-      << "a vertex on an edge";
+  EXPECT_EQ(defect_of(Ring{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}), "self-crossing") << "a vertex on an edge";
   EXPECT_EQ(defect_of(Ring{{0, 0}, {2, 2}, {4, 0}, {4, 4}, {2, 2}, {0, 4}}), "self-crossing") << "a pinch";
-  EXPECT_EQ(defect_of(Ring{{0, 0}, {4, 0}, {4, 4}, {8, 4}, {4, 4}, {0, 4}}), "overlapping-edges")
-      << "a spike";
+  EXPECT_EQ(defect_of(Ring{{0, 0}, {4, 0}, {4, 4}, {8, 4}, {4, 4}, {0, 4}}), "overlapping-edges") << "a spike";
   EXPECT_EQ(defect_of(Ring{{0, 0}, {0, 1}, {1, 1}, {1, 0}}), "wrong-orientation");
 }
 
@@ -196,29 +193,25 @@ TEST(Validity, HolesMayTouchInPoints) {
 
 TEST(Validity, TouchesThatCutTheInteriorApartAreDefects) {
   EXPECT_EQ(defect_with_hole({{0, 5}, {5, 10}, {10, 5}, {5, 0}}), "disconnected");
-  EXPECT_EQ(defect_of({kSquare, {{{0, 5}, {5, 6}, {5, 4}}, {{5, 5}, {10, 6}, {10, 4}}}}),
-            "overlapping-edges");
+  EXPECT_EQ(defect_of({kSquare, {{{0, 5}, {5, 6}, {5, 4}}, {{5, 5}, {10, 6}, {10, 4}}}}), "overlapping-edges");
   EXPECT_EQ(defect_of({kSquare, {{{0, 5}, {4, 6}, {5, 5}, {4, 4}}, {{5, 5}, {6, 6}, {10, 5}, {6, 4}}}}),
             "disconnected");
   // Three holes in a ring around a bit of ice, each touching the next.
-  EXPECT_EQ(defect_of({kSquare,
-                       {{{2, 2}, {5, 3}, {8, 2}, {5, 1}},
-                        {{8, 2}, {6, 5}, {5, 8}, {7, 5}},
-                        {{5, 8}, {4, 5}, {2, 2}, {3, 5}}}}),
-            "disconnected");
+  EXPECT_EQ(
+      defect_of(
+          {kSquare,
+           {{{2, 2}, {5, 3}, {8, 2}, {5, 1}}, {{8, 2}, {6, 5}, {5, 8}, {7, 5}}, {{5, 8}, {4, 5}, {2, 2}, {3, 5}}}}),
+      "disconnected");
 }
 
 TEST(Validity, RingsThatCrossInTheirVerticesCross) {
-  EXPECT_EQ(defect_of({{{0, 0}, {10, 0}, {10, 10}, {5, 10}, {0, 10}},
-                       {{{5, 10}, {4, 12}, {7, 8}, {5, 5}, {3, 8}}}}),
+  EXPECT_EQ(defect_of({{{0, 0}, {10, 0}, {10, 10}, {5, 10}, {0, 10}}, {{{5, 10}, {4, 12}, {7, 8}, {5, 5}, {3, 8}}}}),
             "rings-cross");
 }
 
 TEST(Validity, IsDecidedExactlyOneUlpApart) {
   // A notch whose tip comes to the diagonal from below: clear of it by one ulp, on it, past it.
-  const auto with_tip_at = [](double y) {
-    return Ring{{0, 0}, {3, -3}, {3, 0.4}, {0.5, y}, {3, 0.6}, {1, 1}};
-  };
+  const auto with_tip_at = [](double y) { return Ring{{0, 0}, {3, -3}, {3, 0.4}, {0.5, y}, {3, 0.6}, {1, 1}}; };
   EXPECT_EQ(defect_of(with_tip_at(std::nextafter(0.5, 0.0))), "valid");
   EXPECT_EQ(defect_of(with_tip_at(0.5)), "self-crossing");
   EXPECT_EQ(defect_of(with_tip_at(std::nextafter(0.5, 1.0))), "self-crossing");
@@ -230,8 +223,7 @@ TEST(Validity, IsNearLinear) {
   Ring comb{{0, 0}, {5000, 0}};
   for (int tooth = 2499; tooth >= 0; --tooth) {
     const double x = 2 * tooth;
-    for (const Point p : {Point{x + 1.5, 100}, Point{x + 1, 1}, Point{x + 0.5, 1}, Point{x, 100}})
-      comb.push_back(p);
+    for (const Point p : {Point{x + 1.5, 100}, Point{x + 1, 1}, Point{x + 0.5, 1}, Point{x, 100}}) comb.push_back(p);
   }
   EXPECT_EQ(defect_of(comb), "valid");
   Ring spiral;
@@ -362,13 +354,12 @@ TEST(Measures, SliversHaveTheMomentsOfTheirTriangle) {
     const Measures m = measure({ring, {}});
     const Vector size = bounding_box(ring).high - bounding_box(ring).low;
     slivers += m.area < 1e-6 * size.x * size.y ? 1 : 0;
-    const Point mean{ring[0].x / 3 + ring[1].x / 3 + ring[2].x / 3,
-                     ring[0].y / 3 + ring[1].y / 3 + ring[2].y / 3};
+    const Point mean{ring[0].x / 3 + ring[1].x / 3 + ring[2].x / 3, ring[0].y / 3 + ring[1].y / 3 + ring[2].y / 3};
     const double reach = std::abs(mean.x) + std::abs(mean.y) + size.x + size.y;
     ASSERT_NEAR(m.centroid.x, mean.x, 1e-8 * size.x + 1e-15 * reach);
     ASSERT_NEAR(m.centroid.y, mean.y, 1e-8 * size.y + 1e-15 * reach);
-    const double sides = squared_length(ring[1] - ring[0]) + squared_length(ring[2] - ring[1]) +
-                         squared_length(ring[0] - ring[2]);
+    const double sides =
+        squared_length(ring[1] - ring[0]) + squared_length(ring[2] - ring[1]) + squared_length(ring[0] - ring[2]);
     ASSERT_NEAR(m.second_moment, m.area / 36 * sides, 1e-8 * m.area * sides);
   }
   EXPECT_GT(slivers, 100);

@@ -136,8 +136,7 @@ TEST(CutByPolygons, FarPartsOfToolsChangeNothing) {
   EXPECT_EQ(cut_by_polygons(square, {island}).error().reason, CutFailure::kMisses);
   EXPECT_EQ(cut_by_polygons(square, {}).error().reason, CutFailure::kMisses);
   const Ring outside{{-9, 0}, {-9, 9}, {-8, 9}};
-  EXPECT_EQ(cut_by_polygon(square, {coast, {outside}}).error().reason, CutFailure::kInvalidTool)
-      << "still judged";
+  EXPECT_EQ(cut_by_polygon(square, {coast, {outside}}).error().reason, CutFailure::kInvalidTool) << "still judged";
 }
 
 TEST(CutByPolygons, TakesWhatAnyToolCovers) {
@@ -282,8 +281,7 @@ TEST(SnapRounding, ANeckNarrowerThanACellParts) {
 
 TEST(SnapRounding, RingsThatTouchStayTogether) {
   // The hole's corner lies on the edge from (0, 0) to (9, 1/3), at 1/3 of it, and is no double.
-  const exact::Polygon polygon{{{0, 0}, {9, Rational(1, 3)}, {9, 9}, {0, 9}},
-                               {{{3, Rational(1, 9)}, {2, 4}, {4, 4}}}};
+  const exact::Polygon polygon{{{0, 0}, {9, Rational(1, 3)}, {9, 9}, {0, 9}}, {{{3, Rational(1, 9)}, {2, 4}, {4, 4}}}};
   for (const Lattice& lattice : {Lattice::of_doubles(), Lattice::spanning(polygon)}) {
     const auto parts = exact::snapped(polygon, lattice);
     ASSERT_TRUE(parts);

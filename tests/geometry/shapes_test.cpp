@@ -116,9 +116,7 @@ TEST(FirstContact, OfTwoSquares) {
 // Before the first touch nothing is shared, a little after it something is; where there is none the two pass.
 TEST(FirstContact, IsWhereOverlapBegins) {
   scenery::Random random(7);
-  const auto star = [&](double radius) {
-    return scenery::random_star(random, 9, 0.3 * radius, radius).outer;
-  };
+  const auto star = [&](double radius) { return scenery::random_star(random, 9, 0.3 * radius, radius).outer; };
   int touching = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const Ring a = star(10), b = moved(star(6), {40, random.between(-25, 25)});
@@ -194,8 +192,7 @@ TEST(Disjoint, RaggedCrowdsComeApartAndTheirAreasAddUp) {
     Random random(7);
     std::vector<Polygon> crowd;
     for (int i = 0; i < 120; ++i)
-      crowd.push_back(
-          ragged(random, {random.between(0, 100), random.between(0, 100)}, random.between(2, 12), 20));
+      crowd.push_back(ragged(random, {random.between(0, 100), random.between(0, 100)}, random.between(2, 12), 20));
     const auto trimmed = make_disjoint(crowd, gap);
     std::vector<Polygon> pieces;
     std::vector<const Polygon*> after, before;
@@ -229,8 +226,7 @@ TEST(Simplified, EveryVertexStaysWithinTheTolerance) {
     for (const Point p : polygon.outer) {
       double nearest = 1e9;
       for (std::size_t k = 0; k < fewer.outer.size(); ++k)
-        nearest = std::min(nearest,
-                           distance_to_segment(p, fewer.outer[k], fewer.outer[(k + 1) % fewer.outer.size()]));
+        nearest = std::min(nearest, distance_to_segment(p, fewer.outer[k], fewer.outer[(k + 1) % fewer.outer.size()]));
       EXPECT_LE(nearest, tolerance * (1 + 1e-12));
     }
   }
@@ -266,10 +262,9 @@ TEST(Overlap, IsRefusedBeyondWhatAreasCanExpress) {
 
 TEST(OverlappingPairs, TellsPairsWithTheirArea) {
   for (const double angle : {0.0, 0.3, 1.0}) {
-    const auto found =
-        find_overlapping_pairs({turned(box(0, 0, 10, 10), angle), turned(box(20, 0, 4, 4), angle),
-                                turned(box(9, 2, 3, 3), angle), turned(box(2, 2, 1, 1), angle)},
-                               100);
+    const auto found = find_overlapping_pairs({turned(box(0, 0, 10, 10), angle), turned(box(20, 0, 4, 4), angle),
+                                               turned(box(9, 2, 3, 3), angle), turned(box(2, 2, 1, 1), angle)},
+                                              100);
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0].first, 0U);
     EXPECT_EQ(found[0].second, 2U);
@@ -295,8 +290,8 @@ TEST(OverlappingPairs, AgreesWithAllPairs) {
   Random random(5);
   std::vector<Polygon> boxes;
   for (int i = 0; i < 150; ++i)
-    boxes.push_back(box(random.between(0, 100), random.between(0, 100), random.between(0.5, 12),
-                        random.between(0.5, 12)));
+    boxes.push_back(
+        box(random.between(0, 100), random.between(0, 100), random.between(0.5, 12), random.between(0.5, 12)));
   boxes.push_back(box(-20, 50, 400, 1));  // one that reaches over everything
   std::vector<std::pair<std::size_t, std::size_t>> expected;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -309,8 +304,7 @@ TEST(OverlappingPairs, AgreesWithAllPairs) {
     }
   }
   std::vector<std::pair<std::size_t, std::size_t>> found;
-  for (const OverlappingPair& o : find_overlapping_pairs(boxes, 100'000))
-    found.emplace_back(o.first, o.second);
+  for (const OverlappingPair& o : find_overlapping_pairs(boxes, 100'000)) found.emplace_back(o.first, o.second);
   EXPECT_GT(expected.size(), 20U);
   EXPECT_EQ(found, expected);
   EXPECT_EQ(find_overlapping_pairs(boxes, 3).size(), 3U);
@@ -393,8 +387,7 @@ TEST(PowerCells, AreThoseOfThePowerDiagramWhateverTheWeights) {
       for (std::size_t k = 0; k < cell.ring.size(); ++k) {
         const Point middle = midpoint(cell.ring[k], cell.ring[(k + 1) % cell.ring.size()]);
         if (cell.beyond[k] == kNoSite) {
-          ASSERT_TRUE(middle.x < -3 + 1e-9 || middle.x > 7 - 1e-9 || middle.y < 100 + 1e-9 ||
-                      middle.y > 104 - 1e-9);
+          ASSERT_TRUE(middle.x < -3 + 1e-9 || middle.x > 7 - 1e-9 || middle.y < 100 + 1e-9 || middle.y > 104 - 1e-9);
         } else {  // an edge is as far from the site beyond it
           ASSERT_NEAR(power(sites[cell.beyond[k]], middle), power(sites[cell.site], middle), 1e-9);
         }

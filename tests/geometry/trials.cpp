@@ -72,8 +72,8 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   }
   // The pieces and what was removed are the parent, exactly, but for what the ledger names: two nearest
   // doubles.
-  const exact::Rational off = sum - exact_area(shape) + exact::Rational(ledger.area_slivers) -
-                              exact::Rational(ledger.rounding_defect);
+  const exact::Rational off =
+      sum - exact_area(shape) + exact::Rational(ledger.area_slivers) - exact::Rational(ledger.rounding_defect);
   if (abs(off) > half_step(ledger.rounding_defect) + half_step(ledger.area_slivers))
     return testing::AssertionFailure() << "the ledger is off by " << off.get_d() << " m²";
   return testing::AssertionSuccess();
@@ -95,8 +95,7 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
   }
   if (!one) {
     if (one.error().reason == other.error().reason) return testing::AssertionSuccess();
-    return testing::AssertionFailure()
-           << name_of(one.error().reason) << " and " << name_of(other.error().reason);
+    return testing::AssertionFailure() << name_of(one.error().reason) << " and " << name_of(other.error().reason);
   }
   const auto listed = [](const CutOutcome& outcome) {
     std::vector<std::tuple<Part, std::vector<exact::Ring>>> pieces;
@@ -112,8 +111,8 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
   if (listed(one) == listed(other)) {
     const double apart = one->ledger.rounding_defect - other->ledger.rounding_defect;
     if (std::abs(apart) < 1e-300) return testing::AssertionSuccess();  // subnormal defects do not scale
-    return testing::AssertionFailure() << "rounding defects differ: " << one->ledger.rounding_defect
-                                       << " and " << other->ledger.rounding_defect;
+    return testing::AssertionFailure() << "rounding defects differ: " << one->ledger.rounding_defect << " and "
+                                       << other->ledger.rounding_defect;
   }
   testing::AssertionResult failure = testing::AssertionFailure();
   failure << one->pieces.size() << " and " << other->pieces.size() << " pieces";

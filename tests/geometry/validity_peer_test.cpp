@@ -57,8 +57,7 @@ TEST(Validity, AgreesWithGeos) {
   for (int i = 0; i < 20000; ++i) {
     const Polygon polygon = roll_polygon(random);
     if (polygon.outer.size() < 3) continue;
-    if (std::any_of(polygon.holes.begin(), polygon.holes.end(),
-                    [](const Ring& hole) { return hole.size() < 3; }))
+    if (std::any_of(polygon.holes.begin(), polygon.holes.end(), [](const Ring& hole) { return hole.size() < 3; }))
       continue;
     const bool ours = !find_defect(polygon);
     ++(ours ? valid : invalid);

@@ -45,8 +45,8 @@ TEST(Splits, RunAtTheForceThatTheyTakeInEveryStep) {
     ASSERT_TRUE(loaded.has_value()) << entry.path();
     simulation::Simulation simulation(std::move(loaded->scene));
     const Shares shares = shares_of(simulation);
-    std::cout << entry.path().stem().string() << ": " << shares.splits << " splits, F/F_max " << shares.least
-              << " to " << shares.most << ", " << simulation.counts().unresolved_splits << " unresolved\n";
+    std::cout << entry.path().stem().string() << ": " << shares.splits << " splits, F/F_max " << shares.least << " to "
+              << shares.most << ", " << simulation.counts().unresolved_splits << " unresolved\n";
     EXPECT_FALSE(simulation.numerical_failure().has_value());
     if (shares.splits == 0) continue;
     splits += shares.splits;

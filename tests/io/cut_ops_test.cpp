@@ -54,12 +54,9 @@ TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {
            {R"([{"line": [1,2,3]}])", "[0]: line: expected", Kind::kMalformed},
            {R"([{"disc": [1,2,3]},])", "1:19: a comma too many", Kind::kMalformed},
            {R"([{"disc": [1e300,0,1]}])", "not-finite", Kind::kInvalidPolygon},
-           {R"json([{"polygon": "POLYGON((0 0,2 2,2 0,0 2))"}])json", "self-crossing at (1, 1)",
-            Kind::kInvalidPolygon},
-           {R"([{"polygon": {"type": "Point", "coordinates": [0,0]}}])", "not-a-polygon",
-            Kind::kInvalidPolygon},
-           {R"([{"polygon": {"type": "MultiPolygon", "coordinates": []}}])", "no polygon",
-            Kind::kMalformed}}) {
+           {R"json([{"polygon": "POLYGON((0 0,2 2,2 0,0 2))"}])json", "self-crossing at (1, 1)", Kind::kInvalidPolygon},
+           {R"([{"polygon": {"type": "Point", "coordinates": [0,0]}}])", "not-a-polygon", Kind::kInvalidPolygon},
+           {R"([{"polygon": {"type": "MultiPolygon", "coordinates": []}}])", "no polygon", Kind::kMalformed}}) {
     const auto ops = read_cut_ops(text, {});
     ASSERT_FALSE(ops.has_value()) << text;
     EXPECT_HAS(ops.error().words, words) << text;
@@ -70,8 +67,7 @@ TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {
 TEST(CutOps, NumbersBetweenCommasAreReadToTheLastBit) {
   const auto numbers = tests::checked(read_numbers("-0.1, 1e-6,+3.3333333333333335", 3));
   EXPECT_EQ(*numbers, (std::vector<double>{-0.1, 1e-6, 3.3333333333333335}));
-  for (const char* text :
-       {"", "1,2", "1,2,3,4", "1,2,", "1;2;3", "1,2,x", "1,2,nan", "1,2,inf", "1,2,1e999", "1 2 3"})
+  for (const char* text : {"", "1,2", "1,2,3,4", "1,2,", "1;2;3", "1,2,x", "1,2,nan", "1,2,inf", "1,2,1e999", "1 2 3"})
     EXPECT_FALSE(read_numbers(text, 3).has_value()) << text;
 }
 

@@ -10,12 +10,11 @@
 namespace polynya::tests {
 
 /// Whether all of the parts, or none of them, stand in a text.
-inline testing::AssertionResult has_parts(std::string_view text,
-                                          std::initializer_list<std::string_view> parts, bool are_wanted) {
+inline testing::AssertionResult has_parts(std::string_view text, std::initializer_list<std::string_view> parts,
+                                          bool are_wanted) {
   for (const std::string_view part : parts) {
     if ((text.find(part) != std::string_view::npos) != are_wanted)
-      return testing::AssertionFailure() << '"' << part << (are_wanted ? "\" is not" : "\" is") << " in\n"
-                                         << text;
+      return testing::AssertionFailure() << '"' << part << (are_wanted ? "\" is not" : "\" is") << " in\n" << text;
   }
   return testing::AssertionSuccess();
 }

@@ -20,13 +20,11 @@ class FloeFile : public testing::Test {
     return read_scene("{" + more + R"("floes": [{"file": "floes.geojson")" + entry + "}]}", "scene.json",
                       folder.path());
   }
-  std::string problems(const std::string& geojson, const std::string& entry = "",
-                       const std::string& more = "") const {
+  std::string problems(const std::string& geojson, const std::string& entry = "", const std::string& more = "") const {
     const auto outcome = read_file(geojson, entry, more);
     return outcome ? "" : in_words(outcome.error());
   }
-  LoadedScene sound(const std::string& geojson, const std::string& entry = "",
-                    const std::string& more = "") const {
+  LoadedScene sound(const std::string& geojson, const std::string& entry = "", const std::string& more = "") const {
     auto outcome = read_file(geojson, entry, more);
     if (outcome) return std::move(*outcome);
     ADD_FAILURE() << in_words(outcome.error());
@@ -44,8 +42,7 @@ std::string floe(double x, double y, double side, const std::string& properties 
                      properties, x, y, x + side, y, x + side, y + side, x, y + side, x, y);
 }
 std::string collection(const std::vector<std::string>& features, const std::string& members = "") {
-  return fmt::format(R"({{"type":"FeatureCollection",{}"features":[{}]}})", members,
-                     fmt::join(features, ","));
+  return fmt::format(R"({{"type":"FeatureCollection",{}"features":[{}]}})", members, fmt::join(features, ","));
 }
 std::string crs(const std::string& name) {
   return R"("crs":{"type":"name","properties":{"name":")" + name + R"("}},)";
@@ -96,8 +93,7 @@ TEST_F(FloeFile, CoordinatesTooFarAwayAreNamedOnce) {
   const std::string found =
       problems(collection({floe(0, 0, 5), floe(1104312.5, -512345.25, 800), floe(1.2e6, 0, 800)}));
   EXPECT_EQ(lines_in(found), 1U) << found;
-  EXPECT_HAS(found, "found [1104312.5, -512345.25], and as far in 1 more", "-1e+06 to 1e+06",
-             R"("shift": true)");
+  EXPECT_HAS(found, "found [1104312.5, -512345.25], and as far in 1 more", "-1e+06 to 1e+06", R"("shift": true)");
   EXPECT_HAS(problems(collection({floe(0, 0, 5), floe(9, 0, 5), floe(1.2e6, 0, 800)})),
              "floes[0].file (its floe 2): found [1200000, 0], allowed");
   EXPECT_HAS(problems(collection({R"({"type":"Polygon","coordinates":[[[0,0],[null,0],[1,1],[0,0]]]})"})),
@@ -123,9 +119,8 @@ TEST_F(FloeFile, TheFloesOfARunMayOverlapAsItLeftThem) {
   EXPECT_HAS(problems(collection(features(2000, true), R"("t_s":120.5,)")), "an overlap with")
       << "nearly all of a floe is not what was crushed";
 
-  const LoadedScene loaded =
-      sound(collection(features(100.01, true), R"("t_s":120.5,)"), R"(, "velocity_m_per_s": [9, 9])",
-            R"("water": {"drift_m_per_s": [0.05, -0.25]}, )");
+  const LoadedScene loaded = sound(collection(features(100.01, true), R"("t_s":120.5,)"),
+                                   R"(, "velocity_m_per_s": [9, 9])", R"("water": {"drift_m_per_s": [0.05, -0.25]}, )");
   const simulation::FloeSpec& fast = loaded.scene.floes.at(0);
   const simulation::FloeSpec& free = loaded.scene.floes[1];
   EXPECT_TRUE(fast.is_fast && !free.is_fast && free.has_crushed_overlaps);
@@ -168,8 +163,7 @@ TEST_F(FloeFile, AWrongLatitudeIsAProblemOfItsFloe) {
 }
 
 TEST_F(FloeFile, PropertiesThatAreNearlyReadAreWarnedOf) {
-  const std::string floes =
-      collection({floe(0, 0, 5, R"("thickness_cm":80)"), floe(9, 0, 5, R"("thickness_m":0.4)")});
+  const std::string floes = collection({floe(0, 0, 5, R"("thickness_cm":80)"), floe(9, 0, 5, R"("thickness_m":0.4)")});
   const LoadedScene loaded = sound(floes);
   EXPECT_EQ(loaded.files.at(0).with_thickness, 1U);
   EXPECT_HAS(
@@ -178,19 +172,16 @@ TEST_F(FloeFile, PropertiesThatAreNearlyReadAreWarnedOf) {
       R"("import": {"properties": "thickness_m=thickness_cm*0.01"} reads it; 1 of 2 floes has a thickness of its own)");
   const LoadedScene named = sound(floes, R"(, "import": {"properties": "thickness_m=thickness_cm*0.01"})");
   EXPECT_EQ(named.scene.floes.size(), 2U);
-  EXPECT_HAS(
-      problems(collection({floe(0, 0, 5, R"("thickness_m":-0.5)"), floe(9, 0, 5, R"("vx_m_per_s":"fast")")})),
-      "features[0].properties.thickness_m: found -0.5, allowed: a number from 0.001 to 20 [m]",
-      "features[1].properties.vx_m_per_s: found \"fast\"");
+  EXPECT_HAS(problems(collection({floe(0, 0, 5, R"("thickness_m":-0.5)"), floe(9, 0, 5, R"("vx_m_per_s":"fast")")})),
+             "features[0].properties.thickness_m: found -0.5, allowed: a number from 0.001 to 20 [m]",
+             "features[1].properties.vx_m_per_s: found \"fast\"");
 }
 
 TEST_F(FloeFile, AnImportRepairsTrimsAndReports) {
   const std::string bow = R"({"type":"Polygon","coordinates":[[[60,0],[64,3],[64,0],[60,3],[60,0]]]})";
-  const std::string floes =
-      collection({floe(0, 0, 10), floe(8, 0, 4, R"("THICK":80)"), bow, floe(100, 0, 1)});
-  const LoadedScene loaded = sound(
-      floes,
-      R"(, "import": {"repair": "even-odd", "min_area_m2": 2, "properties": "thickness_m=THICK*0.01"})");
+  const std::string floes = collection({floe(0, 0, 10), floe(8, 0, 4, R"("THICK":80)"), bow, floe(100, 0, 1)});
+  const LoadedScene loaded =
+      sound(floes, R"(, "import": {"repair": "even-odd", "min_area_m2": 2, "properties": "thickness_m=THICK*0.01"})");
   EXPECT_EQ(loaded.scene.floes.size(), 4U);
   const ImportTotals& totals = loaded.files.at(0).totals.value();
   EXPECT_EQ(totals.trimmed + totals.repaired + totals.dropped, 3U);

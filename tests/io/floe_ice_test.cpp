@@ -28,8 +28,7 @@ const fracture::Ice& ice_at(const LoadedScene& loaded, std::size_t floe) {
 
 TEST(FloeIce, KeysAndRangesAreThoseOfTheScenesIce) {
   for (const FloeIceProperty& property : floe_ice_properties()) {
-    for (const Object* object :
-         std::initializer_list<const Object*>{&ice_description(), &floe_ice_description()}) {
+    for (const Object* object : std::initializer_list<const Object*>{&ice_description(), &floe_ice_description()}) {
       const auto field = std::ranges::find(object->fields, property.key, &Field::key);
       ASSERT_NE(field, object->fields.end()) << property.key;
       EXPECT_EQ(field->unit, property.unit);
@@ -97,10 +96,10 @@ class FloeIceFile : public testing::Test {
 };
 
 TEST_F(FloeIceFile, FeaturesGiveTheirsBeforeTheEntryAndTheScene) {
-  const auto loaded = tests::checked(read_file(
-      feature(0, R"("thickness_m":0.9,"name":"a")") + "," +
-          feature(1000, R"("thickness_m":null,"fracture_toughness_Pa_sqrt_m":2e5)") + "," + feature(2000, ""),
-      R"(, "ice": {"thickness_m": 0.7, "tensile_strength_Pa": {"spread": 0.3}})"));
+  const auto loaded = tests::checked(
+      read_file(feature(0, R"("thickness_m":0.9,"name":"a")") + "," +
+                    feature(1000, R"("thickness_m":null,"fracture_toughness_Pa_sqrt_m":2e5)") + "," + feature(2000, ""),
+                R"(, "ice": {"thickness_m": 0.7, "tensile_strength_Pa": {"spread": 0.3}})"));
   EXPECT_EQ(ice_at(*loaded, 0).thickness, 0.9);
   EXPECT_EQ(ice_at(*loaded, 1).thickness, 0.7);
   EXPECT_EQ(ice_at(*loaded, 1).fracture_toughness, 2e5);
@@ -110,8 +109,7 @@ TEST_F(FloeIceFile, FeaturesGiveTheirsBeforeTheEntryAndTheScene) {
 
 TEST_F(FloeIceFile, OfTheWrongTypeOrSignAreRefusedAtTheirPlace) {
   for (const char* wrong : {R"("0.5")", "-0.5", "true", "50"}) {
-    const auto outcome =
-        read_file(feature(0, "") + ",\n" + feature(1000, fmt::format(R"("thickness_m":{})", wrong)));
+    const auto outcome = read_file(feature(0, "") + ",\n" + feature(1000, fmt::format(R"("thickness_m":{})", wrong)));
     ASSERT_FALSE(outcome.has_value()) << wrong;
     const std::string text = to_string(outcome.error().front());
     EXPECT_HAS(text, "floes.geojson:2:");
@@ -121,8 +119,8 @@ TEST_F(FloeIceFile, OfTheWrongTypeOrSignAreRefusedAtTheirPlace) {
 }
 
 TEST_F(FloeIceFile, WhatARunWritesReadsBack) {
-  const auto loaded = tests::checked(
-      read_file(feature(0, R"("thickness_m":0.9,"density_kg_per_m3":870)") + "," + feature(1000, "")));
+  const auto loaded =
+      tests::checked(read_file(feature(0, R"("thickness_m":0.9,"density_kg_per_m3":870)") + "," + feature(1000, "")));
   const simulation::Simulation simulation(loaded->scene);
   write_file(folder / "again.geojson", to_geojson(simulation.floe_states(), 0));
   const auto again =

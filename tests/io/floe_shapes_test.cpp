@@ -60,8 +60,7 @@ Family roll_family(std::mt19937& random, int cuts) {
     const auto chosen = static_cast<std::size_t>(dice.below(static_cast<int>(living.size())));
     const auto [parent, shape] = living[chosen];
     const auto knives = geometry::trials::roll_knives(dice, shape.polygon);
-    const auto cut =
-        knives.is_crack ? cut_along(shape, knives.crack) : cut_by_polygons(shape, knives.polygons);
+    const auto cut = knives.is_crack ? cut_along(shape, knives.crack) : cut_by_polygons(shape, knives.polygons);
     if (!cut) continue;
     living.erase(living.begin() + static_cast<std::ptrdiff_t>(chosen));
     for (const geometry::Piece& piece : cut->pieces) {
@@ -82,8 +81,8 @@ tl::expected<FloeShapes, std::string> read_lines(const std::string& text) {
     if (!shape) return tl::unexpected(shape.error());
     const JsonValue* parent = line.root.find("parent_id");
     const bool has_parent = parent && parent->is(JsonValue::Kind::kNumber);
-    const auto added = shapes.add(std::move(*shape),
-                                  has_parent ? static_cast<FloeId>(parent->number()) : simulation::kNoFloe);
+    const auto added =
+        shapes.add(std::move(*shape), has_parent ? static_cast<FloeId>(parent->number()) : simulation::kNoFloe);
     if (!added) return tl::unexpected(added.error());
     start = end + 1;
   }
@@ -167,8 +166,7 @@ TEST(FloeShapes, ALineHoldsWhatIsNew) {
 TEST(FloeShapes, ABiteOutOfALongBoundaryIsAFewEntries) {
   Ring ring;
   for (int i = 0; i < 1000; ++i)
-    ring.push_back(
-        {1000 * std::cos(0.002 * 3.14159265358979 * i), 1000 * std::sin(0.002 * 3.14159265358979 * i)});
+    ring.push_back({1000 * std::cos(0.002 * 3.14159265358979 * i), 1000 * std::sin(0.002 * 3.14159265358979 * i)});
   for (const int turn : {0, 1, 500, 999}) {
     Ring bitten(ring.begin() + 10, ring.end());
     bitten.push_back({900, 10});
@@ -225,18 +223,16 @@ TEST(FloeShapes, DamagedPartsAreRefusedWithTheReason) {
       {"[[[1,\"2\"]]]", "text where a coordinate"},
       {"[[0,0,2]]", "ring 0 has 2 vertices"},
       {"[]", "ring 0 has 0 vertices"}};
-  for (auto& [parts, reason] : lines)
-    parts = R"("parent_id":0,"ring_parts_m":)" + parts + R"(,"hole_parts_m":[])";
-  lines.insert(lines.end(),
-               {{R"("parent_id":0,"ring_parts_m":[[0,0,4]],"hole_parts_m":[[]])", "ring 1 has 0 vertices"},
-                {R"("parent_id":0,"ring_parts_m":[[0,0,4]])", "\"hole_parts_m\" is missing"},
-                {R"("parent_id":0,"ring_m":[[0,0],[1,0],[1,1]])", "\"holes_m\" is missing"},
-                {R"("parent_id":0)", "\"ring_m\" is missing"},
-                {R"("parent_id":0,"ring_m":[],"holes_m":[])", "ring 0 has 0 vertices"},
-                {R"("parent_id":0,"ring_m":[[0,0],[1,1]],"holes_m":[])", "ring 0 has 2 vertices"},
-                {R"("parent_id":null,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"},
-                {R"("parent_id":1,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"},
-                {R"("parent_id":2,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"}});
+  for (auto& [parts, reason] : lines) parts = R"("parent_id":0,"ring_parts_m":)" + parts + R"(,"hole_parts_m":[])";
+  lines.insert(lines.end(), {{R"("parent_id":0,"ring_parts_m":[[0,0,4]],"hole_parts_m":[[]])", "ring 1 has 0 vertices"},
+                             {R"("parent_id":0,"ring_parts_m":[[0,0,4]])", "\"hole_parts_m\" is missing"},
+                             {R"("parent_id":0,"ring_m":[[0,0],[1,0],[1,1]])", "\"holes_m\" is missing"},
+                             {R"("parent_id":0)", "\"ring_m\" is missing"},
+                             {R"("parent_id":0,"ring_m":[],"holes_m":[])", "ring 0 has 0 vertices"},
+                             {R"("parent_id":0,"ring_m":[[0,0],[1,1]],"holes_m":[])", "ring 0 has 2 vertices"},
+                             {R"("parent_id":null,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"},
+                             {R"("parent_id":1,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"},
+                             {R"("parent_id":2,"ring_parts_m":[[0,0,4]],"hole_parts_m":[])", "not on a line before"}});
   for (const auto& [members, reason] : lines) {
     const auto shapes = read_lines(parent + "\n{\"floe_id\":1," + members + "}\n");
     ASSERT_FALSE(shapes.has_value()) << members;

@@ -68,8 +68,8 @@ TEST(FloeText, TheFormatIsToldByContent) {
   const std::string collection = R"({"type":"FeatureCollection","features":[
 {"type":"Feature","properties":{"floe_id":7},"geometry":)" +
                                  kSquareText + "}\n]}\n";
-  for (const std::string& text : {kSquareText, kSquareText + "\n", "\xEF\xBB\xBF \n" + kSquareText,
-                                  collection, "// a note\n" + kSquareText})
+  for (const std::string& text :
+       {kSquareText, kSquareText + "\n", "\xEF\xBB\xBF \n" + kSquareText, collection, "// a note\n" + kSquareText})
     EXPECT_EQ(read(text).format, FloeFormat::kGeojson) << text;
   for (const std::string& text :
        {kSquareText + "\n" + kSquareText, "\n" + kSquareText + "\r\n\r\n" + kSquareText + "\r\n",
@@ -159,8 +159,7 @@ TEST(FloeText, ABadLineOfNdjsonIsRefusedWhereverItStands) {
 }
 
 TEST(FloeText, CommentsAndBlankLinesOfNdjsonArePassedOver) {
-  const FloeText floes =
-      read("# from survey 7\n\n" + kSquareText + "\n// the second\n  # and\n" + kSquareText + "\n");
+  const FloeText floes = read("# from survey 7\n\n" + kSquareText + "\n// the second\n  # and\n" + kSquareText + "\n");
   EXPECT_EQ(floes.format, FloeFormat::kNdjson);
   ASSERT_EQ(floes.entries.size(), 2U);
   EXPECT_EQ(floes.entries[0].line, 3U);
@@ -174,9 +173,9 @@ TEST(FloeText, CommentsAndBlankLinesOfNdjsonArePassedOver) {
 
 TEST(FloeText, AFaultOfGeojsonIsNotTakenForNdjson) {
   const std::string begin = "{\"type\":\"GeometryCollection\",\"geometries\":[\n";
-  for (const std::string& text : {begin + kSquareText + ",\n" + kSquareText + "\n" + kSquareText + "\n]}\n",
-                                  begin + kSquareText, begin + kSquareText + ",\n" + kSquareText + ",\n]}\n",
-                                  begin + kSquareText + ",\n" + kSquareText + "\n]\n"}) {
+  for (const std::string& text :
+       {begin + kSquareText + ",\n" + kSquareText + "\n" + kSquareText + "\n]}\n", begin + kSquareText,
+        begin + kSquareText + ",\n" + kSquareText + ",\n]}\n", begin + kSquareText + ",\n" + kSquareText + "\n]\n"}) {
     const auto floes = read_floe_text(text);
     ASSERT_FALSE(floes.has_value()) << text;
     EXPECT_HAS(floes.error(), "(read as GeoJSON)");
@@ -219,8 +218,7 @@ TEST(FloeText, NumbersThatAreNoneBecomeNan) {
     [[[NaN,0],[4,-Infinity],[1e999,null]]], [[[0,0],[1e-999,0],[4,4]]]]})");
   ASSERT_EQ(floes.entries.size(), 2U);
   const Ring& ring = floes.entries[0].polygon.outer;
-  EXPECT_TRUE(std::isnan(ring[0].x) && std::isnan(ring[1].y) && std::isnan(ring[2].x) &&
-              std::isnan(ring[2].y));
+  EXPECT_TRUE(std::isnan(ring[0].x) && std::isnan(ring[1].y) && std::isnan(ring[2].x) && std::isnan(ring[2].y));
   EXPECT_EQ(ring[1].x, 4);
   EXPECT_EQ(floes.entries[1].polygon.outer[1], (Point{0, 0}));
   const Ring wkt = read("POLYGON ((nan inf, 1e999 1e-999, -Infinity 3))").entries.front().polygon.outer;
@@ -233,12 +231,10 @@ TEST(FloeText, ARunsFloesMayBePartsOfEarlierOnes) {
       R"({"floe_id":3,"parent_id":null,"ring_m":[[0,0],[4,0],[4,4],[0,4]],"holes_m":[[[1,1],[1,2],[2,1]]]})";
   const std::string second =
       R"({"floe_id":7,"parent_id":3,"ring_parts_m":[[0,2,3],[[3,0],[4,1]]],"hole_parts_m":[[[1,0,3]]]})";
-  const std::string third =
-      R"({"floe_id":9,"parent_id":7,"ring_parts_m":[[0,4,4],[[1,5]]],"hole_parts_m":[]})";
+  const std::string third = R"({"floe_id":9,"parent_id":7,"ring_parts_m":[[0,4,4],[[1,5]]],"hole_parts_m":[]})";
   const FloeText floes = read(first + "\n" + second + "\n" + third + "\n");
   ASSERT_EQ(floes.entries.size(), 3U);
-  EXPECT_EQ(floes.entries[1].polygon,
-            (Polygon{{{4, 4}, {0, 4}, {0, 0}, {3, 0}, {4, 1}}, {{{1, 1}, {1, 2}, {2, 1}}}}));
+  EXPECT_EQ(floes.entries[1].polygon, (Polygon{{{4, 4}, {0, 4}, {0, 0}, {3, 0}, {4, 1}}, {{{1, 1}, {1, 2}, {2, 1}}}}));
   EXPECT_EQ(floes.entries[2].polygon, (Polygon{{{4, 1}, {4, 4}, {0, 4}, {0, 0}, {1, 5}}, {}}));
   EXPECT_EQ(floes.entries[2].floe_id, 9);
   const FloeText orphans = read(first + "\n" + third + "\n" + second + "\n");
@@ -246,8 +242,7 @@ TEST(FloeText, ARunsFloesMayBePartsOfEarlierOnes) {
   EXPECT_HAS(orphans.entries[1].detail, "floe 7, of which no line stands before");
   EXPECT_EQ(orphans.entries[1].line, 2U);
   EXPECT_EQ(orphans.entries[2].polygon, floes.entries[1].polygon);
-  const FloeText wrong =
-      read(first + "\n" + R"({"parent_id":-3,"ring_parts_m":[[0,0,3]],"hole_parts_m":[]})");
+  const FloeText wrong = read(first + "\n" + R"({"parent_id":-3,"ring_parts_m":[[0,0,3]],"hole_parts_m":[]})");
   EXPECT_EQ(wrong.entries[1].refusal, "malformed");
   EXPECT_HAS(wrong.entries[1].detail, "without a \"parent_id\"");
 }
@@ -259,8 +254,7 @@ TEST(FloeText, PartsOfOneLongShapeAreNotReadWithoutEnd) {
   text.back() = ']';
   text += ",\"holes_m\":[]}\n";
   for (int i = 1; i <= 1'010; ++i)
-    text +=
-        fmt::format(R"({{"floe_id":{},"parent_id":0,"ring_parts_m":[[0,0,3]],"hole_parts_m":[]}})", i) + "\n";
+    text += fmt::format(R"({{"floe_id":{},"parent_id":0,"ring_parts_m":[[0,0,3]],"hole_parts_m":[]}})", i) + "\n";
   const FloeText floes = read(text);
   EXPECT_TRUE(floes.entries[1'000].refusal.empty());
   EXPECT_HAS(floes.entries[1'001].detail, "more than 20000000 vertices");
@@ -301,8 +295,7 @@ TEST(FloeText, AnyDamageIsSurvived) {
       readable += read_floe_text(text.substr(0, length)) ? 1 : 0;
     for (int trial = 0; trial < 3000; ++trial) {
       std::string damaged = text;
-      for (int i = 0; i < 3; ++i)
-        damaged[dice() % damaged.size()] = "{}[](),:\"\\ \n/*#0-eNZ;\x1E\xFF\0"[dice() % 24];
+      for (int i = 0; i < 3; ++i) damaged[dice() % damaged.size()] = "{}[](),:\"\\ \n/*#0-eNZ;\x1E\xFF\0"[dice() % 24];
       readable += read_floe_text(damaged) ? 1 : 0;
     }
   }

@@ -55,8 +55,7 @@ TEST(Frames, TellEveryMotionWithinTheTolerances) {
     const Frame& frame = (*frames)[k];
     ASSERT_EQ(frame.ships.size(), 1U);
     EXPECT_EQ(frame.ships[0].velocity.y, 5);
-    for (const FloeMotion& floe : frame.floes)
-      told[static_cast<std::size_t>(floe.floe)] = {frame.time, floe.motion};
+    for (const FloeMotion& floe : frame.floes) told[static_cast<std::size_t>(floe.floe)] = {frame.time, floe.motion};
     records += frame.floes.size();
     for (const FloeMotion& floe : truth[k]) {
       const auto& [time, motion] = told[static_cast<std::size_t>(floe.floe)];

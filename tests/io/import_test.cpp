@@ -67,8 +67,7 @@ Point polar_stereographic(double latitude, double longitude) {
 
 TEST(Projection, OfPolarStereographicIsItsClosedForm) {
   const auto steps = tests::checked(Projection::between("OGC:CRS84", "EPSG:3413"));
-  for (const auto& [latitude, longitude] :
-       {std::pair{78.2, 15.6}, {70.0, -45.0}, {89.0, 170.0}, {65.0, -100.0}}) {
+  for (const auto& [latitude, longitude] : {std::pair{78.2, 15.6}, {70.0, -45.0}, {89.0, 170.0}, {65.0, -100.0}}) {
     std::vector<Point> points{{longitude, latitude}};
     steps->apply(points);
     const Point expected = polar_stereographic(latitude, longitude);
@@ -175,8 +174,7 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
            {square(15.6, -75.1, 0.01),
             degrees,
             about(78.2, 15.6),
-            {"75.1° S, 15.6° E lies 17", "km from the origin at 78.2° N", "in the other hemisphere",
-             "origin -75.1"}},
+            {"75.1° S, 15.6° E lies 17", "km from the origin at 78.2° N", "in the other hemisphere", "origin -75.1"}},
            {square(78.2, 15.6, 0.01), degrees, about(78.2, 15.6), {"exchanged", "[longitude, latitude]"}},
            {square(15.6, 110, 0.01),
             degrees,
@@ -186,10 +184,7 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
            {arctic, degrees, to_degrees, {"EPSG:4326 (WGS 84) is not a plane in metres"}},
            {arctic, degrees, to_nowhere, {"PROJ knows no coordinate system \"EPSG:99\""}},
            {arctic, degrees, from_polar, {"names its own coordinate system, EPSG:4326"}},
-           {square(1.2e6, 0, 800),
-            "EPSG:3413",
-            plane(),
-            {"found [1200000, 0]", "-1e+06 to 1e+06", "shift them"}},
+           {square(1.2e6, 0, 800), "EPSG:3413", plane(), {"found [1200000, 0]", "-1e+06 to 1e+06", "shift them"}},
            {metres,
             "+proj=nonsense",
             plane(),
@@ -207,8 +202,7 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
 TEST(Plane, AWrongNumberDoesNotMoveTheOriginThatIsChosen) {
   PlaneSettings settings = plane();
   settings.chooses_origin = true;
-  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.01), square(15.62, 78.2, 0.01),
-                                square(78.2, 15.6, 0.01)};
+  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.01), square(15.62, 78.2, 0.01), square(78.2, 15.6, 0.01)};
   std::vector<std::string> refused(floes.size());
   const auto report = tests::checked(bring_to_plane(floes, refused, "EPSG:4326", settings));
   EXPECT_NEAR(report->origin->latitude / kRad, 78.205, 0.001);
@@ -274,8 +268,8 @@ TEST(FloeImport, WrongNumbersInDegreesRefuseTheirFloesAlone) {
         if (!is_of_one_vertex || &p == &floes[i].polygon.outer[2])
           p = i < wrong ? damaged(p, kind) : Point{p.x + turn, p.y};
     }
-    SCOPED_TRACE(fmt::format("trial {}, way {}, damage {} of {} floes, one vertex {}", trial, way, kind,
-                             wrong, is_of_one_vertex));
+    SCOPED_TRACE(fmt::format("trial {}, way {}, damage {} of {} floes, one vertex {}", trial, way, kind, wrong,
+                             is_of_one_vertex));
     const auto outcome = import_floes(floes, {}, systems[way], ways[way]);
     if (!outcome) {
       ++refused_files;
@@ -342,19 +336,13 @@ TEST(FloeProperties, WrongTypesAndSignsAreRefusedWithWhatIsAllowed) {
   EXPECT_NEAR(*read_floe_properties(parse_json(R"({"THICK": 80})").root, names, bad).thickness, 0.8, 1e-15);
   EXPECT_FALSE(read_floe_properties(parse_json(R"({"THICK": 0})").root, names, bad).thickness);
   EXPECT_EQ(bad.at(0).found, "0, which is 0");
-  for (const char* wrong :
-       {"thickness_m", "thicknes_m=H", "thickness_m=", "thickness_m=H*much", "thickness_m=H*0"})
+  for (const char* wrong : {"thickness_m", "thicknes_m=H", "thickness_m=", "thickness_m=H*much", "thickness_m=H*0"})
     EXPECT_FALSE(add_property_name(wrong, names)) << wrong;
 }
 
 TEST(FloeImport, EveryChangeIsItemisedAndTheAreasAddUp) {
-  std::vector<SourceFloe> floes{square(0, 0, 100),
-                                square(90, 10, 30),
-                                square(300, 0, 40),
-                                square(300, 0, 40),
-                                square(500, 0, 1),
-                                {},
-                                {}};
+  std::vector<SourceFloe> floes{
+      square(0, 0, 100), square(90, 10, 30), square(300, 0, 40), square(300, 0, 40), square(500, 0, 1), {}, {}};
   floes[5].polygon.outer = {{600, 0}, {640, 30}, {640, 0}, {600, 30}};  // a bow tie
   floes[6].polygon.outer = {{700, 0}, {750, 0.1}, {800, 0}, {800, 50}, {700, 50}};
   ImportSettings settings;
@@ -376,10 +364,10 @@ TEST(FloeImport, EveryChangeIsItemisedAndTheAreasAddUp) {
   EXPECT_EQ(totals.area_dropped, 1);
   EXPECT_EQ(totals.area_repaired, 600);
   EXPECT_EQ(totals.area_read, 10000 + 900 + 1600 + 1600 + 1 + 0 + geometry::exact_area(floes[6].polygon));
-  EXPECT_NEAR(totals.area_written,
-              totals.area_read + totals.area_repaired + totals.area_simplified - totals.area_trimmed -
-                  totals.area_dropped,
-              1e-9);
+  EXPECT_NEAR(
+      totals.area_written,
+      totals.area_read + totals.area_repaired + totals.area_simplified - totals.area_trimmed - totals.area_dropped,
+      1e-9);
   EXPECT_EQ(imported->items.size(), 5U);
   EXPECT_EQ(imported->items[0].yields, std::vector<std::size_t>{0});
   std::vector<Polygon> written;

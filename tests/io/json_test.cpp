@@ -59,8 +59,7 @@ TEST(JsonParser, TellsASecondKeyAndKeepsTheFirst) {
 
 TEST(JsonParser, BoundsNesting) {
   const auto nested = [](int depth) {
-    return std::string(static_cast<std::size_t>(depth), '[') +
-           std::string(static_cast<std::size_t>(depth), ']');
+    return std::string(static_cast<std::size_t>(depth), '[') + std::string(static_cast<std::size_t>(depth), ']');
   };
   EXPECT_TRUE(parse_json(nested(kDeepestNesting)).faults.empty());
   const JsonDocument deep = parse_json(nested(1'000'000));
@@ -69,11 +68,9 @@ TEST(JsonParser, BoundsNesting) {
 }
 
 TEST(JsonParser, FaultsAreReportedInPlainWordsWhereTheyAre) {
-  const std::string value =
-      "allowed: an object, a list, text in double quotes, a number, true, false or null";
+  const std::string value = "allowed: an object, a list, text in double quotes, a number, true, false or null";
   const std::string nothing = "found the end of the text, " + value;
-  for (const auto& [text, offset, message] :
-       std::initializer_list<std::tuple<std::string, std::size_t, std::string>>{
+  for (const auto& [text, offset, message] : std::initializer_list<std::tuple<std::string, std::size_t, std::string>>{
            {R"({"a": 1 "b": 2})", 8, "a comma is missing before \"b\""},
            {"{\n  \"a\": {\"c\": 1} // note\n  \"b\": 2\n}", 28,
             "a comma is missing before \"b\", at the end of line 2"},
@@ -84,8 +81,7 @@ TEST(JsonParser, FaultsAreReportedInPlainWordsWhereTheyAre) {
            {R"({"a": 1, /* }] */ })", 7, "a comma too many: only '}' follows it"},
            {"[1,,2]", 3, "a comma too many: nothing stands before it"},
            {"[,1]", 1, "a comma too many: nothing stands before it"},
-           {"{\n\"a\": [1,\n2", 12,
-            "the text ends, but the list that begins on line 2 is not closed with ']'"},
+           {"{\n\"a\": [1,\n2", 12, "the text ends, but the list that begins on line 2 is not closed with ']'"},
            {R"({"a": 1; "b": 2})", 7, "found ';', allowed: a comma, or '}'"},
            {R"({name: 1})", 1, "found 'name', allowed: a key in double quotes"},
            {R"({"a" = 1})", 5, "found '=', allowed: a colon between a key and its value"},
@@ -134,8 +130,7 @@ TEST(JsonWriter, NumbersReadBackToTheSameDouble) {
 }
 
 TEST(JsonWriter, WhatIsWrittenReadsBack) {
-  const std::string text =
-      R"({"a": [1, [2, 3.5]], "b": {"c": "x\"\\\ny\u0001é", "d": [true, null, {}], "e": []}})";
+  const std::string text = R"({"a": [1, [2, 3.5]], "b": {"c": "x\"\\\ny\u0001é", "d": [true, null, {}], "e": []}})";
   const std::string once = to_json_text(parse_json(text).root);
   const JsonDocument again = parse_json(once);
   ASSERT_TRUE(again.faults.empty()) << once;

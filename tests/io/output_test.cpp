@@ -91,8 +91,7 @@ TEST(OutputFile, ReplacesNoPipeNoDeviceAndNoFolder) {
 TEST(OutputFile, WritesThroughNoLinkThatWasPutInItsWay) {
   const TemporaryFolder folder;
   write_file(folder / "precious", "years of work");
-  for (const char* name : {"grown", "cut", "whole.part"})
-    std::filesystem::create_symlink("precious", folder / name);
+  for (const char* name : {"grown", "cut", "whole.part"}) std::filesystem::create_symlink("precious", folder / name);
   EXPECT_TRUE(write_whole_file(folder / "whole", "text").has_value());
   EXPECT_EQ(read_file(folder / "whole"), "text");
   auto grown = tests::checked(OutputFile::create(folder / "grown"));
@@ -135,9 +134,7 @@ TEST(OutputFile, InPartsLeavesTheOldFileAndNoOtherWhereItsTextOrTheDiskFails) {
     write("half of it");
     throw std::bad_alloc();
   };
-  const auto descriptors = [] {
-    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
-  };
+  const auto descriptors = [] { return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}); };
   const auto before = descriptors();
   EXPECT_THROW(static_cast<void>(write_whole_file_in_parts(folder / "file", throws)), std::bad_alloc);
   EXPECT_EQ(descriptors(), before);

@@ -42,10 +42,9 @@ TEST(RunFolder, RefusesWhatIsNotEmptyAndWritesNothingThere) {
 /// A run folder of this version or, without the mark, of an earlier one.
 void write_run(const fs::path& run, bool is_marked) {
   for (const auto name : run_file::kAll) write_file(run / name, "old");
-  for (const auto name :
-       {"failure.bin", "figure-loads.svg", "figure-loads.png", "checkpoint-000000000100.bin",
-        "checkpoint-000000000200.bin.part", "summary.json.part", "rejected-cuts/000001.geojson",
-        "rejected-cuts/000001-ops.json", "rejected-cuts/000002.geojson.part"})
+  for (const auto name : {"failure.bin", "figure-loads.svg", "figure-loads.png", "checkpoint-000000000100.bin",
+                          "checkpoint-000000000200.bin.part", "summary.json.part", "rejected-cuts/000001.geojson",
+                          "rejected-cuts/000001-ops.json", "rejected-cuts/000002.geojson.part"})
     write_file(run / name, "old");
   if (is_marked) write_file(run / run_file::kLock, "");
 }
@@ -201,8 +200,7 @@ TEST(Checkpoints, RewindingRemovesWhatIsNewerAndTakesOneFromElsewhere) {
   const fs::path ten = folder / "checkpoint-000000000010.bin";
   EXPECT_TRUE(rewind_to(folder.path(), checkpoint_at(10), ten).has_value());
   EXPECT_EQ(steps_in(folder.path()), std::vector<std::int64_t>{10});
-  EXPECT_TRUE(
-      rewind_to(folder.path(), checkpoint_at(5), elsewhere / "checkpoint-000000000005.bin").has_value());
+  EXPECT_TRUE(rewind_to(folder.path(), checkpoint_at(5), elsewhere / "checkpoint-000000000005.bin").has_value());
   EXPECT_EQ(steps_in(folder.path()), std::vector<std::int64_t>{5});
 }
 

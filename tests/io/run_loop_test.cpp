@@ -26,8 +26,7 @@ TEST(RunLoop, ReportsProgressAndFinishesTheFolder) {
   const LoadedScene small = small_scene();
   auto run = checked(start_run(folder / "run", small));
   std::vector<double> times;
-  const RunResult result =
-      run_to_end(*run, {.progress = [&](const RunStatus& at) { times.push_back(at.time); }});
+  const RunResult result = run_to_end(*run, {.progress = [&](const RunStatus& at) { times.push_back(at.time); }});
   EXPECT_EQ(result.end, RunEnd::kFinished);
   EXPECT_EQ(result.reason, "");
   EXPECT_EQ(result.summary.steps, 200);
@@ -58,17 +57,16 @@ TEST(RunLoop, AStoppedRunIsResumedToTheSameBytes) {
   auto lock = checked(RunLock::take(folder / "run"));
   auto resumed = checked(resume_run(std::move(*lock), small, checkpoints.front()));
   EXPECT_EQ(run_to_end(*resumed).end, RunEnd::kFinished);
-  for (const auto name :
-       {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames, run_file::kStates,
-        run_file::kContacts, run_file::kCrushed, run_file::kFinalGeojson})
+  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames, run_file::kStates,
+                          run_file::kContacts, run_file::kCrushed, run_file::kFinalGeojson})
     EXPECT_EQ(read_file(folder / "run" / name), read_file(folder / "whole" / name)) << name;
 }
 
 TEST(RunLoop, ANumericalFailureAndALostFolderAreResults) {
   const TemporaryFolder folder;
   const LoadedScene small = small_scene();
-  const LoadedScene runaway = load(scene({R"("time": {"step_s": 0.01, "until_s": 60})",
-                                          list("ships", {ship(R"("propulsion": {"thrust_N": 9e8})")})}));
+  const LoadedScene runaway = load(scene(
+      {R"("time": {"step_s": 0.01, "until_s": 60})", list("ships", {ship(R"("propulsion": {"thrust_N": 9e8})")})}));
   auto broken = checked(start_run(folder / "broken", runaway));
   const RunResult failed = run_to_end(*broken);
   EXPECT_EQ(failed.end, RunEnd::kNumericalFailure);

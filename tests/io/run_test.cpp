@@ -57,8 +57,7 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
   const auto frame = [&] {
     writer->frame(simulation);
     recorded.frames.emplace_back(simulation.time(), simulation.floe_states());
-    for (const auto& state : simulation.contact_states())
-      recorded.contacts.push_back({simulation.time(), state});
+    for (const auto& state : simulation.contact_states()) recorded.contacts.push_back({simulation.time(), state});
     auto& points = recorded.centroids.emplace_back(simulation.time(), std::vector<geometry::Point>{}).second;
     for (const auto& state : recorded.frames.back().second) {
       points.push_back(transform(state.world_from_body, geometry::measure(*state.polygon_in_body).centroid));
@@ -119,8 +118,7 @@ TEST(Run, AnEventOfASplitStatesAndReadsBackBothSides) {
 
 auto fields_of(const simulation::ContactState& state) {
   const auto& [on, by, point, force, depth, is_crushing] = state;
-  return std::tuple(on.ship, on.floe, by.ship, by.floe, point.x, point.y, force.x, force.y, depth,
-                    is_crushing);
+  return std::tuple(on.ship, on.floe, by.ship, by.floe, point.x, point.y, force.x, force.y, depth, is_crushing);
 }
 
 class RunFiles : public testing::Test {
@@ -227,10 +225,9 @@ TEST(EventFields, AreDocumented) {
   constexpr std::size_t kKinds = std::variant_size_v<Kinds>;
   constexpr std::size_t kOfIce = count_kinds_of_ice(static_cast<const Kinds*>(nullptr));
   for (const EventField& field : event_fields()) {
-    const std::string of = field.kinds.size() == kKinds ? "all"
-                           : field.kinds.size() == kOfIce
-                               ? "all of ice"
-                               : fmt::format("`{}`", fmt::join(field.kinds, "`, `"));
+    const std::string of = field.kinds.size() == kKinds   ? "all"
+                           : field.kinds.size() == kOfIce ? "all of ice"
+                                                          : fmt::format("`{}`", fmt::join(field.kinds, "`, `"));
     const std::string unit = field.meaning.unit.empty() ? "" : fmt::format(" [{}]", field.meaning.unit);
     const std::string row = fmt::format("| `{}{}` | {} | {}{} |\n", field.is_of_criterion ? "criterion." : "",
                                         field.key, of, field.meaning.meaning, unit);
@@ -315,11 +312,9 @@ TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
   const std::string summary = text(run_file::kSummary), version = "\"folder_version\": 4,";
   EXPECT_EQ(refusal(run_file::kSummary, replaced(summary, version, "")), "");
   const io::Run run = read();
-  for (const simulation::Birth& birth : recorded.births)
-    EXPECT_EQ(*run.shape(birth.floe), birth.polygon_in_body);
+  for (const simulation::Birth& birth : recorded.births) EXPECT_EQ(*run.shape(birth.floe), birth.polygon_in_body);
   for (const char* other : {"\"folder_version\": 5,", R"("folder_version": "3",)"})
-    EXPECT_HAS(refusal(run_file::kSummary, replaced(summary, version, other)),
-               "summary.json: a run folder of version");
+    EXPECT_HAS(refusal(run_file::kSummary, replaced(summary, version, other)), "summary.json: a run folder of version");
 }
 
 /// Level ice: every cusp leaves the same plate with a longer boundary. Later lines are as short as early
@@ -358,10 +353,10 @@ TEST_F(RunFiles, TheSummaryHasItsKeys) {
   const auto expect_keys = [](const JsonValue* object, std::initializer_list<const char*> keys) {
     for (const char* key : keys) EXPECT_NE(object->find(key), nullptr) << key;
   };
-  expect_keys(&summary, {"version", "folder_version", "seed", "scene_hash", "steps", "sim_time_s",
-                         "wall_time_s", "real_time_factor", "peaks", "warnings", "finished"});
-  expect_keys(summary.find("ledger"), {"initial_ice_area_m2", "floe_area_m2", "submerged_area_m2",
-                                       "brash_area_m2", "rounding_defect_m2", "imbalance_m2"});
+  expect_keys(&summary, {"version", "folder_version", "seed", "scene_hash", "steps", "sim_time_s", "wall_time_s",
+                         "real_time_factor", "peaks", "warnings", "finished"});
+  expect_keys(summary.find("ledger"), {"initial_ice_area_m2", "floe_area_m2", "submerged_area_m2", "brash_area_m2",
+                                       "rounding_defect_m2", "imbalance_m2"});
   expect_keys(summary.find("counts"), {"floes_initial", "floes_final", "bends", "splits", "crush_contacts",
                                        "rejected_cuts", "database_out_of_range"});
   EXPECT_BEGINS(text(run_file::kForces), "t_s,ship,");

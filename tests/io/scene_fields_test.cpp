@@ -14,27 +14,23 @@ using namespace tests;
 
 // Between them these choose every alternative of the field table.
 const std::string kFirst = scene(
-    {list("ships",
-          {ship(R"("position_m": [-500, 0], "sway_speed_m_per_s": 0.1, "yaw_rate_deg_per_s": 0.2)")}),
-     list("floes",
-          {R"({"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}, "crushed_overlaps": true,
+    {list("ships", {ship(R"("position_m": [-500, 0], "sway_speed_m_per_s": 0.1, "yaw_rate_deg_per_s": 0.2)")}),
+     list("floes", {R"({"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}, "crushed_overlaps": true,
        "source_floe_id": 7})",
-           square(100, 0, 10,
-                  R"("ice": {"thickness_m": 0.7, "density_kg_per_m3": 890, "flexural_strength_Pa": 6e5,
+                    square(100, 0, 10,
+                           R"("ice": {"thickness_m": 0.7, "density_kg_per_m3": 890, "flexural_strength_Pa": 6e5,
        "compressive_strength_Pa": 2e6, "tensile_strength_Pa": {"mean": 7e5, "spread": 0.2},
        "fracture_toughness_Pa_sqrt_m": 1.2e5, "seed": 4})")})});
-const std::string kSecond = scene(
-    {R"("origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30})",
-     list("ships",
-          {ship(R"("hull": {"length_m": null, "beam_m": null, "entrance_angle_deg": null, "draught_m": 3,
+const std::string kSecond =
+    scene({R"("origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30})",
+           list("ships", {ship(R"("hull": {"length_m": null, "beam_m": null, "entrance_angle_deg": null, "draught_m": 3,
        "waterline_m": [[10, 0], [0, 4], [-10, 4], [-10, -4], [0, -4]], "angles_from_vertical_deg": [60, 38, 0, 0, 38]},
        "mass_kg": 1e6, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5})")}),
-     R"("structures": [{"radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}])",
-     list(
-         "floes",
-         {R"({"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]],
+           R"("structures": [{"radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}])",
+           list("floes",
+                {R"({"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]],
        "holes_m": [[[10, 10], [10, 20], [20, 20]]]}})",
-          R"({"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83,
+                 R"({"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83,
        "gap_m": 0.3, "most_corners": 6, "keep_clear_m": [[[-650, 420], [-600, 420], [-650, 440]]], "seed": 3}})"})});
 const std::string kThird = scene(
     {R"("structures": [{"waterline_m": [[10, 0], [0, 4], [-10, 0], [0, -4]], "position_m": [500, 500], "heading_deg": 10}],
@@ -59,14 +55,14 @@ const std::string kFourth = scene({list(
 std::string field_of_law(const std::string& region, const std::string& law) {
   return "{\"field\": {" + region + R"(, "most_corners": 6, "least_corners": 5, "sizes": )" + law + "}}";
 }
-const std::string kFifth = scene({list(
-    "floes", {field_of_law(R"("corner_m": [0, 0], "extent_m": [200, 150], "concentration": 0.6, "gap_m": 0.3,
+const std::string kFifth = scene(
+    {list("floes", {field_of_law(R"("corner_m": [0, 0], "extent_m": [200, 150], "concentration": 0.6, "gap_m": 0.3,
                 "aspect": 1.5, "orientation_deg": 20, "packing": 0.8)",
-                           R"({"mean_m": 12, "spread": 0.3})"),
-              field_of_law(R"("corner_m": [300, 0], "extent_m": [300, 300], "concentration": 0.7)",
-                           R"({"exponent": 1.5, "least_m": 10, "largest_m": 60})"),
-              field_of_law(R"("centreline_m": [[-300, 0], [-200, 30]], "width_m": 40, "concentration": 0.7)",
-                           R"({"size_m": 5})")})});
+                                 R"({"mean_m": 12, "spread": 0.3})"),
+                    field_of_law(R"("corner_m": [300, 0], "extent_m": [300, 300], "concentration": 0.7)",
+                                 R"({"exponent": 1.5, "least_m": 10, "largest_m": 60})"),
+                    field_of_law(R"("centreline_m": [[-300, 0], [-200, 30]], "width_m": 40, "concentration": 0.7)",
+                                 R"({"size_m": 5})")})});
 
 /// One ship for each other pilot.
 std::string fleet() {
@@ -75,9 +71,8 @@ std::string fleet() {
        {R"("hold_speed": {"speed_m_per_s": 3, "heading_deg": 10})", R"("hold_heading": {"heading_deg": 20})",
         R"("table": {"rows": [{"t_s": 0, "lever": 0.5}, {"t_s": 60, "lever": 1, "steering_deg": 5}]})",
         R"("ram": {"heading_deg": 3, "back_m": 150})", R"("follow": {"ship": "ship-1", "distance_m": 100})"})
-    ships.push_back(
-        sailing_ship(fmt::format(R"("steering": {{"rudder": {{}}}}, "position_m": [0, {}], "pilot": {{{}}})",
-                                 500 * ships.size(), pilot)));
+    ships.push_back(sailing_ship(fmt::format(
+        R"("steering": {{"rudder": {{}}}}, "position_m": [0, {}], "pilot": {{{}}})", 500 * ships.size(), pilot)));
   return fmt::format("{{\"ships\": [{}]}}", fmt::join(ships, ", "));
 }
 
@@ -234,8 +229,7 @@ TEST(SceneFields, EveryRangeIsKept) {
   walk(scene_description(), tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
     const auto before = value.data;
     std::vector<decltype(value.data)> wrong{nullptr, JsonValue::Object{}};
-    wrong.emplace_back(field.kind == FieldKind::kBoolean ? decltype(value.data){1.0}
-                                                         : decltype(value.data){true});
+    wrong.emplace_back(field.kind == FieldKind::kBoolean ? decltype(value.data){1.0} : decltype(value.data){true});
     if (field.kind == FieldKind::kNumber || field.kind == FieldKind::kInteger) {
       wrong.insert(wrong.end(), {field.range.high * 1.001 + 1e-3, field.range.low - 1e-3, std::string("1")});
       if (field.range.is_low_excluded) wrong.emplace_back(field.range.low);
@@ -261,8 +255,7 @@ TEST(SceneFields, EveryRangeIsKept) {
 TEST(SceneSchema, NamesEveryFieldOnceWhereItBelongs) {
   const JsonDocument document = parse_json(scene_schema());
   ASSERT_TRUE(document.faults.empty());
-  const std::function<void(const Object&, const JsonValue&)> check = [&](const Object& table,
-                                                                         const JsonValue& schema) {
+  const std::function<void(const Object&, const JsonValue&)> check = [&](const Object& table, const JsonValue& schema) {
     const JsonValue* properties = schema.find("properties");
     ASSERT_NE(properties, nullptr);
     EXPECT_FALSE(schema.find("additionalProperties")->boolean());
@@ -272,8 +265,7 @@ TEST(SceneSchema, NamesEveryFieldOnceWhereItBelongs) {
       if (field.kind == FieldKind::kObject) check(*field.object, *property);
       if (field.kind == FieldKind::kList) check(*field.object, *property->find("items"));
       if (field.kind == FieldKind::kNumber) {
-        EXPECT_TRUE(property->find(field.range.is_low_excluded ? "exclusiveMinimum" : "minimum"))
-            << field.key;
+        EXPECT_TRUE(property->find(field.range.is_low_excluded ? "exclusiveMinimum" : "minimum")) << field.key;
       }
     }
   };

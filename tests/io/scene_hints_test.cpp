@@ -44,8 +44,7 @@ TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
     std::vector<std::string> words;
   };
   const std::string step = "100, \"step_s\": ";
-  const Change thrust{"\"thrust_N\": 1e4", "\"thrust_N\": 2e5"},
-      thin{"\"thickness_m\": 0.5", "\"thickness_m\": 0.001"};
+  const Change thrust{"\"thrust_N\": 1e4", "\"thrust_N\": 2e5"}, thin{"\"thickness_m\": 0.5", "\"thickness_m\": 0.001"};
   const Change thick{"\"thickness_m\": 0.5", "\"thickness_m\": 9"},
       moving{"200]}}]", "200]}, \"velocity_m_per_s\": [0, 8]}]"};
   const Expected trials[] = {
@@ -66,16 +65,8 @@ TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
        4,
        "ships[1].heading_deg",
        {"away from all ice"}},
-      {{{"[50, -200]", "[50, 2]"}},
-       warning,
-       3,
-       "ships[0].propulsion",
-       {"meets pier", "after 42.7", "without a force"}},
-      {{{R"({"rectangle": {"corner_m": [80, -50], "size_m": [200, 200]}})", ""}},
-       hint,
-       6,
-       "floes",
-       {"no ice"}},
+      {{{"[50, -200]", "[50, 2]"}}, warning, 3, "ships[0].propulsion", {"meets pier", "after 42.7", "without a force"}},
+      {{{R"({"rectangle": {"corner_m": [80, -50], "size_m": [200, 200]}})", ""}}, hint, 6, "floes", {"no ice"}},
       {{thick}, hint, 1, "ice.thickness_m", {"9 m", "4 m"}},
       {{thin, {"100}", step + "1e-5}"}}, hint, 1, "ice.thickness_m", {"0.001 m", "0.01 m"}},
       {{{"100}", step + "0.03}"}},
@@ -110,12 +101,12 @@ TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
 /// Where a hint could be wrong there is none: the ice drifts after the ship, or moves by itself; the
 /// structure stands beside the course, or after its end.
 TEST(SceneHints, AreSilentWhereTheSceneMayMeanIt) {
-  for (const std::vector<Change>& changes : std::initializer_list<std::vector<Change>>{
-           {},
-           {{"[0.1, 0]", "[-2.5, 0]"}, kTurned},
-           {{"200]}}]", "200]}, \"velocity_m_per_s\": [-1, 0]}]"}, kTurned},
-           {{"[50, -200]", "[50, -18]"}},
-           {{"[50, -200]", "[200, 0]"}, {"[80, -50]", "[300, -50]"}}})
+  for (const std::vector<Change>& changes :
+       std::initializer_list<std::vector<Change>>{{},
+                                                  {{"[0.1, 0]", "[-2.5, 0]"}, kTurned},
+                                                  {{"200]}}]", "200]}, \"velocity_m_per_s\": [-1, 0]}]"}, kTurned},
+                                                  {{"[50, -200]", "[50, -18]"}},
+                                                  {{"[50, -200]", "[200, 0]"}, {"[80, -50]", "[300, -50]"}}})
     EXPECT_EQ(in_words(hints_of(changes)), "");
 }
 

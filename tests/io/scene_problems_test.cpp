@@ -54,8 +54,7 @@ TEST(SceneProblems, WhatNoFieldAloneCanTell) {
   const std::string one = list("floes", {square(0, 0, 1)});
   const std::string shear = R"("water": {"shear": {"rate_per_s": 0.01}})";
   const std::string no_floes = R"("floes": [])";
-  const std::string lattice =
-      R"({{"lattice": {{"columns": {0}, "rows": {0}, "pitch_m": 10, "size_m": {1}}}}})";
+  const std::string lattice = R"({{"lattice": {{"columns": {0}, "rows": {0}, "pitch_m": 10, "size_m": {1}}}}})";
   const std::string small_ship =
       ship(R"("hull": {"length_m": 40, "beam_m": 8}, "mass_kg": 1e3, "moment_of_inertia_kg_m2": 1e4,
         "position_m": null, "propulsion": {"thrust_N": 2e3})");
@@ -68,8 +67,8 @@ TEST(SceneProblems, WhatNoFieldAloneCanTell) {
         "floes[1]", "a rim that moves at"},
        {scene({shear, list("floes", {square(0, 40000, 1)})}), "time.step_s",
         "0.005: floes[0] moves 2 m in one step at 400 m/s"},
-       {scene({R"("water": {"shear": {"rate_per_s": 0.5}})", list("floes", {square(0, 9000, 9)})}),
-        "floes[0]", "moves at 4504 m/s"},
+       {scene({R"("water": {"shear": {"rate_per_s": 0.5}})", list("floes", {square(0, 9000, 9)})}), "floes[0]",
+        "moves at 4504 m/s"},
        {scene({list("floes", {square(0, 0, 200, R"("angular_velocity_deg_per_s": 100)")})}), "time.step_s",
         "0.005: floes[0] moves 1.23 m in one step at 247 m/s"},
        {scene({R"("ice": {"thickness_m": 5e-324})", one}), "ice.thickness_m", "found 5e-324"},
@@ -77,22 +76,19 @@ TEST(SceneProblems, WhatNoFieldAloneCanTell) {
        {scene({R"("ice": {"thickness_m": 1e308})", no_floes}), "ice.thickness_m", "found 1e+308"},
        {scene({R"("time": {"step_s": 0.9})", list("ships", {small_ship})}), "time.step_s",
         "1.62 m in one step at 1.8 m/s"},
-       {scene({R"("time": {"step_s": 1e-5, "until_s": 1e6})", list("ships", {ship()})}), "time.until_s",
-        "1e+11 steps"},
-       {scene({R"("time": {"until_s": 0.001})", list("ships", {ship()})}), "time.until_s",
-        "less than one step"},
+       {scene({R"("time": {"step_s": 1e-5, "until_s": 1e6})", list("ships", {ship()})}), "time.until_s", "1e+11 steps"},
+       {scene({R"("time": {"until_s": 0.001})", list("ships", {ship()})}), "time.until_s", "less than one step"},
        {scene({list("ships", {ship()}), list("floes", {square(-70, 0, 5)})}), "floes[0]",
         "an overlap with ships[0], 25 m² shared"},
        {scene({list("ships", {ship(), ship()})}), "ships[1]", "an overlap with ships[0]"},
-       {scene({list("floes", {fmt::format(fmt::runtime(lattice), 2, "[10, 11]")})}),
-        "floes[0].lattice.size_m", "more than the pitch"},
+       {scene({list("floes", {fmt::format(fmt::runtime(lattice), 2, "[10, 11]")})}), "floes[0].lattice.size_m",
+        "more than the pitch"},
        {scene({list("floes", {fmt::format(fmt::runtime(lattice), 100000, 5)})}), "floes[0]", "floes in all"},
        {"{}", "", "neither ships nor floes"},
        {"[]", "", "a list of 0"},
        {"{\"floes\": 3}", "floes", "found 3"},
        {scene({list("floes", {R"({"velocity_m_per_s": [0, 0]})"})}), "floes[0]", "none of them"},
-       {scene({list("floes", {R"({"polygon": {"outer_m": [[0, 0], [1, 1], [2, 2]]}})"})}), "floes[0]",
-        "zero-area"},
+       {scene({list("floes", {R"({"polygon": {"outer_m": [[0, 0], [1, 1], [2, 2]]}})"})}), "floes[0]", "zero-area"},
        {scene({list("floes", {R"({"polygon": {"outer_m": [[0, 0], [1e-4, 0], [0, 1e-4]]}})"})}), "floes[0]",
         "a floe of 5e-09 m²"},
        {scene_of_ship(R"({"propulsion": {"thrust_N": 1}})"), "ships[0].hull",
@@ -107,8 +103,8 @@ TEST(SceneProblems, WhatNoFieldAloneCanTell) {
        {scene({list("structures", {R"({"radius_m": 5})", R"({"radius_m": 5, "position_m": [50, 0], "name":
           "structure-1"})"})}),
         "structures[1].name", "a second time"},
-       {scene({list("structures", {R"({"radius_m": 5, "waterline_m": [[0, 0], [1, 0], [0, 1]]})"})}),
-        "structures[0]", "together"}});
+       {scene({list("structures", {R"({"radius_m": 5, "waterline_m": [[0, 0], [1, 0], [0, 1]]})"})}), "structures[0]",
+        "together"}});
 }
 
 std::string field(const std::string& members) {
@@ -118,8 +114,7 @@ std::string field(const std::string& members) {
 TEST(SceneProblems, OfFields) {
   const std::string one_size = R"("corner_m": [0, 0], "extent_m": 100, "floe_size_m": 10, )";
   const std::string box = R"("corner_m": [0, 0], "extent_m": 300, )";
-  const std::string power =
-      box + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, "largest_m": )";
+  const std::string power = box + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, "largest_m": )";
   const std::string equal = box + R"("sizes": {"size_m": 15}, "concentration": 0.8, )";
   const std::string dense = box + R"("sizes": {"size_m": 15}, "concentration": 0.98, )";
   const std::string channel =
@@ -132,10 +127,8 @@ TEST(SceneProblems, OfFields) {
        {field(one_size + R"("concentration": 0.5, "most_corners": 2)"), at + ".most_corners", "found 2"},
        {field(one_size + R"("concentration": 0.5, "keep_clear_m": [[[0, 0], [9, 9], [9, 0], [0, 9]]])"),
         at + ".keep_clear_m[0]", "self-crossing"},
-       {field(R"("corner_m": [0, 0], "extent_m": 1e6, "floe_size_m": 1, "concentration": 0.5)"), at,
-        "floes in all"},
-       {field(
-            R"("outline_m": [[0, 0], [90, 90], [90, 0], [0, 90]], "floe_size_m": 10, "concentration": 0.5)"),
+       {field(R"("corner_m": [0, 0], "extent_m": 1e6, "floe_size_m": 1, "concentration": 0.5)"), at, "floes in all"},
+       {field(R"("outline_m": [[0, 0], [90, 90], [90, 0], [0, 90]], "floe_size_m": 10, "concentration": 0.5)"),
         at + ".outline_m", "self-crossing"},
        {field(power + "5}"), at + ".sizes.least_m", "less than 5"},
        {field(power + "4000}"), at + ".sizes.largest_m", "at most 300, or a wider region"},
@@ -149,8 +142,7 @@ TEST(SceneProblems, OfFields) {
        {field(equal + R"("keep_clear_m": [[[-9, -9], [400, -9], [400, 400], [-9, 400]]])"), at,
         "all of the region is kept clear"},
        {field(box + R"("concentration": 0.8)"), at, "neither sizes nor floe_size_m"},
-       {field(box + R"("concentration": 0.8, "floe_size_m": 10, "aspect": 2)"), at + ".aspect",
-        "sizes instead"},
+       {field(box + R"("concentration": 0.8, "floe_size_m": 10, "aspect": 2)"), at + ".aspect", "sizes instead"},
        {field(box + R"("concentration": 0.005, "sizes": {"size_m": 100})"), at, "less than one floe"},
        {field(channel + "[60, 0], [0, 9]]"), at + ".centreline_m", "too sharp"},
        {field(channel + "[0, 0]]"), at + ".centreline_m", "a second time"},
@@ -158,12 +150,10 @@ TEST(SceneProblems, OfFields) {
 }
 
 TEST(SceneProblems, OfWallsAndFastIce) {
-  const auto walled = [](const std::string& more) {
-    return scene({list("floes", {square(0, 0, 10)}), more});
-  };
+  const auto walled = [](const std::string& more) { return scene({list("floes", {square(0, 0, 10)}), more}); };
   const auto wall = [&](const std::string& more, const std::string& law = "crush") {
-    return walled(R"("contact": {"law": ")" + law +
-                  R"("}, "walls": [{"from_m": [-50, -1], "to_m": [50, -1], )" + more + "}]");
+    return walled(R"("contact": {"law": ")" + law + R"("}, "walls": [{"from_m": [-50, -1], "to_m": [50, -1], )" + more +
+                  "}]");
   };
   const std::string load = R"("pressure": {"line_load_N_per_m": 5e4})";
   const std::string fast = R"("fast_ice": true)";
@@ -171,8 +161,8 @@ TEST(SceneProblems, OfWallsAndFastIce) {
       {{wall(R"("velocity_m_per_s": [0, 1], )" + load), "walls[0].velocity_m_per_s", ""},
        {wall(load, "impulse"), "walls[0].pressure", ""},
        {wall(R"("pressure": {"line_load_N_per_m": 2e6})"), "walls[0].pressure.line_load_N_per_m", "1.4e+06"},
-       {wall(R"("pressure": {"line_load_N_per_m": 1e5, "mass_kg_per_m": 4e3})"),
-        "walls[0].pressure.mass_kg_per_m", "at least 5000"},
+       {wall(R"("pressure": {"line_load_N_per_m": 1e5, "mass_kg_per_m": 4e3})"), "walls[0].pressure.mass_kg_per_m",
+        "at least 5000"},
        {walled(R"("walls": [{"from_m": [50, 50], "to_m": [50, 50.01]}])"), "walls[0].to_m", ""},
        {walled(R"("walls": [{"from_m": [-50, 2], "to_m": [50, 2]}])"), "floes[0]",
         "found an overlap with walls[0], 20 m² shared, allowed: floes in front of the wall"},
@@ -182,8 +172,8 @@ TEST(SceneProblems, OfWallsAndFastIce) {
        {scene({R"("contact": {"law": "crush"})",
                list("floes", {square(0, 0, 10, fast + R"(, "angular_velocity_deg_per_s": 3)")})}),
         "floes[0].angular_velocity_deg_per_s", "does not turn"},
-       {scene({R"("contact": {"law": "impulse"})", list("floes", {square(0, 0, 10, fast)})}),
-        "floes[0].fast_ice", ""}});
+       {scene({R"("contact": {"law": "impulse"})", list("floes", {square(0, 0, 10, fast)})}), "floes[0].fast_ice",
+        ""}});
 }
 
 TEST(SceneProblems, OfShipsThatSail) {
@@ -200,10 +190,9 @@ TEST(SceneProblems, OfShipsThatSail) {
                                     name, y, leader));
   };
   const auto route = [&](const std::string& waypoints) {
-    return scene(
-        {list("ships", {sailing_ship(R"("steering": {"rudder": {}}, "pilot": {"route": {"waypoints": [)" +
-                                     waypoints + "]}}")}),
-         R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
+    return scene({list("ships", {sailing_ship(R"("steering": {"rudder": {}}, "pilot": {"route": {"waypoints": [)" +
+                                              waypoints + "]}}")}),
+                  R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
   };
   const std::string bare = R"("hull": {"draught_m": null, "block_coefficient": null})";
   const std::string thrust = R"("propulsion": {"thrust_N": 1e5})";
@@ -215,11 +204,9 @@ TEST(SceneProblems, OfShipsThatSail) {
        {changed(drawn + R"("mass_kg": 1e7, )" + thrust), at + ".moment_of_inertia_kg_m2", "found nothing"},
        {changed(bare + ", " + weighed + "1e7"), at + ".hull.draught_m", "water acts on the hull"},
        {changed(drawn + weighed + "1e8"), at + ".mass_kg", "a block coefficient of 5.79"},
-       {changed(
-            R"("hull": {"length_m": 40, "beam_m": 30, "entrance_angle_deg": 60, "block_coefficient": 0.6})"),
+       {changed(R"("hull": {"length_m": 40, "beam_m": 30, "entrance_angle_deg": 60, "block_coefficient": 0.6})"),
         at + ".water.model", "no meaning for a hull of 40 × 30 × 6 m"},
-       {engine(R"("open_water_speed_m_per_s": 8)"), at + ".propulsion.engine",
-        "neither bollard_pull_kN nor power_MW"},
+       {engine(R"("open_water_speed_m_per_s": 8)"), at + ".propulsion.engine", "neither bollard_pull_kN nor power_MW"},
        {engine(R"("open_water_speed_m_per_s": 8, "power_MW": 5)"), at + ".propulsion.engine",
         "neither bollard_pull_kN nor power_MW"},
        {engine(R"("open_water_speed_m_per_s": 12, "bollard_pull_kN": 500)"),
@@ -227,12 +214,9 @@ TEST(SceneProblems, OfShipsThatSail) {
        {engine(R"("open_water_speed_m_per_s": 9, "bollard_pull_kN": 900, "power_MW": 3)"),
         at + ".propulsion.engine.open_water_speed_m_per_s", "MW of 3"},
        {changed(thrust + R"(, "steering": {"rudder": {}})"), at + ".steering", "without an engine"},
-       {scene_of_ship(
-            R"({"ship": "oden", "propulsion": {"constant_speed_m_per_s": 2}, "steering": {"azimuth": {}}})"),
+       {scene_of_ship(R"({"ship": "oden", "propulsion": {"constant_speed_m_per_s": 2}, "steering": {"azimuth": {}}})"),
         at + ".steering", "without an engine"},
-       {changed(
-            thrust +
-            R"(, "mooring": {"sway_stiffness_N_per_m": 1e5, "position_m": [0, 30], "break_load_N": 2e6})"),
+       {changed(thrust + R"(, "mooring": {"sway_stiffness_N_per_m": 1e5, "position_m": [0, 30], "break_load_N": 2e6})"),
         at + ".mooring.break_load_N", "it pulls with 3e+06 N"},
        {changed(R"("steering": {"rudder": {"area_m2": 150}})"), at + ".steering.rudder.area_m2", "found 150"},
        {changed(R"("propulsion": {"constant_speed_m_per_s": 1}, "mooring": {})"), at + ".mooring",
@@ -244,20 +228,17 @@ TEST(SceneProblems, OfShipsThatSail) {
         at + ".pilot.table.rows[1].t_s", "found 5"},
        {piloted(R"("route": {"waypoints": [{"position_m": [-500, 0], "speed_m_per_s": 3}]})"),
         at + ".pilot.route.waypoints[0].position_m", "500 m behind the ship"},
-       {piloted(R"("constant": {}, "hold_heading": {})"), at + ".pilot",
-        "constant and hold_heading together"},
+       {piloted(R"("constant": {}, "hold_heading": {})"), at + ".pilot", "constant and hold_heading together"},
        {piloted(R"("follow": {"ship": "ship-1", "distance_m": 100})"), at + ".pilot.follow.ship",
         "cannot follow itself"},
-       {piloted(R"("follow": {"ship": "Fram", "distance_m": 100})"), at + ".pilot.follow.ship",
-        "the name of no ship"},
-       {route(R"({"position_m": [1000, 0], "speed_m_per_s": 3})"),
-        at + ".pilot.route.waypoints[0].position_m", "leads through tower"},
+       {piloted(R"("follow": {"ship": "Fram", "distance_m": 100})"), at + ".pilot.follow.ship", "the name of no ship"},
+       {route(R"({"position_m": [1000, 0], "speed_m_per_s": 3})"), at + ".pilot.route.waypoints[0].position_m",
+        "leads through tower"},
        {route(R"({"position_m": [600, 31], "speed_m_per_s": 3})"),  // nearer than half a beam
         at + ".pilot.route.waypoints[0].position_m", ""},
-       {scene({list("ships", {led("a", "b", 0), led("b", "c", 200), led("c", "a", 400)})}),
-        at + ".pilot.follow.ship", "which follows this ship", 3}});
-  load(route(
-      R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"));
+       {scene({list("ships", {led("a", "b", 0), led("b", "c", 200), led("c", "a", 400)})}), at + ".pilot.follow.ship",
+        "which follows this ship", 3}});
+  load(route(R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"));
 }
 
 TEST(SceneProblems, OfIceUnderHulls) {
@@ -272,13 +253,11 @@ TEST(SceneProblems, OfIceUnderHulls) {
        {under("", R"("cusp_fate": "under_hull")"), "fracture.cusp_fate", "under_hull without a hull"},
        {under("", R"("going_under": {"enabled": true})"), "fracture.going_under.enabled", "true without"},
        {under("", R"("resurface": {"enabled": true})"), "fracture.resurface.enabled", "no ice goes under"},
-       {under(draught,
-              R"("cusp_fate": "float", "going_under": {"enabled": false}, "resurface": {"enabled": true})"),
+       {under(draught, R"("cusp_fate": "float", "going_under": {"enabled": false}, "resurface": {"enabled": true})"),
         "fracture.resurface.enabled", "no ice goes under"},
        {under(draught, R"("resurface": {"rim_loss": 1})"), "fracture.resurface.rim_loss", "found 1"},
        {under(draught, R"("going_under": {"enabled": "yes"})"), "fracture.going_under.enabled", "\"yes\""},
-       {under(R"("submersion_speed_factor": "riska")", ""), "ships[0].hull.submersion_speed_factor",
-        "riska"}});
+       {under(R"("submersion_speed_factor": "riska")", ""), "ships[0].hull.submersion_speed_factor", "riska"}});
 }
 
 TEST(SceneProblems, OfTheIceOfFloes) {
@@ -294,8 +273,7 @@ TEST(SceneProblems, OfTheIceOfFloes) {
        {law(R"("mean": 30, "spread": 0.1)"), at + ".mean", "≤ 20"},
        {law(R"("mean": 0.5)"), at + ".spread", "law log_normal needs it"},
        {law(R"("law": "gamma", "spread": 0.1)"), at + ".law", "log_normal"},
-       {law(R"("law": "uniform", "mean": 0.5, "least": 0.4, "most": 0.6)"), at + ".mean",
-        "law uniform has none"},
+       {law(R"("law": "uniform", "mean": 0.5, "least": 0.4, "most": 0.6)"), at + ".mean", "law uniform has none"},
        {law(R"("spread": 0.1, "least": 0.6, "most": 0.4)"), at + ".least", "at most"},
        {law(R"("spread": 0.1, "least": 0.9)"), at, "bounds around the mean"},
        {ice(R"("density_kg_per_m3": 1050)"), "floes[0]: ice.density_kg_per_m3", "the water's density"},
@@ -339,8 +317,7 @@ TEST(SceneProblems, ALongKeyIsShortenedBetweenTwoCharacters) {
 /// The scene.json of a run is the resolved scene: whatever is read must fit into what can be read again.
 TEST(SceneProblems, ASceneThatCouldNotBeReadBackIsRefused) {
   const TemporaryFolder folder;
-  write_file(folder / "f.geojson",
-             R"({"type": "Polygon", "coordinates": [[[0,0],[1000,0],[0,1000],[0,0]]]})");
+  write_file(folder / "f.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[1000,0],[0,1000],[0,0]]]})");
   const std::string text = R"({"floes": [{"file": "f.geojson"}]})";
   const std::size_t length = load(text, folder.path(), "s.json").resolved_text.size();
   EXPECT_GT(length, text.size());

@@ -45,8 +45,7 @@ TEST(SceneShips, AMassThatTheHullDoesNotDisplaceIsAWarning) {
 }
 
 TEST(SceneShips, BollardPullFollowsFromThePower) {
-  const auto sailing =
-      ship_of(sailing_ship(R"("propulsion": {"engine": {"power_MW": 10, "propeller_diameter_m": 4,
+  const auto sailing = ship_of(sailing_ship(R"("propulsion": {"engine": {"power_MW": 10, "propeller_diameter_m": 4,
       "propellers": 2, "open_water_speed_m_per_s": 8}})"));
   const auto& engine = std::get<simulation::Engine>(sailing.propulsion);
   EXPECT_NEAR(engine.bollard_pull, 0.98e3 * std::pow(40000, 2 / 3.0), 1e-3);
@@ -63,9 +62,8 @@ TEST(SceneShips, TheFateOfCuspsFollowsFromADraughtUnlessTheSceneStatesIt) {
   const auto without = load(scene_of_ship(ship())).scene;
   EXPECT_EQ(without.fracture.cusp_fate, CuspFate::kSubmerge);
   EXPECT_FALSE(without.fracture.going_under.is_enabled || without.fracture.resurface.is_enabled);
-  const auto stated =
-      load(scene({list("ships", {ship(deep)}),
-                  R"("fracture": {"cusp_fate": "submerge", "going_under": {"enabled": false}})"}));
+  const auto stated = load(scene(
+      {list("ships", {ship(deep)}), R"("fracture": {"cusp_fate": "submerge", "going_under": {"enabled": false}})"}));
   EXPECT_EQ(stated.scene.fracture.cusp_fate, CuspFate::kSubmerge);
   EXPECT_FALSE(stated.scene.fracture.resurface.is_enabled) << "nothing goes under";
   expect_reads_back(stated);
@@ -99,8 +97,8 @@ TEST(SceneShips, WallsHaveTheIceToTheirLeft) {
 }
 
 TEST(SceneShips, WallsMayCrossAndOneThatTurnsItsBackIsPointedOut) {
-  EXPECT_TRUE(walled(R"({"from_m": [-50, -1], "to_m": [50, -1]}, {"from_m": [-1, 50], "to_m": [-1, -50]})")
-                  .hints.empty());
+  EXPECT_TRUE(
+      walled(R"({"from_m": [-50, -1], "to_m": [50, -1]}, {"from_m": [-1, 50], "to_m": [-1, -50]})").hints.empty());
   const auto back = walled(R"({"from_m": [50, -1], "to_m": [-50, -1], "depth_m": 0.5})").hints;
   ASSERT_EQ(back.size(), 1u);
   EXPECT_EQ(back.front().path, "walls[0].to_m");
@@ -115,11 +113,10 @@ TEST(ShipPresets, EachIsAShipWithASourceForEveryParticular) {
   ASSERT_GE(ship_presets().size(), 7u);
   for (const ShipPreset& one : ship_presets()) {
     const bool has_engine = json_of(one).find("propulsion") != nullptr;
-    const auto loaded = checked(
-        preset(fmt::format("\"{}\"{}", one.name, has_engine ? "" : R"(, "propulsion": {"thrust_N": 2e4})")));
+    const auto loaded =
+        checked(preset(fmt::format("\"{}\"{}", one.name, has_engine ? "" : R"(, "propulsion": {"thrust_N": 2e4})")));
     EXPECT_GT(loaded->scene.ships[0].mass, 1e6) << one.name;
-    for (const Particular& particular : one.particulars)
-      EXPECT_FALSE(particular.source.empty()) << particular.path;
+    for (const Particular& particular : one.particulars) EXPECT_FALSE(particular.source.empty()) << particular.path;
     expect_reads_back(*loaded);
   }
 }

@@ -13,8 +13,8 @@ using namespace tests;
 
 TEST(Scene, RingsMayRunEitherWayAndBeClosed) {
   const auto area = [](const std::string& outer, const std::string& holes) {
-    const auto loaded = load(
-        scene({list("floes", {R"({"polygon": {"outer_m": )" + outer + R"(, "holes_m": )" + holes + "}}"})}));
+    const auto loaded =
+        load(scene({list("floes", {R"({"polygon": {"outer_m": )" + outer + R"(, "holes_m": )" + holes + "}}"})}));
     return geometry::measure(loaded.scene.floes.at(0).polygon_in_world).area;
   };
   EXPECT_EQ(area("[[0,0],[10,0],[10,10],[0,10]]", "[[[2,2],[2,4],[4,4],[4,2]]]"), 96);
@@ -30,8 +30,7 @@ TEST(Scene, FloesFromGeojsonStayInTheScenesFolder) {
              R"({"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
   std::filesystem::create_symlink(folder / "outside.geojson", folder / "scenes/link.geojson");
   const auto read_floes = [&](const std::string& file) {
-    write_file(folder / "scenes/s.json",
-               R"({"floes": [{"file": ")" + file + R"(", "velocity_m_per_s": [0.1, 0]}]})");
+    write_file(folder / "scenes/s.json", R"({"floes": [{"file": ")" + file + R"(", "velocity_m_per_s": [0.1, 0]}]})");
     return read_scene_file(folder / "scenes/s.json");
   };
   const auto loaded = checked(read_floes("floes/a.geojson"));
@@ -39,8 +38,8 @@ TEST(Scene, FloesFromGeojsonStayInTheScenesFolder) {
   EXPECT_EQ(loaded->scene.floes[1].velocity.x, 0.1);
   EXPECT_EQ(geometry::measure(loaded->scene.floes[1].polygon_in_world).area, 25);
   expect_reads_back(*loaded);  // the resolved scene needs no other file
-  for (const char* file : {"../outside.geojson", "link.geojson", "/etc/passwd", "floes", "missing.geojson",
-                           "", "../scenes/../outside.geojson"}) {
+  for (const char* file : {"../outside.geojson", "link.geojson", "/etc/passwd", "floes", "missing.geojson", "",
+                           "../scenes/../outside.geojson"}) {
     const auto outcome = read_floes(file);
     ASSERT_FALSE(outcome.has_value()) << file;
     EXPECT_EQ(outcome.error().front().path, "floes[0].file") << in_words(outcome.error());
@@ -48,9 +47,8 @@ TEST(Scene, FloesFromGeojsonStayInTheScenesFolder) {
 }
 
 TEST(Scene, OverridesTakeTheScenesPlace) {
-  const auto loaded =
-      checked(read_scene(scene({R"("time": {"until_s": 5})", list("floes", {square(0, 0, 1)})}), "a b é.json",
-                         ".", {.until = 7.5, .seed = 12}));
+  const auto loaded = checked(read_scene(scene({R"("time": {"until_s": 5})", list("floes", {square(0, 0, 1)})}),
+                                         "a b é.json", ".", {.until = 7.5, .seed = 12}));
   EXPECT_EQ(loaded->scene.time.until, 7.5);
   EXPECT_EQ(loaded->scene.seed, 12U);
   EXPECT_HAS(loaded->resolved_text, "\"until_s\": 7.5");
@@ -64,9 +62,9 @@ TEST(Scene, ALargeLatticeIsReadWhole) {
 
 TEST(Scene, FastIceHoldsItsVelocityOverGround) {
   const std::string moving = R"("velocity_m_per_s": [0.1, -0.2])";
-  const auto loaded = load(scene(
-      {R"("contact": {"law": "crush"})",
-       list("floes", {square(0, 0, 10, moving + R"(, "fast_ice": true)"), square(20, 0, 10, moving)})}));
+  const auto loaded =
+      load(scene({R"("contact": {"law": "crush"})",
+                  list("floes", {square(0, 0, 10, moving + R"(, "fast_ice": true)"), square(20, 0, 10, moving)})}));
   ASSERT_EQ(loaded.scene.floes.size(), 2u);
   EXPECT_TRUE(loaded.scene.floes[0].is_fast);
   EXPECT_EQ(loaded.scene.floes[0].velocity, (geometry::Vector{0.1, -0.2}));
@@ -104,10 +102,10 @@ TEST(PaperScenes, HoldThePapersIce) {
     std::size_t small;
     double size, concentration, tolerance;
   };
-  for (const Case& c : {Case{"fig4a", 110, 15, 0.53, 0.005}, Case{"fig6a", 225, 10, 0.55, 0.005},
-                        Case{"fig6b", 64, 20, 0.55, 0.005}}) {
-    const auto loaded = checked(
-        read_scene_file(std::string(POLYNYA_SOURCE_DIR) + "/scenes/sawamura2017-" + c.name + ".json"));
+  for (const Case& c :
+       {Case{"fig4a", 110, 15, 0.53, 0.005}, Case{"fig6a", 225, 10, 0.55, 0.005}, Case{"fig6b", 64, 20, 0.55, 0.005}}) {
+    const auto loaded =
+        checked(read_scene_file(std::string(POLYNYA_SOURCE_DIR) + "/scenes/sawamura2017-" + c.name + ".json"));
     const auto& floes = loaded->scene.floes;
     ASSERT_EQ(floes.size(), c.small + 21 + 2);
     geometry::Box box = geometry::bounding_box(floes.front().polygon_in_world.outer);
@@ -139,11 +137,10 @@ const std::string kBox = R"("corner_m": [0, 0], "extent_m": 300, )";
 
 /// No floe is in the ship or the structure, and no two lie over one another.
 TEST(Field, ReportsHowItCameOut) {
-  const auto loaded =
-      load(scene({list("ships", {ship(R"("position_m": [100, 100])")}),
-                  list("structures", {R"({"radius_m": 20, "position_m":
+  const auto loaded = load(
+      scene({list("ships", {ship(R"("position_m": [100, 100])")}), list("structures", {R"({"radius_m": 20, "position_m":
         [300, 100]})"}),
-                  list("floes", {square(-50, 0, 10), R"({"field": {"corner_m": [0, 0], "extent_m": [400, 200],
+             list("floes", {square(-50, 0, 10), R"({"field": {"corner_m": [0, 0], "extent_m": [400, 200],
         "floe_size_m": 10, "concentration": 0.8}})"})}));
   ASSERT_EQ(loaded.fields.size(), 1u);
   EXPECT_EQ(loaded.fields[0].group, 1u);
@@ -159,9 +156,8 @@ TEST(Field, ReportsHowItCameOut) {
 
 TEST(Field, FollowsTheScenesSeedAndItsOwn) {
   const auto first_corner = [](int scene_seed, int field_seed) {
-    return with_field(
-               kBox + fmt::format(R"("floe_size_m": 10, "concentration": 0.5, "seed": {})", field_seed),
-               fmt::format("\"seed\": {}", scene_seed))
+    return with_field(kBox + fmt::format(R"("floe_size_m": 10, "concentration": 0.5, "seed": {})", field_seed),
+                      fmt::format("\"seed\": {}", scene_seed))
         .scene.floes.front()
         .polygon_in_world.outer.front();
   };
@@ -171,8 +167,8 @@ TEST(Field, FollowsTheScenesSeedAndItsOwn) {
 }
 
 TEST(Field, HasTheLawAndItsStatistics) {
-  const auto loaded = with_field(
-      kBox + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, "largest_m": 60})");
+  const auto loaded =
+      with_field(kBox + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, "largest_m": 60})");
   ASSERT_EQ(loaded.fields.size(), 1u);
   const auto& outcome = loaded.fields[0].outcome;
   EXPECT_EQ(outcome.count, static_cast<int>(loaded.scene.floes.size()));
@@ -186,8 +182,7 @@ TEST(Field, HasTheLawAndItsStatistics) {
 }
 
 TEST(Field, AChannelIsFilledAlongItsBends) {
-  const auto loaded =
-      with_field(R"("centreline_m": [[0, 0], [60, 0], [100, 40]], "width_m": 12, "concentration": 0.8,
+  const auto loaded = with_field(R"("centreline_m": [[0, 0], [60, 0], [100, 40]], "width_m": 12, "concentration": 0.8,
       "gap_m": 0.01, "sizes": {"exponent": 0, "least_m": 0.5, "largest_m": 2})");
   const auto& outcome = loaded.fields.at(0).outcome;
   EXPECT_NEAR(outcome.region_area, 12 * (60 + 40 * std::sqrt(2.0)), 1e-6)
@@ -204,8 +199,8 @@ TEST(Words, ANumberAgreesWithWhatItCounts) {
 }
 
 /// Values in place of the scene's own, by their paths (polynya run --set, polynya validate --cases).
-const std::string kSet = "{\n  \"time\": {\"until_s\": 10}, \"ice\": {\"thickness_m\": 0.5}, " +
-                         list("floes", {square(0, 0, 10)}) + "}";
+const std::string kSet =
+    "{\n  \"time\": {\"until_s\": 10}, \"ice\": {\"thickness_m\": 0.5}, " + list("floes", {square(0, 0, 10)}) + "}";
 
 SceneOutcome with_values(const std::vector<std::string>& words, const std::string& text = kSet) {
   SceneOverrides overrides;
@@ -214,9 +209,9 @@ SceneOutcome with_values(const std::vector<std::string>& words, const std::strin
 }
 
 TEST(SceneAssign, PutsValuesOfEveryKindWhereTheirPathsLead) {
-  const auto outcome = checked(
-      with_values({"ice.thickness_m=0.7", "floes[0].rectangle.corner_m[1]=5", "water.drift_m_per_s=[1,2]",
-                   "name=of-no-quotes", "fracture.bending.radial_cracks=\"ignored\"", "seed=7"}));
+  const auto outcome =
+      checked(with_values({"ice.thickness_m=0.7", "floes[0].rectangle.corner_m[1]=5", "water.drift_m_per_s=[1,2]",
+                           "name=of-no-quotes", "fracture.bending.radial_cracks=\"ignored\"", "seed=7"}));
   EXPECT_EQ(outcome->scene.ice.thickness, 0.7);
   EXPECT_EQ(outcome->scene.floes.at(0).polygon_in_world.outer.front().y, 5);
   EXPECT_EQ(outcome->scene.water.drift.y, 2);

@@ -18,8 +18,7 @@ class UnderHullRun : public testing::Test {
     const LoadedScene loaded = tests::load(tests::scene(
         {R"("time": {"step_s": 0.01, "until_s": 35}, "water": {"drift_m_per_s": [0, 0.1]})",
          R"("floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}])",
-         tests::list("ships",
-                     {tests::ship(R"("hull": {"length_m": 40, "beam_m": 8, "draught_m": 2}, "mass_kg": 1e6,
+         tests::list("ships", {tests::ship(R"("hull": {"length_m": 40, "beam_m": 8, "draught_m": 2}, "mass_kg": 1e6,
            "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0], "propulsion": {"constant_speed_m_per_s": 2})")})}));
     auto active = tests::checked(start_run(folder->path() / "run", loaded, true));
     ASSERT_EQ(run_to_end(*active).end, RunEnd::kFinished);
@@ -48,11 +47,9 @@ TEST_F(UnderHullRun, BrashIsWhatCameUpAndWhatItBrokeInto) {
 TEST_F(UnderHullRun, EveryFloeEitherFloatsOrIsUnder) {
   const MotionIndex motions(*run);
   for (const Frame& frame : run->frames) {
-    const auto floating = floes_at(*run, motions, frame.time),
-               under = floes_under_hulls_at(*run, motions, frame.time);
+    const auto floating = floes_at(*run, motions, frame.time), under = floes_under_hulls_at(*run, motions, frame.time);
     std::size_t there = 0;
-    for (const RunFloe& floe : run->floes)
-      there += floe.birth.time <= frame.time && frame.time < floe.died ? 1 : 0;
+    for (const RunFloe& floe : run->floes) there += floe.birth.time <= frame.time && frame.time < floe.died ? 1 : 0;
     EXPECT_EQ(floating.size() + under.size(), there) << frame.time;
   }
   EXPECT_GT(floes_under_hulls_at(*run, motions, run->end_time()).size(), 5U);

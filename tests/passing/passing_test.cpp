@@ -57,8 +57,7 @@ Passed measure(const Simulation& run) {
   }
   const auto floes = run.floe_states();
   for (const simulation::FloeState& floe : floes)
-    bodies.push_back(
-        {{-1, floe.floe}, floe.polygon_in_body, floe.world_from_body, {}, floe.area, floe.velocity});
+    bodies.push_back({{-1, floe.floe}, floe.polygon_in_body, floe.world_from_body, {}, floe.area, floe.velocity});
   for (Placed& body : bodies)
     body.box = grown(bounding_box(transform(body.world_from_body, body.polygon->outer)), 1e-6);
   std::map<std::pair<std::int64_t, std::int64_t>, double> crushed;
@@ -80,19 +79,17 @@ Passed measure(const Simulation& run) {
       EXPECT_TRUE(shared.has_value());
       if (!shared || *shared == 0) continue;
       const double smaller = std::min(a.area, b.area);
-      if (!pressing.contains({key(a.body), key(b.body)}))
-        passed.parted = std::max(passed.parted, *shared / smaller);
+      if (!pressing.contains({key(a.body), key(b.body)})) passed.parted = std::max(passed.parted, *shared / smaller);
       // A contact is found, and what has pressed is known, a step late.
       const double step = run.scene().time.step * length(a.velocity - b.velocity);
       const geometry::Vector diagonal =
           std::min(a.area, b.area) == a.area ? a.box.high - a.box.low : b.box.high - b.box.low;
-      const double uncrushed =
-          (*shared - crushed[{key(a.body), key(b.body)}] - step * length(diagonal)) / smaller;
+      const double uncrushed = (*shared - crushed[{key(a.body), key(b.body)}] - step * length(diagonal)) / smaller;
       if (uncrushed <= passed.uncrushed) continue;
       passed.uncrushed = uncrushed;
-      passed.where = name_of(run, a.body) + " and " + name_of(run, b.body) + " share " +
-                     std::to_string(*shared) + " m2 of " + std::to_string(smaller) + ", " +
-                     std::to_string(crushed[{key(a.body), key(b.body)}]) + " crushed";
+      passed.where = name_of(run, a.body) + " and " + name_of(run, b.body) + " share " + std::to_string(*shared) +
+                     " m2 of " + std::to_string(smaller) + ", " + std::to_string(crushed[{key(a.body), key(b.body)}]) +
+                     " crushed";
     }
   }
   return passed;

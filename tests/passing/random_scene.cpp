@@ -33,8 +33,7 @@ Polygon arch(double width, double height, double thickness) {
 }
 
 Polygon hook(double width, double height, double thickness) {
-  return {{{0, 0}, {width, 0}, {width, thickness}, {thickness, thickness}, {thickness, height}, {0, height}},
-          {}};
+  return {{{0, 0}, {width, 0}, {width, thickness}, {thickness, thickness}, {thickness, height}, {0, height}}, {}};
 }
 
 Polygon random_floe(Random& random) {
@@ -108,8 +107,7 @@ Scene random_scene(std::uint64_t seed) {
   scene.contact.law = seed % 2 == 0 ? simulation::ContactLaw::kCrush : simulation::ContactLaw::kImpulse;
   scene.fracture.bending = simulation::BendingModelKind::kNevel;
   scene.fracture.splitting = fracture::SplittingModel::kLefm;
-  scene.fracture.cusp_fate =
-      random.below(2) == 0 ? simulation::CuspFate::kFloat : simulation::CuspFate::kSubmerge;
+  scene.fracture.cusp_fate = random.below(2) == 0 ? simulation::CuspFate::kFloat : simulation::CuspFate::kSubmerge;
   scene.ice.thickness = random.between(0.2, 1.2);
   scene.ice.friction = random.below(3) == 0 ? 0 : 0.1;
   std::vector<Polygon> placed;

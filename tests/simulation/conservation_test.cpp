@@ -56,8 +56,7 @@ TEST(Fracture, KeepsMassMomentumAndAngularMomentumWhereNothingIsRemoved) {
       const dynamics::Bodies now = living();
       ASSERT_NEAR(scenery::mass(now) / scenery::mass(before), 1, 1e-12);
       ASSERT_NEAR(length(scenery::momentum(now) - momentum) / length(momentum), 0, 1e-11) << step;
-      ASSERT_NEAR(scenery::angular_momentum(now) - scenery::angular_momentum(before), 0,
-                  1e-10 * 60 * length(momentum))
+      ASSERT_NEAR(scenery::angular_momentum(now) - scenery::angular_momentum(before), 0, 1e-10 * 60 * length(momentum))
           << step;
     }
     EXPECT_GT(simulation.counts().bends + simulation.counts().splits, 2);
@@ -97,8 +96,7 @@ TEST(Fracture, PiecesMoveOnAsThePartsOfOneBody) {
 /// Every floe has the parent and the event that it came from, and the parts of a floe are all of it.
 void expect_lineage(const Trial& run) {
   std::map<FloeId, Birth> births;
-  for (const Birth& birth : run.story.births)
-    ASSERT_TRUE(births.emplace(birth.floe, birth).second) << "born twice";
+  for (const Birth& birth : run.story.births) ASSERT_TRUE(births.emplace(birth.floe, birth).second) << "born twice";
   std::map<FloeId, int> deaths;
   for (const Death& death : run.story.deaths) {
     ++deaths[death.floe];
@@ -164,8 +162,7 @@ TEST(Fracture, TheAreaLedgerBalancesAtEveryStep) {
 
 /// A ship, or a structure like it, in two plates and small floes, all sinks at work.
 Build busy_scene(Laws laws) {
-  Build scene =
-      Build(laws).floe(rectangle(0.5, -40, 70, 50), {-0.2, 0.05}, 1e-3).floe(rectangle(72, -40, 120, 60));
+  Build scene = Build(laws).floe(rectangle(0.5, -40, 70, 50), {-0.2, 0.05}, 1e-3).floe(rectangle(72, -40, 120, 60));
   for (int i = 0; i < 12; ++i) scene.floe(rectangle(-60 + 6 * i, -25, -55 + 6 * i, -18), {0.05 * i, 0.4});
   return scene;
 }
@@ -178,8 +175,7 @@ Audit closed_audit(const Scene& scene, double until) {
 
 TEST(EnergyAudit, ClosesWhereAShipUnderThrustBreaksIce) {
   for (const Laws laws : kBothLaws) {
-    const auto e =
-        closed_audit(busy_scene(laws).ship(icebreaker({0, 3}, ConstantThrust{2e5}, 2)), 40).sums.energy;
+    const auto e = closed_audit(busy_scene(laws).ship(icebreaker({0, 3}, ConstantThrust{2e5}, 2)), 40).sums.energy;
     EXPECT_GT(e.thrust, 0);
     EXPECT_GT(e.drag, 0);
     EXPECT_GT(e.friction, 0);
@@ -196,8 +192,8 @@ TEST(EnergyAudit, ClosesWithAPrescribedShipInADriftAndWithAStructureInAShearedCu
     EXPECT_GT(prescribed.sums.energy.thrust, 0) << "what holds the speed works";
     EXPECT_GT(length(prescribed.sums.momentum.held), 0);
     const geometry::Ring hull = wedge_bow_waterline(120, 24, 27 * kDegree);
-    const Audit sheared = closed_audit(
-        busy_scene(laws).drift({-0.5, 0}).shear(1e-3).structure(hull, {-60, 3}, 50 * kDegree), 30);
+    const Audit sheared =
+        closed_audit(busy_scene(laws).drift({-0.5, 0}).shear(1e-3).structure(hull, {-60, 3}, 50 * kDegree), 30);
     EXPECT_NE(sheared.sums.energy.current, 0);
   }
 }

@@ -172,9 +172,7 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
   for (const double step : {0.005, 0.013, 0.05}) {
     for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
       const Story story =
-          run(Build().step(step).ship(barge({0, 0}, ConstantSpeed{2})).pile({25, off}, 5).pile({-150, 0}, 5),
-              30)
-              .story;
+          run(Build().step(step).ship(barge({0, 0}, ConstantSpeed{2})).pile({25, off}, 5).pile({-150, 0}, 5), 30).story;
       const std::vector<Event> met = story.of_kind<ShipContact>();
       if (std::abs(off) > 17) {
         EXPECT_TRUE(met.empty()) << off;
@@ -209,8 +207,8 @@ Trial after_one_step(const Scene& scene) {
 }
 
 TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
-  const auto [simulation, story] = after_one_step(
-      Build().structure(rectangle(-30, -1, 30, 1).outer).floe(rectangle(-2, -10, 2, 8), {0, 0.3}));
+  const auto [simulation, story] =
+      after_one_step(Build().structure(rectangle(-30, -1, 30, 1).outer).floe(rectangle(-2, -10, 2, 8), {0, 0.3}));
   ASSERT_EQ(story.events.size(), 1U);
   ASSERT_EQ(story.grinds().size(), 1U);
   const auto event = story.grinds()[0];
@@ -241,13 +239,11 @@ TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   ASSERT_EQ(around.floe_states().size(), 1U);
   EXPECT_EQ(around.floe_states()[0].polygon_in_body->holes.size(), 1U);
   EXPECT_EQ(story_around.grinds()[0].ice()->brash_area, 4);
-  EXPECT_EQ(std::get<Grind>(story_around.grinds()[0].what).criterion.overlap_area, 4)
-      << "the smaller of the two";
+  EXPECT_EQ(std::get<Grind>(story_around.grinds()[0].what).criterion.overlap_area, 4) << "the smaller of the two";
 }
 
 TEST(Grind, OfTwoFloesTheSmallerIsGround) {
-  const Trial done =
-      after_one_step(Build().floe(rectangle(-20, -1, 20, 1), {0.1, 0}).floe(rectangle(-1, -12, 1, 12)));
+  const Trial done = after_one_step(Build().floe(rectangle(-20, -1, 20, 1), {0.1, 0}).floe(rectangle(-1, -12, 1, 12)));
   ASSERT_EQ(done.story.grinds().size(), 1U);
   const auto event = done.story.grinds()[0];
   EXPECT_EQ(event.ice()->floe, 1);

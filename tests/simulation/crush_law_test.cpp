@@ -44,11 +44,9 @@ Stop stop_of(const Scene& scene, double gap) {
   const double start = simulation.floe_states()[0].world_from_body.position.x;
   while (simulation.floe_states()[0].velocity.x < -1e-2 && simulation.time() < 2) {
     simulation.step();
-    for (const ContactState& state : simulation.contact_states())
-      EXPECT_EQ(state.is_crushing, length(state.force) > 0);
+    for (const ContactState& state : simulation.contact_states()) EXPECT_EQ(state.is_crushing, length(state.force) > 0);
     for (const dynamics::Contact& c : simulation.world().step.contacts)
-      stop.peak_force =
-          std::max(stop.peak_force, c.steady_share * c.total_normal_impulse() / scene.time.step);
+      stop.peak_force = std::max(stop.peak_force, c.steady_share * c.total_normal_impulse() / scene.time.step);
   }
   stop.depth = start - simulation.floe_states()[0].world_from_body.position.x - gap;
   stop.time = simulation.time() - gap;  // at 1 m/s
@@ -126,11 +124,9 @@ TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
 /// The reference ship presses 15 m floes into a basin without a way out.
 TEST(CrushLaw, AJamIsSolvedAndItsContactsCreateNoEnergy) {
   Build scene = Build().step(0.01).ship(icebreaker({-1, 0}, ConstantSpeed{1}));
-  for (const auto& wall :
-       {rectangle(100, -60, 110, 60), rectangle(-1, 60, 110, 70), rectangle(-1, -70, 110, -60)})
+  for (const auto& wall : {rectangle(100, -60, 110, 60), rectangle(-1, 60, 110, 70), rectangle(-1, -70, 110, -60)})
     scene.structure(wall.outer);
-  for (int column = 0; column < 6; ++column)
-    scene.grid({1 + 16.3 * column, -57.5 + (column % 2)}, 1, 7, 15, 16.4);
+  for (int column = 0; column < 6; ++column) scene.grid({1 + 16.3 * column, -57.5 + (column % 2)}, 1, 7, 15, 16.4);
   const Trial done = run(scene, 60);
   const Counts counts = done.simulation.counts();
   EXPECT_LT(static_cast<double>(counts.unconverged_steps), 0.02 * static_cast<double>(counts.steps));
@@ -143,8 +139,7 @@ TEST(CrushLaw, AJamIsSolvedAndItsContactsCreateNoEnergy) {
 /// there through the solver's start.
 TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
   const auto surge_of = [](const ContactSettings& settings) {
-    Scene scene =
-        Build().ship(icebreaker({-2, 0}, ConstantSpeed{0.25}, 0.25)).floe(rectangle(0, -2000, 4000, 2000));
+    Scene scene = Build().ship(icebreaker({-2, 0}, ConstantSpeed{0.25}, 0.25)).floe(rectangle(0, -2000, 4000, 2000));
     scene.ice.thickness = 1.5;
     scene.contact = settings;
     return run(scene, 300).story;
@@ -168,10 +163,8 @@ TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
 double mean_load_in_level_ice(double step, int substeps) {
   double sum = 0;
   for (const double offset : {0.0, 0.3, 0.7, 1.1}) {
-    Scene scene = Build()
-                      .step(step)
-                      .ship(icebreaker({-1, offset}, ConstantSpeed{1}))
-                      .floe(rectangle(0, -100, 300, 100));
+    Scene scene =
+        Build().step(step).ship(icebreaker({-1, offset}, ConstantSpeed{1})).floe(rectangle(0, -100, 300, 100));
     scene.contact.substeps = substeps;
     scene.fracture.splitting = fracture::SplittingModel::kNone;           // it stands for ice without end
     sum -= mean(run(scene, 120).story, &ShipSample::from_ice, 0, 20.05);  // the bow breaks its way in first
@@ -275,8 +268,7 @@ TEST(CrushingCollision, ConvergesAsTheStepShrinks) {
       for (double& error : errors) {
         step /= 2;
         const std::vector<double> found = final_velocities(corner_to_corner(step, restitution, gap));
-        for (std::size_t i = 0; i < found.size(); ++i)
-          error = std::max(error, std::abs(found[i] - reference[i]));
+        for (std::size_t i = 0; i < found.size(); ++i) error = std::max(error, std::abs(found[i] - reference[i]));
       }
     }
     EXPECT_GT(std::log(errors.front() / errors.back()) / std::log(16), 0.8) << "its order";
@@ -286,8 +278,7 @@ TEST(CrushingCollision, ConvergesAsTheStepShrinks) {
 TEST(CrushingCollision, LevelIceDependsOnTheRadiusALittle) {
   // The overlap does not, but a contact keeps its record within a quarter of the radius (docs/theory.md).
   const auto resistance = [](double radius) {
-    Scene scene =
-        Build(Laws::kPaper).ship(icebreaker({-2, 0}, ConstantSpeed{1})).floe(rectangle(0, -75, 300, 75));
+    Scene scene = Build(Laws::kPaper).ship(icebreaker({-2, 0}, ConstantSpeed{1})).floe(rectangle(0, -75, 300, 75));
     scene.contact.circle_radius = radius;
     return -mean(run(scene, 130).story, &ShipSample::from_ice, 0, 30.05);
   };

@@ -23,8 +23,8 @@ TEST(Decision, AFloeSmallerThanTheBreakableSizeIsPushedNeverBroken) {
   // √area just below l = 8.909 m by its definition; 40 m below 79.4 m as printed.
   for (const bool as_printed : {false, true}) {
     const double size = as_printed ? 40 : 8.9;
-    Scene scene = ship_against(icebreaker({0, 0}, ConstantSpeed{2}),
-                               rectangle(0.1, -0.3 * size, 0.1 + size, 0.7 * size));
+    Scene scene =
+        ship_against(icebreaker({0, 0}, ConstantSpeed{2}), rectangle(0.1, -0.3 * size, 0.1 + size, 0.7 * size));
     if (as_printed) scene.fracture.characteristic_length = fracture::CharacteristicLength::kAsPrinted;
     const auto [simulation, story] = run(scene, 20);
     EXPECT_TRUE(std::ranges::all_of(story.events, &Event::is<Grind>)) << "it is only crushed";
@@ -37,9 +37,9 @@ TEST(Decision, ThePapersPlateIsKnifeEdge) {
   // A central hit at 1 m/s gives j/τ_c = 10.9 MN against F_s = 11 MN: a hit 2 % faster splits, one at 1 m/s
   // does not.
   for (const double speed : {1.0, 1.02}) {
-    const auto [simulation, story] = run(ship_against(icebreaker({0, 0}, ConstantThrust{0}, speed),
-                                                      rectangle(0.001, -100, 110.001, 100), Laws::kPaper),
-                                         0.5);
+    const auto [simulation, story] = run(
+        ship_against(icebreaker({0, 0}, ConstantThrust{0}, speed), rectangle(0.001, -100, 110.001, 100), Laws::kPaper),
+        0.5);
     const double peak = largest(story, &ShipSample::collision);
     EXPECT_NEAR(peak, 1.1 * speed / (1e-7 + 1 / (900 * 0.5 * 110 * 200)) / 0.5, 0.01e6);
     EXPECT_EQ(simulation.counts().splits > 0, speed > 1);
@@ -61,8 +61,8 @@ TEST(Decision, ThePapersPlateIsKnifeEdge) {
 
 TEST(Decision, LefmSplitsWhereMichelDoesNotAndStatesBothSides) {
   for (const auto model : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {
-    Scene scene = ship_against(icebreaker({0, 0}, ConstantThrust{0}, 0.5), rectangle(0.001, -30, 50.001, 30),
-                               Laws::kPaper);
+    Scene scene =
+        ship_against(icebreaker({0, 0}, ConstantThrust{0}, 0.5), rectangle(0.001, -30, 50.001, 30), Laws::kPaper);
     scene.fracture.splitting = model;
     scene.ice.fracture_toughness = 50e3;
     const Story story = run(scene, 1).story;
@@ -121,8 +121,7 @@ TEST(Decision, CuspsSubmergeOrFloat) {
 
 TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
   // A plate whose far edge crosses itself: no valid floe, and so no cut of it is either.
-  const geometry::Polygon crossed{{{0.5, -30}, {60, -30}, {60, 30}, {40, 30}, {45, 35}, {45, 29}, {0.5, 30}},
-                                  {}};
+  const geometry::Polygon crossed{{{0.5, -30}, {60, -30}, {60, 30}, {40, 30}, {45, 35}, {45, 29}, {0.5, 30}}, {}};
   const auto [simulation, story] = run(ship_against(icebreaker({0, 0}, ConstantSpeed{1}), crossed), 5);
   const Counts counts = simulation.counts();
   EXPECT_GT(counts.rejected_cuts, 0);
@@ -244,8 +243,7 @@ TEST(Regression, IceWithoutMassOrInertiaIsNoFloe) {
 /// corners were pared: what a crack leaves on either side is no sliver.
 TEST(Regression, ACrackIsNotParedStripByStrip) {
   for (const auto model : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {
-    Scene scene =
-        ship_against(icebreaker({0, 3}, ConstantSpeed{0.5}, 0.5), rectangle(0.5, -40, 70, 50), Laws::kPaper);
+    Scene scene = ship_against(icebreaker({0, 3}, ConstantSpeed{0.5}, 0.5), rectangle(0.5, -40, 70, 50), Laws::kPaper);
     scene.fracture.splitting = model;
     scene.fracture.splitting_shape_factor = 0.02;
     scene.ice.fracture_toughness = 20e3;

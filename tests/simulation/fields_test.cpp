@@ -174,8 +174,8 @@ TEST(SizeLaw, QuantilesAndSharesAgreeAndMeansAreThoseOfTheLaw) {
   // PHYSICS-2 §5: a 1.87, 10 to 100 m has the mean 18.85 m and the mean square 508.8 m².
   const PowerLawSizes power{1.87, 10, 100};
   EXPECT_NEAR(mean_area(power), 508.8, 0.05);
-  for (const SizeLaw& law : {SizeLaw(power), SizeLaw(PowerLawSizes{0, 0.5, 2}),
-                             SizeLaw(PowerLawSizes{-1, 1, 3}), SizeLaw(LognormalSizes{15, 0.4})}) {
+  for (const SizeLaw& law : {SizeLaw(power), SizeLaw(PowerLawSizes{0, 0.5, 2}), SizeLaw(PowerLawSizes{-1, 1, 3}),
+                             SizeLaw(LognormalSizes{15, 0.4})}) {
     double mean = 0;
     double square = 0;
     constexpr int kParts = 20000;
@@ -226,8 +226,8 @@ TEST(PackedField, CoverAndLawsAreAsAskedFor) {
   };
   const PowerLawSizes power{1.87, 10, 100};
   for (const auto& [law, concentration] :
-       {Case{power, 0.98}, Case{power, 0.35}, Case{LognormalSizes{15, 0.5}, 0.98},
-        Case{LognormalSizes{8, 0.2}, 0.9}, Case{EqualSizes{12}, 0.98}, Case{PowerLawSizes{0, 0.5, 2}, 0.8}}) {
+       {Case{power, 0.98}, Case{power, 0.35}, Case{LognormalSizes{15, 0.5}, 0.98}, Case{LognormalSizes{8, 0.2}, 0.9},
+        Case{EqualSizes{12}, 0.98}, Case{PowerLawSizes{0, 0.5, 2}, 0.8}}) {
     FloeField field = field_of_law(law, concentration, 5000);
     field.gap = std::holds_alternative<PowerLawSizes>(law) && mean_area(law) < 4 ? 0.01 : 0.05;
     field.packing = 0.75;
@@ -356,8 +356,8 @@ TEST(FloeField, IsTheSameOnEveryMachineAndAnotherForAnotherSeed) {
   FloeField packed = field_of_law(PowerLawSizes{1.87, 10, 100}, 0.7, 400);
   packed.packing = 0.8;
   packed.aspect = 1.5;
-  for (auto& [field, pinned] : {std::pair(field_of(600, 0.6, 0.3), 18442949971931436931U),
-                                std::pair(packed, 12706008380266857876U)}) {
+  for (auto& [field, pinned] :
+       {std::pair(field_of(600, 0.6, 0.3), 18442949971931436931U), std::pair(packed, 12706008380266857876U)}) {
     EXPECT_EQ(hash_of(make_floe_field(field).floes), pinned);
     FloeField other = field;
     other.seed = 8;

@@ -82,16 +82,14 @@ TEST(FloeIce, SplitsByItsOwnTensileStrengthAndToughness) {
     scene.fracture.splitting = model;
     const Story story = expect_same(scene, weak, 10).story;
     EXPECT_FALSE(story.splits().empty());
-    for (const auto& event : story.splits())
-      EXPECT_EQ(event.criteria().fracture_toughness, weak.fracture_toughness);
+    for (const auto& event : story.splits()) EXPECT_EQ(event.criteria().fracture_toughness, weak.fracture_toughness);
   }
 }
 
 TEST(FloeIce, PiecesInheritIt) {
   const fracture::Ice own{.thickness = 0.3, .density = 850, .flexural_strength = 5e5};
   const Simulation simulation =
-      run(ship_in_ice(2).floe(rectangle(0, -40, 40, 40)).floe(rectangle(40.1, -40, 80, 40)).of(own), 35)
-          .simulation;
+      run(ship_in_ice(2).floe(rectangle(0, -40, 40, 40)).floe(rectangle(40.1, -40, 80, 40)).of(own), 35).simulation;
   std::size_t of_second = 0;
   for (const FloeState& state : simulation.all_states()) {
     const bool is_second = state.ice == &simulation.scene().own_ice[0];
@@ -182,8 +180,7 @@ TEST(BendingScatter, DrawsFloesOneByOne) {
   }
   EXPECT_LT(measure(law, thickness).distance, 0.023);
   double products = 0;  // of two properties: they are independent
-  for (std::size_t i = 0; i < thickness.size(); ++i)
-    products += (thickness[i] - 0.5) * (strength[i] - 0.5) / 5000;
+  for (std::size_t i = 0; i < thickness.size(); ++i) products += (thickness[i] - 0.5) * (strength[i] - 0.5) / 5000;
   EXPECT_LT(std::abs(products), 3 * 0.01 / std::sqrt(5000));
 }
 

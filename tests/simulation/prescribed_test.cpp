@@ -32,10 +32,8 @@ Scene without_bending(Build scene) {
 
 /// A plate that comes to a structure about the origin, its edge at `edge`.
 Scene drifting_onto(const geometry::Ring& hull, double edge, Drift drift) {
-  return without_bending(Build()
-                             .step(drift.step)
-                             .structure(hull)
-                             .floe(fast(rectangle(edge - 200, -40, edge, 40), {drift.speed, 0})));
+  return without_bending(
+      Build().step(drift.step).structure(hull).floe(fast(rectangle(edge - 200, -40, edge, 40), {drift.speed, 0})));
 }
 
 /// What a run over the way gave, and whether no step pressed with more than `most` [N].
@@ -61,8 +59,7 @@ TEST(Prescribed, ACylinderCrushesTheChannelThatItLeaves) {
   const double area = 2 * kRadius * (kWay - kRadius) + 0.5 * std::numbers::pi * kRadius * kRadius;
   const double load = kLineLoad * 2 * kRadius;
   for (const Drift drift : kDrifts) {
-    const Trial done =
-        over_the_way(drifting_onto(cylinder_waterline(kRadius), -kRadius, drift), drift.speed, load);
+    const Trial done = over_the_way(drifting_onto(cylinder_waterline(kRadius), -kRadius, drift), drift.speed, load);
     const Audit audit = done.simulation.audit();
     EXPECT_NEAR(audit.sums.energy.crushing / (kLineLoad * area), 1, 0.02) << drift.speed << ' ' << drift.step;
     EXPECT_NEAR(done.simulation.area_ledger().brash_area / area, 1, 0.02) << "the channel is open";
@@ -105,8 +102,7 @@ TEST(Prescribed, ACylinderIsPushedAlongTheMotionOfTheIce) {
 
 /// Across all of its plate: where the cylinder has come out, there are two floes, and the smaller is free.
 TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
-  Scene scene =
-      without_bending(Build().step(0.05).pile({0, 0}, 2).floe(fast(rectangle(-32, -10, -2, 15), {1, 0})));
+  Scene scene = without_bending(Build().step(0.05).pile({0, 0}, 2).floe(fast(rectangle(-32, -10, -2, 15), {1, 0})));
   const Trial done = run(scene, 40);
   ASSERT_EQ(done.simulation.floe_states().size(), 2u);
   EXPECT_EQ(done.story.rejected_cuts().size(), 0u);

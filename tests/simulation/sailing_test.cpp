@@ -57,8 +57,7 @@ dynamics::Planar motion_of(const World& world) {
 double wet_energy(const World& world) {
   const dynamics::Bodies& b = world.population.bodies;
   const dynamics::Planar now = motion_of(world);
-  const geometry::Vector before =
-      rotate(dynamics::turned({}, now.yaw * world.clock.step), {now.surge, now.sway});
+  const geometry::Vector before = rotate(dynamics::turned({}, now.yaw * world.clock.step), {now.surge, now.sway});
   const dynamics::Planar in_water{before.x, before.y, now.yaw};
   return kinetic_energy(b) + 0.5 * dot(in_water, world.setup.sailing[0].hull.added_mass * in_water);
 }
@@ -303,8 +302,8 @@ TEST(Sailing, TurningCirclesAreThoseOfShips) {
 // ---- pilots
 
 Build piloted(const PilotSettings& pilot, double speed = 4, const Steering& steering = RudderSettings{13}) {
-  Build scene = in_water(
-      Engine{.bollard_pull = 1e6, .open_water_speed = 8, .power = 12e6, .propeller_area = 25}, speed, 0.1);
+  Build scene =
+      in_water(Engine{.bollard_pull = 1e6, .open_water_speed = 8, .power = 12e6, .propeller_area = 25}, speed, 0.1);
   scene.record.forces_interval = 1;
   scene.ships[0].steering = steering;
   scene.ships[0].pilot = pilot;
@@ -473,11 +472,8 @@ TEST(Pilot, GoesOnFromItsState) {
 // ---- prescribed speeds, and several ships
 
 TEST(ConstantSpeed, IsKeptExactlyAndTheForcesAreWhatItTakes) {
-  const Scene scene = Build()
-                          .unbreakable()
-                          .without_drag()
-                          .ship(icebreaker({0, 0}, ConstantSpeed{1.25}))
-                          .grid({1, -40}, 3, 6, 10, 13.5);
+  const Scene scene =
+      Build().unbreakable().without_drag().ship(icebreaker({0, 0}, ConstantSpeed{1.25})).grid({1, -40}, 3, 6, 10, 13.5);
   const auto [simulation, story] = run(scene, 20);
   geometry::Vector impulse, given;
   for (const ShipSample& sample : story.samples) {

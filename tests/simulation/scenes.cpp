@@ -75,8 +75,7 @@ Build& Build::wall(geometry::Point from, geometry::Point to, const WallMotion& m
 
 Build& Build::grid(geometry::Point low, int columns, int rows, double side, double pitch) {
   for (int column = 0; column < columns; ++column)
-    for (int row = 0; row < rows; ++row)
-      floe(shapes::square({low.x + pitch * column, low.y + pitch * row}, side));
+    for (int row = 0; row < rows; ++row) floe(shapes::square({low.x + pitch * column, low.y + pitch * row}, side));
   return *this;
 }
 

@@ -22,8 +22,7 @@ enum class Laws {
 
 inline constexpr Laws kBothLaws[] = {Laws::kDefault, Laws::kPaper};
 
-inline FloeSpec floe(const geometry::Polygon& polygon, geometry::Vector velocity = {},
-                     double angular_velocity = 0) {
+inline FloeSpec floe(const geometry::Polygon& polygon, geometry::Vector velocity = {}, double angular_velocity = 0) {
   return {polygon, velocity, angular_velocity};
 }
 

@@ -12,8 +12,7 @@ using namespace scenes;
 /// A thin floe that runs onto a pile with its side, and past it: it crushes more than h², and less than .5 %
 /// of the pile.
 Scene floe_past_pile() {
-  Scene scene =
-      Build().without_drag().unbreakable().pile({0, 0}, 10).floe(rectangle(4, 9.6, 34, 39.6), {-4, 0});
+  Scene scene = Build().without_drag().unbreakable().pile({0, 0}, 10).floe(rectangle(4, 9.6, 34, 39.6), {-4, 0});
   scene.ice.thickness = 0.2;
   return scene;
 }

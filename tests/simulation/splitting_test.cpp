@@ -29,8 +29,7 @@ double largest_force(const Simulation& simulation) {
 TEST(Splitting, APlateOfTwentyKilometresSplitsWhenTheForceHasGrownToWhatItTakes) {
   // F = 2 σ_c h ξ tan α ahead, of which 0.633 opens the crack: ξ = F_max / (0.633 · 2 σ_c h tan 27°) = 2.20
   // m.
-  const Scene scene =
-      Build().ship(steep_icebreaker({0, 0}, ConstantSpeed{1})).floe(rectangle(0.001, -1e4, 2e4, 1e4));
+  const Scene scene = Build().ship(steep_icebreaker({0, 0}, ConstantSpeed{1})).floe(rectangle(0.001, -1e4, 2e4, 1e4));
   const double needed = fracture::lefm_splitting_force(scene.ice, 2e4, 2e4);
   const double depth = needed / (kOpeningOfStem * 2 * 2.8e6 * 0.5 * std::tan(27 * kDegree));
   Simulation simulation(scene);
@@ -60,10 +59,9 @@ TEST(Splitting, APlateOfTwentyKilometresSplitsWhenTheForceHasGrownToWhatItTakes)
 /// And a vertical hull never bends ice.
 TEST(Splitting, ByTrueForcesUnlessAnotherRuleIsChosenAndNeverByNone) {
   EXPECT_EQ(Scene{}.fracture.splitting, fracture::SplittingModel::kLefm);
-  for (const auto model : {fracture::SplittingModel::kLefm, fracture::SplittingModel::kMichel,
-                           fracture::SplittingModel::kNone}) {
-    Scene scene =
-        Build().ship(steep_icebreaker({0, 0}, ConstantSpeed{4}, 4)).floe(rectangle(0.05, -15, 30.05, 15));
+  for (const auto model :
+       {fracture::SplittingModel::kLefm, fracture::SplittingModel::kMichel, fracture::SplittingModel::kNone}) {
+    Scene scene = Build().ship(steep_icebreaker({0, 0}, ConstantSpeed{4}, 4)).floe(rectangle(0.05, -15, 30.05, 15));
     scene.fracture.splitting = model;
     const Counts counts = run(scene, 3).simulation.counts();
     EXPECT_EQ(counts.splits > 0, model != fracture::SplittingModel::kNone);
@@ -95,8 +93,8 @@ geometry::Polygon pointed(bool points_ahead) {
 
 TEST(Splitting, AFloeSplitsAnotherWithItsPointAndNotWithItsSide) {
   for (const bool points_ahead : {true, false}) {
-    const auto [simulation, story] = run_to_first_event(
-        Build().floe(pointed(points_ahead), {1, 0}).floe(rectangle(0.05, -10, 20.05, 10)), 3);
+    const auto [simulation, story] =
+        run_to_first_event(Build().floe(pointed(points_ahead), {1, 0}).floe(rectangle(0.05, -10, 20.05, 10)), 3);
     if (!points_ahead) {
       EXPECT_TRUE(story.events.empty());
       EXPECT_LT(simulation.floe_states()[0].velocity.x, 0.95) << "they met";
@@ -108,8 +106,7 @@ TEST(Splitting, AFloeSplitsAnotherWithItsPointAndNotWithItsSide) {
     EXPECT_EQ(event.ice()->by_floe, 0);
     EXPECT_EQ(event.ice()->floe, 1);
     EXPECT_GE(event.criteria().opening_force, event.criteria().opening_capacity);
-    EXPECT_NEAR(event.criteria().opening_capacity,
-                fracture::lefm_splitting_force(simulation.scene().ice, 20, 20), 1e3);
+    EXPECT_NEAR(event.criteria().opening_capacity, fracture::lefm_splitting_force(simulation.scene().ice, 20, 20), 1e3);
     EXPECT_EQ(event.ice()->children.size(), 2u);
   }
 }
@@ -119,9 +116,7 @@ TEST(Splitting, AFloeThatDriftsOnAStructureSplitsAtItsNoseAndNotAtItsWall) {
     const geometry::Ring hull =
         has_nose ? wedge_bow_waterline(120, 24, 27 * kDegree) : rectangle(-60, -12, 60, 12).outer;
     const Story story =
-        run_to_first_event(Build().structure(hull, {-60, 0}).floe(rectangle(0.05, -10, 20.05, 10), {-1, 0}),
-                           3)
-            .story;
+        run_to_first_event(Build().structure(hull, {-60, 0}).floe(rectangle(0.05, -10, 20.05, 10), {-1, 0}), 3).story;
     EXPECT_EQ(story.events.size(), has_nose ? 1u : 0u);
     EXPECT_EQ(story.splits().size(), has_nose ? 1u : 0u);
     for (const auto& event : story.splits()) EXPECT_EQ(event.ship, 0);
@@ -131,11 +126,10 @@ TEST(Splitting, AFloeThatDriftsOnAStructureSplitsAtItsNoseAndNotAtItsWall) {
 TEST(Splitting, TheFlanksOfABowOpenTheHeadOfTheSlotItIsIn) {
   // The bow touches nothing but the two corners of a slot of 10 m; the slot's head is 30 m on.
   const Story story =
-      run_to_first_event(
-          Build()
-              .ship(steep_icebreaker({9, 0}, ConstantSpeed{0.5}))
-              .floe({{{0, -40}, {80, -40}, {80, 40}, {0, 40}, {0, 5}, {30, 5}, {30, -5}, {0, -5}}, {}}),
-          10)
+      run_to_first_event(Build()
+                             .ship(steep_icebreaker({9, 0}, ConstantSpeed{0.5}))
+                             .floe({{{0, -40}, {80, -40}, {80, 40}, {0, 40}, {0, 5}, {30, 5}, {30, -5}, {0, -5}}, {}}),
+                         10)
           .story;
   ASSERT_EQ(story.splits().size(), 1u);
   const auto event = story.splits()[0];
@@ -154,8 +148,8 @@ geometry::Polygon between_channels(double spacing) {
 
 TEST(Splitting, BetweenParallelChannelsALongCrackRunsWhereTheyAreNearerThanSMax) {
   const auto first_at = [](double spacing) {
-    return run_to_first_event(
-               Build().ship(icebreaker({0, 0}, ConstantSpeed{0.5}, 0.5)).floe(between_channels(spacing)), 10)
+    return run_to_first_event(Build().ship(icebreaker({0, 0}, ConstantSpeed{0.5}, 0.5)).floe(between_channels(spacing)),
+                              10)
         .story;
   };
   const Story far = first_at(700);

@@ -34,8 +34,7 @@ void expect_same_bits(const Simulation& a, const Simulation& b) {
     if (!p.bodies.is_alive[i]) continue;
     EXPECT_EQ(p.bodies.position[i], q.bodies.position[i]) << i;
     EXPECT_EQ(p.bodies.velocity[i], q.bodies.velocity[i]) << i;
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(p.bodies.mass[i]), std::bit_cast<std::uint64_t>(q.bodies.mass[i]))
-        << i;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(p.bodies.mass[i]), std::bit_cast<std::uint64_t>(q.bodies.mass[i])) << i;
   }
 }
 
@@ -63,8 +62,7 @@ TEST(State, AResumedRunContinuesBitByBitFromAnyStep) {
       EXPECT_EQ(one.area_ledger().imbalance, whole.area_ledger().imbalance);
     }
     EXPECT_GT(whole.counts().bends, 20) << "the trial should have broken something";
-    EXPECT_LE(std::ssize(whole.world().population.awake), whole.counts().floes_final)
-        << "and some should sleep";
+    EXPECT_LE(std::ssize(whole.world().population.awake), whole.counts().floes_final) << "and some should sleep";
   }
 }
 
@@ -130,17 +128,17 @@ std::vector<std::uint64_t> record_of(const Trial& run) {
     for (const double number : numbers) record.push_back(std::bit_cast<std::uint64_t>(number));
   };
   for (const ShipSample& s : run.story.samples) {
-    add({s.time, 1.0 * s.ship, s.from_ice.surge, s.from_ice.sway, s.from_ice.yaw, s.collision.surge,
-         s.collision.sway, s.collision.yaw, s.from_ice_largest.surge, s.from_ice_largest.sway,
-         s.from_ice_largest.yaw, s.heading, s.yaw_rate, s.thrust, 1.0 * s.contacts, s.position_in_world.x,
-         s.position_in_world.y, s.velocity_in_world.x, s.velocity_in_world.y});
+    add({s.time, 1.0 * s.ship, s.from_ice.surge, s.from_ice.sway, s.from_ice.yaw, s.collision.surge, s.collision.sway,
+         s.collision.yaw, s.from_ice_largest.surge, s.from_ice_largest.sway, s.from_ice_largest.yaw, s.heading,
+         s.yaw_rate, s.thrust, 1.0 * s.contacts, s.position_in_world.x, s.position_in_world.y, s.velocity_in_world.x,
+         s.velocity_in_world.y});
   }
   for (const Event& e : run.story.events) {
     const auto* bend = std::get_if<Bend>(&e.what);
-    add({e.time, static_cast<double>(e.what.index()), static_cast<double>(e.ice()->floe),
-         bend ? bend->cusp_radius : 0, e.ice()->penetration, e.ice()->submerged_area, e.ice()->brash_area,
-         e.criteria().collision_force, e.criteria().vertical_force, e.criteria().bending_capacity,
-         e.point_in_world.x, e.point_in_world.y, e.ice()->normal_in_world.x, e.ice()->normal_in_world.y});
+    add({e.time, static_cast<double>(e.what.index()), static_cast<double>(e.ice()->floe), bend ? bend->cusp_radius : 0,
+         e.ice()->penetration, e.ice()->submerged_area, e.ice()->brash_area, e.criteria().collision_force,
+         e.criteria().vertical_force, e.criteria().bending_capacity, e.point_in_world.x, e.point_in_world.y,
+         e.ice()->normal_in_world.x, e.ice()->normal_in_world.y});
   }
   for (const Birth& b : run.story.births) {
     add({b.area});
@@ -225,8 +223,7 @@ TEST(Shortcuts, SleepMovesFloesByNoMoreThanTheRestSpeedDoes) {
   EXPECT_LT(with.simulation.counts().peak_awake, without.simulation.counts().peak_awake / 2) << "most slept";
   const auto p = with.simulation.floe_states(), q = without.simulation.floe_states();
   for (std::size_t i = 0; i < std::min(p.size(), q.size()); ++i)
-    EXPECT_LT(distance(p[i].world_from_body.position, q[i].world_from_body.position),
-              kRestSpeed * before_chaos);
+    EXPECT_LT(distance(p[i].world_from_body.position, q[i].world_from_body.position), kRestSpeed * before_chaos);
   ASSERT_EQ(with.story.events.size(), without.story.events.size());
   EXPECT_GT(with.story.events.size(), 10u);
   for (std::size_t i = 0; i < with.story.events.size(); ++i)

@@ -116,11 +116,9 @@ TEST(Shear, AFloeAloneGoesWithTheCurrentAndTurnsAtHalfTheVorticity) {
     const geometry::Rotation course = geometry::Rotation::by(direction);
     const Point at = Point{5, 7} + rotate(course, Vector{12, 40});
     const Vector drift{0.3, -0.2};
-    const Trial done = run(Build()
-                               .drift(drift)
-                               .shear(rate, direction, {5, 7})
-                               .floe(rectangle(at.x - 4, at.y - 3, at.x + 4, at.y + 3)),
-                           60);
+    const Trial done =
+        run(Build().drift(drift).shear(rate, direction, {5, 7}).floe(rectangle(at.x - 4, at.y - 3, at.x + 4, at.y + 3)),
+            60);
     const FloeState state = only_floe(done.simulation);
     EXPECT_NEAR(length(state.velocity - drift - rotate(course, {rate * 40, 0})), 0, 1e-12);
     EXPECT_NEAR(state.angular_velocity, -0.5 * rate, 1e-15);
@@ -138,8 +136,7 @@ TEST(Shear, AFloeThatDoesNotGoWithItIsBroughtToItAsTheClosedFormSays) {
   for (const double t : {20.0, 200.0, 1500.0}) {
     run(simulation, t);
     const FloeState state = only_floe(simulation);
-    EXPECT_NEAR((0.3 - state.velocity.x) * (1 + k * 0.8 * t) / 0.8, 1, 3e-3)
-        << "a 64-gon's width is near 2 R";
+    EXPECT_NEAR((0.3 - state.velocity.x) * (1 + k * 0.8 * t) / 0.8, 1, 3e-3) << "a 64-gon's width is near 2 R";
     EXPECT_NEAR((state.angular_velocity + 0.005) * (1 + spin_k * 0.05 * t) / 0.05, 1, 1e-9);
     EXPECT_NEAR(state.velocity.y, 0, 1e-15);
   }
@@ -231,11 +228,8 @@ TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
 Build squeezed(double angle, bool has_ice = true) {
   const geometry::Pose pose{{7, -3}, geometry::Rotation::by(angle)};
   const auto at = [&](double x, double y) { return transform(pose, Point{x, y}); };
-  Build scene = Build()
-                    .unbreakable()
-                    .step(0.01)
-                    .wall(at(-20, 0), at(20, 0))
-                    .wall(at(20, 20.05), at(-20, 20.05), pressing(5e4));
+  Build scene =
+      Build().unbreakable().step(0.01).wall(at(-20, 0), at(20, 0)).wall(at(20, 20.05), at(-20, 20.05), pressing(5e4));
   scene.contact.tolerance = 1e-6;
   if (has_ice) scene.floe({{at(-20, 0.01), at(20, 0.01), at(20, 20), at(-20, 20)}, {}});
   return scene;
@@ -305,8 +299,7 @@ TEST(LinePressure, OnAShipsBowAndSidesIsThatOfTheClosedForm) {
   for (const auto& [i, k] : {std::pair{0, 1}, {1, 2}, {3, 4}, {4, 0}}) {
     const Vector out = -perpendicular(hull[k] - hull[i]) / distance(hull[i], hull[k]);
     const auto beside = [&](Point p, double off) { return p + off * out; };
-    scene.floe(
-        {{beside(hull[i], 0.001), beside(hull[i], kWay), beside(hull[k], kWay), beside(hull[k], 0.001)}, {}});
+    scene.floe({{beside(hull[i], 0.001), beside(hull[i], kWay), beside(hull[k], kWay), beside(hull[k], 0.001)}, {}});
     scene.wall(beside(hull[i], kWay + 0.001), beside(hull[k], kWay + 0.001), pressing(kLoad));
   }
   const Trial done = run(scene, 60);
@@ -372,8 +365,7 @@ TEST(FastIce, ThatMovesCrushesOnAStructure) {
 }
 
 TEST(FastIce, ItsPiecesAreFreeAndMoveOnAsItDid) {
-  Scene scene =
-      in_ice(ConstantSpeed{1}, fast(rectangle(0, -60, 200, 60), {-0.3, 0.1})).drift({0.05, 0}).without_drag();
+  Scene scene = in_ice(ConstantSpeed{1}, fast(rectangle(0, -60, 200, 60), {-0.3, 0.1})).drift({0.05, 0}).without_drag();
   scene.fracture.cusp_fate = CuspFate::kFloat;
   auto [simulation, story] = run_to_first_event(scene, 20);
   ASSERT_EQ(story.bends().size(), 1u);

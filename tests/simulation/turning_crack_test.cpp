@@ -15,15 +15,12 @@ namespace {
 using namespace scenes;
 using geometry::Polygon;
 
-const double kCharacteristicLength =
-    fracture::characteristic_length(fracture::Ice{}, fracture::Water{});  // [m]
+const double kCharacteristicLength = fracture::characteristic_length(fracture::Ice{}, fracture::Water{});  // [m]
 
 /// The stem meets a large plate at a distance from the edge on its right.
 Story beside_edge(double distance) {
-  return run_to_first_event(Build()
-                                .ship(steep_icebreaker({0, 0}, ConstantSpeed{1}))
-                                .floe(rectangle(0.001, -distance, 400, 400)),
-                            2)
+  return run_to_first_event(
+             Build().ship(steep_icebreaker({0, 0}, ConstantSpeed{1})).floe(rectangle(0.001, -distance, 400, 400)), 2)
       .story;
 }
 
@@ -52,11 +49,8 @@ TEST(TurningCrack, DoesNotRunWhereItWouldLeaveASliver) {
 
 TEST(TurningCrack, NoSplitLeavesAStrip) {
   // A plate of a kilometre, entered 40 m from its side by a hull that only crushes and splits.
-  const auto [simulation, story] = run(Build()
-                                           .step(0.01)
-                                           .ship(steep_icebreaker({0, 0}, ConstantSpeed{3}, 3))
-                                           .floe(rectangle(0.01, -40, 1000, 960)),
-                                       60);
+  const auto [simulation, story] = run(
+      Build().step(0.01).ship(steep_icebreaker({0, 0}, ConstantSpeed{3}, 3)).floe(rectangle(0.01, -40, 1000, 960)), 60);
   ASSERT_GT(story.splits().size(), 2u);
   for (const auto& event : story.splits()) {
     double least = 1e9;
@@ -84,8 +78,7 @@ TEST(Splitting, ACrackThroughAHoleBreaksEachStretchByACriterionOfItsOwn) {
 }
 
 TEST(Splitting, CracksBeginOutsideOfThePileThatOpensThem) {
-  const Story story =
-      run(Build().step(0.01).pile({0, 0}, 5).floe(rectangle(5.01, -60, 125, 60), {-1.5, 0}), 30).story;
+  const Story story = run(Build().step(0.01).pile({0, 0}, 5).floe(rectangle(5.01, -60, 125, 60), {-1.5, 0}), 30).story;
   ASSERT_GT(story.splits().size(), 0u);
   for (const auto& event : story.splits())
     EXPECT_GT(std::hypot(event.point_in_world.x, event.point_in_world.y), 4.9) << "at " << event.time;
@@ -96,9 +89,7 @@ TEST(Splitting, ASternsCornerOpensNoCrackWhileItsTransomLeavesTheIce) {
   // way the side bears.
   const Polygon ice{{{-220, 2.05}, {120, 36.05}, {80, 336}, {-260, 302}}, {}};
   const auto splits = [&](double speed) {
-    return run(Build().ship(barge({0, 0}, ConstantSpeed{speed}, speed)).floe(ice, {0, -0.4}), 2)
-        .story.splits()
-        .size();
+    return run(Build().ship(barge({0, 0}, ConstantSpeed{speed}, speed)).floe(ice, {0, -0.4}), 2).story.splits().size();
   };
   EXPECT_GT(splits(0), 0u);
   EXPECT_EQ(splits(2), 0u);

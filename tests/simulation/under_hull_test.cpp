@@ -88,8 +88,7 @@ TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
 TEST(UnderHull, IceOffTheCentreLineTurnsTheShipTowardsIt) {
   const Story story = run(one_tile(1), 40).story;
   ASSERT_EQ(story.submerged().size(), 1U);
-  EXPECT_GT(mean(story, &ShipSample::from_submerged, 0, 0, &dynamics::Planar::yaw), 0)
-      << "to port, where it is";
+  EXPECT_GT(mean(story, &ShipSample::from_submerged, 0, 0, &dynamics::Planar::yaw), 0) << "to port, where it is";
 }
 
 TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
@@ -115,8 +114,7 @@ TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
   ASSERT_EQ(up.size(), 1U);
   EXPECT_EQ(up[0].ice()->floe, 0);
   ASSERT_EQ(up[0].ice()->children.size(), 1U);
-  EXPECT_GE(std::get<Resurface>(up[0].what).criterion.path,
-            std::get<Resurface>(up[0].what).criterion.least_path);
+  EXPECT_GE(std::get<Resurface>(up[0].what).criterion.path, std::get<Resurface>(up[0].what).criterion.least_path);
   EXPECT_NEAR(up[0].ice()->brash_area, 0.05 * 16, 1e-9);
   const auto born = std::ranges::find(story.births, up[0].ice()->children[0], &BirthRecord::floe);
   ASSERT_NE(born, story.births.end());

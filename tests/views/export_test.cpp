@@ -35,13 +35,13 @@ TEST(Geographic, SmallStepsFollowTheRadiiOfCurvature) {
     const double lat = latitude * kRad;
     const GeographicOrigin north_up{lat, 0, 90 * kRad};  // x east, y north
     const double d = 10;
-    EXPECT_NEAR(io::GeographicPlane::about(north_up)->geographic_of({0, d}).latitude - lat,
-                d / meridian_radius(lat), 1e-11);
+    EXPECT_NEAR(io::GeographicPlane::about(north_up)->geographic_of({0, d}).latitude - lat, d / meridian_radius(lat),
+                1e-11);
     EXPECT_NEAR(io::GeographicPlane::about(north_up)->geographic_of({d, 0}).longitude,
                 d / (normal_radius(lat) * std::cos(lat)), 1e-11);
     const GeographicOrigin x_north{lat, 0, 0};  // x north, y west
-    EXPECT_NEAR(io::GeographicPlane::about(x_north)->geographic_of({d, 0}).latitude - lat,
-                d / meridian_radius(lat), 1e-11);
+    EXPECT_NEAR(io::GeographicPlane::about(x_north)->geographic_of({d, 0}).latitude - lat, d / meridian_radius(lat),
+                1e-11);
     EXPECT_LT(io::GeographicPlane::about(x_north)->geographic_of({0, d}).longitude, 0);
   }
 }
@@ -49,10 +49,9 @@ TEST(Geographic, SmallStepsFollowTheRadiiOfCurvature) {
 TEST(Geographic, ConvergesOnThePole) {
   const GeographicOrigin pole{90 * kRad, 0, 0};
   for (const double angle : {0.1, 1.0, 2.5})
-    EXPECT_NEAR(io::GeographicPlane::about(pole)
-                    ->geographic_of({1000 * std::cos(angle), 1000 * std::sin(angle)})
-                    .latitude,
-                90 * kRad - 1000 / meridian_radius(90 * kRad), 1e-10);
+    EXPECT_NEAR(
+        io::GeographicPlane::about(pole)->geographic_of({1000 * std::cos(angle), 1000 * std::sin(angle)}).latitude,
+        90 * kRad - 1000 / meridian_radius(90 * kRad), 1e-10);
 }
 
 double covered(const Polygon& polygon) {
@@ -94,8 +93,7 @@ double value_at(const std::string& text, const std::string& name, std::size_t n)
   const std::size_t tag = text.find("Name=\"" + name + "\"");
   const std::size_t start = text.find('>', tag) + 1;
   const std::string encoded = text.substr(start, text.find('<', start) - start);
-  static constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
   unsigned bits = 0;
   int held = 0;

@@ -18,15 +18,14 @@ namespace {
 /// Two ships and a structure; the second ship breaks a floe.
 io::Run run_of_three(const std::string& name) {
   const auto named = [](const std::string& members) {
-    return tests::ship(
-        R"("hull": {"length_m": 40, "beam_m": 8}, "propulsion": {"constant_speed_m_per_s": 1}, )" + members);
+    return tests::ship(R"("hull": {"length_m": 40, "beam_m": 8}, "propulsion": {"constant_speed_m_per_s": 1}, )" +
+                       members);
   };
   io::Run run;
-  run.scene = tests::load(
-      tests::scene({"\"name\": \"" + name + '"', tests::list("floes", {tests::square(200, 0, 10)}),
-                    tests::list("ships", {named(R"("name": "north", "position_m": [0, 50])"),
-                                          named(R"("name": "south", "position_m": [0, 0])")}),
-                    R"("structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}])"}));
+  run.scene = tests::load(tests::scene({"\"name\": \"" + name + '"', tests::list("floes", {tests::square(200, 0, 10)}),
+                                        tests::list("ships", {named(R"("name": "north", "position_m": [0, 50])"),
+                                                              named(R"("name": "south", "position_m": [0, 0])")}),
+                                        R"("structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}])"}));
   run.label = name;
   for (int ship = 0; ship < 3; ++ship) {
     simulation::ShipSample sample;
@@ -99,8 +98,7 @@ TEST(FinalMap, IsReadableAtItsWidthOnPaper) {
     const std::string tag = svg.substr(at, words - at);
     const double left = std::stod(tag.substr(9)), size = numbers_of(tag, "font-size").front();
     EXPECT_GE(left, -1) << tag;
-    EXPECT_LE(left + width_of(svg.substr(words, svg.find("</text>", words) - words), size), pixels + 1)
-        << tag;
+    EXPECT_LE(left + width_of(svg.substr(words, svg.find("</text>", words) - words), size), pixels + 1) << tag;
   }
 }
 
@@ -127,8 +125,7 @@ TEST(FinalMap, IceUnderAHullIsNeitherFloatingIceNorAFracture) {
             "1 cusp broken by bending, 0 splits, 4 floes, 1 at the start; 2 pieces went under the hull, 1 "
             "came up");
   const std::string with = to_svg(picture), without = to_svg(final_picture(run_with_floes("plain")));
-  for (const char* words :
-       {">ice under the hull or waiting behind it<", ">piece that came up from under the hull<"}) {
+  for (const char* words : {">ice under the hull or waiting behind it<", ">piece that came up from under the hull<"}) {
     EXPECT_EQ(count_of(with, words), 1U) << words;
     EXPECT_EQ(count_of(without, words), 0U) << words;
   }

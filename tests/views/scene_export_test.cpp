@@ -62,8 +62,8 @@ struct Miss {
 Miss miss_between(const io::Run& a, const io::Run& b) {
   const io::MotionIndex motions_a(a), motions_b(b);
   Miss miss;
-  miss.ship = geometry::distance(motions_a.ship_at(0, a.end_time())->position,
-                                 motions_b.ship_at(0, b.end_time())->position);
+  miss.ship =
+      geometry::distance(motions_a.ship_at(0, a.end_time())->position, motions_b.ship_at(0, b.end_time())->position);
   EXPECT_EQ(a.floes.size(), b.floes.size());
   for (std::size_t i = 0; i < a.floes.size(); ++i) {
     const auto id = static_cast<simulation::FloeId>(i);

@@ -44,10 +44,7 @@ std::string fractures_layer(const io::Run& run, double time, const Project& proj
     const fracture::FailureCriteria& criteria = event.criteria();
     io::JsonWriter& json = layer.start();
     json.key("t_s").value(event.time).key("kind").value(name_of(event));
-    json.key("ship")
-        .value(io::ship_name(run.scene.scene, event.ship))
-        .key("floe_id")
-        .value(event.ice()->floe);
+    json.key("ship").value(io::ship_name(run.scene.scene, event.ship)).key("floe_id").value(event.ice()->floe);
     json.key("contact_force_N").value(criteria.contact_force);
     json.key("collision_force_N").value(criteria.collision_force);
     json.key("vertical_force_N").value(criteria.vertical_force);
@@ -57,13 +54,11 @@ std::string fractures_layer(const io::Run& run, double time, const Project& proj
   return layer.finish();
 }
 
-std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, double time,
-                         const Project& project) {
+std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, double time, const Project& project) {
   GeojsonLayer layer(time, project);
   for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     geometry::Ring track;
-    for (const double t : frame_times_until(run, time))
-      track.push_back(ship_pose_at(run, motions, ship, t).position);
+    for (const double t : frame_times_until(run, time)) track.push_back(ship_pose_at(run, motions, ship, t).position);
     if (track.size() < 2) continue;
     layer.start().key("ship").value(hull_of(run.scene.scene, ship).name);
     layer.end_with(track);
@@ -71,8 +66,7 @@ std::string tracks_layer(const io::Run& run, const io::MotionIndex& motions, dou
   return layer.finish();
 }
 
-std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, double time,
-                        const Project& project) {
+std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, double time, const Project& project) {
   GeojsonLayer layer(time, project);
   for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     layer.start().key("ship").value(hull_of(run.scene.scene, ship).name).key("t_s").value(time);
@@ -85,8 +79,7 @@ std::string ships_layer(const io::Run& run, const io::MotionIndex& motions, doub
 std::string channel_layer(const io::Run& run, double time, const Project& project) {
   GeojsonLayer layer(time, project);
   for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
-    const auto channel =
-        analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0});
+    const auto channel = analysis::measure_channel(run, {.ship = ship, .time = time, .spacing = 0, .reach = 0});
     if (!channel) continue;
     for (const geometry::Polygon& water : channel->open_water) {
       io::JsonWriter& json = layer.start().key("ship").value(channel->ship);
@@ -105,8 +98,7 @@ io::Result<Project> degrees_about(const simulation::GeographicOrigin& origin) {
   if (!made) return io::fail(made.error());
   return Project([plane = std::make_shared<io::GeographicPlane>(std::move(*made))](geometry::Point p) {
     const io::Geographic at = plane->geographic_of(p);
-    return geometry::Point{geometry::kDegreesPerRadian * at.longitude,
-                           geometry::kDegreesPerRadian * at.latitude};
+    return geometry::Point{geometry::kDegreesPerRadian * at.longitude, geometry::kDegreesPerRadian * at.latitude};
   });
 }
 

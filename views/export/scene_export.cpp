@@ -165,8 +165,7 @@ void place_ships(JsonValue& scene, const io::Run& run, const io::MotionIndex& mo
   }
   const auto under = floes_under_hulls_at(run, motions, time).size();
   if (under > 0)
-    left_out.push_back(
-        fmt::format("{} floe{} under hulls or waiting behind them", under, under == 1 ? "" : "s"));
+    left_out.push_back(fmt::format("{} floe{} under hulls or waiting behind them", under, under == 1 ? "" : "s"));
 }
 
 /// The scene's own clock and current, from then on.

@@ -42,24 +42,21 @@ class IceExport {
     data.time = time;
     const std::vector<io::PlacedFloe> floes =
         is_under_hulls ? floes_under_hulls_at(run_, motions_, time) : floes_at(run_, motions_, time);
-    std::erase_if(triangles_, [&](const auto& of) {
-      return !run_.is_alive(of.first, time) && !run_.is_under(of.first, time);
-    });
+    std::erase_if(triangles_,
+                  [&](const auto& of) { return !run_.is_alive(of.first, time) && !run_.is_under(of.first, time); });
     std::vector<std::int64_t> first_point;
     for (const io::PlacedFloe& floe : floes) {
       first_point.push_back(static_cast<std::int64_t>(data.points.size()));
       add_rings(data, transform(floe.world_from_body, *floe.polygon_in_body));
     }
-    data.cell_data = {{"floe_id", {}, 1, true},        {"parent_id", {}, 1, true},
-                      {"generation", {}, 1, true},     {"born_s", {}, 1, false},
-                      {"area_m2", {}, 1, false},       {"mass_kg", {}, 1, false},
-                      {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false},
-                      {"is_outline", {}, 1, true},     {"came_up", {}, 1, true}};
+    data.cell_data = {{"floe_id", {}, 1, true},        {"parent_id", {}, 1, true},         {"generation", {}, 1, true},
+                      {"born_s", {}, 1, false},        {"area_m2", {}, 1, false},          {"mass_kg", {}, 1, false},
+                      {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false}, {"is_outline", {}, 1, true},
+                      {"came_up", {}, 1, true}};
     for (const io::FloeIceProperty& property : io::floe_ice_properties())
       data.cell_data.push_back({std::string(property.key), {}, 1, false});
     for (const io::PlacedFloe& floe : floes) {
-      for (std::size_t ring = 0; ring <= floe.polygon_in_body->holes.size(); ++ring)
-        add_cell(data, floe, true);
+      for (std::size_t ring = 0; ring <= floe.polygon_in_body->holes.size(); ++ring) add_cell(data, floe, true);
     }
     for (std::size_t i = 0; i < floes.size(); ++i) {
       for (const geometry::Triangle& triangle : triangles_of(floes[i])) {
@@ -102,11 +99,10 @@ class IceExport {
     const geometry::Vector velocity = floe.motion ? floe.motion->velocity : geometry::Vector{kNan, kNan};
     const fracture::Ice& ice = ice_of(run_.scene.scene, birth.own_ice);
     add_row(data.cell_data,
-            {static_cast<double>(birth.floe), static_cast<double>(birth.parent),
-             static_cast<double>(birth.generation), birth.time, birth.area, birth.mass, length(velocity),
-             velocity.x, velocity.y, 0.0, is_outline ? 1.0 : 0.0, run_.floe(birth.floe)->came_up ? 1.0 : 0.0,
-             ice.thickness, ice.density, ice.flexural_strength, ice.compressive_strength,
-             ice.tensile_strength, ice.fracture_toughness});
+            {static_cast<double>(birth.floe), static_cast<double>(birth.parent), static_cast<double>(birth.generation),
+             birth.time, birth.area, birth.mass, length(velocity), velocity.x, velocity.y, 0.0, is_outline ? 1.0 : 0.0,
+             run_.floe(birth.floe)->came_up ? 1.0 : 0.0, ice.thickness, ice.density, ice.flexural_strength,
+             ice.compressive_strength, ice.tensile_strength, ice.fracture_toughness});
   }
 
   const io::Run& run_;
@@ -148,16 +144,15 @@ int number_of(const simulation::Event& fracture) {
 VtkPolyData loads_at(const io::Run& run, double after, double time) {
   VtkPolyData data;
   data.time = time;
-  data.cell_data = {{"kind", {}, 1, true},           {"ship", {}, 1, true},
-                    {"floe_id", {}, 1, true},        {"t_s", {}, 1, false},
-                    {"force_N", {}, 3, false},       {"yaw_moment_Nm", {}, 1, false},
+  data.cell_data = {{"kind", {}, 1, true},           {"ship", {}, 1, true},     {"floe_id", {}, 1, true},
+                    {"t_s", {}, 1, false},           {"force_N", {}, 3, false}, {"yaw_moment_Nm", {}, 1, false},
                     {"j_over_tau_c_N", {}, 3, false}};
   const auto add = [&](geometry::Point at, int kind, int ship, simulation::FloeId floe, double t,
                        geometry::Vector force, double moment, geometry::Vector collision) {
     data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
     data.points.push_back(at);
-    add_row(data.cell_data, {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe),
-                             t, force.x, force.y, 0.0, moment, collision.x, collision.y, 0.0});
+    add_row(data.cell_data, {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe), t,
+                             force.x, force.y, 0.0, moment, collision.x, collision.y, 0.0});
   };
   std::vector<const simulation::ShipSample*> last(hull_count(run.scene.scene), nullptr);
   const auto until = std::ranges::upper_bound(run.samples, time + 1e-9, {}, &simulation::ShipSample::time);
@@ -194,8 +189,8 @@ VtkPolyData contacts_at(const io::Run& run, double time) {
     data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
     data.points.push_back(state.point_in_world);
     add_row(data.point_data, {static_cast<double>(state.on.ship), static_cast<double>(state.on.floe),
-                              static_cast<double>(state.by.ship), static_cast<double>(state.by.floe),
-                              state.force.x, state.force.y, 0.0, state.depth, state.is_crushing ? 1.0 : 0.0});
+                              static_cast<double>(state.by.ship), static_cast<double>(state.by.floe), state.force.x,
+                              state.force.y, 0.0, state.depth, state.is_crushing ? 1.0 : 0.0});
   }
   return data;
 }

@@ -19,10 +19,9 @@ std::string data_array(const std::string& name, const std::vector<Value>& values
   simulation::ByteWriter bytes;
   bytes(std::uint64_t{values.size() * sizeof(Value)});
   for (const Value value : values) bytes(value);
-  return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-      std::is_same_v<Value, double> ? "Float64" : "Int64", io::escaped(name), components,
-      io::to_base64(bytes.take()));
+  return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
+                     std::is_same_v<Value, double> ? "Float64" : "Int64", io::escaped(name), components,
+                     io::to_base64(bytes.take()));
 }
 
 std::string cells_element(const char* element, const Cells& cells) {
@@ -83,8 +82,8 @@ std::string to_pvd(const VtkTimeline& timeline) {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const VtkTimeline::Entry& entry : timeline.entries)
-    text += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", number(entry.time),
-                        entry.part, io::escaped(entry.file));
+    text += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", number(entry.time), entry.part,
+                        io::escaped(entry.file));
   return text + "</Collection>\n</VTKFile>\n";
 }
 

@@ -25,10 +25,9 @@ Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double ti
   for (const io::PlacedFloe& floe : floes_under_hulls_at(run, motions, time))
     picture.ice_under_hulls.push_back(transform(floe.world_from_body, *floe.polygon_in_body));
   for (std::size_t ship = 0; ship < hull_count(scene); ++ship) {
-    Picture::Ship drawn{
-        transform(ship_pose_at(run, motions, ship, time), hull_of(scene, ship).hull.waterline),
-        {},
-        kind_of_hull(scene, ship) == simulation::BodyKind::kWall};
+    Picture::Ship drawn{transform(ship_pose_at(run, motions, ship, time), hull_of(scene, ship).hull.waterline),
+                        {},
+                        kind_of_hull(scene, ship) == simulation::BodyKind::kWall};
     for (const double t : drawn.is_wall ? std::vector<double>{} : frame_times_until(run, time))
       drawn.track.push_back(ship_pose_at(run, motions, ship, t).position);
     picture.ships.push_back(std::move(drawn));
@@ -45,8 +44,7 @@ Picture picture_at(const io::Run& run, const io::MotionIndex& motions, double ti
 
 namespace {
 
-constexpr std::size_t kLargestConverted = std::size_t{20}
-                                          << 20;  ///< an SVG that a converter is given [bytes]
+constexpr std::size_t kLargestConverted = std::size_t{20} << 20;  ///< an SVG that a converter is given [bytes]
 
 std::ptrdiff_t count_of(const Picture& picture, FractureMark mark) {
   return std::ranges::count(picture.fractures, mark, &Picture::Fracture::mark);

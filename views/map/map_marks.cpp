@@ -15,8 +15,8 @@ void draw_fracture_mark(SvgText& svg, FractureMark mark, double x, double y, dou
         "stroke-width='1.5'/>\n",
         x, y - 9 * size, 8 * size, 14 * size, -16 * size, kSplit);
   else
-    svg.add("<circle cx='{:.2f}' cy='{:.2f}' r='{:.2f}' fill='{}' stroke='#ffffff' stroke-width='0.5'/>\n", x,
-            y, 2.8 * size, mark == FractureMark::kGrind ? kGrind : kBend, size < 0.8 ? "0" : "0.5");
+    svg.add("<circle cx='{:.2f}' cy='{:.2f}' r='{:.2f}' fill='{}' stroke='#ffffff' stroke-width='0.5'/>\n", x, y,
+            2.8 * size, mark == FractureMark::kGrind ? kGrind : kBend, size < 0.8 ? "0" : "0.5");
 }
 
 std::string ice_under_hull_style() {
@@ -30,14 +30,13 @@ namespace {
 
 MapKey area_key(const char* colour, const char* edge, const char* words) {
   return {{words, 26}, [=](SvgText& svg, geometry::Point at) {
-            svg.add("<rect x='{:.2f}' y='{:.2f}' width='26' height='16' fill='{}' stroke='{}'/>\n", at.x,
-                    at.y - 13, colour, edge);
+            svg.add("<rect x='{:.2f}' y='{:.2f}' width='26' height='16' fill='{}' stroke='{}'/>\n", at.x, at.y - 13,
+                    colour, edge);
           }};
 }
 
 MapKey mark_key(FractureMark mark, const char* words) {
-  return {{words, 18},
-          [=](SvgText& svg, geometry::Point at) { draw_fracture_mark(svg, mark, at.x + 9, at.y - 6, 1); }};
+  return {{words, 18}, [=](SvgText& svg, geometry::Point at) { draw_fracture_mark(svg, mark, at.x + 9, at.y - 6, 1); }};
 }
 
 MapKey scale_bar(double scale, double room_on_page) {
@@ -45,8 +44,8 @@ MapKey scale_bar(double scale, double room_on_page) {
   const double decade = std::pow(10, std::floor(std::log10(room)));
   const double length = decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
   return {{fmt::format("{:g} m", length), length * scale}, [=](SvgText& svg, geometry::Point at) {
-            svg.add("<path d='M{:.2f} {:.2f}v8h{:.2f}v-8' fill='none' stroke='#000000' stroke-width='2'/>\n",
-                    at.x, at.y - 10, length * scale);
+            svg.add("<path d='M{:.2f} {:.2f}v8h{:.2f}v-8' fill='none' stroke='#000000' stroke-width='2'/>\n", at.x,
+                    at.y - 10, length * scale);
           }};
 }
 
@@ -63,15 +62,14 @@ std::vector<MapKey> map_keys(double scale, double room, const MapContents& conte
   if (contents.has_walls) keys.push_back(area_key(kWall, kWall, "wall"));
   if (contents.has_ice_under_hulls)
     keys.push_back({{"ice under the hull or waiting behind it", 26}, [](SvgText& svg, geometry::Point at) {
-                      svg.add("<rect x='{0:.2f}' y='{1:.2f}' width='26' height='16' fill='{2}'/>\n", at.x,
-                              at.y - 13, kShip);
-                      svg.add("<rect x='{:.2f}' y='{:.2f}' width='18' height='8' {} stroke-width='1.2'/>\n",
-                              at.x + 4, at.y - 9, ice_under_hull_style());
+                      svg.add("<rect x='{0:.2f}' y='{1:.2f}' width='26' height='16' fill='{2}'/>\n", at.x, at.y - 13,
+                              kShip);
+                      svg.add("<rect x='{:.2f}' y='{:.2f}' width='18' height='8' {} stroke-width='1.2'/>\n", at.x + 4,
+                              at.y - 9, ice_under_hull_style());
                     }});
   keys.push_back({{"its track", 30}, [](SvgText& svg, geometry::Point at) {
-                    svg.add(
-                        "<path d='M{:.2f} {:.2f}h30' stroke='{}' stroke-width='2' stroke-dasharray='8 4'/>\n",
-                        at.x, at.y - 5, kTrack);
+                    svg.add("<path d='M{:.2f} {:.2f}h30' stroke='{}' stroke-width='2' stroke-dasharray='8 4'/>\n", at.x,
+                            at.y - 5, kTrack);
                   }});
   keys.push_back(mark_key(FractureMark::kBend, "cusp broken by bending"));
   keys.push_back(mark_key(FractureMark::kSplit, "floe split"));

@@ -55,8 +55,7 @@ struct MapFrame {
 
 class SvgMap {
  public:
-  SvgMap(SvgText& svg, const Picture& picture, const MapFrame& frame)
-      : svg_(svg), picture_(picture), frame_(frame) {}
+  SvgMap(SvgText& svg, const Picture& picture, const MapFrame& frame) : svg_(svg), picture_(picture), frame_(frame) {}
 
   void draw() {
     svg_.add(
@@ -66,8 +65,7 @@ class SvgMap {
         frame_.left, frame_.top, frame_.width(), frame_.height(), map_colour::kWater);
     draw_water();
     draw_ice([](const Picture::Floe& floe) { return floe.generation == 0; }, map_colour::kIce);
-    draw_ice([](const Picture::Floe& floe) { return floe.generation > 0 && !floe.came_up; },
-             map_colour::kBrokenIce);
+    draw_ice([](const Picture::Floe& floe) { return floe.generation > 0 && !floe.came_up; }, map_colour::kBrokenIce);
     draw_fractures(FractureMark::kBend);
     draw_fractures(FractureMark::kGrind);
     draw_ice(std::mem_fn(&Picture::Floe::came_up), map_colour::kIceCameUp);
@@ -103,8 +101,8 @@ class SvgMap {
 
   template <class Condition>
   void draw_ice(Condition condition, const char* colour) {
-    svg_.add("<g fill='{}' fill-rule='evenodd' stroke='{}' stroke-width='{:.2f}' stroke-linejoin='round'>\n",
-             colour, map_colour::kIceEdge, ice_edge());
+    svg_.add("<g fill='{}' fill-rule='evenodd' stroke='{}' stroke-width='{:.2f}' stroke-linejoin='round'>\n", colour,
+             map_colour::kIceEdge, ice_edge());
     for (const auto& floe : picture_.floes) {
       if (condition(floe)) path(floe.polygon_in_world);
     }
@@ -129,8 +127,7 @@ class SvgMap {
   }
 
   void draw_track(const Picture::Ship& ship) {
-    svg_.add("<polyline fill='none' stroke='{}' stroke-width='2' stroke-dasharray='8 4' points='",
-             map_colour::kTrack);
+    svg_.add("<polyline fill='none' stroke='{}' stroke-width='2' stroke-dasharray='8 4' points='", map_colour::kTrack);
     for (const Point p : ship.track) svg_.add("{:.2f},{:.2f} ", frame_.x(p), frame_.y(p));
     svg_.add("'/>\n");
   }
@@ -160,10 +157,9 @@ std::string to_svg(const Picture& picture) {
   frame.scale = std::min(kRoom / size.x, kTallest / size.y);
   frame.left = kMargin + 0.5 * (kRoom - frame.width());
   frame.top = heading.height();
-  const MapContents contents{
-      .has_walls = std::ranges::any_of(picture.ships, &Picture::Ship::is_wall),
-      .has_ice_under_hulls = !picture.ice_under_hulls.empty(),
-      .has_ice_that_came_up = std::ranges::any_of(picture.floes, &Picture::Floe::came_up)};
+  const MapContents contents{.has_walls = std::ranges::any_of(picture.ships, &Picture::Ship::is_wall),
+                             .has_ice_under_hulls = !picture.ice_under_hulls.empty(),
+                             .has_ice_that_came_up = std::ranges::any_of(picture.floes, &Picture::Floe::came_up)};
   const std::vector<MapKey> keys = map_keys(frame.scale, kRoom / 6, contents);
   std::vector<Legend::Entry> entries;
   entries.reserve(keys.size());

@@ -43,8 +43,8 @@ double Heading::height() const {
 void Heading::draw(SvgText& svg) const {
   double y = 4;
   for (const std::string& line : title_)
-    svg.add("<text x='{:.2f}' y='{:.2f}' font-size='{}' font-weight='bold'>{}</text>\n", left_,
-            y += kTitleLine, kTitle, io::escaped(line));
+    svg.add("<text x='{:.2f}' y='{:.2f}' font-size='{}' font-weight='bold'>{}</text>\n", left_, y += kTitleLine, kTitle,
+            io::escaped(line));
   for (const std::string& line : caption_) svg.words(left_, y += kLine, kWords, line);
 }
 

@@ -36,10 +36,9 @@ void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<i
                   const HeldFloes& held) {
   std::vector<io::RunContact> contacts;
   for (const io::Frame& frame : frames) {
-    std::ranges::copy_if(run.contacts_at(frame.time), std::back_inserter(contacts),
-                         [&](const io::RunContact& contact) {
-                           return held.has(contact.state.on.floe) && held.has(contact.state.by.floe);
-                         });
+    std::ranges::copy_if(run.contacts_at(frame.time), std::back_inserter(contacts), [&](const io::RunContact& contact) {
+      return held.has(contact.state.on.floe) && held.has(contact.state.by.floe);
+    });
   }
   const auto add = [&](const char* name, auto read) {
     columns.add(name, contacts, [read](const io::RunContact& contact) { return read(contact.state); });
@@ -69,8 +68,7 @@ void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<i
   };
   std::vector<double> instants;
   const std::size_t count = std::min(kMostInstants, frames.size());
-  for (std::size_t i = 0; i < count; ++i)
-    instants.push_back(frames[(i + 1) * frames.size() / count - 1].time);
+  for (std::size_t i = 0; i < count; ++i) instants.push_back(frames[(i + 1) * frames.size() / count - 1].time);
   std::vector<Row> rows;
   const io::MotionIndex motions(run);
   for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
@@ -200,8 +198,7 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
 
 }  // namespace
 
-std::vector<double> family_distances(const io::Run& run, const Box& box,
-                                     const std::vector<io::Frame>& frames) {
+std::vector<double> family_distances(const io::Run& run, const Box& box, const std::vector<io::Frame>& frames) {
   std::vector<std::size_t> oldest(run.floes.size());
   std::vector<double> reach(run.floes.size());
   for (std::size_t i = 0; i < run.floes.size(); ++i) {
@@ -240,8 +237,8 @@ std::vector<double> family_distances(const io::Run& run, const Box& box,
 PlayerData player_data(const io::Run& run, const PlayerSelection& selection) {
   PlayerData data;
   std::vector<io::Frame> frames = thinned_frames(run, selection.frames);
-  const HeldFloes held = selection.area ? HeldFloes(family_distances(run, *selection.area, frames))
-                                        : HeldFloes(run.floes.size());
+  const HeldFloes held =
+      selection.area ? HeldFloes(family_distances(run, *selection.area, frames)) : HeldFloes(run.floes.size());
   data.floes = held.ids().size();
   add_floes(data.columns, run, held);
   data.floe_bytes = data.columns.bytes().size();

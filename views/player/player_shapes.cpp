@@ -80,8 +80,7 @@ class ShapeColumns {
 
 void add_floes(ColumnWriter& columns, const io::Run& run, const HeldFloes& held) {
   const auto add_of_floe = [&](const char* name, auto read) {
-    columns.add(name, held.ids(),
-                [&run, read](simulation::FloeId id) { return std::invoke(read, *run.floe(id)); });
+    columns.add(name, held.ids(), [&run, read](simulation::FloeId id) { return std::invoke(read, *run.floe(id)); });
   };
   const auto add = [&](const char* name, auto read) {
     add_of_floe(name, [read](const io::RunFloe& floe) { return std::invoke(read, floe.birth); });
@@ -98,8 +97,7 @@ void add_floes(ColumnWriter& columns, const io::Run& run, const HeldFloes& held)
   add("mass_kg", &BirthRecord::mass);
   const simulation::Scene& scene = run.scene.scene;
   add("thickness_m", [&](const BirthRecord& birth) { return ice_of(scene, birth.own_ice).thickness; });
-  add("flexural_strength_Pa",
-      [&](const BirthRecord& birth) { return ice_of(scene, birth.own_ice).flexural_strength; });
+  add("flexural_strength_Pa", [&](const BirthRecord& birth) { return ice_of(scene, birth.own_ice).flexural_strength; });
   add("centroid_x_m", [](const BirthRecord& birth) { return birth.centroid_in_body.x; });
   add("centroid_y_m", [](const BirthRecord& birth) { return birth.centroid_in_body.y; });
   ShapeColumns shapes(run);

@@ -39,8 +39,7 @@ class ColumnWriter {
   const std::string& bytes() const { return bytes_; }
 
  private:
-  void add_raw(const std::string& name, const char* type, const void* data, std::size_t count,
-               std::size_t size);
+  void add_raw(const std::string& name, const char* type, const void* data, std::size_t count, std::size_t size);
   std::vector<Column> table_;
   std::string bytes_;
 };
@@ -59,9 +58,7 @@ class HeldFloes {
   }
   bool are_all() const { return is_held_.empty(); }
   /// Also of what is no floe.
-  bool has(simulation::FloeId id) const {
-    return id < 0 || are_all() || is_held_[static_cast<std::size_t>(id)];
-  }
+  bool has(simulation::FloeId id) const { return id < 0 || are_all() || is_held_[static_cast<std::size_t>(id)]; }
   const std::vector<simulation::FloeId>& ids() const { return ids_; }
 
  private:

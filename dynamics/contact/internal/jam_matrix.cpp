@@ -167,8 +167,7 @@ int JamMatrix::pair_of(int earlier, int later) const {
   return at;
 }
 
-void JamMatrix::add_up(const Eigen::VectorXd& mass, std::span<const JamRows> rows,
-                       std::span<const JamLoad> loads) {
+void JamMatrix::add_up(const Eigen::VectorXd& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
   for (std::size_t i = 0; i < place_of_.size(); ++i) {
     Own& own = own_[place_of_[i]];
     own = {};
@@ -217,8 +216,7 @@ void JamMatrix::eliminate(int body, const int* targets) {
   }
 }
 
-bool JamMatrix::factorize(const Eigen::VectorXd& mass, std::span<const JamRows> rows,
-                          std::span<const JamLoad> loads) {
+bool JamMatrix::factorize(const Eigen::VectorXd& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
   add_up(mass, rows, loads);
   const int* target = targets_.data();
   for (int i = 0; i < static_cast<int>(own_.size()); ++i) {

@@ -32,8 +32,7 @@ int chords_per_arc(const PanelMesh& mesh) {
   double shortest = 1, widest = 0;  // the first relative to the ring's radius
   for (std::size_t i = 0; i + 1 < mesh.rings.size(); ++i)
     shortest = std::min(shortest, 1 - mesh.rings[i] / mesh.rings[i + 1]);
-  for (std::size_t j = 0; j + 1 < mesh.rays.size(); ++j)
-    widest = std::max(widest, mesh.rays[j + 1] - mesh.rays[j]);
+  for (std::size_t j = 0; j + 1 < mesh.rays.size(); ++j) widest = std::max(widest, mesh.rays[j + 1] - mesh.rays[j]);
   return static_cast<int>(std::ceil(widest / std::sqrt(8 * kSagitta * shortest)));
 }
 
@@ -68,8 +67,7 @@ double vortex_ring(const Point& point, const Border& points) {
 
 }  // namespace
 
-PanelMesh make_panel_mesh(const std::vector<double>& rings_and_controls,
-                          const std::vector<double>& rays_and_controls) {
+PanelMesh make_panel_mesh(const std::vector<double>& rings_and_controls, const std::vector<double>& rays_and_controls) {
   PanelMesh mesh;
   for (std::size_t i = 0; i < rings_and_controls.size(); i += 2) mesh.rings.push_back(rings_and_controls[i]);
   for (std::size_t j = 0; j < rays_and_controls.size(); j += 2) mesh.rays.push_back(rays_and_controls[j]);
@@ -102,8 +100,7 @@ Eigen::MatrixXd surface_flux(const PanelMesh& mesh) {
         border(mesh, static_cast<std::size_t>(j) / columns, static_cast<std::size_t>(j) % columns, chords);
     const Border image = mirrored(panel);
     for (int i = 0; i < mesh.size(); ++i) {
-      const double r = mesh.radii[static_cast<std::size_t>(i)],
-                   angle = mesh.angles[static_cast<std::size_t>(i)];
+      const double r = mesh.radii[static_cast<std::size_t>(i)], angle = mesh.angles[static_cast<std::size_t>(i)];
       const Point point(r * std::cos(angle), r * std::sin(angle));
       // The doublet strength is the jump of the odd potential across z = 0, twice the potential below.
       flux(i, j) = mesh.areas[i] * 2 * (vortex_ring(point, panel) + vortex_ring(point, image));

@@ -23,8 +23,7 @@ struct PanelMesh {
 /// Panels between every second ring and ray, with their control points on those between: both lists hold an
 /// odd number of ascending values. Control points at the middle of the spacing's parameter, rather than at
 /// the panel's centroid, are what makes a vortex lattice accurate at its free edge.
-PanelMesh make_panel_mesh(const std::vector<double>& rings_and_controls,
-                          const std::vector<double>& rays_and_controls);
+PanelMesh make_panel_mesh(const std::vector<double>& rings_and_controls, const std::vector<double>& rays_and_controls);
 
 /// Rays and controls of `columns` panels from angle `from` to the plate's edge at angle `edge` [rad], drawn
 /// together towards the edge, where the potential behaves as the square root of the distance.

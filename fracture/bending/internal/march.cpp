@@ -72,8 +72,7 @@ MarchState next_state(const WedgeModes& modes, const WedgePush& push, const Moda
     return penetration + push.feedback * modes.tip.dot(trial.amplitude.matrix()) - free_depth;
   };
   double shallow = from.penetration, deep = std::max(free_depth, from.penetration);
-  if (excess(shallow) >= 0)
-    return stepped_to(modes, push, step, time, shallow, from);  // the ice recedes faster
+  if (excess(shallow) >= 0) return stepped_to(modes, push, step, time, shallow, from);  // the ice recedes faster
   while (deep - shallow > 1e-9 * deep) {
     const double middle = 0.5 * (shallow + deep);
     (excess(middle) < 0 ? shallow : deep) = middle;
@@ -137,8 +136,7 @@ double crack_between(const WedgeModes& modes, const Instant& before, const Insta
 }
 
 /// Steps of duration / steps until the wedge breaks, however long that takes.
-std::optional<WedgeFailure> march(const WedgeModes& modes, const WedgePush& push, double duration,
-                                  int steps) {
+std::optional<WedgeFailure> march(const WedgeModes& modes, const WedgePush& push, double duration, int steps) {
   const ModalStep step(modes.inertia, duration / steps);
   const Eigen::ArrayXd rest = Eigen::ArrayXd::Zero(modes.inertia.size());
   Instant now{{0, 0, rest, rest, rest}, bisector_state(modes, rest.matrix())};

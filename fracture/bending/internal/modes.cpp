@@ -24,11 +24,9 @@ Eigen::MatrixXd potential_added_mass(const PlateMesh& mesh, const SolverSettings
 
 /// As above with the open water beside the wedge panelled too: its elevations are unknowns that carry the
 /// fluid's mass and the stiffness of their own weight, which is φ_t + g η = 0 on the open water.
-WedgeMatrices with_free_surface(const PlateMesh& mesh, const WedgeMatrices& plate,
-                                const SolverSettings& settings) {
+WedgeMatrices with_free_surface(const PlateMesh& mesh, const WedgeMatrices& plate, const SolverSettings& settings) {
   std::vector<double> rays = rays_towards_edge(0, mesh.half_angle, settings.panel_columns);
-  const std::vector<double> open =
-      rays_towards_edge(std::numbers::pi, mesh.half_angle, settings.free_surface_columns);
+  const std::vector<double> open = rays_towards_edge(std::numbers::pi, mesh.half_angle, settings.free_surface_columns);
   rays.insert(rays.end(), open.rbegin() + 1, open.rend());
   const PanelMesh panels = make_panel_mesh(fluid_rings(settings), rays);
 
@@ -37,8 +35,7 @@ WedgeMatrices with_free_surface(const PlateMesh& mesh, const WedgeMatrices& plat
   for (int i = 0; i < panels.size(); ++i)
     if (panels.angles[static_cast<std::size_t>(i)] > mesh.half_angle) open_water.push_back(i);
   const Eigen::Index size = plate_size + static_cast<Eigen::Index>(open_water.size());
-  Eigen::MatrixXd surface =
-      Eigen::MatrixXd::Zero(panels.size(), size);  // surface elevations from the unknowns
+  Eigen::MatrixXd surface = Eigen::MatrixXd::Zero(panels.size(), size);  // surface elevations from the unknowns
   for (int i = 0; i < panels.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (panels.angles[k] <= mesh.half_angle)

@@ -101,8 +101,7 @@ PlatePoint plate_point(const PlateMesh& mesh, int element, double radius, double
       const int k = 4 * j + static_cast<int>(i);
       at.deflection[k] = n.value[i] * angular.value;
       at.radial_curvature[k] = n.second[i] * angular.value;
-      at.hoop_curvature[k] =
-          n.first[i] / r * angular.value + n.value[i] / (r * r) * angular.second / (alpha * alpha);
+      at.hoop_curvature[k] = n.first[i] / r * angular.value + n.value[i] / (r * r) * angular.second / (alpha * alpha);
       at.twisting_curvature[k] = (n.first[i] / r - n.value[i] / (r * r)) * angular.first / alpha;
     }
   }
@@ -136,8 +135,7 @@ PlateMatrices assemble_plate(const PlateMesh& mesh, double poisson_ratio) {
 
 Eigen::VectorXd tip_load(const PlateMesh& mesh, double patch_radius) {
   assert(patch_radius > 0);
-  const auto nodes_inside =
-      std::upper_bound(mesh.radii.begin(), mesh.radii.end(), patch_radius) - mesh.radii.begin();
+  const auto nodes_inside = std::upper_bound(mesh.radii.begin(), mesh.radii.end(), patch_radius) - mesh.radii.begin();
   const auto loaded_nodes = std::min(nodes_inside + 1, static_cast<std::ptrdiff_t>(mesh.radii.size()));
   Eigen::VectorXd load = Eigen::VectorXd::Zero(2 * loaded_nodes);
   // The tip inside the inner radius r0 continues the mesh along straight rays, w(r) = w(r0) − (r0 − r)
@@ -148,8 +146,7 @@ Eigen::VectorXd tip_load(const PlateMesh& mesh, double patch_radius) {
   load[0] = inside;
   load[1] = -inside * (inner - centroid);
   for (int e = 0; e < mesh.elements(); ++e) {
-    const double left = mesh.radii[static_cast<std::size_t>(e)],
-                 right = mesh.radii[static_cast<std::size_t>(e) + 1];
+    const double left = mesh.radii[static_cast<std::size_t>(e)], right = mesh.radii[static_cast<std::size_t>(e) + 1];
     if (left >= patch_radius) break;
     for (const auto& [r, weight] : gauss_points(left, std::min(right, patch_radius))) {
       const HermiteValues n = hermite(left, right, r);
@@ -173,10 +170,8 @@ BisectorMoments bisector_moments(const PlateMesh& mesh, double poisson_ratio, do
     const double r = moments.radii[static_cast<std::size_t>(row)];
     const int e = element_at(mesh, r);
     const PlatePoint at = plate_point(mesh, e, r, 0);
-    scatter(mesh, e, Eigen::VectorXd(at.radial_curvature + poisson_ratio * at.hoop_curvature),
-            moments.radial.row(row));
-    scatter(mesh, e, Eigen::VectorXd(-at.hoop_curvature - poisson_ratio * at.radial_curvature),
-            moments.hoop.row(row));
+    scatter(mesh, e, Eigen::VectorXd(at.radial_curvature + poisson_ratio * at.hoop_curvature), moments.radial.row(row));
+    scatter(mesh, e, Eigen::VectorXd(-at.hoop_curvature - poisson_ratio * at.radial_curvature), moments.hoop.row(row));
   }
   return moments;
 }
@@ -186,8 +181,7 @@ Eigen::MatrixXd deflection_rows(const PlateMesh& mesh, const std::vector<double>
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(radii.size()), mesh.unknowns());
   for (std::size_t k = 0; k < radii.size(); ++k) {
     const int e = element_at(mesh, radii[k]);
-    scatter(mesh, e, plate_point(mesh, e, radii[k], angles[k]).deflection,
-            rows.row(static_cast<Eigen::Index>(k)));
+    scatter(mesh, e, plate_point(mesh, e, radii[k], angles[k]).deflection, rows.row(static_cast<Eigen::Index>(k)));
   }
   return rows;
 }

@@ -36,8 +36,7 @@ void make_cgal_throw_quietly() {
   static_cast<void>(kDone);
 }
 
-static_assert(std::is_same_v<Kernel::FT::ET, Rational>,
-              "CGAL computes in the rationals of internal/exact_polygon.hpp");
+static_assert(std::is_same_v<Kernel::FT::ET, Rational>, "CGAL computes in the rationals of internal/exact_polygon.hpp");
 
 Kernel::Point_2 to_cgal(const Point& p) {
   return {Kernel::FT(p.x), Kernel::FT(p.y)};
@@ -65,8 +64,8 @@ bool runs_rightward(const SourceSegment& s) {
 // Faces, their windings and classes, and the regions they join into.
 class Tracer {
  public:
-  Tracer(const Arrangement& arrangement, const std::vector<SourceSegment>& segments,
-         const Classifier& classify, Seams seams)
+  Tracer(const Arrangement& arrangement, const std::vector<SourceSegment>& segments, const Classifier& classify,
+         Seams seams)
       : arrangement_(arrangement), segments_(segments), seams_(seams) {
     index_faces();
     wind_faces();
@@ -222,8 +221,7 @@ class Tracer {
 
   void trace(Halfedge start, std::unordered_set<const void*>& visited, Polygon& polygon) const {
     std::vector<Halfedge> walk;
-    std::unordered_map<const void*, std::size_t>
-        place;  // of each vertex: the edge of the walk that ends there
+    std::unordered_map<const void*, std::size_t> place;  // of each vertex: the edge of the walk that ends there
     Halfedge e = start;
     do {
       visited.insert(&*e);

@@ -34,8 +34,7 @@ Run run_between(const Place& from, const Place& to, bool wraps, int size) {
 
 class Faces {
  public:
-  Faces(const Rings& rings, const Tool& tool, std::vector<Node>& nodes)
-      : rings_(rings), tool_(tool), nodes_(nodes) {}
+  Faces(const Rings& rings, const Tool& tool, std::vector<Node>& nodes) : rings_(rings), tool_(tool), nodes_(nodes) {}
 
   CutGraph trace() {
     find_chords();

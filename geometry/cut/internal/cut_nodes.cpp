@@ -98,8 +98,7 @@ class Collector {
     Node node;
     node.at = at;
     const int n = static_cast<int>(rings_[e.ring].size());
-    node.on_shape =
-        place(e.ring, e.index, n, at, rings_.point(e.ring, e.index), rings_.point(e.ring, e.index + 1));
+    node.on_shape = place(e.ring, e.index, n, at, rings_.point(e.ring, e.index), rings_.point(e.ring, e.index + 1));
     const int m = static_cast<int>(tool_.points.size());
     node.on_tool = place(0, tool_edge, m, at, tool_.point(tool_edge), tool_.point(tool_edge + 1));
     nodes_.push_back(std::move(node));
@@ -173,8 +172,7 @@ std::vector<EdgeId> edges_near(const Rings& rings, const Box& box) {
   return near;
 }
 
-std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool,
-                                            const std::vector<EdgeId>& near) {
+std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool, const std::vector<EdgeId>& near) {
   std::vector<Box> tool_boxes;
   const int tool_edges = tool.edge_count();
   tool_boxes.reserve(static_cast<std::size_t>(tool_edges));

@@ -173,8 +173,7 @@ class Placer {
     return std::any_of(changed_.begin(), changed_.end(), [&](const Segment& s) {
       if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
       const Vector along = s.to - s.from;
-      return std::abs(cross(along, p - s.from)) <=
-             8 * reach(s) * (std::abs(along.x) + std::abs(along.y) + reach(s));
+      return std::abs(cross(along, p - s.from)) <= 8 * reach(s) * (std::abs(along.x) + std::abs(along.y) + reach(s));
     });
   }
 
@@ -184,8 +183,7 @@ class Placer {
 };
 
 // The loops of one walk: one outer ring and its touching holes, or holes only.
-bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans,
-               std::vector<PieceRing>& free_holes) {
+bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, std::vector<PieceRing>& free_holes) {
   PiecePlan plan{{}, walk.part};
   std::vector<PieceRing> holes;
   for (const Loop& loop : walk.loops) {

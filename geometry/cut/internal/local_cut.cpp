@@ -103,8 +103,7 @@ bool uses_all_once(const LocalCut& cut, const std::vector<PiecePlan>& plans) {
   std::vector<int> ring_uses(cut.graph.ring_is_cut.begin(), cut.graph.ring_is_cut.end());
   for (const PiecePlan& plan : plans) {
     for (const PieceRing& ring : plan.rings) {
-      if (ring.source == PieceRing::Source::kShapeRing)
-        ++ring_uses[static_cast<std::size_t>(ring.shape_ring)];
+      if (ring.source == PieceRing::Source::kShapeRing) ++ring_uses[static_cast<std::size_t>(ring.shape_ring)];
       for (const int h : ring.loop) ++uses[static_cast<std::size_t>(h)];
     }
   }
@@ -128,8 +127,7 @@ double dangling_length(const LocalCut& cut, const Polygon& shape) {
   double sum = 0;
   if (cut.graph.starts_inside) {
     const Node& node = cut.nodes[static_cast<std::size_t>(cut.graph.first_node)];
-    sum +=
-        length_along(cut.tool, 0, node.on_tool.edge) + distance(cut.tool.point(node.on_tool.edge), node.at);
+    sum += length_along(cut.tool, 0, node.on_tool.edge) + distance(cut.tool.point(node.on_tool.edge), node.at);
   }
   if (cut.graph.ends_inside) {
     const Node& node = cut.nodes[static_cast<std::size_t>(cut.graph.last_node)];
@@ -216,8 +214,8 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
       case Apart::kMisses:
         return refuse(CutFailure::kMisses, "the tool does not meet the shape's interior");
       case Apart::kEndsInside:
-        return tl::unexpected(CutError{CutFailure::kDoesNotSeparate, "the crack ends inside the ice",
-                                       dangling_length(cut, shape)});
+        return tl::unexpected(
+            CutError{CutFailure::kDoesNotSeparate, "the crack ends inside the ice", dangling_length(cut, shape)});
       case Apart::kShapeInTool:
         return whole_shape_inside(shape);
       case Apart::kToolInShape:

@@ -61,8 +61,7 @@ std::vector<EdgeId> edges_near(const Rings& rings, const Box& box);
 /// All points in which the tool meets the shape, each once, in order along the shape; none where some point
 /// is met twice by the shape or by the tool (rings that touch each other there): the local cut does not cover
 /// that.
-std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool,
-                                            const std::vector<EdgeId>& near);
+std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool, const std::vector<EdgeId>& near);
 
 /// The nodes' indices in order along the tool.
 std::vector<int> order_along_tool(const std::vector<Node>& nodes, const Tool& tool);

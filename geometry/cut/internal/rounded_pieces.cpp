@@ -31,8 +31,7 @@ double moved_area(const Ring& ring, const geometry::Ring& rounded_ring) {
 
 double moved_area(const Polygon& polygon, const geometry::Polygon& rounded) {
   double sum = moved_area(polygon.outer, rounded.outer);
-  for (std::size_t h = 0; h < polygon.holes.size(); ++h)
-    sum += moved_area(polygon.holes[h], rounded.holes[h]);
+  for (std::size_t h = 0; h < polygon.holes.size(); ++h) sum += moved_area(polygon.holes[h], rounded.holes[h]);
   return sum;
 }
 

@@ -30,8 +30,7 @@ Rational scaled(const Rational& value, int exponent) {
 double farthest(const Polygon& polygon) {
   double size = 0;
   const auto include = [&size](const Ring& ring) {
-    for (const Point& p : ring)
-      size = std::max({size, std::abs(nearest_double(p.x)), std::abs(nearest_double(p.y))});
+    for (const Point& p : ring) size = std::max({size, std::abs(nearest_double(p.x)), std::abs(nearest_double(p.y))});
   };
   include(polygon.outer);
   std::ranges::for_each(polygon.holes, include);
@@ -51,8 +50,8 @@ struct Stretch {
   void clip(const Rational& from, const Rational& along, const Cell& cell) {
     const int direction = sgn(along);
     if (direction == 0) {
-      const bool is_in = (cell.has_low ? from >= cell.low : from > cell.low) &&
-                         (cell.has_high ? from <= cell.high : from < cell.high);
+      const bool is_in =
+          (cell.has_low ? from >= cell.low : from > cell.low) && (cell.has_high ? from <= cell.high : from < cell.high);
       if (!is_in) last = -1;
       return;
     }
@@ -85,8 +84,7 @@ struct Bend {
 
 // Farther from the line than cells reach, in doubles with room for their errors?
 bool is_far(const Edge& e, geometry::Point p, const Lattice& lattice) {
-  const double width =
-      lattice.width(std::max({std::abs(e.a.x), std::abs(e.a.y), std::abs(e.b.x), std::abs(e.b.y)}));
+  const double width = lattice.width(std::max({std::abs(e.a.x), std::abs(e.a.y), std::abs(e.b.x), std::abs(e.b.y)}));
   const Vector along = e.b - e.a;
   return std::abs(cross(along, p - e.a)) > 8 * width * (std::abs(along.x) + std::abs(along.y) + width);
 }
@@ -121,8 +119,7 @@ class Snapping {
       ends_.push_back(&ring[i + 1 == ring.size() ? 0 : i + 1]);
       edges_.push_back({lattice_.nearest(ring[i]), {}, 0, static_cast<int>(i)});
     }
-    for (std::size_t i = first; i < edges_.size(); ++i)
-      edges_[i].b = edges_[i + 1 == edges_.size() ? first : i + 1].a;
+    for (std::size_t i = first; i < edges_.size(); ++i) edges_[i].b = edges_[i + 1 == edges_.size() ? first : i + 1].a;
   }
 
   // Rounding keeps order: an edge's points round to points in the box of its rounded ends.
@@ -210,8 +207,8 @@ Cell Lattice::cell(double centre) const {
     return {middle - half, middle + half, true, false};
   }
   const bool is_even = std::bit_cast<std::uint64_t>(centre) % 2 == 0;
-  return {(middle + Rational(std::nextafter(centre, -kFar))) / 2,
-          (middle + Rational(std::nextafter(centre, kFar))) / 2, is_even, is_even};
+  return {(middle + Rational(std::nextafter(centre, -kFar))) / 2, (middle + Rational(std::nextafter(centre, kFar))) / 2,
+          is_even, is_even};
 }
 
 double Lattice::width(double size) const {

@@ -61,8 +61,7 @@ bool are_apart(const std::vector<Segment>& changed) {
   const auto has_no_length = [](const Segment& s) { return s.from == s.to; };
   if (std::any_of(changed.begin(), changed.end(), has_no_length)) return false;
   const std::vector<Edge> edges = edges_of(changed);
-  return BoxTree(edges).for_each_pair(
-      [&](std::size_t i, std::size_t j) { return are_apart(changed[i], changed[j]); });
+  return BoxTree(edges).for_each_pair([&](std::size_t i, std::size_t j) { return are_apart(changed[i], changed[j]); });
 }
 
 // Do the changed edges meet these others in shared ends only?
@@ -70,8 +69,7 @@ bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment
   const std::vector<Edge> edges = edges_of(changed);
   const BoxTree tree(edges);
   return std::all_of(others.begin(), others.end(), [&](const Segment& t) {
-    return tree.for_each_near(box_of(Edge{t.from, t.to}),
-                              [&](std::size_t i) { return are_apart(changed[i], t); });
+    return tree.for_each_near(box_of(Edge{t.from, t.to}), [&](std::size_t i) { return are_apart(changed[i], t); });
   });
 }
 
@@ -91,8 +89,7 @@ bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std
   const Box box = bounding_box(ends);
   std::vector<Segment> others;
   for (const EdgeId e : contains(tool_box, box) ? near_tool : edges_near(cut.rings, box)) {
-    if (!is_split(cut, e))
-      others.push_back({cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)});
+    if (!is_split(cut, e)) others.push_back({cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)});
   }
   return are_clear_of(cut.changed, others);
 }

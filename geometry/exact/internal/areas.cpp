@@ -181,8 +181,7 @@ Measures exact_measures(const Polygon& polygon) {
   if (moments.twice_area == 0) return {0, polygon.outer.front(), 0};
   const Rational area = moments.twice_area / 2;
   const exact::Point centroid{moments.six_first_x / (6 * area), moments.six_first_y / (6 * area)};
-  const Rational second =
-      moments.twelve_second / 12 - area * (centroid.x * centroid.x + centroid.y * centroid.y);
+  const Rational second = moments.twelve_second / 12 - area * (centroid.x * centroid.x + centroid.y * centroid.y);
   return {exact::nearest_double(area), exact::rounded(centroid), exact::nearest_double(second)};
 }
 

@@ -23,8 +23,8 @@ struct SplitDouble {
 /// high + low = a·b exactly, if nothing over- or underflows (Dekker).
 inline TwoDoubles two_product(double a, const SplitDouble& split_a, double b, const SplitDouble& split_b) {
   const double p = a * b;
-  return {p, split_a.low * split_b.low - (((p - split_a.high * split_b.high) - split_a.low * split_b.high) -
-                                          split_a.high * split_b.low)};
+  return {p, split_a.low * split_b.low -
+                 (((p - split_a.high * split_b.high) - split_a.low * split_b.high) - split_a.high * split_b.low)};
 }
 inline TwoDoubles two_product(double a, double b) {
   return two_product(a, SplitDouble(a), b, SplitDouble(b));

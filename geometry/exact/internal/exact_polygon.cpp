@@ -40,8 +40,8 @@ double nearest_double(const Rational& value) {
   const Rational remainder = value - Rational(truncated);
   const int side = sgn(remainder);
   if (side == 0) return truncated;
-  const double next = std::nextafter(truncated, side > 0 ? std::numeric_limits<double>::infinity()
-                                                         : -std::numeric_limits<double>::infinity());
+  const double next = std::nextafter(
+      truncated, side > 0 ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity());
   if (!std::isfinite(next)) return truncated;
   const Rational gap = Rational(next) - Rational(truncated);
   const int nearer = cmp(abs(Rational(2 * remainder)), abs(gap));
@@ -104,8 +104,7 @@ Rational area(const geometry::Ring& ring) {
   }
   const Rational sum(twice);
   const int shift = 2 * unit - 1;
-  return shift < 0 ? Rational(sum >> static_cast<unsigned>(-shift))
-                   : Rational(sum << static_cast<unsigned>(shift));
+  return shift < 0 ? Rational(sum >> static_cast<unsigned>(-shift)) : Rational(sum << static_cast<unsigned>(shift));
 }
 Rational area(const geometry::Polygon& polygon) {
   Rational sum = area(polygon.outer);

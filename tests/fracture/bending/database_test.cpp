@@ -46,11 +46,10 @@ TEST(DatabaseBuild, SameBytesForAnyNumberOfThreads) {
 
 TEST(DatabaseBuild, ProgressReachesTheTotal) {
   std::vector<std::size_t> seen;
-  const auto built =
-      build_database(coarse_settings(), small_grid(), 2, [&](std::size_t done, std::size_t total) {
-        EXPECT_EQ(total, 6U);
-        seen.push_back(done);
-      });
+  const auto built = build_database(coarse_settings(), small_grid(), 2, [&](std::size_t done, std::size_t total) {
+    EXPECT_EQ(total, 6U);
+    seen.push_back(done);
+  });
   EXPECT_TRUE(built.has_value());
   EXPECT_EQ(seen, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6}));
 }
@@ -156,12 +155,12 @@ TEST(DatabaseLookUp, IsContinuous) {
     const auto pick = [&](const std::vector<double>& values) {
       return random() % 2 == 0 ? one_of(values) : between(values);
     };
-    WedgeGroups below{pick(grid.opening_angles_deg) * kPi / 180, pick(grid.mass_ratios),
-                      pick(grid.softnesses), pick(grid.froude_numbers)};
+    WedgeGroups below{pick(grid.opening_angles_deg) * kPi / 180, pick(grid.mass_ratios), pick(grid.softnesses),
+                      pick(grid.froude_numbers)};
     WedgeGroups above = below;
     constexpr double kNear = 1e-8;
-    for (double WedgeGroups::*group : {&WedgeGroups::opening_angle, &WedgeGroups::mass_ratio,
-                                       &WedgeGroups::softness, &WedgeGroups::froude}) {
+    for (double WedgeGroups::*group :
+         {&WedgeGroups::opening_angle, &WedgeGroups::mass_ratio, &WedgeGroups::softness, &WedgeGroups::froude}) {
       below.*group *= 1 - kNear;
       above.*group *= 1 + kNear;
     }
@@ -177,8 +176,7 @@ TEST(DatabaseLookUp, NamesWhatIsOutside) {
   EXPECT_TRUE(database.outside(inside).empty());
   WedgeGroups groups = inside;
   groups.opening_angle = 0.1;
-  EXPECT_EQ(database.outside(groups),
-            (std::vector<OutsideRange>{{"opening angle", 0.1 * (180 / kPi), 20, 180}}));
+  EXPECT_EQ(database.outside(groups), (std::vector<OutsideRange>{{"opening angle", 0.1 * (180 / kPi), 20, 180}}));
   groups = inside;
   groups.mass_ratio = 0.5;
   groups.froude = 7;
@@ -454,8 +452,7 @@ TEST(DatabaseText, SurvivesRandomDamage) {
     const auto hashed = parse_database(body + "hash fnv1a64 0\n");
     ASSERT_FALSE(hashed.has_value());
     const auto wanted = hashed.error().message.find("expected 'hash fnv1a64 ");
-    if (wanted == std::string::npos || hashed.error().message.find("found 'hash") == std::string::npos)
-      continue;
+    if (wanted == std::string::npos || hashed.error().message.find("found 'hash") == std::string::npos) continue;
     ++hashes_repaired;
     const std::string repaired = body + hashed.error().message.substr(wanted + 10, 29) + "\n";
     const auto sound = parse_database(repaired);

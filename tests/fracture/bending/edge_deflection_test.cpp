@@ -35,8 +35,7 @@ double compliance_of(const WedgeModes& modes, double duration) {
 TEST(TipCompliance, IsThatOfTheModes) {
   for (const double angle : {20.0, 40.0, 90.0, 180.0}) {
     const WedgeModes modes = wedge_modes(0.5 * angle * kDegree, 0.05, {});
-    for (const double duration :
-         {0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 0.9, 1.3, 1.8, 2.4, 3.2, 4.2, 6.0, 1e3})
+    for (const double duration : {0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 0.9, 1.3, 1.8, 2.4, 3.2, 4.2, 6.0, 1e3})
       EXPECT_NEAR(tip_compliance(angle * kDegree, duration) / compliance_of(modes, duration), 1, 1e-3)
           << angle << " " << duration;
   }
@@ -122,8 +121,7 @@ const FsiDatabaseModel kWhole(RadialCracks::kIgnored), kSplit(RadialCracks::kSpl
 
 TEST(RadialCracks, LeaveNarrowWedgesAsTheyAre) {
   for (double angle = 20; angle <= 90; angle += 5) {
-    EXPECT_EQ(kSplit.capacity(slow_load(angle)).vertical_force,
-              kWhole.capacity(slow_load(angle)).vertical_force);
+    EXPECT_EQ(kSplit.capacity(slow_load(angle)).vertical_force, kWhole.capacity(slow_load(angle)).vertical_force);
     EXPECT_EQ(kSplit.capacity(slow_load(angle)).cusp_radius, kWhole.capacity(slow_load(angle)).cusp_radius);
   }
 }

@@ -24,8 +24,7 @@ BendingLoad paper_load(double ship_speed) {
   load.front_half_angle = load.back_half_angle = kPi / 4;
   load.hull_angle = degrees(60);
   load.mean_approach_speed = ship_speed * std::cos(degrees(27));
-  load.vertical_to_crushing =
-      crushing_shares(load.hull_angle, load.ice.friction, load.mean_approach_speed, 0).vertical;
+  load.vertical_to_crushing = crushing_shares(load.hull_angle, load.ice.friction, load.mean_approach_speed, 0).vertical;
   return load;
 }
 
@@ -148,9 +147,8 @@ TEST(Failure, CollapsesOntoTheGroups) {
   second.ice.youngs_modulus = 3.1e9;
   second.water.density = 1025;
   const double l1 = scaled(first).length_scale, l2 = scaled(second).length_scale;
-  second.ice.density =
-      first.ice.density * (first.ice.thickness / l1) / (second.ice.thickness / l2) * 1.025;  // m̂
-  second.mean_approach_speed = first.mean_approach_speed * std::sqrt(l2 / l1);               // Fr
+  second.ice.density = first.ice.density * (first.ice.thickness / l1) / (second.ice.thickness / l2) * 1.025;  // m̂
+  second.mean_approach_speed = first.mean_approach_speed * std::sqrt(l2 / l1);                                // Fr
   second.ice.flexural_strength = 0.45e6;
   second.hull_angle = degrees(50);
   second.vertical_to_crushing = 0.6;
@@ -193,10 +191,8 @@ TEST(Failure, FluidsAgreeAtRest) {
   const auto rows = fluid_study(paper_load(1), speeds, settings);
   ASSERT_EQ(rows.size(), 2U);
   const double at_rest = rows[0].by_fluid[0]->capacity.vertical_force;
-  for (const auto& forecast : rows[0].by_fluid)
-    EXPECT_NEAR(forecast->capacity.vertical_force / at_rest, 1, 2e-3);
-  EXPECT_GT(rows[1].by_fluid[1]->capacity.vertical_force,
-            1.03 * rows[1].by_fluid[2]->capacity.vertical_force);
+  for (const auto& forecast : rows[0].by_fluid) EXPECT_NEAR(forecast->capacity.vertical_force / at_rest, 1, 2e-3);
+  EXPECT_GT(rows[1].by_fluid[1]->capacity.vertical_force, 1.03 * rows[1].by_fluid[2]->capacity.vertical_force);
 }
 
 // A wide wedge cracks along its bisector before its cusp breaks off, a narrow one does not.
@@ -222,8 +218,7 @@ TEST(Failure, DeflectionFeedbackDelaysTheBreak) {
     const double delay = row.coupled->time / row.ignored->time;
     EXPECT_GT(delay, 1) << row.speed;
     EXPECT_LT(delay, previous_delay) << row.speed;
-    EXPECT_NEAR(row.coupled->capacity.vertical_force / row.ignored->capacity.vertical_force, 1, 0.03)
-        << row.speed;
+    EXPECT_NEAR(row.coupled->capacity.vertical_force / row.ignored->capacity.vertical_force, 1, 0.03) << row.speed;
     previous_delay = delay;
   }
 }
@@ -237,8 +232,7 @@ TEST(Failure, SlowFeedbackIsTheStaticDeflection) {
   const auto coupled = *direct_forecast(solver, load, Feedback::kCoupled);
   EXPECT_NEAR(coupled.penetration / ignored.penetration, 1, 1e-3);
   // A static wedge of 90° with a short patch sinks w0 ≈ 1.15 P / (ρ_w g l²): from the receding of the hull.
-  const double sunk =
-      (load.mean_approach_speed * coupled.time - coupled.penetration) / std::tan(load.hull_angle);
+  const double sunk = (load.mean_approach_speed * coupled.time - coupled.penetration) / std::tan(load.hull_angle);
   const double l = scaled(load).length_scale;
   EXPECT_NEAR(sunk * load.water.density * kGravity * l * l / coupled.capacity.vertical_force, 1.15, 0.2);
 }
@@ -247,14 +241,12 @@ TEST(Failure, SlowFeedbackIsTheStaticDeflection) {
 TEST(Failure, ThroughThicknessContactGrowsLinearly) {
   BendingLoad load = paper_load(0.3);
   load.hull_angle = degrees(20);
-  load.vertical_to_crushing =
-      crushing_shares(load.hull_angle, load.ice.friction, load.mean_approach_speed, 0).vertical;
+  load.vertical_to_crushing = crushing_shares(load.hull_angle, load.ice.friction, load.mean_approach_speed, 0).vertical;
   const auto forecast = *direct_forecast(wedge_of(load, {}), load);
   ASSERT_GT(forecast.penetration, load.ice.thickness * std::tan(load.hull_angle));
   const double area = crushed_area(2, forecast.penetration, load.ice.thickness, load.hull_angle);
-  EXPECT_NEAR(
-      forecast.capacity.vertical_force / (load.vertical_to_crushing * load.ice.compressive_strength * area),
-      1, 1e-9);
+  EXPECT_NEAR(forecast.capacity.vertical_force / (load.vertical_to_crushing * load.ice.compressive_strength * area), 1,
+              1e-9);
 }
 
 TEST(Failure, NothingWhereTheHullDoesNotPressDown) {

@@ -29,8 +29,7 @@ std::vector<double> graded_nodes(double patch_length, int elements) {
   }
   std::vector<double> nodes;
   for (int i = 0; i <= under_patch; ++i) nodes.push_back(first * i);
-  for (int i = 1; i <= beyond; ++i)
-    nodes.push_back(patch_length + first * std::expm1(lower * i) / std::expm1(lower));
+  for (int i = 1; i <= beyond; ++i) nodes.push_back(patch_length + first * std::expm1(lower * i) / std::expm1(lower));
   return nodes;
 }
 

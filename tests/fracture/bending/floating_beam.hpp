@@ -13,9 +13,8 @@ enum class BeamShape { kUniform, kWedge };
 /// What a tip load does to a semi-infinite floating beam or narrow wedge. Lengths in l = (E h³ / 12 ρ_w g)^¼.
 struct BeamResponse {
   double tip_deflection = 0;  ///< w(0), in P / (ρ_w g b l) for a beam, P / (ρ_w g b0 l²) for a wedge [-]
-  double peak_curvature =
-      0;  ///< max of M / (EI/b or EI/b0 x): M_max / (P l) for a beam, σ b0 h² / 6P for a wedge
-  double peak_distance = 0;  ///< distance of that maximum from the tip, in l [-]
+  double peak_curvature = 0;  ///< max of M / (EI/b or EI/b0 x): M_max / (P l) for a beam, σ b0 h² / 6P for a wedge
+  double peak_distance = 0;   ///< distance of that maximum from the tip, in l [-]
 };
 
 /// Solves (b w'')'' + b w = q on [0, 12 l] with a free tip by cubic Hermite elements; the static equation of

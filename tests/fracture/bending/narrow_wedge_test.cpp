@@ -92,8 +92,7 @@ TEST(Nevel, ModelAnswersInPhysicalUnits) {
   const double l = characteristic_length(load.ice, load.water);
   const BendingCapacity capacity = NevelModel().capacity(load);
   const double a = 0.2 / l;
-  EXPECT_NEAR(6 * capacity.vertical_force / (2 * std::tan(0.4) * 0.8e6 * 0.25), 1.05 + 2 * a + a * a * a / 2,
-              1e-9);
+  EXPECT_NEAR(6 * capacity.vertical_force / (2 * std::tan(0.4) * 0.8e6 * 0.25), 1.05 + 2 * a + a * a * a / 2, 1e-9);
   EXPECT_NEAR(capacity.cusp_radius, l * nevel_cusp_radius_over_l(a), 1e-12);
   EXPECT_TRUE(capacity.is_in_range);
   load.penetration = 1.01 * l;
@@ -120,8 +119,7 @@ TEST(Nevel, WideWedgesAreOutOfRange) {
     const WedgeSolver plate(opening_angle, 0.05, still);
     for (const double softness : {1e-4, 1e-2}) {
       const WedgeFailure failure = *plate.failure({1e-5, softness, 0, 0});
-      EXPECT_NEAR(nevel_force(opening_angle, failure.penetration, ice) / force_scale / failure.force, 1,
-                  0.04);
+      EXPECT_NEAR(nevel_force(opening_angle, failure.penetration, ice) / force_scale / failure.force, 1, 0.04);
       EXPECT_NEAR(nevel_cusp_radius_over_l(failure.penetration) / failure.cusp_radius, 1, 0.02);
     }
   }

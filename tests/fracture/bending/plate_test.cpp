@@ -39,8 +39,7 @@ StaticPlate rest(double half_angle, double patch, const SolverSettings& settings
 }
 
 Peak top_stress_peak(const StaticPlate& plate, const SolverSettings& settings) {
-  const BisectorMoments moments =
-      bisector_moments(plate.mesh, settings.poisson_ratio, 5 * settings.inner_radius, 5);
+  const BisectorMoments moments = bisector_moments(plate.mesh, settings.poisson_ratio, 5 * settings.inner_radius, 5);
   const Eigen::VectorXd radial = moments.radial * plate.shape;
   return {find_flat_peak(moments.radii, {radial.data(), moments.radii.size()}), 6 * radial.maxCoeff()};
 }
@@ -244,8 +243,8 @@ double heaving_disc_added_mass(int rings) {
 
 // One side of a disc heaving in unbounded water, 4/3 ρ a³ [Lamb1932].
 TEST(Water, HeavingDiscAddedMass) {
-  const double last = expect_falls(
-      {8, 16, 32}, 0.6, [](int rings) { return std::abs(heaving_disc_added_mass(rings) - 4.0 / 3); });
+  const double last =
+      expect_falls({8, 16, 32}, 0.6, [](int rings) { return std::abs(heaving_disc_added_mass(rings) - 4.0 / 3); });
   EXPECT_LT(last, 0.006);
 }
 
@@ -255,8 +254,7 @@ TEST(Water, PitchingDiscAddedMass) {
     const PanelMesh mesh = make_panel_mesh(rays_towards_edge(0, 1, rings), even_rays(kPi, 12));
     Eigen::VectorXd velocity(mesh.size());  // about the y axis, symmetric about θ = 0
     for (int i = 0; i < mesh.size(); ++i)
-      velocity[i] =
-          mesh.radii[static_cast<std::size_t>(i)] * std::cos(mesh.angles[static_cast<std::size_t>(i)]);
+      velocity[i] = mesh.radii[static_cast<std::size_t>(i)] * std::cos(mesh.angles[static_cast<std::size_t>(i)]);
     EXPECT_NEAR(velocity.dot(added_mass(mesh) * velocity), 8.0 / 45, tolerance) << rings;
   }
 }
@@ -279,13 +277,11 @@ TEST(Water, SmallDiscHeaves) {
 }
 
 /// Wave number k of the J0(kr) that fits samples of a mode best, by a scan and a golden section.
-double fitted_wave_number(const std::vector<double>& radii, const Eigen::VectorXd& values, double least,
-                          double most) {
+double fitted_wave_number(const std::vector<double>& radii, const Eigen::VectorXd& values, double least, double most) {
   const auto misfit = [&](double k) {
     double vj = 0, jj = 0, vv = 0;
     for (std::size_t i = 0; i < radii.size(); ++i) {
-      const double j = std::cyl_bessel_j(0.0, k * radii[i]), v = values[static_cast<Eigen::Index>(i)],
-                   r = radii[i];
+      const double j = std::cyl_bessel_j(0.0, k * radii[i]), v = values[static_cast<Eigen::Index>(i)], r = radii[i];
       vj += r * v * j;
       jj += r * j * j;
       vv += r * v * v;
