@@ -15,6 +15,11 @@ struct RestitutionMemory {
   double start_impulse[2] = {0, 0};  ///< where the next step's compression starts, by the last two [N s]
 };
 
+/// The pose of frame a in frame b.
+constexpr geometry::Pose inverse(const geometry::Pose& a_from_b) {
+  return relative_pose(a_from_b, {});
+}
+
 /// The ice that a contact crushed and that is not cut off yet. By the law of crushing ice.
 struct CrushedIce {
   geometry::Pose a_from_b;  ///< of the two bodies' frames, where the largest overlap pressed

@@ -25,6 +25,11 @@ double bounded_depth(const geometry::ContactManifold& m) {
   return m.depth * m.width > kMostPower * m.area ? m.area / m.width : m.depth;
 }
 
+/// Not where nothing moves the two: what they crush is carved out by a rule of its own, which needs the extent.
+bool is_bounded(const ContactRule& rule, const Bodies& bodies, const Pair& pair) {
+  return rule.is_depth_bounded && (bodies.inverse_mass[pair.a] != 0 || bodies.inverse_mass[pair.b] != 0);
+}
+
 geometry::CircleRule circle_rule(const ContactRule& rule) {
   return {rule.circle_radius, rule.is_circle_centres};
 }
@@ -128,9 +133,8 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
     c.tip_of_a = transform(water_from_a, manifold.tip_of_a);
     c.normal = rotate(water_from_a.rotation, manifold.normal);
     c.width = manifold.width;
-    c.depth = manifold.depth;
+    c.depth = is_bounded(rule, bodies, pair) ? bounded_depth(manifold) : manifold.depth;
     c.area = manifold.area;
-    if (rule.is_depth_bounded) c.depth = bounded_depth(manifold);
     c.tip_edge_of_b = manifold.tip_edge_of_b;
     c.place = number++;
     const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -

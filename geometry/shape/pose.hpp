@@ -36,11 +36,6 @@ constexpr Point transform(const Pose& a_from_b, Point point_in_b) {
 constexpr Point inverse_transform(const Pose& a_from_b, Point point_in_a) {
   return Point{} + rotate_back(a_from_b.rotation, point_in_a - a_from_b.position);
 }
-/// The pose of frame a in frame b.
-constexpr Pose inverse(const Pose& a_from_b) {
-  const Rotation r = a_from_b.rotation;
-  return {inverse_transform(a_from_b, Point{}), {r.cosine, -r.sine}};
-}
 /// The pose of frame b in frame a, from both in the world.
 constexpr Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) {
   const Rotation ra = world_from_a.rotation;

@@ -1,8 +1,5 @@
 #include "simulation/ice/cut_overlap.hpp"
 
-#include <algorithm>
-
-#include "geometry/cut/cut.hpp"
 #include "simulation/ice/pieces.hpp"
 
 namespace polynya::simulation {
@@ -33,7 +30,7 @@ RejectedCut rejected_cut(const GrindCriterion& criterion, const geometry::Polygo
                          const geometry::CutError& error, std::int64_t number) {
   RejectedCut rejected;
   rejected.criterion = criterion;
-  rejected.reason = std::string(name_of(error.reason)) + ": " + error.detail;
+  rejected.reason = reason_of(error);
   rejected.input = {number, floe, std::move(tool), {}};
   return rejected;
 }
@@ -45,8 +42,7 @@ bool can_cut(const Population& population, const Accounts& accounts, BodyIndex a
   if (!bodies.is_alive[a] || !bodies.is_alive[b]) return false;  // broken in this step
   if (!population.is_hull(a) && !population.is_floating(population.floe_of(a))) return false;
   if (population.is_hull(b) || !population.is_floating(population.floe_of(b))) return false;
-  const std::pair<std::int64_t, std::int64_t> both{a, b};
-  return std::ranges::find(accounts.refused_grinds, both) == accounts.refused_grinds.end();
+  return !is_refused(accounts, a, b);
 }
 
 BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
@@ -64,7 +60,7 @@ bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overl
   const geometry::Polygon outline = outline_of(population, setup, by);
   std::vector<geometry::Polygon> tools;
   for (const geometry::Pose& a_from_b : overlap.a_from_b)
-    tools.push_back(transform(ground == overlap.a ? a_from_b : inverse(a_from_b), outline));
+    tools.push_back(transform(ground == overlap.a ? a_from_b : dynamics::inverse(a_from_b), outline));
   const geometry::Shape& shape = population.floes[population.floe_of(ground)].shape;
   const geometry::CutOutcome outcome =
       tools.size() == 1 ? cut_by_polygon(shape, tools.front()) : cut_by_polygons(shape, tools);

@@ -108,9 +108,10 @@ void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedC
       const double least = least_parted(setup, population, low, high);
       if (parted.crushed.area < least) continue;
       const geometry::Pose pose = parted.crushed.a_from_b;
-      cut_overlap(setup, clock,
-                  {low, high, {is_in_order ? pose : inverse(pose)}, parted.middle, {parted.crushed.area, least}},
-                  population, accounts, journal);
+      cut_overlap(
+          setup, clock,
+          {low, high, {is_in_order ? pose : dynamics::inverse(pose)}, parted.middle, {parted.crushed.area, least}},
+          population, accounts, journal);
     }
   }
 }
