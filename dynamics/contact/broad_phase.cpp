@@ -301,6 +301,14 @@ void BroadPhase::take_blind_overlaps(std::vector<BlindOverlap>& overlaps) {
   }
 }
 
+void BroadPhase::take_parted(std::vector<PartedContact>& parted) {
+  parted.clear();
+  for (Share& share : shares_) {
+    parted.insert(parted.end(), share.scratch.parted.begin(), share.scratch.parted.end());
+    share.scratch.parted.clear();
+  }
+}
+
 std::int64_t BroadPhase::take_unpaired_stretches() {
   std::int64_t unpaired = 0;
   for (Share& share : shares_) unpaired += std::exchange(share.scratch.unpaired, 0);
@@ -330,8 +338,10 @@ ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex pare
     const Pose water_from_b = water_from_body(bodies, pair.b);
     for (const PersistentContact& record : pair.records()) {
       if (record.loaded_area == 0) continue;
+      CrushedIce crushed = record.crushed;
+      if (pair.b == parent) crushed.a_from_b = inverse(crushed.a_from_b);
       memory.pressed.push_back(
-          {other, transform(water_from_b, record.last_point_in_b), record.reach, record.loaded_area});
+          {other, transform(water_from_b, record.last_point_in_b), record.reach, record.loaded_area, crushed});
     }
   }
   std::sort(memory.outside.begin(), memory.outside.end(),
@@ -363,6 +373,8 @@ void BroadPhase::pass_contact_memory(const Bodies& bodies, BodyIndex fragment, c
       record.last_point_in_b = inverse_transform(water_from_body(bodies, pair.b), old.place);
       record.reach = old.reach;
       record.loaded_area = old.loaded_area;
+      record.crushed = old.crushed;  // a fragment has its floe's frame
+      if (pair.b == fragment) record.crushed.a_from_b = inverse(record.crushed.a_from_b);
       record.is_inherited = true;
       pair.own_parts().records.push_back(record);
     }

@@ -21,6 +21,7 @@ struct PressedOverlap {
   geometry::Point place;   ///< in the water frame [m]
   double reach = 0;        ///< [m]
   double loaded_area = 0;  ///< [m²]
+  CrushedIce crushed;      ///< its pose is that of the other's frame in the broken body's
 };
 
 /// A body that one that breaks does not touch, neither inside the other.
@@ -99,6 +100,9 @@ class BroadPhase {
 
   /// What find_contacts found blind since the last call, ordered by (a, b).
   void take_blind_overlaps(std::vector<BlindOverlap>& overlaps);
+
+  /// The contacts that find_contacts found ended since the last call, ordered by (a, b).
+  void take_parted(std::vector<PartedContact>& parted);
 
   /// Contact stretches whose crossings did not pair up (see geometry::find_manifolds), since the last call.
   std::int64_t take_unpaired_stretches();

@@ -15,6 +15,17 @@ struct RestitutionMemory {
   double start_impulse[2] = {0, 0};  ///< where the next step's compression starts, by the last two [N s]
 };
 
+/// The pose of frame a in frame b.
+constexpr geometry::Pose inverse(const geometry::Pose& a_from_b) {
+  return relative_pose(a_from_b, {});
+}
+
+/// The ice that a contact crushed and that is not cut off yet. By the law of crushing ice.
+struct CrushedIce {
+  geometry::Pose a_from_b;  ///< of the two bodies' frames, where the largest overlap pressed
+  double area = 0;          ///< of that overlap [m²]; 0: nothing was crushed
+};
+
 /// What is kept of a contact from step to step.
 struct PersistentContact {
   geometry::Point last_point_in_b;   ///< where it was at the last step, in b's frame [m]
@@ -27,6 +38,7 @@ struct PersistentContact {
   double loaded_area = 0;            ///< of that overlap [m²]
   double reach = 0;                  ///< of the contact from last_point_in_b, at the last step [m]
   RestitutionMemory restitution;
+  CrushedIce crushed;
   bool has_crushed = false;
   bool is_pierced = false;    ///< of a pierced body, at the last step
   bool was_refused = false;   ///< a fracture here was rejected by geometry: not tried again
@@ -70,6 +82,8 @@ struct Contact {
   double prescribed_work = 0;         ///< by one of prescribed motion on the other [J]
   double slip_impulse = 0;            ///< on b along perpendicular(normal), anywhere on the line [N s]
 
+  bool gives_way = false;  ///< the floe tilts rather than bears what crushing it takes
+
   geometry::Point middle() const { return midpoint(ends[0], ends[1]); }
   double total_normal_impulse() const { return normal_impulse[0] + normal_impulse[1]; }
   geometry::Vector impulse_on_b() const {  ///< [N s]
@@ -95,7 +109,18 @@ struct BlindOverlap {
   geometry::Point middle;  ///< of the largest, in the water frame [m]
 };
 
+/// Two bodies whose contact ended: they have parted there.
+struct PartedContact {
+  BodyIndex a = 0;
+  BodyIndex b = 0;
+  CrushedIce crushed;
+  geometry::Point middle;  ///< of the contact when it was last found, in the water frame [m]
+};
+
 /// Keeps in the contact's record how far its overlap has pressed, after the solver.
 void remember_overlap(const Contact& contact);
+
+/// Keeps there the overlap that crushed, where it is the largest so far. Where the solver found the impulses.
+void remember_crushed(const Bodies& bodies, const Contact& contact);
 
 }  // namespace polynya::dynamics

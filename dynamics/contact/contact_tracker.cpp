@@ -63,6 +63,7 @@ void ContactTracker::update(std::span<Contact> contacts, std::span<const Contact
     if (squared_length(patch.middle - records_[0].last_point_in_b) > reach * reach) {
       PersistentContact record = new_record(bodies, contacts[0]);
       keep_what_pressed(contacts[0], patch, record);
+      if (record.loaded_area == 0) note_parted(contacts[0].a, contacts[0].b, records_[0], bodies);
       records_[0] = record;
     }
     advance(records_[0], contacts[0], patch, bodies);
@@ -106,6 +107,7 @@ void ContactTracker::keep_what_pressed(const Contact& c, const Patch& patch, Per
   for (const PersistentContact& old : records_) {
     if (distance(old.last_point_in_b, patch.middle) > tolerance_ + old.reach) continue;
     record.loaded_area = std::max(record.loaded_area, std::min(old.loaded_area, c.area));
+    if (old.crushed.area > record.crushed.area) record.crushed = old.crushed;
   }
   if (record.loaded_area > 0) record.loaded_depth = loaded_depth_of(c, record.loaded_area);
 }
@@ -115,13 +117,27 @@ void ContactTracker::join_left_over(std::span<Contact> contacts, std::span<const
                                     const Bodies& bodies) {
   for (const PersistentContact& old : records_) {
     if (old.is_continued || old.is_inherited || old.loaded_area == 0) continue;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
+    bool is_joined = false;
+    for (std::size_t i = 0; i < contacts.size() && !is_joined; ++i) {
       if (!patch_of(contacts[i], manifolds[i], bodies).holds(old.last_point_in_b)) continue;
       updated_[i].loaded_depth = std::max(updated_[i].loaded_depth, old.loaded_depth);
       updated_[i].loaded_area += old.loaded_area;
-      break;
+      if (old.crushed.area > updated_[i].crushed.area) updated_[i].crushed = old.crushed;
+      is_joined = true;
     }
+    if (!is_joined) note_parted(contacts[0].a, contacts[0].b, old, bodies);
   }
+}
+
+void ContactTracker::note_parted(BodyIndex a, BodyIndex b, const PersistentContact& record, const Bodies& bodies) {
+  if (record.is_inherited || record.crushed.area == 0) return;
+  const Point middle = transform(water_from_body(bodies, b), record.last_point_in_b);
+  parted_.push_back({a, b, record.crushed, middle});
+}
+
+void ContactTracker::end(BodyIndex a, BodyIndex b, const Bodies& bodies) {
+  for (const PersistentContact& record : records_) note_parted(a, b, record, bodies);
+  records_.clear();
 }
 
 void ContactTracker::advance(PersistentContact& record, const Contact& c, const Patch& patch,
@@ -143,6 +159,11 @@ void ContactTracker::advance(PersistentContact& record, const Contact& c, const 
   if (record.loaded_depth == 0 || c.area <= record.loaded_area) return;
   const double loaded = record.loaded_area + kUncrushedShare * std::min(bodies.area[c.a], bodies.area[c.b]);
   if (c.area > loaded) record.loaded_depth = std::min(record.loaded_depth, loaded_depth_of(c, loaded));
+}
+
+void remember_crushed(const Bodies& bodies, const Contact& c) {
+  if (c.gives_way || !c.is_at_limit || c.area < c.record->crushed.area) return;
+  c.record->crushed = {relative_pose(water_from_body(bodies, c.a), water_from_body(bodies, c.b)), c.area};
 }
 
 void remember_overlap(const Contact& c) {

@@ -13,12 +13,16 @@ namespace polynya::dynamics {
 /// becomes several (as far as each reaches).
 class ContactTracker {
  public:
-  ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch, double circle_radius,
-                 double dt)
-      : records_(records), updated_(scratch), tolerance_(0.25 * circle_radius), dt_(dt) {}
+  /// Contacts that end with ice that they crushed are added to `parted`.
+  ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch,
+                 std::vector<PartedContact>& parted, double circle_radius, double dt)
+      : records_(records), updated_(scratch), parted_(parted), tolerance_(0.25 * circle_radius), dt_(dt) {}
 
   /// `manifolds` are those of the contacts, one each.
   void update(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds, const Bodies& bodies);
+
+  /// Ends all contacts of a pair that does not touch any more.
+  void end(BodyIndex a, BodyIndex b, const Bodies& bodies);
 
  private:
   struct Patch {             ///< a contact's, in b's frame
@@ -34,10 +38,12 @@ class ContactTracker {
   void keep_what_pressed(const Contact& contact, const Patch& patch, PersistentContact& record) const;
   void join_left_over(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
                       const Bodies& bodies);
+  void note_parted(BodyIndex a, BodyIndex b, const PersistentContact& record, const Bodies& bodies);
   void advance(PersistentContact& record, const Contact& contact, const Patch& patch, const Bodies& bodies) const;
 
   std::vector<PersistentContact>& records_;
   std::vector<PersistentContact>& updated_;
+  std::vector<PartedContact>& parted_;
   double tolerance_;  // of a contact's displacement in a step, beside half its width [m]
   double dt_;
 };

@@ -18,6 +18,18 @@ constexpr double kNearMargin = 0.75;
 /// A body's neighbours in a field, and some of the next one's. Fewer: covers are made again more often.
 constexpr std::size_t kSecond = 32;
 
+/// Most power of the power law of an overlap, d w / S. Beyond it the extent shows the notch that a body lies
+/// in rather than the overlap, which is thin: its mean thickness is its depth.
+constexpr double kMostPower = 3;
+double bounded_depth(const geometry::ContactManifold& m) {
+  return m.depth * m.width > kMostPower * m.area ? m.area / m.width : m.depth;
+}
+
+/// Not where nothing moves the two: what they crush is carved out by a rule of its own, which needs the extent.
+bool is_bounded(const ContactRule& rule, const Bodies& bodies, const Pair& pair) {
+  return rule.is_depth_bounded && (bodies.inverse_mass[pair.a] != 0 || bodies.inverse_mass[pair.b] != 0);
+}
+
 geometry::CircleRule circle_rule(const ContactRule& rule) {
   return {rule.circle_radius, rule.is_circle_centres};
 }
@@ -121,7 +133,7 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
     c.tip_of_a = transform(water_from_a, manifold.tip_of_a);
     c.normal = rotate(water_from_a.rotation, manifold.normal);
     c.width = manifold.width;
-    c.depth = manifold.depth;
+    c.depth = is_bounded(rule, bodies, pair) ? bounded_depth(manifold) : manifold.depth;
     c.area = manifold.area;
     c.tip_edge_of_b = manifold.tip_edge_of_b;
     c.place = number++;
@@ -190,7 +202,11 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
     if (clearance_left(bodies, pair.b, pose, pair.near) < kRounding) find_near(bodies, pair, pose, rule, scratch);
     pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
   }
+  const auto tracker_of = [&](std::vector<PersistentContact>& records) {
+    return ContactTracker(records, scratch.records, scratch.parted, rule.circle_radius, dt);
+  };
   if (!pair.has_near_edges()) {
+    if (pair.parts != nullptr) tracker_of(pair.parts->records).end(pair.a, pair.b, bodies);
     take_inside(bodies, pair, pose, rule, scratch);
     pair.parts.reset();
     pair.apart = pair.near;
@@ -199,15 +215,14 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
   const std::size_t first = contacts.size();
   const bool is_apart = collect(bodies, pair, pose, rule, scratch, contacts);
   if (!is_apart) {
-    ContactTracker(pair.parts->records, scratch.records, rule.circle_radius, dt)
-        .update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
+    tracker_of(pair.parts->records).update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
     pair.apart.distance = -1;
     pair.is_outside = false;
     return -1;
   }
   // Circles lie inside the ice: no two can overlap while the boundaries are apart.
   const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.parts->edges);
-  pair.parts->records.clear();
+  tracker_of(pair.parts->records).end(pair.a, pair.b, bodies);
   pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};
   if (!scratch.keeps_distant_edges && gap > rule.kept_gap) forget_near(pair);
   return pair.apart.distance;

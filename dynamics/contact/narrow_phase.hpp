@@ -58,6 +58,7 @@ struct ContactRule {
   bool is_circle_centres = false;   ///< the paper's own normals, instead of those of the boundary
   bool is_culling = true;           ///< false: every step collides all pairs with one awake (tests)
   bool presses_prescribed = false;  ///< a hull presses ice though both motions are prescribed
+  bool is_depth_bounded = false;    ///< along a notch the depth is no more than its area and width allow
   /// Covers are kept until they have this many pieces in all, of 64 bytes each: those of some 50 000 floes of
   /// 20 m. Of more bodies they are made again where they are needed, for the same contacts.
   double most_kept_pieces = 4'194'304;
@@ -103,6 +104,7 @@ struct PairScratch {
   geometry::ManifoldScratch crossings;
   std::vector<PersistentContact> records;  ///< of the pair at hand, being updated
   std::vector<BlindOverlap> blind;         ///< found so far
+  std::vector<PartedContact> parted;       ///< found so far
   std::int64_t unpaired = 0;               ///< contact stretches whose crossings did not pair up, counted on
 };
 

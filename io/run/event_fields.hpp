@@ -77,13 +77,11 @@ void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool come
 
 template <class Line>
 void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
-  line("kind",
-       std::string_view(c.least_width > 0 ? "overlap width < least width"
-                                          : "crushed by prescribed motion, overlap area >= least area"),
-       kRule);
-  line("width_m", c.width, {"m", "by which the overlap's area falls per metre of motion"});
+  const bool is_blind = c.least_width > 0;
+  line("kind", std::string_view(is_blind ? "overlap width < least width" : "crushed overlap >= least area"), kRule);
+  line("width_m", c.width, optional(is_blind, {"m", "by which the overlap's area falls per metre of motion"}));
   line("least_width_m", c.least_width,
-       {"m", "from which a contact parts the overlap; 0 between prescribed motions", {}, 0});
+       optional(is_blind, {"m", "from which a contact parts the overlap; left out where it was crushed", {}, 0}));
   line("overlap_area_m2", c.overlap_area, {"m²", "of the overlap, exactly", "overlap ground", 0});
   line("least_area_m2", c.least_area, {"m²", "a smaller overlap is left", {}, 0});
 }
@@ -129,8 +127,8 @@ template <class Line, class Kind>
 void criterion_of(Line& line, Kind& e) {
   using namespace simulation;
   if constexpr (Is<Kind, RejectedCut>) {  // it has the fields of what it was to be
-    if constexpr (requires { line.has("least_width_m"); })
-      if (line.has("least_width_m")) e.criterion = GrindCriterion{};
+    if constexpr (requires { line.has("least_area_m2"); })
+      if (line.has("least_area_m2")) e.criterion = GrindCriterion{};
     std::visit([&](auto& c) { criterion(line, c, e.cusp_radius == 0); }, e.criterion);
   } else {
     criterion(line, e.criterion, Is<Kind, Split> || Is<Kind, Resurface>);

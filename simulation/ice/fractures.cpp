@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "geometry/cut/cut.hpp"
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
 
@@ -62,7 +61,7 @@ void reject(const Setup& setup, const Clock& clock, const PendingFracture& pendi
             const geometry::CutError& error, Counts& counts, Journal& journal) {
   Event event = event_of<RejectedCut>(clock, pending);
   auto& rejected = std::get<RejectedCut>(event.what);
-  rejected.reason = std::string(name_of(error.reason)) + ": " + error.detail;
+  rejected.reason = reason_of(error);
   rejected.input = {++counts.rejected_cuts, shape.polygon, {}, {}};
   if (pending.failure == fracture::Failure::kBend) rejected.input.cusp_in_body = cusp_of(setup, pending);
   rejected.input.crack_in_body = pending.crack_in_body.points();

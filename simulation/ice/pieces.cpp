@@ -1,5 +1,6 @@
 #include "simulation/ice/pieces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/exact/measures.hpp"
@@ -123,6 +124,15 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   ++(accounts.counts.*breakage.count);
   journal.events.push_back(std::move(breakage.event));
   for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));
+}
+
+std::string reason_of(const geometry::CutError& error) {
+  return std::string(name_of(error.reason)) + ": " + error.detail;
+}
+
+bool is_refused(const Accounts& accounts, BodyIndex a, BodyIndex b) {
+  const std::pair<std::int64_t, std::int64_t> both{a, b};
+  return std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end();
 }
 
 }  // namespace polynya::simulation

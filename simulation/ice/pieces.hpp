@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/cut/cut.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
@@ -19,5 +20,11 @@ struct Breakage {
 /// submerged ice and brash. Records the event and enters areas, motion and counts.
 void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage, const geometry::CutResult& cut,
                        Population& population, Accounts& accounts, Journal& journal);
+
+/// What a `rejected_cut` states of a cut that geometry refused.
+std::string reason_of(const geometry::CutError& error);
+
+/// Whether geometry refused to cut one of two bodies by the other: not tried again.
+bool is_refused(const Accounts& accounts, BodyIndex a, BodyIndex b);
 
 }  // namespace polynya::simulation

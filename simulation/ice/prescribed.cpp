@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/cut/cut.hpp"
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
 
@@ -76,8 +75,7 @@ std::vector<Carving> due_carvings(const Setup& setup, const Population& populati
     const double least_area = c.width * (facet + least);
     if (c.area < least_area) continue;
     if (!due.empty() && due.back().contact->a == c.a && due.back().contact->b == c.b) continue;
-    const std::pair<std::int64_t, std::int64_t> both{c.a, c.b};
-    if (std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end()) continue;
+    if (is_refused(accounts, c.a, c.b)) continue;
     const double time_ago = setup.scene.time.step + facet / c.approach_speed;
     due.push_back({population.floe_of(c.b), &c, tool_of(setup, bodies, c, time_ago), {c.area, least_area, c.width, 0}});
   }
@@ -158,7 +156,7 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
     } else if (outcome.error().reason != geometry::CutFailure::kMisses) {
       RejectedCut rejected;
       rejected.criterion = first->criterion;
-      rejected.reason = std::string(name_of(outcome.error().reason)) + ": " + outcome.error().detail;
+      rejected.reason = reason_of(outcome.error());
       rejected.input = {++accounts.counts.rejected_cuts, shape.polygon, tools.front().outer, {}};
       journal.events.push_back(event_of_carving(clock, *first, std::move(rejected)));
       for (auto refused = first; refused != next; ++refused)

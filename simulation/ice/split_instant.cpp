@@ -15,8 +15,8 @@ constexpr double kMostShare = 1.05;
 /// Of F_max: where the contacts of one that has more are stopped. A little more than 1, so that the split has
 /// what it takes where one of several contacts falls short by rounding.
 constexpr double kAimedShare = 1.01;
-/// Stopping the contacts of two bodies changes the forces of others, which may then split: solved again so
-/// often at most.
+/// Stopping the contacts of two bodies changes the forces of others, which may then split, and of one another:
+/// where one is stopped another may let go. Solved again so often at most.
 constexpr int kMostRounds = 8;
 
 /// The motion and memory that solving changes, of the bodies of one contact.
@@ -55,16 +55,21 @@ double share_of(const PendingFracture& split) {
   return split.criteria.opening_force / split.criteria.opening_capacity;
 }
 
-/// A contact of two bodies that was to be stopped.
+/// A contact of two bodies that was to be stopped, with what it had before.
 struct Stopped {
   std::size_t contact = 0;
-  double force = 0;  ///< normal, before it was stopped [N]
+  double force = 0;           ///< normal [N]
+  double breaking_force = 0;  ///< [N]
+  double missed_impulse = 0;  ///< [N s]
 };
 
 /// A split whose force overshot: the step is solved with its contacts stopped.
 struct MetSplit {
   PendingFracture split;  ///< with the forces that overshot
   std::vector<Stopped> stopped;
+  double at = 1;      ///< the share of their forces at which its contacts are stopped
+  double low = 0;     ///< too little
+  double enough = 1;  ///< more than it takes
 };
 
 double normal_force(const Contact& c, double dt) {
@@ -76,7 +81,8 @@ class Instants {
  public:
   Instants(std::vector<Contact>& contacts, double dt) : contacts_(contacts), dt_(dt) {}
 
-  /// Stops the contacts of those of the splits that overshoot. Returns whether any does.
+  /// Stops the contacts of those of the splits that overshoot, and those that were stopped elsewhere where
+  /// their split did not come to what it takes. Returns whether any is.
   bool stop(const std::vector<PendingFracture>& splits) {
     const std::size_t before = met_.size();
     for (const PendingFracture& split : splits) {
@@ -84,12 +90,14 @@ class Instants {
       const Contact& at = contact_of(split);
       MetSplit* const same = met_at(at);  // both bodies of a pair may split: the one whose crack runs first
       if (same == nullptr)
-        met_.push_back({split, {}});
+        met_.push_back({.split = split, .stopped = {}});
       else if (same >= met_.data() + before && share_of(split) > share_of(same->split))
         same->split = split;
     }
+    bool is_changed = met_.size() > before;
+    for (std::size_t k = 0; k < before; ++k) is_changed = aim(met_[k]) || is_changed;
     for (std::size_t k = before; k < met_.size(); ++k) stop_contacts(met_[k]);
-    return met_.size() > before;
+    return is_changed;
   }
 
   bool any() const { return !met_.empty(); }
@@ -108,7 +116,7 @@ class Instants {
       fracture::FailureCriteria& c = split.criteria;
       for (double* force : {&c.contact_force, &c.flank_forces[0], &c.flank_forces[1], &c.opening_force})
         *force *= scale;
-      if (share_of(split) >= 1)
+      if (share_of(split) >= 1 && share_of(split) <= kMostShare)
         splits.push_back(split);
       else
         counts.unresolved_splits += is_any_broken(met) ? 1 : 0;  // else the force did not come so far
@@ -143,9 +151,29 @@ class Instants {
       Contact& c = contacts_[i];
       const double force = normal_force(c, dt_);
       if (c.a != at.a || c.b != at.b || !(force > 0)) continue;
-      met.stopped.push_back({i, force});
-      break_at(c, kAimedShare / share_of(met.split) * force);
+      met.stopped.push_back({i, force, c.breaking_force, c.missed_impulse});
     }
+    stop_at(met, kAimedShare / share_of(met.split));
+  }
+
+  void stop_at(MetSplit& met, double share) {
+    met.at = share;
+    for (const Stopped& stopped : met.stopped) {
+      Contact& c = contacts_[stopped.contact];
+      c.breaking_force = stopped.breaking_force;
+      c.missed_impulse = stopped.missed_impulse;
+      break_at(c, share * stopped.force);
+    }
+  }
+
+  /// Stops contacts later, or earlier, where together they came to less than the split takes, since some let
+  /// go as others were stopped, or to more: halves the range of where.
+  bool aim(MetSplit& met) {
+    const double share = share_of(met.split) * reached(met);
+    if (!is_any_broken(met) || (share >= 1 && share <= kMostShare)) return false;
+    (share < 1 ? met.low : met.enough) = met.at;
+    stop_at(met, 0.5 * (met.low + met.enough));
+    return true;
   }
 
   /// The share of the forces that overshot to which they came now.

@@ -11,7 +11,8 @@ void find_splits(const Setup& setup, const Population& population, const std::ve
 /// Solves the step's contacts and finds its splits. By the law of crushing ice, each of them at the instant
 /// at which its force comes to F_max: where the forces of two bodies would open a crack with s F_max, they
 /// came to F_max at 1/s of themselves. There the contacts of the two break, as they do where ice bends, and
-/// the step is solved again from its start.
+/// the step is solved again from its start; where their forces then fall short of F_max, since one lets go as
+/// another breaks, the share is found by bisection.
 dynamics::SolverResult solve_to_splits(const Setup& setup, const dynamics::SolverSettings& settings,
                                        Population& population, StepData& step, Counts& counts);
 

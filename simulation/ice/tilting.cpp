@@ -71,6 +71,7 @@ void scale(Contact& c, double share) {
   c.crushing_force *= share;
   c.crushing_stiffness *= share;
   c.missed_impulse *= share;
+  c.gives_way = true;
 }
 
 /// Turns the floe's edge, and enters that it goes under where it is deep enough.

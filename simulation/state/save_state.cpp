@@ -14,6 +14,14 @@ Standing standing_of(const Population& population, FloeId id) {
   return population.floes[id].is_under ? Standing::kUnderHull : Standing::kFree;
 }
 
+/// Of all records, in their order. Only the law of crushing ice has any.
+std::vector<dynamics::CrushedIce> crushed_ice(const std::vector<dynamics::PairState>& pairs) {
+  std::vector<dynamics::CrushedIce> crushed;
+  for (const dynamics::PairState& pair : pairs)
+    for (const dynamics::PersistentContact& record : pair.records) crushed.push_back(record.crushed);
+  return crushed;
+}
+
 template <class Archive>
 void write(Archive& archive, const World& world, const std::vector<dynamics::PairState>& pairs) {
   const Population& population = world.population;
@@ -33,6 +41,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     archive(motion_of(population.bodies, population.body_of(id)));
   }
   archive(population.tilted, population.submerged, pairs);
+  if (is_crush_law(world.setup)) archive(crushed_ice(pairs));
 }
 
 }  // namespace

@@ -219,10 +219,31 @@ class StateLoader {
     }
   }
 
+  void load_crushed_ice(std::vector<dynamics::PairState>& pairs) {
+    std::vector<dynamics::CrushedIce> crushed;
+    bytes_(crushed);
+    std::size_t next = 0;
+    for (dynamics::PairState& pair : pairs) {
+      for (dynamics::PersistentContact& record : pair.records) {
+        if (next < crushed.size()) record.crushed = crushed[next];
+        ++next;
+        const geometry::Pose& pose = record.crushed.a_from_b;
+        const geometry::Rotation r = pose.rotation;
+        bytes_.require(record.crushed.area >= 0, "a negative area of crushed ice");
+        bytes_.require(std::max(std::abs(pose.position.x), std::abs(pose.position.y)) <= kFarthest &&
+                           std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6,
+                       "crushed ice beyond the world");
+      }
+    }
+    bytes_.require(next == crushed.size(), "another number of crushed overlaps than of contacts");
+  }
+
   void load_pairs() {
     std::vector<dynamics::PairState> pairs;
     std::vector<double> separation_bound;
-    bytes_(pairs, separation_bound);
+    bytes_(pairs);
+    if (is_crush_law(world_.setup)) load_crushed_ice(pairs);
+    bytes_(separation_bound);
     bytes_.require(pairs.size() == separation_bound.size(), "another number of separation bounds than of pairs");
     const dynamics::Bodies& bodies = population_.bodies;
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {

@@ -149,6 +149,14 @@ void fields(Archive& archive, Is<dynamics::PersistentContact> auto& r) {
           r.restitution.start_impulse[0], r.restitution.start_impulse[1], r.loaded_depth, r.loaded_area, r.reach,
           r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused, r.is_continued);
 }
+template <class Archive>
+void fields(Archive& archive, Is<geometry::Pose> auto& p) {
+  archive(p.position, p.rotation);
+}
+template <class Archive>
+void fields(Archive& archive, Is<dynamics::CrushedIce> auto& c) {
+  archive(c.a_from_b, c.area);
+}
 /// Not its separation_bound: that is a cache, which may differ where the same bodies do the same.
 template <class Archive>
 void fields(Archive& archive, Is<dynamics::PairState> auto& p) {

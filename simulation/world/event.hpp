@@ -18,13 +18,13 @@ namespace polynya::simulation {
 using FloeId = std::int64_t;
 inline constexpr FloeId kNoFloe = -1;
 
-/// What decides that an overlap is ground to brash: it is large, and no motion of the bodies reduces it,
-/// since the gradient of its area is small or nothing moves the two (docs/theory.md, "Contact").
+/// What decides that an overlap becomes brash: it is large, and no motion of the bodies reduces it, since the
+/// gradient of its area is small or nothing moves the two, or it was crushed (docs/theory.md, "Contact").
 struct GrindCriterion {
   double overlap_area = 0;  ///< [m²]
   double least_area = 0;    ///< a smaller overlap is left [m²]
   double width = 0;         ///< |R|, by which the area falls per metre of motion [m]
-  double least_width = 0;   ///< a wider overlap is left to its contact; 0: nothing moves the two [m]
+  double least_width = 0;   ///< a wider overlap is left to its contact [m]; 0 where it was crushed
 };
 
 /// What decides that a floe goes under.
@@ -68,7 +68,7 @@ struct Split : IceEvent {
   fracture::FailureCriteria criterion = {};
 };
 
-/// An overlap that no contact could part, or that bodies of prescribed motion crushed, was ground to brash.
+/// An overlap that no contact could part was ground to brash, or one that was crushed was cut off.
 struct Grind : IceEvent {
   static constexpr std::string_view kName = "grind";
   GrindCriterion criterion = {};

@@ -33,7 +33,7 @@ double grid_cell(const Scene& scene) {
 dynamics::ContactRule contact_rule(const Setup& setup) {
   const ContactSettings& contact = setup.scene.contact;
   return {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, setup.shortcuts.culls,
-          is_crush_law(setup)};
+          is_crush_law(setup), is_crush_law(setup)};
 }
 
 /// A floe of the scene, at the start; takes its polygon.

@@ -22,7 +22,8 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
 
 /// Marks what crushed: contacts that needed all that crushing ice can carry. Enters what all contacts did
 /// into the accounts.
-void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts, Accounts& accounts) {
+void enter_contacts(const Setup& setup, const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts,
+                    Accounts& accounts) {
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
   for (dynamics::Contact& c : contacts) {
@@ -30,6 +31,7 @@ void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contac
     energy.friction -= c.slip_work;
     given += c.normal_work + c.slip_work;
     remember_overlap(c);
+    if (is_crush_law(setup)) remember_crushed(bodies, c);
     if (bodies.inverse_mass[c.a] == 0 || bodies.inverse_mass[c.b] == 0)
       enter_prescribed_work(bodies, c, accounts.audit);
     if (!c.is_at_limit || c.approach_speed <= 0) continue;
@@ -87,7 +89,7 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
   const dynamics::SolverResult result = solve_to_splits(setup, settings, population, step, accounts.counts);
   if (!result.is_converged()) ++accounts.counts.unconverged_steps;
   accounts.counts.largest_residual = std::max(accounts.counts.largest_residual, result.residual);
-  enter_contacts(population.bodies, step.contacts, accounts);
+  enter_contacts(setup, population.bodies, step.contacts, accounts);
   for (const dynamics::Contact& c : step.contacts) {
     if (c.total_normal_impulse() == 0) continue;
     wake(c.a, population);
@@ -142,7 +144,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 27> kStages = {{
+const std::array<Stage, 28> kStages = {{
     {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
     {"press walls", [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
@@ -151,6 +153,7 @@ const std::array<Stage, 27> kStages = {{
      [](World& w) {
        find_contacts(w.setup, w.threads, w.population, w.step.contacts, w.accounts.counts);
        w.population.pairs.take_blind_overlaps(w.step.blind_overlaps);
+       w.population.pairs.take_parted(w.step.parted);
      }},
     {"decide", [](World& w) { decide(w.setup, w.clock, w.threads, w.population, w.step, w.accounts.counts); }},
     {"limit by tilt", [](World& w) { limit_by_tilt(w.setup, w.population, w.step); }},
@@ -182,6 +185,8 @@ const std::array<Stage, 27> kStages = {{
        grind_blind_overlaps(w.setup, w.clock, w.step.blind_overlaps, w.population, w.accounts, w.journal);
      }},
     {"carve channels", [](World& w) { carve_channels(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
+    {"shed crushed ice",
+     [](World& w) { shed_crushed_ice(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"go under",
      [](World& w) { apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal); }},
     {"come up", [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},

@@ -85,6 +85,11 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
 std::optional<std::string> overload_of(const Setup& setup, const Clock& clock, const Population& population,
                                        const StepData& step);
 
+/// By the law of crushing ice: cuts off what contacts crushed that have parted, or that crushed much, and
+/// makes it brash, in the order of the pairs.
+void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                      Accounts& accounts, Journal& journal);
+
 /// Puts floes that tilted far enough under the hulls.
 void apply_submersions(const Setup& setup, const Clock& clock, const std::vector<PendingSubmersion>& pending,
                        Population& population, Accounts& accounts, Journal& journal);
@@ -108,7 +113,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 27> kStages;
+extern const std::array<Stage, 28> kStages;
 
 /// One time step: all stages.
 void step(World& world);

@@ -89,6 +89,7 @@ struct ShipMotion {
 struct StepData {
   std::vector<dynamics::Contact> contacts;
   std::vector<dynamics::BlindOverlap> blind_overlaps;
+  std::vector<dynamics::PartedContact> parted;
   std::vector<HullSlope> slopes;  ///< of the contacts of hulls, which come first
   std::vector<PendingFracture> fractures;
   std::vector<PendingFracture> splits;  ///< by the true forces of the step

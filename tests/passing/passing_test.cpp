@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,7 @@ struct Placed {
 };
 
 struct Passed {
+  double parted = 0;     ///< largest share of the smaller of two bodies that overlap and do not press
   double uncrushed = 0;  ///< largest share of a floe that overlaps and was not crushed
   std::string where;
 };
@@ -64,6 +66,9 @@ Passed measure(const Simulation& run) {
   };
   for (const simulation::CrushedOverlap& overlap : run.crushed_overlaps())
     crushed[{key(overlap.on), key(overlap.by)}] = overlap.area;
+  std::set<std::pair<std::int64_t, std::int64_t>> pressing;
+  for (const simulation::ContactState& contact : run.contact_states())
+    if (squared_length(contact.force) > 0) pressing.insert({key(contact.on), key(contact.by)});
   Passed passed;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t k = std::max(i + 1, ships.size()); k < bodies.size(); ++k) {
@@ -74,6 +79,7 @@ Passed measure(const Simulation& run) {
       EXPECT_TRUE(shared.has_value());
       if (!shared || *shared == 0) continue;
       const double smaller = std::min(a.area, b.area);
+      if (!pressing.contains({key(a.body), key(b.body)})) passed.parted = std::max(passed.parted, *shared / smaller);
       // A contact is found, and what has pressed is known, a step late.
       const double step = run.scene().time.step * length(a.velocity - b.velocity);
       const geometry::Vector diagonal =
@@ -121,6 +127,29 @@ TEST(Passing, NoRandomSceneEndsWithMoreOverlapThanWasCrushed) {
     contacts += simulation.counts().crush_contacts;
   }
   EXPECT_GT(contacts, 0);
+}
+
+TEST(Passing, NoRandomSceneKeepsWhatItCrushed) {
+  const int scenes = scene_count();
+  std::int64_t ground = 0;
+  for (int seed = 0; seed < scenes; ++seed) {
+    simulation::Scene scene = random_scene(static_cast<std::uint64_t>(seed));
+    scene.contact.law = simulation::ContactLaw::kCrush;
+    scene.record.contacts = simulation::RecordedContacts::kAll;
+    const Simulation simulation = run(std::move(scene), 8);
+    EXPECT_LE(measure(simulation).parted, 0.01) << "seed " << seed;
+    ground += simulation.counts().ground;
+  }
+  EXPECT_GT(ground, 0);
+}
+
+/// Floes of 15 m that a wall presses onto three others.
+TEST(Passing, NoPackBetweenFourWallsDoes) {
+  simulation::Scene scene = read(kSource / "tests/passing/pack_between_walls.json");
+  const double until = scene_count() > 20 ? 600 : 20;
+  const Simulation simulation = run(std::move(scene), until);
+  EXPECT_LE(measure(simulation).parted, 0.01);
+  EXPECT_GT(simulation.counts().ground, 0);
 }
 
 /// The first seconds of each, or as long as the long trial lasts.

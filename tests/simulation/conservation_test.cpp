@@ -52,6 +52,7 @@ TEST(Fracture, KeepsMassMomentumAndAngularMomentumWhereNothingIsRemoved) {
     const Vector momentum = scenery::momentum(before);
     for (int step = 0; step < 3000 && simulation.counts().splits < 20; ++step) {
       simulation.step();
+      if (simulation.counts().ground > 0) break;  // crushed ice is removed
       const dynamics::Bodies now = living();
       ASSERT_NEAR(scenery::mass(now) / scenery::mass(before), 1, 1e-12);
       ASSERT_NEAR(length(scenery::momentum(now) - momentum) / length(momentum), 0, 1e-11) << step;
