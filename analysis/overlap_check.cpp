@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fracture/crushing.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"
@@ -79,7 +80,7 @@ OverlapCheck::Placed OverlapCheck::placed(BodyKey body, const io::Motion& motion
   if (!is_hull(body)) placed.world_from_body = pose_of(run_.floe(body)->birth, motion);
   const Box box = bounding_box(transform(placed.world_from_body, polygon->outer));
   placed.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
-  placed.area = is_hull(body) ? geometry::measure(*polygon).area : run_.floe(body)->birth.area;
+  placed.area = area_of(body);
   placed.radius = 0.5 * length(box.high - box.low);
   return placed;
 }
@@ -113,8 +114,38 @@ void OverlapCheck::read_crushed(double time) {
   for (; row != run_.crushed.end() && row->time == time; ++row) {
     const BodyKey on = key(row->overlap.on);
     const BodyKey by = key(row->overlap.by);
-    crushed_[{std::min(on, by), std::max(on, by)}] = row->overlap.area;
+    crushed_[{std::min(on, by), std::max(on, by)}] = row->overlap.area + row->overlap.tilted;
+    compare_with_work(row->overlap, {std::min(on, by), std::max(on, by)}, time);
   }
+}
+
+void OverlapCheck::compare_with_work(const simulation::CrushedOverlap& overlap, std::pair<BodyKey, BodyKey> key,
+                                     double time) {
+  const fracture::Ice of_second = ice_of(key.second);
+  const fracture::Ice ice = is_hull(key.first) ? of_second : fracture::crushed_between(ice_of(key.first), of_second);
+  const double smaller = std::min(area_of(key.first), area_of(key.second));
+  if (overlap.volume <= kUncrushedShare * smaller * ice.thickness) return;
+  const double expected = ice.compressive_strength * overlap.volume;
+  const bool is_paid = overlap.work * kMostWorkFactor >= expected && overlap.work <= kMostWorkFactor * expected;
+  paid_.insert(key);
+  check_.paid_pairs = paid_.size();
+  if (is_paid) return;
+  const UnpaidOverlap unpaid{name_of(key.first), name_of(key.second), time, overlap.area, expected, overlap.work};
+  const auto known = unpaid_.find(key);
+  if (known == unpaid_.end()) {
+    unpaid_[key] = check_.unpaid.size();
+    check_.unpaid.push_back(unpaid);
+  } else if (expected > check_.unpaid[known->second].expected) {
+    check_.unpaid[known->second] = unpaid;
+  }
+}
+
+fracture::Ice OverlapCheck::ice_of(BodyKey floe) const {
+  return simulation::ice_of(run_.scene.scene, run_.floe(floe)->birth.own_ice);
+}
+
+double OverlapCheck::area_of(BodyKey body) const {
+  return is_hull(body) ? geometry::measure(*polygon_of(body)).area : run_.floe(body)->birth.area;
 }
 
 template <class Use>

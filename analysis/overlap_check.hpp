@@ -44,15 +44,20 @@ class OverlapCheck {
   template <class Use>
   void for_near_pairs(Use use) const;
   const Known& shared_by(const Placed& a, const Placed& b);
+  fracture::Ice ice_of(BodyKey floe) const;
+  double area_of(BodyKey body) const;  ///< [m²]
+  void compare_with_work(const simulation::CrushedOverlap& overlap, std::pair<BodyKey, BodyKey> key, double time);
   void compare_with_crushed(const Placed& a, const Placed& b, double shared, double time);
 
   const io::Run& run_;
   RunCheck& check_;
   io::MotionIndex motions_;
   std::vector<std::shared_ptr<const geometry::Polygon>> hulls_;
-  std::vector<Placed> bodies_;                             ///< living
-  std::map<std::pair<BodyKey, BodyKey>, double> crushed_;  ///< at the instant [m²]
-  bool is_recorded_ = false;                               ///< the instant is that of a frame
+  std::vector<Placed> bodies_;                                 ///< living
+  std::map<std::pair<BodyKey, BodyKey>, double> crushed_;      ///< at the instant [m²]
+  std::set<std::pair<BodyKey, BodyKey>> paid_;                 ///< whose work was compared
+  std::map<std::pair<BodyKey, BodyKey>, std::size_t> unpaid_;  ///< in the check's list
+  bool is_recorded_ = false;                                   ///< the instant is that of a frame
   std::map<std::pair<BodyKey, BodyKey>, Known> known_;
   std::set<std::pair<BodyKey, BodyKey>> overlapping_;
 };

@@ -91,6 +91,16 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, c
                       "{:.6g} m2 beyond it allowed",
                       name(pair.first), name(pair.second), pair.time, pair.place_in_world.x, pair.place_in_world.y,
                       pair.shared, pair.crushed, pair.allowed));
+    add(fmt::format("work       {} of more than that; {} from the work on record by more than a factor of {:g}",
+                    counted(check.paid_pairs, "crushed overlap"),
+                    check.unpaid.size() == 1 ? "1 differs" : fmt::format("{} differ", check.unpaid.size()),
+                    analysis::kMostWorkFactor));
+    for (std::size_t i = 0; i < std::min(check.unpaid.size(), analysis::kMostUncrushed); ++i) {
+      const analysis::UnpaidOverlap& pair = check.unpaid[i];
+      add(fmt::format("           {} and {} at {:.6g} s: {:.6g} m2 crushed, which takes {:.6g} kJ; {:.6g} kJ on record",
+                      name(pair.first), name(pair.second), pair.time, pair.area, 1e-3 * pair.expected,
+                      1e-3 * pair.work));
+    }
   }
 }
 
@@ -176,6 +186,15 @@ void write_hulls(JsonWriter& json, const analysis::RunCheck& check, const simula
     json.key("t_s").value(pair.time).key("place_m").value(pair.place_in_world);
     json.key("shared_m2").value(pair.shared).key("crushed_m2").value(pair.crushed);
     json.key("allowed_beyond_m2").value(pair.allowed).close('}');
+  }
+  json.close(']').key("compared_with_work").value(check.paid_pairs).key("unpaid").open('[');
+  for (const analysis::UnpaidOverlap& pair : check.unpaid) {
+    json.start_line();
+    json.open('{');
+    write_body("first", pair.first);
+    write_body("second", pair.second);
+    json.key("t_s").value(pair.time).key("crushed_m2").value(pair.area);
+    json.key("expected_J").value(pair.expected).key("crushing_J").value(pair.work).close('}');
   }
   json.close(']');
 }

@@ -65,7 +65,7 @@ Passed measure(const Simulation& run) {
     return body.ship >= 0 ? -1 - std::int64_t{body.ship} : body.floe;
   };
   for (const simulation::CrushedOverlap& overlap : run.crushed_overlaps())
-    crushed[{key(overlap.on), key(overlap.by)}] = overlap.area;
+    crushed[{key(overlap.on), key(overlap.by)}] = overlap.area + overlap.tilted;
   std::set<std::pair<std::int64_t, std::int64_t>> pressing;
   for (const simulation::ContactState& contact : run.contact_states())
     if (squared_length(contact.force) > 0) pressing.insert({key(contact.on), key(contact.by)});
