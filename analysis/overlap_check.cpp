@@ -110,26 +110,33 @@ void OverlapCheck::read_crushed(double time) {
   const auto key = [](const simulation::ContactState::Body& body) {
     return body.ship >= 0 ? -1 - BodyKey{body.ship} : body.floe;
   };
+  double expected = 0;
+  double work = 0;
   auto row = std::ranges::lower_bound(run_.crushed, time, {}, &io::RunCrushed::time);
   for (; row != run_.crushed.end() && row->time == time; ++row) {
     const BodyKey on = key(row->overlap.on);
     const BodyKey by = key(row->overlap.by);
     crushed_[{std::min(on, by), std::max(on, by)}] = row->overlap.area + row->overlap.tilted;
-    compare_with_work(row->overlap, {std::min(on, by), std::max(on, by)}, time);
+    expected += compare_with_work(row->overlap, {std::min(on, by), std::max(on, by)}, time);
+    work += row->overlap.work;
   }
+  if (expected <= check_.most_expected) return;
+  check_.most_expected = expected;
+  check_.work_then = work;
 }
 
-void OverlapCheck::compare_with_work(const simulation::CrushedOverlap& overlap, std::pair<BodyKey, BodyKey> key,
-                                     double time) {
+/// Returns what that ice takes to crush [J].
+double OverlapCheck::compare_with_work(const simulation::CrushedOverlap& overlap, std::pair<BodyKey, BodyKey> key,
+                                       double time) {
   const fracture::Ice of_second = ice_of(key.second);
   const fracture::Ice ice = is_hull(key.first) ? of_second : fracture::crushed_between(ice_of(key.first), of_second);
   const double smaller = std::min(area_of(key.first), area_of(key.second));
-  if (overlap.volume <= kUncrushedShare * smaller * ice.thickness) return;
   const double expected = ice.compressive_strength * overlap.volume;
+  if (overlap.volume <= kUncrushedShare * smaller * ice.thickness) return expected;
   const bool is_paid = overlap.work * kMostWorkFactor >= expected && overlap.work <= kMostWorkFactor * expected;
   paid_.insert(key);
   check_.paid_pairs = paid_.size();
-  if (is_paid) return;
+  if (is_paid) return expected;
   const UnpaidOverlap unpaid{name_of(key.first), name_of(key.second), time, overlap.area, expected, overlap.work};
   const auto known = unpaid_.find(key);
   if (known == unpaid_.end()) {
@@ -138,6 +145,7 @@ void OverlapCheck::compare_with_work(const simulation::CrushedOverlap& overlap, 
   } else if (expected > check_.unpaid[known->second].expected) {
     check_.unpaid[known->second] = unpaid;
   }
+  return expected;
 }
 
 fracture::Ice OverlapCheck::ice_of(BodyKey floe) const {

@@ -46,7 +46,7 @@ class OverlapCheck {
   const Known& shared_by(const Placed& a, const Placed& b);
   fracture::Ice ice_of(BodyKey floe) const;
   double area_of(BodyKey body) const;  ///< [m²]
-  void compare_with_work(const simulation::CrushedOverlap& overlap, std::pair<BodyKey, BodyKey> key, double time);
+  double compare_with_work(const simulation::CrushedOverlap& overlap, std::pair<BodyKey, BodyKey> key, double time);
   void compare_with_crushed(const Placed& a, const Placed& b, double shared, double time);
 
   const io::Run& run_;

@@ -86,6 +86,8 @@ struct RunCheck {
   std::vector<UncrushedOverlap> uncrushed;  ///< the first of these
   std::size_t paid_pairs = 0;               ///< whose crushed ice was compared with the work that it took
   std::vector<UnpaidOverlap> unpaid;        ///< those of them that differ
+  double most_expected = 0;                 ///< Σ σ_c V over all pairs at the instant it is most [J]
+  double work_then = 0;                     ///< Σ of the work on record at that instant [J]
   std::size_t undecided = 0;                ///< pairs whose overlap geometry failed to find
 
   bool is_sound() const {

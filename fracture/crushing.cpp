@@ -68,8 +68,9 @@ RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thic
     result.penetration = next > shallow && next < deep ? next : 0.5 * (shallow + deep);
     result.crushed = crushed_overlap_at(overlap, result.penetration, thickness, hull_angle);
   }
-  result.share = 1 / (1 + recession * result.crushed.slope);
-  result.crushed.slope *= result.share;
+  const double growth = 1 + recession * result.crushed.slope;
+  result.share = 1 / growth;
+  result.crushed.slope /= growth;
   return result;
 }
 

@@ -95,6 +95,9 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, c
                     counted(check.paid_pairs, "crushed overlap"),
                     check.unpaid.size() == 1 ? "1 differs" : fmt::format("{} differ", check.unpaid.size()),
                     analysis::kMostWorkFactor));
+    add(fmt::format(
+        "           most at once, smaller overlaps included: {:.6g} kJ by what is crushed, {:.6g} kJ on record",
+        1e-3 * check.most_expected, 1e-3 * check.work_then));
     for (std::size_t i = 0; i < std::min(check.unpaid.size(), analysis::kMostUncrushed); ++i) {
       const analysis::UnpaidOverlap& pair = check.unpaid[i];
       add(fmt::format("           {} and {} at {:.6g} s: {:.6g} m2 crushed, which takes {:.6g} kJ; {:.6g} kJ on record",
@@ -187,7 +190,8 @@ void write_hulls(JsonWriter& json, const analysis::RunCheck& check, const simula
     json.key("shared_m2").value(pair.shared).key("crushed_m2").value(pair.crushed);
     json.key("allowed_beyond_m2").value(pair.allowed).close('}');
   }
-  json.close(']').key("compared_with_work").value(check.paid_pairs).key("unpaid").open('[');
+  json.close(']').key("compared_with_work").value(check.paid_pairs).key("most_expected_J").value(check.most_expected);
+  json.key("crushing_then_J").value(check.work_then).key("unpaid").open('[');
   for (const analysis::UnpaidOverlap& pair : check.unpaid) {
     json.start_line();
     json.open('{');

@@ -213,6 +213,8 @@ TEST(RunCheck, CrushedIceIsComparedWithTheWorkThatItTook) {
   RunCheck check = check_run(run, 3);
   EXPECT_TRUE(check.is_sound()) << "what is tilted takes no crushing";
   EXPECT_EQ(check.paid_pairs, 1U);
+  EXPECT_NEAR(check.most_expected, work, 1e-9 * work);
+  EXPECT_EQ(check.work_then, work);
   for (const double factor : {0.7, 1.45}) {
     run.crushed.front().overlap.work = factor * work;
     EXPECT_TRUE(check_run(run, 3).is_sound()) << factor;
